@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The VTK module (filters/), its Python package `ppfmeam` and, with ParaView, the plugin.
+# The module is scanned, built and wrapped here and not inside the plugin:
+# in ParaView 5.11 a plugin does not Python-wrap the modules it brings along.
+
+# The interpreter that Debian's VTK is built for, whatever comes first on the PATH.
+set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The interpreter VTK was built for")
+
+# What filters/vtk.module names, and the wrapping tools.
+set(vtk_components
+  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem CommonTransforms
+  FiltersCore IOCore vtksys Python WrapPython WrapHierarchy)
+if(PPFMEAM_USE_PARAVIEW)
+  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingClientServerStream ProcessXML WrapClientServer)
+endif()
+find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components})
+message(STATUS "VTK ${VTK_VERSION} from ${VTK_DIR}")
+
+vtk_module_scan(
+  MODULE_FILES "${PROJECT_SOURCE_DIR}/filters/vtk.module"
+  PROVIDES_MODULES modules
+  WANT_BY_DEFAULT ON
+  HIDE_MODULES_FROM_CACHE ON
+  ENABLE_TESTS OFF)
+vtk_module_build(
+  MODULES ${modules}
+  LIBRARY_NAME_SUFFIX ""
+  INSTALL_HEADERS OFF
+  LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  HEADERS_DESTINATION include/ppfmeam)
+vtk_module_wrap_python(
+  MODULES ${modules}
+  PYTHON_PACKAGE ppfmeam
+  MODULE_DESTINATION ${PPFMEAM_PYTHON_DIR}
+  LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  INSTALL_HEADERS OFF
+  BUILD_STATIC OFF)
+
+# The hand-written part of the Python package.
+set(package_files __init__.py filters.py meshfiles.py picture.py scripting.py)
+list(TRANSFORM package_files PREPEND "${PROJECT_SOURCE_DIR}/filters/ppfmeam/" OUTPUT_VARIABLE package_sources)
+list(TRANSFORM package_files PREPEND "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam/" OUTPUT_VARIABLE package_copies)
+add_custom_command(OUTPUT ${package_copies}
+  COMMAND ${CMAKE_COMMAND} -E make_directory "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam"
+  COMMAND ${CMAKE_COMMAND} -E copy ${package_sources} "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam"
+  DEPENDS ${package_sources})
+add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
+install(FILES ${package_sources} DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam)
+
+# Everything a script or ParaView needs, without the tests.
+add_custom_target(runtime DEPENDS ppfmeamFiltersPython ppfmeamPackage)
+
+if(PPFMEAM_USE_PARAVIEW)
+  paraview_plugin_scan(
+    PLUGIN_FILES "${PROJECT_SOURCE_DIR}/plugin/paraview.plugin"
+    PROVIDES_PLUGINS plugins
+    REQUIRES_MODULES plugin_modules
+    ENABLE_BY_DEFAULT ON
+    HIDE_PLUGINS_FROM_CACHE ON)
+  paraview_plugin_build(
+    PLUGINS ${plugins}
+    LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
+    PLUGINS_FILE_NAME "ppfmeam.xml"
+    INSTALL_HEADERS OFF)
+  add_dependencies(runtime ${plugins})
+endif()
+
+# The environment that finds all of it in the build tree, for the tests and for `source build/release/env.sh`.
+set(PPFMEAM_ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}")
+if(PPFMEAM_USE_PARAVIEW)
+  list(APPEND PPFMEAM_ENVIRONMENT "PV_PLUGIN_PATH=${PROJECT_BINARY_DIR}/lib/${PARAVIEW_PLUGIN_SUBDIR}")
+else()
+  # A VTK that is unpacked and not installed is found through the environment alone.
+  get_filename_component(vtk_libraries "${VTK_DIR}/../.." ABSOLUTE)
+  string(APPEND PPFMEAM_ENVIRONMENT ":${VTK_PREFIX_PATH}/${VTK_PYTHONPATH}")
+  list(APPEND PPFMEAM_ENVIRONMENT "LD_LIBRARY_PATH=${vtk_libraries}")
+endif()
+set(env_lines "")
+foreach(entry IN LISTS PPFMEAM_ENVIRONMENT)
+  string(REGEX REPLACE "^([A-Z_]+)=(.*)$" "export \\1='\\2'\"\${\\1:+:\$\\1}\"\n" line "${entry}")
+  string(APPEND env_lines "${line}")
+endforeach()
+file(WRITE "${PROJECT_BINARY_DIR}/env.sh" "${env_lines}")

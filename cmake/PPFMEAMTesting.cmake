@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Tests written in Python. Exit status 77 means skipped (no data, no display).
+find_program(PVPYTHON_EXECUTABLE pvpython)
+find_program(PARAVIEW_EXECUTABLE paraview)
+find_program(XVFB_RUN_EXECUTABLE xvfb-run)
+
+# meam_add_script_test(NAME LABELS COMMAND...): any command, in the environment of this build tree.
+function(meam_add_script_test name labels)
+  add_test(NAME ${name} COMMAND ${ARGN})
+  set_tests_properties(${name} PROPERTIES
+    LABELS "${labels}" ENVIRONMENT "${PPFMEAM_ENVIRONMENT}" SKIP_RETURN_CODE 77 TIMEOUT 600)
+endfunction()
+
+# NAME.py under the plain interpreter and, with ParaView's VTK, under pvpython with the plugin loaded.
+function(meam_add_filter_test name)
+  set(script "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
+  meam_add_script_test(${name}.python3 filters "${Python3_EXECUTABLE}" "${script}")
+  if(PPFMEAM_USE_PARAVIEW)
+    meam_add_script_test(${name}.pvpython filters "${PVPYTHON_EXECUTABLE}" "${script}")
+  endif()
+endfunction()
+
+# NAME.py under pvpython with a display of its own; further arguments go to the script.
+function(meam_add_pvpython_test name labels)
+  meam_add_script_test(${name} "${labels}"
+    "${XVFB_RUN_EXECUTABLE}" -a "${PVPYTHON_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py" ${ARGN})
+endfunction()
+
+# NAME.py inside the ParaView application under a virtual display. What the script prints goes to ParaView's
+# own window: it has to write to sys.__stderr__ and to end with os._exit(status).
+function(meam_add_paraview_test name labels)
+  meam_add_script_test(${name} "${labels}"
+    "${XVFB_RUN_EXECUTABLE}" -a "${PARAVIEW_EXECUTABLE}" --dr "--script=${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
+endfunction()

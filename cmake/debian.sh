@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Gets a Debian 12 ready to build: installs the packages that are missing and unpacks into build/deps what
+# cannot be installed beside ParaView. Costs nothing, and needs no network, when everything is there.
+#
+#   cmake/debian.sh            what the plugin, the Python package, the examples and the tests need
+#   cmake/debian.sh vtk        that and, for the vtk preset, a plain VTK 9.1 in build/deps/vtk9
+#
+# libpcl-dev and plain VTK's packages conflict with python3-paraview, hence the unpacking: of PCL only the
+# headers are needed (its runtime libraries install fine), plain VTK runs from where it is unpacked.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+deps=$root/build/deps
+
+packages=(
+  g++ cmake ninja-build
+  paraview paraview-dev python3-paraview python3-numpy xvfb xauth libgl1-mesa-dri
+  libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}1.13
+  libopencv-imgcodecs-dev libeigen3-dev libcgal-dev libopenmesh-dev libflann-dev liblzf-dev nlohmann-json3-dev
+  libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
+  qttools5-dev qtxmlpatterns5-dev-tools # ParaView makes the plugin's help pages with them
+  libgtest-dev libbenchmark-dev
+)
+unpack=(pcl:libpcl-dev)
+if [ "${1:-}" = vtk ]; then
+  unpack+=(vtk9:{libvtk9-dev,libvtk9.1,libvtk9.1-qt,vtk9,python3-vtk9})
+fi
+
+fail() { echo "cmake/debian.sh: $*" >&2; exit 1; }
+command -v apt-get >/dev/null || fail "this machine has no apt-get. Install by hand: ${packages[*]}"
+mkdir -p "$deps"
+log=$root/build/packages.log
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; return; fi
+  command -v sudo >/dev/null || { echo "not root, and there is no sudo"; return 1; }
+  sudo "$@"
+}
+
+mapfile -t missing < <(comm -23 <(printf '%s\n' "${packages[@]}" | sort) \
+  <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null | sed -n 's/^installed //p' | sort))
+if [ ${#missing[@]} -gt 0 ]; then
+  . /etc/os-release
+  [ "${VERSION_ID:-}" = 12 ] || echo "cmake/debian.sh: made for Debian 12, this is ${PRETTY_NAME:-unknown}" >&2
+  echo "installing ${#missing[@]} Debian packages and what they need (log: build/packages.log)"
+  # --no-remove: a machine with libpcl-dev or python3-vtk9 has to be told, not changed.
+  { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -q -y --no-remove --no-install-recommends "${missing[@]}"; } >"$log" 2>&1 || {
+    tail -n 20 "$log" >&2
+    fail "could not install what is missing. By hand, as root: apt-get install --no-install-recommends ${missing[*]}
+(libpcl-dev, libvtk9-dev and python3-vtk9 conflict with python3-paraview: if they are installed, remove them first.)"
+  }
+fi
+
+# Unpacked files of one folder come together or not at all.
+for folder in $(printf '%s\n' "${unpack[@]%%:*}" | uniq); do
+  [ ! -d "$deps/$folder" ] || continue
+  wanted=()
+  for entry in "${unpack[@]}"; do [ "${entry%%:*}" != "$folder" ] || wanted+=("${entry#*:}"); done
+  echo "unpacking ${wanted[*]} into build/deps/$folder"
+  part=$(mktemp -d "$deps/.part.XXXXXX")
+  cd "$part"
+  { apt-get download -q "${wanted[@]}" || { as_root apt-get update -q && apt-get download -q "${wanted[@]}"; }; } >"$log" 2>&1 || {
+    tail -n 20 "$log" >&2
+    rm -rf "$part"
+    fail "could not download ${wanted[*]}"
+  }
+  for deb in ./*.deb; do dpkg -x "$deb" tree; done
+  mv tree "$deps/$folder"
+  rm -rf "$part"
+done

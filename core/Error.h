@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace meam
+{
+/// Every failure a user can act on: the message says what is wrong and what to do.
+class Error : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Thrown when the progress callback asked to stop. Nothing is returned then.
+class Aborted : public std::exception
+{
+public:
+  const char* what() const noexcept override { return "stopped on request"; }
+};
+
+/// Called on the calling thread with the share of the work done, in [0, 1]; returns false to stop.
+using Progress = std::function<bool(double)>;
+
+/// Reports the share done and throws Aborted when the caller wants to stop. A null callback is fine.
+inline void report(const Progress& progress, double share)
+{
+  if (progress && !progress(share))
+  {
+    throw Aborted();
+  }
+}
+
+/// The callback for one part, [from, to], of a longer piece of work.
+inline Progress subProgress(const Progress& progress, double from, double to)
+{
+  if (!progress)
+  {
+    return {};
+  }
+  return [=](double share) { return progress(from + (to - from) * share); };
+}
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Geometry.h"
+
+#include "Error.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace meam
+{
+namespace
+{
+std::string number(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", value);
+  return text;
+}
+}
+
+PointCloud PointCloud::subset(const std::vector<int>& indices) const
+{
+  PointCloud result;
+  const auto take = [&](const auto& from, auto& to)
+  {
+    if (!from.empty())
+    {
+      to.reserve(indices.size());
+      for (const int index : indices)
+      {
+        to.push_back(from[index]);
+      }
+    }
+  };
+  take(this->points, result.points);
+  take(this->normals, result.normals);
+  take(this->tangents, result.tangents);
+  take(this->pointIds, result.pointIds);
+  return result;
+}
+
+void requirePoints(const Points& points, const std::string& what)
+{
+  if (points.empty())
+  {
+    throw Error(what + " has no points: check the file and the step before this one.");
+  }
+  if (std::none_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }))
+  {
+    throw Error(what + " has only invalid points (NaN): the sensor returned no depth, or the file's fields are not "
+                       "x, y and z.");
+  }
+}
+
+PointCloud finitePoints(const PointCloud& cloud)
+{
+  std::vector<int> finite;
+  finite.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (cloud.points[i].allFinite())
+    {
+      finite.push_back(static_cast<int>(i));
+    }
+  }
+  return finite.size() == cloud.size() ? cloud : cloud.subset(finite);
+}
+
+Eigen::AlignedBox3f bounds(const Points& points)
+{
+  Eigen::AlignedBox3f box;
+  for (const auto& point : points)
+  {
+    if (point.allFinite())
+    {
+      box.extend(point);
+    }
+  }
+  return box;
+}
+
+Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
+{
+  // The coordinate axis that is farthest from `axis` gives the second direction.
+  int least = 0;
+  axis.cwiseAbs().minCoeff(&least);
+  Eigen::Matrix3f frame;
+  frame.col(0) = axis;
+  frame.col(1) = axis.cross(Eigen::Vector3f::Unit(least)).normalized();
+  frame.col(2) = axis.cross(frame.col(1));
+  return frame;
+}
+
+void requireSameUnits(const Points& scene, double partDiameter)
+{
+  const double extent = bounds(scene).diagonal().norm();
+  if (extent < 0.2 * partDiameter)
+  {
+    throw Error("The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +
+      ": their units differ (a scene in metres and a part in millimetres differ by 1000). Scale the scene to the "
+      "part's unit.");
+  }
+  if (extent > 1000.0 * partDiameter)
+  {
+    throw Error("The scene spans " + number(extent) + " but the part's diameter is only " + number(partDiameter) +
+      ": their units differ (a part in metres and a scene in millimetres differ by 1000). Scale the part to the "
+      "scene's unit.");
+  }
+}
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace meam
+{
+using Points = std::vector<Eigen::Vector3f>;
+
+/// A part's surface: vertices in mm, triangles counter-clockwise seen from outside.
+struct TriangleMesh
+{
+  Points vertices;
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+/// Points in mm with what is known of each; an array is empty or as long as `points`.
+struct PointCloud
+{
+  Points points;
+  Points normals;            ///< unit, outward
+  Points tangents;           ///< unit direction of the edge; the sign carries no meaning
+  std::vector<int> pointIds; ///< index of the surface sample: the point's identity across views
+
+  std::size_t size() const { return this->points.size(); }
+  bool empty() const { return this->points.empty(); }
+  /// The points at `indices`, with every array that is there, in that order.
+  PointCloud subset(const std::vector<int>& indices) const;
+};
+
+/// What is seen of a part from one viewpoint (paper, Section 4): all visible points or, after
+/// boundary extraction, the edge points alone.
+struct AppearanceModel
+{
+  std::string name;
+  Eigen::Vector3f direction = Eigen::Vector3f::UnitZ(); ///< unit, from the part to the viewpoint
+  PointCloud cloud;
+};
+
+/// Throws Error, naming `what`, when there is no point or when no point is finite.
+void requirePoints(const Points& points, const std::string& what);
+
+/// The cloud without points that have a coordinate that is not finite.
+PointCloud finitePoints(const PointCloud& cloud);
+
+/// Axis-aligned bounds of the finite points.
+Eigen::AlignedBox3f bounds(const Points& points);
+
+/// A right-handed frame whose first column is `axis`; a continuous function of it almost everywhere.
+Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis);
+
+/// Throws Error when a scene cannot be in the part's unit of length: its extent is far smaller or
+/// larger than `partDiameter` allows. The message names the likely factor.
+void requireSameUnits(const Points& scene, double partDiameter);
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Parallel.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+
+namespace meam
+{
+namespace
+{
+constexpr int RangesPerThread = 16; // enough to balance the load and to report progress
+}
+
+int numberOfThreads(int requested)
+{
+  return requested > 0 ? requested : omp_get_num_procs();
+}
+
+void parallelFor(int count, int threads, const Progress& progress, const std::function<void(int, int, int)>& work)
+{
+  const int used = std::max(1, std::min(numberOfThreads(threads), count));
+  const int size = std::max(1, count / (used * RangesPerThread));
+  std::atomic<int> next{ 0 };
+  std::atomic<bool> stop{ false };
+  std::exception_ptr failure;
+#pragma omp parallel num_threads(used)
+  {
+    const int thread = omp_get_thread_num();
+    while (!stop)
+    {
+      const int begin = next.fetch_add(size);
+      if (begin >= count)
+      {
+        break;
+      }
+      try
+      {
+        if (thread == 0)
+        {
+          report(progress, static_cast<double>(begin) / count);
+        }
+        work(begin, std::min(begin + size, count), thread);
+      }
+      catch (...)
+      {
+#pragma omp critical(meamParallelFor)
+        failure = std::current_exception();
+        stop = true;
+      }
+    }
+  }
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
+}
+}

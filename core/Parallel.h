@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+
+namespace meam
+{
+/// The number of threads to use for a setting of `requested`; 0 or less: one for each processor.
+int numberOfThreads(int requested);
+
+/// Calls work(begin, end, thread) for consecutive ranges of [0, count) on `threads` threads and reports
+/// progress from the calling thread. Exceptions thrown by the work and a wish to stop end the loop and
+/// come out on the calling thread.
+void parallelFor(int count, int threads, const Progress& progress, const std::function<void(int, int, int)>& work);
+}

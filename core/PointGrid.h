@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Geometry.h"
+
+#include <algorithm>
+
+namespace meam
+{
+/// Points sorted into cubic cells, for neighbour queries at one known radius.
+class PointGrid
+{
+public:
+  /// `cellSize` in mm; queries are fastest at radii near it. Points that are not finite are left out.
+  PointGrid(const Points& points, double cellSize);
+
+  /// Calls visit(index, squaredDistance) for every point within `radius` of `centre`, in an order
+  /// that depends only on the points.
+  template <typename Visitor>
+  void forEachWithin(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
+  {
+    const float r = static_cast<float>(radius);
+    const float limit = r * r;
+    const Eigen::Vector3i low = this->cellOf(centre.array() - r).cwiseMax(0);
+    const Eigen::Vector3i high = this->cellOf(centre.array() + r).cwiseMin(this->Size - Eigen::Vector3i::Ones());
+    if (low.x() > high.x())
+    {
+      return;
+    }
+    for (int z = low.z(); z <= high.z(); ++z)
+    {
+      for (int y = low.y(); y <= high.y(); ++y)
+      {
+        // Cells along x are neighbours in memory.
+        const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
+        const int end = this->Starts[row + high.x() + 1];
+        for (int k = this->Starts[row + low.x()]; k < end; ++k)
+        {
+          const float distance = (this->Sorted[k] - centre).squaredNorm();
+          if (distance <= limit)
+          {
+            visit(this->Order[k], distance);
+          }
+        }
+      }
+    }
+  }
+
+  /// The nearest point within `radius`, or -1.
+  int nearest(const Eigen::Vector3f& centre, double radius) const
+  {
+    int best = -1;
+    float least = 0.0f;
+    this->forEachWithin(centre, radius,
+      [&](int index, float distance)
+      {
+        if (best < 0 || distance < least)
+        {
+          best = index;
+          least = distance;
+        }
+      });
+    return best;
+  }
+
+private:
+  Eigen::Vector3i cellOf(const Eigen::Vector3f& point) const
+  {
+    // Clamped before the cast: a point may lie anywhere.
+    return ((point - this->Origin) * this->InverseCell).array().floor().cwiseMax(-1.0f).cwiseMin(1e6f).template cast<int>();
+  }
+
+  Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
+  float InverseCell = 1.0f;
+  Eigen::Vector3i Size = Eigen::Vector3i::Zero(); ///< cells along x, y and z
+  std::vector<int> Starts;                        ///< of each cell's points in Order and Sorted
+  std::vector<int> Order;
+  Points Sorted;
+};
+
+/// Indices of one point for each occupied cube of side `leafSize` (mm): the point nearest to the
+/// mean of the cube's points. Cubes are counted from the origin of the coordinates, so views of one
+/// part share them. Ordered by the first point in each cube. A leaf of 0 or less keeps every point.
+std::vector<int> thinPoints(const Points& points, double leafSize);
+}

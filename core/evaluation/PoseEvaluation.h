@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "pose/Pose.h"
+
+#include <utility>
+#include <vector>
+
+namespace meam
+{
+struct PoseEvaluationSettings
+{
+  double diameter = 0.0;              ///< mm, d_max of the part; has to be given
+  double translationTolerance = 10.0; ///< % of the diameter; a right pose is nearer to a true one
+  double rotationTolerance = 5.0;     ///< degrees; and is turned by less
+  int posesAskedFor = 5;              ///< best ones of a scene that are judged; 0: all there are
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(); ///< of the part, model frame, for axis and roll
+  double minimumVisibleFraction = 0.5; ///< of a true instance that has to be found, for the recall
+};
+
+/// How one estimated pose compares with the true ones. Errors are those to the matched instance or,
+/// without one, to the nearest; NaN when there is no true pose at all.
+struct PoseJudgement
+{
+  int instance = -1;       ///< index of the true instance it matches, or -1: a wrong pose
+  int nearest = -1;        ///< index of the true instance with the nearest origin
+  bool duplicate = false;  ///< a better pose has matched the same instance
+  double translationError; ///< mm
+  double rotationError;    ///< degrees
+  double axisError;        ///< degrees between the axes
+  double rollError;        ///< degrees of the turn about the axis that is left
+};
+
+struct SceneEvaluation
+{
+  std::vector<PoseJudgement> judgements; ///< of each estimate, in its order
+  int asked = 0;                         ///< poses that count for the rates below
+  int visibleInstances = 0;              ///< true instances that have to be found
+  /// Score of each estimate, and whether it is the first for an instance that has to be found.
+  /// Poses of instances that are too hidden to count are left out.
+  std::vector<std::pair<double, bool>> ranking;
+};
+
+/// Compares the poses of a scene, best first, with the true ones (paper, Section 6.3). A true pose
+/// whose visibleFraction is too small need not be found; where no true pose has one, all count.
+/// Throws Error without a diameter, for settings out of range and for poses that are not finite.
+SceneEvaluation evaluatePoses(
+  const Poses& estimates, const Poses& truths, const PoseEvaluationSettings& settings);
+
+/// Counts over scenes; the errors are those of the right poses.
+struct EvaluationTotals
+{
+  int scenes = 0;
+  int asked = 0;      ///< poses asked for, over all scenes
+  int poses = 0;      ///< poses judged: what came out, no more than was asked for
+  int right = 0;      ///< of those, duplicates included
+  int distinct = 0;   ///< of those, each true instance once
+  int firstRight = 0; ///< scenes whose first pose is right
+  int visibleInstances = 0;
+  std::vector<double> translationErrors;
+  std::vector<double> rotationErrors;
+  std::vector<double> axisErrors;
+  std::vector<double> rollErrors;
+  std::vector<std::pair<double, bool>> ranking;
+
+  void add(const SceneEvaluation& scene);
+};
+
+/// Rates in %; a figure that nothing speaks for is NaN.
+struct EvaluationFigures
+{
+  double paperRate;            ///< right poses / poses that came out
+  double strictRate;           ///< distinct right poses / poses asked for: a missing pose is wrong
+  double top1Rate;             ///< scenes whose first pose is right
+  double recall;               ///< visible instances found by any pose, also beyond those asked for
+  double averagePrecision;     ///< over all poses by score, interpolated at 101 recalls
+  double meanTranslationError; ///< mm, and the next
+  double medianTranslationError;
+  double meanRotationError; ///< degrees, and all that follow
+  double medianRotationError;
+  double medianAxisError;
+  double medianRollError;
+};
+
+EvaluationFigures evaluationFigures(const EvaluationTotals& totals);
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "scene/OrganizedCloud.h"
+
+#include <array>
+
+namespace meam
+{
+/// What a PCD file holds, in the file's own unit. Arrays other than the points are empty when the
+/// file has no such field; a cloud of height 1 is not organized.
+struct PCDData
+{
+  OrganizedCloud cloud;
+  Points normals;                   ///< from normal_x, normal_y, normal_z
+  std::vector<float> intensities;   ///< from intensity, of any type
+  std::vector<std::uint8_t> colors; ///< red, green, blue of each point; from rgb or rgba
+  /// Sensor position and quaternion w x y z.
+  std::array<double, 7> viewpoint = { 0, 0, 0, 1, 0, 0, 0 };
+};
+
+/// Reads a Point Cloud Library file, version 0.5 to 0.7: ascii, binary or binary_compressed, fields
+/// in any order and of any type; fields it does not know are skipped. Throws Error, naming the file
+/// and what is wrong with it; allocates no more than the length of the file justifies.
+PCDData readPCD(const std::string& path, const Progress& progress = {});
+
+/// Width and height as the file's header promises them. Throws Error when it is not a PCD file.
+std::array<int, 2> readPCDSize(const std::string& path);
+
+/// Writes a binary PCD file. Throws Error when an array has another length than the points, or when
+/// the file cannot be written; no partial file is left then.
+void writePCD(const std::string& path, const PCDData& data);
+}

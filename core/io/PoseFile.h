@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "Geometry.h"
+
+#include <limits>
+
+namespace meam
+{
+/// One pose as the files know it; what is not known keeps its default and is left out of the JSON.
+struct PoseRow
+{
+  int sceneId = 0;
+  int imageId = 0;
+  int objectId = 1;
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm
+  double score = 0.0;
+  double time = -1.0; ///< seconds for the whole image; -1: not known
+  int rank = 0;       ///< from 1; 0: the place in the list
+  int votes = -1;
+  int viewId = -1;
+  double visibleFraction = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Reads blocks of row-major 4x4 matrices T_scene_model; '#' starts a comment, line breaks do not
+/// matter. A file without numbers gives no poses. Throws Error, naming the file, for a wrong count,
+/// a value that is not a number, or a block that is not a rotation and a translation.
+std::vector<Eigen::Isometry3d> readMatrices(const std::string& path);
+
+// The writers print enough digits to read the same numbers back. They throw Error for a pose that
+// is not finite or a file that cannot be written, and leave no partial file.
+
+/// Writes blocks of row-major 4x4 matrices.
+void writeMatrices(const std::string& path, const std::vector<PoseRow>& poses);
+
+/// Writes the results CSV of the BOP benchmark: scene_id,im_id,obj_id,score,R,t,time.
+void writeBOP(const std::string& path, const std::vector<PoseRow>& poses);
+
+/// Writes JSON, one pose on a line, with rank, score, translation, quaternion (x y z w) and matrix.
+void writeJSON(const std::string& path, const std::vector<PoseRow>& poses);
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/RequireMesh.h"
+
+#include "Error.h"
+
+namespace meam
+{
+void requireMesh(const TriangleMesh& mesh)
+{
+  if (mesh.triangles.empty())
+  {
+    throw Error("The mesh has no faces: check that the CAD file holds a surface, not only points.");
+  }
+  for (const auto& vertex : mesh.vertices)
+  {
+    if (!vertex.allFinite())
+    {
+      throw Error("The mesh has a vertex that is not a number: repair the CAD file.");
+    }
+  }
+  const int vertices = static_cast<int>(mesh.vertices.size());
+  for (const auto& triangle : mesh.triangles)
+  {
+    if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= vertices)
+    {
+      throw Error("The mesh has a face with a vertex that does not exist: the file is damaged.");
+    }
+  }
+}
+}

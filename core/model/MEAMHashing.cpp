@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/MEAMHashing.h"
+
+#include "Parallel.h"
+#include "PointGrid.h"
+#include "mesh/ConvexHull.h"
+#include "model/Viewpoints.h"
+#include "model/VisibilityExtraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace meam
+{
+namespace
+{
+constexpr std::size_t MostEdges = 65536;        // a reference point has 16 bits in a vote
+constexpr std::size_t MostEntries = 50000000;    // 1 GB
+constexpr double DefaultVoxelShare = 0.015;     // of the diameter
+constexpr double SurfaceLeafShare = 0.015;      // of the diameter, for verification
+constexpr float ParallelTangents = 0.94f;       // cosine of 20 degrees: the same edge in two views
+
+/// Collects the edge points of all views.
+void collectEdges(const std::vector<AppearanceModel>& edgeModels, double mergeDistance, TrainedModel& model)
+{
+  PointCloud& edges = model.edges;
+  const bool haveIds = std::all_of(edgeModels.begin(), edgeModels.end(),
+    [](const auto& view) { return view.cloud.pointIds.size() == view.cloud.size(); });
+  for (std::size_t view = 0; view < edgeModels.size(); ++view)
+  {
+    const PointCloud& cloud = edgeModels[view].cloud;
+    const std::uint32_t bit = 1u << view;
+    const std::size_t known = edges.size(); // points of one view never merge with each other
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+    {
+      int same = -1;
+      float nearest = static_cast<float>(mergeDistance * mergeDistance);
+      for (std::size_t k = 0; model.settings.mergeViews && k < known; ++k)
+      {
+        const float distance = (edges.points[k] - cloud.points[i]).squaredNorm();
+        if (distance <= nearest && std::abs(edges.tangents[k].dot(cloud.tangents[i])) > ParallelTangents)
+        {
+          nearest = distance;
+          same = static_cast<int>(k);
+        }
+      }
+      if (same >= 0)
+      {
+        model.edgeViews[same] |= bit;
+        continue;
+      }
+      edges.points.push_back(cloud.points[i]);
+      edges.tangents.push_back(cloud.tangents[i]);
+      if (haveIds)
+      {
+        edges.pointIds.push_back(cloud.pointIds[i]);
+      }
+      model.edgeViews.push_back(bit);
+    }
+  }
+}
+
+/// For each surface point the directions it is visible from, as bits.
+std::vector<std::uint32_t> visibilityBits(const Points& surface, int directions, const Progress& progress)
+{
+  std::vector<std::uint32_t> bits(surface.size(), 0);
+  if (directions == 0 || surface.empty())
+  {
+    return bits;
+  }
+  const Points towards = viewDirections(directions);
+  const VisibilityExtractionSettings settings;
+  const Eigen::Vector3d middle = bounds(surface).center().cast<double>();
+  const double distance = settings.viewpointDistance * diameter(surface);
+  std::vector<std::vector<int>> visible(directions);
+  parallelFor(directions, 0, progress,
+    [&](int begin, int end, int)
+    {
+      for (int c = begin; c < end; ++c)
+      {
+        visible[c] = visiblePoints(surface, middle + distance * towards[c].cast<double>(), settings.radiusFactor);
+      }
+    });
+  for (int c = 0; c < directions; ++c)
+  {
+    for (const int i : visible[c])
+    {
+      bits[i] |= 1u << c;
+    }
+  }
+  return bits;
+}
+
+/// Bits of the surface point that each edge point is, by its id or by place.
+std::vector<std::uint32_t> edgeVisibility(
+  const PointCloud& edges, const PointCloud& surface, const std::vector<std::uint32_t>& surfaceBits, double reach)
+{
+  std::vector<std::uint32_t> bits(edges.size(), 0);
+  if (surface.empty())
+  {
+    return bits;
+  }
+  const PointGrid grid(surface.points, reach);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    if (!edges.pointIds.empty() && edges.pointIds[i] >= 0 && edges.pointIds[i] < static_cast<int>(surface.size()))
+    {
+      bits[i] = surfaceBits[edges.pointIds[i]];
+      continue;
+    }
+    float nearest = INFINITY;
+    grid.forEachWithin(edges.points[i], reach,
+      [&](int index, float distance)
+      {
+        if (distance < nearest)
+        {
+          nearest = distance;
+          bits[i] = surfaceBits[index];
+        }
+      });
+  }
+  return bits;
+}
+
+/// Equation (2): the voxel of each edge point as one number.
+std::vector<std::uint64_t> voxelCodes(const Points& points, double voxelSize)
+{
+  const Eigen::Vector3f low = bounds(points).min();
+  std::vector<std::uint64_t> codes;
+  codes.reserve(points.size());
+  for (const auto& point : points)
+  {
+    // The minimum is subtracted before the cast, so no voxel is twice as wide as the others.
+    const Eigen::Array3d index = ((point - low).cast<double>() / voxelSize).array().floor();
+    codes.push_back((static_cast<std::uint64_t>(index.x()) << 42) | (static_cast<std::uint64_t>(index.y()) << 21) |
+      static_cast<std::uint64_t>(index.z()));
+  }
+  return codes;
+}
+
+struct CodePairHash
+{
+  std::size_t operator()(const std::pair<std::uint64_t, std::uint64_t>& code) const
+  {
+    return (code.first * 0x9E3779B97F4A7C15ull) ^ (code.second + 0x7F4A7C15ull + (code.first << 6));
+  }
+};
+
+struct Entry
+{
+  std::uint32_t key;
+  std::uint32_t reference;
+  std::uint32_t referred;
+  float angle;
+  std::uint32_t views;
+};
+
+void buildTable(TrainedModel& model, double voxelSize, const Progress& progress)
+{
+  const PointCloud& edges = model.edges;
+  const PairFeatureQuantizer quantizer = model.quantizer();
+  const int count = static_cast<int>(edges.size());
+  std::vector<TangentFrame> frames;
+  frames.reserve(count);
+  for (int i = 0; i < count; ++i)
+  {
+    frames.emplace_back(edges.points[i], edges.tangents[i]);
+  }
+  const std::vector<std::uint64_t> codes =
+    model.settings.mergeViews ? std::vector<std::uint64_t>() : voxelCodes(edges.points, voxelSize);
+  std::unordered_map<std::pair<std::uint64_t, std::uint64_t>, std::size_t, CodePairHash> entryOf;
+  std::vector<Entry> entries;
+  for (int r = 0; r < count; ++r)
+  {
+    if (r % 64 == 0)
+    {
+      report(progress, static_cast<double>(r) / count);
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      const std::uint32_t views = model.edgeViews[r] & model.edgeViews[i];
+      if (i == r || (views == 0 && (model.edgeVisible[r] & model.edgeVisible[i]) == 0))
+      {
+        continue;
+      }
+      if (!codes.empty())
+      {
+        // The same physical pair in another view: saved once, seen in both.
+        const auto [known, isNew] = entryOf.try_emplace({ codes[r], codes[i] }, entries.size());
+        if (!isNew && (entries[known->second].views & views) == 0)
+        {
+          entries[known->second].views |= views;
+          continue;
+        }
+      }
+      const PairFeature feature = pairFeature(
+        quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]);
+      const int key = quantizer.key(feature);
+      if (key >= 0 && feature.distance > 0.0f)
+      {
+        if (entries.size() == MostEntries)
+        {
+          throw Error("The pair table would have more than 50 million entries: thin the edge points with a larger leaf "
+                      "size.");
+        }
+        entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r),
+          static_cast<std::uint32_t>(i), frames[r].angleOf(edges.points[i]), views });
+      }
+    }
+  }
+  PairTable& table = model.table;
+  table.offsets.assign(quantizer.numberOfKeys() + 1, 0);
+  for (const Entry& entry : entries)
+  {
+    ++table.offsets[entry.key + 1];
+  }
+  std::partial_sum(table.offsets.begin(), table.offsets.end(), table.offsets.begin());
+  std::vector<std::uint32_t> next(table.offsets.begin(), table.offsets.end() - 1);
+  table.references.resize(entries.size());
+  table.referreds.resize(entries.size());
+  table.angles.resize(entries.size());
+  table.viewBits.resize(entries.size());
+  for (const Entry& entry : entries)
+  {
+    const std::uint32_t place = next[entry.key]++;
+    table.references[place] = entry.reference;
+    table.referreds[place] = entry.referred;
+    table.angles[place] = entry.angle;
+    table.viewBits[place] = entry.views;
+  }
+}
+
+/// FNV-1a over the bytes of what was trained on.
+class Digest
+{
+public:
+  template <typename T>
+  void add(const T& value)
+  {
+    this->bytes(&value, sizeof(T));
+  }
+  void add(const Points& points)
+  {
+    for (const auto& point : points)
+    {
+      this->bytes(point.data(), sizeof(float) * 3);
+    }
+  }
+  std::string text() const
+  {
+    static const char* digits = "0123456789abcdef";
+    std::string result;
+    for (int shift = 60; shift >= 0; shift -= 4)
+    {
+      result += digits[(this->Value >> shift) & 15];
+    }
+    return result;
+  }
+
+private:
+  void bytes(const void* data, std::size_t size)
+  {
+    const auto* byte = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      this->Value = (this->Value ^ byte[i]) * 0x100000001B3ull;
+    }
+  }
+  std::uint64_t Value = 0xCBF29CE484222325ull;
+};
+}
+
+MEAMHashingSettings paperHashingSettings()
+{
+  MEAMHashingSettings settings;
+  settings.feature = PairFeatureKind::Paper;
+  settings.angleStep = 3.6;
+  settings.mergeViews = false;
+  settings.voxelSize = 1.0;
+  settings.coVisibilityDirections = 0;
+  return settings;
+}
+
+PairFeatureQuantizer TrainedModel::quantizer() const
+{
+  return PairFeatureQuantizer(this->settings.feature, this->settings.distanceStep * this->diameter,
+    this->settings.angleStep * M_PI / 180.0, this->diameter);
+}
+
+TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PointCloud& surface, double partDiameter,
+  const MEAMHashingSettings& settings, const Progress& progress)
+{
+  if (edgeModels.size() > TrainedModel::MaximumViews || settings.coVisibilityDirections > TrainedModel::MaximumViews)
+  {
+    throw Error("There are more than 32 appearance models or co-visibility directions: use fewer viewpoints.");
+  }
+  if (!(settings.distanceStep > 0.0 && settings.distanceStep <= 1.0) ||
+    !(settings.angleStep >= 1.0 && settings.angleStep <= 90.0))
+  {
+    throw Error("The distance step must be in (0, 1] of the diameter and the angle step in [1, 90] degrees.");
+  }
+  if (surface.normals.size() != surface.size())
+  {
+    throw Error("The part's surface has no normals: sample the surface of a mesh first.");
+  }
+  TrainedModel model;
+  model.settings = settings;
+  Points everything = surface.points;
+  for (const AppearanceModel& view : edgeModels)
+  {
+    if (view.cloud.tangents.size() != view.cloud.size())
+    {
+      throw Error("Edge appearance model " + view.name + " has no tangents: estimate them before hashing.");
+    }
+    model.viewDirections.push_back(view.direction);
+    everything.insert(everything.end(), view.cloud.points.begin(), view.cloud.points.end());
+  }
+  model.diameter = partDiameter > 0.0 ? partDiameter : diameter(everything);
+  const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : DefaultVoxelShare * model.diameter;
+  collectEdges(edgeModels, voxelSize, model);
+  if (model.edges.size() > MostEdges)
+  {
+    throw Error("The appearance models have " + std::to_string(model.edges.size()) +
+      " edge points: thin them with a larger leaf size, at most 65536 are stored.");
+  }
+  if (model.edges.size() < 2)
+  {
+    throw Error("The appearance models have no edges: the part shows no boundary from these viewpoints, or the "
+                "surface is sampled too coarsely.");
+  }
+  const std::vector<std::uint32_t> surfaceBits =
+    visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.0, 0.7));
+  model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, 2.0 * voxelSize);
+  for (const int i : thinPoints(surface.points, SurfaceLeafShare * model.diameter))
+  {
+    model.surface.points.push_back(surface.points[i]);
+    model.surface.normals.push_back(surface.normals[i]);
+  }
+  buildTable(model, voxelSize, subProgress(progress, 0.7, 1.0));
+  Digest digest;
+  digest.add(surface.points);
+  digest.add(model.edges.points);
+  digest.add(model.edges.tangents);
+  digest.add(settings.feature);
+  digest.add(settings.distanceStep);
+  digest.add(settings.angleStep);
+  digest.add(settings.mergeViews);
+  digest.add(settings.voxelSize);
+  digest.add(settings.coVisibilityDirections);
+  model.digest = digest.text();
+  report(progress, 1.0);
+  return model;
+}
+}

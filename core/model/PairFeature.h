@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Geometry.h"
+
+#include <cmath>
+
+namespace meam
+{
+/// How a pair of edge points with tangent lines is described.
+enum class PairFeatureKind
+{
+  Paper,   ///< Equation (1): the distance and three acute angles
+  Oriented ///< both tangents turned along d: the third angle is full, and mirror images differ
+};
+
+/// B2B-TL, the boundary-to-boundary feature using tangent lines (paper, Section 3). The same for both
+/// signs of each tangent and under any rigid motion. Lengths in mm, angles in radians.
+struct PairFeature
+{
+  float distance;       ///< f1 = |d|, d from the reference to the referred point
+  float referenceAngle; ///< f2 in [0, pi/2], tangent at the reference point against d
+  float referredAngle;  ///< f3 in [0, pi/2], tangent at the referred point against d
+  float tangentAngle;   ///< f4, between the tangents: [0, pi/2] (Paper) or [0, pi] (Oriented)
+  bool rightHanded;     ///< sign of det[t_r, t_i, d] with both tangents along d (Oriented)
+};
+
+/// The feature of reference point `pr` with unit tangent `tr` and referred point `pi` with `ti`.
+inline PairFeature pairFeature(PairFeatureKind kind, const Eigen::Vector3f& pr, const Eigen::Vector3f& tr,
+  const Eigen::Vector3f& pi, const Eigen::Vector3f& ti)
+{
+  const auto angle = [](float cosine) { return std::acos(std::min(std::max(cosine, -1.0f), 1.0f)); };
+  const Eigen::Vector3f d = pi - pr;
+  const float length = d.norm();
+  const float alongReference = tr.dot(d);
+  const float alongReferred = ti.dot(d);
+  const float between = tr.dot(ti);
+  PairFeature feature;
+  feature.distance = length;
+  feature.referenceAngle = length > 0.0f ? angle(std::abs(alongReference) / length) : 0.0f;
+  feature.referredAngle = length > 0.0f ? angle(std::abs(alongReferred) / length) : 0.0f;
+  if (kind == PairFeatureKind::Paper)
+  {
+    feature.tangentAngle = angle(std::abs(between));
+    feature.rightHanded = false;
+  }
+  else
+  {
+    const float sign = (alongReference < 0.0f) != (alongReferred < 0.0f) ? -1.0f : 1.0f;
+    feature.tangentAngle = angle(sign * between);
+    feature.rightHanded = sign * tr.cross(ti).dot(d) > 0.0f;
+  }
+  return feature;
+}
+
+/// Cuts features into the keys of a dense table (paper, Section 3: steps d_dist and d_angle).
+class PairFeatureQuantizer
+{
+public:
+  PairFeatureQuantizer() = default;
+  /// Steps in mm and radians; `maximumDistance` (mm) is d_max.
+  PairFeatureQuantizer(PairFeatureKind kind, double distanceStep, double angleStep, double maximumDistance)
+    : Kind(kind)
+    , InverseDistance(static_cast<float>(1.0 / distanceStep))
+    , InverseAngle(static_cast<float>(1.0 / angleStep))
+    , Distances(static_cast<int>(std::floor(maximumDistance / distanceStep)) + 1)
+    , Acute(static_cast<int>(std::ceil(M_PI_2 / angleStep - 1e-6)))
+    , Between(kind == PairFeatureKind::Paper ? this->Acute
+                                             : static_cast<int>(std::ceil(M_PI / angleStep - 1e-6)))
+  {
+  }
+
+  PairFeatureKind kind() const { return this->Kind; }
+  int numberOfKeys() const
+  {
+    return this->Distances * this->Acute * this->Acute * this->Between *
+      (this->Kind == PairFeatureKind::Oriented ? 2 : 1);
+  }
+  /// The key in [0, numberOfKeys()), or -1 for a pair longer than d_max.
+  int key(const PairFeature& feature) const
+  {
+    const int distance = static_cast<int>(feature.distance * this->InverseDistance);
+    if (distance >= this->Distances)
+    {
+      return -1;
+    }
+    const auto bin = [this](float angle, int bins)
+    { return std::min(static_cast<int>(angle * this->InverseAngle), bins - 1); };
+    int key = distance;
+    key = key * this->Acute + bin(feature.referenceAngle, this->Acute);
+    key = key * this->Acute + bin(feature.referredAngle, this->Acute);
+    key = key * this->Between + bin(feature.tangentAngle, this->Between);
+    return this->Kind == PairFeatureKind::Oriented ? 2 * key + (feature.rightHanded ? 1 : 0) : key;
+  }
+
+private:
+  PairFeatureKind Kind = PairFeatureKind::Oriented;
+  float InverseDistance = 1.0f;
+  float InverseAngle = 1.0f;
+  int Distances = 1;
+  int Acute = 1;
+  int Between = 1;
+};
+
+/// The local frame of an edge point (paper, Figure 7): T_{m->g} takes the point to the origin and its
+/// tangent to the x axis. The rotation about x is fixed by the tangent alone.
+struct TangentFrame
+{
+  TangentFrame(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent)
+    : Origin(point)
+    , Axes(frameAround(tangent))
+  {
+  }
+  /// The angle of a point about the tangent, in (-pi, pi].
+  float angleOf(const Eigen::Vector3f& point) const
+  {
+    const Eigen::Vector3f d = point - this->Origin;
+    return std::atan2(this->Axes.col(2).dot(d), this->Axes.col(1).dot(d));
+  }
+  /// True when d points against the stored tangent.
+  bool against(const Eigen::Vector3f& point) const { return this->Axes.col(0).dot(point - this->Origin) < 0.0f; }
+
+  Eigen::Vector3f Origin;
+  Eigen::Matrix3f Axes;
+};
+
+/// T_scene_model that lays the model's frame on the scene's after a turn by `alpha` (radians) about
+/// the tangent (Equation (3)); `flip` turns the model's tangent the other way round first.
+Eigen::Isometry3d alignFrames(const TangentFrame& model, const TangentFrame& scene, bool flip, double alpha);
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "Geometry.h"
+
+namespace meam
+{
+enum class TangentMethod
+{
+  Tiles,     ///< Algorithms 1 and 2 of the paper
+  RobustLine ///< the best supported line in a sphere, then the principal axis of its inliers
+};
+
+/// Lengths in mm. A length of 0 follows the part's diameter.
+struct TangentEstimationSettings
+{
+  TangentMethod method = TangentMethod::RobustLine;
+  double leafSize = 0.0; ///< one point is kept per cube of this side; 0: 3 % of the diameter; negative: all
+
+  // RobustLine
+  double radius = 0.0;         ///< of the sphere; 0: 6 % of the diameter
+  double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter
+
+  // Tiles
+  int tilePixels = 10;         ///< H_rec = W_rec
+  double pixelSize = 0.5;      ///< mm on the projection plane; the paper does not say
+  double lineDistance = 0.3;   ///< D_thresh
+  double lineSupport = 0.18;   ///< S_thresh, share of a tile's points
+
+  int threads = 0; ///< 0: one for each processor
+};
+
+/// The paper's settings (Section 6) in place of the recommended ones.
+TangentEstimationSettings paperTangentSettings();
+
+/// Thins the edge points and gives each a tangent direction; points without a supported line are
+/// left out (Algorithm 2). `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane
+/// across `viewDirection`. Throws Error for an empty cloud, or when a length is 0 and the diameter is too.
+PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
+  const TangentEstimationSettings& settings = {}, const Progress& progress = {});
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/MEAMPoseEstimation.h"
+
+#include "mesh/ConvexHull.h"
+
+#include <chrono>
+
+namespace meam
+{
+namespace
+{
+/// Seconds since the last call.
+class Stopwatch
+{
+public:
+  double lap()
+  {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - this->Last).count();
+    this->Last = now;
+    return seconds;
+  }
+
+private:
+  std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
+};
+}
+
+TrainingSettings trainingSettings(Preset preset)
+{
+  TrainingSettings settings;
+  if (preset == Preset::Paper)
+  {
+    settings.tangents = paperTangentSettings();
+    settings.hashing = paperHashingSettings();
+  }
+  return settings;
+}
+
+DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads)
+{
+  DetectionSettings settings;
+  if (preset == Preset::Paper)
+  {
+    settings.tangents = paperTangentSettings();
+    settings.detection = paperDetectionSettings();
+    settings.verification = paperVerificationSettings();
+    settings.refinement = paperRefinementSettings();
+    settings.selection = paperVerificationSettings();
+  }
+  settings.selection.posesPerInstance = 1;
+  settings.selection.maximumPoses = maximumPoses;
+  settings.tangents.threads = threads;
+  settings.detection.threads = threads;
+  settings.verification.threads = threads;
+  settings.refinement.threads = threads;
+  settings.selection.threads = threads;
+  return settings;
+}
+
+TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress)
+{
+  const double partDiameter = diameter(mesh.vertices);
+  const PointCloud surface = sampleSurface(mesh, settings.sampling, subProgress(progress, 0.0, 0.1));
+  std::vector<AppearanceModel> models =
+    extractVisibility(surface, settings.visibility, subProgress(progress, 0.1, 0.3));
+  models = extractBoundary(models, settings.boundary, subProgress(progress, 0.3, 0.4));
+  for (AppearanceModel& model : models)
+  {
+    model.cloud = estimateTangents(model.cloud, partDiameter, model.direction, settings.tangents);
+  }
+  return hashModels(models, surface, partDiameter, settings.hashing, subProgress(progress, 0.4, 1.0));
+}
+
+Poses estimatePoses(const TrainedModel& model, const Scene& scene, const DetectionSettings& settings,
+  StageTimes* times, const Progress& progress)
+{
+  StageTimes spent;
+  Stopwatch watch;
+  requirePoints(scene.edges.points, "The scene's edge cloud");
+  requireSameUnits(scene.edges.points, model.diameter);
+  Scene withTangents = scene;
+  withTangents.edges = estimateTangents(
+    scene.edges, model.diameter, scene.sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1));
+  spent.tangents = watch.lap();
+  Poses poses = detectPoses(withTangents.edges, model, settings.detection, subProgress(progress, 0.1, 0.5));
+  spent.detection = watch.lap();
+  poses = verifyPoses(poses, model, withTangents, settings.verification, subProgress(progress, 0.5, 0.7));
+  spent.verification = watch.lap();
+  poses = refinePoses(poses, model, withTangents, settings.refinement, subProgress(progress, 0.7, 0.95));
+  spent.refinement = watch.lap();
+  poses = verifyPoses(poses, model, withTangents, settings.selection, subProgress(progress, 0.95, 1.0));
+  spent.selection = watch.lap();
+  if (times)
+  {
+    *times = spent;
+  }
+  return poses;
+}
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/SurfaceSampling.h"
+#include "model/BoundaryExtraction.h"
+#include "model/MEAMHashing.h"
+#include "model/TangentEstimation.h"
+#include "model/VisibilityExtraction.h"
+#include "pose/PoseDetection.h"
+#include "pose/PoseRefinement.h"
+#include "pose/PoseVerification.h"
+
+namespace meam
+{
+/// Which set of parameters every step starts from.
+enum class Preset
+{
+  Paper,      ///< Liu et al., Sensors 2018, Section 6
+  Recommended ///< what measures better
+};
+
+struct TrainingSettings
+{
+  SurfaceSamplingSettings sampling;
+  VisibilityExtractionSettings visibility;
+  BoundaryExtractionSettings boundary;
+  TangentEstimationSettings tangents;
+  MEAMHashingSettings hashing;
+};
+
+struct DetectionSettings
+{
+  TangentEstimationSettings tangents;
+  PoseDetectionSettings detection;
+  PoseVerificationSettings verification; ///< of the raw candidates
+  PoseRefinementSettings refinement;
+  PoseVerificationSettings selection;    ///< of the refined poses: one for each instance
+};
+
+TrainingSettings trainingSettings(Preset preset);
+/// `maximumPoses` is the number of poses wanted, 0 for all; `threads` 0 for one for each processor.
+DetectionSettings detectionSettings(Preset preset, int maximumPoses = 5, int threads = 0);
+
+/// The offline phase, from a prepared mesh (mm) to the trained model.
+TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress = {});
+
+/// Seconds spent in each stage of the online phase.
+struct StageTimes
+{
+  double tangents = 0.0;
+  double detection = 0.0;
+  double verification = 0.0;
+  double refinement = 0.0;
+  double selection = 0.0;
+};
+
+/// The online phase, from edge points without tangents to ranked poses. `scene.edges` are the points
+/// as extracted; `times` may be null.
+Poses estimatePoses(const TrainedModel& model, const Scene& scene, const DetectionSettings& settings,
+  StageTimes* times = nullptr, const Progress& progress = {});
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "model/TrainedModel.h"
+#include "scene/Sensor.h"
+
+namespace meam
+{
+/// Which points of a part the sensor should see at a pose, if nothing else were in the way.
+class PartView
+{
+public:
+  /// Keeps a reference to the model.
+  explicit PartView(const TrainedModel& model);
+
+  /// Middle of the part, model frame.
+  const Eigen::Vector3f& middle() const { return this->Middle; }
+
+  /// The appearance model whose viewpoint is nearest to the sensor at a pose.
+  int view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+
+  /// Indices of edge points and of thinned surface points that face the sensor and are not behind
+  /// other points of the part: computed for the very pose, so poses that differ by a symmetry of the
+  /// part are judged on the same points.
+  struct Visible
+  {
+    std::vector<int> edges;
+    std::vector<int> surface;
+  };
+  Visible visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+
+  /// The edge appearance model of a view.
+  PointCloud viewEdges(int view) const;
+
+private:
+  const TrainedModel& Model;
+  std::vector<int> Judged; ///< surface points that evidence is taken from
+  Eigen::Vector3f Middle;
+};
+}

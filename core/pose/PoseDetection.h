@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "model/TrainedModel.h"
+#include "pose/Pose.h"
+
+namespace meam
+{
+struct PoseDetectionSettings
+{
+  double referenceShare = 0.05;///< P_ref: share of the scene's edge points used as reference points
+  double referredShare = 1.0;   ///< P_referred: share of the scene's edge points used as referred points
+  unsigned seed = 1;            ///< of the choice of both
+  int threads = 0;              ///< 0: one for each processor
+};
+
+/// The paper's settings (Section 6) in place of the recommended ones.
+PoseDetectionSettings paperDetectionSettings();
+
+/// Raw pose candidates by voting (paper, Section 5.1): one for each reference point that found pairs,
+/// in the order of the reference points. `edges` are the scene's edge points with tangents, mm.
+/// The same for any number of threads. Throws Error when the scene is empty, has no tangents, or is
+/// in another unit than the model.
+Poses detectPoses(const PointCloud& edges, const TrainedModel& model, const PoseDetectionSettings& settings = {},
+  const Progress& progress = {});
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/PoseEvidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+constexpr double CellShare = 0.02;         // of the diameter: cells of the scene's depth map
+constexpr double SurfaceReachShare = 0.04; // of the diameter: a little over the spacing of judged points
+constexpr double EdgeReach = 2.0;          // tolerances within which two edges are the same edge
+constexpr float ParallelTangents = 0.85f;  // cosine
+
+// What each kind of evidence counts in the score.
+constexpr double EdgeWeight = 0.4;
+constexpr double SurfaceWeight = 0.4;
+constexpr double ExplainedWeight = 0.2;
+
+// Logarithms of how much likelier a right pose than a wrong one makes a point's state. At right poses
+// about three of four predicted edge points are found, and surface is often where a wrong pose wants it.
+constexpr double EdgeMatched = 2.0;
+constexpr double EdgeViolated = -1.3;
+constexpr double SurfaceMatched = 0.5;
+constexpr double SurfaceViolated = -1.2;
+constexpr double EdgeUnexplained = -1.0;
+
+int count(const std::vector<PointState>& states, PointState state)
+{
+  return static_cast<int>(std::count(states.begin(), states.end(), state));
+}
+
+/// matched / (matched + violated), 0 when all is hidden.
+double share(const std::vector<PointState>& states)
+{
+  const int matched = count(states, PointState::Matched);
+  const int violated = count(states, PointState::Violated);
+  return matched > 0 ? static_cast<double>(matched) / (matched + violated) : 0.0;
+}
+}
+
+double PoseEvidence::support() const
+{
+  const int near = this->explained + this->unexplained;
+  const double clean = near > 0 ? static_cast<double>(this->explained) / near : 0.0;
+  if (this->surface.empty())
+  {
+    return share(this->edgeStates);
+  }
+  return EdgeWeight * share(this->edgeStates) + SurfaceWeight * share(this->surfaceStates) + ExplainedWeight * clean;
+}
+
+double PoseEvidence::visibleFraction() const
+{
+  const auto& states = this->surface.empty() ? this->edgeStates : this->surfaceStates;
+  return states.empty() ? 0.0 : 1.0 - static_cast<double>(count(states, PointState::Hidden)) / states.size();
+}
+
+EvidenceCollector::EvidenceCollector(const TrainedModel& model, const Scene& scene, double tolerance)
+  : Model(model)
+  , InScene(scene)
+  , Tolerance(tolerance)
+  , View(model)
+  , Edges(scene.edges.points, tolerance)
+  , Depth(scene.surface, scene.sensor, CellShare * model.diameter)
+{
+}
+
+PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) const
+{
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const PartView::Visible visible = this->View.visible(T_scene_model, this->InScene.sensor);
+  const float tolerance = static_cast<float>(this->Tolerance);
+  PoseEvidence evidence;
+  for (const int i : visible.edges)
+  {
+    const Eigen::Vector3f point = T * this->Model.edges.points[i];
+    const Eigen::Vector3f tangent = T.linear() * this->Model.edges.tangents[i];
+    bool matched = false;
+    this->Edges.forEachWithin(point, tolerance,
+      [&](int k, float) { matched = matched || std::abs(this->InScene.edges.tangents[k].dot(tangent)) > ParallelTangents; });
+    const PointState state = matched ? PointState::Matched
+      : this->Depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
+                                                                             : PointState::Violated;
+    evidence.edges.push_back(point);
+    evidence.tangents.push_back(tangent);
+    evidence.edgeStates.push_back(state);
+  }
+  if (this->InScene.surface.empty())
+  {
+    return evidence;
+  }
+  for (const int i : visible.surface)
+  {
+    const Eigen::Vector3f point = T * this->Model.surface.points[i];
+    const DepthMap::Relation relation = this->Depth.relation(point, tolerance);
+    evidence.surface.push_back(point);
+    evidence.surfaceStates.push_back(relation == DepthMap::Relation::OnSurface ? PointState::Matched
+        : relation == DepthMap::Relation::Hidden                               ? PointState::Hidden
+                                                                               : PointState::Violated);
+  }
+  // Scene edges on the matched surface: those that no predicted edge explains speak against the pose.
+  const double reach = EdgeReach * this->Tolerance;
+  const PointGrid predicted(evidence.edges, reach);
+  std::vector<int> near;
+  for (std::size_t i = 0; i < evidence.surface.size(); ++i)
+  {
+    if (evidence.surfaceStates[i] == PointState::Matched)
+    {
+      this->Edges.forEachWithin(evidence.surface[i], tolerance, [&](int k, float) { near.push_back(k); });
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (const int k : near)
+  {
+    ++(predicted.nearest(this->InScene.edges.points[k], reach) >= 0 ? evidence.explained : evidence.unexplained);
+  }
+  return evidence;
+}
+
+double EvidenceCollector::distinct(const PoseEvidence& a, const PoseEvidence& b) const
+{
+  double sum = EdgeUnexplained * a.unexplained;
+  const double edgeReach = EdgeReach * this->Tolerance;
+  const PointGrid edges(b.edges, edgeReach);
+  for (std::size_t i = 0; i < a.edges.size(); ++i)
+  {
+    bool shared = a.edgeStates[i] == PointState::Hidden;
+    edges.forEachWithin(a.edges[i], edgeReach,
+      [&](int k, float) { shared = shared || std::abs(b.tangents[k].dot(a.tangents[i])) > ParallelTangents; });
+    if (!shared)
+    {
+      sum += a.edgeStates[i] == PointState::Matched ? EdgeMatched : EdgeViolated;
+    }
+  }
+  const double surfaceReach = SurfaceReachShare * this->Model.diameter;
+  const PointGrid surface(b.surface, surfaceReach);
+  for (std::size_t i = 0; i < a.surface.size(); ++i)
+  {
+    if (a.surfaceStates[i] != PointState::Hidden && surface.nearest(a.surface[i], surfaceReach) < 0)
+    {
+      sum += a.surfaceStates[i] == PointState::Matched ? SurfaceMatched : SurfaceViolated;
+    }
+  }
+  return sum;
+}
+
+double EvidenceCollector::compare(const PoseEvidence& a, const PoseEvidence& b) const
+{
+  return this->distinct(a, b) - this->distinct(b, a);
+}
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "PointGrid.h"
+#include "model/TrainedModel.h"
+#include "pose/DepthMap.h"
+#include "pose/PartView.h"
+#include "pose/Scene.h"
+
+namespace meam
+{
+/// What the sensor saw of one point that a pose predicts to be visible.
+enum class PointState : unsigned char
+{
+  Matched, ///< it is there
+  Hidden,  ///< something lies in front of it: says nothing about the pose
+  Violated ///< the sensor looked past it: speaks against the pose
+};
+
+/// The points a pose predicts to be visible, scene frame (mm), and what became of each.
+struct PoseEvidence
+{
+  Points edges;
+  Points tangents;
+  std::vector<PointState> edgeStates;
+  Points surface;
+  std::vector<PointState> surfaceStates;
+  int explained = 0;   ///< scene edge points on the part's visible surface that are edges of the part
+  int unexplained = 0; ///< those that are not
+
+  /// Share of what should be visible that is there: edges, surface and explained scene edges, [0, 1].
+  double support() const;
+  /// Share of the predicted points that nothing hides, [0, 1].
+  double visibleFraction() const;
+};
+
+/// Judges poses of a part against a scene. Keeps references to both; calls may run in parallel.
+class EvidenceCollector
+{
+public:
+  EvidenceCollector(const TrainedModel& model, const Scene& scene, double tolerance);
+  PoseEvidence collect(const Eigen::Isometry3d& T_scene_model) const;
+  const PartView& view() const { return this->View; }
+  /// Greater than 0 when the points that tell two poses of one instance apart speak for `a`, less
+  /// than 0 for `b`: a logarithm of likelihoods over the points that one predicts and the other does not.
+  double compare(const PoseEvidence& a, const PoseEvidence& b) const;
+  /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.
+  bool nearEdge(const Eigen::Vector3f& point) const { return this->Edges.nearest(point, this->Tolerance) >= 0; }
+
+private:
+  double distinct(const PoseEvidence& a, const PoseEvidence& b) const;
+
+  const TrainedModel& Model;
+  const Scene& InScene;
+  double Tolerance;
+  PartView View;
+  PointGrid Edges;
+  DepthMap Depth;
+};
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "model/TrainedModel.h"
+#include "pose/Pose.h"
+#include "pose/Scene.h"
+
+namespace meam
+{
+enum class RefinementMethod
+{
+  PointToPoint,       ///< Section 5.3 of the paper: PCL's ICP with the edge appearance model
+  EdgesAndSurface     ///< edge points to scene tangents, surface points to planes, those visible only
+};
+
+/// Lengths in mm; a length of 0 follows the part's diameter.
+struct PoseRefinementSettings
+{
+  RefinementMethod method = RefinementMethod::EdgesAndSurface;
+  int iterations = 20;
+  double maximumDistance = 0.0; ///< between corresponding points; 0: 4 % of the diameter
+  int threads = 0;              ///< 0: one for each processor
+};
+
+/// The paper's settings in place of the recommended ones.
+PoseRefinementSettings paperRefinementSettings();
+
+/// Iterative closest point for each pose (paper, Section 5.3), in the order they come; scores stay.
+/// Without a surface only edges count. Throws Error when the scene has no edges.
+Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& scene,
+  const PoseRefinementSettings& settings = {}, const Progress& progress = {});
+}

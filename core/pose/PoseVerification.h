@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "model/TrainedModel.h"
+#include "pose/Pose.h"
+#include "pose/Scene.h"
+
+namespace meam
+{
+enum class VerificationMethod
+{
+  EdgeCoverage,   ///< Section 5.2 of the paper: share of the edge appearance model that fits the scene
+  VisibleEvidence ///< edges and surface that should be visible, against what the sensor saw
+};
+
+/// Lengths in mm; a length of 0 follows the part's diameter.
+struct PoseVerificationSettings
+{
+  VerificationMethod method = VerificationMethod::VisibleEvidence;
+  double tolerance = 0.0;       ///< a model point this near to the scene fits; 0: 3 % of the diameter
+  double minimumScore = 0.0;    ///< poses below are dropped
+  int posesPerView = 0;         ///< N_pv: best poses kept for each appearance model; 0: no limit
+  double clusterDistance = 0.0; ///< poses nearer than this are of one instance; 0: 10 % of the diameter
+  double clusterAngle = 30.0;   ///< and those turned less than this (degrees) are the same
+  /// Poses kept of one instance. With 1, alternatives are decided on the points that tell them apart.
+  int posesPerInstance = 4;
+  int maximumPoses = 40;        ///< 0: no limit
+  int threads = 0;              ///< 0: one for each processor
+};
+
+/// The paper's settings (Section 6) in place of the recommended ones.
+PoseVerificationSettings paperVerificationSettings();
+
+/// Scores every pose against the scene, keeps the best of each cluster and returns them best first.
+/// Without a surface only edges count. Throws Error when the scene has no edges.
+Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& scene,
+  const PoseVerificationSettings& settings = {}, const Progress& progress = {});
+}

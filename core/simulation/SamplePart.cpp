@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/SamplePart.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+// How it is built: all outlines are drawn into one constrained triangulation of the plane, so that
+// each of its triangles is the base of a column that is solid or empty between two levels of z. The
+// part's surface is every face between solid and empty. Columns tile space: the mesh is closed and
+// does not cross itself.
+
+namespace meam
+{
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_predicates_tag>;
+using Vector = Eigen::Vector2d;
+
+/// A circle drawn as a regular polygon with a corner at angle 0.
+struct Circle
+{
+  Vector centre;
+  double radius;
+  int corners;
+
+  Vector corner(int i) const
+  {
+    const double angle = 2.0 * M_PI * i / this->corners;
+    return this->centre + this->radius * Vector(std::cos(angle), std::sin(angle));
+  }
+  bool contains(const Vector& point) const
+  {
+    const Vector d = point - this->centre;
+    const double side = 2.0 * M_PI / this->corners;
+    const double angle = std::atan2(d.y(), d.x()) / side;
+    return d.norm() * std::cos((angle - std::floor(angle) - 0.5) * side) < this->radius * std::cos(0.5 * side);
+  }
+};
+
+Vector polar(double radius, double degrees)
+{
+  return radius * Vector(std::cos(degrees * M_PI / 180.0), std::sin(degrees * M_PI / 180.0));
+}
+
+constexpr std::array<double, 6> Levels = { 0.0, 3.0, 6.0, 10.0, 12.0, 22.0 };
+constexpr int Layers = Levels.size() - 1;
+enum Layer
+{
+  SpigotLayer,
+  FlangeLayer,
+  RibLayer,
+  RimLayer,
+  HubLayer
+};
+using Column = std::array<bool, Layers>; ///< solid or empty, layer by layer
+
+const Circle Flange{ { 0, 0 }, 35, 72 };
+const Circle RimInside{ { 0, 0 }, 32, 72 };
+const Circle Hub{ { 0, 0 }, 12, 36 };
+const Circle Bore{ { 0, 0 }, 8, 32 };
+const Circle SpigotOutside{ { 0, 0 }, 17, 48 };
+const Circle SpigotInside{ { 0, 0 }, 14, 40 };
+const Circle Lug{ { 38.5, 0 }, 6.5, 32 };
+const Circle LugBoss{ { 38.5, 0 }, 5.2, 28 };
+const Circle LugHole{ { 38.5, 0 }, 3, 20 };
+const std::array<Circle, 3> Holes{ Circle{ polar(24, 67.5), 4.5, 24 }, Circle{ polar(24, 112.5), 4.5, 24 },
+  Circle{ polar(24, 247.5), 4.5, 24 } };
+constexpr double LugRoot = 30.0; // x; the lug's sides start inside the rim, which has a gap as wide as the lug
+constexpr double RibStart = 10.5;
+constexpr double RibEnd = 33.5;
+constexpr double HalfRib = 1.5;
+constexpr int RibPlaces = 8; // rib 0, towards the lug, is missing
+
+Column columnAt(const Vector& point)
+{
+  const bool lugStrip = point.x() > LugRoot && std::abs(point.y()) < Lug.radius;
+  const bool lug = Lug.contains(point) || (lugStrip && point.x() < Lug.centre.x());
+  const bool plate = Flange.contains(point) || lug;
+  bool hole = Bore.contains(point) || LugHole.contains(point);
+  for (const Circle& circle : Holes)
+  {
+    hole = hole || circle.contains(point);
+  }
+  Column solid{};
+  if (!plate || hole)
+  {
+    return solid;
+  }
+  const bool hub = Hub.contains(point);
+  const bool rim = Flange.contains(point) && !RimInside.contains(point) && !lugStrip;
+  bool rib = false;
+  for (int i = 1; i < RibPlaces; ++i)
+  {
+    const Vector along = polar(1.0, 360.0 * i / RibPlaces);
+    const double across = along.x() * point.y() - along.y() * point.x();
+    rib = rib || (std::abs(across) < HalfRib && along.dot(point) > RibStart && along.dot(point) < RibEnd);
+  }
+  solid[SpigotLayer] = SpigotOutside.contains(point) && !SpigotInside.contains(point);
+  solid[FlangeLayer] = true;
+  solid[RibLayer] = hub || rim || rib || LugBoss.contains(point);
+  solid[RimLayer] = hub || rim;
+  solid[HubLayer] = hub;
+  return solid;
+}
+
+Triangulation drawOutlines()
+{
+  Triangulation plane;
+  const auto line = [&](const Vector& a, const Vector& b)
+  { plane.insert_constraint(Triangulation::Point(a.x(), a.y()), Triangulation::Point(b.x(), b.y())); };
+  const auto outline = [&](const Circle& circle)
+  {
+    for (int i = 0; i < circle.corners; ++i)
+    {
+      line(circle.corner(i), circle.corner((i + 1) % circle.corners));
+    }
+  };
+  for (const Circle& circle : { Hub, Bore, SpigotOutside, SpigotInside, LugBoss, LugHole })
+  {
+    outline(circle);
+  }
+  // Of the rim, what is not within the lug.
+  for (const Circle& circle : { Flange, RimInside })
+  {
+    for (int i = 2; i < circle.corners - 2; ++i)
+    {
+      line(circle.corner(i), circle.corner(i + 1));
+    }
+  }
+  for (const Circle& circle : Holes)
+  {
+    outline(circle);
+  }
+  // Of the lug, the outer half and the sides.
+  for (int i = 0; i < Lug.corners / 2; ++i)
+  {
+    line(Lug.corner(i - Lug.corners / 4), Lug.corner(i + 1 - Lug.corners / 4));
+  }
+  for (const double y : { -Lug.radius, Lug.radius })
+  {
+    line({ LugRoot, y }, { Lug.centre.x(), y });
+  }
+  for (int i = 1; i < RibPlaces; ++i)
+  {
+    const Vector along = polar(1.0, 360.0 * i / RibPlaces);
+    const Vector across(-along.y() * HalfRib, along.x() * HalfRib);
+    line(RibStart * along + across, RibEnd * along + across);
+    line(RibStart * along - across, RibEnd * along - across);
+  }
+  return plane;
+}
+}
+
+TriangleMesh makeSamplePart()
+{
+  const Triangulation plane = drawOutlines();
+  std::map<Triangulation::Face_handle, Column> columns;
+  for (const auto face : plane.finite_face_handles())
+  {
+    const auto middle = CGAL::centroid(plane.triangle(face));
+    columns[face] = columnAt({ middle.x(), middle.y() });
+  }
+  const auto solid = [&](const Triangulation::Face_handle& face, int layer)
+  { return !plane.is_infinite(face) && layer >= 0 && layer < Layers && columns.at(face)[layer]; };
+
+  TriangleMesh mesh;
+  std::map<std::pair<Triangulation::Vertex_handle, int>, int> indices;
+  const auto vertex = [&](const Triangulation::Vertex_handle& at, int level)
+  {
+    const auto [entry, isNew] = indices.try_emplace({ at, level }, static_cast<int>(mesh.vertices.size()));
+    if (isNew)
+    {
+      mesh.vertices.push_back(Eigen::Vector3d(at->point().x(), at->point().y(), Levels[level]).cast<float>());
+    }
+    return entry->second;
+  };
+  for (const auto face : plane.finite_face_handles())
+  {
+    for (int level = 0; level <= Layers; ++level)
+    {
+      const bool below = solid(face, level - 1);
+      if (below != solid(face, level))
+      {
+        // Corners are counter-clockwise seen from above.
+        mesh.triangles.emplace_back(vertex(face->vertex(0), level), vertex(face->vertex(below ? 1 : 2), level),
+          vertex(face->vertex(below ? 2 : 1), level));
+      }
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int layer = 0; layer < Layers; ++layer)
+      {
+        if (solid(face, layer) && !solid(face->neighbor(i), layer))
+        {
+          const auto from = face->vertex(Triangulation::ccw(i));
+          const auto to = face->vertex(Triangulation::cw(i));
+          const int corners[4] = { vertex(from, layer), vertex(to, layer), vertex(to, layer + 1),
+            vertex(from, layer + 1) };
+          mesh.triangles.emplace_back(corners[0], corners[1], corners[2]);
+          mesh.triangles.emplace_back(corners[0], corners[2], corners[3]);
+        }
+      }
+    }
+  }
+  return mesh;
+}
+}

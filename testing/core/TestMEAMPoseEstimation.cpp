@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/MEAMPoseEstimation.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+int instancesFound(const meam::Poses& poses, double millimetres, double degrees)
+{
+  int found = 0;
+  for (const auto& T : scenes::threeCopies())
+  {
+    found += std::any_of(poses.begin(), poses.end(),
+               [&](const meam::Pose& pose)
+               {
+                 return meam::translationError(pose.T_scene_model, T) < millimetres &&
+                   meam::rotationError(pose.T_scene_model, T) < degrees;
+               })
+      ? 1
+      : 0;
+  }
+  return found;
+}
+}
+
+TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  meam::StageTimes times;
+  const meam::Poses poses =
+    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3), &times);
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(instancesFound(poses, 0.2, 0.3), 3);
+  EXPECT_GT(times.detection, 0.0);
+  EXPECT_GT(times.selection, 0.0);
+}
+
+TEST(MEAMPoseEstimation, ThePaperPresetFindsThemToo)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Paper, 3);
+  settings.detection.referenceShare = 0.2; // the paper's own range is 5 to 20 %
+  const meam::Poses poses = meam::estimatePoses(scenes::bracket(meam::Preset::Paper), scene, settings);
+  ASSERT_LE(poses.size(), 3u);
+  EXPECT_GE(instancesFound(poses, 7.5, 5.0), 2); // its weaker tangents and scores miss some
+}
+
+TEST(MEAMPoseEstimation, AnEdgeCloudAloneIsEnough)
+{
+  meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  scene.surface.clear();
+  const meam::Poses poses =
+    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  EXPECT_EQ(instancesFound(poses, 2.0, 3.0), 3);
+}
+
+TEST(MEAMPoseEstimation, AnyMotionOfTheSceneMovesThePoses)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  std::mt19937 random(4);
+  const Eigen::Isometry3d T = parts::motion(random, 200.0);
+  meam::Scene turned = scene;
+  turned.surface = parts::moved(scene.surface, T);
+  turned.edges = parts::moved(scene.edges, T);
+  turned.sensor.direction = (T.linear() * scene.sensor.direction.cast<double>()).cast<float>();
+  const meam::Poses poses =
+    meam::estimatePoses(scenes::bracket(), turned, meam::detectionSettings(meam::Preset::Recommended, 3));
+  meam::Poses back = poses;
+  for (auto& pose : back)
+  {
+    pose.T_scene_model = T.inverse() * pose.T_scene_model;
+  }
+  EXPECT_EQ(instancesFound(back, 0.3, 0.4), 3);
+}
+
+TEST(MEAMPoseEstimation, ThreadsDoNotMatter)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const meam::Poses one =
+    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 1));
+  const meam::Poses three =
+    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 3));
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
+    EXPECT_EQ(one[i].score, three[i].score);
+  }
+}
+
+TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  double last = 0.0;
+  meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
+    [&](double share)
+    {
+      EXPECT_GE(share, last - 1e-9);
+      EXPECT_LE(share, 1.0);
+      last = share;
+      return true;
+    });
+  EXPECT_DOUBLE_EQ(last, 1.0);
+  EXPECT_THROW(meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
+                 [](double share) { return share < 0.4; }),
+    meam::Aborted);
+  EXPECT_THROW(meam::trainModel(parts::lBracket(), {}, [](double share) { return share < 0.3; }), meam::Aborted);
+}
+
+TEST(MEAMPoseEstimation, BadInput)
+{
+  EXPECT_THROW(meam::trainModel({}, {}), meam::Error);
+  EXPECT_THROW(meam::estimatePoses(scenes::bracket(), {}, {}), meam::Error);
+}

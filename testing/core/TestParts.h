@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts made in code, and motions, for the tests.
+#pragma once
+
+#include "Geometry.h"
+
+#include <cmath>
+#include <random>
+
+namespace parts
+{
+/// An axis-aligned box, outward triangles.
+inline meam::TriangleMesh box(const Eigen::Vector3f& low, const Eigen::Vector3f& high)
+{
+  meam::TriangleMesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    mesh.vertices.emplace_back(
+      corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(), corner & 4 ? high.z() : low.z());
+  }
+  for (const auto& [a, b, c, d] : std::vector<std::array<int, 4>>{
+         { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } })
+  {
+    mesh.triangles.emplace_back(a, b, c);
+    mesh.triangles.emplace_back(a, c, d);
+  }
+  return mesh;
+}
+
+/// A prism over a polygon in the xy plane (counter-clockwise, star-shaped about its first corner).
+inline meam::TriangleMesh prism(const std::vector<Eigen::Vector2f>& outline, float height)
+{
+  meam::TriangleMesh mesh;
+  const int n = static_cast<int>(outline.size());
+  for (const float z : { 0.0f, height })
+  {
+    for (const auto& corner : outline)
+    {
+      mesh.vertices.emplace_back(corner.x(), corner.y(), z);
+    }
+  }
+  for (int i = 1; i + 1 < n; ++i)
+  {
+    mesh.triangles.emplace_back(0, i + 1, i);
+    mesh.triangles.emplace_back(n, n + i, n + i + 1);
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    const int j = (i + 1) % n;
+    mesh.triangles.emplace_back(i, j, n + j);
+    mesh.triangles.emplace_back(i, n + j, n + i);
+  }
+  return mesh;
+}
+
+/// An L of unequal legs, 60 x 40 x 15 mm: no rotation maps it onto itself. The first corner is the
+/// inner one, from which all others are seen.
+inline meam::TriangleMesh lBracket()
+{
+  return prism({ { 18, 12 }, { 18, 40 }, { 0, 40 }, { 0, 0 }, { 60, 0 }, { 60, 12 } }, 15);
+}
+
+inline Eigen::Isometry3d motion(std::mt19937& random, double reach)
+{
+  const auto number = [&] { return random() / 2147483648.0 - 1.0; };
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(number(), number(), number(), number()).normalized().toRotationMatrix();
+  T.translation() = reach * Eigen::Vector3d(number(), number(), number());
+  return T;
+}
+
+inline meam::Points moved(const meam::Points& points, const Eigen::Isometry3d& T)
+{
+  meam::Points result;
+  for (const auto& point : points)
+  {
+    result.push_back((T * point.cast<double>()).cast<float>());
+  }
+  return result;
+}
+
+inline meam::PointCloud moved(const meam::PointCloud& cloud, const Eigen::Isometry3d& T)
+{
+  Eigen::Isometry3d R = Eigen::Isometry3d::Identity();
+  R.linear() = T.linear();
+  meam::PointCloud result = cloud;
+  result.points = moved(cloud.points, T);
+  result.normals = moved(cloud.normals, R);
+  result.tangents = moved(cloud.tangents, R);
+  return result;
+}
+}

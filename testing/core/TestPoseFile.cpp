@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/FileBytes.h"
+#include "io/PoseFile.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// An empty folder of this test, removed at its end.
+struct Folder
+{
+  Folder()
+    : path(fs::path(testing::TempDir()) /
+           (std::string("TestPoseFile-") + testing::UnitTest::GetInstance()->current_test_info()->name()))
+  {
+    fs::remove_all(this->path);
+    fs::create_directory(this->path);
+  }
+  ~Folder() { fs::remove_all(this->path); }
+  std::string file() const { return (this->path / "poses").string(); }
+  long files() const { return std::distance(fs::directory_iterator(this->path), fs::directory_iterator()); }
+  fs::path path;
+};
+
+/// A quarter turn about z and a shift that needs all its digits.
+meam::PoseRow quarterTurn()
+{
+  meam::PoseRow row;
+  row.T_scene_model.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  row.T_scene_model.translation() << 0.1, -2.5, 1.0 / 3.0;
+  row.score = 0.75;
+  return row;
+}
+
+std::vector<Eigen::Isometry3d> read(const std::string& text)
+{
+  const Folder folder;
+  meam::writeFile(folder.file(), text);
+  return meam::readMatrices(folder.file());
+}
+}
+
+TEST(PoseFile, readsBlocks)
+{
+  const auto poses = read("# ground truth\n0 -1 0 1.5\n1 0 0 +2\n0 0 1 -3e0\n0 0 0 1\n\n1 0 0 0 0 "
+                          "1 0 0 0 0 1 0 0 0 0 1# end");
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0] * Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1.5, 3, -3));
+  EXPECT_TRUE(poses[1].matrix().isIdentity());
+  EXPECT_TRUE(read("# nothing found\n\n").empty());
+}
+
+TEST(PoseFile, badMatrices)
+{
+  EXPECT_THROW(meam::readMatrices("/no/such/file.txt"), meam::Error);
+  EXPECT_THROW(read("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0"), meam::Error);
+  EXPECT_THROW(read("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 5"), meam::Error);
+  EXPECT_THROW(read("1 0 0 nan 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
+  EXPECT_THROW(read("1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
+  EXPECT_THROW(read("2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);  // scale
+  EXPECT_THROW(read("-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error); // mirror
+  EXPECT_THROW(read("1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1"), meam::Error);  // column-major
+}
+
+TEST(PoseFile, matricesKeepEveryDigit)
+{
+  const Folder folder;
+  meam::writeMatrices(folder.file(), { quarterTurn(), {} });
+  const auto poses = meam::readMatrices(folder.file());
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].matrix(), quarterTurn().T_scene_model.matrix());
+  EXPECT_EQ(folder.files(), 1);
+}
+
+TEST(PoseFile, bopRows)
+{
+  const Folder folder;
+  meam::PoseRow row = quarterTurn();
+  row.sceneId = 3;
+  row.imageId = 7;
+  row.objectId = 2;
+  row.time = 0.5;
+  meam::writeBOP(folder.file(), { row, {} });
+  EXPECT_EQ(meam::readFile(folder.file()), "scene_id,im_id,obj_id,score,R,t,time\n"
+                                           "3,7,2,0.75,0 -1 0 1 0 0 0 0 1,0.1 -2.5 0.3333333333333333,0.5\n"
+                                           "0,0,1,0,1 0 0 0 1 0 0 0 1,0 0 0,-1\n");
+}
+
+TEST(PoseFile, json)
+{
+  const Folder folder;
+  meam::PoseRow row = quarterTurn();
+  row.votes = 120;
+  row.viewId = 4;
+  row.visibleFraction = 0.5;
+  meam::writeJSON(folder.file(), { row, {} });
+  const auto json = nlohmann::json::parse(meam::readFile(folder.file()));
+  EXPECT_EQ(json["units"], "mm");
+  ASSERT_EQ(json["poses"].size(), 2u);
+  const auto& pose = json["poses"][0];
+  EXPECT_EQ(pose["rank"], 1);
+  EXPECT_EQ(pose["score"], 0.75);
+  EXPECT_EQ(pose["votes"], 120);
+  EXPECT_EQ(pose["view"], 4);
+  EXPECT_EQ(pose["visible_fraction"], 0.5);
+  EXPECT_EQ(pose["translation"][2].get<double>(), 1.0 / 3.0);
+  EXPECT_NEAR(pose["quaternion"][2].get<double>(), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(pose["quaternion"][3].get<double>(), std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(pose["matrix"][0], nlohmann::json({ 0.0, -1.0, 0.0, 0.1 }));
+  EXPECT_EQ(pose["matrix"][3], nlohmann::json({ 0.0, 0.0, 0.0, 1.0 }));
+  EXPECT_EQ(json["poses"][1]["rank"], 2);
+  EXPECT_FALSE(json["poses"][1].contains("votes"));
+  meam::writeJSON(folder.file(), {});
+  EXPECT_TRUE(nlohmann::json::parse(meam::readFile(folder.file()))["poses"].empty());
+}
+
+TEST(PoseFile, writersLeaveTheOldFileWhenTheyFail)
+{
+  const Folder folder;
+  meam::writeFile(folder.file(), "old");
+  meam::PoseRow broken;
+  broken.T_scene_model.translation().x() = std::nan("");
+  EXPECT_THROW(meam::writeMatrices(folder.file(), { broken }), meam::Error);
+  EXPECT_THROW(meam::writeBOP(folder.file(), { broken }), meam::Error);
+  EXPECT_THROW(meam::writeJSON(folder.file(), { broken }), meam::Error);
+  EXPECT_EQ(meam::readFile(folder.file()), "old");
+  EXPECT_EQ(folder.files(), 1);
+  EXPECT_THROW(meam::writeBOP("/no/such/folder/poses.csv", {}), meam::Error);
+  EXPECT_THROW(meam::writeBOP(folder.path.string(), {}), meam::Error);
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/PoseRefinement.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+const meam::Scene& scene()
+{
+  static const meam::Scene seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  return seen;
+}
+
+meam::Poses disturbed(double millimetres, double degrees)
+{
+  std::mt19937 random(11);
+  meam::Poses poses;
+  for (const auto& T : scenes::threeCopies())
+  {
+    Eigen::Vector3d axis = parts::motion(random, 1.0).linear().col(0);
+    Eigen::Vector3d shift = parts::motion(random, 1.0).linear().col(1);
+    meam::Pose pose;
+    pose.T_scene_model = T;
+    pose.T_scene_model.translate(millimetres * shift);
+    pose.T_scene_model.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, axis));
+    pose.viewId = T.linear()(2, 2) > 0 ? 0 : 1; // seen from its +z or its -z
+    pose.score = 0.5;
+    pose.votes = 12;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+void expectNear(const meam::Poses& poses, double millimetres, double degrees)
+{
+  ASSERT_EQ(poses.size(), 3u);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    EXPECT_LT(meam::translationError(poses[i].T_scene_model, scenes::threeCopies()[i]), millimetres) << i;
+    EXPECT_LT(meam::rotationError(poses[i].T_scene_model, scenes::threeCopies()[i]), degrees) << i;
+    EXPECT_NEAR(poses[i].T_scene_model.linear().determinant(), 1.0, 1e-9);
+  }
+}
+}
+
+TEST(PoseRefinement, ADisturbedPoseComesBack)
+{
+  expectNear(meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene()), 0.15, 0.25);
+}
+
+TEST(PoseRefinement, TheTruePoseStays)
+{
+  expectNear(meam::refinePoses(disturbed(0.0, 0.0), scenes::bracket(), scene()), 0.15, 0.25);
+}
+
+TEST(PoseRefinement, EdgesAlone)
+{
+  meam::Scene edgesOnly = scene();
+  edgesOnly.surface.clear();
+  expectNear(meam::refinePoses(disturbed(1.0, 1.5), scenes::bracket(), edgesOnly), 0.8, 1.5);
+}
+
+TEST(PoseRefinement, PointToPointOfThePaper)
+{
+  expectNear(meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene(), meam::paperRefinementSettings()), 0.8, 1.5);
+}
+
+TEST(PoseRefinement, ScoresAndOrderStayAndThreadsDoNotMatter)
+{
+  meam::PoseRefinementSettings settings;
+  settings.threads = 1;
+  const meam::Poses one = meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene(), settings);
+  settings.threads = 3;
+  const meam::Poses three = meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene(), settings);
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
+    EXPECT_EQ(one[i].score, 0.5);
+    EXPECT_EQ(one[i].votes, 12);
+  }
+}
+
+TEST(PoseRefinement, FarFromAnythingThePoseStaysFinite)
+{
+  meam::Poses far = disturbed(0.0, 0.0);
+  for (auto& pose : far)
+  {
+    pose.T_scene_model.pretranslate(Eigen::Vector3d(5000, 0, 0));
+  }
+  for (const auto& settings : { meam::PoseRefinementSettings(), meam::paperRefinementSettings() })
+  {
+    const meam::Poses refined = meam::refinePoses(far, scenes::bracket(), scene(), settings);
+    for (std::size_t i = 0; i < far.size(); ++i)
+    {
+      EXPECT_LT(meam::translationError(refined[i].T_scene_model, far[i].T_scene_model), 1e-6);
+    }
+  }
+}
+
+TEST(PoseRefinement, BadInput)
+{
+  EXPECT_THROW(meam::refinePoses(disturbed(0, 0), scenes::bracket(), {}), meam::Error);
+}

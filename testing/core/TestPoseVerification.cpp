@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/PoseVerification.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+const meam::Scene& scene()
+{
+  static const meam::Scene seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  return seen;
+}
+
+meam::Pose at(const Eigen::Isometry3d& T)
+{
+  meam::Pose pose;
+  pose.T_scene_model = T;
+  pose.viewId = 0;
+  return pose;
+}
+
+meam::Pose displaced(const Eigen::Isometry3d& T, double millimetres, double degrees)
+{
+  Eigen::Isometry3d moved = T;
+  moved.translate(Eigen::Vector3d(millimetres, 0, 0));
+  moved.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitZ()));
+  return at(moved);
+}
+
+double scoreOf(const meam::Pose& pose, const meam::Scene& in, const meam::PoseVerificationSettings& settings = {})
+{
+  const meam::Poses verified = meam::verifyPoses({ pose }, scenes::bracket(), in, settings);
+  return verified.empty() ? 0.0 : verified[0].score;
+}
+}
+
+TEST(PoseVerification, TheTruePoseScoresBest)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const double truth = scoreOf(at(T), scene());
+  EXPECT_GT(truth, 0.8);
+  EXPECT_LE(truth, 1.0);
+  EXPECT_LT(scoreOf(displaced(T, 8.0, 0.0), scene()), truth - 0.1);
+  EXPECT_LT(scoreOf(displaced(T, 0.0, 25.0), scene()), truth - 0.1);
+  EXPECT_LT(scoreOf(displaced(T, 500.0, 0.0), scene()), 0.01); // where there is nothing
+}
+
+TEST(PoseVerification, TheFlippedPartIsWorse)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  // The same place and the same height, turned upside down about the long leg.
+  Eigen::Isometry3d flipped = T;
+  flipped.translate(Eigen::Vector3d(0, 20, 7.5));
+  flipped.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  flipped.translate(Eigen::Vector3d(0, -20, -7.5));
+  EXPECT_LT(scoreOf(at(flipped), scene()), scoreOf(at(T), scene()) - 0.1);
+}
+
+TEST(PoseVerification, WithoutASurfaceEdgesDecide)
+{
+  meam::Scene edgesOnly = scene();
+  edgesOnly.surface.clear();
+  const Eigen::Isometry3d T = scenes::threeCopies()[1];
+  EXPECT_GT(scoreOf(at(T), edgesOnly), 0.8);
+  EXPECT_LT(scoreOf(displaced(T, 8.0, 0.0), edgesOnly), scoreOf(at(T), edgesOnly) - 0.2);
+}
+
+TEST(PoseVerification, APartUnderAPlateIsHiddenNotWrong)
+{
+  meam::Scene covered = scene();
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const double before = meam::verifyPoses({ at(T) }, scenes::bracket(), covered)[0].visibleFraction;
+  // A plate 30 mm above half of the part; it hides the points below it.
+  meam::Points visible;
+  const auto under = [&](const Eigen::Vector3f& p) { return p.x() < 25.0f && p.x() > -60.0f && std::abs(p.y()) < 70.0f; };
+  std::copy_if(covered.surface.begin(), covered.surface.end(), std::back_inserter(visible),
+    [&](const auto& p) { return !under(p); });
+  for (float x = -60.0f; x < 25.0f; x += 0.7f)
+  {
+    for (float y = -70.0f; y < 70.0f; y += 0.7f)
+    {
+      visible.emplace_back(x, y, 30.0f);
+    }
+  }
+  covered.surface = visible;
+  std::vector<int> edges;
+  for (std::size_t i = 0; i < covered.edges.size(); ++i)
+  {
+    if (!under(covered.edges.points[i]))
+    {
+      edges.push_back(static_cast<int>(i));
+    }
+  }
+  covered.edges = covered.edges.subset(edges);
+  const meam::Pose pose = meam::verifyPoses({ at(T) }, scenes::bracket(), covered)[0];
+  EXPECT_LT(pose.visibleFraction, before - 0.2);
+  EXPECT_GT(pose.visibleFraction, 0.2);
+  // What is left to see still fits: the score falls no more than the visible share explains.
+  EXPECT_GT(pose.score, 0.75 * std::sqrt(pose.visibleFraction));
+}
+
+TEST(PoseVerification, OneInstanceIsReturnedOnce)
+{
+  const auto& truth = scenes::threeCopies();
+  meam::Poses candidates;
+  for (const auto& T : truth)
+  {
+    for (const double off : { 2.0, 0.0, 1.0 })
+    {
+      candidates.push_back(displaced(T, off, off));
+    }
+  }
+  meam::PoseVerificationSettings settings;
+  settings.posesPerInstance = 1;
+  const meam::Poses best = meam::verifyPoses(candidates, scenes::bracket(), scene(), settings);
+  ASSERT_EQ(best.size(), 3u);
+  for (std::size_t i = 1; i < best.size(); ++i)
+  {
+    EXPECT_GE(best[i - 1].score, best[i].score);
+  }
+  settings.maximumPoses = 2;
+  EXPECT_EQ(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).size(), 2u);
+  settings.minimumScore = 1.1;
+  EXPECT_TRUE(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).empty());
+}
+
+TEST(PoseVerification, CoverageFollowsThePaper)
+{
+  // The share of the view's edge points that have a scene edge point within the tolerance, exactly.
+  const meam::TrainedModel& model = scenes::bracket();
+  meam::Scene own;
+  own.edges = model.edges;
+  meam::PoseVerificationSettings settings = meam::paperVerificationSettings();
+  EXPECT_DOUBLE_EQ(scoreOf(at(Eigen::Isometry3d::Identity()), own, settings), 1.0);
+  std::vector<int> half;
+  int inView = 0;
+  for (std::size_t i = 0; i < model.edges.size(); ++i)
+  {
+    if ((model.edgeViews[i] & 1u) != 0 && inView++ % 2 == 0)
+    {
+      half.push_back(static_cast<int>(i));
+    }
+  }
+  own.edges = model.edges.subset(half);
+  settings.tolerance = 1e-4;
+  EXPECT_DOUBLE_EQ(scoreOf(at(Eigen::Isometry3d::Identity()), own, settings), static_cast<double>(half.size()) / inView);
+}
+
+TEST(PoseVerification, BadInput)
+{
+  EXPECT_THROW(meam::verifyPoses({ at(Eigen::Isometry3d::Identity()) }, scenes::bracket(), {}), meam::Error);
+  EXPECT_TRUE(meam::verifyPoses({}, scenes::bracket(), scene()).empty());
+}
