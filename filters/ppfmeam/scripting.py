@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the scripts of examples/ share: files by extension, errors as exceptions, tables and pictures."""
+import os
+import re
+import shutil
+import sys
+import tempfile
+
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
+
+from . import filters, meshfiles
+
+READERS = {".pcd": filters.vtkMEAMPCDReader, ".ply": vtkPLYReader, ".stl": vtkSTLReader, ".obj": vtkOBJReader}
+WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
+STAGES = ("Training", "SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total")
+
+
+class Failure(Exception):
+    """Something the user has to know and can act on."""
+
+
+def run(main):
+    """Runs a script's main function; a Failure is one message and exit status 1."""
+    try:
+        sys.exit(main())
+    except Failure as failure:
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {failure}")
+
+
+def update(algorithm, step="Update"):
+    """Updates an algorithm (or calls another method); what it reports as an error is raised as a Failure."""
+    window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    vtkOutputWindow.SetInstance(window)
+    try:
+        getattr(algorithm, step)()
+    finally:
+        vtkOutputWindow.SetInstance(before)
+        vtkLogger.SetStderrVerbosity(verbosity)
+    text = window.GetOutput()
+    if isinstance(text, bytes):  # a message with bytes of a file that is not text
+        text = text.decode(errors="replace")
+    errors = re.findall(r"ERROR: In .*\n(?:\w+ \(.*?\): )?((?:.+\n?)+)", text)
+    if errors:
+        causes = [error for error in errors if "returned failure for request" not in error]
+        raise Failure(" ".join(causes[0].split()) if causes else f"{algorithm.GetClassName()} failed")
+    return algorithm
+
+
+def count(text):
+    """A number of things, as argparse wants it."""
+    number = int(text)
+    if number < 0:
+        raise ValueError
+    return number
+
+
+def set_choice(algorithm, name, choice):
+    """Sets an enumerated property: Preset, recommended calls SetPresetToRecommended()."""
+    getattr(algorithm, f"Set{name}To{choice[0].upper()}{choice[1:]}")()
+
+
+def require_file(path):
+    """Raises a Failure when a file cannot be read."""
+    try:
+        with open(path, "rb"):
+            pass
+    except OSError as error:
+        raise Failure(f"cannot read {path}: {error.strerror}") from None
+
+
+def require_folder_of(*paths):
+    """Raises a Failure when one of the files (or None) could not be written: before any work is done."""
+    for path in filter(None, paths):
+        folder = os.path.dirname(os.path.abspath(path))
+        if os.path.isdir(path) or not os.access(folder, os.W_OK):
+            raise Failure(f"cannot write {path}: {'it is a folder' if os.path.isdir(path) else 'no such folder'}")
+
+
+def read_with(reader, path):
+    """What a reader finds in a file."""
+    require_file(path)
+    reader.SetFileName(path)
+    try:
+        return update(reader).GetOutputDataObject(0)
+    except Failure as failure:
+        raise failure if path in str(failure) else Failure(f"{path}: {failure}") from None
+
+
+def read(path):
+    """The mesh or the cloud in a .pcd, .ply, .stl or .obj file."""
+    extension = os.path.splitext(path)[1].lower()
+    if extension not in READERS:
+        raise Failure(f"{path}: unknown kind of file; known are {', '.join(READERS)}")
+    require_file(path)
+    if not WHOLE.get(extension, os.path.exists)(path):
+        raise Failure(f"{path} is cut off, or no {extension[1:].upper()} file")
+    data = read_with(READERS[extension](), path)
+    if data.GetNumberOfPoints() == 0:
+        raise Failure(f"{path} has no points: it is empty, cut off, or no {extension[1:].upper()} file")
+    return data
+
+
+def read_mesh(path, offset=(0, 0, 0)):
+    """The clean mesh of a CAD file, moved by an offset in mm."""
+    preparation = filters.vtkMEAMMeshPreparation()
+    preparation.SetInputDataObject(read(path))
+    preparation.SetOffset(offset)
+    return update(preparation).GetOutput()
+
+
+def read_image(path):
+    """The image in a PNG file."""
+    reader = vtkPNGReader()
+    require_file(path)
+    if not reader.CanReadFile(path):
+        raise Failure(f"{path} is not a PNG image")
+    return read_with(reader, path)
+
+
+def read_model(path):
+    """The trained model that write_model wrote."""
+    return read_with(vtkXMLPartitionedDataSetCollectionReader(), path)
+
+
+def train(mesh, preset="recommended"):
+    """The trained model of a mesh."""
+    surface = filters.vtkMEAMSurfaceSampling()
+    views = filters.vtkMEAMVisibilityExtraction()
+    boundary = filters.vtkMEAMBoundaryExtraction()
+    tangents = filters.vtkMEAMTangentEstimation()
+    hashing = filters.vtkMEAMHashing()
+    for step in (tangents, hashing):
+        set_choice(step, "Parameters", preset)
+    surface.SetInputDataObject(mesh)
+    for before, step in ((surface, views), (views, boundary), (boundary, tangents), (tangents, hashing)):
+        step.SetInputConnection(before.GetOutputPort())
+    hashing.SetInputConnection(1, surface.GetOutputPort())
+    return update(hashing).GetOutput()
+
+
+def write_model(model, path):
+    """Writes a trained model, NAME.vtpc and the folder NAME beside it, whole or not at all."""
+    name, extension = os.path.splitext(os.path.basename(path))
+    if extension != ".vtpc":
+        raise Failure(f"{path}: the name of a trained model ends in .vtpc")
+    folder = os.path.dirname(os.path.abspath(path))
+    with tempfile.TemporaryDirectory(dir=folder) as scratch:
+        writer = vtkXMLPartitionedDataSetCollectionWriter()
+        writer.SetInputDataObject(model)
+        writer.SetFileName(os.path.join(scratch, name + extension))
+        writer.SetDataModeToBinary()  # the default mode is not read back by every VTK
+        update(writer, "Write")
+        shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
+        for part in (name, name + extension):
+            os.replace(os.path.join(scratch, part), os.path.join(folder, part))
+
+
+def write_poses(poses, path, form, **numbers):
+    """Writes poses in a form of vtkMEAMPoseWriter: "BOPCSV", "JSON" or "Matrices"; numbers: SceneId=3."""
+    writer = filters.vtkMEAMPoseWriter()
+    writer.SetInputDataObject(poses)
+    writer.SetFileName(path)
+    set_choice(writer, "Format", form)
+    for name, value in numbers.items():
+        getattr(writer, "Set" + name)(value)
+    update(writer, "Write")
+
+
+def field(data, name):
+    """A number of the field data."""
+    return data.GetFieldData().GetArray(name).GetValue(0)
+
+
+def print_poses(poses):
+    """Prints poses as a table."""
+    array = poses.GetPointData().GetArray
+    print("rank  score  translation (mm)               quaternion (x y z w)                view  visible")
+    for i in range(poses.GetNumberOfPoints()):
+        t = array("Transform").GetTuple(i)
+        q = array("Quaternion").GetTuple(i)
+        print(f"{array('Rank').GetValue(i):4d}  {array('Score').GetValue(i):.3f}"
+              f"  {t[3]:9.3f} {t[7]:9.3f} {t[11]:9.3f}  {q[0]:8.5f} {q[1]:8.5f} {q[2]:8.5f} {q[3]:8.5f}"
+              f"  {array('ViewId').GetValue(i):4d}  {100 * array('VisibleFraction').GetValue(i):5.0f} %")
+    if poses.GetNumberOfPoints() == 0:
+        print("      no part found")
+
+
+def print_times(poses):
+    """Prints the time of every stage of vtkMEAMPoseEstimation."""
+    words = [re.sub("([a-z])([A-Z])", r"\1 \2", stage).lower() for stage in STAGES]
+    print("time: " + ", ".join(f"{word} {field(poses, 'Seconds' + stage):.3f} s" for word, stage in zip(words, STAGES)))

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Between VTK's data objects and the core's: every filter converts in, calls the core, converts out.
+ * Arrays and their shapes are those of the data contracts in docs/architecture.md. Not wrapped.
+ */
+#ifndef vtkMEAMConversion_h
+#define vtkMEAMConversion_h
+
+#include "Error.h"
+#include "Geometry.h"
+#include "model/TrainedModel.h"
+#include "pose/Pose.h"
+#include "pose/Scene.h"
+#include "scene/OrganizedCloud.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkObject.h"
+#include "vtkSetGet.h"
+
+#include <vector>
+
+class vtkDataObject;
+class vtkDataSet;
+class vtkFieldData;
+class vtkImageData;
+class vtkPartitionedDataSetCollection;
+class vtkPointSet;
+class vtkPolyData;
+class vtkStructuredGrid;
+
+namespace vtkMEAMConversion
+{
+/// Polygons and strips become triangles. Coordinates as they are.
+meam::TriangleMesh toMesh(vtkPolyData* input);
+void fromMesh(const meam::TriangleMesh& mesh, vtkPolyData* output);
+
+/// Points with the arrays `Normals`, `Tangent` (3 components each) and `PointId`, where they are there.
+meam::PointCloud toCloud(vtkPointSet* input);
+/// The same arrays, and a vertex cell for each point.
+void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output);
+
+/// W x H x 1; blanked points become NaN. Throws for a grid that is not a single layer.
+meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input);
+/// NaN points are blanked.
+void fromOrganizedCloud(const meam::OrganizedCloud& cloud, vtkStructuredGrid* output);
+/// From the point array `Intensity` (1 component) or `RGB` (3) of an organized cloud. Throws without.
+meam::Image imageOfCloud(vtkStructuredGrid* input);
+/// From image scalars of 1, 3 or 4 components; VTK's images start at the lower left, ours at the upper left.
+meam::Image toImage(vtkImageData* input);
+void fromImage(const meam::Image& image, vtkImageData* output);
+
+/// One partition for each viewpoint, named, with the field data `ViewDirection` (3).
+std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetCollection* input);
+void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkPartitionedDataSetCollection* output);
+
+/// True for what MEAMHashing returns, in whatever state.
+bool isTrainedModel(vtkDataObject* input);
+/// Throws Error for another version, for missing parts and for arrays whose lengths do not fit.
+meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input);
+void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output);
+
+/// One vertex for each pose, best first: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w),
+/// `Score`, `Votes`, `ViewId`, `VisibleFraction`, `Rank` (from 1).
+meam::Poses toPoses(vtkPolyData* input);
+/// The same, with the appearance model nearest to the sensor for poses that do not name one, as from a file.
+meam::Poses toPoses(vtkPolyData* input, const meam::TrainedModel& model, const meam::Sensor& sensor);
+void fromPoses(const meam::Poses& poses, vtkPolyData* output);
+
+/// d_max in mm travels with the part from step to step as the field data `Diameter`; 0 when it is not there.
+double diameterOf(vtkDataObject* input);
+void setDiameter(vtkDataObject* output, double diameter);
+/// A number as field data; replaces an array of that name.
+void setFieldValue(vtkDataObject* output, const char* name, double value);
+
+/// The property `Projection` of the filters that need to know where the scene is seen from.
+enum Projection
+{
+  AutomaticProjection,    ///< perspective from the origin along +z for an organized cloud, otherwise orthographic
+  OrthographicProjection, ///< along the view direction
+  PerspectiveProjection   ///< from the sensor position, looking along the view direction
+};
+
+/// Where the scene is seen from; `surface` may be null. Throws Error for a view direction of zero.
+meam::Sensor sensorOf(
+  int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
+/// Edge points with `Tangent`, and the measured surface, which may be null.
+meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor);
+
+/// Progress and abort of a filter as the core asks for them.
+meam::Progress progressOf(vtkAlgorithm* filter);
+}
+
+/**
+ * The body of a RequestData: what the core throws becomes an error on VTK's channel with nothing in the
+ * output, a wish to stop becomes an empty output. `work` is a callable, `outputs...` the data objects to
+ * empty when it fails.
+ */
+template <typename Work, typename... Outputs>
+int vtkMEAMRun(vtkAlgorithm* self, Work&& work, Outputs*... outputs)
+{
+  try
+  {
+    work();
+    return 1;
+  }
+  catch (const meam::Aborted&)
+  {
+    (outputs->Initialize(), ...);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    (outputs->Initialize(), ...);
+    vtkErrorWithObjectMacro(self, << error.what());
+    return 0;
+  }
+}
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMHashing.h"
+
+#include "model/MEAMHashing.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkMEAMHashing);
+
+vtkMEAMHashing::vtkMEAMHashing()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetParametersToRecommended();
+}
+
+void vtkMEAMHashing::SetParametersToPaper() { this->SetParameters(meam::paperHashingSettings()); }
+
+void vtkMEAMHashing::SetParametersToRecommended() { this->SetParameters({}); }
+
+void vtkMEAMHashing::SetParameters(const meam::MEAMHashingSettings& settings)
+{
+  this->Feature = static_cast<int>(settings.feature);
+  this->DistanceStep = settings.distanceStep;
+  this->AngleStep = settings.angleStep;
+  this->MergeViews = settings.mergeViews;
+  this->VoxelSize = settings.voxelSize;
+  this->CoVisibilityDirections = settings.coVisibilityDirections;
+  this->Modified();
+}
+
+int vtkMEAMHashing::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  auto* input = vtkPartitionedDataSetCollection::GetData(inputVector[0]);
+  vtkPolyData* samples = vtkPolyData::GetData(inputVector[1]);
+  auto* output = vtkPartitionedDataSetCollection::GetData(outputVector);
+  const auto work = [&]
+  {
+    meam::MEAMHashingSettings settings;
+    settings.feature = static_cast<meam::PairFeatureKind>(this->Feature);
+    settings.distanceStep = this->DistanceStep;
+    settings.angleStep = this->AngleStep;
+    settings.mergeViews = this->MergeViews;
+    settings.voxelSize = this->VoxelSize;
+    settings.coVisibilityDirections = this->CoVisibilityDirections;
+    const meam::PointCloud surface = toCloud(samples);
+    if (samples)
+    {
+      meam::requirePoints(surface.points, "The part's surface");
+      if (surface.normals.empty())
+      {
+        throw meam::Error("The part's surface has no point array 'Normals': use the output of SurfaceSampling.");
+      }
+    }
+    fromTrainedModel(
+      meam::hashModels(toAppearanceModels(input), surface, diameterOf(input), settings, progressOf(this)), output);
+  };
+  return vtkMEAMRun(this, work, output);
+}
+
+void vtkMEAMHashing::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Feature: " << (this->Feature == Paper ? "Paper" : "Oriented") << "\n";
+  os << indent << "DistanceStep: " << this->DistanceStep << "\n";
+  os << indent << "AngleStep: " << this->AngleStep << "\n";
+  os << indent << "MergeViews: " << (this->MergeViews ? "On" : "Off") << "\n";
+  os << indent << "VoxelSize: " << this->VoxelSize << "\n";
+  os << indent << "CoVisibilityDirections: " << this->CoVisibilityDirections << "\n";
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMHashing
+ * @brief Trains the model of a part: all pairs of its edge points, sorted by their feature.
+ *
+ * Sections 3 and 4 of the paper. Every ordered pair of edge points that can be seen together is described by
+ * B2B-TL (the distance, and the angles of the two tangent lines to it and to each other), the feature is cut
+ * into steps, and the pair is stored once under the resulting key. The result can be saved and loaded with
+ * VTK's own XML writer and reader for partitioned dataset collections; use the data mode `Binary`.
+ *
+ * Input port 0: vtkPartitionedDataSetCollection of edge appearance models with `Tangent`
+ * (vtkMEAMTangentEstimation); `PointId` where it is there says which surface sample a point is. The part's
+ * diameter is the field data `Diameter`; without it that of the points is taken.
+ * Input port 1, optional: vtkPolyData, the samples of the whole surface with `Normals`
+ * (vtkMEAMSurfaceSampling). They say which points are seen together, and poses are verified and refined with
+ * them. Without them only edges count.
+ *
+ * Output port 0: vtkPartitionedDataSetCollection, the trained model:
+ * - `View 0`, `View 1`, ...: the edge points of each appearance model with `Tangent`; field data
+ *   `ViewDirection`, `ViewIndex`.
+ * - `Edges`: the edge points of the table with `Tangent`, `ViewBits` (bit v: on the edge seen in view v) and
+ *   `VisibleBits` (bit c: visible from co-visibility direction c).
+ * - `Surface`: thinned surface samples with `Normals`, where the surface is given.
+ * - `PairTableBuckets`: a row of values `Offset`: the entries of key k are [Offset[k], Offset[k + 1]).
+ * - `PairTableEntries`: a row of values `Reference`, `Referred` (points of `Edges`), `Angle` (radians, of the
+ *   referred point about the reference's tangent) and `ViewBits`.
+ * - Field data: `FormatVersion`, `Units`, `Digest` (of the surface, the edges and the parameters), `Diameter`,
+ *   `ViewDirections`, the parameters by their names, and `NumberOfViews`, `NumberOfEdgePoints`,
+ *   `NumberOfSurfacePoints`, `NumberOfPairs`.
+ */
+#ifndef vtkMEAMHashing_h
+#define vtkMEAMHashing_h
+
+#include "ppfmeamFiltersModule.h"
+#include "vtkPartitionedDataSetCollectionAlgorithm.h"
+
+namespace meam
+{
+struct MEAMHashingSettings;
+}
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMHashing : public vtkPartitionedDataSetCollectionAlgorithm
+{
+public:
+  static vtkMEAMHashing* New();
+  vtkTypeMacro(vtkMEAMHashing, vtkPartitionedDataSetCollectionAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Features
+  {
+    Paper = 0,
+    Oriented = 1
+  };
+
+  ///@{
+  /**
+   * Paper (0): the distance and three acute angles, Equation (1). Oriented (1): both tangents are turned
+   * along the pair, so the third angle is full and mirror images differ: fewer wrong votes.
+   * Default: Oriented.
+   */
+  vtkSetClampMacro(Feature, int, Paper, Oriented);
+  vtkGetMacro(Feature, int);
+  void SetFeatureToPaper() { this->SetFeature(Paper); }
+  void SetFeatureToOriented() { this->SetFeature(Oriented); }
+  ///@}
+
+  ///@{
+  /** Step of distances as a share of the part's diameter, in (0, 1]. Default: 0.07. */
+  vtkSetClampMacro(DistanceStep, double, 0.001, 1.0);
+  vtkGetMacro(DistanceStep, double);
+  ///@}
+
+  ///@{
+  /** Step of angles in degrees, 1 to 90; also of the votes' turn about the tangent. Default: 7.2. The paper: 3.6. */
+  vtkSetClampMacro(AngleStep, double, 1.0, 90.0);
+  vtkGetMacro(AngleStep, double);
+  ///@}
+
+  ///@{
+  /**
+   * On: edge points that several views share become one. Off: each view keeps its own, and pairs that
+   * several views share are told by voxel code, Equation (2) of the paper. Default: on.
+   */
+  vtkSetMacro(MergeViews, bool);
+  vtkGetMacro(MergeViews, bool);
+  vtkBooleanMacro(MergeViews, bool);
+  ///@}
+
+  ///@{
+  /** Points of two views nearer than this are the same, in mm; 0: 1.5 % of the part's diameter. Default: 0. */
+  vtkSetClampMacro(VoxelSize, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(VoxelSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * Number of directions, up to 32, from which two points have to be visible together to make a pair;
+   * 0: only the views themselves, as in the paper. Default: 26.
+   */
+  vtkSetClampMacro(CoVisibilityDirections, int, 0, 32);
+  vtkGetMacro(CoVisibilityDirections, int);
+  ///@}
+
+  /** The parameters of the paper, Section 6. */
+  void SetParametersToPaper();
+  /** The parameters that measure better: the defaults. */
+  void SetParametersToRecommended();
+
+protected:
+  vtkMEAMHashing();
+  ~vtkMEAMHashing() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMHashing(const vtkMEAMHashing&) = delete;
+  void operator=(const vtkMEAMHashing&) = delete;
+
+  void SetParameters(const meam::MEAMHashingSettings& settings);
+
+  int Feature;
+  double DistanceStep;
+  double AngleStep;
+  bool MergeViews;
+  double VoxelSize;
+  int CoVisibilityDirections;
+};
+
+#endif

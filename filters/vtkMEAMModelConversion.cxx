@@ -1,0 +1,507 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of vtkMEAMConversion.h that deals with collections: appearance models and the trained model.
+#include "vtkMEAMConversion.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedIntArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace vtkMEAMConversion
+{
+namespace
+{
+using meam::Error;
+
+[[noreturn]] void refuse(const std::string& what)
+{
+  throw Error("The trained model " + what +
+              " Train the model again with MEAMHashing, and save it with the data mode "
+              "'Binary'.");
+}
+
+std::string nameOf(vtkPartitionedDataSetCollection* input, unsigned int index)
+{
+  const char* name = input->HasMetaData(index) ? input->GetMetaData(index)->Get(vtkCompositeDataSet::NAME()) : nullptr;
+  return name ? name : "";
+}
+
+/// The first partition at a place, or null.
+vtkDataSet* partitionOf(vtkPartitionedDataSetCollection* input, unsigned int index)
+{
+  vtkPartitionedDataSet* set = input->GetPartitionedDataSet(index);
+  return set && set->GetNumberOfPartitions() > 0 ? set->GetPartition(0) : nullptr;
+}
+
+void addPartition(vtkPartitionedDataSetCollection* output, const std::string& name, vtkDataSet* data)
+{
+  vtkNew<vtkPartitionedDataSet> set;
+  set->SetNumberOfPartitions(1);
+  set->SetPartition(0, data);
+  const unsigned int index = output->GetNumberOfPartitionedDataSets();
+  output->SetPartitionedDataSet(index, set);
+  output->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+}
+
+void setFieldVectors(vtkDataObject* output, const char* name, const meam::Points& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  for (const auto& value : values)
+  {
+    array->InsertNextTuple3(value.x(), value.y(), value.z());
+  }
+  output->GetFieldData()->AddArray(array);
+}
+
+void setFieldInteger(vtkDataObject* output, const char* name, std::size_t value)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->InsertNextValue(static_cast<int>(value));
+  output->GetFieldData()->AddArray(array);
+}
+
+void setFieldText(vtkDataObject* output, const char* name, const std::string& value)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+std::string fieldText(vtkDataObject* input, const char* name)
+{
+  auto* array = vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray(name));
+  return array && array->GetNumberOfValues() == 1 ? array->GetValue(0) : std::string();
+}
+
+/// The field data of that name, or null when its length is another one.
+vtkDataArray* fieldArray(vtkDataObject* input, const char* name, vtkIdType values)
+{
+  vtkDataArray* array = input->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfValues() == values ? array : nullptr;
+}
+
+/// Vector `index` of field data of 3-vectors, made a unit vector; zero when it is not there.
+Eigen::Vector3f fieldDirection(vtkDataObject* input, const char* name, vtkIdType count, vtkIdType index)
+{
+  vtkDataArray* array = fieldArray(input, name, 3 * count);
+  if (!array)
+  {
+    return Eigen::Vector3f::Zero();
+  }
+  Eigen::Vector3d direction;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int components = array->GetNumberOfComponents(); // a single vector may come as 1 x 3 or 3 x 1
+    const vtkIdType value = 3 * index + i;
+    direction[i] = array->GetComponent(value / components, static_cast<int>(value % components));
+  }
+  const double length = direction.norm();
+  if (!(length > 0.0 && std::isfinite(length)))
+  {
+    return Eigen::Vector3f::Zero();
+  }
+  // What was written as a unit vector comes back bit by bit.
+  return (std::abs(length - 1.0) < 1e-5 ? direction : (direction / length).eval()).cast<float>();
+}
+
+void setView(vtkPolyData* output, const Eigen::Vector3f& direction, std::size_t index)
+{
+  setFieldVectors(output, "ViewDirection", { direction });
+  setFieldInteger(output, "ViewIndex", index);
+}
+
+vtkSmartPointer<vtkDataArray> fromValues(const char* name, const std::vector<std::uint32_t>& values)
+{
+  auto array = vtkSmartPointer<vtkUnsignedIntArray>::New();
+  array->SetName(name);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> fromValues(const char* name, const std::vector<float>& values)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+std::string viewName(std::size_t index) { return "View " + std::to_string(index); }
+
+/// Flat arrays as a row of points, of no visible extent inside the part.
+vtkSmartPointer<vtkImageData> newRow(std::size_t length, const Eigen::Vector3f& place, double diameter)
+{
+  auto row = vtkSmartPointer<vtkImageData>::New();
+  row->SetDimensions(static_cast<int>(length), 1, 1);
+  row->SetOrigin(place.x(), place.y(), place.z());
+  const double spacing = 1e-3 * diameter / static_cast<double>(std::max<std::size_t>(length, 1));
+  row->SetSpacing(spacing, spacing, spacing);
+  return row;
+}
+
+/// What is read from a file, with everything that may be wrong with it.
+class ModelReader
+{
+public:
+  explicit ModelReader(vtkPartitionedDataSetCollection* input)
+    : Input(input)
+  {
+  }
+
+  meam::TrainedModel read() const
+  {
+    this->checkVersion();
+    meam::TrainedModel model;
+    model.diameter = this->number("Diameter");
+    if (!(model.diameter > 0.0))
+    {
+      refuse("has no diameter.");
+    }
+    model.digest = fieldText(this->Input, "Digest");
+    this->readSettings(model.settings);
+    this->readEdges(model);
+    this->readViews(model);
+    this->readSurface(model);
+    this->readTable(model);
+    return model;
+  }
+
+private:
+  void checkVersion() const
+  {
+    vtkDataArray* version = fieldArray(this->Input, "FormatVersion", 1);
+    if (!version)
+    {
+      throw Error("This is not a trained model: it has no field data 'FormatVersion'. Use the output of MEAMHashing, "
+                  "or a file saved from it.");
+    }
+    const double value = version->GetComponent(0, 0);
+    if (value != meam::TrainedModel::FormatVersion)
+    {
+      throw Error("The trained model has format version " + std::to_string(static_cast<int>(value)) +
+                  ", this program reads version " + std::to_string(meam::TrainedModel::FormatVersion) +
+                  ": train the model again with MEAMHashing.");
+    }
+    const std::string units = fieldText(this->Input, "Units");
+    if (units != "mm")
+    {
+      refuse("is in '" + units + "', not in mm.");
+    }
+  }
+
+  double number(const char* name) const
+  {
+    vtkDataArray* array = fieldArray(this->Input, name, 1);
+    const double value = array ? array->GetComponent(0, 0) : NAN;
+    if (!std::isfinite(value))
+    {
+      refuse("is incomplete: it has no field data '" + std::string(name) + "'.");
+    }
+    return value;
+  }
+
+  vtkIdType count(const char* name) const
+  {
+    const double value = this->number(name);
+    if (!(value >= 0.0 && value <= 2147483647.0))
+    {
+      refuse("is damaged: '" + std::string(name) + "' is not a count.");
+    }
+    return static_cast<vtkIdType>(value);
+  }
+
+  void readSettings(meam::MEAMHashingSettings& settings) const
+  {
+    const double feature = this->number("Feature");
+    if (feature != 0.0 && feature != 1.0)
+    {
+      refuse("has a pair feature that is not known here.");
+    }
+    settings.feature = static_cast<meam::PairFeatureKind>(static_cast<int>(feature));
+    settings.distanceStep = this->number("DistanceStep");
+    settings.angleStep = this->number("AngleStep");
+    settings.mergeViews = this->number("MergeViews") != 0.0;
+    settings.voxelSize = this->number("VoxelSize");
+    settings.coVisibilityDirections = static_cast<int>(this->number("CoVisibilityDirections"));
+    if (!(settings.distanceStep > 0.0 && settings.distanceStep <= 1.0) ||
+        !(settings.angleStep >= 1.0 && settings.angleStep <= 90.0))
+    {
+      refuse("has a distance step or an angle step that is out of range.");
+    }
+  }
+
+  /// A partition by name, of the length that was written. A reader may hand out another piece, or an empty
+  /// one, for a file that it cannot parse: hence the name in the piece itself and the count.
+  vtkDataSet* piece(const std::string& name, vtkIdType points) const
+  {
+    for (unsigned int i = 0; i < this->Input->GetNumberOfPartitionedDataSets(); ++i)
+    {
+      vtkDataSet* data = partitionOf(this->Input, i);
+      if (nameOf(this->Input, i) == name && data)
+      {
+        if (fieldText(data, "Piece") != name || data->GetNumberOfPoints() != points)
+        {
+          refuse("is damaged: its piece '" + name + "' has " + std::to_string(data->GetNumberOfPoints()) +
+                 " points instead of " + std::to_string(points) + ", or is another one. The file may be truncated.");
+        }
+        return data;
+      }
+    }
+    refuse("is incomplete: its piece '" + name +
+           "' is missing. The file may be truncated, or the folder beside it was not copied along.");
+  }
+
+  template <typename T>
+  std::vector<T> values(vtkDataSet* data, const char* name) const
+  {
+    vtkDataArray* array = data->GetPointData()->GetArray(name);
+    const vtkIdType count = data->GetNumberOfPoints();
+    if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != count)
+    {
+      refuse("is damaged: its array '" + std::string(name) + "' is missing or too short.");
+    }
+    std::vector<T> result(count);
+    if (array->GetDataType() == vtkTypeTraits<T>::VTK_TYPE_ID)
+    {
+      const T* from = static_cast<const T*>(array->GetVoidPointer(0));
+      std::copy(from, from + count, result.begin());
+      return result;
+    }
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      result[i] = static_cast<T>(array->GetComponent(i, 0));
+    }
+    return result;
+  }
+
+  static void requireFinite(const meam::Points& points, const char* what)
+  {
+    if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }))
+    {
+      refuse("is damaged: its " + std::string(what) + " are not numbers.");
+    }
+  }
+
+  void readEdges(meam::TrainedModel& model) const
+  {
+    vtkDataSet* edges = this->piece("Edges", this->count("NumberOfEdgePoints"));
+    model.edges = toCloud(vtkPointSet::SafeDownCast(edges));
+    if (model.edges.empty() || model.edges.tangents.empty())
+    {
+      refuse("has no edge points with tangents.");
+    }
+    requireFinite(model.edges.points, "edge points");
+    requireFinite(model.edges.tangents, "tangents");
+    model.edgeViews = this->values<std::uint32_t>(edges, "ViewBits");
+    model.edgeVisible = this->values<std::uint32_t>(edges, "VisibleBits");
+  }
+
+  void readViews(meam::TrainedModel& model) const
+  {
+    const vtkIdType views = this->count("NumberOfViews");
+    if (views < 1 || views > meam::TrainedModel::MaximumViews)
+    {
+      refuse("is damaged: it has " + std::to_string(views) + " views.");
+    }
+    // Every edge point was seen somewhere, and in a view that exists.
+    std::vector<vtkIdType> members(views, 0);
+    for (const std::uint32_t bits : model.edgeViews)
+    {
+      if (bits == 0 || (static_cast<std::uint64_t>(bits) >> views) != 0)
+      {
+        refuse("is damaged: its 'ViewBits' name a view that does not exist.");
+      }
+      for (vtkIdType v = 0; v < views; ++v)
+      {
+        members[v] += bits >> v & 1u;
+      }
+    }
+    for (vtkIdType v = 0; v < views; ++v)
+    {
+      const Eigen::Vector3f direction = fieldDirection(this->Input, "ViewDirections", views, v);
+      if (direction.isZero())
+      {
+        refuse("is incomplete: it has no field data 'ViewDirections'.");
+      }
+      model.viewDirections.push_back(direction);
+      if (members[v] > 0)
+      {
+        this->piece(viewName(v), members[v]);
+      }
+    }
+  }
+
+  void readSurface(meam::TrainedModel& model) const
+  {
+    const vtkIdType points = this->count("NumberOfSurfacePoints");
+    if (points == 0)
+    {
+      return;
+    }
+    model.surface = toCloud(vtkPointSet::SafeDownCast(this->piece("Surface", points)));
+    if (model.surface.empty() || model.surface.normals.empty())
+    {
+      refuse("has a surface without normals.");
+    }
+    requireFinite(model.surface.points, "surface points");
+    requireFinite(model.surface.normals, "normals");
+  }
+
+  void readTable(meam::TrainedModel& model) const
+  {
+    const vtkIdType keys = model.quantizer().numberOfKeys();
+    meam::PairTable& table = model.table;
+    table.offsets = this->values<std::uint32_t>(this->piece("PairTableBuckets", keys + 1), "Offset");
+    const vtkIdType entries = this->count("NumberOfPairs");
+    if (entries > 0)
+    {
+      vtkDataSet* data = this->piece("PairTableEntries", entries);
+      table.references = this->values<std::uint32_t>(data, "Reference");
+      table.referreds = this->values<std::uint32_t>(data, "Referred");
+      table.angles = this->values<float>(data, "Angle");
+      table.viewBits = this->values<std::uint32_t>(data, "ViewBits");
+    }
+    const auto inRange = [&](std::uint32_t index) { return index < model.edges.size(); };
+    const bool sound =
+      table.offsets.front() == 0 && table.offsets.back() == table.size() &&
+      std::is_sorted(table.offsets.begin(), table.offsets.end()) &&
+      std::all_of(table.references.begin(), table.references.end(), inRange) &&
+      std::all_of(table.referreds.begin(), table.referreds.end(), inRange) &&
+      std::all_of(table.angles.begin(), table.angles.end(), [](float angle) { return std::abs(angle) < 3.15f; });
+    if (!sound)
+    {
+      refuse("is damaged: its pair table does not fit its edge points.");
+    }
+  }
+
+  vtkPartitionedDataSetCollection* Input;
+};
+}
+
+std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetCollection* input)
+{
+  std::vector<meam::AppearanceModel> models;
+  for (unsigned int i = 0; i < input->GetNumberOfPartitionedDataSets(); ++i)
+  {
+    auto* points = vtkPointSet::SafeDownCast(partitionOf(input, i));
+    meam::AppearanceModel model;
+    model.name = nameOf(input, i);
+    if (points)
+    {
+      model.direction = fieldDirection(points, "ViewDirection", 1, 0);
+    }
+    if (!points || model.direction.isZero())
+    {
+      throw Error("Partition " + std::to_string(i) + " ('" + model.name +
+                  "') is not an appearance model: it has no points or no field data 'ViewDirection'. Use the output of "
+                  "VisibilityExtraction, BoundaryExtraction or TangentEstimation.");
+    }
+    model.cloud = toCloud(points);
+    models.push_back(std::move(model));
+  }
+  if (models.empty())
+  {
+    throw Error("The collection has no appearance models: use the output of VisibilityExtraction.");
+  }
+  return models;
+}
+
+void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkPartitionedDataSetCollection* output)
+{
+  for (std::size_t i = 0; i < models.size(); ++i)
+  {
+    vtkNew<vtkPolyData> points;
+    fromCloud(models[i].cloud, points);
+    setView(points, models[i].direction, i);
+    addPartition(output, models[i].name, points);
+  }
+}
+
+bool isTrainedModel(vtkDataObject* input)
+{
+  return vtkPartitionedDataSetCollection::SafeDownCast(input) && input->GetFieldData()->HasArray("FormatVersion");
+}
+
+meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input) { return ModelReader(input).read(); }
+
+void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output)
+{
+  for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
+  {
+    std::vector<int> members;
+    for (std::size_t i = 0; i < model.edges.size(); ++i)
+    {
+      if (model.edgeViews[i] >> v & 1u)
+      {
+        members.push_back(static_cast<int>(i));
+      }
+    }
+    vtkNew<vtkPolyData> view;
+    fromCloud(model.edges.subset(members), view);
+    setView(view, model.viewDirections[v], v);
+    setFieldText(view, "Piece", viewName(v));
+    addPartition(output, viewName(v), view);
+  }
+
+  vtkNew<vtkPolyData> edges;
+  fromCloud(model.edges, edges);
+  edges->GetPointData()->AddArray(fromValues("ViewBits", model.edgeViews));
+  edges->GetPointData()->AddArray(fromValues("VisibleBits", model.edgeVisible));
+  vtkNew<vtkPolyData> surface;
+  fromCloud(model.surface, surface);
+  const auto buckets = newRow(model.table.offsets.size(), model.edges.points.front(), model.diameter);
+  buckets->GetPointData()->AddArray(fromValues("Offset", model.table.offsets));
+  const auto entries = newRow(model.table.size(), model.edges.points.front(), model.diameter);
+  entries->GetPointData()->AddArray(fromValues("Reference", model.table.references));
+  entries->GetPointData()->AddArray(fromValues("Referred", model.table.referreds));
+  entries->GetPointData()->AddArray(fromValues("Angle", model.table.angles));
+  entries->GetPointData()->AddArray(fromValues("ViewBits", model.table.viewBits));
+  const auto add = [&](const char* name, vtkDataSet* data)
+  {
+    if (data->GetNumberOfPoints() > 0) // an empty piece does not come back from a file
+    {
+      setFieldText(data, "Piece", name);
+      addPartition(output, name, data);
+    }
+  };
+  add("Edges", edges);
+  add("Surface", surface);
+  add("PairTableBuckets", buckets);
+  add("PairTableEntries", entries);
+
+  setFieldInteger(output, "FormatVersion", meam::TrainedModel::FormatVersion);
+  setFieldText(output, "Units", "mm");
+  setFieldText(output, "Digest", model.digest);
+  setDiameter(output, model.diameter);
+  setFieldInteger(output, "Feature", static_cast<std::size_t>(model.settings.feature));
+  setFieldValue(output, "DistanceStep", model.settings.distanceStep);
+  setFieldValue(output, "AngleStep", model.settings.angleStep);
+  setFieldInteger(output, "MergeViews", model.settings.mergeViews ? 1 : 0);
+  setFieldValue(output, "VoxelSize", model.settings.voxelSize);
+  setFieldInteger(output, "CoVisibilityDirections", model.settings.coVisibilityDirections);
+  setFieldVectors(output, "ViewDirections", model.viewDirections);
+  setFieldInteger(output, "NumberOfViews", model.viewDirections.size());
+  setFieldInteger(output, "NumberOfEdgePoints", model.edges.size());
+  setFieldInteger(output, "NumberOfSurfacePoints", model.surface.size());
+  setFieldInteger(output, "NumberOfPairs", model.table.size());
+}
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPoseDetection.h"
+
+#include "pose/PoseDetection.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkMEAMPoseDetection);
+
+vtkMEAMPoseDetection::vtkMEAMPoseDetection()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetParametersToRecommended();
+}
+
+void vtkMEAMPoseDetection::SetParametersToPaper() { this->SetParameters(meam::paperDetectionSettings()); }
+
+void vtkMEAMPoseDetection::SetParametersToRecommended() { this->SetParameters({}); }
+
+void vtkMEAMPoseDetection::SetParameters(const meam::PoseDetectionSettings& settings)
+{
+  this->ReferenceShare = settings.referenceShare;
+  this->ReferredShare = settings.referredShare;
+  this->Seed = static_cast<int>(settings.seed);
+  this->Modified();
+}
+
+int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+int vtkMEAMPoseDetection::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  vtkPolyData* edges = vtkPolyData::GetData(inputVector[0]);
+  auto* trained = vtkPartitionedDataSetCollection::GetData(inputVector[1]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const auto work = [&]
+  {
+    meam::PoseDetectionSettings settings;
+    settings.referenceShare = this->ReferenceShare;
+    settings.referredShare = this->ReferredShare;
+    settings.seed = static_cast<unsigned>(this->Seed);
+    settings.threads = this->NumberOfThreads;
+    const meam::TrainedModel model = toTrainedModel(trained);
+    const meam::Scene scene = sceneOf(edges, nullptr, {});
+    fromPoses(meam::detectPoses(scene.edges, model, settings, progressOf(this)), output);
+    setDiameter(output, model.diameter);
+  };
+  return vtkMEAMRun(this, work, output);
+}
+
+void vtkMEAMPoseDetection::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
+  os << indent << "ReferredShare: " << this->ReferredShare << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseDetection
+ * @brief Finds raw candidates of the part's poses by voting.
+ *
+ * Section 5.1 of the paper. A share of the scene's edge points are reference points. Each is paired with the
+ * referred points within the part's diameter; the pairs of the model with the same feature vote for which
+ * point of the model the reference point is, and for the turn about its tangent. The peak of the votes gives
+ * one candidate for each reference point. Candidates are not verified: many are wrong.
+ *
+ * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation).
+ * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).
+ *
+ * Output port 0: vtkPolyData, one vertex for each candidate where the part's origin lies, in the order of the
+ * reference points: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Votes`, `ViewId` (the
+ * appearance model), `Rank` (from 1); `Score` and `VisibleFraction` stay 0 until the poses are verified.
+ * Field data `Diameter` (mm, of the part).
+ */
+#ifndef vtkMEAMPoseDetection_h
+#define vtkMEAMPoseDetection_h
+
+#include "ppfmeamFiltersModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+namespace meam
+{
+struct PoseDetectionSettings;
+}
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseDetection : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkMEAMPoseDetection* New();
+  vtkTypeMacro(vtkMEAMPoseDetection, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Share of the scene's edge points that are reference points, in (0, 1] (P_ref). Default: 0.05. */
+  vtkSetClampMacro(ReferenceShare, double, 1e-6, 1.0);
+  vtkGetMacro(ReferenceShare, double);
+  ///@}
+
+  ///@{
+  /** Share of the scene's edge points that are referred points, in (0, 1] (P_referred). Default: 1. The paper: 0.2. */
+  vtkSetClampMacro(ReferredShare, double, 1e-6, 1.0);
+  vtkGetMacro(ReferredShare, double);
+  ///@}
+
+  ///@{
+  /** Seed of the choice of both: the same seed gives the same poses. Default: 1. */
+  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /** Threads to work with; 0: one for each processor. The poses do not depend on it. Default: 0. */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  /** The parameters of the paper, Section 6. The number of threads stays. */
+  void SetParametersToPaper();
+  /** The parameters that measure better: the defaults. The number of threads stays. */
+  void SetParametersToRecommended();
+
+protected:
+  vtkMEAMPoseDetection();
+  ~vtkMEAMPoseDetection() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPoseDetection(const vtkMEAMPoseDetection&) = delete;
+  void operator=(const vtkMEAMPoseDetection&) = delete;
+
+  void SetParameters(const meam::PoseDetectionSettings& settings);
+
+  double ReferenceShare;
+  double ReferredShare;
+  int Seed;
+  int NumberOfThreads = 0;
+};
+
+#endif

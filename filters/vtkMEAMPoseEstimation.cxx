@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPoseEstimation.h"
+
+#include "mesh/MeshPreparation.h"
+#include "pose/MEAMPoseEstimation.h"
+#include "scene/SceneEdgeExtraction.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTimerLog.h"
+#include "vtkWeakPointer.h"
+
+#include <algorithm>
+#include <tuple>
+
+vtkStandardNewMacro(vtkMEAMPoseEstimation);
+
+namespace
+{
+// Shares of the work, for the progress.
+constexpr double AfterTraining = 0.4;
+constexpr double AfterSceneEdges = 0.5;
+}
+
+/// The trained model and what it was made of.
+class vtkMEAMPoseEstimation::Training
+{
+public:
+  /// What of the filter's settings the model depends on.
+  using Settings = std::tuple<int, int, double, double, double, double>;
+
+  const meam::TrainedModel& modelOf(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
+  {
+    if (this->Part != part || this->Time != part->GetMTime() || this->Made != settings)
+    {
+      this->Part = nullptr; // until the new one is there
+      this->Model = train(part, settings, progress);
+      this->Part = part;
+      this->Time = part->GetMTime();
+      this->Made = settings;
+    }
+    return this->Model;
+  }
+
+private:
+  static meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
+  {
+    if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(part))
+    {
+      return vtkMEAMConversion::toTrainedModel(collection);
+    }
+    meam::MeshPreparationSettings preparation;
+    int preset = 0;
+    int seed = 0;
+    Eigen::Vector3d& offset = preparation.offset;
+    std::tie(preset, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
+    const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(vtkPolyData::SafeDownCast(part));
+    const meam::PreparedMesh prepared =
+      meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
+    meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
+    training.sampling.seed = static_cast<unsigned>(seed);
+    return meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0));
+  }
+
+  meam::TrainedModel Model;
+  vtkWeakPointer<vtkDataObject> Part;
+  vtkMTimeType Time = 0;
+  Settings Made;
+};
+
+vtkMEAMPoseEstimation::vtkMEAMPoseEstimation()
+  : Trained(new Training)
+{
+  this->SetNumberOfInputPorts(4);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() = default;
+
+int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  static const char* const types[4][2] = { { "vtkPolyData", "vtkPartitionedDataSetCollection" },
+    { "vtkStructuredGrid", "vtkPolyData" }, { "vtkPolyData", nullptr }, { "vtkImageData", nullptr } };
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  for (const char* type : types[port])
+  {
+    if (type)
+    {
+      info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+    }
+  }
+  if (port >= 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMEAMPoseEstimation::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  return 1;
+}
+
+int vtkMEAMPoseEstimation::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  vtkDataObject* part = vtkDataObject::GetData(inputVector[0]);
+  auto* sceneInput = vtkPointSet::GetData(inputVector[1]);
+  auto* organized = vtkStructuredGrid::SafeDownCast(sceneInput);
+  auto* boundary = vtkPolyData::GetData(inputVector[2]);
+  auto* image = vtkImageData::GetData(inputVector[3]);
+  auto* output = vtkPolyData::GetData(outputVector, 0);
+  auto* edges = vtkPolyData::GetData(outputVector, 1);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      const meam::Progress progress = progressOf(this);
+      const double start = vtkTimerLog::GetUniversalTime();
+
+      // What is wrong with the scene is told before any time goes into training.
+      meam::OrganizedCloud cloud;
+      if (organized)
+      {
+        cloud = toOrganizedCloud(organized);
+      }
+      else
+      {
+        cloud.points = toCloud(sceneInput).points;
+      }
+      meam::requirePoints(cloud.points, "The scene");
+      if (!boundary && cloud.height <= 1)
+      {
+        throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
+                          "points as the boundary, or an organized scan (a grid of width x height points).");
+      }
+
+      const double loaded = vtkTimerLog::GetUniversalTime();
+      const meam::TrainedModel& model = this->Trained->modelOf(part,
+        { this->Preset, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1], this->CADOffset[2] },
+        meam::subProgress(progress, 0.0, AfterTraining));
+      const double trained = vtkTimerLog::GetUniversalTime();
+
+      meam::Scene scene;
+      scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+      if (boundary)
+      {
+        scene.edges = toCloud(boundary);
+        meam::requirePoints(scene.edges.points, "The scene's boundary cloud");
+        scene.edges = meam::finitePoints(scene.edges);
+      }
+      else
+      {
+        scene.edges = meam::extractSceneEdges(cloud, image ? toImage(image) : imageOfCloud(organized), {},
+          meam::subProgress(progress, AfterTraining, AfterSceneEdges));
+      }
+      const auto isFinite = [](const Eigen::Vector3f& point) { return point.allFinite(); };
+      const auto scenePoints = std::count_if(cloud.points.begin(), cloud.points.end(), isFinite);
+      scene.surface = std::move(cloud.points);
+      const double extracted = vtkTimerLog::GetUniversalTime();
+
+      meam::DetectionSettings settings = meam::detectionSettings(
+        static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses, this->NumberOfThreads);
+      settings.detection.seed = static_cast<unsigned>(this->Seed);
+      meam::StageTimes times;
+      const meam::Poses poses =
+        meam::estimatePoses(model, scene, settings, &times, meam::subProgress(progress, AfterSceneEdges, 1.0));
+
+      fromCloud(scene.edges, edges);
+      fromPoses(poses, output);
+      setDiameter(output, model.diameter);
+      setFieldValue(output, "SecondsTraining", trained - loaded);
+      setFieldValue(output, "SecondsSceneEdges", extracted - trained);
+      setFieldValue(output, "SecondsTangents", times.tangents);
+      setFieldValue(output, "SecondsDetection", times.detection);
+      setFieldValue(output, "SecondsVerification", times.verification);
+      setFieldValue(output, "SecondsRefinement", times.refinement);
+      setFieldValue(output, "SecondsSelection", times.selection);
+      setFieldValue(output, "ScenePoints", static_cast<double>(scenePoints));
+      setFieldValue(output, "SceneEdgePoints", static_cast<double>(scene.edges.size()));
+      setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
+      setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
+    },
+    output, edges);
+}
+
+void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preset: " << (this->Preset == Paper ? "Paper" : "Recommended") << "\n";
+  os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "CADScale: " << this->CADScale << "\n";
+  os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2]
+     << "\n";
+}

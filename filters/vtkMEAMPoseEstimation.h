@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseEstimation
+ * @brief The whole method in one filter: CAD and scan in, ranked poses out.
+ *
+ * Trains the model of the part (paper, Section 4) unless it gets one, extracts the scene's edges from
+ * its image unless it gets them, and finds, verifies, refines and selects poses (paper, Section 5) with
+ * the parameters of the preset. The steps are those of the single filters, which have all the
+ * parameters. The trained model is kept until the CAD or a setting that it depends on changes.
+ *
+ * Input port 0: the part, a vtkPolyData with the CAD's faces, or the trained model that vtkMEAMHashing
+ * returns, a vtkPartitionedDataSetCollection.
+ * Input port 1: the scene in mm, a vtkStructuredGrid of W x H x 1 points in the sensor's frame, or a
+ * vtkPolyData with the points of the measured surface.
+ * Input port 2 (optional): the scene's edge points, a vtkPolyData. Without it the scene has to be
+ * organized and to have an image: port 3, or the point array `Intensity` (1) or `RGB` (3).
+ * Input port 3 (optional): the image, a vtkImageData of W x H with 1, 3 or 4 components.
+ *
+ * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
+ * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score` in [0, 1], `Votes`,
+ * `ViewId`, `VisibleFraction` and `Rank`; field data: `Diameter` (mm), `SecondsTraining`,
+ * `SecondsSceneEdges`, `SecondsTangents`, `SecondsDetection`, `SecondsVerification`,
+ * `SecondsRefinement`, `SecondsSelection`, `SecondsTotal`, and the counts `ScenePoints`,
+ * `SceneEdgePoints` and `ModelEdgePoints`.
+ * Output port 1: the scene's edge points as extracted, a vtkPolyData.
+ */
+#ifndef vtkMEAMPoseEstimation_h
+#define vtkMEAMPoseEstimation_h
+
+#include "ppfmeamFiltersModule.h"
+#include "vtkMEAMSensorAlgorithm.h"
+
+#include <memory>
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseEstimation : public vtkMEAMSensorAlgorithm
+{
+public:
+  static vtkMEAMPoseEstimation* New();
+  vtkTypeMacro(vtkMEAMPoseEstimation, vtkMEAMSensorAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The scene, its edge points, and its image. */
+  void SetSceneConnection(vtkAlgorithmOutput* scene) { this->SetInputConnection(1, scene); }
+  void SetBoundaryConnection(vtkAlgorithmOutput* boundary) { this->SetInputConnection(2, boundary); }
+  void SetImageConnection(vtkAlgorithmOutput* image) { this->SetInputConnection(3, image); }
+  ///@}
+
+  enum Presets
+  {
+    Paper = 0,
+    Recommended = 1
+  };
+
+  ///@{
+  /**
+   * Parameters of all steps: those of the paper, Section 6 (0), or those that measure better (1).
+   * Default: Recommended.
+   */
+  vtkSetClampMacro(Preset, int, Paper, Recommended);
+  vtkGetMacro(Preset, int);
+  void SetPresetToPaper() { this->SetPreset(Paper); }
+  void SetPresetToRecommended() { this->SetPreset(Recommended); }
+  ///@}
+
+  ///@{
+  /** Poses wanted, the best ones; 0 for all. Default: 5. */
+  vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MaximumNumberOfPoses, int);
+  ///@}
+
+  ///@{
+  /** Of all random choices: the same seed gives the same result. Default: 1. */
+  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /** Factor on the CAD's coordinates, to bring them to mm. No meaning for a trained model. Default: 1. */
+  vtkSetMacro(CADScale, double);
+  vtkGetMacro(CADScale, double);
+  ///@}
+
+  ///@{
+  /** mm, added to the CAD's coordinates after the scale. No meaning for a trained model. Default: 0, 0, 0. */
+  vtkSetVector3Macro(CADOffset, double);
+  vtkGetVector3Macro(CADOffset, double);
+  ///@}
+
+protected:
+  vtkMEAMPoseEstimation();
+  ~vtkMEAMPoseEstimation() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPoseEstimation(const vtkMEAMPoseEstimation&) = delete;
+  void operator=(const vtkMEAMPoseEstimation&) = delete;
+
+  class Training;
+  std::unique_ptr<Training> Trained;
+
+  int Preset = Recommended;
+  int MaximumNumberOfPoses = 5;
+  int Seed = 1;
+  double CADScale = 1.0;
+  double CADOffset[3] = { 0.0, 0.0, 0.0 };
+};
+
+#endif

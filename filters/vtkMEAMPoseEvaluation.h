@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseEvaluation
+ * @brief Compares estimated poses with the true ones (paper, Section 6.3).
+ *
+ * A pose is right when some true pose is within 10 % of the part's diameter and 5 degrees. Both ports
+ * take one connection, or as many as there are scenes, in the same order; the figures are over all.
+ *
+ * Input port 0: estimated poses of each scene, best first, a vtkPolyData with the point array
+ * `Transform` (16, row-major T_scene_model) and, where it is there, `Score`. An empty one is a scene in
+ * which nothing was found.
+ * Input port 1: true poses of each scene, likewise. Where they have `VisibleFraction`, instances that are
+ * too hidden need not be found.
+ * The part's diameter is the property, or else the field data `Diameter` of an input.
+ *
+ * Output port 0: a vtkTable with a row for each estimated pose, and the columns `Scene` (from 0), `Rank`,
+ * `Score`, `Right` (0 or 1), `Duplicate` (1: a better pose has found the same instance), `Instance`
+ * (index of the true pose, -1 for a wrong pose), `NearestInstance`, `TranslationError` (mm),
+ * `RotationError`, `AxisError` and `RollError` (degrees; to the matched instance, or to the nearest).
+ * Field data: `PaperRate` (right / poses that came out), `StrictRate` (distinct right poses / poses asked
+ * for), `Top1Rate`, `Recall` and `AveragePrecision` (all poses, not only those asked for) in %;
+ * `MeanTranslationError`, `MedianTranslationError` (mm), `MeanRotationError`, `MedianRotationError`,
+ * `MedianAxisError`, `MedianRollError` (degrees) of the right poses; `Scenes`, `Poses` (judged).
+ */
+#ifndef vtkMEAMPoseEvaluation_h
+#define vtkMEAMPoseEvaluation_h
+
+#include "ppfmeamFiltersModule.h"
+#include "vtkTableAlgorithm.h"
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseEvaluation : public vtkTableAlgorithm
+{
+public:
+  static vtkMEAMPoseEvaluation* New();
+  vtkTypeMacro(vtkMEAMPoseEvaluation, vtkTableAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The true poses; a further scene is added by AddInputConnection(1, ...). */
+  void SetTrueConnection(vtkAlgorithmOutput* truth) { this->SetInputConnection(1, truth); }
+  /** Takes the true poses of all scenes away. */
+  void RemoveAllTrueConnections() { this->RemoveAllInputConnections(1); }
+
+  ///@{
+  /** mm, the part's largest vertex distance; 0 takes it from the poses' field data. Default: 0. */
+  vtkSetClampMacro(Diameter, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Diameter, double);
+  ///@}
+
+  ///@{
+  /** % of the diameter: a right pose is nearer to a true one. Default: 10. */
+  vtkSetClampMacro(TranslationTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(TranslationTolerance, double);
+  ///@}
+
+  ///@{
+  /** Degrees: a right pose is turned by less against a true one. Default: 5. */
+  vtkSetClampMacro(RotationTolerance, double, 0.0, 180.0);
+  vtkGetMacro(RotationTolerance, double);
+  ///@}
+
+  ///@{
+  /** Best poses of a scene that count; missing ones are wrong. 0: all there are. Default: 5. */
+  vtkSetClampMacro(PosesAskedFor, int, 0, VTK_INT_MAX);
+  vtkGetMacro(PosesAskedFor, int);
+  ///@}
+
+  ///@{
+  /** The part's axis in the model's frame, for the axis and roll errors. Default: 0, 0, 1. */
+  vtkSetVector3Macro(Axis, double);
+  vtkGetVector3Macro(Axis, double);
+  ///@}
+
+  ///@{
+  /** Share of a true instance, in [0, 1], that has to be visible to count for the recall. Default: 0.5. */
+  vtkSetClampMacro(MinimumVisibleFraction, double, 0.0, 1.0);
+  vtkGetMacro(MinimumVisibleFraction, double);
+  ///@}
+
+protected:
+  vtkMEAMPoseEvaluation();
+  ~vtkMEAMPoseEvaluation() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPoseEvaluation(const vtkMEAMPoseEvaluation&) = delete;
+  void operator=(const vtkMEAMPoseEvaluation&) = delete;
+
+  double Diameter = 0.0;
+  double TranslationTolerance = 10.0;
+  double RotationTolerance = 5.0;
+  int PosesAskedFor = 5;
+  double Axis[3] = { 0.0, 0.0, 1.0 };
+  double MinimumVisibleFraction = 0.5;
+};
+
+#endif

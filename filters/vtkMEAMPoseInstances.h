@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseInstances
+ * @brief Puts a copy of the CAD mesh at every pose, coloured by rank, to look at.
+ *
+ * Input port 0: poses, best first, a vtkPolyData with the point array `Transform` (16, row-major
+ * T_scene_model) and, where it is there, `Score`.
+ * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; MeshPreparation gives it.
+ *
+ * Output port 0: a vtkPolyData with all copies, best first. Point and cell arrays:
+ * - `Rank`: 1 for the best;
+ * - `Score`: [0, 1];
+ * - `RankColor` (3, unsigned char), the active scalars: red, green, blue, yellow and pink for the ranks
+ *   1 to 5, grey for the others.
+ */
+#ifndef vtkMEAMPoseInstances_h
+#define vtkMEAMPoseInstances_h
+
+#include "ppfmeamFiltersModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseInstances : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkMEAMPoseInstances* New();
+  vtkTypeMacro(vtkMEAMPoseInstances, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The CAD mesh. */
+  void SetMeshConnection(vtkAlgorithmOutput* mesh) { this->SetInputConnection(1, mesh); }
+
+  ///@{
+  /** Copies made, the best poses; 0 for all. Default: 0. */
+  vtkSetClampMacro(MaximumNumberOfInstances, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MaximumNumberOfInstances, int);
+  ///@}
+
+protected:
+  vtkMEAMPoseInstances();
+  ~vtkMEAMPoseInstances() override = default;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPoseInstances(const vtkMEAMPoseInstances&) = delete;
+  void operator=(const vtkMEAMPoseInstances&) = delete;
+
+  int MaximumNumberOfInstances = 0;
+};
+
+#endif

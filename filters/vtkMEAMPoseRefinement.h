@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseRefinement
+ * @brief Moves each pose to where the part fits the scene best.
+ *
+ * Section 5.3 of the paper: iterative closest point with the appearance model of the pose. PointToPoint is
+ * the paper's way, on edge points alone. EdgesAndSurface, the recommended one, draws visible edge points to
+ * the tangent lines of the scene's edges and visible surface points to the scene's surface along the part's
+ * normals.
+ *
+ * Input port 0: vtkPolyData of poses (vtkMEAMPoseVerification): `Transform`.
+ * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).
+ * Input port 2: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation).
+ * Input port 3, optional: vtkPointSet, all points the sensor measured, in mm: an organized cloud
+ * (vtkStructuredGrid, invalid points NaN or blanked) or any cloud. Without it only edges count.
+ *
+ * Output port 0: vtkPolyData, the same poses in the same order with a better `Transform`; the other arrays
+ * of vtkMEAMPoseDetection stay, so verify them again for a score. Field data `Diameter` (mm, of the part).
+ */
+#ifndef vtkMEAMPoseRefinement_h
+#define vtkMEAMPoseRefinement_h
+
+#include "vtkMEAMSensorAlgorithm.h"
+
+namespace meam
+{
+struct PoseRefinementSettings;
+}
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseRefinement : public vtkMEAMSensorAlgorithm
+{
+public:
+  static vtkMEAMPoseRefinement* New();
+  vtkTypeMacro(vtkMEAMPoseRefinement, vtkMEAMSensorAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Methods
+  {
+    PointToPoint = 0,
+    EdgesAndSurface = 1
+  };
+
+  ///@{
+  /** PointToPoint (0, the paper's) or EdgesAndSurface (1). Default: EdgesAndSurface. */
+  vtkSetClampMacro(Method, int, PointToPoint, EdgesAndSurface);
+  vtkGetMacro(Method, int);
+  void SetMethodToPointToPoint() { this->SetMethod(PointToPoint); }
+  void SetMethodToEdgesAndSurface() { this->SetMethod(EdgesAndSurface); }
+  ///@}
+
+  ///@{
+  /** Steps at most. Default: 20. */
+  vtkSetClampMacro(NumberOfIterations, int, 1, 10000);
+  vtkGetMacro(NumberOfIterations, int);
+  ///@}
+
+  ///@{
+  /** Between corresponding points at the start, in mm; 0: 4 % of the part's diameter. Default: 0. */
+  vtkSetClampMacro(MaximumDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumDistance, double);
+  ///@}
+
+  /** The way of the paper, Section 5.3. Sensor and number of threads stay. */
+  void SetParametersToPaper();
+  /** The parameters that measure better: the defaults. Sensor and number of threads stay. */
+  void SetParametersToRecommended();
+
+protected:
+  vtkMEAMPoseRefinement();
+  ~vtkMEAMPoseRefinement() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPoseRefinement(const vtkMEAMPoseRefinement&) = delete;
+  void operator=(const vtkMEAMPoseRefinement&) = delete;
+
+  void SetParameters(const meam::PoseRefinementSettings& settings);
+
+  int Method;
+  int NumberOfIterations;
+  double MaximumDistance;
+};
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPoseWriter.h"
+
+#include "io/PoseFile.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkDataArray.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtksys/SystemTools.hxx"
+
+vtkStandardNewMacro(vtkMEAMPoseWriter);
+
+namespace
+{
+int formatOf(const std::string& fileName)
+{
+  const std::string extension = vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(fileName));
+  if (extension == ".csv")
+  {
+    return vtkMEAMPoseWriter::BOP_CSV;
+  }
+  if (extension == ".json")
+  {
+    return vtkMEAMPoseWriter::JSON;
+  }
+  if (extension == ".txt")
+  {
+    return vtkMEAMPoseWriter::MATRICES;
+  }
+  throw meam::Error("The file '" + fileName + "' was not written: poses go to .csv (BOP results), .json or .txt (4x4 "
+    "matrices); choose one of these extensions, or set the format.");
+}
+}
+
+vtkMEAMPoseWriter::vtkMEAMPoseWriter() = default;
+
+vtkMEAMPoseWriter::~vtkMEAMPoseWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkMEAMPoseWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+void vtkMEAMPoseWriter::WriteData()
+{
+  auto* input = vtkPolyData::SafeDownCast(this->GetInput());
+  const int done = vtkMEAMRun(this,
+    [&]
+    {
+      if (!this->FileName || !*this->FileName)
+      {
+        throw meam::Error("No file is given: set the name of the file to write.");
+      }
+      const int format = this->Format == BY_EXTENSION ? formatOf(this->FileName) : this->Format;
+      vtkDataArray* seconds = input->GetFieldData()->GetArray("SecondsTotal");
+      const double measured = seconds && seconds->GetNumberOfValues() == 1 ? seconds->GetComponent(0, 0) : -1.0;
+      const auto known = [&](const char* name) { return input->GetPointData()->HasArray(name) == 1; };
+      std::vector<meam::PoseRow> rows;
+      meam::Poses poses = vtkMEAMConversion::toPoses(input);
+      if (this->MaximumNumberOfPoses > 0 && poses.size() > static_cast<std::size_t>(this->MaximumNumberOfPoses))
+      {
+        poses.resize(this->MaximumNumberOfPoses);
+      }
+      for (const meam::Pose& pose : poses)
+      {
+        meam::PoseRow row;
+        row.sceneId = this->SceneId;
+        row.imageId = this->ImageId;
+        row.objectId = this->ObjectId;
+        row.T_scene_model = pose.T_scene_model;
+        row.score = pose.score;
+        row.time = this->Time >= 0.0 ? this->Time : measured;
+        row.rank = static_cast<int>(rows.size()) + 1;
+        row.viewId = pose.viewId;
+        if (known("Votes"))
+        {
+          row.votes = pose.votes;
+        }
+        if (known("VisibleFraction"))
+        {
+          row.visibleFraction = pose.visibleFraction;
+        }
+        rows.push_back(row);
+      }
+      switch (format)
+      {
+        case BOP_CSV:
+          meam::writeBOP(this->FileName, rows);
+          break;
+        case JSON:
+          meam::writeJSON(this->FileName, rows);
+          break;
+        default:
+          meam::writeMatrices(this->FileName, rows);
+          break;
+      }
+    });
+  this->SetErrorCode(done ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError);
+}
+
+void vtkMEAMPoseWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Format: " << this->Format << "\n";
+  os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
+  os << indent << "SceneId: " << this->SceneId << "\n";
+  os << indent << "ImageId: " << this->ImageId << "\n";
+  os << indent << "ObjectId: " << this->ObjectId << "\n";
+  os << indent << "Time: " << this->Time << " s\n";
+}

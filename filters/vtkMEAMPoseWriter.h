@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseWriter
+ * @brief Writes poses as the results CSV of the BOP benchmark, as JSON or as 4x4 matrices.
+ *
+ * The file appears whole or not at all; an older one is replaced only when everything went well.
+ * Write() returns 0 when it did not.
+ *
+ * Input port 0: poses, a vtkPolyData with the point array `Transform` (16) and, where it is there,
+ * `Score`, `Votes`, `ViewId` and `VisibleFraction`; the field data `SecondsTotal` becomes the time.
+ */
+#ifndef vtkMEAMPoseWriter_h
+#define vtkMEAMPoseWriter_h
+
+#include "ppfmeamFiltersModule.h"
+#include "vtkWriter.h"
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseWriter : public vtkWriter
+{
+public:
+  static vtkMEAMPoseWriter* New();
+  vtkTypeMacro(vtkMEAMPoseWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The file to write. Default: none. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  enum FileFormat
+  {
+    BY_EXTENSION,
+    BOP_CSV,
+    JSON,
+    MATRICES
+  };
+  ///@{
+  /**
+   * 0: by the file's extension, csv, json or txt; 1: scene_id,im_id,obj_id,score,R,t,time; 2: JSON with
+   * all that is known of a pose; 3: row-major 4x4 blocks. Default: 0.
+   */
+  vtkSetClampMacro(Format, int, BY_EXTENSION, MATRICES);
+  vtkGetMacro(Format, int);
+  void SetFormatToByExtension() { this->SetFormat(BY_EXTENSION); }
+  void SetFormatToBOPCSV() { this->SetFormat(BOP_CSV); }
+  void SetFormatToJSON() { this->SetFormat(JSON); }
+  void SetFormatToMatrices() { this->SetFormat(MATRICES); }
+  ///@}
+
+  ///@{
+  /** Poses written, the best ones; 0 for all. Default: 0. */
+  vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MaximumNumberOfPoses, int);
+  ///@}
+
+  ///@{
+  /** Number of the scene in its dataset. Default: 0. */
+  vtkSetMacro(SceneId, int);
+  vtkGetMacro(SceneId, int);
+  ///@}
+
+  ///@{
+  /** Number of the image in its scene. Default: 0. */
+  vtkSetMacro(ImageId, int);
+  vtkGetMacro(ImageId, int);
+  ///@}
+
+  ///@{
+  /** Number of the part in its dataset. Default: 1. */
+  vtkSetMacro(ObjectId, int);
+  vtkGetMacro(ObjectId, int);
+  ///@}
+
+  ///@{
+  /**
+   * Seconds that the image took; -1: the field data `SecondsTotal` of the poses, or not known.
+   * Default: -1.
+   */
+  vtkSetMacro(Time, double);
+  vtkGetMacro(Time, double);
+  ///@}
+
+protected:
+  vtkMEAMPoseWriter();
+  ~vtkMEAMPoseWriter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  void WriteData() override;
+
+private:
+  vtkMEAMPoseWriter(const vtkMEAMPoseWriter&) = delete;
+  void operator=(const vtkMEAMPoseWriter&) = delete;
+
+  char* FileName = nullptr;
+  int Format = BY_EXTENSION;
+  int MaximumNumberOfPoses = 0;
+  int SceneId = 0;
+  int ImageId = 0;
+  int ObjectId = 1;
+  double Time = -1.0;
+};
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMSamplePartSource.h"
+
+#include "mesh/ConvexHull.h"
+#include "simulation/SamplePart.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkMEAMSamplePartSource);
+
+vtkMEAMSamplePartSource::vtkMEAMSamplePartSource()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+int vtkMEAMSamplePartSource::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  auto* output = vtkPolyData::GetData(outputVector);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      const meam::TriangleMesh mesh = meam::makeSamplePart();
+      vtkMEAMConversion::fromMesh(mesh, output);
+      vtkMEAMConversion::setDiameter(output, meam::diameter(mesh.vertices));
+    },
+    output);
+}
+
+void vtkMEAMSamplePartSource::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMTangentEstimation.h"
+
+#include "model/TangentEstimation.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkMEAMTangentEstimation);
+
+vtkMEAMTangentEstimation::vtkMEAMTangentEstimation()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetParametersToRecommended();
+}
+
+void vtkMEAMTangentEstimation::SetParametersToPaper() { this->SetParameters(meam::paperTangentSettings()); }
+
+void vtkMEAMTangentEstimation::SetParametersToRecommended() { this->SetParameters({}); }
+
+void vtkMEAMTangentEstimation::SetParameters(const meam::TangentEstimationSettings& settings)
+{
+  this->Method = static_cast<int>(settings.method);
+  this->LeafSize = settings.leafSize;
+  this->Radius = settings.radius;
+  this->InlierDistance = settings.inlierDistance;
+  this->TilePixels = settings.tilePixels;
+  this->PixelSize = settings.pixelSize;
+  this->LineDistance = settings.lineDistance;
+  this->LineSupport = settings.lineSupport;
+  this->Modified();
+}
+
+int vtkMEAMTangentEstimation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+int vtkMEAMTangentEstimation::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* model = vtkDataObject::GetData(inputVector[1]);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  const auto work = [&]
+  {
+    meam::TangentEstimationSettings settings;
+    settings.method = static_cast<meam::TangentMethod>(this->Method);
+    settings.leafSize = this->LeafSize;
+    settings.radius = this->Radius;
+    settings.inlierDistance = this->InlierDistance;
+    settings.tilePixels = this->TilePixels;
+    settings.pixelSize = this->PixelSize;
+    settings.lineDistance = this->LineDistance;
+    settings.lineSupport = this->LineSupport;
+    settings.threads = this->NumberOfThreads;
+    const double diameter = model ? diameterOf(model) : diameterOf(input);
+    if (model && !(diameter > 0.0))
+    {
+      throw meam::Error("The model has no field data 'Diameter': connect the trained model or the sampled surface.");
+    }
+    const meam::Progress progress = progressOf(this);
+    if (auto* scene = vtkPolyData::SafeDownCast(input))
+    {
+      const meam::PointCloud edges = toCloud(scene);
+      meam::requirePoints(edges.points, "The edge cloud");
+      if (model)
+      {
+        meam::requireSameUnits(edges.points, diameter);
+        setDiameter(output, diameter);
+      }
+      const meam::Sensor sensor = sensorOf(OrthographicProjection, this->ViewDirection, this->ViewDirection, nullptr);
+      fromCloud(meam::estimateTangents(edges, diameter, sensor.direction, settings, progress),
+        vtkPolyData::SafeDownCast(output));
+      return;
+    }
+    std::vector<meam::AppearanceModel> views = toAppearanceModels(vtkPartitionedDataSetCollection::SafeDownCast(input));
+    for (std::size_t v = 0; v < views.size(); ++v)
+    {
+      const double share = 1.0 / static_cast<double>(views.size());
+      views[v].cloud = meam::estimateTangents(views[v].cloud, diameter, views[v].direction, settings,
+        meam::subProgress(progress, share * v, share * (v + 1)));
+    }
+    fromAppearanceModels(views, vtkPartitionedDataSetCollection::SafeDownCast(output));
+  };
+  return vtkMEAMRun(this, work, output);
+}
+
+void vtkMEAMTangentEstimation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << (this->Method == Tiles ? "Tiles" : "RobustLine") << "\n";
+  os << indent << "LeafSize: " << this->LeafSize << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "InlierDistance: " << this->InlierDistance << "\n";
+  os << indent << "TilePixels: " << this->TilePixels << "\n";
+  os << indent << "PixelSize: " << this->PixelSize << "\n";
+  os << indent << "LineDistance: " << this->LineDistance << "\n";
+  os << indent << "LineSupport: " << this->LineSupport << "\n";
+  os << indent << "ViewDirection: " << this->ViewDirection[0] << " " << this->ViewDirection[1] << " "
+     << this->ViewDirection[2] << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMTangentEstimation
+ * @brief Thins edge points and gives each the direction of its edge.
+ *
+ * The paper (Section 5.1, Algorithms 1 and 2) cuts the edge points into tiles of a plane and takes, for each
+ * point, the line to another point of its tile that most points lie on. The recommended method looks for the
+ * best supported line in a sphere around the point and takes the principal axis of the points on it. Points
+ * without a supported line are left out.
+ *
+ * Lengths of 0 follow the part's diameter: the field data `Diameter` of the model, or else of the input.
+ *
+ * Input port 0: vtkPolyData, edge points of a scene, or vtkPartitionedDataSetCollection, edge appearance
+ * models (vtkMEAMBoundaryExtraction).
+ * Input port 1, optional: any data object with the field data `Diameter` in mm, usually the trained model.
+ *
+ * Output port 0: of the input's type; the points that stay, with `Tangent` (unit; the sign carries no
+ * meaning), and `Normals` and `PointId` where they were there. Field data is passed on.
+ */
+#ifndef vtkMEAMTangentEstimation_h
+#define vtkMEAMTangentEstimation_h
+
+#include "ppfmeamFiltersModule.h"
+#include "vtkPassInputTypeAlgorithm.h"
+
+namespace meam
+{
+struct TangentEstimationSettings;
+}
+
+class PPFMEAMFILTERS_EXPORT vtkMEAMTangentEstimation : public vtkPassInputTypeAlgorithm
+{
+public:
+  static vtkMEAMTangentEstimation* New();
+  vtkTypeMacro(vtkMEAMTangentEstimation, vtkPassInputTypeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Methods
+  {
+    Tiles = 0,
+    RobustLine = 1
+  };
+
+  ///@{
+  /** Tiles (0, the paper's) or RobustLine (1). Default: RobustLine. */
+  vtkSetClampMacro(Method, int, Tiles, RobustLine);
+  vtkGetMacro(Method, int);
+  void SetMethodToTiles() { this->SetMethod(Tiles); }
+  void SetMethodToRobustLine() { this->SetMethod(RobustLine); }
+  ///@}
+
+  ///@{
+  /**
+   * One point is kept for each cube of this side, in mm; 0: 3 % of the part's diameter; negative: all
+   * points are kept. Default: 0. The paper: 1.
+   */
+  vtkSetMacro(LeafSize, double);
+  vtkGetMacro(LeafSize, double);
+  ///@}
+
+  ///@{
+  /** RobustLine: radius of the sphere in mm; 0: 6 % of the part's diameter. Default: 0. */
+  vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Radius, double);
+  ///@}
+
+  ///@{
+  /** RobustLine: points this near to the line are on it, in mm; 0: 1.2 % of the part's diameter. Default: 0. */
+  vtkSetClampMacro(InlierDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(InlierDistance, double);
+  ///@}
+
+  ///@{
+  /** Tiles: height and width of a tile in pixels of the projection plane. Default: 10. */
+  vtkSetClampMacro(TilePixels, int, 1, 100000);
+  vtkGetMacro(TilePixels, int);
+  ///@}
+
+  ///@{
+  /** Tiles: size of a pixel of the projection plane in mm; the paper does not say. Default: 0.5. */
+  vtkSetClampMacro(PixelSize, double, 1e-9, VTK_DOUBLE_MAX);
+  vtkGetMacro(PixelSize, double);
+  ///@}
+
+  ///@{
+  /** Tiles: points this near to the line support it, in mm (D_thresh). Default: 0.3. */
+  vtkSetClampMacro(LineDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(LineDistance, double);
+  ///@}
+
+  ///@{
+  /** Tiles: share of a tile's points that has to support a line, in [0, 1] (S_thresh). Default: 0.18. */
+  vtkSetClampMacro(LineSupport, double, 0.0, 1.0);
+  vtkGetMacro(LineSupport, double);
+  ///@}
+
+  ///@{
+  /**
+   * Tiles: the way the sensor looks at the scene; tiles are cut on the plane across it. Each appearance
+   * model uses its own direction instead. Default: 0, 0, -1 (from above).
+   */
+  vtkSetVector3Macro(ViewDirection, double);
+  vtkGetVector3Macro(ViewDirection, double);
+  ///@}
+
+  ///@{
+  /** Threads to work with; 0: one for each processor. The tangents do not depend on it. Default: 0. */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  /** The parameters of the paper, Section 6. The view direction and the number of threads stay. */
+  void SetParametersToPaper();
+  /** The parameters that measure better: the defaults. The view direction and the number of threads stay. */
+  void SetParametersToRecommended();
+
+protected:
+  vtkMEAMTangentEstimation();
+  ~vtkMEAMTangentEstimation() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMTangentEstimation(const vtkMEAMTangentEstimation&) = delete;
+  void operator=(const vtkMEAMTangentEstimation&) = delete;
+
+  void SetParameters(const meam::TangentEstimationSettings& settings);
+
+  int Method;
+  double LeafSize;
+  double Radius;
+  double InlierDistance;
+  int TilePixels;
+  double PixelSize;
+  double LineDistance;
+  double LineSupport;
+  double ViewDirection[3] = { 0.0, 0.0, -1.0 };
+  int NumberOfThreads = 0;
+};
+
+#endif

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A filter that is asked to stop stops, reports no error, leaves nothing in its output and works again."""
+from ppfmeam.filters import (
+    vtkMEAMPoseDetection,
+    vtkMEAMPoseRefinement,
+    vtkMEAMPoseVerification,
+    vtkMEAMTangentEstimation,
+)
+from meamtest import Errors, MovedView, Trained, bracket, check, connect, is_empty, poses, run
+
+trained = Trained(bracket())
+model = run(trained.model)
+scene = MovedView(trained)
+tangents = connect(vtkMEAMTangentEstimation(), scene.edges, model)
+edges = run(tangents)
+candidates = poses(*[scene.transform] * 400)
+filters = [
+    trained.prepared, trained.samples, trained.views, trained.edges, trained.tangents, trained.model, tangents,
+    connect(vtkMEAMPoseDetection(), edges, model),
+    connect(vtkMEAMPoseVerification(), candidates, model, edges),
+    connect(vtkMEAMPoseRefinement(), candidates, model, edges),
+]
+for filter in filters:
+    name = filter.GetClassName()
+    shares = []
+
+    def watch(caller, event):
+        shares.append(caller.GetProgress())
+
+    def stop(caller, event):
+        if caller.GetProgress() > 0:
+            caller.AbortExecuteOn()
+
+    before = run(filter)
+    check(not is_empty(before), f"{name} has an output")
+    observer = filter.AddObserver("ProgressEvent", watch)
+    filter.Modified()
+    run(filter)
+    filter.RemoveObserver(observer)
+    check(shares == sorted(shares) and shares[0] >= 0 and shares[-1] == 1, f"{name} reports progress {shares}")
+
+    observer = filter.AddObserver("ProgressEvent", stop)
+    errors = Errors(filter)
+    filter.Modified()
+    filter.Update()
+    check(is_empty(filter.GetOutputDataObject(0)), f"{name} was stopped but has an output")
+    check(not errors.messages, f"{name} was stopped, that is no error: {errors}")
+    filter.RemoveObserver(observer)
+    filter.AbortExecuteOff()  # since VTK 9.2 the wish stands until it is taken back
+    filter.Modified()
+    check(not is_empty(run(filter)), f"{name} does not work again after it was stopped")

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The whole chain on a scene of the Tohoku dataset, whose folder is $PPFMEAM_DATA/tohoku."""
+import os
+
+from vtkmodules.vtkIOGeometry import vtkSTLReader
+
+from ppfmeam.filters import (
+    vtkMEAMPCDReader,
+    vtkMEAMPoseDetection,
+    vtkMEAMPoseReader,
+    vtkMEAMPoseRefinement,
+    vtkMEAMPoseVerification,
+    vtkMEAMTangentEstimation,
+)
+from meamtest import Trained, check, connect, field, pose_error, run, skip, tuples
+
+folder = os.path.join(os.environ.get("PPFMEAM_DATA", ""), "tohoku", "Part_3")
+if not os.path.isdir(folder):
+    skip(f"no dataset at {folder}: set PPFMEAM_DATA")
+
+
+def reader(kind, *path):
+    result = kind()
+    result.SetFileName(os.path.join(folder, *path))
+    return result
+
+
+# The STL is in another frame than the published poses.
+trained = Trained(reader(vtkSTLReader, "Part_3.STL"))
+trained.prepared.SetOffset(-20.9645, -17.4974, -9.3144)
+run(trained.model)
+boundary = reader(vtkMEAMPCDReader, "Scenes", "Scene_boundary0.pcd")
+surface = reader(vtkMEAMPCDReader, "Scenes", "Scene0.pcd")
+published = tuples(run(reader(vtkMEAMPoseReader, "Results", "trans0.txt")), "Transform")
+check(len(published) == 20, f"{len(published)} published poses")
+
+
+def detect(paper):
+    tangents = connect(vtkMEAMTangentEstimation(), boundary, trained.model)
+    detection = connect(vtkMEAMPoseDetection(), tangents, trained.model)
+    verification = connect(vtkMEAMPoseVerification(), detection, trained.model, tangents, surface)
+    refinement = connect(vtkMEAMPoseRefinement(), verification, trained.model, tangents, surface)
+    selection = connect(vtkMEAMPoseVerification(), refinement, trained.model, tangents, surface)
+    if paper:
+        for filter in (tangents, detection, verification, refinement, selection):
+            filter.SetParametersToPaper()
+    selection.SetPosesPerInstance(1)
+    selection.SetMaximumNumberOfPoses(5)
+    return run(selection)
+
+
+for paper in (False, True):
+    if paper:
+        trained.tangents.SetParametersToPaper()
+        trained.model.SetParametersToPaper()
+    found = detect(paper)
+    diameter = field(found, "Diameter")[0][0]
+    check(abs(diameter - 49.4) < 0.1, f"the diameter is {diameter}")
+    check(found.GetNumberOfPoints() == 5, f"{found.GetNumberOfPoints()} poses")
+    right = 0
+    for rank, transform in enumerate(tuples(found, "Transform"), 1):
+        mm, degrees = min(pose_error(transform, p) for p in published)
+        right += mm < 0.1 * diameter and degrees < 5
+        print(f"{'paper' if paper else 'recommended'} {rank}: {mm:.3f} mm, {degrees:.3f} degrees")
+    check(right >= 3, f"{right} of 5 poses are right")

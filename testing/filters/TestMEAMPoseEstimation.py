@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The whole chain in one filter on a simulated bin: with the CAD or its trained model, an image or ready-made edges."""
+import math
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
+
+from ppfmeam.filters import (
+    vtkMEAMBinSceneSource,
+    vtkMEAMPoseEstimation,
+    vtkMEAMPoseEvaluation,
+    vtkMEAMSceneEdgeExtraction,
+)
+from meamtest import Errors, Trained, check, cloud, collection, connect, fails, field, image, is_empty, prints, run, tuples
+
+STAGES = ["Training", "SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total"]
+
+source = vtkMEAMBinSceneSource()
+source.SetCopies(4)
+source.SetWidth(640)
+source.SetHeight(480)
+scan = run(source)
+truth, part = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
+
+
+def estimation(*inputs, **properties):
+    filter = connect(vtkMEAMPoseEstimation(), *[i for i in inputs if i])
+    for name, value in properties.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+def found(filter):
+    return tuples(run(filter), "Transform")
+
+
+def seconds(filter, stage):
+    return field(filter.GetOutput(), "Seconds" + stage)[0][0]
+
+
+def scaled(data, factor):
+    transform = vtkTransform()
+    transform.Scale(factor, factor, factor)
+    filter = connect(vtkTransformFilter(), data)
+    filter.SetTransform(transform)
+    return run(filter)
+
+
+filter = estimation(part, scan, MaximumNumberOfPoses=2)
+poses = run(filter)
+expected = tuples(poses, "Transform")
+check(len(expected) == 2, f"{len(expected)} poses")
+evaluation = connect(vtkMEAMPoseEvaluation(), poses, truth)
+evaluation.SetPosesAskedFor(2)
+check(field(run(evaluation), "StrictRate") == [(100,)], "both poses are right")
+(first,), (second,) = tuples(poses, "Score")
+check(tuples(poses, "Rank") == [(1,), (2,)] and 1 >= first >= second > 0.5, f"scores {first}, {second}")
+parts = [seconds(filter, stage) for stage in STAGES]
+check(all(s >= 0 for s in parts) and sum(parts[:-1]) <= parts[-1] * 1.001, f"the stages add up: {parts}")
+check(field(poses, "Diameter") == field(truth, "Diameter"), "the diameter travels along")
+edges = filter.GetOutputDataObject(1)
+check(field(poses, "SceneEdgePoints") == [(edges.GetNumberOfPoints(),)], "the edges are the second output")
+check(field(poses, "ScenePoints")[0][0] > 0.9 * 640 * 480, "points are counted")
+
+# Training is not done again for another scene or other settings of the detection; it is for another seed.
+filter.SetMaximumNumberOfPoses(1)
+check(found(filter) == expected[:1], "the best pose alone")
+again = seconds(filter, "Training")
+check(again < 0.1 * parts[0], f"trained again: {again} s after {parts[0]} s")
+filter.SetSeed(2)
+run(filter)
+check(seconds(filter, "Training") > 0.2 * parts[0], "another seed has to be trained")
+
+# The same poses on one thread, with the trained model, and with the edges as input.
+check(found(estimation(part, scan, MaximumNumberOfPoses=2, NumberOfThreads=1)) == expected, "one thread")
+model = run(Trained(part).model)
+check(found(estimation(model, scan, MaximumNumberOfPoses=2)) == expected, "the trained model")
+ready = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
+check(found(estimation(part, scan, ready, MaximumNumberOfPoses=2)) == expected, "ready-made edges")
+# A part in another unit and frame, brought back.
+moved = found(estimation(scaled(part, 0.001), scan, MaximumNumberOfPoses=1, CADScale=1000.0, CADOffset=(0, 0, 5)))[0]
+shift = [moved[4 * k + 3] + 5 * moved[4 * k + 2] - expected[0][4 * k + 3] for k in range(3)]
+check(math.hypot(*shift) < 0.2, f"the offset part is {shift} mm away")
+# The points of the scan in no order need a sensor and edges.
+surface = cloud([scan.GetPoint(i) for i in range(0, scan.GetNumberOfPoints(), 4) if scan.IsPointVisible(i)])
+loose = estimation(part, surface, ready, MaximumNumberOfPoses=2, ViewDirection=(0, 0, 1))
+loose.SetProjectionToPerspective()
+evaluation = connect(vtkMEAMPoseEvaluation(), run(loose), truth)
+check(field(run(evaluation), "PaperRate") == [(100,)], "the poses in an unorganized scene are right")
+# The paper's preset runs and gives something else.
+paper = estimation(part, scan, MaximumNumberOfPoses=2)
+paper.SetPresetToPaper()
+check(run(paper).GetNumberOfPoints() > 0 and found(paper) != expected, "the paper's preset")
+
+# Asked to stop, it stops without an error and works again.
+filter = estimation(part, scan, MaximumNumberOfPoses=2)
+observer = filter.AddObserver("ProgressEvent", lambda caller, event: caller.GetProgress() > 0.6 and caller.AbortExecuteOn())
+errors = Errors(filter)
+filter.Update()
+check(is_empty(filter.GetOutput()) and not errors.messages, f"stopped: {errors}")
+filter.RemoveObserver(observer)
+filter.AbortExecuteOff()
+filter.Modified()
+check(found(filter) == expected, "it works again")
+
+nothing = vtkStructuredGrid()
+fails(vtkMEAMPoseEstimation())
+fails(estimation(vtkPolyData(), scan), "mesh")
+fails(estimation(cloud([(0, 0, 0), (1, 0, 0), (0, 1, 0)]), scan), "no faces")
+fails(estimation(part, nothing), "scene", "no points")
+fails(estimation(part, cloud([(math.nan, 0, 0)] * 9), ready), "NaN")
+fails(estimation(part, surface), "not organized", "boundary")
+fails(estimation(part, surface, vtkPolyData()), "boundary", "no points")
+fails(estimation(part, scaled(scan, 0.001)), "units", "1000")
+wrong_image = estimation(part, scan)
+wrong_image.SetInputDataObject(3, image(30, 20))
+fails(wrong_image, "no pixels")
+fails(estimation(collection(("a", part)), scan))
+sideways = estimation(part, surface, ready, ViewDirection=(0, 0, 0))
+fails(sideways, "view direction")
+fails(estimation(part, scan, CADScale=0.0), "scale")
+fails(estimation(part, image()), "vtkStructuredGrid")
+prints(filter, "Preset", "MaximumNumberOfPoses", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A box as STL files have it (every face with vertices of its own), polygons, strips, and meshes that are none."""
+import math
+
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+from ppfmeam.filters import vtkMEAMMeshPreparation
+from meamtest import box, check, close, cloud, connect, fails, field, image, mesh, points, prints, run
+
+DIAGONAL = math.sqrt(10**2 + 20**2 + 30**2)
+
+
+def triangles(data):
+    polys = data.GetPolys()
+    ids = [polys.GetConnectivityArray().GetTuple1(i) for i in range(polys.GetNumberOfConnectivityIds())]
+    return [tuple(int(k) for k in ids[i : i + 3]) for i in range(0, len(ids), 3)]
+
+
+def soup(data, shift=(0, 0, 0), flip=False):
+    """The same triangles with three vertices for each."""
+    corners, faces = [], []
+    for triangle in triangles(data):
+        for k in reversed(triangle) if flip else triangle:
+            corners.append(tuple(c + s for c, s in zip(data.GetPoint(k), shift)))
+        faces.append((len(corners) - 3, len(corners) - 2, len(corners) - 1))
+    return mesh(corners, faces)
+
+
+def volume(data):
+    """Signed: positive when the faces look outwards."""
+    total = 0.0
+    for a, b, c in triangles(data):
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (data.GetPoint(k) for k in (a, b, c))
+        total += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+    return total / 6
+
+
+def prepare(data, **properties):
+    filter = connect(vtkMEAMMeshPreparation(), data)
+    for name, value in properties.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+stl = soup(box(10, 20, 30))
+before = points(stl)
+clean = run(prepare(stl))
+report = {clean.GetFieldData().GetArrayName(i): field(clean, clean.GetFieldData().GetArrayName(i))[0][0]
+          for i in range(clean.GetFieldData().GetNumberOfArrays())}
+expected = {
+    "InputVertices": 36, "InputTriangles": 12, "Vertices": 8, "Triangles": 12, "MergedVertices": 28,
+    "IsolatedVertices": 0, "DegenerateTriangles": 0, "DuplicateTriangles": 0, "FlippedComponents": 0,
+    "Components": 1, "BorderEdges": 0, "Closed": 1, "Area": 2200, "Volume": 6000, "Diameter": DIAGONAL,
+}
+check(set(report) == set(expected), f"the report has {sorted(report)}")
+for name, value in expected.items():
+    check(abs(report[name] - value) < 1e-3, f"{name} is {report[name]}, not {value}")
+check(clean.GetNumberOfPoints() == 8 and len(triangles(clean)) == 12, "the box has 8 corners and 12 triangles")
+check(points(stl) == before, "the input was changed")
+
+# Metres to mm, then moved to another frame.
+moved = run(prepare(box(0.01, 0.02, 0.03), Scale=1000.0, Offset=(1.0, -2.0, 3.0)))
+check(close(moved.GetBounds(), (1, 11, -2, 18, 3, 33), 1e-4), f"moved to {moved.GetBounds()}")
+check(abs(field(moved, "Volume")[0][0] - 6000) < 0.01, "volume in cubic mm")
+
+# A box that is inside out, with a face twice and one without area.
+inverted = run(prepare(soup(box(10, 20, 30), flip=True)))
+check(field(inverted, "FlippedComponents") == [(1,)] and abs(volume(inverted) - 6000) < 1e-2, "turned outwards")
+corners = points(box(10, 20, 30))
+faces = triangles(box(10, 20, 30))
+dirty = run(prepare(mesh(corners + [(99, 99, 99)], faces + [faces[0], (0, 1, 1)])))
+for name in ("DuplicateTriangles", "DegenerateTriangles", "IsolatedVertices"):
+    check(field(dirty, name) == [(1,)], f"{name} is {field(dirty, name)}")
+check(len(triangles(dirty)) == 12, "what is broken is left out")
+
+# Polygons and strips: an L has a concave face.
+outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 3), (0, 3)]
+ell = run(prepare(mesh([(x, y, 0) for x, y in outline], [range(6)])))
+check(abs(field(ell, "Area")[0][0] - 6) < 1e-5 and len(triangles(ell)) == 4,
+      f"the L has an area of {field(ell, 'Area')}")
+check(field(ell, "Closed") == [(0,)] and field(ell, "BorderEdges") == [(6,)], "a plate is not closed")
+strip = vtkPolyData()
+strip.SetPoints(mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], []).GetPoints())
+strips = vtkCellArray()
+strips.InsertNextCell(4, [0, 1, 2, 3])
+strip.SetStrips(strips)
+check(abs(field(run(prepare(strip)), "Area")[0][0] - 1) < 1e-6, "a strip of two triangles")
+
+fails(prepare(vtkPolyData()), "no faces")
+fails(prepare(cloud([(0, 0, 0), (1, 0, 0), (0, 1, 0)])), "no faces", "points")
+fails(prepare(mesh([(0, 0, 0), (1, 0, math.nan), (0, 1, 0)], [(0, 1, 2)])), "not a number")
+fails(prepare(mesh([(math.inf, 0, 0), (1, 0, 0), (0, 1, 0), (5, 5, 5)], [(0, 1, 2, 3)])), "not a number")
+fails(prepare(mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 7)])), "does not exist")
+fails(prepare(mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 1, 9, 3)])), "does not exist")
+fails(prepare(mesh([(0, 0, 0), (1, 1, 1), (2, 2, 2)], [(0, 1, 2)])), "no area")
+fails(prepare(box(1, 1, 1), Scale=0.0), "scale")
+fails(prepare(box(1, 1, 1), Scale=math.nan), "scale")
+fails(prepare(image()), "vtkPolyData")
+prints(vtkMEAMMeshPreparation(), "Scale", "Offset")

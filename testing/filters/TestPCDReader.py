@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Small PCD files: organized and not, intensity and colours, points without depth, bad files."""
+import math
+import os
+import tempfile
+
+from ppfmeam.filters import vtkMEAMPCDReader
+from meamtest import check, close, fails, points, prints, run, tuples
+
+folder = tempfile.TemporaryDirectory()
+
+
+def pcd(rows, width, height, fields="x y z"):
+    path = os.path.join(folder.name, "cloud.PCD")
+    count = len(fields.split())
+    with open(path, "w") as file:
+        file.write(f"VERSION .7\nFIELDS {fields}\nSIZE{' 4' * count}\nTYPE{' F' * count}\nCOUNT{' 1' * count}\n"
+                   f"WIDTH {width}\nHEIGHT {height}\nPOINTS {width * height}\nDATA ascii\n")
+        file.writelines(" ".join(str(v) for v in row) + "\n" for row in rows)
+    return path
+
+
+def reader(path, scale=1.0):
+    result = vtkMEAMPCDReader()
+    result.SetFileName(path)
+    result.SetScale(scale)
+    return result
+
+
+NAN = (math.nan,) * 3
+GRID = [(0, 0, 5), (1, 0, 5), NAN, (0, 1, 6), (1, 1, 6), (2, 1, 6)]
+
+# Organized: everything stays in its place, what has no depth is blanked.
+path = pcd([p + (10 * i, 0, 0, -1) for i, p in enumerate(GRID)], 3, 2, "x y z intensity normal_x normal_y normal_z")
+grid = run(reader(path))
+check(grid.IsA("vtkStructuredGrid"), f"an organized file gives a {grid.GetClassName()}")
+size = [0, 0, 0]
+grid.GetDimensions(size)
+check(size == [3, 2, 1], f"the size is {size}")
+check(points(grid)[5] == (2, 1, 6), f"the last point is {points(grid)[5]}")
+check([grid.IsPointVisible(i) for i in range(6)] == [1, 1, 0, 1, 1, 1], "only the third point is blanked")
+check(tuples(grid, "Intensity") == [(0,), (10,), (20,), (30,), (40,), (50,)], "whole grey values are kept")
+check(tuples(grid, "Normals")[0] == (0, 0, -1), "normals are read")
+
+# Not organized: points without depth are left out, with what belongs to them.
+path = pcd([p + (0.2 * i,) for i, p in enumerate(GRID)], 6, 1, "x y z intensity")
+cloud = run(reader(path, 1000))
+check(cloud.IsA("vtkPolyData") and cloud.GetNumberOfVerts() == 5, "an unorganized file gives vertices")
+check(close(points(cloud)[2], (0, 1000, 6000)), f"metres become millimetres: {points(cloud)[2]}")
+check(tuples(cloud, "Intensity") == [(0,), (51,), (153,), (204,), (255,)], "other grey values are spread")
+
+# The packed colour of PCL: 0xRRGGBB in the bits of a float.
+path = pcd([(1, 2, 3, 1.1479e-41)], 1, 1, "x y z rgb")  # bits 0x00002000
+check(tuples(run(reader(path)), "RGB") == [(0, 32, 0)], "colours are unpacked")
+
+# One reader, another file: the output follows.
+same = reader(pcd(GRID, 6, 1))
+check(run(same).IsA("vtkPolyData"), "not organized")
+organized = os.path.join(folder.name, "organized.pcd")
+os.replace(pcd(GRID, 3, 2), organized)
+same.SetFileName(organized)
+check(run(same).IsA("vtkStructuredGrid"), "organized")
+
+check(vtkMEAMPCDReader().CanReadFile(organized) == 1, "a PCD file can be read")
+check(vtkMEAMPCDReader().CanReadFile(__file__) == 0, "a Python file cannot")
+check(vtkMEAMPCDReader().CanReadFile("/no/such/file.pcd") == 0, "a missing file cannot")
+
+fails(vtkMEAMPCDReader(), "no file")
+fails(reader("/no/such/file.pcd"), "/no/such/file.pcd")
+fails(reader(__file__), "not a PCD file")
+fails(reader(pcd([], 0, 1)), "no points")
+fails(reader(pcd([NAN] * 4, 2, 2)), "NaN")
+fails(reader(pcd([NAN] * 4, 4, 1)), "NaN")
+fails(reader(pcd(GRID[:4], 3, 2)), "cut off")
+# An error takes the old output away.
+same.SetFileName(pcd([], 0, 1))
+fails(same, "no points")
+prints(same, "FileName", "Scale")

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Voting finds the motion of a part's own edges; the same for any number of threads."""
+import math
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from ppfmeam.filters import vtkMEAMPoseDetection, vtkMEAMTangentEstimation
+from meamtest import (MovedView, Trained, bracket, check, close, cloud, connect, fails, field, image, is_empty, points,
+                      pose_error, prints, run, tuples)
+
+trained = Trained(bracket())
+model = run(trained.model)
+diameter = field(model, "Diameter")[0][0]
+scene = MovedView(trained)
+edges = run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
+
+
+def detection(edges=edges, model=model, **properties):
+    filter = connect(vtkMEAMPoseDetection(), edges, model)
+    for name, value in {"ReferenceShare": 0.5, **properties}.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+found = run(detection())
+transforms, votes = tuples(found, "Transform"), tuples(found, "Votes")
+count = found.GetNumberOfPoints()
+check(0 < count <= math.ceil(0.5 * edges.GetNumberOfPoints()), f"{count} candidates")
+good = [pose_error(t, scene.transform) for t in transforms]
+right = sum(mm < 0.1 * diameter and degrees < 15 for mm, degrees in good)
+check(right > 0.1 * count, f"{right} of {count} candidates are near the motion")
+check(field(found, "Diameter") == [(diameter,)], "the diameter travels along")
+check(tuples(found, "Rank") == [(i + 1,) for i in range(count)], "ranks count from 1")
+check(all(v > 0 for v, in votes) and all(0 <= v < 6 for v, in tuples(found, "ViewId")), "votes and views")
+check(tuples(found, "Score") == [(0,)] * count, "no score before verification")
+for place, transform, quaternion in zip(points(found), transforms, tuples(found, "Quaternion")):
+    check(close(place, transform[3:12:4]), "the point is where the part's origin lies")
+    x, y, z, w = quaternion
+    rotation = (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0,
+                2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0,
+                2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0)
+    check(all(abs(rotation[i] - transform[i]) < 1e-5 for i in (0, 1, 2, 4, 5, 6, 8, 9, 10)),
+          "the quaternion is the rotation, x y z w")
+    check(w >= 0 and transform[12:] == (0, 0, 0, 1), "row by row, the last row 0 0 0 1")
+
+for threads in (1, 2, 3):
+    check(tuples(run(detection(NumberOfThreads=threads)), "Transform") == transforms, f"{threads} threads")
+check(tuples(run(detection(Seed=2)), "Transform") != transforms, "another seed chooses other points")
+check(run(detection(ReferenceShare=0.1)).GetNumberOfPoints() < count, "fewer reference points, fewer candidates")
+
+# Single invalid points do not matter.
+holes = cloud(points(edges) + [(math.nan, 0, 0)], Tangent=tuples(edges, "Tangent") + [(1, 0, 0)])
+check(not is_empty(run(detection(holes))), "a point of NaN")
+
+metres = cloud([tuple(1e-3 * c for c in p) for p in points(edges)], Tangent=tuples(edges, "Tangent"))
+fails(detection(metres), "units differ", "1000")
+fails(detection(vtkPolyData()), "no points")
+fails(detection(cloud([(math.nan, 0, 0)] * 5, Tangent=[(1, 0, 0)] * 5)), "NaN")
+fails(detection(scene.edges), "Tangent", "TangentEstimation")
+fails(detection(model=run(trained.tangents)), "not a trained model", "MEAMHashing")
+fails(detection(image()), "vtkPolyData")
+fails(detection(model=image()), "vtkPartitionedDataSetCollection")
+fails(connect(vtkMEAMPoseDetection(), edges), "port 1", "0 connections")
+
+filter = vtkMEAMPoseDetection()
+filter.SetParametersToPaper()
+check((filter.GetReferenceShare(), filter.GetReferredShare()) == (0.05, 0.2), "the paper's parameters")
+prints(filter, "ReferenceShare", "ReferredShare", "Seed", "NumberOfThreads")

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rates and errors of a handful of poses, over one scene and over two."""
+import math
+
+from ppfmeam.filters import vtkMEAMPoseEvaluation
+from meamtest import Errors, box, check, close, cloud, connect, field, poses, prints, run, set_fields
+
+
+def at(x, degrees=0.0):
+    """Shifted along x, turned about z."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return (c, -s, 0, x, s, c, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+
+
+def evaluation(estimates, truths, diameter=50.0, **properties):
+    filter = connect(vtkMEAMPoseEvaluation(), estimates, truths)
+    filter.SetDiameter(diameter)
+    for name, value in properties.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+def column(table, name):
+    return [table.GetColumnByName(name).GetValue(i) for i in range(table.GetNumberOfRows())]
+
+
+def figure(table, name):
+    return field(table, name)[0][0]
+
+
+# A right one, the same again, a wrong one, one that is turned too far.
+truths = poses(at(0), at(100), at(200))
+filter = evaluation(poses(at(1), at(2, 3), at(50), at(100, 90)), truths)
+table = run(filter)
+check(column(table, "Rank") == [1, 2, 3, 4] and column(table, "Scene") == [0] * 4, "a row for each pose")
+check(column(table, "Right") == [1, 1, 0, 0] and column(table, "Duplicate") == [0, 1, 0, 0], "two are right")
+check(column(table, "Instance") == [0, 0, -1, -1], f"instances: {column(table, 'Instance')}")
+check(column(table, "NearestInstance")[3] == 1, "the turned one lies at the second")
+check(close(column(table, "TranslationError")[:2], (1, 2)), "distances in mm")
+check(close(column(table, "RotationError"), (0, 3, 0, 90)), "angles in degrees")
+check(close(column(table, "RollError"), (0, 3, 0, 90)) and close(column(table, "AxisError"), (0,) * 4), "all is roll")
+check((figure(table, "PaperRate"), figure(table, "StrictRate"), figure(table, "Top1Rate")) == (50, 20, 100), "rates")
+check(math.isclose(figure(table, "Recall"), 100 / 3), "one of three is found")
+check(math.isclose(figure(table, "MeanTranslationError"), 1.5), "errors of the right ones")
+
+# About another axis the turn is a swing; with wider tolerances all are right.
+filter.SetAxis(1, 0, 0)
+filter.SetRotationTolerance(91)
+filter.SetTranslationTolerance(101)
+filter.SetPosesAskedFor(2)
+table = run(filter)
+check(close(column(table, "AxisError")[3:], (90,)) and close(column(table, "RollError")[3:], (0,)), "all is swing")
+check((figure(table, "PaperRate"), figure(table, "StrictRate"), figure(table, "Poses")) == (100, 50, 2), "rates of two")
+
+# A second scene in which nothing was found; the diameter comes with the poses.
+filter = evaluation(set_fields(poses(at(0)), Diameter=50.0), poses(at(0)), 0.0)
+filter.AddInputDataObject(0, poses())
+filter.AddInputDataObject(1, poses(at(0)))
+table = run(filter)
+check((figure(table, "PaperRate"), figure(table, "StrictRate"), figure(table, "Top1Rate")) == (100, 10, 50), "rates")
+check(figure(table, "Scenes") == 2, "two scenes")
+
+# Instances that are too hidden need not be found.
+hidden = cloud([(0, 0, 0)] * 2, Transform=[at(0), at(100)], VisibleFraction=[0.9, 0.2])
+check(figure(run(evaluation(poses(at(0)), hidden)), "Recall") == 100, "the hidden one does not count")
+check(figure(run(evaluation(poses(at(0)), hidden, MinimumVisibleFraction=0.1)), "Recall") == 50, "now it does")
+
+
+def fails(filter, *words):
+    errors = Errors(filter)
+    filter.Update()
+    check(str(errors) and all(word in str(errors) for word in words), f"expected {words}: {errors}")
+    check(filter.GetOutput().GetNumberOfRows() == 0, "the output is empty")
+
+
+fails(evaluation(poses(at(0)), poses(at(0)), 0.0), "diameter")
+fails(evaluation(box(1, 1, 1), poses(at(0))), "Transform")
+fails(evaluation(poses(at(0)), poses(at(0)), Axis=(0, 0, 0)), "axis")
+lonely = evaluation(poses(at(0)), poses(at(0)))
+lonely.AddInputDataObject(0, poses())
+fails(lonely, "2 scenes")
+fails(connect(vtkMEAMPoseEvaluation(), poses(at(0))))
+prints(filter, "Diameter", "TranslationTolerance", "RotationTolerance", "PosesAskedFor", "Axis", "MinimumVisibleFraction")

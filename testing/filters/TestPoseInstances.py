@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A box at every pose, in the colour of its rank."""
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from ppfmeam.filters import vtkMEAMPoseInstances
+from meamtest import box, check, close, cloud, connect, fails, field, points, poses, prints, run, set_fields, tuples
+
+
+def at(x, turned=False):
+    return (0, -1, 0, x, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) if turned else (1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+
+
+part = box(1, 2, 3)
+found = set_fields(poses(at(10), at(20, turned=True)), Diameter=3.7)
+filter = connect(vtkMEAMPoseInstances(), found, part)
+copies = run(filter)
+check(copies.GetNumberOfPoints() == 16 and copies.GetNumberOfPolys() == 24, "two boxes")
+check(points(copies)[:8] == [(x + 10, y, z) for x, y, z in points(part)], "the first is shifted")
+check(all(close(a, (20 - y, x, z)) for a, (x, y, z) in zip(points(copies)[8:], points(part))), "the second is turned")
+check(tuples(copies, "Rank") == [(1,)] * 8 + [(2,)] * 8, "points know their rank")
+cells = copies.GetCellData()
+check([cells.GetArray("Rank").GetValue(i) for i in range(24)] == [1] * 12 + [2] * 12, "cells know their rank")
+check(copies.GetPointData().GetScalars().GetName() == "RankColor" == cells.GetScalars().GetName(), "colours are active")
+check(field(copies, "Diameter") == [(3.7,)], "field data travel along")
+check(points(part) == points(box(1, 2, 3)), "the mesh is not changed")
+
+# Red, green, blue, yellow, pink: told by which channels are strong. Then grey.
+many = cloud([(0, 0, 0)] * 7, Transform=[at(i) for i in range(7)], Score=[0.9 - 0.1 * i for i in range(7)])
+filter = connect(vtkMEAMPoseInstances(), many, part)
+copies = run(filter)
+colors = [tuples(copies, "RankColor")[8 * i] for i in range(7)]
+strong = [tuple(c > 160 for c in color) for color in colors[:5]]
+check(strong == [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1)], f"the colours are {colors}")
+check(len(set(colors[5])) == 1 and colors[5] == colors[6], f"later ranks are grey: {colors[5:]}")
+check(close(tuples(copies, "Score")[8 * 6], (0.3,)), "the score is there")
+filter.SetMaximumNumberOfInstances(3)
+check({r for r, in tuples(run(filter), "Rank")} == {1, 2, 3}, "only the best")
+
+check(run(connect(vtkMEAMPoseInstances(), poses(), part)).GetNumberOfPoints() == 0, "no poses, no copies")
+points_only = run(connect(vtkMEAMPoseInstances(), found, cloud([(0, 0, 0), (1, 0, 0)])))
+check(points_only.GetNumberOfVerts() == 4, "a part of points is fine")
+
+fails(connect(vtkMEAMPoseInstances(), found, vtkPolyData()), "CAD mesh", "no points")
+fails(connect(vtkMEAMPoseInstances(), part, part), "Transform")
+fails(connect(vtkMEAMPoseInstances(), poses((float("nan"),) * 16), part), "not a rotation")
+fails(connect(vtkMEAMPoseInstances(), found))
+prints(filter, "MaximumNumberOfInstances")

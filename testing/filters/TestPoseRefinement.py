@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A pose that is a little off moves to where the part is."""
+import math
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from ppfmeam.filters import vtkMEAMPoseRefinement, vtkMEAMTangentEstimation
+from meamtest import (MovedView, Trained, bracket, check, cloud, connect, fails, field, image, is_empty,
+                      pose_error, poses, prints, run, tuples)
+
+trained = Trained(bracket())
+model = run(trained.model)
+diameter = field(model, "Diameter")[0][0]
+scene = MovedView(trained)
+edges = run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
+
+
+def near(degrees, *mm):
+    """The true pose, first turned about the part's z axis, then moved."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    t = list(scene.transform)
+    for row in range(3):
+        x, y = t[4 * row : 4 * row + 2]
+        t[4 * row : 4 * row + 2] = [c * x + s * y, c * y - s * x]
+        t[4 * row + 3] += mm[row]
+    return tuple(t)
+
+
+def refinement(candidates, surface=None, edges=edges, model=model, **properties):
+    filter = connect(vtkMEAMPoseRefinement(), candidates, model, edges)
+    if surface:
+        filter.SetInputDataObject(3, surface)
+    for name, value in {"ViewDirection": scene.looking, **properties}.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+start = poses(near(2, 0.5, -0.6, 0.7), near(0, 0, 0, 0), near(-1.5, -0.4, 0.4, 0))
+for name, values in {"Score": (0.25, 0.5, 0.75), "Votes": (7, 8, 9), "ViewId": (0, 0, 0)}.items():
+    array = cloud([(0, 0, 0)] * 3, **{name: values}).GetPointData().GetArray(name)
+    start.GetPointData().AddArray(array)
+before = [pose_error(t, scene.transform) for t in tuples(start, "Transform")]
+for method, surface, mm, degrees in ((0, None, 0.4, 1.0), (1, None, 0.3, 0.6), (1, scene.surface, 0.2, 0.4)):
+    refined = run(refinement(start, surface, Method=method))
+    errors = [pose_error(t, scene.transform) for t in tuples(refined, "Transform")]
+    for (a, b), (c, d) in zip(before, errors):
+        print(f"method {method}: {a:.2f} mm, {b:.2f} degrees -> {c:.3f} mm, {d:.3f} degrees")
+    check(len(errors) == 3 and all(a < mm and b < degrees for a, b in errors), f"method {method}: {errors}")
+    check(tuples(refined, "Score") == [(0.25,), (0.5,), (0.75,)], "scores stay, and the order")
+    check(tuples(refined, "Votes") == [(7,), (8,), (9,)] and tuples(refined, "Rank") == [(1,), (2,), (3,)],
+          "votes stay")
+    check(field(refined, "Diameter") == [(diameter,)], "the diameter travels along")
+    for threads in (1, 2):
+        again = run(refinement(start, surface, Method=method, NumberOfThreads=threads))
+        check(tuples(again, "Transform") == tuples(refined, "Transform"), f"{threads} threads")
+
+# Too far for any correspondence: the pose stays.
+far = near(0, 500, 500, 500)
+for method in (0, 1):
+    stays = run(refinement(poses(far), Method=method))
+    check(pose_error(tuples(stays, "Transform")[0], far) < (1e-3, 1e-3), f"method {method} moved a lost pose")
+check(is_empty(run(refinement(vtkPolyData()))), "no poses, no error")
+
+fails(refinement(poses(tuple(2 * c for c in scene.transform))), "pose 0", "rotation")
+fails(refinement(cloud([(0, 0, 0)])), "Transform")
+fails(refinement(start, edges=vtkPolyData()), "no points")
+fails(refinement(start, edges=scene.edges), "Tangent")
+fails(refinement(start, cloud([(math.nan, 0, 0)] * 4)), "surface", "NaN")
+fails(refinement(start, model=run(trained.tangents)), "not a trained model")
+fails(refinement(start, ViewDirection=(0, 0, 0)), "view direction is zero")
+fails(refinement(image()), "vtkPolyData")
+fails(connect(vtkMEAMPoseRefinement(), start), "port 1")
+
+filter = vtkMEAMPoseRefinement()
+filter.SetParametersToPaper()
+check(filter.GetMethod() == 0, "the paper's way")
+filter.SetParametersToRecommended()
+check(filter.GetMethod() == 1, "the recommended way")
+prints(filter, "Method", "NumberOfIterations", "MaximumDistance", "Projection", "ViewDirection", "SensorPosition",
+       "NumberOfThreads")

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The true pose beats wrong ones; clusters, limits, occlusion, and how the sensor looks."""
+import math
+
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+
+from ppfmeam.filters import vtkMEAMPoseVerification, vtkMEAMTangentEstimation
+from meamtest import (MovedView, Trained, bracket, check, cloud, connect, fails, field, image, is_empty,
+                      points, pose_error, poses, prints, run, tuples)
+
+trained = Trained(bracket())
+model = run(trained.model)
+diameter = field(model, "Diameter")[0][0]
+scene = MovedView(trained)
+edges = run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
+
+
+def shifted(x=0.0, y=0.0, z=0.0, turned=False):
+    """The true pose, moved; `turned`: upside down about the middle of the part (y -> 25 - y, z -> 15 - z)."""
+    t = list(scene.transform)
+    for row in range(3) if turned else ():
+        t[4 * row + 3] += 25 * t[4 * row + 1] + 15 * t[4 * row + 2]
+        t[4 * row + 1] *= -1
+        t[4 * row + 2] *= -1
+    for k, d in zip((3, 7, 11), (x, y, z)):
+        t[k] += d
+    return tuple(t)
+
+
+def verification(candidates, surface=None, edges=edges, model=model, **properties):
+    filter = connect(vtkMEAMPoseVerification(), candidates, model, edges)
+    if surface:
+        filter.SetInputDataObject(3, surface)
+    for name, value in {"ViewDirection": scene.looking, **properties}.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+def grid(places, width, height):
+    data = vtkStructuredGrid()
+    data.SetDimensions(width, height, 1)
+    coordinates = vtkPoints()
+    for place in places:
+        coordinates.InsertNextPoint(place)
+    data.SetPoints(coordinates)
+    return data
+
+
+# The wrong ones first: a copy 0.5 mm away, one 60 mm away, one upside down.
+far = math.sqrt(3) * 60 / 3
+candidates = poses(shifted(far, far, far), shifted(0.3, 0.3, 0.3), shifted(turned=True), shifted())
+for method in (0, 1):
+    for surface in (None, scene.surface):
+        best = run(verification(candidates, surface, Method=method))
+        transforms, scores = tuples(best, "Transform"), [s for s, in tuples(best, "Score")]
+        check(pose_error(transforms[0], scene.transform)[0] < 1.0, f"method {method}: the best is {transforms[0]}")
+        check(pose_error(transforms[0], scene.transform)[1] < 1.0, f"method {method}: the best is {transforms[0]}")
+        check(scores == sorted(scores, reverse=True), "best first")
+        check(scores[0] > 0.7 and scores[0] <= 1.0, f"method {method}: the true pose has a score of {scores[0]}")
+        check(scores[-1] < 0.5 * scores[0], f"method {method}: the worst pose has a score of {scores[-1]}")
+        check(best.GetNumberOfPoints() == 3, "two poses of one instance become one")
+        check(tuples(best, "Rank") == [(i + 1,) for i in range(3)], "ranks count from 1")
+        check(tuples(best, "ViewId")[0] == (0,), "the view of what the sensor sees")
+        check(field(best, "Diameter") == [(diameter,)], "the diameter travels along")
+
+alone = run(verification(candidates, scene.surface, MaximumNumberOfPoses=1))
+check(alone.GetNumberOfPoints() == 1, "as many poses as asked for")
+check(is_empty(run(verification(candidates, scene.surface, MinimumScore=1.0))) or scores[0] == 1.0,
+      "no pose is perfect")
+check(run(verification(candidates, ClusterDistance=0.01, PosesPerInstance=9)).GetNumberOfPoints() == 4,
+      "small clusters")
+check(run(verification(candidates, PosesPerInstance=1)).GetNumberOfPoints() == 2, "one pose for each instance")
+for threads in (1, 2):
+    check(tuples(run(verification(candidates, scene.surface, NumberOfThreads=threads)), "Score")
+          == tuples(run(verification(candidates, scene.surface)), "Score"), f"{threads} threads")
+check(is_empty(run(verification(vtkPolyData()))), "no poses, no error")
+
+# A wall between the sensor and the part: all of it is hidden. Behind the part it hides nothing.
+center = [sum(c) / len(c) for c in zip(*points(scene.surface))]
+
+
+def wall(distance):
+    """Along the view, `distance` mm behind the part's middle."""
+    x, y, z = scene.looking
+    u = (y, -x, 0) if abs(z) < 0.9 else (0, z, -y)
+    u = [c / math.hypot(*u) for c in u]
+    v = (y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0])
+    return [[center[k] + distance * scene.looking[k] + i * u[k] + j * v[k] for k in range(3)]
+            for j in range(-60, 61) for i in range(-60, 61)]
+
+
+def visible(*args, **properties):
+    found = run(verification(poses(shifted()), *args, **properties))
+    return tuples(found, "VisibleFraction")[0][0]
+
+
+hidden = cloud(wall(-80))
+check(visible(scene.surface) > 0.9, f"nothing in front: {visible(scene.surface)}")
+check(visible(hidden) < 0.05, f"a wall in front: {visible(hidden)}")
+check(visible(cloud(points(scene.surface) + wall(80))) > 0.9, "a wall behind")
+
+# The same wall as an organized cloud is seen from the origin along +z: from there it is elsewhere.
+sheet = [(x, y, 20.0) for y in range(-100, 101, 2) for x in range(-40, 161, 2)]
+front = grid(sheet, 101, 101)
+check(visible(front) < 0.05, "automatic: an organized cloud at z = 20 hides what lies farther along +z")
+check(visible(front, Projection=2, ViewDirection=(0, 0, 1)) == visible(front), "perspective from the origin along +z")
+check(visible(front, Projection=1, ViewDirection=(0, 0, -1)) > 0.9, "from above it lies below the part")
+check(visible(cloud(sheet), ViewDirection=(0, 0, -1)) > 0.9,
+      "automatic: any other cloud is seen along the view direction")
+check(visible(cloud(sheet), Projection=2, ViewDirection=(0, 0, -1), SensorPosition=(100, 0, 1000)) > 0.9,
+      "from 1 m above")
+
+fails(verification(poses(tuple(2 * c for c in scene.transform))), "pose 0", "rotation")
+fails(verification(poses(shifted(math.nan))), "pose 0")
+fails(verification(cloud([(0, 0, 0)])), "Transform")
+fails(verification(candidates, edges=vtkPolyData()), "no points")
+fails(verification(candidates, edges=scene.edges), "Tangent", "TangentEstimation")
+fails(verification(candidates, cloud([(math.nan, 0, 0)] * 4)), "surface", "NaN")
+fails(verification(candidates, vtkPolyData()), "surface", "no points")
+fails(verification(candidates, model=run(trained.tangents)), "not a trained model")
+fails(verification(candidates, ViewDirection=(0, 0, 0)), "view direction is zero")
+metres = cloud([tuple(1e-3 * c for c in p) for p in points(edges)], Tangent=tuples(edges, "Tangent"))
+fails(verification(candidates, edges=metres), "units differ")
+fails(verification(image()), "vtkPolyData")
+fails(verification(candidates, image()), "vtkPointSet")
+fails(connect(vtkMEAMPoseVerification(), candidates, model), "port 2")
+
+filter = vtkMEAMPoseVerification()
+filter.SetParametersToPaper()
+check((filter.GetMethod(), filter.GetTolerance(), filter.GetPosesPerView()) == (0, 1.0, 5), "the paper's parameters")
+prints(filter, "Method", "Tolerance", "MinimumScore", "PosesPerView", "ClusterDistance", "ClusterAngle",
+       "PosesPerInstance", "MaximumNumberOfPoses", "Projection", "ViewDirection", "SensorPosition", "NumberOfThreads")

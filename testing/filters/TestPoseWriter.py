@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Poses in every form, read again; what cannot be written leaves nothing behind."""
+import json
+import os
+import tempfile
+
+from ppfmeam.filters import vtkMEAMPoseReader, vtkMEAMPoseWriter
+from meamtest import Errors, box, check, cloud, poses, prints, run, set_fields, tuples
+
+QUARTER = (0, -1, 0, 1.5, 1, 0, 0, -2, 0, 0, 1, 0.1, 0, 0, 0, 1)
+IDENTITY = (1, 0, 0, 7, 0, 1, 0, 8, 0, 0, 1, 9, 0, 0, 0, 1)
+folder = tempfile.TemporaryDirectory()
+
+
+def path(name):
+    return os.path.join(folder.name, name)
+
+
+def reader(name):
+    result = vtkMEAMPoseReader()
+    result.SetFileName(path(name))
+    return result
+
+
+def writer(data, name, **properties):
+    result = vtkMEAMPoseWriter()
+    if data:
+        result.SetInputDataObject(data)
+    result.SetFileName(path(name))
+    for key, value in properties.items():
+        getattr(result, "Set" + key)(value)
+    return result
+
+
+def text(name):
+    with open(path(name)) as file:
+        return file.read()
+
+
+def refuses(algorithm, *words):
+    errors = Errors(algorithm)
+    done = algorithm.Write()
+    check(not done and all(w in str(errors) for w in words), f"Write() returned {done} and said: {errors}")
+
+
+# Written as matrices, read again.
+data = set_fields(poses(QUARTER, IDENTITY), SecondsTotal=0.25)
+check(writer(data, "poses.txt").Write() == 1, "Write() succeeds")
+read = run(reader("poses.txt"))
+check(tuples(read, "Transform") == [QUARTER, IDENTITY], "the same matrices come back")
+
+# The other forms. Arrays that are not there are left out.
+check(writer(data, "poses.csv", SceneId=3, ImageId=4, ObjectId=5).Write() == 1, "Write() succeeds")
+check(text("poses.csv") == "scene_id,im_id,obj_id,score,R,t,time\n"
+      "3,4,5,0,0 -1 0 1 0 0 0 0 1,1.5 -2 0.1,0.25\n3,4,5,0,1 0 0 0 1 0 0 0 1,7 8 9,0.25\n", text("poses.csv"))
+full = cloud([(1.5, -2, 0.1)], Transform=[QUARTER], Score=[0.75], Votes=[12], ViewId=[2], VisibleFraction=[0.5])
+check(writer(full, "poses.json", Time=2.0).Write() == 1, "Write() succeeds")
+row, = json.loads(text("poses.json"))["poses"]
+check((row["rank"], row["score"], row["votes"], row["view"], row["visible_fraction"], row["time"])
+      == (1, 0.75, 12, 2, 0.5, 2), f"JSON has {row}")
+check(row["translation"] == [1.5, -2, 0.1] and row["matrix"][0] == [0, -1, 0, 1.5], f"JSON has {row}")
+check(writer(data, "bare.json").Write() == 1 and "votes" not in json.loads(text("bare.json"))["poses"][0],
+      "what is not known is left out")
+first = writer(data, "first.dat", MaximumNumberOfPoses=1)
+first.SetFormatToMatrices()
+check(first.Write() == 1 and tuples(run(reader("first.dat")), "Transform") == [QUARTER], "the best pose alone")
+check(writer(poses(), "empty.csv").Write() == 1 and text("empty.csv").count("\n") == 1, "no poses: only the header")
+
+# What cannot be written leaves the old file, and no other.
+before = sorted(os.listdir(folder.name))
+refuses(writer(data, "poses.xyz"), "poses.xyz", ".csv")
+refuses(writer(box(1, 1, 1), "poses.csv"), "Transform")
+refuses(writer(poses((2,) + QUARTER[1:]), "poses.csv"), "not a rotation")
+refuses(writer(data, "no/such/folder.csv"), "folder.csv")
+refuses(vtkMEAMPoseWriter())
+nameless = vtkMEAMPoseWriter()
+nameless.SetInputDataObject(data)
+refuses(nameless, "No file")
+check(sorted(os.listdir(folder.name)) == before, "no file was added")
+check(text("poses.csv").count("\n") == 3, "the old file is still there")
+
+prints(vtkMEAMPoseWriter(), "FileName", "Format", "MaximumNumberOfPoses", "SceneId", "ImageId", "ObjectId", "Time")

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A step of brightness, or of depth, becomes a line of points; images of all kinds; bad input."""
+import math
+
+from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray, vtkUnsignedShortArray
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkStructuredGrid
+
+from ppfmeam.filters import vtkMEAMSceneEdgeExtraction
+from meamtest import box, check, connect, fails, points, prints, run, tuples
+
+W, H, EDGE = 40, 30, 20
+
+
+def scan(image=None, depth=lambda x, y: 500.0, layers=1):
+    """Points 1 mm apart; `image` gives the value or the values of a pixel."""
+    grid, places = vtkStructuredGrid(), vtkPoints()
+    for z in range(layers):
+        for y in range(H):
+            for x in range(W):
+                places.InsertNextPoint(x, y, depth(x, y) + z)
+    grid.SetDimensions(W, H, layers)
+    grid.SetPoints(places)
+    if image:
+        grid.GetPointData().AddArray(pixels(image, [(x, y) for y in range(H) for x in range(W)]))
+    return grid
+
+
+def pixels(image, places, kind=vtkUnsignedCharArray):
+    array = kind()
+    values = [image(x, y) for x, y in places]
+    array.SetName("RGB" if isinstance(values[0], tuple) else "Intensity")
+    array.SetNumberOfComponents(3 if isinstance(values[0], tuple) else 1)
+    for value in values:
+        array.InsertNextTuple(value if isinstance(value, tuple) else (value,))
+    return array
+
+
+def picture(image, width=W, height=H, kind=vtkUnsignedCharArray):
+    """VTK's images start at the lower left."""
+    data = vtkImageData()
+    data.SetDimensions(width, height, 1)
+    data.GetPointData().SetScalars(pixels(image, [(x, y) for y in reversed(range(height)) for x in range(width)], kind))
+    return data
+
+
+def step(x, y):
+    """Bright on the right, only in the upper half: a scan upside down would show it."""
+    return 200 if x >= EDGE and y < H // 2 else 50
+
+
+def edges_of(*inputs, **properties):
+    filter = connect(vtkMEAMSceneEdgeExtraction(), *inputs)
+    for name, value in properties.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+filter = edges_of(scan(step))
+edges = run(filter)
+upright = [(x, y) for x, y, _ in points(edges) if y < H // 2 - 3]
+check(len({y for _, y in upright}) >= 10 and all(x in (EDGE - 1, EDGE) for x, _ in upright), f"the edge is {upright}")
+check(not [p for p in points(edges) if p[1] > H // 2 + 1], "there is no edge in the lower half")
+check([i for i, in tuples(edges, "PointId")] == [y * W + x for x, y, _ in points(edges)], "ids are grid indices")
+check(edges.GetNumberOfVerts() == edges.GetNumberOfPoints(), "a vertex for each point")
+marked = filter.GetOutputDataObject(1)
+check(marked.IsA("vtkImageData") and marked.GetNumberOfPoints() == W * H, "the second output is the edge image")
+values = [v for v, in tuples(marked, "Edges")]
+check([i for i in range(W * H) if values[(H - 1 - i // W) * W + i % W] == 255] == [i for i, in tuples(edges, "PointId")],
+      "it shows the same points")
+
+# The same image as colours, as a second input, with 16 bits.
+ids = tuples(edges, "PointId")
+check(tuples(run(edges_of(scan(lambda x, y: (step(x, y),) * 3))), "PointId") == ids, "a grey RGB image is the same")
+check(tuples(run(edges_of(scan(), picture(step))), "PointId") == ids, "an image of its own is the same")
+wide = picture(lambda x, y: 257 * step(x, y), kind=vtkUnsignedShortArray)
+check(tuples(run(edges_of(scan(), wide)), "PointId") == ids, "16 bits are the same")
+
+# At a jump of depth the edge belongs to the nearer side.
+near = run(edges_of(scan(step, lambda x, y: 450.0 if x >= EDGE else 500.0)))
+check(all(x == EDGE and z == 450 for x, y, z in points(near) if y < H // 2 - 3), "the edge is on the nearer side")
+# Settings reach the core: Sobel answers a step of 150 with 600.
+tall = scan(lambda x, y: 200 if x >= EDGE else 50)
+check(run(edges_of(tall, Smoothing=0, HighThreshold=601)).GetNumberOfPoints() == 0, "the step is below 601")
+check(run(edges_of(tall, Smoothing=0, HighThreshold=599)).GetNumberOfPoints() > 0, "the step is above 599")
+check(run(edges_of(scan(lambda x, y: 7))).GetNumberOfPoints() == 0, "one colour has no edges")
+
+fails(vtkMEAMSceneEdgeExtraction())
+fails(edges_of(vtkStructuredGrid()), "no points")
+fails(edges_of(scan(step, lambda x, y: math.nan)), "NaN")
+fails(edges_of(scan()), "no image", "Intensity")
+fails(edges_of(scan(layers=2), picture(step)), "40 x 30 x 2")
+fails(edges_of(scan(), picture(step, 30, 20)), "30 x 20", "40 x 30")
+fails(edges_of(scan(), vtkImageData()), "no pixels")
+fails(edges_of(box(1, 1, 1)), "vtkStructuredGrid")
+prints(filter, "Smoothing", "LowThreshold", "HighThreshold", "SearchRadius", "DepthJump")

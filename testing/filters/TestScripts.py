@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scripts of examples/: a bin scan as files, with the CAD and with the trained model; a dataset; bad input."""
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOGeometry import vtkSTLWriter
+from vtkmodules.vtkIOImage import vtkPNGWriter
+
+from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseWriter, vtkMEAMSceneEdgeExtraction
+from meamtest import check, connect, points, poses, run, tuples
+
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+
+
+def script(name, *arguments):
+    environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
+    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], env=environment,
+                          capture_output=True, text=True)
+
+
+def works(name, *arguments):
+    result = script(name, *arguments)
+    check(result.returncode == 0, f"{name} {arguments}: {result.stderr}")
+    check(result.stderr == "", f"{name} {arguments} says {result.stderr}")
+    return result.stdout
+
+
+def refuses(word, name, *arguments):
+    """Exit status 1, one message with the word, no file."""
+    before = sorted(os.listdir())
+    result = script(name, *arguments)
+    what = f"{name} {' '.join(arguments)}: status {result.returncode}, {result.stderr}"
+    check(result.returncode == 1 and word.lower() in result.stderr.lower(), f"expected '{word}': {what}")
+    check(result.stderr.count("\n") == 1 and result.stderr.startswith(name), f"more than a message: {what}")
+    check(sorted(os.listdir()) == before, f"left files behind: {what}")
+
+
+def write_pcd(path, columns, width, height, fields):
+    """Binary, floats."""
+    count = len(fields.split())
+    with open(path, "wb") as file:
+        file.write(f"VERSION .7\nFIELDS {fields}\nSIZE{' 4' * count}\nTYPE{' F' * count}\nCOUNT{' 1' * count}\n"
+                   f"WIDTH {width}\nHEIGHT {height}\nPOINTS {width * height}\nDATA binary\n".encode())
+        file.write(numpy.ascontiguousarray(columns, dtype="<f4").tobytes())
+
+
+def read(path):
+    with open(path) as file:
+        return file.read()
+
+
+W, H = 640, 480
+source = vtkMEAMBinSceneSource()
+source.SetCopies(4)
+source.SetWidth(W)
+source.SetHeight(H)
+scan = run(source)
+truth, mesh = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
+stl = connect(vtkSTLWriter(), mesh)
+stl.SetFileName("part.stl")
+stl.SetFileTypeToBinary()
+stl.Write()
+places = vtk_to_numpy(scan.GetPoints().GetData())
+grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
+write_pcd("scan.pcd", numpy.column_stack((places, grey)), W, H, "x y z intensity")
+write_pcd("plain.pcd", places, W, H, "x y z")
+image = vtkImageData()
+image.SetDimensions(W, H, 1)
+upwards = numpy.ascontiguousarray(grey.reshape(H, W)[::-1]).ravel()
+image.GetPointData().SetScalars(numpy_to_vtk(upwards, deep=True))
+png = connect(vtkPNGWriter(), image)
+png.SetFileName("image.png")
+png.Write()
+
+# detect.py: the table, the times and three files.
+text = works("detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--poses", "2", "--out", "a.csv", "--json", "a.json",
+             "--matrices", "a.txt", "--threads", "2", "--method", "meam")
+check(len(text.splitlines()) == 4 and text.startswith("rank") and "total" in text, f"a table of two and times: {text}")
+check(len(read("a.csv").splitlines()) == 3 and len(json.loads(read("a.json"))["poses"]) == 2, "two poses in the files")
+transforms = numpy.array(read("a.txt").split(), float).reshape(-1, 4, 4)
+true = numpy.array(tuples(truth, "Transform")).reshape(-1, 4, 4)
+for found in transforms:
+    check(min(numpy.abs(found - t).max() for t in true) < 1, f"not a true pose: {found}")
+# The image as a file, and the trained model, give the same poses.
+works("detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "image.png", "--poses", "2", "--matrices", "b.txt")
+check(read("b.txt") == read("a.txt"), "with the image of the file the poses differ")
+text = works("train.py", "--cad", "part.stl", "--out", "model.vtpc")
+check("model.vtpc" in text and os.path.isdir("model"), "the model is written")
+works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "2", "--matrices", "c.txt")
+check(read("c.txt") == read("a.txt"), "with the trained model the poses differ")
+works("train.py", "--cad", "part.stl", "--out", "model.vtpc")  # again, over the old one
+# An offset of the CAD is an offset of the poses.
+works("detect.py", "--cad", "part.stl", "--cad-offset", "0", "0", "5", "--scene", "scan.pcd", "--poses", "1",
+      "--matrices", "d.txt", "--preset", "recommended")
+moved = numpy.array(read("d.txt").split(), float).reshape(4, 4)
+check(numpy.abs(moved @ (0, 0, 5, 1) - transforms[0][:, 3]).max() < 0.2, "the offset does not arrive")
+
+# evaluate.py, on a dataset of our own: seen from above, z up. The second scene is missing.
+up = numpy.diag((1.0, -1.0, -1.0, 1.0))
+edges = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
+os.makedirs("data/Part_1/Scenes")
+os.makedirs("data/Part_1/Results")
+os.rename("part.stl", "data/Part_1/Part_1.STL")
+os.symlink("data/Part_1/Part_1.STL", "part.stl")
+surface = places[numpy.isfinite(places).all(axis=1)][::5] @ up[:3, :3]
+write_pcd("data/Part_1/Scenes/Scene0.pcd", surface, len(surface), 1, "x y z")
+outline = numpy.array(points(edges)) @ up[:3, :3]
+write_pcd("data/Part_1/Scenes/Scene_boundary0.pcd", outline, len(outline), 1, "x y z")
+writer = connect(vtkMEAMPoseWriter(), poses(*[tuple((up @ t).ravel()) for t in true]))
+writer.SetFileName("data/Part_1/Results/trans0.txt")
+writer.Write()
+text = works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--out", "result")
+check(len(read("result/Part_1/trans0.txt").split()) == 32, "two matrices are written")
+row, = csv.DictReader(read("result/tohoku.csv").splitlines())
+check(row["part"] == "1" and float(row["strict"]) >= 50 and float(row["ms"]) > 0, f"the row is {row}")
+check(f"{float(row['strict']):.1f}" in text, "the table shows the same")
+result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0,1", "--poses", "2", "--out", "result")
+check(result.returncode == 1 and "scene 1: cannot read" in result.stderr and "1 scenes failed" in result.stderr, result.stderr)
+rows = list(csv.DictReader(read("result/tohoku.csv").splitlines()))
+check(math.isclose(float(rows[0]["strict"]), float(row["strict"]) / 2), "the missing scene counts")
+check(os.listdir("result/Part_1") == ["trans0.txt"], "there is no file for the missing scene")
+
+# Bad input.
+for name in ("empty.stl", "empty.ply", "empty.obj", "empty.pcd"):
+    open(name, "w").close()
+with open("junk.stl", "wb") as file:
+    file.write(bytes(range(256)) * 4)
+for name in ("junk.ply", "junk.obj", "junk.pcd", "junk.png", "junk.vtpc"):
+    os.link("junk.stl", name)
+with open("cut.stl", "wb") as file, open("part.stl", "rb") as whole:
+    file.write(whole.read(5000))
+with open("points.ply", "w") as file:
+    file.write("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n")
+with open("cut.ply", "w") as file:
+    file.write(read("points.ply")[:-4])
+write_pcd("nan.pcd", numpy.full((12, 3), numpy.nan), 4, 3, "x y z")
+write_pcd("none.pcd", numpy.zeros((0, 3)), 0, 1, "x y z")
+write_pcd("metres.pcd", numpy.column_stack((places / 1000, grey)), W, H, "x y z intensity")
+small = vtkImageData()
+small.SetDimensions(30, 20, 1)
+small.GetPointData().SetScalars(numpy_to_vtk(numpy.zeros(600, numpy.uint8), deep=True))
+png.SetInputDataObject(small)
+png.SetFileName("small.png")
+png.Write()
+out = ("--out", "o.csv", "--json", "o.json", "--matrices", "o.txt")
+refuses("cannot read none.stl", "detect.py", "--cad", "none.stl", "--scene", "scan.pcd", *out)
+for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "junk.obj", "cut.stl", "cut.ply"):
+    refuses(name, "detect.py", "--cad", name, "--scene", "scan.pcd", *out)
+refuses("no faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
+refuses("unknown kind", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
+for name in ("nowhere.pcd", "empty.pcd", "junk.pcd"):
+    refuses(name, "detect.py", "--cad", "part.stl", "--scene", name, *out)
+refuses("NaN", "detect.py", "--cad", "part.stl", "--scene", "nan.pcd", *out)
+refuses("no points", "detect.py", "--cad", "part.stl", "--scene", "none.pcd", *out)
+refuses("1000", "detect.py", "--cad", "part.stl", "--scene", "metres.pcd", *out)
+refuses("no image", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", *out)
+refuses("30 x 20", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "small.png", *out)
+refuses("not a PNG", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "junk.png", *out)
+refuses("boundary", "detect.py", "--cad", "part.stl", "--scene", "points.ply", *out)
+refuses("junk.vtpc", "detect.py", "--model", "junk.vtpc", "--scene", "scan.pcd", *out)
+refuses("cannot write", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--out", "no/such/folder.csv")
+refuses("display", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--picture", "o.png", *out)
+refuses("no faces", "train.py", "--cad", "points.ply", "--out", "o.vtpc")
+refuses(".vtpc", "train.py", "--cad", "part.stl", "--out", "o.model")
+refuses("display", "simulated_bin.py", "--picture", "o.png")
+result = script("evaluate.py", "tohoku", "nowhere", "--out", "o")
+check(result.returncode == 1 and "cannot read nowhere" in result.stderr and not os.path.exists("o"), result.stderr)
+os.remove("model/model_0_0.vtp")
+refuses("model", "detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", *out)
