@@ -11,8 +11,10 @@ def options_of_user():
     parser.add_argument("--cad", metavar="PART", help="CAD file of the part: .stl, .obj or .ply, in mm")
     parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
                         help="added to the CAD's coordinates, in mm")
+    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
     parser.add_argument("--model", help="trained model of train.py, instead of training; --cad is then for the picture")
     parser.add_argument("--scene", required=True, metavar="CLOUD", help="scan: .pcd, .ply, .stl or .obj, in mm")
+    parser.add_argument("--scene-scale", type=float, default=1, metavar="F", help="factor to mm, also of the boundary")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="PNG", help="registered image of an organized scan that carries none")
     parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted; 0: all (default: %(default)s)")
@@ -35,15 +37,15 @@ def main():
     scripting.require_folder_of(options.out, options.json, options.matrices, options.picture)
     if options.picture:
         picture.require_display()
-    mesh = scripting.read_mesh(options.cad, options.cad_offset) if options.cad else None
+    mesh = scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale) if options.cad else None
     part = scripting.read_model(options.model) if options.model else mesh
-    scene = scripting.read(options.scene)
+    scene = scripting.read(options.scene, options.scene_scale)
 
     estimation = filters.vtkMEAMPoseEstimation()
     estimation.SetInputDataObject(part)
     estimation.SetInputDataObject(1, scene)
     if options.boundary:
-        estimation.SetInputDataObject(2, scripting.read(options.boundary))
+        estimation.SetInputDataObject(2, scripting.read(options.boundary, options.scene_scale))
     if options.image:
         estimation.SetInputDataObject(3, scripting.read_image(options.image))
     scripting.set_choice(estimation, "Preset", options.preset)

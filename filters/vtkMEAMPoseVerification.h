@@ -92,7 +92,7 @@ public:
   ///@}
 
   ///@{
-  /** Poses kept of all; 0: no limit. Default: 40. */
+  /** Poses kept of all; 0: no limit. Default: 60. */
   vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfPoses, int);
   ///@}

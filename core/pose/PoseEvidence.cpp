@@ -24,7 +24,6 @@ constexpr double EdgeMatched = 2.0;
 constexpr double EdgeViolated = -1.3;
 constexpr double SurfaceMatched = 0.5;
 constexpr double SurfaceViolated = -1.2;
-constexpr double EdgeUnexplained = -1.0;
 
 int count(const std::vector<PointState>& states, PointState state)
 {
@@ -122,7 +121,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
 
 double EvidenceCollector::distinct(const PoseEvidence& a, const PoseEvidence& b) const
 {
-  double sum = EdgeUnexplained * a.unexplained;
+  double sum = 0.0;
   const double edgeReach = EdgeReach * this->Tolerance;
   const PointGrid edges(b.edges, edgeReach);
   for (std::size_t i = 0; i < a.edges.size(); ++i)

@@ -25,7 +25,7 @@ struct PoseVerificationSettings
   double clusterAngle = 30.0;   ///< and those turned less than this (degrees) are the same
   /// Poses kept of one instance. With 1, alternatives are decided on the points that tell them apart.
   int posesPerInstance = 4;
-  int maximumPoses = 40;        ///< 0: no limit
+  int maximumPoses = 60;        ///< 0: no limit
   int threads = 0;              ///< 0: one for each processor
 };
 

@@ -7,6 +7,8 @@ import sys
 import tempfile
 
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
@@ -93,8 +95,8 @@ def read_with(reader, path):
         raise failure if path in str(failure) else Failure(f"{path}: {failure}") from None
 
 
-def read(path):
-    """The mesh or the cloud in a .pcd, .ply, .stl or .obj file."""
+def read(path, scale=1.0):
+    """The mesh or the cloud in a .pcd, .ply, .stl or .obj file, its coordinates times a factor."""
     extension = os.path.splitext(path)[1].lower()
     if extension not in READERS:
         raise Failure(f"{path}: unknown kind of file; known are {', '.join(READERS)}")
@@ -104,13 +106,20 @@ def read(path):
     data = read_with(READERS[extension](), path)
     if data.GetNumberOfPoints() == 0:
         raise Failure(f"{path} has no points: it is empty, cut off, or no {extension[1:].upper()} file")
-    return data
+    if scale == 1.0:
+        return data
+    transform, scaled = vtkTransform(), vtkTransformFilter()
+    transform.Scale(scale, scale, scale)
+    scaled.SetTransform(transform)
+    scaled.SetInputDataObject(data)
+    return update(scaled).GetOutputDataObject(0)
 
 
-def read_mesh(path, offset=(0, 0, 0)):
-    """The clean mesh of a CAD file, moved by an offset in mm."""
+def read_mesh(path, offset=(0, 0, 0), scale=1.0):
+    """The clean mesh of a CAD file, scaled to mm and moved by an offset in mm."""
     preparation = filters.vtkMEAMMeshPreparation()
     preparation.SetInputDataObject(read(path))
+    preparation.SetScale(scale)
     preparation.SetOffset(offset)
     return update(preparation).GetOutput()
 

@@ -164,6 +164,11 @@ for name in ("nowhere.pcd", "empty.pcd", "junk.pcd"):
 refuses("NaN", "detect.py", "--cad", "part.stl", "--scene", "nan.pcd", *out)
 refuses("no points", "detect.py", "--cad", "part.stl", "--scene", "none.pcd", *out)
 refuses("1000", "detect.py", "--cad", "part.stl", "--scene", "metres.pcd", *out)
+works("detect.py", "--cad", "part.stl", "--scene", "metres.pcd", "--scene-scale", "1000", "--poses", "2",
+      "--matrices", "metres.txt")
+difference = numpy.abs(numpy.loadtxt("metres.txt") - numpy.loadtxt("a.txt")).max()
+check(difference < 0.2, f"metres, scaled: the poses differ by {difference} mm")
+os.remove("metres.txt")
 refuses("no image", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", *out)
 refuses("30 x 20", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "small.png", *out)
 refuses("not a PNG", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "junk.png", *out)

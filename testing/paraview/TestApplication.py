@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Inside the ParaView application: the chain is built from the proxies of the menu, shown, and the picture
+holds the found parts in the colours of their ranks."""
+import os
+import sys
+import tempfile
+import traceback
+
+
+def build_and_show():
+    from paraview import simple
+
+    simple._DisableFirstRenderCameraReset()
+    scene = simple.BinSceneSource(Copies=12)
+    mesh = simple.MeshPreparation(Input=simple.OutputPort(scene, 2))
+    samples = simple.SurfaceSampling(Input=mesh)
+    views = simple.VisibilityExtraction(Input=samples)
+    boundary = simple.BoundaryExtraction(Input=views)
+    tangents = simple.TangentEstimation(Input=boundary)
+    model = simple.MEAMHashing(Input=tangents, Surface=samples)
+    edges = simple.SceneEdgeExtraction(Input=simple.OutputPort(scene, 0))
+    edges = simple.TangentEstimation(Input=simple.OutputPort(edges, 0), Model=model)
+    candidates = simple.PoseDetection(Input=edges, Model=model)
+    scan = simple.OutputPort(scene, 0)
+    verified = simple.PoseVerification(Input=candidates, Model=model, SceneEdges=edges, SceneSurface=scan)
+    refined = simple.PoseRefinement(Input=verified, Model=model, SceneEdges=edges, SceneSurface=scan)
+    ranked = simple.PoseVerification(Input=refined, Model=model, SceneEdges=edges, SceneSurface=scan,
+                                     PosesPerInstance=1, MaximumNumberOfPoses=5)
+    chain = simple.PoseInstances(Input=ranked, Mesh=mesh)
+    box = simple.MEAMPoseEstimation(Input=mesh, Scene=scan)
+
+    view = simple.GetActiveViewOrCreate("RenderView")
+    simple.ColorBy(simple.Show(scan, view), None)  # grey: the only colours are those of the ranks
+    display = simple.Show(chain, view)
+    simple.ColorBy(display, ("CELLS", "RankColor"))
+    display.MapScalars = 0
+    view.ResetActiveCameraToPositiveZ()
+    simple.ResetCamera(view)
+    simple.Render(view)
+    picture = os.path.join(tempfile.mkdtemp(), "found.png")
+    simple.SaveScreenshot(picture, view, ImageResolution=[800, 600])
+
+    of_chain = ranked.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Transform")
+    box.UpdatePipeline()
+    of_box = box.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Transform")
+    assert of_chain.GetNumberOfTuples() == 5, f"{of_chain.GetNumberOfTuples()} poses"
+    for pose in range(5):
+        assert of_chain.GetTuple(pose) == of_box.GetTuple(pose), f"pose {pose + 1} of the chain is not that of the box"
+    return picture
+
+
+def share_of(picture, colour):
+    """Share of the pixels whose hue is that of the colour."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOImage import vtkPNGReader
+
+    reader = vtkPNGReader()
+    reader.SetFileName(picture)
+    reader.Update()
+    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(float)
+    level = pixels.max(axis=1)
+    spread = level - pixels.min(axis=1)
+    wanted = [c / max(colour) for c in colour]
+    near = sum(abs(pixels[:, c] / level.clip(1) - wanted[c]) for c in range(3)) < 0.35
+    return (near & (spread > 40)).mean()
+
+
+status = 1
+try:
+    found = build_and_show()
+    for name, colour in (("red", (255, 30, 30)), ("green", (40, 170, 50)), ("blue", (40, 90, 220))):
+        share = share_of(found, colour)
+        print(f"{name}: {100 * share:.2f} % of {found}", file=sys.__stderr__)
+        assert share > 0.005, f"no {name} part in {found}"
+    status = 0
+except BaseException:
+    traceback.print_exc(file=sys.__stderr__)
+sys.__stderr__.flush()
+os._exit(status)
