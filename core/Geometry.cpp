@@ -79,6 +79,36 @@ Eigen::AlignedBox3f bounds(const Points& points)
   return box;
 }
 
+Eigen::AlignedBox3f innerBounds(const Points& points, double share)
+{
+  Eigen::AlignedBox3f box;
+  std::vector<float> values;
+  Eigen::Vector3f low;
+  Eigen::Vector3f high;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    values.clear();
+    for (const auto& point : points)
+    {
+      if (point.allFinite())
+      {
+        values.push_back(point[axis]);
+      }
+    }
+    if (values.empty())
+    {
+      return box;
+    }
+    const auto left = static_cast<std::ptrdiff_t>(share * values.size());
+    std::nth_element(values.begin(), values.begin() + left, values.end());
+    low[axis] = values[left];
+    const auto right = static_cast<std::ptrdiff_t>(values.size()) - 1 - left;
+    std::nth_element(values.begin(), values.begin() + right, values.end());
+    high[axis] = values[right];
+  }
+  return { low, high };
+}
+
 Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
 {
   // The coordinate axis that is farthest from `axis` gives the second direction.

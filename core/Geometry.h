@@ -51,6 +51,9 @@ PointCloud finitePoints(const PointCloud& cloud);
 /// Axis-aligned bounds of the finite points.
 Eigen::AlignedBox3f bounds(const Points& points);
 
+/// Bounds without the given share of the points at each end of each axis.
+Eigen::AlignedBox3f innerBounds(const Points& points, double share);
+
 /// A right-handed frame whose first column is `axis`; a continuous function of it almost everywhere.
 Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis);
 

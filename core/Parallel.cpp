@@ -12,11 +12,13 @@ namespace meam
 namespace
 {
 constexpr int RangesPerThread = 16; // enough to balance the load and to report progress
+constexpr int MostThreadsPerProcessor = 8; // more help nobody, and the system refuses very many
 }
 
 int numberOfThreads(int requested)
 {
-  return requested > 0 ? requested : omp_get_num_procs();
+  const int processors = omp_get_num_procs();
+  return requested > 0 ? std::min(requested, MostThreadsPerProcessor * processors) : processors;
 }
 
 void parallelFor(int count, int threads, const Progress& progress, const std::function<void(int, int, int)>& work)

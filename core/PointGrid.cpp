@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointGrid.h"
 
+#include "Error.h"
+
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
@@ -10,25 +12,51 @@ namespace meam
 namespace
 {
 constexpr double MostCells = 4e6;
+constexpr double StrayShare = 0.001; // of the points, at each end of each axis
+
+/// A cube of side leafSize, counted from the origin.
+struct Cube
+{
+  std::int64_t x, y, z;
+  bool operator==(const Cube& other) const { return this->x == other.x && this->y == other.y && this->z == other.z; }
+};
+
+struct CubeHash
+{
+  std::size_t operator()(const Cube& cube) const
+  {
+    return static_cast<std::size_t>((cube.x * 73856093) ^ (cube.y * 19349663) ^ (cube.z * 83492791));
+  }
+};
 }
 
 PointGrid::PointGrid(const Points& points, double cellSize)
 {
-  const Eigen::AlignedBox3f box = bounds(points);
+  Eigen::AlignedBox3f box = bounds(points);
   if (box.isEmpty())
   {
     return;
   }
-  this->Origin = box.min();
-  // A stray point far away must not cost memory: cells grow until their number is reasonable.
   double cell = cellSize;
-  const auto cells = [&] { return (box.sizes().cast<double>() / cell).array().floor() + 1.0; };
+  if (!(cell > 0.0) || !std::isfinite(cell) || !box.sizes().allFinite())
+  {
+    throw Error("Points cannot be sorted into cells of " + std::to_string(cellSize) +
+      " mm: the points coincide, a length is zero, or coordinates are far beyond any part's size.");
+  }
+  // Stray points far away must cost neither memory nor speed: they go to the cells of the border. Then
+  // cells grow until their number is reasonable.
+  const auto cells = [&]() -> Eigen::Array3d { return (box.sizes().cast<double>() / cell).array().floor() + 1.0; };
+  if (cells().prod() > MostCells)
+  {
+    box = innerBounds(points, StrayShare);
+  }
   while (cells().prod() > MostCells)
   {
     cell *= 1.25;
   }
+  this->Origin = box.min();
   this->InverseCell = static_cast<float>(1.0 / cell);
-  this->Size = this->cellOf(box.max()).array() + 1;
+  this->Size = cells().cast<int>();
   std::vector<int> cellAt(points.size(), -1);
   this->Starts.assign(static_cast<std::size_t>(this->Size.x()) * this->Size.y() * this->Size.z() + 1, 0);
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -70,19 +98,23 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
     int nearest = -1;
     double distance = 0.0;
   };
-  const auto codeOf = [&](const Eigen::Vector3f& point)
+  constexpr double farthest = 9e18; // what 64 bits count
+  const auto cubeOf = [&](const Eigen::Vector3f& point)
   {
-    const Eigen::Array3d cell = (point.cast<double>() / leafSize).array().floor();
-    constexpr std::int64_t mask = (1 << 21) - 1;
-    return (static_cast<std::int64_t>(cell.x()) & mask) | ((static_cast<std::int64_t>(cell.y()) & mask) << 21) |
-      ((static_cast<std::int64_t>(cell.z()) & mask) << 42);
+    const Eigen::Array3d cell = (point.cast<double>() / leafSize).array().floor().max(-farthest).min(farthest);
+    return Cube{ static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
+      static_cast<std::int64_t>(cell.z()) };
   };
-  std::unordered_map<std::int64_t, int> cellAt;
+  std::unordered_map<Cube, int, CubeHash> cellAt;
   std::vector<Cell> cells;
-  std::vector<int> cellOf(points.size());
+  std::vector<int> cellOf(points.size(), -1);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const auto [entry, isNew] = cellAt.try_emplace(codeOf(points[i]), static_cast<int>(cells.size()));
+    if (!points[i].allFinite())
+    {
+      continue;
+    }
+    const auto [entry, isNew] = cellAt.try_emplace(cubeOf(points[i]), static_cast<int>(cells.size()));
     if (isNew)
     {
       cells.emplace_back();
@@ -93,6 +125,10 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
   }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
+    if (cellOf[i] < 0)
+    {
+      continue;
+    }
     Cell& cell = cells[cellOf[i]];
     const double distance = (points[i].cast<double>() - cell.sum / cell.count).squaredNorm();
     if (cell.nearest < 0 || distance < cell.distance)

@@ -12,6 +12,7 @@ class PointGrid
 {
 public:
   /// `cellSize` in mm; queries are fastest at radii near it. Points that are not finite are left out.
+  /// Throws Error when the cell size is not positive or the points' extent is beyond all measure.
   PointGrid(const Points& points, double cellSize);
 
   /// Calls visit(index, squaredDistance) for every point within `radius` of `centre`, in an order
@@ -21,12 +22,12 @@ public:
   {
     const float r = static_cast<float>(radius);
     const float limit = r * r;
-    const Eigen::Vector3i low = this->cellOf(centre.array() - r).cwiseMax(0);
-    const Eigen::Vector3i high = this->cellOf(centre.array() + r).cwiseMin(this->Size - Eigen::Vector3i::Ones());
-    if (low.x() > high.x())
+    if (this->Order.empty())
     {
       return;
     }
+    const Eigen::Vector3i low = this->cellOf(centre.array() - r);
+    const Eigen::Vector3i high = this->cellOf(centre.array() + r);
     for (int z = low.z(); z <= high.z(); ++z)
     {
       for (int y = low.y(); y <= high.y(); ++y)
@@ -66,8 +67,12 @@ public:
 private:
   Eigen::Vector3i cellOf(const Eigen::Vector3f& point) const
   {
-    // Clamped before the cast: a point may lie anywhere.
-    return ((point - this->Origin) * this->InverseCell).array().floor().cwiseMax(-1.0f).cwiseMin(1e6f).template cast<int>();
+    // What lies outside belongs to the cells of the border; clamped before the cast.
+    return ((point - this->Origin) * this->InverseCell)
+      .array()
+      .max(0.0f)
+      .min(this->Size.cast<float>().array() - 1.0f)
+      .cast<int>();
   }
 
   Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
@@ -80,6 +85,7 @@ private:
 
 /// Indices of one point for each occupied cube of side `leafSize` (mm): the point nearest to the
 /// mean of the cube's points. Cubes are counted from the origin of the coordinates, so views of one
-/// part share them. Ordered by the first point in each cube. A leaf of 0 or less keeps every point.
+/// part share them; points that are not finite are left out. Ordered by the first point in each cube. A
+/// leaf of 0 or less keeps every point.
 std::vector<int> thinPoints(const Points& points, double leafSize);
 }

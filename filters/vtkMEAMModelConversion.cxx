@@ -368,7 +368,11 @@ private:
 
   void readTable(meam::TrainedModel& model) const
   {
-    const vtkIdType keys = model.quantizer().numberOfKeys();
+    const std::int64_t keys = model.quantizer().numberOfKeys();
+    if (keys > meam::TrainedModel::MostKeys)
+    {
+      refuse("has a distance step or an angle step that is too small.");
+    }
     meam::PairTable& table = model.table;
     table.offsets = this->values<std::uint32_t>(this->piece("PairTableBuckets", keys + 1), "Offset");
     const vtkIdType entries = this->count("NumberOfPairs");

@@ -31,7 +31,7 @@ std::array<int, 2> sizeOf(const char* fileName)
   {
     return meam::readPCDSize(fileName ? fileName : "");
   }
-  catch (const meam::Error&)
+  catch (const std::exception&)
   {
     return { 0, 0 };
   }

@@ -17,16 +17,16 @@
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
 
-#include <algorithm>
 #include <tuple>
+#include <utility>
 
 vtkStandardNewMacro(vtkMEAMPoseEstimation);
 
 namespace
 {
 // Shares of the work, for the progress.
-constexpr double AfterTraining = 0.4;
-constexpr double AfterSceneEdges = 0.5;
+constexpr double AfterSceneEdges = 0.1;
+constexpr double AfterTraining = 0.5;
 }
 
 /// The trained model and what it was made of.
@@ -154,11 +154,6 @@ int vtkMEAMPoseEstimation::RequestData(
       }
 
       const double loaded = vtkTimerLog::GetUniversalTime();
-      const meam::TrainedModel& model = this->Trained->modelOf(part,
-        { this->Preset, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1], this->CADOffset[2] },
-        meam::subProgress(progress, 0.0, AfterTraining));
-      const double trained = vtkTimerLog::GetUniversalTime();
-
       meam::Scene scene;
       scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
       if (boundary)
@@ -170,31 +165,34 @@ int vtkMEAMPoseEstimation::RequestData(
       else
       {
         scene.edges = meam::extractSceneEdges(cloud, image ? toImage(image) : imageOfCloud(organized), {},
-          meam::subProgress(progress, AfterTraining, AfterSceneEdges));
+          meam::subProgress(progress, 0.0, AfterSceneEdges));
       }
-      const auto isFinite = [](const Eigen::Vector3f& point) { return point.allFinite(); };
-      const auto scenePoints = std::count_if(cloud.points.begin(), cloud.points.end(), isFinite);
-      scene.surface = std::move(cloud.points);
+      scene.surface = meam::finitePoints({ std::move(cloud.points), {}, {}, {} }).points;
       const double extracted = vtkTimerLog::GetUniversalTime();
+
+      const meam::TrainedModel& model = this->Trained->modelOf(part,
+        { this->Preset, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1], this->CADOffset[2] },
+        meam::subProgress(progress, AfterSceneEdges, AfterTraining));
+      const double trained = vtkTimerLog::GetUniversalTime();
 
       meam::DetectionSettings settings = meam::detectionSettings(
         static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses, this->NumberOfThreads);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
       meam::StageTimes times;
       const meam::Poses poses =
-        meam::estimatePoses(model, scene, settings, &times, meam::subProgress(progress, AfterSceneEdges, 1.0));
+        meam::estimatePoses(model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
 
       fromCloud(scene.edges, edges);
       fromPoses(poses, output);
       setDiameter(output, model.diameter);
-      setFieldValue(output, "SecondsTraining", trained - loaded);
-      setFieldValue(output, "SecondsSceneEdges", extracted - trained);
+      setFieldValue(output, "SecondsTraining", trained - extracted);
+      setFieldValue(output, "SecondsSceneEdges", extracted - loaded);
       setFieldValue(output, "SecondsTangents", times.tangents);
       setFieldValue(output, "SecondsDetection", times.detection);
       setFieldValue(output, "SecondsVerification", times.verification);
       setFieldValue(output, "SecondsRefinement", times.refinement);
       setFieldValue(output, "SecondsSelection", times.selection);
-      setFieldValue(output, "ScenePoints", static_cast<double>(scenePoints));
+      setFieldValue(output, "ScenePoints", static_cast<double>(scene.surface.size()));
       setFieldValue(output, "SceneEdgePoints", static_cast<double>(scene.edges.size()));
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
       setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);

@@ -283,9 +283,13 @@ struct FieldData
     const char* at = this->first + point * this->step;
     return this->text ? load<double>(at) : numberAt(at, *this->field);
   }
-  /// 0x..RRGGBB. In a float field it is the float's bits.
+  /// 0x..RRGGBB. In a float field it is the float's bits, read as they are: many are not numbers.
   std::uint32_t color(std::uint64_t point) const
   {
+    if (!this->text && this->field->size == 4)
+    {
+      return load<std::uint32_t>(this->first + point * this->step);
+    }
     if (this->field->type == 'F')
     {
       const float value = static_cast<float>(this->number(point));

@@ -15,6 +15,7 @@ namespace meam
 namespace
 {
 constexpr double SpacingsPerRadius = 2.5;
+constexpr int NeighboursOfSpacing = 6;
 
 std::vector<int> boundaryPoints(const PointCloud& cloud, double radius, double angle)
 {
@@ -52,12 +53,21 @@ double pointSpacing(const Points& points)
   tree.setInputCloud(cloud);
   std::vector<float> distances;
   distances.reserve(points.size());
-  pcl::Indices nearest(2);
-  std::vector<float> squared(2);
+  pcl::Indices nearest;
+  std::vector<float> squared;
   for (const auto& point : *cloud)
   {
-    tree.nearestKSearch(point, 2, nearest, squared);
-    distances.push_back(squared[1]);
+    // A point may be there several times: the first at a distance counts.
+    tree.nearestKSearch(point, NeighboursOfSpacing, nearest, squared);
+    const auto other = std::find_if(squared.begin(), squared.end(), [](float distance) { return distance > 0.0f; });
+    if (other != squared.end())
+    {
+      distances.push_back(*other);
+    }
+  }
+  if (distances.empty())
+  {
+    return 0.0;
   }
   const auto middle = distances.begin() + distances.size() / 2;
   std::nth_element(distances.begin(), middle, distances.end());
@@ -78,6 +88,11 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
       throw Error("Appearance model " + models[view].name + " has no normals: sample the surface of a mesh first.");
     }
     const double radius = settings.radius > 0.0 ? settings.radius : SpacingsPerRadius * pointSpacing(cloud.points);
+    if (!(radius > 0.0))
+    {
+      throw Error("Appearance model " + models[view].name +
+        " has a single place: sample the surface with a spacing that is small against the part.");
+    }
     edges[view].cloud = cloud.subset(boundaryPoints(cloud, radius, settings.angle));
   }
   report(progress, 1.0);

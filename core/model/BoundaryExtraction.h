@@ -17,6 +17,6 @@ struct BoundaryExtractionSettings
 std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>& models,
   const BoundaryExtractionSettings& settings = {}, const Progress& progress = {});
 
-/// The median distance of a point to its nearest neighbour, in mm; 0 for less than two points.
+/// The median distance of a point to its nearest neighbour, in mm; 0 for less than two places.
 double pointSpacing(const Points& points);
 }

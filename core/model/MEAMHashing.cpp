@@ -18,13 +18,14 @@ namespace meam
 namespace
 {
 constexpr std::size_t MostEdges = 65536;        // a reference point has 16 bits in a vote
-constexpr std::size_t MostEntries = 50000000;    // 1 GB
+constexpr std::size_t MostEntries = 50000000;    // 2 GB while it is made
 constexpr double DefaultVoxelShare = 0.015;     // of the diameter
 constexpr double SurfaceLeafShare = 0.015;      // of the diameter, for verification
 constexpr float ParallelTangents = 0.94f;       // cosine of 20 degrees: the same edge in two views
 
 /// Collects the edge points of all views.
-void collectEdges(const std::vector<AppearanceModel>& edgeModels, double mergeDistance, TrainedModel& model)
+void collectEdges(
+  const std::vector<AppearanceModel>& edgeModels, double mergeDistance, TrainedModel& model, const Progress& progress)
 {
   PointCloud& edges = model.edges;
   const bool haveIds = std::all_of(edgeModels.begin(), edgeModels.end(),
@@ -34,8 +35,16 @@ void collectEdges(const std::vector<AppearanceModel>& edgeModels, double mergeDi
     const PointCloud& cloud = edgeModels[view].cloud;
     const std::uint32_t bit = 1u << view;
     const std::size_t known = edges.size(); // points of one view never merge with each other
+    if (known + cloud.size() > MostEdges)
+    {
+      throw Error("The appearance models have more than 65536 edge points: thin them with a larger leaf size.");
+    }
     for (std::size_t i = 0; i < cloud.size(); ++i)
     {
+      if (i % 1024 == 0)
+      {
+        report(progress, (view + static_cast<double>(i) / cloud.size()) / edgeModels.size());
+      }
       int same = -1;
       float nearest = static_cast<float>(mergeDistance * mergeDistance);
       for (std::size_t k = 0; model.settings.mergeViews && k < known; ++k)
@@ -186,7 +195,14 @@ void buildTable(TrainedModel& model, double voxelSize, const Progress& progress)
       {
         continue;
       }
-      if (!codes.empty())
+      const PairFeature feature = pairFeature(
+        quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]);
+      const int key = quantizer.key(feature);
+      if (key < 0 || !(feature.distance > 0.0f))
+      {
+        continue;
+      }
+      if (!codes.empty() && views != 0)
       {
         // The same physical pair in another view: saved once, seen in both.
         const auto [known, isNew] = entryOf.try_emplace({ codes[r], codes[i] }, entries.size());
@@ -196,19 +212,13 @@ void buildTable(TrainedModel& model, double voxelSize, const Progress& progress)
           continue;
         }
       }
-      const PairFeature feature = pairFeature(
-        quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]);
-      const int key = quantizer.key(feature);
-      if (key >= 0 && feature.distance > 0.0f)
+      if (entries.size() == MostEntries)
       {
-        if (entries.size() == MostEntries)
-        {
-          throw Error("The pair table would have more than 50 million entries: thin the edge points with a larger leaf "
-                      "size.");
-        }
-        entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r),
-          static_cast<std::uint32_t>(i), frames[r].angleOf(edges.points[i]), views });
+        throw Error("The pair table would have more than 50 million entries: thin the edge points with a larger leaf "
+                    "size.");
       }
+      entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(i),
+        frames[r].angleOf(edges.points[i]), views });
     }
   }
   PairTable& table = model.table;
@@ -320,19 +330,18 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Po
   }
   model.diameter = partDiameter > 0.0 ? partDiameter : diameter(everything);
   const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : DefaultVoxelShare * model.diameter;
-  collectEdges(edgeModels, voxelSize, model);
-  if (model.edges.size() > MostEdges)
+  if (model.quantizer().numberOfKeys() > TrainedModel::MostKeys)
   {
-    throw Error("The appearance models have " + std::to_string(model.edges.size()) +
-      " edge points: thin them with a larger leaf size, at most 65536 are stored.");
+    throw Error("The pair table would have more than 50 million keys: enlarge the distance step or the angle step.");
   }
+  collectEdges(edgeModels, voxelSize, model, subProgress(progress, 0.0, 0.1));
   if (model.edges.size() < 2)
   {
     throw Error("The appearance models have no edges: the part shows no boundary from these viewpoints, or the "
                 "surface is sampled too coarsely.");
   }
   const std::vector<std::uint32_t> surfaceBits =
-    visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.0, 0.7));
+    visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.1, 0.7));
   model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, 2.0 * voxelSize);
   for (const int i : thinPoints(surface.points, SurfaceLeafShare * model.diameter))
   {

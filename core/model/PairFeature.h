@@ -63,7 +63,7 @@ public:
     : Kind(kind)
     , InverseDistance(static_cast<float>(1.0 / distanceStep))
     , InverseAngle(static_cast<float>(1.0 / angleStep))
-    , Distances(static_cast<int>(std::floor(maximumDistance / distanceStep)) + 1)
+    , Distances(static_cast<int>(std::min(1e9, std::floor(maximumDistance / distanceStep))) + 1)
     , Acute(static_cast<int>(std::ceil(M_PI_2 / angleStep - 1e-6)))
     , Between(kind == PairFeatureKind::Paper ? this->Acute
                                              : static_cast<int>(std::ceil(M_PI / angleStep - 1e-6)))
@@ -71,12 +71,13 @@ public:
   }
 
   PairFeatureKind kind() const { return this->Kind; }
-  int numberOfKeys() const
+  std::int64_t numberOfKeys() const
   {
-    return this->Distances * this->Acute * this->Acute * this->Between *
+    return static_cast<std::int64_t>(this->Distances) * this->Acute * this->Acute * this->Between *
       (this->Kind == PairFeatureKind::Oriented ? 2 : 1);
   }
-  /// The key in [0, numberOfKeys()), or -1 for a pair longer than d_max.
+  /// The key in [0, numberOfKeys()), or -1 for a pair longer than d_max. Keys are int: tables of more are
+  /// refused (TrainedModel::MostKeys).
   int key(const PairFeature& feature) const
   {
     const int distance = static_cast<int>(feature.distance * this->InverseDistance);

@@ -14,6 +14,7 @@ namespace meam
 {
 namespace
 {
+constexpr std::size_t MostPerTile = 4000;  // the work grows with its cube
 constexpr std::size_t FewestInliers = 4; // a line through three points of a band of edge points is chance
 
 float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f& direction)
@@ -110,11 +111,11 @@ Points tileTangents(const Points& points, const Eigen::Vector3f& viewDirection, 
   const Eigen::Vector3f right = frame.col(alongZ ? 0 : 1);
   const Eigen::Vector3f down = frame.col(alongZ ? 1 : 2);
   const double tile = settings.tilePixels * settings.pixelSize;
-  std::map<std::pair<int, int>, std::vector<int>> tiles;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<int>> tiles;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    tiles[{ static_cast<int>(std::floor(points[i].dot(right) / tile)),
-            static_cast<int>(std::floor(points[i].dot(down) / tile)) }]
+    tiles[{ static_cast<std::int64_t>(std::floor(points[i].dot(right) / tile)),
+            static_cast<std::int64_t>(std::floor(points[i].dot(down) / tile)) }]
       .push_back(static_cast<int>(i));
   }
   Points tangents(points.size(), Eigen::Vector3f::Zero());
@@ -122,10 +123,14 @@ Points tileTangents(const Points& points, const Eigen::Vector3f& viewDirection, 
   std::size_t done = 0;
   for (const auto& [place, members] : tiles)
   {
-    report(progress, static_cast<double>(done) / points.size());
-    done += members.size();
+    if (members.size() > MostPerTile)
+    {
+      throw Error("A tile holds " + std::to_string(members.size()) +
+        " edge points, each pair of which makes a line to try: use smaller tiles or a larger leaf size.");
+    }
     for (const int j : members)
     {
+      report(progress, static_cast<double>(done++) / points.size());
       std::size_t best = 0;
       Eigen::Vector3f direction = Eigen::Vector3f::Zero();
       for (const int k : members)

@@ -41,6 +41,7 @@ struct TrainedModel
 {
   static constexpr int FormatVersion = 1;
   static constexpr int MaximumViews = 32; ///< views and directions are bits of a word
+  static constexpr std::int64_t MostKeys = 50000000;
 
   double diameter = 0.0; ///< d_max, mm
   std::string digest;    ///< of the surface, the edges and the settings

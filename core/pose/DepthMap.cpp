@@ -11,6 +11,7 @@ namespace
 {
 constexpr float Empty = std::numeric_limits<float>::infinity();
 constexpr float LargestSide = 4096.0f; // cells; a wider scene gets coarser cells
+constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
 }
 
 DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
@@ -22,7 +23,6 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
   this->Axes.row(2) = frame.col(0);
   Points projected;
   projected.reserve(surface.size());
-  Eigen::AlignedBox3f box;
   double depthSum = 0.0;
   for (const auto& point : surface)
   {
@@ -30,7 +30,6 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
     if (p.allFinite() && (!sensor.perspective || p.z() > 0.0f))
     {
       projected.push_back(p);
-      box.extend(p);
       depthSum += p.z();
     }
   }
@@ -40,6 +39,11 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
   }
   // A perspective map lies at depth 1.
   float cell = static_cast<float>(sensor.perspective ? cellSize * projected.size() / depthSum : cellSize);
+  Eigen::AlignedBox3f box = bounds(projected);
+  if (!(box.sizes().head<2>().maxCoeff() < LargestSide * cell))
+  {
+    box = innerBounds(projected, StrayShare); // stray points are left out
+  }
   cell = std::max(cell, box.sizes().head<2>().maxCoeff() / LargestSide);
   this->InverseCell = 1.0f / cell;
   this->Low = box.min().head<2>();
@@ -49,6 +53,10 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
   this->Farthest.assign(this->numberOfCells(), -Empty);
   for (const auto& p : projected)
   {
+    if (!box.contains(Eigen::Vector3f(p.x(), p.y(), box.min().z())))
+    {
+      continue;
+    }
     const Eigen::Vector2i index = ((p.head<2>() - this->Low) * this->InverseCell).cast<int>();
     const int place = index.y() * this->Width + index.x();
     this->Nearest[place] = std::min(this->Nearest[place], p.z());

@@ -106,12 +106,12 @@ public:
     Peak best;
     for (int sheet = 0; sheet < 2 * this->ModelPoints; ++sheet)
     {
-      const std::uint16_t* counts = &this->Counts[static_cast<std::size_t>(sheet) * this->Turns];
+      const std::uint32_t* counts = &this->Counts[static_cast<std::size_t>(sheet) * this->Turns];
       for (int bin = 0; bin < this->Turns; ++bin)
       {
-        const int before = counts[bin == 0 ? this->Turns - 1 : bin - 1];
-        const int after = counts[bin + 1 == this->Turns ? 0 : bin + 1];
-        const int votes = before + counts[bin] + after;
+        const int before = static_cast<int>(counts[bin == 0 ? this->Turns - 1 : bin - 1]);
+        const int after = static_cast<int>(counts[bin + 1 == this->Turns ? 0 : bin + 1]);
+        const int votes = before + static_cast<int>(counts[bin]) + after;
         if (votes > best.votes)
         {
           best.votes = votes;
@@ -127,7 +127,7 @@ public:
 private:
   int Turns;
   int ModelPoints;
-  std::vector<std::uint16_t> Counts;
+  std::vector<std::uint32_t> Counts;
 };
 }
 
@@ -163,7 +163,7 @@ Poses detectPoses(const PointCloud& edges, const TrainedModel& model, const Pose
   const PointCloud referred = edges.subset(chooseShare(count, settings.referredShare, settings.seed + 1));
   const PointGrid grid(referred.points, 0.5 * model.diameter);
 
-  const int threads = numberOfThreads(settings.threads);
+  const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
   std::vector<Accumulator> accumulators(threads, Accumulator(modelPoints, angleStep));
   std::vector<Accumulator::Peak> peaks(references.size());
   parallelFor(static_cast<int>(references.size()), threads, progress,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace meam
@@ -42,28 +43,28 @@ public:
 
   void add(int candidate)
   {
-    const Pose& pose = this->InPoses[candidate];
-    const Eigen::Vector3d middle = this->middle(candidate);
-    int alternatives = 0;
-    for (int& kept : this->Kept)
+    const auto isOfInstance = [&](int kept)
+    { return (this->middle(candidate) - this->middle(kept)).norm() < this->Distance; };
+    std::vector<int> alternatives;
+    std::copy_if(this->Kept.begin(), this->Kept.end(), std::back_inserter(alternatives), isOfInstance);
+    for (const int kept : alternatives)
     {
-      if ((middle - this->middle(kept)).norm() >= this->Distance)
-      {
-        continue;
-      }
-      if (rotationError(pose.T_scene_model, this->InPoses[kept].T_scene_model) < this->Settings.clusterAngle)
+      if (rotationError(this->InPoses[candidate].T_scene_model, this->InPoses[kept].T_scene_model) <
+        this->Settings.clusterAngle)
       {
         return;
       }
-      if (++alternatives == this->Settings.posesPerInstance)
+    }
+    if (static_cast<int>(alternatives.size()) >= this->Settings.posesPerInstance)
+    {
+      const bool best = this->Settings.posesPerInstance == 1 && !this->Evidence.empty() &&
+        std::all_of(alternatives.begin(), alternatives.end(),
+          [&](int kept) { return this->Collector.compare(this->Evidence[candidate], this->Evidence[kept]) > 0.0; });
+      if (!best)
       {
-        if (this->Settings.posesPerInstance == 1 && !this->Evidence.empty() &&
-          this->Collector.compare(this->Evidence[candidate], this->Evidence[kept]) > 0.0)
-        {
-          kept = candidate;
-        }
         return;
       }
+      this->Kept.erase(std::remove_if(this->Kept.begin(), this->Kept.end(), isOfInstance), this->Kept.end());
     }
     this->Kept.push_back(candidate);
   }

@@ -2,7 +2,6 @@
 """What the scripts of examples/ share: files by extension, errors as exceptions, tables and pictures."""
 import os
 import re
-import shutil
 import sys
 import tempfile
 
@@ -166,9 +165,22 @@ def write_model(model, path):
         writer.SetFileName(os.path.join(scratch, name + extension))
         writer.SetDataModeToBinary()  # the default mode is not read back by every VTK
         update(writer, "Write")
-        shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
-        for part in (name, name + extension):
-            os.replace(os.path.join(scratch, part), os.path.join(folder, part))
+        pieces, old = os.path.join(folder, name), os.path.join(scratch, "old")
+        if os.path.lexists(pieces):
+            if not os.path.isdir(pieces) or any(not re.fullmatch(re.escape(name) + r"_\d+_\d+\.vt[pi]", entry)
+                                                for entry in os.listdir(pieces)):
+                raise Failure(f"cannot write {path}: its pieces go to the folder {pieces}, which holds other files; "
+                              "choose another name")
+            os.rename(pieces, old)
+        try:
+            os.rename(os.path.join(scratch, name), pieces)
+            os.replace(os.path.join(scratch, name + extension), os.path.join(folder, name + extension))
+        except OSError as error:
+            if os.path.isdir(old):
+                if os.path.isdir(pieces):
+                    os.rename(pieces, os.path.join(scratch, "new"))
+                os.rename(old, pieces)
+            raise Failure(f"cannot write {path}: {error.strerror}") from None
 
 
 def write_poses(poses, path, form, **numbers):

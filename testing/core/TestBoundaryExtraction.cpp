@@ -55,6 +55,12 @@ TEST(BoundaryExtraction, BadInput)
 {
   meam::AppearanceModel empty;
   EXPECT_THROW(meam::extractBoundary({ empty }), meam::Error);
+  meam::AppearanceModel twice = plate(); // every point doubled is fine, one place is not
+  twice.cloud.points.insert(twice.cloud.points.end(), twice.cloud.points.begin(), twice.cloud.points.end());
+  twice.cloud.normals.insert(twice.cloud.normals.end(), twice.cloud.normals.begin(), twice.cloud.normals.end());
+  EXPECT_FALSE(meam::extractBoundary({ twice })[0].cloud.empty());
+  twice.cloud = twice.cloud.subset({ 0, 0, 0 });
+  EXPECT_THROW(meam::extractBoundary({ twice }), meam::Error);
   meam::AppearanceModel bare = plate();
   bare.cloud.normals.clear();
   EXPECT_THROW(meam::extractBoundary({ bare }), meam::Error);

@@ -73,6 +73,33 @@ TEST(MEAMHashing, EachPhysicalPairOnceAndOnlyWhatIsSeenTogether)
   }
 }
 
+TEST(MEAMHashing, PairsThatOnlyADirectionShowsAreNotTakenForOneAnother)
+{
+  // Two views of one plate, its edge points in both, told apart by voxel code: a point pairs with itself
+  // in the other view at distance 0, which is no pair.
+  meam::PointCloud surface;
+  for (int x = 0; x <= 20; ++x)
+  {
+    for (int y = 0; y <= 20; ++y)
+    {
+      surface.points.emplace_back(x, y, 0);
+      surface.normals.push_back(Eigen::Vector3f::UnitZ());
+    }
+  }
+  const meam::Points corners = { { 0, 0, 0 }, { 20, 0, 0 }, { 0, 20, 0 } };
+  MEAMHashingSettings both = settings(false);
+  both.coVisibilityDirections = 26;
+  const meam::TrainedModel model =
+    meam::hashModels({ view("one", corners), view("other", corners) }, surface, 40.0, both);
+  for (std::size_t k = 0; k < model.table.size(); ++k)
+  {
+    const auto& r = model.edges.points[model.table.references[k]];
+    const auto& i = model.edges.points[model.table.referreds[k]];
+    EXPECT_GT((r - i).norm(), 1.0f);
+  }
+  EXPECT_GE(model.table.size(), 6u);
+}
+
 TEST(MEAMHashing, EveryBucketHoldsThePairsOfItsKey)
 {
   const meam::TrainedModel& model = scenes::bracket();
@@ -139,6 +166,10 @@ TEST(MEAMHashing, BadInput)
   bare.cloud.tangents.clear();
   EXPECT_THROW(meam::hashModels({ bare }, {}, 0.0), meam::Error);
   EXPECT_THROW(meam::hashModels(std::vector<AppearanceModel>(33, view("v", Front)), {}, 0.0), meam::Error);
+  MEAMHashingSettings fine;
+  fine.angleStep = 1.0;
+  fine.distanceStep = 0.001;
+  EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, 40.0, fine), meam::Error); // 3 thousand million keys
   MEAMHashingSettings none;
   none.angleStep = 0.0;
   EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, 0.0, none), meam::Error);

@@ -104,6 +104,19 @@ TEST(PCDFile, binaryFieldsInAnyOrderAndType)
   EXPECT_EQ(data.colors, (std::vector<std::uint8_t>{ 0x10, 0x20, 0x30 }));
 }
 
+TEST(PCDFile, colorsInABinaryFloatFieldKeepAllBits)
+{
+  // 0xff963456 is not a number as a float; red must not come out as another one.
+  const std::string header = "FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+                             "POINTS 1\nDATA binary\n";
+  std::string record(12, '\0');
+  for (const unsigned char byte : { 0x56, 0x34, 0x96, 0xff })
+  {
+    record += static_cast<char>(byte);
+  }
+  EXPECT_EQ(read(header + record).colors, (std::vector<std::uint8_t>{ 0x96, 0x34, 0x56 }));
+}
+
 TEST(PCDFile, colorsInAsciiAreIntegersOrTheBitsOfAFloat)
 {
   const std::string header = "FIELDS x y z rgb\nSIZE 4 4 4 4\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\n";

@@ -126,6 +126,30 @@ TEST(PoseVerification, OneInstanceIsReturnedOnce)
   EXPECT_TRUE(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).empty());
 }
 
+TEST(PoseVerification, TheOneThatIsLeftOfAnInstanceIsFarFromAllOthers)
+{
+  // Poses in a row, each within the cluster distance of its neighbours only.
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  meam::Poses row;
+  for (int i = -4; i <= 4; ++i)
+  {
+    row.push_back(displaced(T, 4.0 * i, 40.0 * (i % 2)));
+  }
+  meam::PoseVerificationSettings settings;
+  settings.posesPerInstance = 1;
+  settings.clusterDistance = 5.0;
+  const meam::Poses best = meam::verifyPoses(row, scenes::bracket(), scene(), settings);
+  const Eigen::Vector3d middle = meam::bounds(scenes::bracket().edges.points).center().cast<double>();
+  ASSERT_GE(best.size(), 2u);
+  for (std::size_t a = 0; a < best.size(); ++a)
+  {
+    for (std::size_t b = 0; b < a; ++b)
+    {
+      EXPECT_GE((best[a].T_scene_model * middle - best[b].T_scene_model * middle).norm(), 5.0);
+    }
+  }
+}
+
 TEST(PoseVerification, CoverageFollowsThePaper)
 {
   // The share of the view's edge points that have a scene edge point within the tolerance, exactly.

@@ -99,6 +99,14 @@ check("model.vtpc" in text and os.path.isdir("model"), "the model is written")
 works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "2", "--matrices", "c.txt")
 check(read("c.txt") == read("a.txt"), "with the trained model the poses differ")
 works("train.py", "--cad", "part.stl", "--out", "model.vtpc")  # again, over the old one
+# The pieces go to a folder beside: one that holds something else stays as it is.
+os.mkdir("mine")
+with open(os.path.join("mine", "drawing.step"), "w") as file:
+    file.write("precious")
+refuses("other files", "train.py", "--cad", "part.stl", "--out", "mine.vtpc")
+check(read(os.path.join("mine", "drawing.step")) == "precious", "the folder of the user is gone")
+os.remove(os.path.join("mine", "drawing.step"))
+os.rmdir("mine")
 # An offset of the CAD is an offset of the poses.
 works("detect.py", "--cad", "part.stl", "--cad-offset", "0", "0", "5", "--scene", "scan.pcd", "--poses", "1",
       "--matrices", "d.txt", "--preset", "recommended")

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointGrid.h"
+
+#include "Error.h"
+#include "TestParts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace
+{
+meam::Points scattered(int count, double reach)
+{
+  std::mt19937 random(9);
+  meam::Points points;
+  for (int i = 0; i < count; ++i)
+  {
+    points.push_back(parts::motion(random, reach).translation().cast<float>());
+  }
+  return points;
+}
+
+std::set<int> within(const meam::PointGrid& grid, const Eigen::Vector3f& centre, double radius)
+{
+  std::set<int> found;
+  grid.forEachWithin(centre, radius, [&](int index, float) { found.insert(index); });
+  return found;
+}
+
+void expectSameAsBruteForce(const meam::Points& points, double cellSize, double radius)
+{
+  const meam::PointGrid grid(points, cellSize);
+  for (std::size_t k = 0; k < points.size(); k += 7)
+  {
+    std::set<int> expected;
+    int nearest = -1;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const float distance = (points[i] - points[k]).squaredNorm();
+      if (distance <= static_cast<float>(radius) * static_cast<float>(radius))
+      {
+        expected.insert(static_cast<int>(i));
+        nearest = nearest < 0 || distance < (points[nearest] - points[k]).squaredNorm() ? static_cast<int>(i) : nearest;
+      }
+    }
+    EXPECT_EQ(within(grid, points[k], radius), expected);
+    EXPECT_EQ((points[grid.nearest(points[k], radius)] - points[nearest]).norm(), 0.0f);
+  }
+}
+}
+
+TEST(PointGrid, FindsWhatBruteForceFinds)
+{
+  for (const double cell : { 0.5, 3.0, 50.0 })
+  {
+    expectSameAsBruteForce(scattered(500, 20.0), cell, 3.0);
+  }
+}
+
+TEST(PointGrid, StrayPointsAreFoundToo)
+{
+  meam::Points points = scattered(3000, 20.0);
+  points.emplace_back(5e4f, 5e4f, -5e4f);
+  points.emplace_back(5e4f + 1.0f, 5e4f, -5e4f);
+  expectSameAsBruteForce(points, 0.5, 2.0);
+  const meam::PointGrid grid(points, 0.5);
+  EXPECT_EQ(within(grid, { 5e4f, 5e4f, -5e4f }, 2.0), std::set<int>({ 3000, 3001 }));
+  EXPECT_TRUE(within(grid, { -9e5f, 0, 0 }, 2.0).empty());
+}
+
+TEST(PointGrid, WhatCannotBeSortedIsAnError)
+{
+  EXPECT_THROW(meam::PointGrid(scattered(5, 1.0), 0.0), meam::Error);
+  EXPECT_THROW(meam::PointGrid({ { -3e38f, 0, 0 }, { 3e38f, 0, 0 } }, 1.0), meam::Error);
+  EXPECT_EQ(meam::PointGrid({}, 1.0).nearest({ 0, 0, 0 }, 1.0), -1);
+  EXPECT_EQ(meam::PointGrid({ { NAN, 0, 0 }, { 1, 0, 0 } }, 1.0).nearest({ 1, 0, 0 }, 1.0), 1);
+}
+
+TEST(PointGrid, OnePointStaysPerOccupiedCube)
+{
+  // Cubes of 2 mm from the origin: the first holds three points, whose mean is (0.9, 0, 0).
+  const meam::Points points = { { 0.1f, 0, 0 }, { 5, 0, 0 }, { 0.8f, 0, 0 }, { 1.8f, 0, 0 }, { -0.1f, 0, 0 } };
+  EXPECT_EQ(meam::thinPoints(points, 2.0), std::vector<int>({ 2, 1, 4 }));
+  EXPECT_EQ(meam::thinPoints(points, 0.0).size(), 5u);
+  EXPECT_EQ(meam::thinPoints({ { NAN, 0, 0 }, { 1, 0, 0 }, { 0, INFINITY, 0 } }, 2.0), std::vector<int>({ 1 }));
+  EXPECT_EQ(meam::thinPoints({ { 3e38f, 0, 0 }, { 1, 0, 0 } }, 1e-3).size(), 2u);
+}
