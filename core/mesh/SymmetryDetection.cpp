@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/SymmetryDetection.h"
+
+#include "Parallel.h"
+#include "PointGrid.h"
+#include "RigidFit.h"
+#include "mesh/ConvexHull.h"
+#include "model/Viewpoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+constexpr double Degree = M_PI / 180.0;
+constexpr int AxesOnSphere = 1500;      // 3 degrees from any direction to the nearest
+constexpr int LargestCoarseOrder = 8;   // turns by 360 / k tried to find axes; the scan finds the others
+constexpr double CoarseReachShare = 0.08;
+constexpr double CoarseLeafShare = 0.15; // of the diameter: points that find axes
+constexpr double ScanLeafShare = 0.06;   // points that find angles
+constexpr int MostAxes = 24;
+constexpr double AxisSeparation = 12.0; // degrees
+constexpr int FitSteps = 12;
+constexpr float SameSide = 0.7f; // cosine between the normals of corresponding points
+constexpr double SameTurn = 4.0; // degrees between two turns that are one
+constexpr int ContinuousChecks = 11;
+
+double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
+{
+  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() / Degree;
+}
+
+/// Distances of moved points from the surface.
+class SurfaceMatcher
+{
+public:
+  SurfaceMatcher(const PointCloud& surface, double spacing, double reach)
+    : Surface(surface)
+    , Grid(surface.points, std::max(reach / 3.0, 2.0 * spacing))
+    , Spacing(static_cast<float>(spacing))
+    , Reach(static_cast<float>(reach))
+  {
+  }
+
+  /// The nearest sample on the same side of the surface, or -1.
+  int corresponding(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double reach) const
+  {
+    int best = -1;
+    float least = 0.0f;
+    this->Grid.forEachWithin(point, reach,
+      [&](int k, float distance)
+      {
+        if ((best < 0 || distance < least) && this->Surface.normals[k].dot(normal) > SameSide)
+        {
+          best = k;
+          least = distance;
+        }
+      });
+    return best;
+  }
+
+  /// From the sample's tangent plane, so that the spacing of the samples does not count.
+  float distance(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const
+  {
+    const int k = this->corresponding(point, normal, this->Reach);
+    if (k < 0)
+    {
+      return this->Reach;
+    }
+    const Eigen::Vector3f offset = point - this->Surface.points[k];
+    const float across = std::abs(this->Surface.normals[k].dot(offset));
+    const float along = std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - 1.5f * this->Spacing);
+    return std::min(this->Reach, std::hypot(across, along));
+  }
+
+  float distance(int sample, const Eigen::Isometry3f& T) const
+  {
+    return this->distance(T * this->Surface.points[sample], T.linear() * this->Surface.normals[sample]);
+  }
+
+  /// Mean distance of some samples after a motion, as a share of the reach.
+  double misfit(const std::vector<int>& samples, const Eigen::Isometry3d& T, double worst = 1.0) const
+  {
+    const Eigen::Isometry3f Tf = T.cast<float>();
+    const double limit = worst * this->Reach * samples.size();
+    double sum = 0.0;
+    for (const int i : samples)
+    {
+      sum += this->distance(i, Tf);
+      if (sum > limit)
+      {
+        return 1.0;
+      }
+    }
+    return sum / (this->Reach * samples.size());
+  }
+
+  /// Moves T to where the samples fit the surface best.
+  Eigen::Isometry3d fitted(const std::vector<int>& samples, Eigen::Isometry3d T, const Eigen::Vector3d& middle) const
+  {
+    for (int step = 0; step < FitSteps; ++step)
+    {
+      const double reach = this->Reach * std::pow(0.25, static_cast<double>(step) / (FitSteps - 1));
+      const Eigen::Isometry3f Tf = T.cast<float>();
+      RigidFit fit(T * middle);
+      for (const int i : samples)
+      {
+        const Eigen::Vector3f point = Tf * this->Surface.points[i];
+        const int k = this->corresponding(point, Tf.linear() * this->Surface.normals[i], reach);
+        if (k >= 0)
+        {
+          const Eigen::Vector3f& normal = this->Surface.normals[k];
+          fit.add(point.cast<double>(), normal.cast<double>(), normal.dot(point - this->Surface.points[k]));
+        }
+      }
+      T = fit.motion() * T;
+    }
+    return T;
+  }
+
+private:
+  const PointCloud& Surface;
+  PointGrid Grid;
+  float Spacing;
+  float Reach;
+};
+
+Eigen::Isometry3d turn(const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& centre)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(centre);
+  T.rotate(Eigen::AngleAxisd(angle, axis));
+  T.translate(-centre);
+  return T;
+}
+
+struct Candidate
+{
+  Eigen::Vector3d axis;
+  double misfit = 1.0;
+};
+
+class Detector
+{
+public:
+  Detector(const PointCloud& surface, double tolerance, double leastOverlap)
+    : Surface(surface)
+    , Diameter(diameter(surface.points))
+    , Tolerance(tolerance > 0.0 ? tolerance : 0.01 * this->Diameter)
+    , LeastOverlap(leastOverlap)
+    , Matcher(surface, this->spacing(), CoarseReachShare * this->Diameter)
+    , Coarse(thinPoints(surface.points, CoarseLeafShare * this->Diameter))
+    , Scan(thinPoints(surface.points, ScanLeafShare * this->Diameter))
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& point : surface.points)
+    {
+      sum += point.cast<double>();
+    }
+    this->Middle = sum / static_cast<double>(surface.size());
+  }
+
+  Symmetries detect(const Progress& progress)
+  {
+    Symmetries found;
+    const std::vector<Candidate> axes = this->axes(subProgress(progress, 0.0, 0.5));
+    std::vector<NearSymmetry> turns;
+    for (std::size_t a = 0; a < axes.size(); ++a)
+    {
+      report(progress, 0.5 + 0.5 * a / axes.size());
+      ContinuousSymmetry continuous;
+      if (this->isContinuous(axes[a].axis, continuous))
+      {
+        found.continuous.push_back(continuous);
+        if (found.continuous.size() == 2)
+        {
+          return this->sphere(); // two axes generate all rotations
+        }
+        continue;
+      }
+      for (const NearSymmetry& candidate : this->turnsAbout(axes[a].axis))
+      {
+        this->keep(candidate, turns);
+      }
+    }
+    this->sortOut(turns, found);
+    report(progress, 1.0);
+    return found;
+  }
+
+private:
+  double spacing() const
+  {
+    // Of an even sampling: the mean area of a sample is close to the square of the spacing.
+    std::vector<float> nearest;
+    const PointGrid grid(this->Surface.points, 0.02 * this->Diameter);
+    for (std::size_t i = 0; i < this->Surface.size(); i += 1 + this->Surface.size() / 500)
+    {
+      float least = static_cast<float>(this->Diameter * this->Diameter);
+      grid.forEachWithin(this->Surface.points[i], 0.1 * this->Diameter,
+        [&](int k, float distance)
+        {
+          if (k != static_cast<int>(i))
+          {
+            least = std::min(least, distance);
+          }
+        });
+      nearest.push_back(least);
+    }
+    std::nth_element(nearest.begin(), nearest.begin() + nearest.size() / 2, nearest.end());
+    return std::sqrt(nearest[nearest.size() / 2]);
+  }
+
+  /// Axes about which some turn maps the surface roughly onto itself, best first.
+  std::vector<Candidate> axes(const Progress& progress) const
+  {
+    Points directions = viewDirections(AxesOnSphere);
+    for (const auto& axis : viewDirections(26))
+    {
+      directions.push_back(axis); // the axes of coordinates are likely ones: CAD parts are drawn along them
+    }
+    directions.erase(std::remove_if(directions.begin(), directions.end(),
+                       [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); }),
+      directions.end());
+    std::vector<Candidate> candidates(directions.size());
+    parallelFor(static_cast<int>(directions.size()), 0, progress,
+      [&](int begin, int end, int)
+      {
+        for (int i = begin; i < end; ++i)
+        {
+          candidates[i].axis = directions[i].cast<double>().normalized();
+          for (int order = 2; order <= LargestCoarseOrder; ++order)
+          {
+            const double misfit = this->Matcher.misfit(
+              this->Coarse, turn(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
+            candidates[i].misfit = std::min(candidates[i].misfit, misfit);
+          }
+        }
+      });
+    std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+    std::vector<Candidate> best;
+    for (const Candidate& candidate : candidates)
+    {
+      const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other)
+        { return std::abs(other.axis.dot(candidate.axis)) > std::cos(AxisSeparation * Degree); });
+      if (!known && candidate.misfit < 0.6)
+      {
+        best.push_back(candidate);
+        if (best.size() == MostAxes)
+        {
+          break;
+        }
+      }
+    }
+    return best;
+  }
+
+  Symmetries sphere() const
+  {
+    Symmetries found;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      found.continuous.push_back({ Eigen::Vector3d::Unit(axis), this->Middle });
+    }
+    return found;
+  }
+
+  NearSymmetry measured(const Eigen::Isometry3d& T) const
+  {
+    NearSymmetry result;
+    result.T = T;
+    std::size_t within = 0;
+    float largest = 0.0f;
+    for (const Eigen::Isometry3f& way : { Eigen::Isometry3f(T.cast<float>()), Eigen::Isometry3f(T.inverse().cast<float>()) })
+    {
+      for (std::size_t i = 0; i < this->Surface.size(); ++i)
+      {
+        const float distance = this->Matcher.distance(static_cast<int>(i), way);
+        within += distance <= static_cast<float>(this->Tolerance) ? 1 : 0;
+        largest = std::max(largest, distance);
+      }
+    }
+    result.overlap = static_cast<double>(within) / (2 * this->Surface.size());
+    result.deviation = largest;
+    return result;
+  }
+
+  bool isContinuous(const Eigen::Vector3d& roughly, ContinuousSymmetry& result) const
+  {
+    // The axis of a fitted third of a turn is the exact one, if there is one.
+    const Eigen::Isometry3d T = this->Matcher.fitted(this->Scan, turn(roughly, 2.0 * M_PI / 3.0, this->Middle), this->Middle);
+    const Eigen::AngleAxisd exact(T.linear());
+    if (std::abs(exact.axis().dot(roughly)) < std::cos(AxisSeparation * Degree))
+    {
+      return false;
+    }
+    result.axis = exact.axis();
+    result.point = this->fixedPoint(T, exact.axis());
+    for (int i = 1; i <= ContinuousChecks; ++i)
+    {
+      // Angles that no small order shares.
+      const Eigen::Isometry3d S = turn(result.axis, i * 31.0 * Degree, result.point);
+      if (this->Matcher.misfit(this->Scan, S) * CoarseReachShare * this->Diameter > this->Tolerance ||
+        this->measured(S).deviation > this->Tolerance)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The point of the axis of T that is nearest to the middle.
+  Eigen::Vector3d fixedPoint(const Eigen::Isometry3d& T, const Eigen::Vector3d& axis) const
+  {
+    // (I - R) p = t across the axis.
+    const Eigen::Matrix3d A = Eigen::Matrix3d::Identity() - T.linear() + axis * axis.transpose();
+    const Eigen::Vector3d b = T.translation() - axis * axis.dot(T.translation()) + axis * axis.dot(this->Middle);
+    return A.fullPivLu().solve(b);
+  }
+
+  /// Turns about an axis where the fit is best among their neighbours.
+  std::vector<NearSymmetry> turnsAbout(const Eigen::Vector3d& axis) const
+  {
+    constexpr int Steps = 120;
+    std::vector<double> misfits(Steps);
+    for (int step = 0; step < Steps; ++step)
+    {
+      misfits[step] = this->Matcher.misfit(this->Scan, turn(axis, 2.0 * M_PI * step / Steps, this->Middle));
+    }
+    std::vector<NearSymmetry> turns;
+    for (int step = 3; step <= Steps - 3; ++step)
+    {
+      if (misfits[step] > misfits[step - 1] || misfits[step] > misfits[(step + 1) % Steps] || misfits[step] > 0.6)
+      {
+        continue;
+      }
+      const Eigen::Isometry3d T =
+        this->Matcher.fitted(this->Scan, turn(axis, 2.0 * M_PI * step / Steps, this->Middle), this->Middle);
+      if (Eigen::AngleAxisd(T.linear()).angle() > 2.0 * SameTurn * Degree)
+      {
+        turns.push_back(this->measured(T));
+      }
+    }
+    return turns;
+  }
+
+  void keep(const NearSymmetry& candidate, std::vector<NearSymmetry>& turns) const
+  {
+    if (candidate.overlap < this->LeastOverlap)
+    {
+      return;
+    }
+    for (NearSymmetry& known : turns)
+    {
+      if (turnBetween(known.T, candidate.T) < SameTurn)
+      {
+        if (candidate.overlap > known.overlap)
+        {
+          known = candidate;
+        }
+        return;
+      }
+    }
+    turns.push_back(candidate);
+  }
+
+  bool isTurnAbout(const Eigen::Isometry3d& T, const ContinuousSymmetry& symmetry) const
+  {
+    return (T.linear() * symmetry.axis).dot(symmetry.axis) > std::cos(SameTurn * Degree);
+  }
+
+  /// Exact turns, closed to a group, and near ones.
+  void sortOut(const std::vector<NearSymmetry>& turns, Symmetries& found) const
+  {
+    std::vector<NearSymmetry> exact;
+    for (const NearSymmetry& candidate : turns)
+    {
+      const bool continuous = std::any_of(found.continuous.begin(), found.continuous.end(),
+        [&](const ContinuousSymmetry& symmetry) { return this->isTurnAbout(candidate.T, symmetry); });
+      if (continuous)
+      {
+        continue;
+      }
+      if (candidate.deviation > this->Tolerance)
+      {
+        found.near.push_back(candidate);
+      }
+      else if (found.continuous.empty())
+      {
+        exact.push_back(candidate);
+      }
+      else if (found.continuous.size() == 1 && found.discrete.empty())
+      {
+        found.discrete.push_back(candidate.T); // the flip; all others are turns of it about the axis
+      }
+    }
+    std::stable_sort(
+      found.near.begin(), found.near.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
+    for (std::size_t i = 0; i < exact.size(); ++i)
+    {
+      for (std::size_t k = 0; k < exact.size() && exact.size() < 120; ++k)
+      {
+        const Eigen::Isometry3d product = exact[i].T * exact[k].T;
+        const bool known = Eigen::AngleAxisd(product.linear()).angle() < SameTurn * Degree ||
+          std::any_of(exact.begin(), exact.end(),
+            [&](const NearSymmetry& other) { return turnBetween(other.T, product) < SameTurn; });
+        if (!known)
+        {
+          // The product of two symmetries is one; fitted again, so that errors do not add up.
+          exact.push_back(this->measured(this->Matcher.fitted(this->Scan, product, this->Middle)));
+        }
+      }
+    }
+    for (const NearSymmetry& symmetry : exact)
+    {
+      found.discrete.push_back(symmetry.T);
+    }
+  }
+
+  const PointCloud& Surface;
+  double Diameter;
+  double Tolerance;
+  double LeastOverlap;
+  SurfaceMatcher Matcher;
+  std::vector<int> Coarse;
+  std::vector<int> Scan;
+  Eigen::Vector3d Middle;
+};
+}
+
+Symmetries detectSymmetries(
+  const PointCloud& surface, const SymmetryDetectionSettings& settings, const Progress& progress)
+{
+  requirePoints(surface.points, "The part's surface");
+  if (surface.normals.size() != surface.size())
+  {
+    throw Error("The surface has no normals: sample the surface of a mesh first.");
+  }
+  return Detector(surface, settings.tolerance, settings.leastOverlap).detect(progress);
+}
+
+std::vector<float> surfaceDeviation(const PointCloud& surface, const Eigen::Isometry3d& T, double reach)
+{
+  const SurfaceMatcher matcher(surface, 0.1 * reach, reach);
+  const Eigen::Isometry3f Tf = T.cast<float>();
+  std::vector<float> deviation;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+  {
+    deviation.push_back(matcher.distance(static_cast<int>(i), Tf));
+  }
+  return deviation;
+}
+}
