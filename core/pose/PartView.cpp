@@ -17,6 +17,16 @@ constexpr double ToleranceShare = 0.01;    // of the diameter: depth a point may
 constexpr float GrazingCosine = 0.15f;     // a surface seen at a flatter angle is not judged
 constexpr float EdgeSlope = 1.5f;          // slope allowed for at an edge, whose surface is not known
 
+Eigen::Vector3f meanOf(const Points& points)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points)
+  {
+    sum += point.cast<double>();
+  }
+  return (sum / static_cast<double>(points.size())).cast<float>();
+}
+
 Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_scene_model, const Eigen::Vector3f& middle)
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
@@ -27,7 +37,7 @@ Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_sce
 PartView::PartView(const TrainedModel& model)
   : Model(model)
   , Judged(thinPoints(model.surface.points, JudgedLeafShare * model.diameter))
-  , Middle(bounds(model.edges.points).center())
+  , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
 {
 }
 

@@ -13,7 +13,7 @@ public:
   /// Keeps a reference to the model.
   explicit PartView(const TrainedModel& model);
 
-  /// Middle of the part, model frame.
+  /// Middle of the part's surface, model frame: the notch or lug that fixes a round part's turn hardly moves it.
   const Eigen::Vector3f& middle() const { return this->Middle; }
 
   /// The appearance model whose viewpoint is nearest to the sensor at a pose.

@@ -146,6 +146,31 @@ double EvidenceCollector::distinct(const PoseEvidence& a, const PoseEvidence& b)
   return sum;
 }
 
+double EvidenceCollector::shared(const PoseEvidence& a, const PoseEvidence& b) const
+{
+  const auto matched = [](const PoseEvidence& evidence)
+  {
+    const bool bySurface = !evidence.surface.empty();
+    const Points& points = bySurface ? evidence.surface : evidence.edges;
+    const std::vector<PointState>& states = bySurface ? evidence.surfaceStates : evidence.edgeStates;
+    Points result;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      if (states[i] == PointState::Matched)
+      {
+        result.push_back(points[i]);
+      }
+    }
+    return result;
+  };
+  const double reach = SurfaceReachShare * this->Model.diameter;
+  const Points ofA = matched(a);
+  const PointGrid ofB(matched(b), reach);
+  const auto near =
+    std::count_if(ofA.begin(), ofA.end(), [&](const auto& point) { return ofB.nearest(point, reach) >= 0; });
+  return ofA.empty() ? 0.0 : static_cast<double>(near) / ofA.size();
+}
+
 double EvidenceCollector::compare(const PoseEvidence& a, const PoseEvidence& b) const
 {
   return this->distinct(a, b) - this->distinct(b, a);

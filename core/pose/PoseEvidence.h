@@ -44,6 +44,8 @@ public:
   /// Greater than 0 when the points that tell two poses of one instance apart speak for `a`, less
   /// than 0 for `b`: a logarithm of likelihoods over the points that one predicts and the other does not.
   double compare(const PoseEvidence& a, const PoseEvidence& b) const;
+  /// Share of what `a` matched that `b` matched, too, [0, 1]: poses of one instance share most of it.
+  double shared(const PoseEvidence& a, const PoseEvidence& b) const;
   /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.
   bool nearEdge(const Eigen::Vector3f& point) const { return this->Edges.nearest(point, this->Tolerance) >= 0; }
 

@@ -15,6 +15,7 @@ namespace
 {
 constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
+constexpr double SharedByOne = 0.5;        // share of the matched surface from which on two poses are of one instance
 constexpr double VisibilityExponent = 0.5; // parts that nothing hides come first: they can be grasped
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
@@ -32,19 +33,19 @@ class Clusters
 {
 public:
   Clusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const EvidenceCollector& collector,
-    const PoseVerificationSettings& settings, double distance)
+    const PoseVerificationSettings& settings, double distance, double reach)
     : InPoses(poses)
     , Evidence(evidence)
     , Collector(collector)
     , Settings(settings)
     , Distance(distance)
+    , Reach(reach)
   {
   }
 
   void add(int candidate)
   {
-    const auto isOfInstance = [&](int kept)
-    { return (this->middle(candidate) - this->middle(kept)).norm() < this->Distance; };
+    const auto isOfInstance = [&](int kept) { return this->sameInstance(candidate, kept); };
     std::vector<int> alternatives;
     std::copy_if(this->Kept.begin(), this->Kept.end(), std::back_inserter(alternatives), isOfInstance);
     for (const int kept : alternatives)
@@ -72,6 +73,17 @@ public:
   std::vector<int> Kept;
 
 private:
+  bool sameInstance(int a, int b) const
+  {
+    const double apart = (this->middle(a) - this->middle(b)).norm();
+    if (apart < this->Distance || this->Settings.posesPerInstance > 1 || this->Evidence.empty())
+    {
+      return apart < this->Distance;
+    }
+    // Two parts do not have their surface in the same place.
+    return apart < this->Reach && this->Collector.shared(this->Evidence[a], this->Evidence[b]) > SharedByOne;
+  }
+
   Eigen::Vector3d middle(int index) const
   {
     return this->InPoses[index].T_scene_model * this->Collector.view().middle().cast<double>();
@@ -82,6 +94,7 @@ private:
   const EvidenceCollector& Collector;
   const PoseVerificationSettings& Settings;
   double Distance;
+  double Reach; ///< middles farther apart are of two instances
 };
 }
 
@@ -131,7 +144,7 @@ Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& sc
   std::stable_sort(order.begin(), order.end(), better);
 
   Clusters clusters(scored, evidence, collector, settings,
-    settings.clusterDistance > 0.0 ? settings.clusterDistance : ClusterShare * model.diameter);
+    settings.clusterDistance > 0.0 ? settings.clusterDistance : ClusterShare * model.diameter, 0.5 * model.diameter);
   std::vector<int> ofView(TrainedModel::MaximumViews, 0);
   for (const int i : order)
   {

@@ -31,6 +31,8 @@ def run(main):
         sys.exit(main())
     except Failure as failure:
         sys.exit(f"{os.path.basename(sys.argv[0])}: {failure}")
+    except BrokenPipeError:  # the reader of the output, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def update(algorithm, step="Update"):

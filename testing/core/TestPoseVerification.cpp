@@ -126,21 +126,40 @@ TEST(PoseVerification, OneInstanceIsReturnedOnce)
   EXPECT_TRUE(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).empty());
 }
 
+TEST(PoseVerification, PosesThatMatchTheSameSurfaceAreOfOneInstance)
+{
+  // Farther apart than the cluster distance (10 % of 73.6 mm), but mostly on the same face.
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  meam::PoseVerificationSettings settings;
+  const meam::Poses row = { at(T), displaced(T, 8.5, 0.0) };
+  EXPECT_EQ(meam::verifyPoses(row, scenes::bracket(), scene(), settings).size(), 2u);
+  settings.posesPerInstance = 1;
+  const meam::Poses best = meam::verifyPoses(row, scenes::bracket(), scene(), settings);
+  ASSERT_EQ(best.size(), 1u);
+  EXPECT_LT(meam::translationError(best[0].T_scene_model, T), 1e-9);
+}
+
 TEST(PoseVerification, TheOneThatIsLeftOfAnInstanceIsFarFromAllOthers)
 {
-  // Poses in a row, each within the cluster distance of its neighbours only.
-  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  // Rows of poses, each within the cluster distance of its neighbours only.
   meam::Poses row;
-  for (int i = -4; i <= 4; ++i)
+  for (const auto& T : scenes::threeCopies())
   {
-    row.push_back(displaced(T, 4.0 * i, 40.0 * (i % 2)));
+    for (int i = -4; i <= 4; ++i)
+    {
+      row.push_back(displaced(T, 4.0 * i, 40.0 * (i % 2)));
+    }
   }
   meam::PoseVerificationSettings settings;
   settings.posesPerInstance = 1;
   settings.clusterDistance = 5.0;
   const meam::Poses best = meam::verifyPoses(row, scenes::bracket(), scene(), settings);
-  const Eigen::Vector3d middle = meam::bounds(scenes::bracket().edges.points).center().cast<double>();
-  ASSERT_GE(best.size(), 2u);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& point : scenes::bracket().surface.points)
+  {
+    middle += point.cast<double>() / scenes::bracket().surface.size();
+  }
+  ASSERT_GE(best.size(), 3u);
   for (std::size_t a = 0; a < best.size(); ++a)
   {
     for (std::size_t b = 0; b < a; ++b)
