@@ -78,10 +78,12 @@ model = run(Trained(part).model)
 check(found(estimation(model, scan, MaximumNumberOfPoses=2)) == expected, "the trained model")
 ready = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
 check(found(estimation(part, scan, ready, MaximumNumberOfPoses=2)) == expected, "ready-made edges")
-# A part in another unit and frame, brought back.
-moved = found(estimation(scaled(part, 0.001), scan, MaximumNumberOfPoses=1, CADScale=1000.0, CADOffset=(0, 0, 5)))[0]
-shift = [moved[4 * k + 3] + 5 * moved[4 * k + 2] - expected[0][4 * k + 3] for k in range(3)]
-check(math.hypot(*shift) < 0.2, f"the offset part is {shift} mm away")
+# A part in another unit and frame, brought back: the same two poses, whichever is the better by a hair.
+moved = found(estimation(scaled(part, 0.001), scan, MaximumNumberOfPoses=2, CADScale=1000.0, CADOffset=(0, 0, 5)))
+for pose in expected:
+    shift = min(math.dist([m[4 * k + 3] + 5 * m[4 * k + 2] for k in range(3)], [pose[4 * k + 3] for k in range(3)])
+                for m in moved)
+    check(shift < 0.2, f"the offset part is {shift} mm away")
 # The points of the scan in no order need a sensor and edges.
 surface = cloud([scan.GetPoint(i) for i in range(0, scan.GetNumberOfPoints(), 4) if scan.IsPointVisible(i)])
 loose = estimation(part, surface, ready, MaximumNumberOfPoses=2, ViewDirection=(0, 0, 1))

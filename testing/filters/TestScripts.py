@@ -108,10 +108,11 @@ check(read(os.path.join("mine", "drawing.step")) == "precious", "the folder of t
 os.remove(os.path.join("mine", "drawing.step"))
 os.rmdir("mine")
 # An offset of the CAD is an offset of the poses.
-works("detect.py", "--cad", "part.stl", "--cad-offset", "0", "0", "5", "--scene", "scan.pcd", "--poses", "1",
+works("detect.py", "--cad", "part.stl", "--cad-offset", "0", "0", "5", "--scene", "scan.pcd", "--poses", "2",
       "--matrices", "d.txt", "--preset", "recommended")
-moved = numpy.array(read("d.txt").split(), float).reshape(4, 4)
-check(numpy.abs(moved @ (0, 0, 5, 1) - transforms[0][:, 3]).max() < 0.2, "the offset does not arrive")
+for moved in numpy.array(read("d.txt").split(), float).reshape(-1, 4, 4):
+    shift = min(numpy.abs(moved @ (0, 0, 5, 1) - transform[:, 3]).max() for transform in transforms)
+    check(shift < 0.2, f"the offset part is {shift} mm away")
 
 # evaluate.py, on a dataset of our own: seen from above, z up. The second scene is missing.
 up = numpy.diag((1.0, -1.0, -1.0, 1.0))
@@ -174,8 +175,9 @@ refuses("no points", "detect.py", "--cad", "part.stl", "--scene", "none.pcd", *o
 refuses("1000", "detect.py", "--cad", "part.stl", "--scene", "metres.pcd", *out)
 works("detect.py", "--cad", "part.stl", "--scene", "metres.pcd", "--scene-scale", "1000", "--poses", "2",
       "--matrices", "metres.txt")
-difference = numpy.abs(numpy.loadtxt("metres.txt") - numpy.loadtxt("a.txt")).max()
-check(difference < 0.2, f"metres, scaled: the poses differ by {difference} mm")
+for scaled in numpy.array(read("metres.txt").split(), float).reshape(-1, 4, 4):
+    difference = min(numpy.abs(scaled - transform).max() for transform in transforms)
+    check(difference < 0.2, f"metres, scaled: a pose differs by {difference} mm")
 os.remove("metres.txt")
 refuses("no image", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", *out)
 refuses("30 x 20", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "small.png", *out)
