@@ -25,7 +25,8 @@ struct CubeHash
 {
   std::size_t operator()(const Cube& cube) const
   {
-    return static_cast<std::size_t>((cube.x * 73856093) ^ (cube.y * 19349663) ^ (cube.z * 83492791));
+    const auto bits = [](std::int64_t index) { return static_cast<std::uint64_t>(index); }; // these may wrap
+    return (bits(cube.x) * 73856093) ^ (bits(cube.y) * 19349663) ^ (bits(cube.z) * 83492791);
   }
 };
 }
