@@ -53,8 +53,6 @@ void fromImage(const meam::Image& image, vtkImageData* output);
 std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetCollection* input);
 void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkPartitionedDataSetCollection* output);
 
-/// True for what MEAMHashing returns, in whatever state.
-bool isTrainedModel(vtkDataObject* input);
 /// Throws Error for another version, for missing parts and for arrays whose lengths do not fit.
 meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input);
 void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output);

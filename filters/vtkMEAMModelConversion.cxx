@@ -440,11 +440,6 @@ void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkP
   }
 }
 
-bool isTrainedModel(vtkDataObject* input)
-{
-  return vtkPartitionedDataSetCollection::SafeDownCast(input) && input->GetFieldData()->HasArray("FormatVersion");
-}
-
 meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input) { return ModelReader(input).read(); }
 
 void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output)

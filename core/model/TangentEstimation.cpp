@@ -104,12 +104,11 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, double 
 Points tileTangents(const Points& points, const Eigen::Vector3f& viewDirection, const TangentEstimationSettings& settings,
   const Progress& progress)
 {
-  const Eigen::Matrix3f frame =
-    std::abs(viewDirection.z()) > 0.999f ? Eigen::Matrix3f::Identity() : Eigen::Matrix3f(frameAround(viewDirection));
-  // Columns of the frame that span the projection plane: x and y for a view along z.
+  // The projection plane: that of x and y for a view along z, as in the paper.
   const bool alongZ = std::abs(viewDirection.z()) > 0.999f;
-  const Eigen::Vector3f right = frame.col(alongZ ? 0 : 1);
-  const Eigen::Vector3f down = frame.col(alongZ ? 1 : 2);
+  const Eigen::Matrix3f frame = frameAround(viewDirection);
+  const Eigen::Vector3f right = alongZ ? Eigen::Vector3f::UnitX().eval() : frame.col(1).eval();
+  const Eigen::Vector3f down = alongZ ? Eigen::Vector3f::UnitY().eval() : frame.col(2).eval();
   const double tile = settings.tilePixels * settings.pixelSize;
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<int>> tiles;
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -49,8 +49,8 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
   this->Low = box.min().head<2>();
   this->Width = static_cast<int>(box.sizes().x() * this->InverseCell) + 1;
   this->Height = static_cast<int>(box.sizes().y() * this->InverseCell) + 1;
-  this->Nearest.assign(this->numberOfCells(), Empty);
-  this->Farthest.assign(this->numberOfCells(), -Empty);
+  this->Nearest.assign(static_cast<std::size_t>(this->Width) * this->Height, Empty);
+  this->Farthest.assign(static_cast<std::size_t>(this->Width) * this->Height, -Empty);
   for (const auto& p : projected)
   {
     if (!box.contains(Eigen::Vector3f(p.x(), p.y(), box.min().z())))

@@ -25,6 +25,7 @@ public:
   /// `tolerance` in mm along the line of sight.
   Relation relation(const Eigen::Vector3f& point, float tolerance) const;
 
+private:
   /// Cell of a point and its depth (mm) along the line of sight; cell -1 outside the map.
   struct Place
   {
@@ -32,9 +33,6 @@ public:
     float depth;
   };
   Place placeOf(const Eigen::Vector3f& point) const;
-  int numberOfCells() const { return this->Width * this->Height; }
-
-private:
   Eigen::Vector3f project(const Eigen::Vector3f& point) const;
   /// The cell itself, or of its neighbours the one with the nearest surface, or -1.
   int occupiedCell(int cell) const;

@@ -109,6 +109,8 @@ def read(path, scale=1.0):
         raise Failure(f"{path} has no points: it is empty, cut off, or no {extension[1:].upper()} file")
     if scale == 1.0:
         return data
+    if not 0 < scale < float("inf"):
+        raise Failure(f"{path}: the scale has to be a positive number, not {scale}")
     transform, scaled = vtkTransform(), vtkTransformFilter()
     transform.Scale(scale, scale, scale)
     scaled.SetTransform(transform)
@@ -118,8 +120,11 @@ def read(path, scale=1.0):
 
 def read_mesh(path, offset=(0, 0, 0), scale=1.0):
     """The clean mesh of a CAD file, scaled to mm and moved by an offset in mm."""
+    data = read(path)
+    if not data.IsA("vtkPolyData"):
+        raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.stl, .obj or .ply)")
     preparation = filters.vtkMEAMMeshPreparation()
-    preparation.SetInputDataObject(read(path))
+    preparation.SetInputDataObject(data)
     preparation.SetScale(scale)
     preparation.SetOffset(offset)
     return update(preparation).GetOutput()

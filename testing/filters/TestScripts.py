@@ -167,6 +167,8 @@ refuses("cannot read none.stl", "detect.py", "--cad", "none.stl", "--scene", "sc
 for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "junk.obj", "cut.stl", "cut.ply"):
     refuses(name, "detect.py", "--cad", name, "--scene", "scan.pcd", *out)
 refuses("no faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
+refuses("mesh with faces", "detect.py", "--cad", "scan.pcd", "--scene", "scan.pcd", *out)
+refuses("positive", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--scene-scale", "0", *out)
 refuses("unknown kind", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
 for name in ("nowhere.pcd", "empty.pcd", "junk.pcd"):
     refuses(name, "detect.py", "--cad", "part.stl", "--scene", name, *out)
