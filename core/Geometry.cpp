@@ -36,6 +36,7 @@ PointCloud PointCloud::subset(const std::vector<int>& indices) const
   take(this->normals, result.normals);
   take(this->tangents, result.tangents);
   take(this->pointIds, result.pointIds);
+  take(this->edgeTypes, result.edgeTypes);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ struct TriangleMesh
   std::vector<Eigen::Vector3i> triangles;
 };
 
+/// What an edge point of an appearance model is, in the image seen from its viewpoint.
+enum class EdgeType : unsigned char
+{
+  Contour,   ///< the visible surface ends there; behind it is the background or another surface
+  Crease,    ///< the visible surface goes on on both sides
+  HoleBorder ///< the visible surface ends there; behind it is background that the part encloses
+};
+
 /// Points in mm with what is known of each; an array is empty or as long as `points`.
 struct PointCloud
 {
@@ -26,6 +35,7 @@ struct PointCloud
   Points normals;            ///< unit, outward
   Points tangents;           ///< unit direction of the edge; the sign carries no meaning
   std::vector<int> pointIds; ///< index of the surface sample: the point's identity across views
+  std::vector<EdgeType> edgeTypes{};
 
   std::size_t size() const { return this->points.size(); }
   bool empty() const { return this->points.empty(); }
@@ -40,6 +50,7 @@ struct AppearanceModel
   std::string name;
   Eigen::Vector3f direction = Eigen::Vector3f::UnitZ(); ///< unit, from the part to the viewpoint
   PointCloud cloud;
+  Eigen::Vector3f viewpoint = Eigen::Vector3f::Constant(NAN); ///< mm; NaN when it is not known: far away
 };
 
 /// Throws Error, naming `what`, when there is no point or when no point is finite.

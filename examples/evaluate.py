@@ -64,6 +64,7 @@ def run_part(part, options):
     evaluation = filters.vtkMEAMPoseEvaluation()
     evaluation.SetDiameter(scripting.field(model, "Diameter"))
     evaluation.SetPosesAskedFor(options.poses)
+    evaluation.SetInputDataObject(2, model)  # its symmetries
     times, failed = [], 0
     if options.out:
         os.makedirs(os.path.join(options.out, f"Part_{part}"), exist_ok=True)

@@ -8,19 +8,27 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
 
 vtkStandardNewMacro(vtkMEAMBoundaryExtraction);
 
 vtkMEAMBoundaryExtraction::vtkMEAMBoundaryExtraction()
 {
   const meam::BoundaryExtractionSettings settings;
+  this->SetNumberOfInputPorts(2);
+  this->Method = static_cast<int>(settings.method);
   this->Radius = settings.radius;
   this->Angle = settings.angle;
+  this->SharpAngle = settings.sharpAngle;
 }
 
-int vtkMEAMBoundaryExtraction::FillInputPortInformation(int, vtkInformation* info)
+int vtkMEAMBoundaryExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
@@ -29,13 +37,19 @@ int vtkMEAMBoundaryExtraction::RequestData(
 {
   using namespace vtkMEAMConversion;
   auto* input = vtkPartitionedDataSetCollection::GetData(inputVector[0]);
+  vtkPolyData* meshInput = vtkPolyData::GetData(inputVector[1]);
   auto* output = vtkPartitionedDataSetCollection::GetData(outputVector);
   const auto work = [&]
   {
     meam::BoundaryExtractionSettings settings;
+    settings.method = static_cast<meam::BoundaryMethod>(this->Method);
     settings.radius = this->Radius;
     settings.angle = this->Angle;
-    fromAppearanceModels(meam::extractBoundary(toAppearanceModels(input), settings, progressOf(this)), output);
+    settings.sharpAngle = this->SharpAngle;
+    const meam::TriangleMesh mesh = meshInput ? toMesh(meshInput) : meam::TriangleMesh();
+    fromAppearanceModels(
+      meam::extractBoundary(toAppearanceModels(input), settings, meshInput ? &mesh : nullptr, progressOf(this)),
+      output);
   };
   return vtkMEAMRun(this, work, output);
 }
@@ -43,6 +57,8 @@ int vtkMEAMBoundaryExtraction::RequestData(
 void vtkMEAMBoundaryExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << (this->Method == MeshEdges ? "MeshEdges" : "PointBoundary") << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "Angle: " << this->Angle << "\n";
+  os << indent << "SharpAngle: " << this->SharpAngle << "\n";
 }

@@ -245,6 +245,20 @@ meam::PointCloud toCloud(vtkPointSet* input)
       cloud.pointIds.push_back(id >= 0.0 && id <= std::numeric_limits<int>::max() ? static_cast<int>(id) : -1);
     }
   }
+  if (vtkDataArray* types = pointArray(input, "EdgeType", 1))
+  {
+    cloud.edgeTypes.reserve(cloud.size());
+    for (vtkIdType i = 0; i < types->GetNumberOfTuples(); ++i)
+    {
+      const double type = types->GetComponent(i, 0);
+      if (!(type >= 0.0 && type <= static_cast<double>(meam::EdgeType::HoleBorder)))
+      {
+        throw Error("The point array 'EdgeType' has the value " + std::to_string(type) +
+                    ": 0 (contour), 1 (crease) and 2 (hole border) are known.");
+      }
+      cloud.edgeTypes.push_back(static_cast<meam::EdgeType>(static_cast<int>(type)));
+    }
+  }
   return cloud;
 }
 
@@ -267,6 +281,15 @@ void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output)
     ids->SetNumberOfTuples(static_cast<vtkIdType>(cloud.pointIds.size()));
     std::copy(cloud.pointIds.begin(), cloud.pointIds.end(), ids->GetPointer(0));
     output->GetPointData()->AddArray(ids);
+  }
+  if (!cloud.edgeTypes.empty())
+  {
+    vtkNew<vtkUnsignedCharArray> types;
+    types->SetName("EdgeType");
+    types->SetNumberOfTuples(static_cast<vtkIdType>(cloud.edgeTypes.size()));
+    std::transform(cloud.edgeTypes.begin(), cloud.edgeTypes.end(), types->GetPointer(0),
+      [](meam::EdgeType type) { return static_cast<unsigned char>(type); });
+    output->GetPointData()->SetScalars(types); // what a view colours by
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "Error.h"
 #include "Geometry.h"
+#include "mesh/Symmetries.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
 #include "pose/Scene.h"
@@ -34,7 +35,7 @@ namespace vtkMEAMConversion
 meam::TriangleMesh toMesh(vtkPolyData* input);
 void fromMesh(const meam::TriangleMesh& mesh, vtkPolyData* output);
 
-/// Points with the arrays `Normals`, `Tangent` (3 components each) and `PointId`, where they are there.
+/// Points with the arrays `Normals`, `Tangent` (3 components each), `PointId` and `EdgeType`, where they are there.
 meam::PointCloud toCloud(vtkPointSet* input);
 /// The same arrays, and a vertex cell for each point.
 void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output);
@@ -49,7 +50,8 @@ meam::Image imageOfCloud(vtkStructuredGrid* input);
 meam::Image toImage(vtkImageData* input);
 void fromImage(const meam::Image& image, vtkImageData* output);
 
-/// One partition for each viewpoint, named, with the field data `ViewDirection` (3).
+/// One partition for each viewpoint, named, with the field data `ViewDirection` (3) and, where it is known,
+/// `Viewpoint` (3, mm).
 std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetCollection* input);
 void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkPartitionedDataSetCollection* output);
 
@@ -67,6 +69,12 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output);
 /// d_max in mm travels with the part from step to step as the field data `Diameter`; 0 when it is not there.
 double diameterOf(vtkDataObject* input);
 void setDiameter(vtkDataObject* output, double diameter);
+/// A part's symmetries travel with its samples and its trained model as the field data `SymmetriesDiscrete` (16 components,
+/// row-major), `SymmetriesContinuous` (6: unit axis and a point on it), `NearSymmetries` (16), `NearSymmetryOverlap`
+/// and `NearSymmetryDeviation` (mm). None when they are not there, or for null. Throws Error for values that are no
+/// rotations.
+meam::Symmetries symmetriesOf(vtkDataObject* input);
+void setSymmetries(vtkDataObject* output, const meam::Symmetries& symmetries);
 /// A number as field data; replaces an array of that name.
 void setFieldValue(vtkDataObject* output, const char* name, double value);
 

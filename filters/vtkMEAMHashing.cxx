@@ -27,7 +27,7 @@ void vtkMEAMHashing::SetParameters(const meam::MEAMHashingSettings& settings)
   this->Feature = static_cast<int>(settings.feature);
   this->DistanceStep = settings.distanceStep;
   this->AngleStep = settings.angleStep;
-  this->MergeViews = settings.mergeViews;
+  this->ViewMerging = static_cast<int>(settings.merging);
   this->VoxelSize = settings.voxelSize;
   this->CoVisibilityDirections = settings.coVisibilityDirections;
   this->Modified();
@@ -55,7 +55,7 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
     settings.feature = static_cast<meam::PairFeatureKind>(this->Feature);
     settings.distanceStep = this->DistanceStep;
     settings.angleStep = this->AngleStep;
-    settings.mergeViews = this->MergeViews;
+    settings.merging = static_cast<meam::ViewMerging>(this->ViewMerging);
     settings.voxelSize = this->VoxelSize;
     settings.coVisibilityDirections = this->CoVisibilityDirections;
     const meam::PointCloud surface = toCloud(samples);
@@ -67,8 +67,8 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
         throw meam::Error("The part's surface has no point array 'Normals': use the output of SurfaceSampling.");
       }
     }
-    fromTrainedModel(
-      meam::hashModels(toAppearanceModels(input), surface, diameterOf(input), settings, progressOf(this)), output);
+    const meam::PartSurface part{ surface, diameterOf(input), symmetriesOf(samples) };
+    fromTrainedModel(meam::hashModels(toAppearanceModels(input), part, settings, progressOf(this)), output);
   };
   return vtkMEAMRun(this, work, output);
 }
@@ -79,7 +79,7 @@ void vtkMEAMHashing::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Feature: " << (this->Feature == Paper ? "Paper" : "Oriented") << "\n";
   os << indent << "DistanceStep: " << this->DistanceStep << "\n";
   os << indent << "AngleStep: " << this->AngleStep << "\n";
-  os << indent << "MergeViews: " << (this->MergeViews ? "On" : "Off") << "\n";
+  os << indent << "ViewMerging: " << this->ViewMerging << "\n";
   os << indent << "VoxelSize: " << this->VoxelSize << "\n";
   os << indent << "CoVisibilityDirections: " << this->CoVisibilityDirections << "\n";
 }

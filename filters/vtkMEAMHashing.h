@@ -52,6 +52,13 @@ public:
     Oriented = 1
   };
 
+  enum ViewMergings
+  {
+    Points = 0,
+    VoxelCodes = 1,
+    None = 2
+  };
+
   ///@{
   /**
    * Paper (0): the distance and three acute angles, Equation (1). Oriented (1): both tangents are turned
@@ -78,12 +85,15 @@ public:
 
   ///@{
   /**
-   * On: edge points that several views share become one. Off: each view keeps its own, and pairs that
-   * several views share are told by voxel code, Equation (2) of the paper. Default: on.
+   * How the views come into one table. Points (0): edge points that several views share become one. VoxelCodes
+   * (1): each view keeps its own, and a pair that several views show is stored once, by voxel code, Equation (2)
+   * of the paper. None (2): all pairs of each view are stored, as many tables as views. Default: Points.
    */
-  vtkSetMacro(MergeViews, bool);
-  vtkGetMacro(MergeViews, bool);
-  vtkBooleanMacro(MergeViews, bool);
+  vtkSetClampMacro(ViewMerging, int, Points, None);
+  vtkGetMacro(ViewMerging, int);
+  void SetViewMergingToPoints() { this->SetViewMerging(Points); }
+  void SetViewMergingToVoxelCodes() { this->SetViewMerging(VoxelCodes); }
+  void SetViewMergingToNone() { this->SetViewMerging(None); }
   ///@}
 
   ///@{
@@ -121,7 +131,7 @@ private:
   int Feature;
   double DistanceStep;
   double AngleStep;
-  bool MergeViews;
+  int ViewMerging;
   double VoxelSize;
   int CoVisibilityDirections;
 };

@@ -4,9 +4,12 @@
 #include "mesh/MeshPreparation.h"
 #include "vtkMEAMConversion.h"
 
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 
 vtkStandardNewMacro(vtkMEAMMeshPreparation);
 
@@ -15,6 +18,10 @@ vtkMEAMMeshPreparation::vtkMEAMMeshPreparation()
   const meam::MeshPreparationSettings settings;
   this->Scale = settings.scale;
   std::copy_n(settings.offset.data(), 3, this->Offset);
+  this->KeptComponents = static_cast<int>(settings.keptComponents);
+  this->HoleSize = settings.holeSize;
+  this->MaximumError = settings.maximumError;
+  this->EdgeLength = settings.edgeLength;
 }
 
 int vtkMEAMMeshPreparation::RequestData(
@@ -28,19 +35,31 @@ int vtkMEAMMeshPreparation::RequestData(
     meam::MeshPreparationSettings settings;
     settings.scale = this->Scale;
     settings.offset = Eigen::Vector3d(this->Offset);
+    settings.keptComponents = static_cast<meam::KeptComponents>(this->KeptComponents);
+    settings.holeSize = this->HoleSize;
+    settings.maximumError = this->MaximumError;
+    settings.edgeLength = this->EdgeLength;
     const meam::PreparedMesh prepared = meam::prepareMesh(toMesh(input), settings, progressOf(this));
     fromMesh(prepared.mesh, output);
     const meam::MeshReport& report = prepared.report;
+    vtkNew<vtkStringArray> text;
+    text->SetName("Report");
+    text->InsertNextValue(meam::describe(report));
+    output->GetFieldData()->AddArray(text);
     setFieldValue(output, "InputVertices", report.inputVertices);
     setFieldValue(output, "InputTriangles", report.inputTriangles);
     setFieldValue(output, "Vertices", report.vertices);
     setFieldValue(output, "Triangles", report.triangles);
     setFieldValue(output, "MergedVertices", report.mergedVertices);
+    setFieldValue(output, "NearVertices", report.nearVertices);
     setFieldValue(output, "IsolatedVertices", report.isolatedVertices);
     setFieldValue(output, "DegenerateTriangles", report.degenerateTriangles);
     setFieldValue(output, "DuplicateTriangles", report.duplicateTriangles);
     setFieldValue(output, "FlippedComponents", report.flippedComponents);
+    setFieldValue(output, "DroppedComponents", report.droppedComponents);
     setFieldValue(output, "Components", report.components);
+    setFieldValue(output, "ClosedHoles", report.closedHoles);
+    setFieldValue(output, "Intersections", report.intersections);
     setFieldValue(output, "BorderEdges", report.borderEdges);
     setFieldValue(output, "Closed", report.closed ? 1.0 : 0.0);
     setFieldValue(output, "Area", report.area);
@@ -55,4 +74,8 @@ void vtkMEAMMeshPreparation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Scale: " << this->Scale << "\n";
   os << indent << "Offset: " << this->Offset[0] << " " << this->Offset[1] << " " << this->Offset[2] << "\n";
+  os << indent << "KeptComponents: " << (this->KeptComponents == Largest ? "Largest" : "All") << "\n";
+  os << indent << "HoleSize: " << this->HoleSize << "\n";
+  os << indent << "MaximumError: " << this->MaximumError << "\n";
+  os << indent << "EdgeLength: " << this->EdgeLength << "\n";
 }

@@ -3,17 +3,22 @@
  * @class vtkMEAMMeshPreparation
  * @brief Makes a clean mesh in millimetres of a CAD file's triangles.
  *
- * The first step of training. The mesh is scaled and moved; vertices at the same place become one, faces
- * without area and faces that are there twice are left out, neighbouring faces are wound the same way and
- * turned outwards where that can be told. The mesh need not be closed. STL files repeat each vertex for each
- * face and their normals are unreliable: this step makes both right.
+ * The first step of training. The mesh is scaled and moved; vertices at the same place, or within a millionth
+ * of the mesh's extent, become one, which sews open seams; faces without area and faces that are there twice
+ * are left out, neighbouring faces are wound the same way and turned outwards where that can be told. The mesh
+ * need not be closed, and may cross itself. STL files repeat each vertex for each face and their normals are
+ * unreliable: this step makes both right. On request only the largest component is kept, small holes are
+ * closed, the mesh is simplified within an error bound (OpenMesh) and then remade of even triangles (CGAL).
  *
  * Input port 0: vtkPolyData, the mesh; polygons and triangle strips are cut into triangles.
  *
- * Output port 0: vtkPolyData, the triangles. Field data, one number each, lengths in mm: `InputVertices`,
- * `InputTriangles`, `Vertices`, `Triangles`, `MergedVertices`, `IsolatedVertices`, `DegenerateTriangles`,
- * `DuplicateTriangles`, `FlippedComponents`, `Components`, `BorderEdges`, `Closed`, `Area`, `Volume` (0 when
- * the mesh is not closed), `Diameter` (d_max, the longest distance between two points).
+ * Output port 0: vtkPolyData, the triangles. Field data: `Report`, what was wrong and what was done in words;
+ * and one number each, lengths in mm: `InputVertices`, `InputTriangles`, `Vertices`, `Triangles`,
+ * `MergedVertices`, `NearVertices` (merged though not at exactly the same place), `IsolatedVertices`,
+ * `DegenerateTriangles`, `DuplicateTriangles`, `FlippedComponents`, `DroppedComponents`, `Components`,
+ * `ClosedHoles`, `Intersections` (pairs of triangles of the output, counted up to 10000), `BorderEdges`,
+ * `Closed`, `Area`, `Volume` (0 when the mesh is not closed), `Diameter` (d_max, the longest distance between
+ * two points).
  */
 #ifndef vtkMEAMMeshPreparation_h
 #define vtkMEAMMeshPreparation_h
@@ -40,6 +45,45 @@ public:
   vtkGetVector3Macro(Offset, double);
   ///@}
 
+  /** What is kept of a mesh of several connected components. */
+  enum Components
+  {
+    All,
+    Largest ///< by area
+  };
+
+  ///@{
+  /** Which connected components are kept. Default: All. */
+  vtkSetClampMacro(KeptComponents, int, All, Largest);
+  vtkGetMacro(KeptComponents, int);
+  void SetKeptComponentsToAll() { this->SetKeptComponents(All); }
+  void SetKeptComponentsToLargest() { this->SetKeptComponents(Largest); }
+  ///@}
+
+  ///@{
+  /**
+   * Holes are closed whose border, all the way round, is at most this long, in mm; 0: none. The outer border of a
+   * sheet is not a hole. Default: 0.
+   */
+  vtkSetClampMacro(HoleSize, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(HoleSize, double);
+  ///@}
+
+  ///@{
+  /** The mesh is simplified as far as its surface moves by no more than this, in mm; 0: not at all. Default: 0. */
+  vtkSetClampMacro(MaximumError, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumError, double);
+  ///@}
+
+  ///@{
+  /**
+   * The mesh is remade of even triangles with edges of this length in mm, after it is simplified; sharp edges and
+   * borders stay where they are. 0: not at all. Default: 0.
+   */
+  vtkSetClampMacro(EdgeLength, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(EdgeLength, double);
+  ///@}
+
 protected:
   vtkMEAMMeshPreparation();
   ~vtkMEAMMeshPreparation() override = default;
@@ -51,6 +95,10 @@ private:
 
   double Scale;
   double Offset[3];
+  int KeptComponents;
+  double HoleSize;
+  double MaximumError;
+  double EdgeLength;
 };
 
 #endif

@@ -97,21 +97,26 @@ vtkDataArray* fieldArray(vtkDataObject* input, const char* name, vtkIdType value
   return array && array->GetNumberOfValues() == values ? array : nullptr;
 }
 
-/// Vector `index` of field data of 3-vectors, made a unit vector; zero when it is not there.
+/// Vector `index` of field data of 3-vectors; NaN when it is not there.
+Eigen::Vector3d fieldVector(vtkDataObject* input, const char* name, vtkIdType count, vtkIdType index)
+{
+  Eigen::Vector3d vector = Eigen::Vector3d::Constant(NAN);
+  if (vtkDataArray* array = fieldArray(input, name, 3 * count))
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const int components = array->GetNumberOfComponents(); // a single vector may come as 1 x 3 or 3 x 1
+      const vtkIdType value = 3 * index + i;
+      vector[i] = array->GetComponent(value / components, static_cast<int>(value % components));
+    }
+  }
+  return vector;
+}
+
+/// The same, made a unit vector; zero when it is not there.
 Eigen::Vector3f fieldDirection(vtkDataObject* input, const char* name, vtkIdType count, vtkIdType index)
 {
-  vtkDataArray* array = fieldArray(input, name, 3 * count);
-  if (!array)
-  {
-    return Eigen::Vector3f::Zero();
-  }
-  Eigen::Vector3d direction;
-  for (int i = 0; i < 3; ++i)
-  {
-    const int components = array->GetNumberOfComponents(); // a single vector may come as 1 x 3 or 3 x 1
-    const vtkIdType value = 3 * index + i;
-    direction[i] = array->GetComponent(value / components, static_cast<int>(value % components));
-  }
+  const Eigen::Vector3d direction = fieldVector(input, name, count, index);
   const double length = direction.norm();
   if (!(length > 0.0 && std::isfinite(length)))
   {
@@ -182,6 +187,7 @@ public:
     this->readViews(model);
     this->readSurface(model);
     this->readTable(model);
+    model.symmetries = symmetriesOf(this->Input);
     return model;
   }
 
@@ -219,6 +225,17 @@ private:
     return value;
   }
 
+  /// A number in [0, choices).
+  int choice(const char* name, int choices) const
+  {
+    const double value = this->number(name);
+    if (!(value >= 0.0 && value < choices))
+    {
+      refuse("has a '" + std::string(name) + "' that is not known here.");
+    }
+    return static_cast<int>(value);
+  }
+
   vtkIdType count(const char* name) const
   {
     const double value = this->number(name);
@@ -231,15 +248,10 @@ private:
 
   void readSettings(meam::MEAMHashingSettings& settings) const
   {
-    const double feature = this->number("Feature");
-    if (feature != 0.0 && feature != 1.0)
-    {
-      refuse("has a pair feature that is not known here.");
-    }
-    settings.feature = static_cast<meam::PairFeatureKind>(static_cast<int>(feature));
+    settings.feature = static_cast<meam::PairFeatureKind>(this->choice("Feature", 2));
     settings.distanceStep = this->number("DistanceStep");
     settings.angleStep = this->number("AngleStep");
-    settings.mergeViews = this->number("MergeViews") != 0.0;
+    settings.merging = static_cast<meam::ViewMerging>(this->choice("ViewMerging", 3));
     settings.voxelSize = this->number("VoxelSize");
     settings.coVisibilityDirections = static_cast<int>(this->number("CoVisibilityDirections"));
     if (!(settings.distanceStep > 0.0 && settings.distanceStep <= 1.0) ||
@@ -412,6 +424,7 @@ std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetColle
     if (points)
     {
       model.direction = fieldDirection(points, "ViewDirection", 1, 0);
+      model.viewpoint = fieldVector(points, "Viewpoint", 1, 0).cast<float>();
     }
     if (!points || model.direction.isZero())
     {
@@ -436,6 +449,10 @@ void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkP
     vtkNew<vtkPolyData> points;
     fromCloud(models[i].cloud, points);
     setView(points, models[i].direction, i);
+    if (models[i].viewpoint.allFinite())
+    {
+      setFieldVectors(points, "Viewpoint", { models[i].viewpoint });
+    }
     addPartition(output, models[i].name, points);
   }
 }
@@ -494,7 +511,7 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   setFieldInteger(output, "Feature", static_cast<std::size_t>(model.settings.feature));
   setFieldValue(output, "DistanceStep", model.settings.distanceStep);
   setFieldValue(output, "AngleStep", model.settings.angleStep);
-  setFieldInteger(output, "MergeViews", model.settings.mergeViews ? 1 : 0);
+  setFieldInteger(output, "ViewMerging", static_cast<std::size_t>(model.settings.merging));
   setFieldValue(output, "VoxelSize", model.settings.voxelSize);
   setFieldInteger(output, "CoVisibilityDirections", model.settings.coVisibilityDirections);
   setFieldVectors(output, "ViewDirections", model.viewDirections);
@@ -502,5 +519,7 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   setFieldInteger(output, "NumberOfEdgePoints", model.edges.size());
   setFieldInteger(output, "NumberOfSurfacePoints", model.surface.size());
   setFieldInteger(output, "NumberOfPairs", model.table.size());
+  setFieldValue(output, "TableBytes", static_cast<double>(model.table.bytes()));
+  setSymmetries(output, model.symmetries);
 }
 }

@@ -57,11 +57,17 @@ private:
 
 vtkMEAMPoseEvaluation::vtkMEAMPoseEvaluation()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
-int vtkMEAMPoseEvaluation::FillInputPortInformation(int, vtkInformation* info)
+int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   return 1;
@@ -91,6 +97,7 @@ int vtkMEAMPoseEvaluation::RequestData(
           settings.diameter = diameterOf(vtkDataObject::GetData(inputVector[port], i));
         }
       }
+      settings.symmetries = symmetriesOf(vtkDataObject::GetData(inputVector[2]));
       settings.translationTolerance = this->TranslationTolerance;
       settings.rotationTolerance = this->RotationTolerance;
       settings.posesAskedFor = this->PosesAskedFor;

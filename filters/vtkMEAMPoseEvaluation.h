@@ -13,6 +13,9 @@
  * too hidden need not be found.
  * The part's diameter is the property, or else the field data `Diameter` of an input.
  *
+ * Input port 2 (optional): the part's samples from vtkMEAMSymmetryDetection, or its trained model. Of poses that are
+ * equal under the part's exact symmetries the one nearest to the true pose is judged.
+ *
  * Output port 0: a vtkTable with a row for each estimated pose, and the columns `Scene` (from 0), `Rank`,
  * `Score`, `Right` (0 or 1), `Duplicate` (1: a better pose has found the same instance), `Instance`
  * (index of the true pose, -1 for a wrong pose), `NearestInstance`, `TranslationError` (mm),

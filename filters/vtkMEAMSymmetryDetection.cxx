@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMSymmetryDetection.h"
 
+#include "io/ModelsInfo.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/SymmetryDetection.h"
 #include "vtkMEAMConversion.h"
 
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
@@ -13,6 +13,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 
 #include <algorithm>
 
@@ -21,21 +22,6 @@ vtkStandardNewMacro(vtkMEAMSymmetryDetection);
 namespace
 {
 constexpr double ReachShare = 0.1; // of the diameter: larger deviations are shown as this
-
-vtkSmartPointer<vtkDoubleArray> newField(vtkDataObject* output, const char* name, int components)
-{
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  output->GetFieldData()->AddArray(array);
-  return array;
-}
-
-void insertTransform(vtkDoubleArray* array, const Eigen::Isometry3d& T)
-{
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = T.matrix();
-  array->InsertNextTuple(rows.data());
-}
 }
 
 vtkMEAMSymmetryDetection::vtkMEAMSymmetryDetection()
@@ -60,27 +46,12 @@ int vtkMEAMSymmetryDetection::RequestData(
     const meam::Symmetries found = meam::detectSymmetries(surface, settings, progressOf(this));
 
     output->ShallowCopy(input);
-    const auto discrete = newField(output, "SymmetriesDiscrete", 16);
-    for (const auto& T : found.discrete)
-    {
-      insertTransform(discrete, T);
-    }
-    const auto continuous = newField(output, "SymmetriesContinuous", 6);
-    for (const auto& symmetry : found.continuous)
-    {
-      Eigen::Matrix<double, 6, 1> line;
-      line << symmetry.axis, symmetry.point;
-      continuous->InsertNextTuple(line.data());
-    }
-    const auto near = newField(output, "NearSymmetries", 16);
-    const auto overlap = newField(output, "NearSymmetryOverlap", 1);
-    const auto largest = newField(output, "NearSymmetryDeviation", 1);
-    for (const auto& symmetry : found.near)
-    {
-      insertTransform(near, symmetry.T);
-      overlap->InsertNextValue(symmetry.overlap);
-      largest->InsertNextValue(symmetry.deviation);
-    }
+    setSymmetries(output, found);
+    const double partDiameter = diameterOf(input) > 0.0 ? diameterOf(input) : meam::diameter(surface.points);
+    vtkNew<vtkStringArray> entry;
+    entry->SetName("ModelsInfo");
+    entry->InsertNextValue(meam::modelsInfo(found, partDiameter, meam::bounds(surface.points)));
+    output->GetFieldData()->AddArray(entry);
     std::vector<float> deviation(surface.size(), 0.0f);
     if (this->ShownNearSymmetry < static_cast<int>(found.near.size()))
     {

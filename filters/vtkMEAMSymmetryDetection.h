@@ -13,6 +13,7 @@
  * (16 components, row-major, one tuple for each turn, the identity left out), `SymmetriesContinuous` (6
  * components: unit axis and a point on it), `NearSymmetries` (16), `NearSymmetryOverlap` (share of the surface
  * that comes to lie on the surface, [0, 1]) and `NearSymmetryDeviation` (mm, the largest distance), best first.
+ * `ModelsInfo` is the part's entry in a BOP dataset's models_info.json, as text.
  */
 #ifndef vtkMEAMSymmetryDetection_h
 #define vtkMEAMSymmetryDetection_h

@@ -6,7 +6,8 @@
  * The paper (Section 5.1, Algorithms 1 and 2) cuts the edge points into tiles of a plane and takes, for each
  * point, the line to another point of its tile that most points lie on. The recommended method looks for the
  * best supported line in a sphere around the point and takes the principal axis of the points on it. Points
- * without a supported line are left out.
+ * without a supported line are left out. Edge points that carry tangents, those of a mesh's edges, keep
+ * them and are only thinned.
  *
  * Lengths of 0 follow the part's diameter: the field data `Diameter` of the model, or else of the input.
  *
@@ -15,7 +16,7 @@
  * Input port 1, optional: any data object with the field data `Diameter` in mm, usually the trained model.
  *
  * Output port 0: of the input's type; the points that stay, with `Tangent` (unit; the sign carries no
- * meaning), and `Normals` and `PointId` where they were there. Field data is passed on.
+ * meaning), and `Normals`, `PointId` and `EdgeType` where they were there. Field data is passed on.
  */
 #ifndef vtkMEAMTangentEstimation_h
 #define vtkMEAMTangentEstimation_h

@@ -3,16 +3,21 @@
  * @class vtkMEAMVisibilityExtraction
  * @brief Makes the appearance models: what is seen of the part from each of several viewpoints.
  *
- * Section 4 of the paper. The viewpoints stand around the part; the points that are visible from each are
- * found by hidden point removal (Katz, Tal and Basri 2007): the points are inverted in a sphere around the
- * viewpoint, and those on the convex hull of the result are visible.
+ * Section 4 of the paper. The viewpoints stand around the part, or inside a cone for a part that is seen
+ * from some side only. The points that are visible from each are found by one of two methods:
+ * - hidden point removal (Katz, Tal and Basri 2007): the points are inverted in a sphere around the
+ *   viewpoint, and those on the convex hull of the result are visible;
+ * - mesh visibility: the line of sight from each point is tested against the mesh, exactly. Of an open
+ *   mesh both sides can be seen; the normals are turned towards the viewpoint.
  *
  * Input port 0: vtkPolyData, samples of the part's surface in mm (vtkMEAMSurfaceSampling); `Normals` and
  * `PointId` are passed on.
+ * Input port 1 (optional): the prepared mesh that was sampled, a vtkPolyData; mesh visibility needs it.
  *
- * Output port 0: vtkPartitionedDataSetCollection, one named vtkPolyData for each viewpoint: its visible
- * points with `Normals` and `PointId`; field data of each `ViewDirection` (unit, from the part to the
- * viewpoint) and `ViewIndex`. The input's field data (`Diameter`) is on the collection.
+ * Output port 0: vtkPartitionedDataSetCollection, one named vtkPolyData for each viewpoint that sees
+ * anything: its visible points with `Normals` and `PointId`; field data of each `ViewDirection` (unit,
+ * from the part to the viewpoint), `Viewpoint` (mm) and `ViewIndex`. The input's field data (`Diameter`)
+ * is on the collection.
  */
 #ifndef vtkMEAMVisibilityExtraction_h
 #define vtkMEAMVisibilityExtraction_h
@@ -27,6 +32,23 @@ public:
   vtkTypeMacro(vtkMEAMVisibilityExtraction, vtkPartitionedDataSetCollectionAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** The prepared mesh. */
+  void SetMeshConnection(vtkAlgorithmOutput* mesh) { this->SetInputConnection(1, mesh); }
+
+  enum Methods
+  {
+    HiddenPointRemoval = 0,
+    MeshVisibility = 1
+  };
+
+  ///@{
+  /** HiddenPointRemoval (0, the paper's) or MeshVisibility (1). Default: HiddenPointRemoval. */
+  vtkSetClampMacro(Method, int, HiddenPointRemoval, MeshVisibility);
+  vtkGetMacro(Method, int);
+  void SetMethodToHiddenPointRemoval() { this->SetMethod(HiddenPointRemoval); }
+  void SetMethodToMeshVisibility() { this->SetMethod(MeshVisibility); }
+  ///@}
+
   ///@{
   /**
    * Number of viewpoints. 1: above (+z); 2: above and below; 6: along the axes, as in the paper; 14: and
@@ -38,8 +60,23 @@ public:
   ///@}
 
   ///@{
+  /** The middle of the viewpoints: a direction of any length, from the part. Default: 0, 0, 1. */
+  vtkSetVector3Macro(ConeDirection, double);
+  vtkGetVector3Macro(ConeDirection, double);
+  ///@}
+
+  ///@{
   /**
-   * Radius of the inversion sphere over the distance of the farthest point. Smaller loses the rims of
+   * Viewpoints that are farther from the cone's direction, in degrees, are left out; a number other than
+   * 1, 2, 6, 14 and 26 is spread inside. 180: all around. Default: 180.
+   */
+  vtkSetClampMacro(ConeAngle, double, 1.0, 180.0);
+  vtkGetMacro(ConeAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Hidden point removal: radius of the inversion sphere over the distance of the farthest point. Smaller loses the rims of
    * holes, larger lets the back side through. Default: 1000.
    */
   vtkSetClampMacro(RadiusFactor, double, 1.0, VTK_DOUBLE_MAX);
@@ -62,7 +99,10 @@ private:
   vtkMEAMVisibilityExtraction(const vtkMEAMVisibilityExtraction&) = delete;
   void operator=(const vtkMEAMVisibilityExtraction&) = delete;
 
+  int Method;
   int NumberOfViewpoints;
+  double ConeDirection[3];
+  double ConeAngle;
   double RadiusFactor;
   double ViewpointDistance;
 };

@@ -59,7 +59,9 @@ PoseJudgement judge(
   double leastTurn = settings.rotationTolerance;
   for (std::size_t i = 0; i < truths.size(); ++i)
   {
-    const double distance = translationError(estimate.T_scene_model, truths[i].T_scene_model);
+    const Eigen::Isometry3d equal =
+      nearestEqual(estimate.T_scene_model, truths[i].T_scene_model, settings.symmetries);
+    const double distance = translationError(equal, truths[i].T_scene_model);
     if (distance < nearest)
     {
       nearest = distance;
@@ -67,7 +69,7 @@ PoseJudgement judge(
     }
     if (distance < reach)
     {
-      const double turn = rotationError(estimate.T_scene_model, truths[i].T_scene_model);
+      const double turn = rotationError(equal, truths[i].T_scene_model);
       if (turn < leastTurn)
       {
         leastTurn = turn;
@@ -83,9 +85,10 @@ PoseJudgement judge(
     return judgement;
   }
   const Eigen::Isometry3d& truth = truths[to].T_scene_model;
-  judgement.translationError = translationError(estimate.T_scene_model, truth);
-  judgement.rotationError = rotationError(estimate.T_scene_model, truth);
-  splitRotation(estimate.T_scene_model, truth, settings.axis.normalized(), judgement);
+  const Eigen::Isometry3d equal = nearestEqual(estimate.T_scene_model, truth, settings.symmetries);
+  judgement.translationError = translationError(equal, truth);
+  judgement.rotationError = rotationError(equal, truth);
+  splitRotation(equal, truth, settings.axis.normalized(), judgement);
   return judgement;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Error.h"
+#include "mesh/Symmetries.h"
 #include "pose/Pose.h"
 
 #include <utility>
@@ -16,6 +17,7 @@ struct PoseEvaluationSettings
   double rotationTolerance = 5.0;     ///< degrees; and is turned by less
   int posesAskedFor = 5;              ///< best ones of a scene that are judged; 0: all there are
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(); ///< of the part, model frame, for axis and roll
+  Symmetries symmetries;               ///< of the part; the equal pose that is nearest to the true one is judged
   double minimumVisibleFraction = 0.5; ///< of a true instance that has to be found, for the recall
 };
 

@@ -27,4 +27,17 @@ void requireMesh(const TriangleMesh& mesh)
     }
   }
 }
+
+void requireSamplesOf(const TriangleMesh& mesh, const Points& points)
+{
+  Eigen::AlignedBox3f box = bounds(mesh.vertices);
+  const Eigen::Vector3f margin = Eigen::Vector3f::Constant(1e-3f * box.diagonal().norm());
+  box.extend((box.max() + margin).eval());
+  box.extend((box.min() - margin).eval());
+  if (!box.contains(bounds(points)))
+  {
+    throw Error("The points are not of this mesh: some lie outside it. Connect the prepared mesh that the surface was "
+                "sampled from.");
+  }
+}
 }

@@ -20,9 +20,11 @@ constexpr int LargestCoarseOrder = 8;   // turns by 360 / k tried to find axes; 
 constexpr double CoarseReachShare = 0.08;
 constexpr double CoarseLeafShare = 0.15; // of the diameter: points that find axes
 constexpr double ScanLeafShare = 0.06;   // points that find angles
+constexpr double SparseLeafShare = 0.03; // the surface that both are laid on
 constexpr int MostAxes = 24;
 constexpr double AxisSeparation = 12.0; // degrees
 constexpr int FitSteps = 12;
+constexpr double NearSpacings = 2.0; // most points that lie on the surface have a sample this near
 constexpr float SameSide = 0.7f; // cosine between the normals of corresponding points
 constexpr double SameTurn = 4.0; // degrees between two turns that are one
 constexpr int ContinuousChecks = 11;
@@ -38,7 +40,7 @@ class SurfaceMatcher
 public:
   SurfaceMatcher(const PointCloud& surface, double spacing, double reach)
     : Surface(surface)
-    , Grid(surface.points, std::max(reach / 3.0, 2.0 * spacing))
+    , Grid(surface.points, NearSpacings * spacing)
     , Spacing(static_cast<float>(spacing))
     , Reach(static_cast<float>(reach))
   {
@@ -47,18 +49,9 @@ public:
   /// The nearest sample on the same side of the surface, or -1.
   int corresponding(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double reach) const
   {
-    int best = -1;
-    float least = 0.0f;
-    this->Grid.forEachWithin(point, reach,
-      [&](int k, float distance)
-      {
-        if ((best < 0 || distance < least) && this->Surface.normals[k].dot(normal) > SameSide)
-        {
-          best = k;
-          least = distance;
-        }
-      });
-    return best;
+    const double near = std::min(reach, NearSpacings * this->Spacing);
+    const int best = this->correspondingWithin(point, normal, near);
+    return best >= 0 || near == reach ? best : this->correspondingWithin(point, normal, reach);
   }
 
   /// From the sample's tangent plane, so that the spacing of the samples does not count.
@@ -81,14 +74,14 @@ public:
   }
 
   /// Mean distance of some samples after a motion, as a share of the reach.
-  double misfit(const std::vector<int>& samples, const Eigen::Isometry3d& T, double worst = 1.0) const
+  double misfit(const PointCloud& samples, const Eigen::Isometry3d& T, double worst = 1.0) const
   {
     const Eigen::Isometry3f Tf = T.cast<float>();
     const double limit = worst * this->Reach * samples.size();
     double sum = 0.0;
-    for (const int i : samples)
+    for (std::size_t i = 0; i < samples.size(); ++i)
     {
-      sum += this->distance(i, Tf);
+      sum += this->distance(Tf * samples.points[i], Tf.linear() * samples.normals[i]);
       if (sum > limit)
       {
         return 1.0;
@@ -98,17 +91,17 @@ public:
   }
 
   /// Moves T to where the samples fit the surface best.
-  Eigen::Isometry3d fitted(const std::vector<int>& samples, Eigen::Isometry3d T, const Eigen::Vector3d& middle) const
+  Eigen::Isometry3d fitted(const PointCloud& samples, Eigen::Isometry3d T, const Eigen::Vector3d& middle) const
   {
     for (int step = 0; step < FitSteps; ++step)
     {
       const double reach = this->Reach * std::pow(0.25, static_cast<double>(step) / (FitSteps - 1));
       const Eigen::Isometry3f Tf = T.cast<float>();
       RigidFit fit(T * middle);
-      for (const int i : samples)
+      for (std::size_t i = 0; i < samples.size(); ++i)
       {
-        const Eigen::Vector3f point = Tf * this->Surface.points[i];
-        const int k = this->corresponding(point, Tf.linear() * this->Surface.normals[i], reach);
+        const Eigen::Vector3f point = Tf * samples.points[i];
+        const int k = this->corresponding(point, Tf.linear() * samples.normals[i], reach);
         if (k >= 0)
         {
           const Eigen::Vector3f& normal = this->Surface.normals[k];
@@ -121,25 +114,40 @@ public:
   }
 
 private:
+  int correspondingWithin(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double reach) const
+  {
+    int best = -1;
+    float least = 0.0f;
+    this->Grid.forEachWithin(point, reach,
+      [&](int k, float distance)
+      {
+        if ((best < 0 || distance < least) && this->Surface.normals[k].dot(normal) > SameSide)
+        {
+          best = k;
+          least = distance;
+        }
+      });
+    return best;
+  }
+
   const PointCloud& Surface;
   PointGrid Grid;
   float Spacing;
   float Reach;
 };
 
-Eigen::Isometry3d turn(const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& centre)
-{
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translate(centre);
-  T.rotate(Eigen::AngleAxisd(angle, axis));
-  T.translate(-centre);
-  return T;
-}
-
 struct Candidate
 {
   Eigen::Vector3d axis;
   double misfit = 1.0;
+};
+
+/// What an axis turned out to be.
+struct Axis
+{
+  bool isContinuous = false;
+  ContinuousSymmetry continuous;
+  std::vector<NearSymmetry> turns;
 };
 
 class Detector
@@ -150,9 +158,11 @@ public:
     , Diameter(diameter(surface.points))
     , Tolerance(tolerance > 0.0 ? tolerance : 0.01 * this->Diameter)
     , LeastOverlap(leastOverlap)
+    , Sparse(surface.subset(thinPoints(surface.points, SparseLeafShare * this->Diameter)))
     , Matcher(surface, this->spacing(), CoarseReachShare * this->Diameter)
-    , Coarse(thinPoints(surface.points, CoarseLeafShare * this->Diameter))
-    , Scan(thinPoints(surface.points, ScanLeafShare * this->Diameter))
+    , SparseMatcher(this->Sparse, SparseLeafShare * this->Diameter, CoarseReachShare * this->Diameter)
+    , Coarse(surface.subset(thinPoints(surface.points, CoarseLeafShare * this->Diameter)))
+    , Scan(surface.subset(thinPoints(surface.points, ScanLeafShare * this->Diameter)))
   {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& point : surface.points)
@@ -166,21 +176,31 @@ public:
   {
     Symmetries found;
     const std::vector<Candidate> axes = this->axes(subProgress(progress, 0.0, 0.5));
-    std::vector<NearSymmetry> turns;
-    for (std::size_t a = 0; a < axes.size(); ++a)
-    {
-      report(progress, 0.5 + 0.5 * a / axes.size());
-      ContinuousSymmetry continuous;
-      if (this->isContinuous(axes[a].axis, continuous))
+    std::vector<Axis> examined(axes.size());
+    parallelFor(static_cast<int>(axes.size()), 0, subProgress(progress, 0.5, 1.0),
+      [&](int begin, int end, int)
       {
-        found.continuous.push_back(continuous);
-        if (found.continuous.size() == 2)
+        for (int a = begin; a < end; ++a)
         {
-          return this->sphere(); // two axes generate all rotations
+          examined[a].isContinuous = this->isContinuous(axes[a].axis, examined[a].continuous);
+          if (!examined[a].isContinuous)
+          {
+            examined[a].turns = this->turnsAbout(axes[a].axis);
+          }
         }
-        continue;
+      });
+    std::vector<NearSymmetry> turns;
+    for (const Axis& axis : examined)
+    {
+      if (axis.isContinuous)
+      {
+        found.continuous.push_back(axis.continuous);
       }
-      for (const NearSymmetry& candidate : this->turnsAbout(axes[a].axis))
+      if (found.continuous.size() == 2)
+      {
+        return this->sphere(); // two axes generate all rotations
+      }
+      for (const NearSymmetry& candidate : axis.turns)
       {
         this->keep(candidate, turns);
       }
@@ -233,8 +253,8 @@ private:
           candidates[i].axis = directions[i].cast<double>().normalized();
           for (int order = 2; order <= LargestCoarseOrder; ++order)
           {
-            const double misfit = this->Matcher.misfit(
-              this->Coarse, turn(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
+            const double misfit = this->SparseMatcher.misfit(
+              this->Coarse, turnAbout(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
             candidates[i].misfit = std::min(candidates[i].misfit, misfit);
           }
         }
@@ -290,7 +310,7 @@ private:
   bool isContinuous(const Eigen::Vector3d& roughly, ContinuousSymmetry& result) const
   {
     // The axis of a fitted third of a turn is the exact one, if there is one.
-    const Eigen::Isometry3d T = this->Matcher.fitted(this->Scan, turn(roughly, 2.0 * M_PI / 3.0, this->Middle), this->Middle);
+    const Eigen::Isometry3d T = this->Matcher.fitted(this->Scan, turnAbout(roughly, 2.0 * M_PI / 3.0, this->Middle), this->Middle);
     const Eigen::AngleAxisd exact(T.linear());
     if (std::abs(exact.axis().dot(roughly)) < std::cos(AxisSeparation * Degree))
     {
@@ -301,7 +321,7 @@ private:
     for (int i = 1; i <= ContinuousChecks; ++i)
     {
       // Angles that no small order shares.
-      const Eigen::Isometry3d S = turn(result.axis, i * 31.0 * Degree, result.point);
+      const Eigen::Isometry3d S = turnAbout(result.axis, i * 31.0 * Degree, result.point);
       if (this->Matcher.misfit(this->Scan, S) * CoarseReachShare * this->Diameter > this->Tolerance ||
         this->measured(S).deviation > this->Tolerance)
       {
@@ -327,7 +347,7 @@ private:
     std::vector<double> misfits(Steps);
     for (int step = 0; step < Steps; ++step)
     {
-      misfits[step] = this->Matcher.misfit(this->Scan, turn(axis, 2.0 * M_PI * step / Steps, this->Middle));
+      misfits[step] = this->SparseMatcher.misfit(this->Scan, turnAbout(axis, 2.0 * M_PI * step / Steps, this->Middle));
     }
     std::vector<NearSymmetry> turns;
     for (int step = 3; step <= Steps - 3; ++step)
@@ -337,7 +357,7 @@ private:
         continue;
       }
       const Eigen::Isometry3d T =
-        this->Matcher.fitted(this->Scan, turn(axis, 2.0 * M_PI * step / Steps, this->Middle), this->Middle);
+        this->Matcher.fitted(this->Scan, turnAbout(axis, 2.0 * M_PI * step / Steps, this->Middle), this->Middle);
       if (Eigen::AngleAxisd(T.linear()).angle() > 2.0 * SameTurn * Degree)
       {
         turns.push_back(this->measured(T));
@@ -423,9 +443,11 @@ private:
   double Diameter;
   double Tolerance;
   double LeastOverlap;
+  PointCloud Sparse;
   SurfaceMatcher Matcher;
-  std::vector<int> Coarse;
-  std::vector<int> Scan;
+  SurfaceMatcher SparseMatcher;
+  PointCloud Coarse;
+  PointCloud Scan;
   Eigen::Vector3d Middle;
 };
 }

@@ -47,7 +47,7 @@ void collectEdges(
       }
       int same = -1;
       float nearest = static_cast<float>(mergeDistance * mergeDistance);
-      for (std::size_t k = 0; model.settings.mergeViews && k < known; ++k)
+      for (std::size_t k = 0; model.settings.merging == ViewMerging::Points && k < known; ++k)
       {
         const float distance = (edges.points[k] - cloud.points[i]).squaredNorm();
         if (distance <= nearest && std::abs(edges.tangents[k].dot(cloud.tangents[i])) > ParallelTangents)
@@ -171,6 +171,7 @@ void buildTable(TrainedModel& model, double voxelSize, const Progress& progress)
 {
   const PointCloud& edges = model.edges;
   const PairFeatureQuantizer quantizer = model.quantizer();
+  const ViewMerging merging = model.settings.merging;
   const int count = static_cast<int>(edges.size());
   std::vector<TangentFrame> frames;
   frames.reserve(count);
@@ -179,7 +180,8 @@ void buildTable(TrainedModel& model, double voxelSize, const Progress& progress)
     frames.emplace_back(edges.points[i], edges.tangents[i]);
   }
   const std::vector<std::uint64_t> codes =
-    model.settings.mergeViews ? std::vector<std::uint64_t>() : voxelCodes(edges.points, voxelSize);
+    merging == ViewMerging::VoxelCodes ? voxelCodes(edges.points, voxelSize) : std::vector<std::uint64_t>();
+  const std::vector<bool> isReference = representatives(edges.points, model.symmetries, voxelSize);
   std::unordered_map<std::pair<std::uint64_t, std::uint64_t>, std::size_t, CodePairHash> entryOf;
   std::vector<Entry> entries;
   for (int r = 0; r < count; ++r)
@@ -188,10 +190,12 @@ void buildTable(TrainedModel& model, double voxelSize, const Progress& progress)
     {
       report(progress, static_cast<double>(r) / count);
     }
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count && isReference[r]; ++i)
     {
       const std::uint32_t views = model.edgeViews[r] & model.edgeViews[i];
-      if (i == r || (views == 0 && (model.edgeVisible[r] & model.edgeVisible[i]) == 0))
+      const bool together =
+        views != 0 || (merging != ViewMerging::None && (model.edgeVisible[r] & model.edgeVisible[i]) != 0);
+      if (i == r || !together)
       {
         continue;
       }
@@ -288,7 +292,7 @@ MEAMHashingSettings paperHashingSettings()
   MEAMHashingSettings settings;
   settings.feature = PairFeatureKind::Paper;
   settings.angleStep = 3.6;
-  settings.mergeViews = false;
+  settings.merging = ViewMerging::VoxelCodes;
   settings.voxelSize = 1.0;
   settings.coVisibilityDirections = 0;
   return settings;
@@ -300,9 +304,10 @@ PairFeatureQuantizer TrainedModel::quantizer() const
     this->settings.angleStep * M_PI / 180.0, this->diameter);
 }
 
-TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PointCloud& surface, double partDiameter,
+TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PartSurface& part,
   const MEAMHashingSettings& settings, const Progress& progress)
 {
+  const PointCloud& surface = part.samples;
   if (edgeModels.size() > TrainedModel::MaximumViews || settings.coVisibilityDirections > TrainedModel::MaximumViews)
   {
     throw Error("There are more than 32 appearance models or co-visibility directions: use fewer viewpoints.");
@@ -318,6 +323,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Po
   }
   TrainedModel model;
   model.settings = settings;
+  model.symmetries = part.symmetries;
   Points everything = surface.points;
   for (const AppearanceModel& view : edgeModels)
   {
@@ -328,7 +334,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Po
     model.viewDirections.push_back(view.direction);
     everything.insert(everything.end(), view.cloud.points.begin(), view.cloud.points.end());
   }
-  model.diameter = partDiameter > 0.0 ? partDiameter : diameter(everything);
+  model.diameter = part.diameter > 0.0 ? part.diameter : diameter(everything);
   const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : DefaultVoxelShare * model.diameter;
   if (model.quantizer().numberOfKeys() > TrainedModel::MostKeys)
   {
@@ -353,10 +359,22 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Po
   digest.add(surface.points);
   digest.add(model.edges.points);
   digest.add(model.edges.tangents);
+  for (const ContinuousSymmetry& symmetry : part.symmetries.continuous)
+  {
+    digest.add(symmetry);
+  }
+  for (const Eigen::Isometry3d& S : part.symmetries.discrete)
+  {
+    digest.add(S.matrix());
+  }
+  for (const NearSymmetry& symmetry : part.symmetries.near)
+  {
+    digest.add(symmetry.T.matrix());
+  }
   digest.add(settings.feature);
   digest.add(settings.distanceStep);
   digest.add(settings.angleStep);
-  digest.add(settings.mergeViews);
+  digest.add(settings.merging);
   digest.add(settings.voxelSize);
   digest.add(settings.coVisibilityDirections);
   model.digest = digest.text();

@@ -186,10 +186,13 @@ PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const 
   };
   const std::vector<int> kept = thinPoints(cloud.points, length(settings.leafSize, 0.03));
   PointCloud result = cloud.subset(kept);
-  result.tangents = robust
-    ? robustTangents(cloud.points, kept, length(settings.radius, 0.06), length(settings.inlierDistance, 0.012),
-        settings.threads, progress)
-    : tileTangents(result.points, viewDirection, settings, progress);
+  if (result.tangents.empty())
+  {
+    result.tangents = robust
+      ? robustTangents(cloud.points, kept, length(settings.radius, 0.06), length(settings.inlierDistance, 0.012),
+          settings.threads, progress)
+      : tileTangents(result.points, viewDirection, settings, progress);
+  }
   std::vector<int> found;
   for (std::size_t i = 0; i < result.size(); ++i)
   {

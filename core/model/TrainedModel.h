@@ -2,18 +2,25 @@
 #pragma once
 
 #include "Geometry.h"
+#include "mesh/Symmetries.h"
 #include "model/PairFeature.h"
 
 namespace meam
 {
+/// How the edge appearance models come into one table.
+enum class ViewMerging
+{
+  Points,     ///< one edge point for all views that show it
+  VoxelCodes, ///< one for each view; a pair that several views show is stored once, by voxel code (Equation (2))
+  None        ///< one for each view, and all pairs of each view: as many tables as views, one after the other
+};
+
 struct MEAMHashingSettings
 {
   PairFeatureKind feature = PairFeatureKind::Oriented;
   double distanceStep = 0.07; ///< tau_d: d_dist as a share of d_max
   double angleStep = 7.2;     ///< d_angle, degrees; also the step of the votes' turn about the tangent
-  /// One edge point for all views that show it, or one for each view with pairs told apart by voxel
-  /// code (paper, Equation (2)).
-  bool mergeViews = true;
+  ViewMerging merging = ViewMerging::Points;
   double voxelSize = 0.0;     ///< L_voxel in mm; 0: 1.5 % of the diameter
   /// Directions from which two points must be visible together to make a pair; 0: only the views
   /// themselves (paper).
@@ -34,12 +41,13 @@ struct PairTable
   std::vector<std::uint32_t> viewBits;   ///< bit v: both points are on the edge seen in view v
 
   std::size_t size() const { return this->references.size(); }
+  std::size_t bytes() const { return (this->offsets.size() + 4 * this->size()) * sizeof(std::uint32_t); }
 };
 
 /// All that detection needs to know of a part: the result of the offline phase.
 struct TrainedModel
 {
-  static constexpr int FormatVersion = 1;
+  static constexpr int FormatVersion = 2;
   static constexpr int MaximumViews = 32; ///< views and directions are bits of a word
   static constexpr std::int64_t MostKeys = 50000000;
 
@@ -53,6 +61,7 @@ struct TrainedModel
   std::vector<std::uint32_t> edgeVisible; ///< bit c: visible from co-visibility direction c
 
   PointCloud surface; ///< thinned surface samples with normals
+  Symmetries symmetries;
 
   PairTable table;
 

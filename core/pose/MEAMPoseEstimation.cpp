@@ -33,6 +33,7 @@ TrainingSettings trainingSettings(Preset preset)
   {
     settings.tangents = paperTangentSettings();
     settings.hashing = paperHashingSettings();
+    settings.findSymmetries = false;
   }
   return settings;
 }
@@ -63,13 +64,18 @@ TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settin
   const double partDiameter = diameter(mesh.vertices);
   const PointCloud surface = sampleSurface(mesh, settings.sampling, subProgress(progress, 0.0, 0.1));
   std::vector<AppearanceModel> models =
-    extractVisibility(surface, settings.visibility, subProgress(progress, 0.1, 0.3));
-  models = extractBoundary(models, settings.boundary, subProgress(progress, 0.3, 0.4));
+    extractVisibility(surface, settings.visibility, &mesh, subProgress(progress, 0.1, 0.3));
+  models = extractBoundary(models, settings.boundary, &mesh, subProgress(progress, 0.3, 0.4));
   for (AppearanceModel& model : models)
   {
     model.cloud = estimateTangents(model.cloud, partDiameter, model.direction, settings.tangents);
   }
-  return hashModels(models, surface, partDiameter, settings.hashing, subProgress(progress, 0.4, 1.0));
+  PartSurface part{ surface, partDiameter, {} };
+  if (settings.findSymmetries)
+  {
+    part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
+  }
+  return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
 }
 
 Poses estimatePoses(const TrainedModel& model, const Scene& scene, const DetectionSettings& settings,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/SurfaceSampling.h"
+#include "mesh/SymmetryDetection.h"
 #include "model/BoundaryExtraction.h"
 #include "model/MEAMHashing.h"
 #include "model/TangentEstimation.h"
@@ -25,6 +26,8 @@ struct TrainingSettings
   VisibilityExtractionSettings visibility;
   BoundaryExtractionSettings boundary;
   TangentEstimationSettings tangents;
+  bool findSymmetries = true;
+  SymmetryDetectionSettings symmetry;
   MEAMHashingSettings hashing;
 };
 

@@ -207,6 +207,7 @@ Poses detectPoses(const PointCloud& edges, const TrainedModel& model, const Pose
     Pose pose;
     pose.T_scene_model = alignFrames(TangentFrame(model.edges.points[peak.modelPoint], model.edges.tangents[peak.modelPoint]),
       TangentFrame(edges.points[scenePoint], edges.tangents[scenePoint]), peak.flip, peak.alpha);
+    pose.T_scene_model = nearestEqual(pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
     pose.votes = peak.votes;
     pose.viewId = __builtin_ctz(model.edgeViews[peak.modelPoint]);
     poses.push_back(pose);

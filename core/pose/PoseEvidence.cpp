@@ -18,13 +18,6 @@ constexpr double EdgeWeight = 0.4;
 constexpr double SurfaceWeight = 0.4;
 constexpr double ExplainedWeight = 0.2;
 
-// Logarithms of how much likelier a right pose than a wrong one makes a point's state. At right poses
-// about three of four predicted edge points are found, and surface is often where a wrong pose wants it.
-constexpr double EdgeMatched = 2.0;
-constexpr double EdgeViolated = -1.3;
-constexpr double SurfaceMatched = 0.5;
-constexpr double SurfaceViolated = -1.2;
-
 int count(const std::vector<PointState>& states, PointState state)
 {
   return static_cast<int>(std::count(states.begin(), states.end(), state));
@@ -83,7 +76,6 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
       : this->Depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
                                                                              : PointState::Violated;
     evidence.edges.push_back(point);
-    evidence.tangents.push_back(tangent);
     evidence.edgeStates.push_back(state);
   }
   if (this->InScene.surface.empty())
@@ -119,33 +111,6 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
   return evidence;
 }
 
-double EvidenceCollector::distinct(const PoseEvidence& a, const PoseEvidence& b) const
-{
-  double sum = 0.0;
-  const double edgeReach = EdgeReach * this->Tolerance;
-  const PointGrid edges(b.edges, edgeReach);
-  for (std::size_t i = 0; i < a.edges.size(); ++i)
-  {
-    bool shared = a.edgeStates[i] == PointState::Hidden;
-    edges.forEachWithin(a.edges[i], edgeReach,
-      [&](int k, float) { shared = shared || std::abs(b.tangents[k].dot(a.tangents[i])) > ParallelTangents; });
-    if (!shared)
-    {
-      sum += a.edgeStates[i] == PointState::Matched ? EdgeMatched : EdgeViolated;
-    }
-  }
-  const double surfaceReach = SurfaceReachShare * this->Model.diameter;
-  const PointGrid surface(b.surface, surfaceReach);
-  for (std::size_t i = 0; i < a.surface.size(); ++i)
-  {
-    if (a.surfaceStates[i] != PointState::Hidden && surface.nearest(a.surface[i], surfaceReach) < 0)
-    {
-      sum += a.surfaceStates[i] == PointState::Matched ? SurfaceMatched : SurfaceViolated;
-    }
-  }
-  return sum;
-}
-
 double EvidenceCollector::shared(const PoseEvidence& a, const PoseEvidence& b) const
 {
   const auto matched = [](const PoseEvidence& evidence)
@@ -169,10 +134,5 @@ double EvidenceCollector::shared(const PoseEvidence& a, const PoseEvidence& b) c
   const auto near =
     std::count_if(ofA.begin(), ofA.end(), [&](const auto& point) { return ofB.nearest(point, reach) >= 0; });
   return ofA.empty() ? 0.0 : static_cast<double>(near) / ofA.size();
-}
-
-double EvidenceCollector::compare(const PoseEvidence& a, const PoseEvidence& b) const
-{
-  return this->distinct(a, b) - this->distinct(b, a);
 }
 }

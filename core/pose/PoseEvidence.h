@@ -21,7 +21,6 @@ enum class PointState : unsigned char
 struct PoseEvidence
 {
   Points edges;
-  Points tangents;
   std::vector<PointState> edgeStates;
   Points surface;
   std::vector<PointState> surfaceStates;
@@ -41,17 +40,13 @@ public:
   EvidenceCollector(const TrainedModel& model, const Scene& scene, double tolerance);
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model) const;
   const PartView& view() const { return this->View; }
-  /// Greater than 0 when the points that tell two poses of one instance apart speak for `a`, less
-  /// than 0 for `b`: a logarithm of likelihoods over the points that one predicts and the other does not.
-  double compare(const PoseEvidence& a, const PoseEvidence& b) const;
+  const TrainedModel& model() const { return this->Model; }
   /// Share of what `a` matched that `b` matched, too, [0, 1]: poses of one instance share most of it.
   double shared(const PoseEvidence& a, const PoseEvidence& b) const;
   /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.
   bool nearEdge(const Eigen::Vector3f& point) const { return this->Edges.nearest(point, this->Tolerance) >= 0; }
 
 private:
-  double distinct(const PoseEvidence& a, const PoseEvidence& b) const;
-
   const TrainedModel& Model;
   const Scene& InScene;
   double Tolerance;

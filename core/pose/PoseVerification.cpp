@@ -2,12 +2,14 @@
 #include "pose/PoseVerification.h"
 
 #include "Parallel.h"
+#include "pose/PoseComparison.h"
 #include "pose/PoseEvidence.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
 namespace meam
 {
@@ -16,6 +18,7 @@ namespace
 constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SharedByOne = 0.5;        // share of the matched surface from which on two poses are of one instance
+constexpr double SureAdvantage = 2.0;      // points that make a turn e times likelier than another
 constexpr double VisibilityExponent = 0.5; // parts that nothing hides come first: they can be grasped
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
@@ -28,15 +31,46 @@ void scoreCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector&
   pose.visibleFraction = pose.score;
 }
 
+void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceCollector& collector, const Sensor& sensor)
+{
+  pose.viewId = collector.view().view(pose.T_scene_model, sensor);
+  pose.visibleFraction = evidence.visibleFraction();
+  pose.score = evidence.support() * std::pow(pose.visibleFraction, VisibilityExponent);
+}
+
+/// Of the pose and its turns by the part's near-symmetries takes the one that the scene speaks for.
+void settleNearSymmetry(Pose& pose, const PoseComparison& comparison, const Symmetries& symmetries)
+{
+  const Eigen::Isometry3d T = pose.T_scene_model;
+  std::vector<double> advantages{ 0.0 };
+  for (const NearSymmetry& symmetry : symmetries.near)
+  {
+    advantages.push_back(comparison.advantage(T * symmetry.T, T));
+  }
+  const auto best = std::max_element(advantages.begin(), advantages.end());
+  double odds = 0.0; // of all turns against the best
+  for (const double advantage : advantages)
+  {
+    odds += std::exp((advantage - *best) / SureAdvantage);
+  }
+  if (best != advantages.begin())
+  {
+    pose.T_scene_model = T * symmetries.near[best - advantages.begin() - 1].T;
+  }
+  pose.certainty = 1.0 / odds;
+}
+
 /// Indices of the poses that stay, best first.
 class Clusters
 {
 public:
+  /// `comparison` may be null: then the better score decides.
   Clusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const EvidenceCollector& collector,
-    const PoseVerificationSettings& settings, double distance, double reach)
+    const PoseComparison* comparison, const PoseVerificationSettings& settings, double distance, double reach)
     : InPoses(poses)
     , Evidence(evidence)
     , Collector(collector)
+    , Comparison(comparison)
     , Settings(settings)
     , Distance(distance)
     , Reach(reach)
@@ -50,17 +84,20 @@ public:
     std::copy_if(this->Kept.begin(), this->Kept.end(), std::back_inserter(alternatives), isOfInstance);
     for (const int kept : alternatives)
     {
-      if (rotationError(this->InPoses[candidate].T_scene_model, this->InPoses[kept].T_scene_model) <
-        this->Settings.clusterAngle)
+      if (this->turnBetween(candidate, kept) < this->Settings.clusterAngle)
       {
         return;
       }
     }
     if (static_cast<int>(alternatives.size()) >= this->Settings.posesPerInstance)
     {
-      const bool best = this->Settings.posesPerInstance == 1 && !this->Evidence.empty() &&
+      const bool best = this->Comparison &&
         std::all_of(alternatives.begin(), alternatives.end(),
-          [&](int kept) { return this->Collector.compare(this->Evidence[candidate], this->Evidence[kept]) > 0.0; });
+          [&](int kept)
+          {
+            return this->Comparison->advantage(
+                     this->InPoses[candidate].T_scene_model, this->InPoses[kept].T_scene_model) > 0.0;
+          });
       if (!best)
       {
         return;
@@ -76,12 +113,19 @@ private:
   bool sameInstance(int a, int b) const
   {
     const double apart = (this->middle(a) - this->middle(b)).norm();
-    if (apart < this->Distance || this->Settings.posesPerInstance > 1 || this->Evidence.empty())
+    if (apart < this->Distance || !this->Comparison)
     {
       return apart < this->Distance;
     }
     // Two parts do not have their surface in the same place.
     return apart < this->Reach && this->Collector.shared(this->Evidence[a], this->Evidence[b]) > SharedByOne;
+  }
+
+  /// Degrees, up to the part's exact symmetries.
+  double turnBetween(int a, int b) const
+  {
+    const Eigen::Isometry3d& T = this->InPoses[b].T_scene_model;
+    return rotationError(nearestEqual(this->InPoses[a].T_scene_model, T, this->Collector.model().symmetries), T);
   }
 
   Eigen::Vector3d middle(int index) const
@@ -92,6 +136,7 @@ private:
   const Poses& InPoses;
   const std::vector<PoseEvidence>& Evidence;
   const EvidenceCollector& Collector;
+  const PoseComparison* Comparison;
   const PoseVerificationSettings& Settings;
   double Distance;
   double Reach; ///< middles farther apart are of two instances
@@ -122,20 +167,20 @@ Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& sc
   }
   Poses scored = poses;
   std::vector<PoseEvidence> evidence(byEvidence ? scored.size() : 0);
-  parallelFor(static_cast<int>(scored.size()), settings.threads, progress,
+  parallelFor(static_cast<int>(scored.size()), settings.threads, subProgress(progress, 0.0, 0.8),
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        if (!byEvidence)
+        if (byEvidence)
+        {
+          evidence[i] = collector.collect(scored[i].T_scene_model);
+          scoreEvidence(scored[i], evidence[i], collector, scene.sensor);
+        }
+        else
         {
           scoreCoverage(scored[i], viewEdges.at(scored[i].viewId), collector);
-          continue;
         }
-        evidence[i] = collector.collect(scored[i].T_scene_model);
-        scored[i].viewId = collector.view().view(scored[i].T_scene_model, scene.sensor);
-        scored[i].visibleFraction = evidence[i].visibleFraction();
-        scored[i].score = evidence[i].support() * std::pow(scored[i].visibleFraction, VisibilityExponent);
       }
     });
   std::vector<int> order(scored.size());
@@ -143,7 +188,12 @@ Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& sc
   const auto better = [&](int a, int b) { return scored[a].score > scored[b].score; };
   std::stable_sort(order.begin(), order.end(), better);
 
-  Clusters clusters(scored, evidence, collector, settings,
+  std::optional<PoseComparison> comparison;
+  if (byEvidence && settings.posesPerInstance == 1)
+  {
+    comparison.emplace(model, scene);
+  }
+  Clusters clusters(scored, evidence, collector, comparison ? &*comparison : nullptr, settings,
     settings.clusterDistance > 0.0 ? settings.clusterDistance : ClusterShare * model.diameter, 0.5 * model.diameter);
   std::vector<int> ofView(TrainedModel::MaximumViews, 0);
   for (const int i : order)
@@ -154,13 +204,29 @@ Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& sc
       clusters.add(i);
     }
   }
-  std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), better);
+  if (comparison)
+  {
+    parallelFor(static_cast<int>(clusters.Kept.size()), settings.threads, subProgress(progress, 0.8, 1.0),
+      [&](int begin, int end, int)
+      {
+        for (int k = begin; k < end; ++k)
+        {
+          const int i = clusters.Kept[k];
+          settleNearSymmetry(scored[i], *comparison, model.symmetries);
+          scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), collector, scene.sensor);
+        }
+      });
+  }
+  const auto surer = [&](int a, int b)
+  { return scored[a].score * scored[a].certainty > scored[b].score * scored[b].certainty; };
+  std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), surer);
   Poses best;
   for (const int i : clusters.Kept)
   {
     if (settings.maximumPoses == 0 || static_cast<int>(best.size()) < settings.maximumPoses)
     {
       best.push_back(scored[i]);
+      best.back().T_scene_model = nearestEqual(scored[i].T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
     }
   }
   report(progress, 1.0);

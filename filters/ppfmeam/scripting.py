@@ -16,7 +16,8 @@ from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
 from . import filters, meshfiles
 
-READERS = {".pcd": filters.vtkMEAMPCDReader, ".ply": vtkPLYReader, ".stl": vtkSTLReader, ".obj": vtkOBJReader}
+READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, ".ply": vtkPLYReader,
+           ".stl": vtkSTLReader, ".obj": vtkOBJReader}
 WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
 STAGES = ("Training", "SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total")
 
@@ -97,7 +98,7 @@ def read_with(reader, path):
 
 
 def read(path, scale=1.0):
-    """The mesh or the cloud in a .pcd, .ply, .stl or .obj file, its coordinates times a factor."""
+    """The mesh or the cloud in a .pcd, .off, .ply, .stl or .obj file, its coordinates times a factor."""
     extension = os.path.splitext(path)[1].lower()
     if extension not in READERS:
         raise Failure(f"{path}: unknown kind of file; known are {', '.join(READERS)}")
@@ -122,7 +123,7 @@ def read_mesh(path, offset=(0, 0, 0), scale=1.0):
     """The clean mesh of a CAD file, scaled to mm and moved by an offset in mm."""
     data = read(path)
     if not data.IsA("vtkPolyData"):
-        raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.stl, .obj or .ply)")
+        raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.stl, .obj, .ply or .off)")
     preparation = filters.vtkMEAMMeshPreparation()
     preparation.SetInputDataObject(data)
     preparation.SetScale(scale)
@@ -157,6 +158,10 @@ def train(mesh, preset="recommended"):
     for before, step in ((surface, views), (views, boundary), (boundary, tangents), (tangents, hashing)):
         step.SetInputConnection(before.GetOutputPort())
     hashing.SetInputConnection(1, surface.GetOutputPort())
+    if preset == "recommended":
+        symmetries = filters.vtkMEAMSymmetryDetection()
+        symmetries.SetInputConnection(surface.GetOutputPort())
+        hashing.SetInputConnection(1, symmetries.GetOutputPort())
     return update(hashing).GetOutput()
 
 

@@ -34,7 +34,7 @@ const meam::Points Back = { { 0, 0, 0 }, { 10, 0, 0 }, { 3, 4, -9 } }; // two pl
 MEAMHashingSettings settings(bool merge)
 {
   MEAMHashingSettings result;
-  result.mergeViews = merge;
+  result.merging = merge ? meam::ViewMerging::Points : meam::ViewMerging::VoxelCodes;
   result.voxelSize = 1.0;
   result.coVisibilityDirections = 0;
   return result;
@@ -60,7 +60,7 @@ TEST(MEAMHashing, EachPhysicalPairOnceAndOnlyWhatIsSeenTogether)
   for (const bool merge : { true, false })
   {
     const meam::TrainedModel model =
-      meam::hashModels({ view("front", Front), view("back", Back) }, {}, 40.0, settings(merge));
+      meam::hashModels({ view("front", Front), view("back", Back) }, { {}, 40.0, {} }, settings(merge));
     EXPECT_EQ(model.edges.size(), merge ? 5u : 7u);
     const auto pairs = pairsOf(model);
     // 4 * 3 in front, 3 * 2 behind, of which the two of the common pair are the same.
@@ -90,7 +90,7 @@ TEST(MEAMHashing, PairsThatOnlyADirectionShowsAreNotTakenForOneAnother)
   MEAMHashingSettings both = settings(false);
   both.coVisibilityDirections = 26;
   const meam::TrainedModel model =
-    meam::hashModels({ view("one", corners), view("other", corners) }, surface, 40.0, both);
+    meam::hashModels({ view("one", corners), view("other", corners) }, { surface, 40.0, {} }, both);
   for (std::size_t k = 0; k < model.table.size(); ++k)
   {
     const auto& r = model.edges.points[model.table.references[k]];
@@ -98,6 +98,38 @@ TEST(MEAMHashing, PairsThatOnlyADirectionShowsAreNotTakenForOneAnother)
     EXPECT_GT((r - i).norm(), 1.0f);
   }
   EXPECT_GE(model.table.size(), 6u);
+}
+
+TEST(MEAMHashing, SeparateTablesKeepThePairsOfEachView)
+{
+  MEAMHashingSettings separate = settings(true);
+  separate.merging = meam::ViewMerging::None;
+  const meam::TrainedModel model =
+    meam::hashModels({ view("front", Front), view("back", Back) }, { {}, 40.0, {} }, separate);
+  EXPECT_EQ(model.edges.size(), Front.size() + Back.size());
+  EXPECT_EQ(model.table.size(), Front.size() * (Front.size() - 1) + Back.size() * (Back.size() - 1));
+  EXPECT_EQ(model.table.bytes(), 4 * (model.table.offsets.size() + 4 * model.table.size()));
+}
+
+TEST(MEAMHashing, OneOfEqualPointsIsAReference)
+{
+  // Two pairs of points that half a turn about z maps onto each other.
+  const meam::Points points = { { 10, 0, 0 }, { -10, 0, 0 }, { 0, 15, 5 }, { 0, -15, 5 } };
+  meam::Symmetries half;
+  half.discrete.push_back(meam::turnAbout(Eigen::Vector3d::UnitZ(), M_PI, Eigen::Vector3d::Zero()));
+  const auto trained = [&](const meam::Symmetries& symmetries)
+  { return meam::hashModels({ view("top", points) }, { {}, 40.0, symmetries }, settings(true)); };
+  EXPECT_EQ(trained({}).table.size(), 12u);
+  const meam::TrainedModel model = trained(half);
+  EXPECT_EQ(model.table.size(), 6u);
+  EXPECT_NE(model.digest, trained({}).digest);
+  EXPECT_EQ(model.symmetries.discrete.size(), 1u);
+  const std::set<std::uint32_t> references(model.table.references.begin(), model.table.references.end());
+  EXPECT_EQ(references.size(), 2u);
+  for (const auto other : references)
+  {
+    EXPECT_EQ(references.count(other ^ 1u), 0u) << "both of a pair are references";
+  }
 }
 
 TEST(MEAMHashing, EveryBucketHoldsThePairsOfItsKey)
@@ -161,17 +193,17 @@ TEST(MEAMHashing, PointsOnOppositeFacesDoNotPair)
 
 TEST(MEAMHashing, BadInput)
 {
-  EXPECT_THROW(meam::hashModels({}, {}, 0.0), meam::Error);
+  EXPECT_THROW(meam::hashModels({}, {}), meam::Error);
   AppearanceModel bare = view("front", Front);
   bare.cloud.tangents.clear();
-  EXPECT_THROW(meam::hashModels({ bare }, {}, 0.0), meam::Error);
-  EXPECT_THROW(meam::hashModels(std::vector<AppearanceModel>(33, view("v", Front)), {}, 0.0), meam::Error);
+  EXPECT_THROW(meam::hashModels({ bare }, {}), meam::Error);
+  EXPECT_THROW(meam::hashModels(std::vector<AppearanceModel>(33, view("v", Front)), {}), meam::Error);
   MEAMHashingSettings fine;
   fine.angleStep = 1.0;
   fine.distanceStep = 0.001;
-  EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, 40.0, fine), meam::Error); // 3 thousand million keys
+  EXPECT_THROW(meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, fine), meam::Error); // 3 thousand million keys
   MEAMHashingSettings none;
   none.angleStep = 0.0;
-  EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, 0.0, none), meam::Error);
-  EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, 40.0, {}, [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, none), meam::Error);
+  EXPECT_THROW(meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, {}, [](double) { return false; }), meam::Aborted);
 }

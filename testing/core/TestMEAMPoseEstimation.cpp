@@ -47,6 +47,17 @@ TEST(MEAMPoseEstimation, ThePaperPresetFindsThemToo)
   EXPECT_GE(instancesFound(poses, 7.5, 5.0), 2); // its weaker tangents and scores miss some
 }
 
+TEST(MEAMPoseEstimation, AModelOfTheMeshesEdgesFindsThemToo)
+{
+  meam::TrainingSettings training = meam::trainingSettings(meam::Preset::Recommended);
+  training.visibility.method = meam::VisibilityMethod::MeshVisibility;
+  training.boundary.method = meam::BoundaryMethod::MeshEdges;
+  const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const meam::Poses poses = meam::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
+}
+
 TEST(MEAMPoseEstimation, AnEdgeCloudAloneIsEnough)
 {
   meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());

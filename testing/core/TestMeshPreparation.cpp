@@ -234,6 +234,206 @@ TEST(MeshPreparation, threeFacesAtAnEdgeAreAccepted)
   EXPECT_EQ(meam::prepareMesh(fan).report.triangles, 3);
 }
 
+TEST(MeshPreparation, seamIsSewn)
+{
+  // The two halves of a box were modelled apart: a gap far below anything that can be made.
+  meam::TriangleMesh soup = boxSoup({ 0, 0, 0 }, { 1, 2, 2 });
+  for (std::size_t v = 0; v < 18; ++v)
+  {
+    soup.vertices[v].x() += 1e-6f;
+  }
+  const auto [mesh, report] = meam::prepareMesh(soup);
+  EXPECT_TRUE(report.closed);
+  EXPECT_EQ(report.vertices, 8);
+  EXPECT_GT(report.nearVertices, 0);
+  EXPECT_EQ(report.mergedVertices + report.nearVertices, 28);
+  EXPECT_NEAR(report.volume, 4.0, 1e-5);
+}
+
+TEST(MeshPreparation, gapsThatCanBeSeenStayOpen)
+{
+  meam::TriangleMesh soup = boxSoup({ 0, 0, 0 }, { 1, 2, 2 });
+  for (std::size_t v = 0; v < 18; ++v)
+  {
+    soup.vertices[v].x() += 1e-3f;
+  }
+  EXPECT_FALSE(meam::prepareMesh(soup).report.closed);
+}
+
+TEST(MeshPreparation, needleStays)
+{
+  meam::TriangleMesh sheet;
+  sheet.vertices = { { 0, 0, 0 }, { 100, 0, 0 }, { 0, 50, 0 }, { 50, -0.01f, 0 } };
+  sheet.triangles = { { 0, 1, 2 }, { 0, 3, 1 } };
+  const auto [mesh, report] = meam::prepareMesh(sheet);
+  EXPECT_EQ(report.degenerateTriangles, 0);
+  EXPECT_EQ(report.triangles, 2);
+}
+
+TEST(MeshPreparation, holesUpToTheLimitAreClosed)
+{
+  // A box of 1 x 2 x 2 without a square of 2 x 2 (border 8 mm) and without a triangle (2 + 2 + sqrt(8)).
+  meam::TriangleMesh soup = boxSoup({ 0, 0, 0 }, { 1, 2, 2 });
+  soup.triangles.erase(soup.triangles.begin() + 10, soup.triangles.end());
+  soup.triangles.erase(soup.triangles.begin() + 8);
+  meam::MeshPreparationSettings settings;
+  const auto prepared = [&](double holeSize)
+  {
+    settings.holeSize = holeSize;
+    return meam::prepareMesh(soup, settings).report;
+  };
+  EXPECT_EQ(prepared(0.0).closedHoles, 0);
+  EXPECT_EQ(prepared(0.0).borderEdges, 7);
+  EXPECT_EQ(prepared(6.8).closedHoles, 0);
+  EXPECT_EQ(prepared(6.9).closedHoles, 1);
+  EXPECT_EQ(prepared(6.9).borderEdges, 4);
+  EXPECT_EQ(prepared(7.9).closedHoles, 1);
+  const meam::MeshReport report = prepared(8.1);
+  EXPECT_EQ(report.closedHoles, 2);
+  EXPECT_TRUE(report.closed);
+  EXPECT_DOUBLE_EQ(report.volume, 4.0);
+}
+
+TEST(MeshPreparation, borderOfASheetIsNoHole)
+{
+  // A frame: a square of 3 x 3 with a hole of 1 x 1 in its middle.
+  meam::TriangleMesh frame;
+  for (const float half : { 1.5f, 0.5f })
+  {
+    frame.vertices.insert(
+      frame.vertices.end(), { { -half, -half, 0 }, { half, -half, 0 }, { half, half, 0 }, { -half, half, 0 } });
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    const int next = (i + 1) % 4;
+    frame.triangles.emplace_back(i, next, 4 + next);
+    frame.triangles.emplace_back(i, 4 + next, 4 + i);
+  }
+  meam::MeshPreparationSettings settings;
+  settings.holeSize = 100.0;
+  const auto [mesh, report] = meam::prepareMesh(frame, settings);
+  EXPECT_EQ(report.closedHoles, 1);
+  EXPECT_EQ(report.borderEdges, 4);
+  EXPECT_DOUBLE_EQ(report.area, 9.0);
+}
+
+TEST(MeshPreparation, largestComponentByArea)
+{
+  // The smaller body has more triangles.
+  meam::TriangleMesh soup = boxSoup({ 9, 0, 0 }, { 10, 1, 1 });
+  append(soup, boxSoup({ 12, 0, 0 }, { 13, 1, 1 }));
+  append(soup, boxSoup({ 0, 0, 0 }, { 3, 3, 3 }));
+  meam::MeshPreparationSettings settings;
+  EXPECT_EQ(meam::prepareMesh(soup, settings).report.components, 3);
+  settings.keptComponents = meam::KeptComponents::Largest;
+  const auto [mesh, report] = meam::prepareMesh(soup, settings);
+  EXPECT_EQ(report.components, 1);
+  EXPECT_EQ(report.droppedComponents, 2);
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_DOUBLE_EQ(report.volume, 27.0);
+}
+
+TEST(MeshPreparation, intersectingPairsAreCounted)
+{
+  // The second triangle goes through the first, the third touches none.
+  meam::TriangleMesh mesh;
+  mesh.vertices = { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 }, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 0.5f, 1 }, { 9, 9, 9 },
+    { 9, 8, 9 }, { 8, 9, 9 } };
+  mesh.triangles = { { 0, 1, 2 }, { 3, 4, 5 }, { 6, 7, 8 } };
+  EXPECT_EQ(meam::prepareMesh(mesh).report.intersections, 1);
+  EXPECT_EQ(meam::prepareMesh(boxSoup({ 0, 0, 0 }, { 1, 1, 1 })).report.intersections, 0);
+}
+
+TEST(MeshPreparation, countingIntersectionsEnds)
+{
+  // 150 x 150 triangles that all cross each other.
+  meam::TriangleMesh mesh;
+  for (int i = 0; i < 150; ++i)
+  {
+    const float at = 0.1f * static_cast<float>(i);
+    append(mesh, { { { at, -1, -20 }, { at, 20, 0 }, { at, -1, 20 } }, { { 0, 1, 2 } } });
+    append(mesh, { { { -20, at, -1 }, { 20, at, -1 }, { 0, at, 40 } }, { { 0, 1, 2 } } });
+  }
+  EXPECT_EQ(meam::prepareMesh(mesh).report.intersections, meam::MostIntersections);
+}
+
+TEST(MeshPreparation, simplifiedAndRemade)
+{
+  meam::MeshPreparationSettings settings;
+  settings.edgeLength = 0.5;
+  const auto [fine, made] = meam::prepareMesh(boxSoup({ 0, 0, 0 }, { 2, 2, 2 }), settings);
+  EXPECT_GT(made.triangles, 150);
+  EXPECT_TRUE(made.closed);
+  EXPECT_NEAR(made.volume, 8.0, 1e-5);
+  settings.edgeLength = 0.0;
+  settings.maximumError = 0.001;
+  const auto [coarse, simplified] = meam::prepareMesh(fine, settings);
+  EXPECT_EQ(simplified.triangles, 12);
+  EXPECT_NEAR(simplified.volume, 8.0, 1e-5);
+}
+
+TEST(MeshPreparation, description)
+{
+  meam::TriangleMesh soup = boxSoup({ 0, 0, 0 }, { 1, 1, 1 });
+  soup.triangles.emplace_back(soup.triangles[3]);
+  soup.triangles.emplace_back(soup.triangles[4]);
+  EXPECT_EQ(meam::describe(meam::prepareMesh(soup).report),
+    "28 vertices merged with others at their place; 2 duplicate triangles removed; closed; "
+    "1 component of 12 triangles");
+  meam::MeshReport report;
+  report.nearVertices = 1;
+  report.degenerateTriangles = 1;
+  report.droppedComponents = 1;
+  report.closedHoles = 2;
+  report.flippedComponents = 1;
+  report.intersections = 4;
+  report.borderEdges = 36;
+  report.components = 2;
+  report.triangles = 1;
+  EXPECT_EQ(meam::describe(report),
+    "1 vertex merged with one next to it; 1 triangle without area removed; 1 smaller component dropped; "
+    "2 holes closed; 1 component faced inwards and was turned; 4 pairs of triangles intersect; "
+    "open: 36 border edges; 2 components of 1 triangle");
+  report.intersections = meam::MostIntersections;
+  EXPECT_NE(meam::describe(report).find("at least 10000 pairs of triangles intersect"), std::string::npos);
+}
+
+TEST(MeshPreparation, inputStaysAsItIs)
+{
+  meam::TriangleMesh soup = boxSoup({ 0, 0, 0 }, { 1, 1, 1 });
+  flip(soup, 3);
+  const meam::TriangleMesh before = soup;
+  meam::MeshPreparationSettings settings;
+  settings.scale = 10.0;
+  settings.maximumError = 0.1;
+  settings.edgeLength = 5.0;
+  meam::prepareMesh(soup, settings);
+  EXPECT_EQ(soup.vertices, before.vertices);
+  EXPECT_EQ(soup.triangles, before.triangles);
+}
+
+TEST(MeshPreparation, canBeStoppedAnywhere)
+{
+  const meam::TriangleMesh soup = boxSoup({ 0, 0, 0 }, { 1, 1, 1 });
+  meam::MeshPreparationSettings settings;
+  settings.holeSize = 1.0;
+  settings.maximumError = 0.01;
+  settings.edgeLength = 0.2;
+  double last = 0.0;
+  meam::prepareMesh(soup, settings,
+    [&](double share)
+    {
+      EXPECT_GE(share, last);
+      last = share;
+      return true;
+    });
+  EXPECT_EQ(last, 1.0);
+  for (const double stop : { 0.0, 0.2, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0 })
+  {
+    EXPECT_THROW(meam::prepareMesh(soup, settings, [&](double share) { return share < stop; }), meam::Aborted);
+  }
+}
+
 TEST(MeshPreparation, badInput)
 {
   EXPECT_THROW(meam::prepareMesh({}), meam::Error);
@@ -243,6 +443,16 @@ TEST(MeshPreparation, badInput)
   {
     settings.scale = scale;
     EXPECT_THROW(meam::prepareMesh(mesh, settings), meam::Error);
+  }
+  for (double meam::MeshPreparationSettings::*length : { &meam::MeshPreparationSettings::holeSize,
+         &meam::MeshPreparationSettings::maximumError, &meam::MeshPreparationSettings::edgeLength })
+  {
+    for (const double value : { -1.0, std::nan("") })
+    {
+      settings = {};
+      settings.*length = value;
+      EXPECT_THROW(meam::prepareMesh(mesh, settings), meam::Error);
+    }
   }
   mesh.triangles.emplace_back(0, 1, 36);
   EXPECT_THROW(meam::prepareMesh(mesh), meam::Error);

@@ -200,6 +200,22 @@ TEST(PoseEvaluation, averagePrecision)
   EXPECT_NEAR(meam::evaluationFigures(totals).averagePrecision, 50.0, 1e-9);
 }
 
+TEST(PoseEvaluation, equalPosesOfASymmetricPartAreRight)
+{
+  meam::PoseEvaluationSettings with = settings();
+  with.symmetries.discrete.push_back(
+    meam::turnAbout(Vector3d::UnitZ(), M_PI, Vector3d(8, 0, 0))); // half a turn about an axis beside the origin
+  meam::Pose turned = poseAt(0);
+  turned.T_scene_model = turned.T_scene_model * with.symmetries.discrete[0];
+  EXPECT_EQ(meam::evaluatePoses({ turned }, { poseAt(0) }, settings()).judgements.at(0).instance, -1);
+  const auto judgement = meam::evaluatePoses({ turned }, { poseAt(0) }, with).judgements.at(0);
+  EXPECT_EQ(judgement.instance, 0);
+  EXPECT_NEAR(judgement.translationError, 0.0, 1e-9);
+  EXPECT_NEAR(judgement.rotationError, 0.0, 1e-5);
+  EXPECT_NEAR(judgement.rollError, 0.0, 1e-5);
+  EXPECT_TRUE(meam::evaluatePoses({ poseAt(0), turned }, { poseAt(0) }, with).judgements.at(1).duplicate);
+}
+
 TEST(PoseEvaluation, badInput)
 {
   EXPECT_THROW(meam::evaluatePoses({}, {}, {}), meam::Error);

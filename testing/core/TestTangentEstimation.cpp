@@ -126,6 +126,25 @@ TEST(TangentEstimation, PointsWithoutALineAreLeftOut)
   EXPECT_GT(edges.size(), 5u);
 }
 
+TEST(TangentEstimation, PointsThatCarryTangentsAreOnlyThinned)
+{
+  meam::TangentEstimationSettings settings;
+  settings.leafSize = 2.0;
+  meam::PointCloud cloud = line({ 1, 0, 0 }, 40, 0.5f);
+  cloud.tangents.assign(cloud.size(), Eigen::Vector3f::UnitY()); // not what the points would say
+  cloud.edgeTypes.assign(cloud.size(), meam::EdgeType::Crease);
+  cloud.edgeTypes[0] = meam::EdgeType::HoleBorder;
+  for (const auto method : { meam::TangentMethod::RobustLine, meam::TangentMethod::Tiles })
+  {
+    settings.method = method;
+    const meam::PointCloud edges = meam::estimateTangents(cloud, 50.0, Down, settings);
+    ASSERT_EQ(edges.size(), 10u);
+    EXPECT_EQ(edges.tangents, meam::Points(10, Eigen::Vector3f::UnitY()));
+    EXPECT_EQ(edges.edgeTypes, std::vector<meam::EdgeType>(10, meam::EdgeType::Crease));
+    EXPECT_EQ(meam::estimateTangents(edges, 50.0, Down, settings).points, edges.points);
+  }
+}
+
 TEST(TangentEstimation, BadInput)
 {
   EXPECT_THROW(meam::estimateTangents({}, 50.0, Down), meam::Error);

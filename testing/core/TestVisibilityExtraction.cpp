@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/VisibilityExtraction.h"
 
-#include "mesh/SurfaceSampling.h"
 #include "TestParts.h"
+#include "mesh/LineOfSight.h"
+#include "mesh/SurfaceSampling.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +12,23 @@
 
 namespace
 {
-meam::PointCloud boxSurface()
+meam::PointCloud sampled(const meam::TriangleMesh& mesh)
 {
   meam::SurfaceSamplingSettings settings;
   settings.spacing = 1.0;
-  return meam::sampleSurface(parts::box({ 0, 0, 0 }, { 20, 20, 10 }), settings);
+  return meam::sampleSurface(mesh, settings);
+}
+
+meam::TriangleMesh box() { return parts::box({ 0, 0, 0 }, { 20, 20, 10 }); }
+
+meam::PointCloud boxSurface() { return sampled(box()); }
+
+meam::VisibilityExtractionSettings meshVisibility(int viewpoints)
+{
+  meam::VisibilityExtractionSettings settings;
+  settings.method = meam::VisibilityMethod::MeshVisibility;
+  settings.viewpoints = viewpoints;
+  return settings;
 }
 }
 
@@ -74,12 +87,115 @@ TEST(VisibilityExtraction, APointInFrontHidesTheOneBehindADenseSurface)
   EXPECT_EQ(std::count(fromAbove.begin(), fromAbove.end(), static_cast<int>(points.size()) - 1), 0);
 }
 
+TEST(VisibilityExtraction, AgainstTheMeshItIsExact)
+{
+  const meam::TriangleMesh mesh = box();
+  const meam::PointCloud surface = boxSurface();
+  const auto models = meam::extractVisibility(surface, meshVisibility(6), &mesh);
+  ASSERT_EQ(models.size(), 6u);
+  for (const auto& model : models)
+  {
+    std::vector<int> side;
+    for (std::size_t i = 0; i < surface.size(); ++i)
+    {
+      if (surface.normals[i].dot(model.direction) > 0.5f)
+      {
+        side.push_back(static_cast<int>(i));
+      }
+    }
+    EXPECT_EQ(model.cloud.pointIds, side) << model.name;
+    EXPECT_NEAR((model.viewpoint - Eigen::Vector3f(10, 10, 5)).normalized().dot(model.direction), 1.0f, 1e-3f);
+  }
+}
+
+TEST(VisibilityExtraction, OneBoxHidesAnother)
+{
+  // From far above the upper box hides the square below it, to within its perspective.
+  meam::TriangleMesh mesh = parts::box({ 0, 0, 0 }, { 20, 20, 2 });
+  const meam::TriangleMesh upper = parts::box({ 5, 5, 8 }, { 15, 15, 10 });
+  for (const auto& triangle : upper.triangles)
+  {
+    mesh.triangles.push_back(triangle + Eigen::Vector3i::Constant(static_cast<int>(mesh.vertices.size())));
+  }
+  mesh.vertices.insert(mesh.vertices.end(), upper.vertices.begin(), upper.vertices.end());
+  const meam::PointCloud surface = sampled(mesh);
+  const std::vector<int> seen = meam::visiblePoints(surface, { 10, 10, 1000 }, meam::LineOfSight(mesh));
+  const float shadow = 5.0f * 998.0f / 990.0f; // of the upper box's top, on the lower box's
+  std::vector<int> expected;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+  {
+    const Eigen::Vector3f& point = surface.points[i];
+    const float fromMiddle = std::max(std::abs(point.x() - 10), std::abs(point.y() - 10));
+    if (surface.normals[i].z() > 0.5f && (point.z() > 9.0f || fromMiddle > shadow))
+    {
+      expected.push_back(static_cast<int>(i));
+    }
+  }
+  EXPECT_EQ(seen, expected);
+}
+
+TEST(VisibilityExtraction, AnOpenSheetIsSeenFromBothSides)
+{
+  meam::TriangleMesh sheet;
+  sheet.vertices = { { 0, 0, 0 }, { 20, 0, 0 }, { 20, 20, 0 }, { 0, 20, 0 } };
+  sheet.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  const meam::PointCloud surface = sampled(sheet);
+  const auto models = meam::extractVisibility(surface, meshVisibility(6), &sheet);
+  ASSERT_EQ(models.size(), 2u); // from its sides there is nothing to see
+  EXPECT_EQ(models[0].name, "View 0");
+  EXPECT_EQ(models[1].name, "View 1");
+  for (const auto& model : models)
+  {
+    EXPECT_EQ(model.cloud.pointIds, surface.pointIds);
+    EXPECT_EQ(model.cloud.normals, meam::Points(surface.size(), model.direction));
+  }
+}
+
+TEST(VisibilityExtraction, MovingMeshSamplesAndViewpointChangesNothing)
+{
+  const meam::TriangleMesh mesh = parts::lBracket();
+  const meam::PointCloud surface = sampled(mesh);
+  std::mt19937 random(5);
+  for (const Eigen::Vector3d& viewpoint : { Eigen::Vector3d(200, 150, 90), Eigen::Vector3d(70, -300, 250) })
+  {
+    const std::vector<int> expected = meam::visiblePoints(surface, viewpoint, meam::LineOfSight(mesh));
+    EXPECT_GT(expected.size(), surface.size() / 5);
+    EXPECT_LT(expected.size(), 2 * surface.size() / 3);
+    const Eigen::Isometry3d T = parts::motion(random, 300.0);
+    const meam::TriangleMesh moved{ parts::moved(mesh.vertices, T), mesh.triangles };
+    EXPECT_EQ(meam::visiblePoints(parts::moved(surface, T), T * viewpoint, meam::LineOfSight(moved)), expected);
+  }
+}
+
+TEST(VisibilityExtraction, TheConeLeavesViewpointsOut)
+{
+  meam::VisibilityExtractionSettings settings;
+  settings.coneAngle = 91.0;
+  EXPECT_EQ(meam::extractVisibility(boxSurface(), settings).size(), 5u);
+  settings.coneDirection = { 1, 1, 1 };
+  settings.coneAngle = 30.0;
+  EXPECT_THROW(meam::extractVisibility(boxSurface(), settings), meam::Error);
+  settings.viewpoints = 8;
+  EXPECT_EQ(meam::extractVisibility(boxSurface(), settings).size(), 8u);
+}
+
 TEST(VisibilityExtraction, BadInput)
 {
   EXPECT_THROW(meam::extractVisibility({}), meam::Error);
   meam::PointCloud invalid;
   invalid.points.assign(10, Eigen::Vector3f::Constant(NAN));
   EXPECT_THROW(meam::extractVisibility(invalid), meam::Error);
+  EXPECT_THROW(meam::extractVisibility(boxSurface(), {}, nullptr, [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(meam::extractVisibility(boxSurface(), meshVisibility(6)), meam::Error);
+  const meam::TriangleMesh mesh = box();
   EXPECT_THROW(
-    meam::extractVisibility(boxSurface(), {}, [](double) { return false; }), meam::Aborted);
+    meam::extractVisibility(boxSurface(), meshVisibility(6), &mesh, [](double share) { return share < 0.3; }),
+    meam::Aborted);
+  meam::PointCloud bare = boxSurface();
+  bare.normals.clear();
+  EXPECT_THROW(meam::extractVisibility(bare, meshVisibility(6), &mesh), meam::Error);
+  const meam::TriangleMesh other = parts::box({ 0, 0, 0 }, { 20, 20, 5 });
+  EXPECT_THROW(meam::extractVisibility(boxSurface(), meshVisibility(6), &other), meam::Error);
+  const meam::TriangleMesh none;
+  EXPECT_THROW(meam::extractVisibility(boxSurface(), meshVisibility(6), &none), meam::Error);
 }

@@ -71,9 +71,12 @@ check(values(dict(partitions(merged))["Edges"], "ViewBits") == [3, 3], "they are
 check(find(table(merged), ((5 * 9 + 5) * 9 + 3) * 9 + 8)[3] == 3, "so is the pair")
 apart = collection(("top", view()), ("front", view([(0, 0, 5), (3, 4, 5)], direction=(1, 0, 0))), Diameter=10.0)
 check(sum(map(len, table(run(hashing(apart, **paper))).values())) == 4, "points of different views make no pair")
-codes = run(hashing(both, MergeViews=False, VoxelSize=0.5, **paper))
+codes = run(hashing(both, ViewMerging=1, VoxelSize=0.5, **paper))
 check(sum(map(len, table(codes).values())) == 2, "voxel codes save a pair once")
 check(values(dict(partitions(codes))["Edges"], "ViewBits") == [1, 1, 2, 2], "each view keeps its points")
+apart = run(hashing(both, ViewMerging=2, **paper))
+check(sum(map(len, table(apart).values())) == 4, "separate tables save it once for each view")
+check(field(apart, "TableBytes")[0][0] == 4 * (11 * 9 ** 3 + 1 + 4 * 4), f"{field(apart, 'TableBytes')} bytes")
 
 # The shape of the trained model.
 check([name for name, _ in partitions(merged)] == ["View 0", "View 1", "Edges", "PairTableBuckets", "PairTableEntries"],
@@ -81,7 +84,7 @@ check([name for name, _ in partitions(merged)] == ["View 0", "View 1", "Edges", 
 for v, (_, edges) in enumerate(partitions(merged)[:2]):
     check(edges.GetNumberOfPoints() == 2 and len(tuples(edges, "Tangent")) == 2, "a view shows its edges")
     check(close(field(edges, "ViewDirection")[0], ((0, 0, 1), (1, 0, 0))[v]), "and knows its direction")
-expected = {"FormatVersion": 1, "Diameter": 10.0, "Feature": 0, "DistanceStep": 0.1, "AngleStep": 10.0, "MergeViews": 1,
+expected = {"FormatVersion": 2, "Diameter": 10.0, "Feature": 0, "DistanceStep": 0.1, "AngleStep": 10.0, "ViewMerging": 0,
             "VoxelSize": 0.0, "CoVisibilityDirections": 0, "NumberOfViews": 2, "NumberOfEdgePoints": 2,
             "NumberOfSurfacePoints": 0, "NumberOfPairs": 2}
 for name, value in expected.items():
@@ -115,8 +118,8 @@ fails(hashing(view()), "vtkPartitionedDataSetCollection")
 
 filter = vtkMEAMHashing()
 filter.SetParametersToPaper()
-check((filter.GetFeature(), filter.GetAngleStep(), filter.GetMergeViews(), filter.GetVoxelSize(),
-       filter.GetCoVisibilityDirections()) == (0, 3.6, False, 1.0, 0), "the paper's parameters")
+check((filter.GetFeature(), filter.GetAngleStep(), filter.GetViewMerging(), filter.GetVoxelSize(),
+       filter.GetCoVisibilityDirections()) == (0, 3.6, 1, 1.0, 0), "the paper's parameters")
 filter.SetParametersToRecommended()
-check((filter.GetFeature(), filter.GetMergeViews()) == (1, True), "the recommended parameters")
-prints(filter, "Feature", "DistanceStep", "AngleStep", "MergeViews", "VoxelSize", "CoVisibilityDirections")
+check((filter.GetFeature(), filter.GetViewMerging()) == (1, 0), "the recommended parameters")
+prints(filter, "Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "CoVisibilityDirections")

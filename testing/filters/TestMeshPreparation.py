@@ -42,19 +42,25 @@ def prepare(data, **properties):
     return filter
 
 
+def text(data):
+    return data.GetFieldData().GetAbstractArray("Report").GetValue(0)
+
+
 stl = soup(box(10, 20, 30))
 before = points(stl)
 clean = run(prepare(stl))
 report = {clean.GetFieldData().GetArrayName(i): field(clean, clean.GetFieldData().GetArrayName(i))[0][0]
-          for i in range(clean.GetFieldData().GetNumberOfArrays())}
+          for i in range(clean.GetFieldData().GetNumberOfArrays()) if clean.GetFieldData().GetArray(i)}
 expected = {
-    "InputVertices": 36, "InputTriangles": 12, "Vertices": 8, "Triangles": 12, "MergedVertices": 28,
+    "InputVertices": 36, "InputTriangles": 12, "Vertices": 8, "Triangles": 12, "MergedVertices": 28, "NearVertices": 0,
     "IsolatedVertices": 0, "DegenerateTriangles": 0, "DuplicateTriangles": 0, "FlippedComponents": 0,
-    "Components": 1, "BorderEdges": 0, "Closed": 1, "Area": 2200, "Volume": 6000, "Diameter": DIAGONAL,
+    "DroppedComponents": 0, "Components": 1, "ClosedHoles": 0, "Intersections": 0, "BorderEdges": 0, "Closed": 1,
+    "Area": 2200, "Volume": 6000, "Diameter": DIAGONAL,
 }
 check(set(report) == set(expected), f"the report has {sorted(report)}")
 for name, value in expected.items():
     check(abs(report[name] - value) < 1e-3, f"{name} is {report[name]}, not {value}")
+check(text(clean) == "28 vertices merged with others at their place; closed; 1 component of 12 triangles", text(clean))
 check(clean.GetNumberOfPoints() == 8 and len(triangles(clean)) == 12, "the box has 8 corners and 12 triangles")
 check(points(stl) == before, "the input was changed")
 
@@ -86,6 +92,26 @@ strips.InsertNextCell(4, [0, 1, 2, 3])
 strip.SetStrips(strips)
 check(abs(field(run(prepare(strip)), "Area")[0][0] - 1) < 1e-6, "a strip of two triangles")
 
+# Two bodies; a hole of 10 + 20 + sqrt(500) mm.
+two = soup(box(10, 20, 30))
+small = soup(box(1, 1, 1), (50, 0, 0))
+both = mesh(points(two) + points(small), triangles(two) + [tuple(k + 36 for k in t) for t in triangles(small)])
+check(field(run(prepare(both)), "Components") == [(2,)], "both are kept")
+largest = run(prepare(both, KeptComponents=vtkMEAMMeshPreparation.Largest))
+check(field(largest, "DroppedComponents") == [(1,)] and field(largest, "Volume") == [(6000,)], "one is dropped")
+hole = mesh(corners, faces[1:])
+check(field(run(prepare(hole, HoleSize=52)), "BorderEdges") == [(3,)], "the hole is larger")
+filled = run(prepare(hole, HoleSize=53))
+check(field(filled, "ClosedHoles") == [(1,)] and field(filled, "Closed") == [(1,)], "the hole is closed")
+check("1 hole closed" in text(filled), text(filled))
+
+# Even triangles and back.
+fine = run(prepare(box(10, 20, 30), EdgeLength=2.0))
+check(len(triangles(fine)) > 800 and abs(field(fine, "Volume")[0][0] - 6000) < 0.1, f"{len(triangles(fine))} triangles")
+coarse = run(prepare(fine, MaximumError=0.01))
+check(len(triangles(coarse)) == 12, f"{len(triangles(coarse))} triangles are left")
+
+fails(prepare(box(10, 20, 30), EdgeLength=1e-5), "edge length")
 fails(prepare(vtkPolyData()), "no faces")
 fails(prepare(cloud([(0, 0, 0), (1, 0, 0), (0, 1, 0)])), "no faces", "points")
 fails(prepare(mesh([(0, 0, 0), (1, 0, math.nan), (0, 1, 0)], [(0, 1, 2)])), "not a number")
@@ -96,4 +122,4 @@ fails(prepare(mesh([(0, 0, 0), (1, 1, 1), (2, 2, 2)], [(0, 1, 2)])), "no area")
 fails(prepare(box(1, 1, 1), Scale=0.0), "scale")
 fails(prepare(box(1, 1, 1), Scale=math.nan), "scale")
 fails(prepare(image()), "vtkPolyData")
-prints(vtkMEAMMeshPreparation(), "Scale", "Offset")
+prints(vtkMEAMMeshPreparation(), "Scale", "Offset", "KeptComponents", "HoleSize", "MaximumError", "EdgeLength")

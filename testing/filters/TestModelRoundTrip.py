@@ -110,7 +110,7 @@ try:
     same_poses(poses, detect(scene, loaded))
 
     # The paper's parameters are kept, too.
-    hashing = connect(vtkMEAMHashing(), trained.tangents, trained.samples)
+    hashing = connect(vtkMEAMHashing(), trained.tangents, trained.symmetries)
     hashing.SetParametersToPaper()
     hashing.SetVoxelSize(1.25)
     paper = run(hashing)
@@ -118,7 +118,7 @@ try:
     paper_path = os.path.join(folder, "paper.vtpc")
     write(paper, paper_path)
     loaded_paper = read(paper_path)
-    for name in ("Feature", "DistanceStep", "AngleStep", "MergeViews", "VoxelSize", "CoVisibilityDirections"):
+    for name in ("Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "CoVisibilityDirections"):
         check(field(loaded_paper, name) == field(paper, name), f"{name} is not kept")
     same_poses(detect(scene, paper), detect(scene, loaded_paper))
 
@@ -160,7 +160,7 @@ try:
         result.GetFieldData().AddArray(array)
         return result
 
-    fails(detection(changed("FormatVersion", 99)), "version 99", "version 1", "train the model again")
+    fails(detection(changed("FormatVersion", 99)), "version 99", "version 2", "train the model again")
     fails(detection(changed("NumberOfPairs", 17)), "PairTableEntries")
     fails(detection(changed("NumberOfViews", 5)), "view")
     fails(detection(changed("DistanceStep", 1)), "PairTableBuckets")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A box has three half turns; with a notch it keeps them nearly, and the deviation shows the notch."""
+import json
 import math
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -25,6 +26,8 @@ for turn in turns:
     centre = [sum(turn[4 * row + k] * c for k, c in enumerate((15, 10, 5, 1))) for row in range(3)]
     check(math.dist(centre, (15, 10, 5)) < 0.1, f"the middle moves to {centre}")
 check(max(tuples(found, "Deviation")) == (0,), "nothing deviates")
+entry = json.loads(found.GetFieldData().GetAbstractArray("ModelsInfo").GetValue(0))
+check(len(entry["symmetries_discrete"]) == 3 and abs(entry["size_x"] - 30) < 0.01, f"models_info.json: {entry}")
 check(len(field(found, "Diameter")) == 1, "the diameter travels on")
 
 # The corner at (30, 20) cut off by 4 mm.

@@ -84,6 +84,14 @@ for method in (0, 1):
         follow(edges)
         check(field(edges, "ViewDirection") == [direction], "the view is kept")
 
+# Points that carry tangents keep them, and their types; they are only thinned.
+n = len(LINES)
+carried = set_fields(cloud(LINES, Tangent=[(0, 0, 1)] * n, EdgeType=[2] * n), Diameter=50.0)
+output = run(tangents(carried))
+check(0 < output.GetNumberOfPoints() < n, f"{output.GetNumberOfPoints()} of {n} points")
+check(set(tuples(output, "Tangent")) == {(0, 0, 1)} and set(tuples(output, "EdgeType")) == {(2,)}, "as they came")
+check(points(run(tangents(output))) == points(output), "thinning again changes nothing")
+
 fails(tangents(scene()), "diameter", "model")
 fails(tangents(scene(), vtkTable()), "Diameter")
 fails(tangents(scene(), model(math.nan)), "Diameter")

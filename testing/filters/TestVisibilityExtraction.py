@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Of a box each of six viewpoints sees one side."""
+"""Of a box each of six viewpoints sees one side; against the mesh that is exact."""
 import math
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam.filters import vtkMEAMSurfaceSampling, vtkMEAMVisibilityExtraction
-from meamtest import box, check, close, cloud, connect, fails, field, image, partitions, points, prints, run, tuples
+from ppfmeam.filters import vtkMEAMMeshPreparation, vtkMEAMSurfaceSampling, vtkMEAMVisibilityExtraction
+from meamtest import (box, check, close, cloud, connect, fails, field, image, mesh, partitions, points, prints, run,
+                      tuples)
 
 SIZE = (10, 10, 10)
 DIRECTIONS = [(0, 0, 1), (0, 0, -1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)]
@@ -43,10 +44,56 @@ for number in (1, 2, 14, 26, 9):
     check(len(found) == number, f"{number} viewpoints")
     check(all(abs(math.hypot(*field(view, "ViewDirection")[0]) - 1) < 1e-6 for _, view in found), "unit directions")
 
+# Against the mesh: of a box exactly the points of the side, with the normals as they are.
+exact = connect(vtkMEAMVisibilityExtraction(), samples, box(*SIZE))
+check(exact.GetMethod() == 0, "the paper's method by default")
+exact.SetMethodToMeshVisibility()
+for v, (_, view) in enumerate(partitions(run(exact))):
+    side = [i for i, n in enumerate(normals) if sum(a * b for a, b in zip(n, DIRECTIONS[v])) > 0.9]
+    check([int(i) for i, in tuples(view, "PointId")] == side, f"view {v} sees its side")
+    check(tuples(view, "Normals") == [normals[i] for i in side], "normals stay outward")
+    away = [p - 5 for p in field(view, "Viewpoint")[0]]
+    check(close([a / math.hypot(*away) for a in away], DIRECTIONS[v], 2e-3), "the viewpoint is known")
+connection = connect(vtkMEAMVisibilityExtraction(), samples)
+connection.SetMethodToMeshVisibility()
+fails(connection, "needs the mesh", "connect")
+source = connect(vtkMEAMMeshPreparation(), box(*SIZE))
+connection.SetMeshConnection(source.GetOutputPort())
+check(len(partitions(run(connection))) == 6, "the mesh comes by connection")
+connection.SetMethodToHiddenPointRemoval()
+check(len(partitions(run(connection))) == 6, "hidden point removal leaves the mesh alone")
+
+# An open sheet is seen from above and from below, and its normals are turned.
+sheet = mesh([(0, 0, 0), (9, 0, 0), (9, 9, 0), (0, 9, 0)], [(0, 1, 2), (0, 2, 3)])
+both = connect(vtkMEAMVisibilityExtraction(), run(connect(vtkMEAMSurfaceSampling(), sheet)), sheet)
+both.SetMethodToMeshVisibility()
+found = partitions(run(both))
+check([name for name, _ in found] == ["View 0", "View 1"], "from its sides there is nothing to see")
+for (_, view), direction in zip(found, DIRECTIONS):
+    check(set(tuples(view, "Normals")) == {direction}, "normals are turned towards the viewpoint")
+
+# A part that is seen from above only.
+cone = views(samples, 26)
+cone.SetConeAngle(50)
+directions = [field(view, "ViewDirection")[0] for _, view in partitions(run(cone))]
+check(len(directions) == 5 and min(d[2] for d in directions) > 0.7, f"the cone holds {directions}")
+cone.SetConeDirection(-1, 0, 0)
+cone.SetConeAngle(30)
+cone.SetNumberOfViewpoints(7)
+directions = [field(view, "ViewDirection")[0] for _, view in partitions(run(cone))]
+check(len(directions) == 7 and max(d[0] for d in directions) < -0.86, f"the cone holds {directions}")
+cone.SetNumberOfViewpoints(1)
+fails(cone, "none of the 1 viewpoints", "cone")
+cone.SetConeDirection(0, 0, 0)
+fails(cone, "direction of the cone")
+
 fails(views(vtkPolyData()), "no points")
+wrong = connect(vtkMEAMVisibilityExtraction(), samples, box(5, 5, 5))
+wrong.SetMethodToMeshVisibility()
+fails(wrong, "not of this mesh")
 fails(views(cloud([(math.nan, 0, 0)] * 5)), "NaN")
 fails(views(image()), "vtkPolyData")
 filter = vtkMEAMVisibilityExtraction()
 filter.SetNumberOfViewpoints(0)
 check(filter.GetNumberOfViewpoints() == 1, "at least one viewpoint")
-prints(filter, "NumberOfViewpoints", "RadiusFactor", "ViewpointDistance")
+prints(filter, "Method", "NumberOfViewpoints", "ConeDirection", "ConeAngle", "RadiusFactor", "ViewpointDistance")

@@ -13,6 +13,7 @@ from ppfmeam.filters import (
     vtkMEAMHashing,
     vtkMEAMMeshPreparation,
     vtkMEAMSurfaceSampling,
+    vtkMEAMSymmetryDetection,
     vtkMEAMTangentEstimation,
     vtkMEAMVisibilityExtraction,
 )
@@ -153,7 +154,8 @@ class Trained:
         self.views = connect(vtkMEAMVisibilityExtraction(), self.samples)
         self.edges = connect(vtkMEAMBoundaryExtraction(), self.views)
         self.tangents = connect(vtkMEAMTangentEstimation(), self.edges)
-        self.model = connect(vtkMEAMHashing(), self.tangents, self.samples)
+        self.symmetries = connect(vtkMEAMSymmetryDetection(), self.samples)
+        self.model = connect(vtkMEAMHashing(), self.tangents, self.symmetries)
 
 
 class MovedView:

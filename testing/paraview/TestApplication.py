@@ -17,7 +17,7 @@ def build_and_show():
     views = simple.VisibilityExtraction(Input=samples)
     boundary = simple.BoundaryExtraction(Input=views)
     tangents = simple.TangentEstimation(Input=boundary)
-    model = simple.MEAMHashing(Input=tangents, Surface=samples)
+    model = simple.MEAMHashing(Input=tangents, Surface=simple.SymmetryDetection(Input=samples))
     edges = simple.SceneEdgeExtraction(Input=simple.OutputPort(scene, 0))
     edges = simple.TangentEstimation(Input=simple.OutputPort(edges, 0), Model=model)
     candidates = simple.PoseDetection(Input=edges, Model=model)

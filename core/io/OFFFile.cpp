@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/OFFFile.h"
+
+#include "io/FileBytes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace meam
+{
+namespace
+{
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+  throw Error("The OFF file '" + path + "' " + what + ".");
+}
+
+/// The first word's letters in front of OFF, or npos for another word: ST texture, C colour, N normal.
+/// 4OFF and nOFF have points of other dimensions.
+std::size_t prefixOf(std::string_view word)
+{
+  std::size_t at = 0;
+  for (const std::string_view part : { "ST", "C", "N" })
+  {
+    at += word.substr(at, part.size()) == part ? part.size() : 0;
+  }
+  return word.substr(at) == "OFF" ? at : std::string_view::npos;
+}
+
+/// Goes through the words of a file line by line; comments, from # on, and empty lines are skipped.
+class Lines
+{
+public:
+  explicit Lines(const std::string& bytes)
+    : Rest(bytes)
+  {
+  }
+
+  /// Goes to the next line that has a word; false at the end of the file.
+  bool next()
+  {
+    while (!this->Rest.empty())
+    {
+      const std::size_t end = std::min(this->Rest.find_first_of("\r\n"), this->Rest.size());
+      this->Line = this->Rest.substr(0, end);
+      this->Rest.remove_prefix(std::min(end + 1, this->Rest.size()));
+      this->Line = this->Line.substr(0, this->Line.find('#'));
+      if (this->Line.find_first_not_of(" \t") != std::string_view::npos)
+      {
+        return true;
+      }
+    }
+    this->Line = {};
+    return false;
+  }
+
+  /// The next word of the line; empty at its end.
+  std::string_view word()
+  {
+    this->Line.remove_prefix(std::min(this->Line.find_first_not_of(" \t"), this->Line.size()));
+    const std::size_t end = std::min(this->Line.find_first_of(" \t"), this->Line.size());
+    const std::string_view result = this->Line.substr(0, end);
+    this->Line.remove_prefix(end);
+    return result;
+  }
+
+  /// Bytes of the line and of all after it.
+  std::size_t left() const { return this->Line.size() + 1 + this->Rest.size(); }
+
+private:
+  std::string_view Rest;
+  std::string_view Line;
+};
+
+/// Locale does not matter to from_chars; it takes no plus sign.
+template <typename Number>
+bool parse(std::string_view text, Number& value)
+{
+  if (text.size() > 1 && text[0] == '+')
+  {
+    text.remove_prefix(1);
+  }
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+/// A word that is not what it should be, for a message.
+std::string quoted(std::string_view word)
+{
+  return word.empty() ? "the line ends, the file is cut off or damaged" : "'" + std::string(word.substr(0, 40)) + "'";
+}
+}
+
+TriangleMesh readOFF(const std::string& path, const Progress& progress)
+{
+  const std::string bytes = readFile(path);
+  report(progress, 0.0);
+  Lines lines(bytes);
+  const std::string_view first = lines.next() ? lines.word() : std::string_view();
+  if (prefixOf(first) == std::string_view::npos)
+  {
+    fail(path, "does not start with OFF, COFF, NOFF or STOFF: it is not an OFF file, or of a kind that is not known");
+  }
+  // The counts may stand behind the first word or on the next line.
+  std::string_view word = lines.word();
+  if (word == "BINARY")
+  {
+    fail(path, "is binary: save it as ascii");
+  }
+  if (word.empty())
+  {
+    word = lines.next() ? lines.word() : std::string_view();
+  }
+  std::uint64_t vertices = 0;
+  std::uint64_t faces = 0;
+  if (!parse(word, vertices) || !parse(lines.word(), faces))
+  {
+    fail(path, "has no numbers of vertices and faces after its first word");
+  }
+  // A line takes at least a character for each number and one between two of them.
+  constexpr std::uint64_t most = std::numeric_limits<int>::max() / 3;
+  const std::uint64_t room = lines.left();
+  if (vertices > most || faces > most || vertices > room / 5 || faces > room / 3)
+  {
+    fail(path, "is cut off: it promises " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
+                 " faces, more than the file has room for");
+  }
+
+  TriangleMesh mesh;
+  mesh.vertices.resize(vertices);
+  const std::uint64_t all = vertices + faces;
+  for (std::uint64_t v = 0; v < vertices; ++v)
+  {
+    if (!lines.next())
+    {
+      fail(path, "is cut off: it ends after " + std::to_string(v) + " of " + std::to_string(vertices) + " vertices");
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      word = lines.word();
+      double value = 0.0;
+      if (!parse(word, value))
+      {
+        fail(path, "has a coordinate that is not a number in vertex " + std::to_string(v) + ": " + quoted(word));
+      }
+      mesh.vertices[v][k] = static_cast<float>(value);
+    }
+    if (v % 65536 == 0)
+    {
+      report(progress, static_cast<double>(v) / static_cast<double>(all));
+    }
+  }
+  mesh.triangles.reserve(faces);
+  for (std::uint64_t f = 0; f < faces; ++f)
+  {
+    const std::string place = "face " + std::to_string(f);
+    if (!lines.next())
+    {
+      fail(path, "is cut off: it ends after " + std::to_string(f) + " of " + std::to_string(faces) + " faces");
+    }
+    word = lines.word();
+    std::uint64_t corners = 0;
+    if (!parse(word, corners))
+    {
+      fail(path, "has no number of corners in " + place + ": " + quoted(word));
+    }
+    Eigen::Vector3i triangle;
+    for (std::uint64_t k = 0; k < corners; ++k)
+    {
+      word = lines.word();
+      std::uint64_t vertex = 0;
+      if (!parse(word, vertex) || vertex >= vertices)
+      {
+        fail(path, "has a corner in " + place + " that is not the number of a vertex: " + quoted(word));
+      }
+      triangle[k == 0 ? 0 : 2] = static_cast<int>(vertex);
+      if (k >= 2)
+      {
+        mesh.triangles.push_back(triangle);
+      }
+      if (k > 0)
+      {
+        triangle[1] = triangle[2];
+      }
+    }
+    if (f % 65536 == 0)
+    {
+      report(progress, static_cast<double>(vertices + f) / static_cast<double>(all));
+    }
+  }
+  report(progress, 1.0);
+  return mesh;
+}
+
+bool isOFF(const std::string& path)
+{
+  try
+  {
+    const std::string bytes = readFile(path);
+    Lines lines(bytes);
+    return lines.next() && prefixOf(lines.word()) != std::string_view::npos;
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+}

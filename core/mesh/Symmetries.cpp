@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/Symmetries.h"
+
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+/// No axis or plane of symmetry that a part is drawn with runs along it.
+const Eigen::Vector3d Generic = Eigen::Vector3d(0.48, 0.36, 0.8).normalized();
+
+/// The turn about the axis after which T_scene_model is turned least against the reference.
+Eigen::Isometry3d turnedTowards(
+  const Eigen::Isometry3d& T_scene_model, const Eigen::Isometry3d& reference, const ContinuousSymmetry& symmetry)
+{
+  // trace(M Rot(a, angle)) is largest for a small turn between the two.
+  const Eigen::Matrix3d M = reference.linear().transpose() * T_scene_model.linear();
+  const Eigen::Vector3d& a = symmetry.axis;
+  const double sine = a.x() * (M(1, 2) - M(2, 1)) + a.y() * (M(2, 0) - M(0, 2)) + a.z() * (M(0, 1) - M(1, 0));
+  const double cosine = M.trace() - a.dot(M * a);
+  return T_scene_model * turnAbout(a, std::atan2(sine, cosine), symmetry.point);
+}
+
+double traceBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
+{
+  return (a.linear().transpose() * b.linear()).trace();
+}
+}
+
+Eigen::Isometry3d turnAbout(const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& centre)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(centre);
+  T.rotate(Eigen::AngleAxisd(angle, axis));
+  T.translate(-centre);
+  return T;
+}
+
+Eigen::Isometry3d nearestEqual(
+  const Eigen::Isometry3d& T_scene_model, const Eigen::Isometry3d& reference, const Symmetries& symmetries)
+{
+  if (symmetries.continuous.size() > 1)
+  {
+    // A ball may be turned in any way about its middle.
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(T_scene_model.linear().transpose() * reference.linear()));
+    return T_scene_model * turnAbout(turn.axis(), turn.angle(), symmetries.continuous.front().point);
+  }
+  const auto turned = [&](const Eigen::Isometry3d& T)
+  { return symmetries.continuous.empty() ? T : turnedTowards(T, reference, symmetries.continuous.front()); };
+  constexpr double clearly = 1e-9;
+  Eigen::Isometry3d best = turned(T_scene_model);
+  for (const Eigen::Isometry3d& S : symmetries.discrete)
+  {
+    const Eigen::Isometry3d equal = turned(T_scene_model * S);
+    if (traceBetween(reference, equal) > traceBetween(reference, best) + clearly)
+    {
+      best = equal;
+    }
+  }
+  return best;
+}
+
+std::vector<bool> representatives(const Points& points, const Symmetries& symmetries, double margin)
+{
+  // Of the images of a point, the one that lies farthest along a generic direction.
+  std::vector<bool> result(points.size(), true);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Eigen::Vector3d point = points[i].cast<double>();
+    const double limit = Generic.dot(point) + margin;
+    const auto farthest = [&](const Eigen::Vector3d& image)
+    {
+      if (symmetries.continuous.empty())
+      {
+        return Generic.dot(image);
+      }
+      const ContinuousSymmetry& symmetry = symmetries.continuous.front();
+      const Eigen::Vector3d offset = image - symmetry.point;
+      if (symmetries.continuous.size() > 1)
+      {
+        return Generic.dot(symmetry.point) + offset.norm();
+      }
+      const double along = offset.dot(symmetry.axis);
+      const double across = Generic.dot(symmetry.axis);
+      return Generic.dot(symmetry.point) + along * across +
+        (offset - along * symmetry.axis).norm() * std::sqrt(std::max(0.0, 1.0 - across * across));
+    };
+    result[i] = farthest(point) <= limit;
+    for (const Eigen::Isometry3d& S : symmetries.discrete)
+    {
+      result[i] = result[i] && farthest(S * point) <= limit;
+    }
+  }
+  return result;
+}
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "PointGrid.h"
+#include "model/TrainedModel.h"
+#include "pose/Scene.h"
+
+namespace meam
+{
+/// Decides between poses of one instance by what the sensor saw: every measured point and every scene edge near the
+/// instance speaks for the pose that explains it. Points that both explain, or none, do not count, so poses that
+/// differ by a near-symmetry are decided by the notch or hole that breaks it. Calls may run in parallel.
+class PoseComparison
+{
+public:
+  /// Keeps references to both.
+  PoseComparison(const TrainedModel& model, const Scene& scene);
+
+  /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not.
+  double advantage(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
+
+private:
+  double toSurface(const Eigen::Vector3f& point) const;
+  double toEdges(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent) const;
+
+  const TrainedModel& Model;
+  const Scene& InScene;
+  Eigen::Vector3f Middle; ///< of the part, model frame
+  float Radius;           ///< of the part about it
+  Points Surface;         ///< thinned, of the scene
+  PointGrid SceneSurface;
+  PointGrid SceneEdges;
+  PointGrid PartSurface;
+  PointGrid PartEdges;
+};
+}

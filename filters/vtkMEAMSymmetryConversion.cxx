@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of vtkMEAMConversion.h that deals with symmetries.
+#include "vtkMEAMConversion.h"
+
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+
+#include <string>
+
+namespace vtkMEAMConversion
+{
+namespace
+{
+using Row = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+/// The values of a field data array, whose shape a file may have changed; none when it is not there.
+std::vector<double> fieldValues(vtkDataObject* input, const char* name, std::size_t perTuple)
+{
+  std::vector<double> values;
+  if (vtkDataArray* array = input->GetFieldData()->GetArray(name))
+  {
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    {
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+      {
+        values.push_back(array->GetComponent(i, c));
+      }
+    }
+  }
+  if (values.size() % perTuple != 0)
+  {
+    throw meam::Error("The field data '" + std::string(name) + "' does not have " + std::to_string(perTuple) +
+      " values for each symmetry: use the output of SymmetryDetection.");
+  }
+  return values;
+}
+
+std::vector<Eigen::Isometry3d> fieldTransforms(vtkDataObject* input, const char* name)
+{
+  const std::vector<double> values = fieldValues(input, name, 16);
+  std::vector<Eigen::Isometry3d> transforms;
+  for (std::size_t i = 0; i < values.size(); i += 16)
+  {
+    Eigen::Isometry3d T;
+    T.matrix() = Eigen::Map<const Row>(values.data() + i);
+    const Eigen::Matrix3d R = T.linear();
+    if (!(T.matrix().allFinite() && R.isUnitary(1e-3) && R.determinant() > 0.0))
+    {
+      throw meam::Error("The field data '" + std::string(name) + "' has a matrix that is not a rigid motion: use the "
+                        "output of SymmetryDetection.");
+    }
+    transforms.push_back(T);
+  }
+  return transforms;
+}
+
+void addField(vtkDataObject* output, const char* name, int components, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  output->GetFieldData()->AddArray(array);
+}
+
+void append(std::vector<double>& values, const Eigen::Isometry3d& T)
+{
+  const Row rows = T.matrix();
+  values.insert(values.end(), rows.data(), rows.data() + 16);
+}
+}
+
+meam::Symmetries symmetriesOf(vtkDataObject* input)
+{
+  meam::Symmetries symmetries;
+  if (!input)
+  {
+    return symmetries;
+  }
+  symmetries.discrete = fieldTransforms(input, "SymmetriesDiscrete");
+  const std::vector<double> axes = fieldValues(input, "SymmetriesContinuous", 6);
+  for (std::size_t i = 0; i < axes.size(); i += 6)
+  {
+    const Eigen::Vector3d axis(axes[i], axes[i + 1], axes[i + 2]);
+    const Eigen::Vector3d point(axes[i + 3], axes[i + 4], axes[i + 5]);
+    if (!(std::abs(axis.norm() - 1.0) < 1e-3 && point.allFinite()))
+    {
+      throw meam::Error("The field data 'SymmetriesContinuous' has an axis that is not a unit vector: use the output of "
+                        "SymmetryDetection.");
+    }
+    symmetries.continuous.push_back({ axis, point });
+  }
+  const std::vector<Eigen::Isometry3d> near = fieldTransforms(input, "NearSymmetries");
+  const std::vector<double> overlap = fieldValues(input, "NearSymmetryOverlap", 1);
+  const std::vector<double> deviation = fieldValues(input, "NearSymmetryDeviation", 1);
+  for (std::size_t i = 0; i < near.size(); ++i)
+  {
+    symmetries.near.push_back(
+      { near[i], i < overlap.size() ? overlap[i] : 0.0, i < deviation.size() ? deviation[i] : 0.0 });
+  }
+  return symmetries;
+}
+
+void setSymmetries(vtkDataObject* output, const meam::Symmetries& symmetries)
+{
+  std::vector<double> discrete, continuous, near, overlap, deviation;
+  for (const Eigen::Isometry3d& T : symmetries.discrete)
+  {
+    append(discrete, T);
+  }
+  for (const meam::ContinuousSymmetry& symmetry : symmetries.continuous)
+  {
+    continuous.insert(continuous.end(), symmetry.axis.data(), symmetry.axis.data() + 3);
+    continuous.insert(continuous.end(), symmetry.point.data(), symmetry.point.data() + 3);
+  }
+  for (const meam::NearSymmetry& symmetry : symmetries.near)
+  {
+    append(near, symmetry.T);
+    overlap.push_back(symmetry.overlap);
+    deviation.push_back(symmetry.deviation);
+  }
+  addField(output, "SymmetriesDiscrete", 16, discrete);
+  addField(output, "SymmetriesContinuous", 6, continuous);
+  addField(output, "NearSymmetries", 16, near);
+  addField(output, "NearSymmetryOverlap", 1, overlap);
+  addField(output, "NearSymmetryDeviation", 1, deviation);
+}
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/PoseComparison.h"
+
+#include "TestScene.h"
+#include "mesh/SymmetryDetection.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+/// A square plate of 60 x 60 x 10 mm with one corner cut off: quarter turns and flips are near-symmetries.
+meam::TriangleMesh cutPlate()
+{
+  return parts::prism({ { -30, -30 }, { 30, -30 }, { 30, 20 }, { 6, 30 }, { -30, 30 } }, 10);
+}
+
+const meam::TrainedModel& plate()
+{
+  static const meam::TrainedModel model =
+    meam::trainModel(cutPlate(), meam::trainingSettings(meam::Preset::Recommended));
+  return model;
+}
+
+/// The plate lying as it was drawn, its upper side seen; with `hidden` the quarter of the cut is not.
+meam::Scene lyingPlate(bool hidden)
+{
+  meam::SurfaceSamplingSettings sampling;
+  sampling.spacing = 0.7;
+  sampling.seed = 9;
+  const meam::PointCloud part = meam::sampleSurface(cutPlate(), sampling);
+  meam::AppearanceModel view;
+  view.cloud = part.subset(meam::visiblePoints(part.points, { 0, 0, 2000 }, 1000.0));
+  meam::Scene scene;
+  scene.edges.points = meam::extractBoundary({ view })[0].cloud.points;
+  scene.surface = view.cloud.points;
+  const auto isHidden = [&](const auto& p) { return hidden && p.x() > 5 && p.y() > 5; };
+  const auto drop = [&](meam::Points& points)
+  { points.erase(std::remove_if(points.begin(), points.end(), isHidden), points.end()); };
+  drop(scene.surface);
+  drop(scene.edges.points);
+  scene.sensor.perspective = false;
+  scene.sensor.direction = -Eigen::Vector3f::UnitZ();
+  scene.edges = meam::estimateTangents(scene.edges, plate().diameter, scene.sensor.direction);
+  return scene;
+}
+
+Eigen::Isometry3d quarter(int turns)
+{
+  return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2, Eigen::Vector3d::Zero());
+}
+}
+
+TEST(PoseComparison, TheCutCornerDecidesBetweenTurns)
+{
+  const meam::Scene scene = lyingPlate(false);
+  const meam::PoseComparison comparison(plate(), scene);
+  for (int turns = 1; turns < 4; ++turns)
+  {
+    const double advantage = comparison.advantage(quarter(0), quarter(turns));
+    EXPECT_GT(advantage, 20.0) << turns;
+    EXPECT_NEAR(comparison.advantage(quarter(turns), quarter(0)), -advantage, 1e-9) << "antisymmetric";
+  }
+  EXPECT_EQ(comparison.advantage(quarter(0), quarter(0)), 0.0);
+}
+
+TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
+{
+  const meam::Scene scene = lyingPlate(true);
+  const meam::PoseComparison comparison(plate(), scene);
+  // Turned by 180 degrees the cut would lie where whole surface was seen.
+  EXPECT_GT(comparison.advantage(quarter(0), quarter(2)), 5.0);
+  const meam::Scene nothing = [&]
+  {
+    meam::Scene half = scene;
+    const auto far = [](const auto& p) { return std::abs(p.x()) > 10 || std::abs(p.y()) > 10; };
+    half.surface.erase(std::remove_if(half.surface.begin(), half.surface.end(), far), half.surface.end());
+    half.edges = {};
+    return half;
+  }();
+  EXPECT_LT(std::abs(meam::PoseComparison(plate(), nothing).advantage(quarter(0), quarter(1))), 1.0);
+}
+
+TEST(PoseComparison, NearSymmetriesAreSettledInVerification)
+{
+  ASSERT_EQ(plate().symmetries.near.size(), 7u);
+  ASSERT_FALSE(plate().symmetries.exact());
+  meam::PoseVerificationSettings settings;
+  settings.posesPerInstance = 1;
+  for (int turns = 0; turns < 4; ++turns)
+  {
+    meam::Pose wrong;
+    wrong.T_scene_model = quarter(turns);
+    const meam::Poses found = meam::verifyPoses({ wrong }, plate(), lyingPlate(false), settings);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LT(meam::rotationError(found[0].T_scene_model, quarter(0)), 1.0) << turns;
+    EXPECT_GT(found[0].certainty, 0.99);
+  }
+}
+
+TEST(PoseComparison, EdgesAloneDecide)
+{
+  meam::Scene scene = lyingPlate(false);
+  scene.surface.clear();
+  EXPECT_GT(meam::PoseComparison(plate(), scene).advantage(quarter(0), quarter(1)), 5.0);
+}
