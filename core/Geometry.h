@@ -43,14 +43,15 @@ struct PointCloud
   PointCloud subset(const std::vector<int>& indices) const;
 };
 
-/// What is seen of a part from one viewpoint (paper, Section 4): all visible points or, after
-/// boundary extraction, the edge points alone.
+/// What is seen of a part from one viewpoint (paper, Section 4), or the whole part: all visible points
+/// or, after boundary extraction, the edge points alone.
 struct AppearanceModel
 {
   std::string name;
   Eigen::Vector3f direction = Eigen::Vector3f::UnitZ(); ///< unit, from the part to the viewpoint
   PointCloud cloud;
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Constant(NAN); ///< mm; NaN when it is not known: far away
+  bool wholePart = false; ///< no viewpoint: nothing of the part is hidden, and the direction is a mere name
 };
 
 /// Throws Error, naming `what`, when there is no point or when no point is finite.

@@ -20,12 +20,33 @@ public:
   template <typename Visitor>
   void forEachWithin(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
   {
-    const float r = static_cast<float>(radius);
-    const float limit = r * r;
+    const float limit = static_cast<float>(radius) * static_cast<float>(radius);
+    this->forEachRange(centre, radius,
+      [&](int begin, int end)
+      {
+        for (int k = begin; k < end; ++k)
+        {
+          const float distance = (this->Sorted[k] - centre).squaredNorm();
+          if (distance <= limit)
+          {
+            visit(this->Order[k], distance);
+          }
+        }
+      });
+  }
+
+  /// The finite points' indices cell by cell: the order that forEachRange counts in.
+  const std::vector<int>& order() const { return this->Order; }
+
+  /// Calls visit(begin, end) with ranges of `order` that together hold all points within `radius`, and others.
+  template <typename Visitor>
+  void forEachRange(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
+  {
     if (this->Order.empty())
     {
       return;
     }
+    const float r = static_cast<float>(radius);
     const Eigen::Vector3i low = this->cellOf(centre.array() - r);
     const Eigen::Vector3i high = this->cellOf(centre.array() + r);
     for (int z = low.z(); z <= high.z(); ++z)
@@ -34,15 +55,7 @@ public:
       {
         // Cells along x are neighbours in memory.
         const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
-        const int end = this->Starts[row + high.x() + 1];
-        for (int k = this->Starts[row + low.x()]; k < end; ++k)
-        {
-          const float distance = (this->Sorted[k] - centre).squaredNorm();
-          if (distance <= limit)
-          {
-            visit(this->Order[k], distance);
-          }
-        }
+        visit(this->Starts[row + low.x()], this->Starts[row + high.x() + 1]);
       }
     }
   }

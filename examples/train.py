@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trains the model of a part from its CAD file, for detect.py --model."""
+"""Trains the model of a part from its CAD file, for detect.py --model; says what symmetries the part has."""
 import argparse
+import json
 import time
 
 from ppfmeam import scripting
@@ -14,17 +15,30 @@ def main():
                         help="added to the CAD's coordinates, in mm")
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
-                        help="parameters of all steps (default: %(default)s)")
+                        help="parameters of all steps (default: %(default)s); paper trains without symmetries")
     parser.add_argument("--out", required=True, help="the trained model to write: NAME.vtpc, with a folder NAME beside")
+    parser.add_argument("--models-info", metavar="FILE",
+                        help="write diameter, bounds and symmetries as a BOP models_info.json; the part is object 1")
     options = parser.parse_args()
 
-    scripting.require_folder_of(options.out)
+    scripting.require_folder_of(options.out, options.models_info)
+    training = scripting.Training(
+        scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale), options.preset)
     start = time.time()
-    model = scripting.train(scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale), options.preset)
+    model = training.model()
+    seconds = time.time() - start
     scripting.write_model(model, options.out)
     print(f"{options.out}: {scripting.field(model, 'NumberOfEdgePoints'):.0f} edge points, "
-          f"{scripting.field(model, 'NumberOfPairs'):.0f} pairs, part of {scripting.field(model, 'Diameter'):.1f} mm, "
-          f"{time.time() - start:.1f} s")
+          f"{scripting.field(model, 'NumberOfPairs'):.0f} pairs in {scripting.field(model, 'TableBytes') / 1e6:.1f} MB, "
+          f"part of {scripting.field(model, 'Diameter'):.1f} mm, trained in {seconds:.1f} s")
+    samples = training.symmetric_samples()
+    for line in scripting.symmetry_words(samples):
+        print(f"symmetry: {line}")
+    if options.models_info:
+        entry = json.loads(samples.GetFieldData().GetAbstractArray("ModelsInfo").GetValue(0))
+        with open(options.models_info, "w", encoding="utf-8") as file:
+            json.dump({"1": entry}, file, indent=2)
+            file.write("\n")
 
 
 scripting.run(main)

@@ -20,6 +20,8 @@
  * - 0, contour: the visible surface ends there, in front of the background or of another surface;
  * - 1, crease: the visible surface goes on on both sides;
  * - 2, hole border: the visible surface ends there, in front of background that the part encloses.
+ * Of a model of the whole part (field data `WholePart`) point boundary gives creases, mesh edges give all sharp
+ * edges as creases and borders of an open mesh as hole borders.
  * Field data is passed on.
  */
 #ifndef vtkMEAMBoundaryExtraction_h

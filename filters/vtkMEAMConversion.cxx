@@ -437,6 +437,7 @@ meam::Poses toPoses(vtkPolyData* input)
   vtkDataArray* votes = pointArray(input, "Votes", 1);
   vtkDataArray* views = pointArray(input, "ViewId", 1);
   vtkDataArray* fractions = pointArray(input, "VisibleFraction", 1);
+  vtkDataArray* certainties = pointArray(input, "Certainty", 1);
   for (vtkIdType i = 0; i < count; ++i)
   {
     Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix;
@@ -455,6 +456,7 @@ meam::Poses toPoses(vtkPolyData* input)
     pose.votes = votes ? static_cast<int>(votes->GetComponent(i, 0)) : 0;
     pose.viewId = views ? static_cast<int>(views->GetComponent(i, 0)) : -1;
     pose.visibleFraction = fractions ? fractions->GetComponent(i, 0) : 0.0;
+    pose.certainty = certainties ? certainties->GetComponent(i, 0) : 1.0;
     poses.push_back(pose);
   }
   return poses;
@@ -500,6 +502,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
   int* votes = integers("Votes");
   int* view = integers("ViewId");
   double* fraction = doubles("VisibleFraction", 1);
+  double* certainty = doubles("Certainty", 1);
   int* rank = integers("Rank");
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -519,6 +522,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
     votes[i] = pose.votes;
     view[i] = pose.viewId;
     fraction[i] = pose.visibleFraction;
+    certainty[i] = pose.certainty;
     rank[i] = static_cast<int>(i) + 1;
     points->SetPoint(i, pose.T_scene_model.translation().data());
   }

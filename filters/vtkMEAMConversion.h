@@ -51,7 +51,7 @@ meam::Image toImage(vtkImageData* input);
 void fromImage(const meam::Image& image, vtkImageData* output);
 
 /// One partition for each viewpoint, named, with the field data `ViewDirection` (3) and, where it is known,
-/// `Viewpoint` (3, mm).
+/// `Viewpoint` (3, mm); `WholePart` (1) stands where there is no viewpoint at all.
 std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetCollection* input);
 void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkPartitionedDataSetCollection* output);
 
@@ -60,7 +60,7 @@ meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input);
 void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output);
 
 /// One vertex for each pose, best first: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w),
-/// `Score`, `Votes`, `ViewId`, `VisibleFraction`, `Rank` (from 1).
+/// `Score`, `Votes`, `ViewId`, `VisibleFraction`, `Certainty`, `Rank` (from 1).
 meam::Poses toPoses(vtkPolyData* input);
 /// The same, with the appearance model nearest to the sensor for poses that do not name one, as from a file.
 meam::Poses toPoses(vtkPolyData* input, const meam::TrainedModel& model, const meam::Sensor& sensor);

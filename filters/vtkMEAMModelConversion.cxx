@@ -188,6 +188,7 @@ public:
     this->readSurface(model);
     this->readTable(model);
     model.symmetries = symmetriesOf(this->Input);
+    model.deriveFields();
     return model;
   }
 
@@ -425,6 +426,7 @@ std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetColle
     {
       model.direction = fieldDirection(points, "ViewDirection", 1, 0);
       model.viewpoint = fieldVector(points, "Viewpoint", 1, 0).cast<float>();
+      model.wholePart = fieldArray(points, "WholePart", 1) != nullptr;
     }
     if (!points || model.direction.isZero())
     {
@@ -452,6 +454,10 @@ void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkP
     if (models[i].viewpoint.allFinite())
     {
       setFieldVectors(points, "Viewpoint", { models[i].viewpoint });
+    }
+    if (models[i].wholePart)
+    {
+      setFieldInteger(points, "WholePart", 1);
     }
     addPartition(output, models[i].name, points);
   }

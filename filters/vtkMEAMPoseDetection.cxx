@@ -26,6 +26,7 @@ void vtkMEAMPoseDetection::SetParameters(const meam::PoseDetectionSettings& sett
 {
   this->ReferenceShare = settings.referenceShare;
   this->ReferredShare = settings.referredShare;
+  this->PeaksPerReference = settings.peaksPerReference;
   this->Seed = static_cast<int>(settings.seed);
   this->Modified();
 }
@@ -48,6 +49,7 @@ int vtkMEAMPoseDetection::RequestData(
     meam::PoseDetectionSettings settings;
     settings.referenceShare = this->ReferenceShare;
     settings.referredShare = this->ReferredShare;
+    settings.peaksPerReference = this->PeaksPerReference;
     settings.seed = static_cast<unsigned>(this->Seed);
     settings.threads = this->NumberOfThreads;
     const meam::TrainedModel model = toTrainedModel(trained);
@@ -63,6 +65,7 @@ void vtkMEAMPoseDetection::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
   os << indent << "ReferredShare: " << this->ReferredShare << "\n";
+  os << indent << "PeaksPerReference: " << this->PeaksPerReference << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }

@@ -35,7 +35,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Share of the scene's edge points that are reference points, in (0, 1] (P_ref). Default: 0.05. */
+  /** Share of the scene's edge points that are reference points, in (0, 1] (P_ref), but at least 50. Default: 0.03. */
   vtkSetClampMacro(ReferenceShare, double, 1e-6, 1.0);
   vtkGetMacro(ReferenceShare, double);
   ///@}
@@ -44,6 +44,12 @@ public:
   /** Share of the scene's edge points that are referred points, in (0, 1] (P_referred). Default: 1. The paper: 0.2. */
   vtkSetClampMacro(ReferredShare, double, 1e-6, 1.0);
   vtkGetMacro(ReferredShare, double);
+  ///@}
+
+  ///@{
+  /** Candidates of one reference point, 1 to 100: more find more hidden copies. Default: 1. */
+  vtkSetClampMacro(PeaksPerReference, int, 1, 100);
+  vtkGetMacro(PeaksPerReference, int);
   ///@}
 
   ///@{
@@ -77,6 +83,7 @@ private:
 
   double ReferenceShare;
   double ReferredShare;
+  int PeaksPerReference;
   int Seed;
   int NumberOfThreads = 0;
 };

@@ -49,13 +49,13 @@ public:
   ///@}
 
   ///@{
-  /** Steps at most. Default: 20. */
+  /** Steps at most. Default: 10. */
   vtkSetClampMacro(NumberOfIterations, int, 1, 10000);
   vtkGetMacro(NumberOfIterations, int);
   ///@}
 
   ///@{
-  /** Between corresponding points at the start, in mm; 0: 4 % of the part's diameter. Default: 0. */
+  /** Between corresponding points at the start, in mm; 0: 5 % of the part's diameter. Default: 0. */
   vtkSetClampMacro(MaximumDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumDistance, double);
   ///@}

@@ -77,7 +77,7 @@ public:
   ///@}
 
   ///@{
-  /** Poses of one instance that are turned less than this are the same, in degrees. Default: 30. */
+  /** Poses of one instance that are turned less than this are the same, in degrees. Default: 15. */
   vtkSetClampMacro(ClusterAngle, double, 0.0, 180.0);
   vtkGetMacro(ClusterAngle, double);
   ///@}
@@ -85,14 +85,14 @@ public:
   ///@{
   /**
    * Poses kept of one instance. With 1, as for the result, alternatives are decided on the points that
-   * tell them apart; more keep the alternatives for refinement. Default: 4. The paper: 1.
+   * tell them apart; more keep the alternatives for refinement. Default: 2. The paper: 1.
    */
   vtkSetClampMacro(PosesPerInstance, int, 1, VTK_INT_MAX);
   vtkGetMacro(PosesPerInstance, int);
   ///@}
 
   ///@{
-  /** Poses kept of all; 0: no limit. Default: 60. */
+  /** Poses kept of all; 0: no limit. Default: 40. */
   vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfPoses, int);
   ///@}

@@ -12,7 +12,8 @@
  * surface after the near-symmetry `ShownNearSymmetry`; 0 when there is none. Field data `SymmetriesDiscrete`
  * (16 components, row-major, one tuple for each turn, the identity left out), `SymmetriesContinuous` (6
  * components: unit axis and a point on it), `NearSymmetries` (16), `NearSymmetryOverlap` (share of the surface
- * that comes to lie on the surface, [0, 1]) and `NearSymmetryDeviation` (mm, the largest distance), best first.
+ * that comes to lie on the surface, [0, 1]) and `NearSymmetryDeviation` (mm, the largest distance; 8 % of the diameter
+ * stands for more), best first.
  * `ModelsInfo` is the part's entry in a BOP dataset's models_info.json, as text.
  */
 #ifndef vtkMEAMSymmetryDetection_h

@@ -9,6 +9,8 @@
  *   viewpoint, and those on the convex hull of the result are visible;
  * - mesh visibility: the line of sight from each point is tested against the mesh, exactly. Of an open
  *   mesh both sides can be seen; the normals are turned towards the viewpoint.
+ * With no viewpoints at all the whole part is one model in which nothing is hidden: what the paper compares
+ * with as "without MEAM" (Table 6).
  *
  * Input port 0: vtkPolyData, samples of the part's surface in mm (vtkMEAMSurfaceSampling); `Normals` and
  * `PointId` are passed on.
@@ -16,8 +18,10 @@
  *
  * Output port 0: vtkPartitionedDataSetCollection, one named vtkPolyData for each viewpoint that sees
  * anything: its visible points with `Normals` and `PointId`; field data of each `ViewDirection` (unit,
- * from the part to the viewpoint), `Viewpoint` (mm) and `ViewIndex`. The input's field data (`Diameter`)
- * is on the collection.
+ * from the part to the viewpoint), `Viewpoint` (mm) and `ViewIndex`; a viewpoint that sees nothing has no
+ * partition. Without viewpoints one partition `Whole part` with all points as they are, the `ViewDirection`
+ * +z, no `Viewpoint`, and the field data `WholePart` (1). The input's field data (`Diameter`) is on the
+ * collection.
  */
 #ifndef vtkMEAMVisibilityExtraction_h
 #define vtkMEAMVisibilityExtraction_h
@@ -53,9 +57,10 @@ public:
   /**
    * Number of viewpoints. 1: above (+z); 2: above and below; 6: along the axes, as in the paper; 14: and
    * the cube's corners; 26: and the middles of its edges; any other number is spread over the sphere.
-   * A trained model takes up to 32. Default: 6.
+   * 0: the whole part, nothing hidden; method and cone play no part. A trained model takes up to 32.
+   * Default: 6.
    */
-  vtkSetClampMacro(NumberOfViewpoints, int, 1, 1000);
+  vtkSetClampMacro(NumberOfViewpoints, int, 0, 1000);
   vtkGetMacro(NumberOfViewpoints, int);
   ///@}
 

@@ -17,7 +17,7 @@ struct NearSymmetry
 {
   Eigen::Isometry3d T;    ///< part frame, mm
   double overlap = 0.0;   ///< share of the surface that comes to lie on the surface, [0, 1]
-  double deviation = 0.0; ///< mm, the largest distance of the turned surface from the surface
+  double deviation = 0.0; ///< mm, the largest distance of the turned surface from the surface; 8 % of d_max: or more
 };
 
 /// The rotations that map a part onto itself; mirror images are not among them.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace meam
 {
@@ -66,6 +67,16 @@ public:
     const float across = std::abs(this->Surface.normals[k].dot(offset));
     const float along = std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - 1.5f * this->Spacing);
     return std::min(this->Reach, std::hypot(across, along));
+  }
+
+  /// Whether a sample has no neighbour on its side of the surface: its face is a sliver with a normal of its own.
+  bool isAlone(int sample) const
+  {
+    bool alone = true;
+    this->Grid.forEachWithin(this->Surface.points[sample], NearSpacings * this->Spacing,
+      [&](int k, float)
+      { alone = alone && (k == sample || this->Surface.normals[k].dot(this->Surface.normals[sample]) <= SameSide); });
+    return alone;
   }
 
   float distance(int sample, const Eigen::Isometry3f& T) const
@@ -170,6 +181,18 @@ public:
       sum += point.cast<double>();
     }
     this->Middle = sum / static_cast<double>(surface.size());
+    for (int i = 0; i < static_cast<int>(surface.size()); ++i)
+    {
+      if (!this->Matcher.isAlone(i))
+      {
+        this->Measured.push_back(i);
+      }
+    }
+    if (2 * this->Measured.size() < surface.size()) // no sampling with neighbours
+    {
+      this->Measured.resize(surface.size());
+      std::iota(this->Measured.begin(), this->Measured.end(), 0);
+    }
   }
 
   Symmetries detect(const Progress& progress)
@@ -295,14 +318,14 @@ private:
     float largest = 0.0f;
     for (const Eigen::Isometry3f& way : { Eigen::Isometry3f(T.cast<float>()), Eigen::Isometry3f(T.inverse().cast<float>()) })
     {
-      for (std::size_t i = 0; i < this->Surface.size(); ++i)
+      for (const int i : this->Measured)
       {
-        const float distance = this->Matcher.distance(static_cast<int>(i), way);
+        const float distance = this->Matcher.distance(i, way);
         within += distance <= static_cast<float>(this->Tolerance) ? 1 : 0;
         largest = std::max(largest, distance);
       }
     }
-    result.overlap = static_cast<double>(within) / (2 * this->Surface.size());
+    result.overlap = static_cast<double>(within) / (2 * this->Measured.size());
     result.deviation = largest;
     return result;
   }
@@ -448,6 +471,7 @@ private:
   SurfaceMatcher SparseMatcher;
   PointCloud Coarse;
   PointCloud Scan;
+  std::vector<int> Measured; ///< the samples that are not alone
   Eigen::Vector3d Middle;
 };
 }

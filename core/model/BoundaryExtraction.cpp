@@ -3,6 +3,7 @@
 
 #include "PCLConversion.h"
 #include "PointGrid.h"
+#include "mesh/FeatureEdges.h"
 #include "mesh/RequireMesh.h"
 #include "model/Silhouette.h"
 #include "model/VisibleEdges.h"
@@ -226,6 +227,13 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
     const double share = 1.0 / static_cast<double>(models.size());
     report(progress, share * view);
     const PointCloud& cloud = models[view].cloud;
+    if (meshEdges && models[view].wholePart)
+    {
+      edges[view].cloud =
+        extractFeatureEdges(*mesh, { settings.sharpAngle, spacing }, subProgress(progress, share * view, share * (view + 1)));
+      edges[view].cloud.pointIds = nearestIds(edges[view].cloud.points, cloud, spacing);
+      continue;
+    }
     const Eigen::Vector3d viewpoint = viewpointOf(models[view]);
     const Silhouette silhouette(part, viewpoint, spacing);
     if (meshEdges)
@@ -238,7 +246,9 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
     const double radius = settings.radius > 0.0 ? settings.radius : SpacingsPerRadius * spacings[view];
     const std::vector<int> boundary = boundaryPoints(cloud, radius, settings.angle);
     edges[view].cloud = cloud.subset(boundary);
-    edges[view].cloud.edgeTypes = boundaryTypes(cloud, boundary, radius, settings.angle, viewpoint, silhouette);
+    edges[view].cloud.edgeTypes = models[view].wholePart
+      ? std::vector<EdgeType>(boundary.size(), EdgeType::Crease)
+      : boundaryTypes(cloud, boundary, radius, settings.angle, viewpoint, silhouette);
   }
   report(progress, 1.0);
   return edges;

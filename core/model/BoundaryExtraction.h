@@ -27,6 +27,8 @@ struct BoundaryExtractionSettings
 /// Reduces each appearance model to its boundary points (paper, Section 4), each with its type. The
 /// models need normals. MeshEdges needs the prepared mesh that they are of: its edge points are as dense
 /// as the models' and come with exact tangents; their pointIds are those of the nearest visible samples.
+/// Of a whole part nothing is a contour: the boundary of its points is creases, its MeshEdges are all sharp
+/// edges and the borders.
 /// Throws Error when a model has no points or no normals, and without what the method needs.
 std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>& models,
   const BoundaryExtractionSettings& settings = {}, const TriangleMesh* mesh = nullptr, const Progress& progress = {});

@@ -298,12 +298,6 @@ MEAMHashingSettings paperHashingSettings()
   return settings;
 }
 
-PairFeatureQuantizer TrainedModel::quantizer() const
-{
-  return PairFeatureQuantizer(this->settings.feature, this->settings.distanceStep * this->diameter,
-    this->settings.angleStep * M_PI / 180.0, this->diameter);
-}
-
 TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PartSurface& part,
   const MEAMHashingSettings& settings, const Progress& progress)
 {
@@ -355,6 +349,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     model.surface.normals.push_back(surface.normals[i]);
   }
   buildTable(model, voxelSize, subProgress(progress, 0.7, 1.0));
+  model.deriveFields();
   Digest digest;
   digest.add(surface.points);
   digest.add(model.edges.points);

@@ -3,7 +3,8 @@
 
 #include "Geometry.h"
 #include "mesh/Symmetries.h"
-#include "model/PairFeature.h"
+#include "model/DistanceField.h"
+#include "model/PairKeys.h"
 
 namespace meam
 {
@@ -39,6 +40,8 @@ struct PairTable
   std::vector<std::uint32_t> referreds;  ///< index of the referred edge point
   std::vector<float> angles;             ///< of the referred point about the reference's tangent, radians
   std::vector<std::uint32_t> viewBits;   ///< bit v: both points are on the edge seen in view v
+  /// The reference point and below it the PairTurn of each entry in one word, as voting reads them: made by deriveFields().
+  std::vector<std::uint32_t> votes;
 
   std::size_t size() const { return this->references.size(); }
   std::size_t bytes() const { return (this->offsets.size() + 4 * this->size()) * sizeof(std::uint32_t); }
@@ -64,6 +67,14 @@ struct TrainedModel
   Symmetries symmetries;
 
   PairTable table;
+
+  // What deriveFields() makes of the above.
+  DistanceField surfaceDistance; ///< capped at DistanceReach of the diameter
+  DistanceField edgeDistance;
+  static constexpr double DistanceReach = 0.03;
+
+  /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
+  void deriveFields();
 
   /// The quantizer of the table's keys.
   PairFeatureQuantizer quantizer() const;

@@ -36,6 +36,16 @@ std::unique_ptr<const LineOfSight> sightOf(
   return sight;
 }
 
+/// The model of the paper's comparison "without MEAM" (Table 6).
+AppearanceModel wholePart(const PointCloud& surface)
+{
+  AppearanceModel model;
+  model.name = "Whole part";
+  model.cloud = surface;
+  model.wholePart = true;
+  return model;
+}
+
 void turnTowards(PointCloud& cloud, const Eigen::Vector3f& viewpoint)
 {
   for (std::size_t i = 0; i < cloud.size(); ++i)
@@ -101,6 +111,10 @@ std::vector<AppearanceModel> extractVisibility(const PointCloud& surface, const 
   const TriangleMesh* mesh, const Progress& progress)
 {
   requirePoints(surface.points, "The part's surface");
+  if (settings.viewpoints == 0)
+  {
+    return { wholePart(surface) };
+  }
   const Points directions = viewDirections(settings.viewpoints, settings.coneDirection, settings.coneAngle);
   const Eigen::Vector3d middle = bounds(surface.points).center().cast<double>();
   const double distance = settings.viewpointDistance * diameter(surface.points);

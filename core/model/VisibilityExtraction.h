@@ -17,7 +17,8 @@ enum class VisibilityMethod
 struct VisibilityExtractionSettings
 {
   VisibilityMethod method = VisibilityMethod::HiddenPointRemoval;
-  int viewpoints = 6;                                       ///< 1, 2, 6 (the paper), 14, 26, or N on a Fibonacci sphere
+  /// 1, 2, 6 (the paper), 14, 26, or N on a Fibonacci sphere; 0: the whole part as one model ("without MEAM")
+  int viewpoints = 6;
   Eigen::Vector3d coneDirection = Eigen::Vector3d::UnitZ(); ///< of any length; the middle of the viewpoints
   double coneAngle = 180.0;        ///< degrees: viewpoints are no farther from the cone's direction; 180: all around
   double viewpointDistance = 10.0; ///< from the middle of the part, in part diameters
@@ -38,8 +39,9 @@ std::vector<int> visiblePoints(
 /// One appearance model for each viewpoint (paper, Section 4): the points of `surface` (mm) that are
 /// visible from it. `mesh` is what the surface was sampled from; only MeshVisibility needs it, and turns
 /// the normals of what is seen towards the viewpoint. A viewpoint that sees nothing, such as a flat
-/// sheet's from its side, has no model. Throws Error for an empty surface or one of NaN, and without what
-/// the method needs.
+/// sheet's from its side, has no model. No viewpoints: one model "Whole part" of all samples, as they are,
+/// towards +z; neither method, nor cone, nor mesh plays a part. Throws Error for an empty surface or one of
+/// NaN, and without what the method needs.
 std::vector<AppearanceModel> extractVisibility(const PointCloud& surface,
   const VisibilityExtractionSettings& settings = {}, const TriangleMesh* mesh = nullptr, const Progress& progress = {});
 }

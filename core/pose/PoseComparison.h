@@ -20,17 +20,10 @@ public:
   double advantage(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
 
 private:
-  double toSurface(const Eigen::Vector3f& point) const;
-  double toEdges(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent) const;
-
   const TrainedModel& Model;
   const Scene& InScene;
-  Eigen::Vector3f Middle; ///< of the part, model frame
-  float Radius;           ///< of the part about it
   Points Surface;         ///< thinned, of the scene
   PointGrid SceneSurface;
   PointGrid SceneEdges;
-  PointGrid PartSurface;
-  PointGrid PartEdges;
 };
 }

@@ -9,8 +9,9 @@ namespace meam
 {
 struct PoseDetectionSettings
 {
-  double referenceShare = 0.05;///< P_ref: share of the scene's edge points used as reference points
+  double referenceShare = 0.03; ///< P_ref: share of the scene's edge points used as reference points, at least 50
   double referredShare = 1.0;   ///< P_referred: share of the scene's edge points used as referred points
+  int peaksPerReference = 1;    ///< candidates of one reference point; more find more hidden parts, at a cost
   unsigned seed = 1;            ///< of the choice of both
   int threads = 0;              ///< 0: one for each processor
 };
@@ -18,7 +19,7 @@ struct PoseDetectionSettings
 /// The paper's settings (Section 6) in place of the recommended ones.
 PoseDetectionSettings paperDetectionSettings();
 
-/// Raw pose candidates by voting (paper, Section 5.1): one for each reference point that found pairs,
+/// Raw pose candidates by voting (paper, Section 5.1): one or more for each reference point that found pairs,
 /// in the order of the reference points. `edges` are the scene's edge points with tangents, mm.
 /// The same for any number of threads. Throws Error when the scene is empty, has no tangents, or is
 /// in another unit than the model.

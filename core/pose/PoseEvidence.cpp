@@ -10,7 +10,7 @@ namespace
 {
 constexpr double CellShare = 0.02;         // of the diameter: cells of the scene's depth map
 constexpr double SurfaceReachShare = 0.04; // of the diameter: a little over the spacing of judged points
-constexpr double EdgeReach = 2.0;          // tolerances within which two edges are the same edge
+constexpr float OnSurface = 0.7f;          // tolerances within which a scene edge lies on the part
 constexpr float ParallelTangents = 0.85f;  // cosine
 
 // What each kind of evidence counts in the score.
@@ -91,23 +91,17 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
         : relation == DepthMap::Relation::Hidden                               ? PointState::Hidden
                                                                                : PointState::Violated);
   }
-  // Scene edges on the matched surface: those that no predicted edge explains speak against the pose.
-  const double reach = EdgeReach * this->Tolerance;
-  const PointGrid predicted(evidence.edges, reach);
-  std::vector<int> near;
-  for (std::size_t i = 0; i < evidence.surface.size(); ++i)
-  {
-    if (evidence.surfaceStates[i] == PointState::Matched)
+  // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
+  const Eigen::Isometry3f toModel = T.inverse();
+  this->Edges.forEachWithin(T * this->Model.surfaceDistance.middle(), this->Model.surfaceDistance.radius(),
+    [&](int k, float)
     {
-      this->Edges.forEachWithin(evidence.surface[i], tolerance, [&](int k, float) { near.push_back(k); });
-    }
-  }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  for (const int k : near)
-  {
-    ++(predicted.nearest(this->InScene.edges.points[k], reach) >= 0 ? evidence.explained : evidence.unexplained);
-  }
+      const Eigen::Vector3f point = toModel * this->InScene.edges.points[k];
+      if (this->Model.surfaceDistance.at(point) < OnSurface * tolerance)
+      {
+        ++(this->Model.edgeDistance.at(point) < tolerance ? evidence.explained : evidence.unexplained);
+      }
+    });
   return evidence;
 }
 

@@ -16,8 +16,8 @@ namespace meam
 {
 namespace
 {
-constexpr double DistanceShare = 0.04;     // of the diameter: farthest correspondence at the start
-constexpr double LastDistanceShare = 0.3;  // of that at the end
+constexpr double DistanceShare = 0.05;     // of the diameter: farthest correspondence at the start
+constexpr double LastDistanceShare = 0.24; // of that at the end
 constexpr double SurfaceLeafShare = 0.015; // of the diameter: scene surface points used
 constexpr float ParallelTangents = 0.85f;
 constexpr int FewestCorrespondences = 4;   // of point-to-point ICP

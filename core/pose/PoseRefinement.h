@@ -18,8 +18,8 @@ enum class RefinementMethod
 struct PoseRefinementSettings
 {
   RefinementMethod method = RefinementMethod::EdgesAndSurface;
-  int iterations = 20;
-  double maximumDistance = 0.0; ///< between corresponding points; 0: 4 % of the diameter
+  int iterations = 10;
+  double maximumDistance = 0.0; ///< between corresponding points; 0: 5 % of the diameter
   int threads = 0;              ///< 0: one for each processor
 };
 

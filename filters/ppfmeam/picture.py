@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A picture of a scan with the part at every pose, in the colours of the ranks."""
+"""A picture of a scan with the part at every pose, in the colours of the ranks; and pictures of single steps."""
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  the legend's letters
@@ -18,6 +18,7 @@ from .filters import vtkMEAMPoseInstances
 from .scripting import Failure, update
 
 WIDTH = 1600  # pixels
+JPEG_QUALITIES = range(85, 40, -5)
 STRIP = 56  # pixels above the scene, for the legend
 MARGIN = 14  # pixels
 TILT = 25  # degrees from the sensor's line of sight: shows depth
@@ -62,14 +63,144 @@ def save(path, scene, poses, part, looks=None):
     window.SetSize(WIDTH, height + STRIP)
     window.AddRenderer(renderer)
     window.AddRenderer(strip)
+    write(window, path)
+
+
+def write(window, path, most_bytes=None):
+    """Renders a window to a JPEG or a PNG, by the name of the file; a JPEG no larger than `most_bytes`, if it can be."""
     window.Render()
     grabber = vtkWindowToImageFilter()
     grabber.SetInput(window)
     grabber.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
+    jpeg = path.lower().endswith((".jpg", ".jpeg"))
+    writer = vtkJPEGWriter() if jpeg else vtkPNGWriter()
     writer.SetInputConnection(grabber.GetOutputPort())
     writer.SetFileName(path)
-    update(writer, "Write")
+    for quality in JPEG_QUALITIES if jpeg else (None,):
+        if jpeg:
+            writer.SetQuality(quality)
+        update(writer, "Write")
+        if most_bytes is None or os.path.getsize(path) <= most_bytes:
+            break
+
+
+def save_actors(path, actors, frame, size, labels=(), most_bytes=None):
+    """Writes a picture of actors on white. `frame(camera)` turns the camera; `labels` are (text, colour or None)."""
+    require_display()
+    renderer = vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    for actor in actors:
+        renderer.AddViewProp(actor)
+    frame(renderer.GetActiveCamera())
+    renderer.ResetCameraClippingRange()
+    for i, (text, color) in enumerate(labels):
+        label = vtkTextActor()
+        label.SetInput(f" {text} ")
+        label.SetPosition(MARGIN, MARGIN + (len(labels) - 1 - i) * 34)
+        style = label.GetTextProperty()
+        style.SetFontSize(22)
+        style.SetColor((1, 1, 1) if color is not None and sum(color) < 1.65 else (0.1, 0.1, 0.1))
+        style.SetBackgroundColor(color or (1, 1, 1))
+        style.SetBackgroundOpacity(1)
+        renderer.AddActor2D(label)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetMultiSamples(8)
+    window.SetSize(*size)
+    window.AddRenderer(renderer)
+    write(window, path, most_bytes)
+
+
+def frame_of(points, towards, size, up=(0, 0, 1), margin=1.08):
+    """A camera that stands in a direction from the points and has them all in the picture."""
+    towards = numpy.array(towards, dtype=float) / numpy.linalg.norm(towards)
+    right = numpy.cross(up, towards)
+    right /= numpy.linalg.norm(right)
+    axes = numpy.stack((right, numpy.cross(towards, right), towards))
+    low, high = (points @ axes.T).min(axis=0), (points @ axes.T).max(axis=0)
+    extent, middle = high - low, (low + high) / 2 @ axes
+
+    def frame(camera):
+        camera.ParallelProjectionOn()
+        camera.SetFocalPoint(middle)
+        camera.SetPosition(middle + 2 * extent.max() * towards)
+        camera.SetViewUp(axes[1])
+        camera.SetParallelScale(margin / 2 * max(extent[1], extent[0] * size[1] / size[0]))
+    return frame
+
+
+def solid(mesh, color=(0.93, 0.93, 0.93), edges=False):
+    """A mesh in one colour, a little behind what lies on it; with its triangles' edges on request."""
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(mesh)
+    normals.SetFeatureAngle(30)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(1, 60)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(color)
+    actor.GetProperty().SetAmbient(0.45)
+    actor.GetProperty().SetDiffuse(0.55)
+    if edges:
+        actor.GetProperty().EdgeVisibilityOn()
+        actor.GetProperty().SetEdgeColor(0.25, 0.35, 0.5)
+    return actor
+
+
+def bare(points, values=None):
+    """The points alone, a vertex each, and what they are coloured by."""
+    data, coordinates = vtkPolyData(), vtkPoints()
+    coordinates.SetData(numpy_to_vtk(numpy.ascontiguousarray(points), deep=True))
+    data.SetPoints(coordinates)
+    if values is not None:
+        data.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(values), deep=True))
+    vertices = vtkVertexGlyphFilter()
+    vertices.SetInputData(data)
+    return update(vertices).GetOutput()
+
+
+def dots(points, colors, size=4):
+    """Points as dots, in one colour (0 to 1) or one for each (0 to 255)."""
+    single = isinstance(colors, tuple)
+    actor = flat(bare(points, None if single else numpy.asarray(colors, dtype=numpy.uint8)))
+    if single:
+        actor.GetProperty().SetColor(colors)
+    actor.GetProperty().SetPointSize(size)
+    actor.GetProperty().SetRenderPointsAsSpheres(size > 3)
+    return actor
+
+
+def strokes(starts, ends, color, width=2.0, opacity=1.0):
+    """Lines from point to point; one colour (0 to 1) or one for each line (0 to 255)."""
+    data, coordinates, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    count = len(starts)
+    coordinates.SetData(numpy_to_vtk(numpy.concatenate((starts, ends)), deep=True))
+    pairs = numpy.stack((numpy.arange(count), numpy.arange(count) + count), axis=1).ravel()
+    cells.SetData(2, numpy_to_vtkIdTypeArray(pairs, deep=True))
+    data.SetPoints(coordinates)
+    data.SetLines(cells)
+    if not isinstance(color, tuple):
+        data.GetCellData().SetScalars(numpy_to_vtk(numpy.asarray(color, dtype=numpy.uint8), deep=True))
+    actor = flat(data)
+    if isinstance(color, tuple):
+        actor.GetProperty().SetColor(color)
+    actor.GetProperty().SetLineWidth(width)
+    actor.GetProperty().SetOpacity(opacity)
+    return actor
+
+
+def flat(data):
+    """Points or lines in their colours, without light."""
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(data)
+    mapper.SetColorModeToDirectScalars()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().LightingOff()
+    return actor
 
 
 def shape_of(part):
@@ -82,25 +213,19 @@ def shape_of(part):
     return part.GetPartition(names.index("Surface"), 0)
 
 
-def scan(scene, points, valid, looks):
+def scan(scene, points, valid, looks, greys=(0.3, 0.8)):
     """The scan's points: in their grey values, or the nearer to the sensor the brighter."""
     values = scene.GetPointData().GetArray("Intensity")
     if values:
         values = vtk_to_numpy(values)[valid].astype(float)
     else:
         values = -points[valid] @ numpy.array(looks, dtype=float)
-    data, coordinates = vtkPolyData(), vtkPoints()
-    coordinates.SetData(numpy_to_vtk(points[valid], deep=True))
-    data.SetPoints(coordinates)
-    data.GetPointData().SetScalars(numpy_to_vtk(values, deep=True))
-    vertices = vtkVertexGlyphFilter()
-    vertices.SetInputData(data)
     grey = vtkLookupTable()
     grey.SetHueRange(0, 0)
     grey.SetSaturationRange(0, 0)
-    grey.SetValueRange(0.3, 0.8)
+    grey.SetValueRange(*greys)
     mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(vertices.GetOutputPort())
+    mapper.SetInputData(bare(points[valid], values))
     mapper.SetLookupTable(grey)
     mapper.SetScalarRange(*numpy.percentile(values, (1, 99)))
     actor = vtkActor()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts of examples/ share: files by extension, errors as exceptions, tables and pictures."""
+import math
 import os
 import re
 import sys
@@ -145,24 +146,40 @@ def read_model(path):
     return read_with(vtkXMLPartitionedDataSetCollectionReader(), path)
 
 
+class Training:
+    """The steps from a clean mesh to the trained model, connected; parameters may be changed before model()."""
+
+    def __init__(self, mesh, preset="recommended"):
+        self.surface = filters.vtkMEAMSurfaceSampling()
+        self.views = filters.vtkMEAMVisibilityExtraction()
+        self.boundary = filters.vtkMEAMBoundaryExtraction()
+        self.tangents = filters.vtkMEAMTangentEstimation()
+        self.symmetries = filters.vtkMEAMSymmetryDetection()
+        self.hashing = filters.vtkMEAMHashing()
+        for step in (self.tangents, self.hashing):
+            set_choice(step, "Parameters", preset)
+        steps = (self.surface, self.views, self.boundary, self.tangents, self.hashing)
+        self.surface.SetInputDataObject(mesh)
+        for before, step in zip(steps, steps[1:]):
+            step.SetInputConnection(before.GetOutputPort())
+        for step in (self.views, self.boundary):
+            step.SetInputDataObject(1, mesh)  # only their methods that use the mesh look at it
+        self.symmetries.SetInputConnection(self.surface.GetOutputPort())
+        samples = self.symmetries if preset == "recommended" else self.surface
+        self.hashing.SetInputConnection(1, samples.GetOutputPort())
+
+    def model(self):
+        """The trained model."""
+        return update(self.hashing).GetOutput()
+
+    def symmetric_samples(self):
+        """The samples with the part's symmetries as field data."""
+        return update(self.symmetries).GetOutput()
+
+
 def train(mesh, preset="recommended"):
     """The trained model of a mesh."""
-    surface = filters.vtkMEAMSurfaceSampling()
-    views = filters.vtkMEAMVisibilityExtraction()
-    boundary = filters.vtkMEAMBoundaryExtraction()
-    tangents = filters.vtkMEAMTangentEstimation()
-    hashing = filters.vtkMEAMHashing()
-    for step in (tangents, hashing):
-        set_choice(step, "Parameters", preset)
-    surface.SetInputDataObject(mesh)
-    for before, step in ((surface, views), (views, boundary), (boundary, tangents), (tangents, hashing)):
-        step.SetInputConnection(before.GetOutputPort())
-    hashing.SetInputConnection(1, surface.GetOutputPort())
-    if preset == "recommended":
-        symmetries = filters.vtkMEAMSymmetryDetection()
-        symmetries.SetInputConnection(surface.GetOutputPort())
-        hashing.SetInputConnection(1, symmetries.GetOutputPort())
-    return update(hashing).GetOutput()
+    return Training(mesh, preset).model()
 
 
 def write_model(model, path):
@@ -209,6 +226,31 @@ def write_poses(poses, path, form, **numbers):
 def field(data, name):
     """A number of the field data."""
     return data.GetFieldData().GetArray(name).GetValue(0)
+
+
+def tuples(data, name):
+    """The rows of a field data array."""
+    array = data.GetFieldData().GetArray(name)
+    return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+
+
+def symmetry_words(samples):
+    """The symmetries that vtkMEAMSymmetryDetection found, as lines of text."""
+    def turn(transform):
+        cosine = (transform[0] + transform[5] + transform[10] - 1) / 2
+        return f"{math.degrees(math.acos(max(-1.0, min(1.0, cosine)))):.0f}"
+
+    axes = tuples(samples, "SymmetriesContinuous")
+    lines = ["any turn about any axis"] if len(axes) > 1 else [
+        "any turn about the axis ({:.3f}, {:.3f}, {:.3f})".format(*axis) for axis in axes]
+    turns = [turn(row) for row in tuples(samples, "SymmetriesDiscrete")]
+    if turns:
+        lines.append(f"{len(turns)} exact turn{'s' * (len(turns) > 1)}: {', '.join(turns)} degrees")
+    near = zip(*(tuples(samples, name) for name in ("NearSymmetries", "NearSymmetryOverlap", "NearSymmetryDeviation")))
+    most = 0.0799 * field(samples, "Diameter")  # farther is not measured
+    lines += [f"nearly {turn(row)} degrees: {100 * overlap:.1f} % of the surface, the rest "
+              f"{'more than' if deviation > most else 'up to'} {deviation:.2f} mm off" for row, (overlap,), (deviation,) in near]
+    return lines or ["none"]
 
 
 def print_poses(poses):

@@ -357,6 +357,40 @@ TEST(BoundaryExtraction, AHoleWithABottomIsNotAHoleBorder)
   }
 }
 
+TEST(BoundaryExtraction, OfTheWholePartAllEdgesAreCreases)
+{
+  const meam::TriangleMesh mesh = parts::box({ 0, 0, 0 }, { 10, 20, 30 });
+  meam::SurfaceSamplingSettings sampling;
+  sampling.spacing = 1.0;
+  meam::VisibilityExtractionSettings whole;
+  whole.viewpoints = 0;
+  const auto models = meam::extractVisibility(meam::sampleSurface(mesh, sampling), whole);
+  const auto onEdge = [](const Eigen::Vector3f& p, float tolerance)
+  {
+    const Eigen::Array3f fromSide = p.array().min(Eigen::Array3f(10, 20, 30) - p.array());
+    return (fromSide < tolerance).count() >= 2;
+  };
+  for (const bool ofMesh : { false, true })
+  {
+    meam::BoundaryExtractionSettings settings;
+    settings.method = ofMesh ? meam::BoundaryMethod::MeshEdges : meam::BoundaryMethod::PointBoundary;
+    const auto edges = meam::extractBoundary(models, settings, &mesh);
+    ASSERT_EQ(edges.size(), 1u);
+    EXPECT_TRUE(edges[0].wholePart);
+    const meam::PointCloud& cloud = edges[0].cloud;
+    EXPECT_EQ(cloud.edgeTypes, std::vector<meam::EdgeType>(cloud.size(), meam::EdgeType::Crease));
+    ASSERT_EQ(cloud.pointIds.size(), cloud.size());
+    Eigen::AlignedBox3f box;
+    for (const auto& point : cloud.points)
+    {
+      EXPECT_TRUE(onEdge(point, ofMesh ? 1e-4f : 1.5f)) << point.transpose();
+      box.extend(point);
+    }
+    EXPECT_GT(cloud.size(), 150u); // 240 mm of edges
+    EXPECT_GT(box.sizes().minCoeff(), 9.0f) << "an edge of the far side is missing";
+  }
+}
+
 TEST(BoundaryExtraction, MovingEverythingChangesNothing)
 {
   const meam::TriangleMesh mesh = parts::lBracket();

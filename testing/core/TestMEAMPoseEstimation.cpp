@@ -58,6 +58,19 @@ TEST(MEAMPoseEstimation, AModelOfTheMeshesEdgesFindsThemToo)
   EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
 }
 
+TEST(MEAMPoseEstimation, AModelOfTheWholePartWithoutVisibilityFindsThemToo)
+{
+  meam::TrainingSettings training = meam::trainingSettings(meam::Preset::Recommended);
+  training.visibility.viewpoints = 0;
+  const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
+  EXPECT_EQ(model.edgeViews, std::vector<std::uint32_t>(model.edges.size(), 1u));
+  // Every pair that the table reaches is there: also of points that are never seen together.
+  EXPECT_EQ(model.table.size(), model.edges.size() * (model.edges.size() - 1));
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const meam::Poses poses = meam::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
+}
+
 TEST(MEAMPoseEstimation, AnEdgeCloudAloneIsEnough)
 {
   meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());

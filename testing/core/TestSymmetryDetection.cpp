@@ -99,6 +99,18 @@ TEST(SymmetryDetection, OfASphereAllRotations)
   EXPECT_LT((found.continuous[0].point - Eigen::Vector3d(1, 2, 3)).norm(), 0.1);
 }
 
+TEST(SymmetryDetection, AFewSliversWithNormalsOfTheirOwnBreakNothing)
+{
+  meam::PointCloud surface = sampled(parts::box({ 5, 5, 5 }, { 35, 25, 15 }));
+  for (const std::size_t i : { surface.size() / 7, surface.size() / 2 })
+  {
+    surface.normals[i] = Eigen::Vector3f(0.6f, -0.6f, 0.53f).normalized();
+  }
+  const meam::Symmetries found = meam::detectSymmetries(surface);
+  EXPECT_EQ(found.discrete.size(), 3u);
+  EXPECT_TRUE(found.near.empty());
+}
+
 TEST(SymmetryDetection, AnLBracketHasNone)
 {
   const meam::Symmetries found = meam::detectSymmetries(sampled(parts::lBracket()));

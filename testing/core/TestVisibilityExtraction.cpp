@@ -179,6 +179,25 @@ TEST(VisibilityExtraction, TheConeLeavesViewpointsOut)
   EXPECT_EQ(meam::extractVisibility(boxSurface(), settings).size(), 8u);
 }
 
+TEST(VisibilityExtraction, WithoutViewpointsTheWholePartIsOneModel)
+{
+  const meam::PointCloud surface = boxSurface();
+  meam::VisibilityExtractionSettings settings = meshVisibility(0); // which needs no mesh here
+  settings.coneAngle = 5.0;
+  const auto models = meam::extractVisibility(surface, settings);
+  ASSERT_EQ(models.size(), 1u);
+  EXPECT_EQ(models[0].name, "Whole part");
+  EXPECT_TRUE(models[0].wholePart);
+  EXPECT_EQ(models[0].direction, Eigen::Vector3f::UnitZ());
+  EXPECT_FALSE(models[0].viewpoint.allFinite());
+  EXPECT_EQ(models[0].cloud.points, surface.points);
+  EXPECT_EQ(models[0].cloud.normals, surface.normals);
+  EXPECT_EQ(models[0].cloud.pointIds, surface.pointIds);
+  EXPECT_FALSE(meam::extractVisibility(surface).front().wholePart);
+  settings.viewpoints = -1;
+  EXPECT_THROW(meam::extractVisibility(surface, settings), meam::Error);
+}
+
 TEST(VisibilityExtraction, BadInput)
 {
   EXPECT_THROW(meam::extractVisibility({}), meam::Error);

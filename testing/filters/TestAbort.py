@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A filter that is asked to stop stops, reports no error, leaves nothing in its output and works again."""
 from ppfmeam.filters import (
+    vtkMEAMBoundaryExtraction,
+    vtkMEAMFeatureEdges,
     vtkMEAMPoseDetection,
+    vtkMEAMPoseEstimation,
     vtkMEAMPoseRefinement,
     vtkMEAMPoseVerification,
     vtkMEAMTangentEstimation,
+    vtkMEAMVisibilityExtraction,
 )
 from meamtest import Errors, MovedView, Trained, bracket, check, connect, is_empty, poses, run
 
@@ -14,8 +18,15 @@ scene = MovedView(trained)
 tangents = connect(vtkMEAMTangentEstimation(), scene.edges, model)
 edges = run(tangents)
 candidates = poses(*[scene.transform] * 400)
+exact_views = connect(vtkMEAMVisibilityExtraction(), trained.samples, trained.prepared)
+exact_views.SetMethodToMeshVisibility()
+exact_edges = connect(vtkMEAMBoundaryExtraction(), exact_views, trained.prepared)
+exact_edges.SetMethodToMeshEdges()
 filters = [
-    trained.prepared, trained.samples, trained.views, trained.edges, trained.tangents, trained.model, tangents,
+    trained.prepared, trained.samples, trained.views, trained.edges, trained.tangents, trained.symmetries, trained.model,
+    connect(vtkMEAMFeatureEdges(), trained.prepared), exact_views, exact_edges,
+    connect(vtkMEAMPoseEstimation(), trained.prepared, scene.surface, scene.edges),  # most of it is training
+    tangents,
     connect(vtkMEAMPoseDetection(), edges, model),
     connect(vtkMEAMPoseVerification(), candidates, model, edges),
     connect(vtkMEAMPoseRefinement(), candidates, model, edges),

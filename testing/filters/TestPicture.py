@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The main job, examples/simulated_bin.py: right poses, and a picture with the parts in the colours of their ranks."""
+"""The main job, examples/simulated_bin.py: right poses, and a picture with the parts in the colours of their ranks; the
+pictures of every step, examples/gallery.py."""
 import os
 import re
 import subprocess
@@ -13,7 +14,8 @@ from meamtest import check, run, skip
 
 if not os.environ.get("DISPLAY"):
     skip("no display")
-script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "simulated_bin.py")
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+script = os.path.join(EXAMPLES, "simulated_bin.py")
 with tempfile.TemporaryDirectory() as folder:
     picture = os.path.join(folder, "bin.png")
     result = subprocess.run([sys.executable, script, "--copies", "6", "--poses", "2", "--picture", picture],
@@ -35,3 +37,15 @@ print(shares)
 check(shares["red"] > 0.02 and shares["green"] > 0.02, f"two parts should be seen: {shares}")
 check(shares["blue"] < 0.001, f"nobody has rank 3: {shares}")
 check(shares["grey"] > 0.2, f"the scan should be seen: {shares}")
+
+# What docs/gallery.md shows of the sample part: every picture is there, small, and has something in it.
+with open(os.path.join(EXAMPLES, "..", "docs", "gallery.md"), encoding="utf-8") as file:
+    names = set(re.findall(r"gallery_sample_\w+\.jpg", file.read()))
+with tempfile.TemporaryDirectory() as folder:
+    result = subprocess.run([sys.executable, os.path.join(EXAMPLES, "gallery.py"), "--out", folder], capture_output=True,
+                            text=True)
+    check(result.returncode == 0 and result.stderr == "", f"status {result.returncode}: {result.stderr}")
+    check(names == set(os.listdir(folder)) and len(names) == 14, f"{sorted(names)} and {sorted(os.listdir(folder))}")
+    for name in names:
+        size = os.path.getsize(os.path.join(folder, name))
+        check(30000 < size < 120000, f"{name} has {size} bytes")

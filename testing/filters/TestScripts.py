@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,7 +16,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
 from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseWriter, vtkMEAMSceneEdgeExtraction
-from meamtest import check, connect, points, poses, run, tuples
+from meamtest import box, check, connect, points, poses, run, tuples
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
 folder = tempfile.TemporaryDirectory()
@@ -96,9 +97,19 @@ works("detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "imag
 check(read("b.txt") == read("a.txt"), "with the image of the file the poses differ")
 text = works("train.py", "--cad", "part.stl", "--out", "model.vtpc")
 check("model.vtpc" in text and os.path.isdir("model"), "the model is written")
+check(re.search(r"pairs in \d+\.\d MB, .* trained in \d", text) and "\nsymmetry: " in text, f"train.py says {text}")
 works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "2", "--matrices", "c.txt")
 check(read("c.txt") == read("a.txt"), "with the trained model the poses differ")
 works("train.py", "--cad", "part.stl", "--out", "model.vtpc")  # again, over the old one
+# What is known of a part's symmetries, also with the preset that does without; a box has three half turns.
+stl.SetInputDataObject(box(30, 20, 10))
+stl.SetFileName("box.stl")
+stl.Write()
+for preset in ("recommended", "paper"):
+    text = works("train.py", "--cad", "box.stl", "--out", "box.vtpc", "--models-info", "models_info.json", "--preset", preset)
+    check("symmetry: 3 exact turns: 180, 180, 180 degrees" in text, f"of a box train.py says {text}")
+    entry = json.loads(read("models_info.json"))["1"]
+    check(len(entry["symmetries_discrete"]) == 3 and abs(entry["diameter"] - math.sqrt(1400)) < 1e-3, f"{entry}")
 # The pieces go to a folder beside: one that holds something else stays as it is.
 os.mkdir("mine")
 with open(os.path.join("mine", "drawing.step"), "w") as file:
@@ -138,6 +149,13 @@ check(result.returncode == 1 and "scene 1: cannot read" in result.stderr and "1 
 rows = list(csv.DictReader(read("result/tohoku.csv").splitlines()))
 check(math.isclose(float(rows[0]["strict"]), float(row["strict"]) / 2), "the missing scene counts")
 check(os.listdir("result/Part_1") == ["trans0.txt"], "there is no file for the missing scene")
+
+# compare_models.py: a row for each model, the same scenes for all.
+text = works("compare_models.py", "--tohoku", "data", "--parts", "1", "--scenes", "1", "--simulated", "1", "--copies", "2",
+             "--poses", "2", "--only", "whole,mesh-both", "--out", "models.md")
+check(text.strip() == read("models.md").strip() and text.count("###") == 2, f"two tables: {text}")
+rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if "MEAM |" in line or "mesh edges |" in line]
+check(len(rows) == 4 and all(float(row[1].rstrip(" %")) >= 50 and float(row[5]) > 1000 for row in rows), f"{text}")
 
 # Bad input.
 for name in ("empty.stl", "empty.ply", "empty.obj", "empty.pcd"):
@@ -190,7 +208,9 @@ refuses("cannot write", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd",
 refuses("display", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--picture", "o.png", *out)
 refuses("no faces", "train.py", "--cad", "points.ply", "--out", "o.vtpc")
 refuses(".vtpc", "train.py", "--cad", "part.stl", "--out", "o.model")
+refuses("cannot write", "train.py", "--cad", "part.stl", "--out", "o.vtpc", "--models-info", "no/such/folder.json")
 refuses("display", "simulated_bin.py", "--picture", "o.png")
+refuses("cannot read nowhere", "compare_models.py", "--tohoku", "nowhere", "--out", "o.md")
 result = script("evaluate.py", "tohoku", "nowhere", "--out", "o")
 check(result.returncode == 1 and "cannot read nowhere" in result.stderr and not os.path.exists("o"), result.stderr)
 os.remove("model/model_0_0.vtp")

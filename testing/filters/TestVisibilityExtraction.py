@@ -4,7 +4,8 @@ import math
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam.filters import vtkMEAMMeshPreparation, vtkMEAMSurfaceSampling, vtkMEAMVisibilityExtraction
+from ppfmeam.filters import (vtkMEAMBoundaryExtraction, vtkMEAMHashing, vtkMEAMMeshPreparation, vtkMEAMSurfaceSampling,
+                             vtkMEAMTangentEstimation, vtkMEAMVisibilityExtraction)
 from meamtest import (box, check, close, cloud, connect, fails, field, image, mesh, partitions, points, prints, run,
                       tuples)
 
@@ -14,7 +15,7 @@ DIRECTIONS = [(0, 0, 1), (0, 0, -1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0
 
 def views(data, number=None):
     filter = connect(vtkMEAMVisibilityExtraction(), data)
-    if number:
+    if number is not None:
         filter.SetNumberOfViewpoints(number)
     return filter
 
@@ -43,6 +44,26 @@ for number in (1, 2, 14, 26, 9):
     found = partitions(run(views(samples, number)))
     check(len(found) == number, f"{number} viewpoints")
     check(all(abs(math.hypot(*field(view, "ViewDirection")[0]) - 1) < 1e-6 for _, view in found), "unit directions")
+
+# Without viewpoints the whole part is one model; the later steps know it and every pair is stored.
+whole = views(samples, 0)
+whole.SetMethodToMeshVisibility()  # plays no part
+(name, view), = partitions(run(whole))
+check(name == "Whole part" and points(view) == places and tuples(view, "Normals") == normals, f"{name}: all points")
+check(field(view, "WholePart") == [(1,)] and field(view, "ViewDirection") == [(0, 0, 1)], "the whole part's fields")
+check(view.GetFieldData().GetArray("Viewpoint") is None, "there is no viewpoint")
+check(field(whole.GetOutput(), "Diameter") == field(samples, "Diameter"), "the diameter travels along")
+for on_mesh in (0, 1):
+    boundary = connect(vtkMEAMBoundaryExtraction(), whole, box(*SIZE))
+    boundary.SetMethod(on_mesh)
+    tangents = connect(vtkMEAMTangentEstimation(), boundary)
+    (name, edges), = partitions(run(tangents))
+    check(name == "Whole part" and field(edges, "WholePart") == [(1,)], f"{name}: still known as the whole part")
+    check(set(tuples(edges, "EdgeType")) == {(1,)}, "all edges of a box are creases")
+    check({round(p[2]) for p in points(edges)} >= {0, 10}, "above and below")
+    count = edges.GetNumberOfPoints()
+    check(field(run(connect(vtkMEAMHashing(), tangents, samples)), "NumberOfPairs")[0][0] == count * (count - 1),
+          "every pair is stored")
 
 # Against the mesh: of a box exactly the points of the side, with the normals as they are.
 exact = connect(vtkMEAMVisibilityExtraction(), samples, box(*SIZE))
@@ -94,6 +115,6 @@ fails(wrong, "not of this mesh")
 fails(views(cloud([(math.nan, 0, 0)] * 5)), "NaN")
 fails(views(image()), "vtkPolyData")
 filter = vtkMEAMVisibilityExtraction()
-filter.SetNumberOfViewpoints(0)
-check(filter.GetNumberOfViewpoints() == 1, "at least one viewpoint")
+filter.SetNumberOfViewpoints(-1)
+check(filter.GetNumberOfViewpoints() == 0, "not less than none")
 prints(filter, "Method", "NumberOfViewpoints", "ConeDirection", "ConeAngle", "RadiusFactor", "ViewpointDistance")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inside the ParaView application: the chain is built from the proxies of the menu, shown, and the picture
-holds the found parts in the colours of their ranks."""
+"""Inside the ParaView application: the chain is built from the proxies of the menu, shown, its steps are coloured by what
+they found, and the picture holds the found parts in the colours of their ranks."""
 import os
 import sys
 import tempfile
@@ -17,7 +17,8 @@ def build_and_show():
     views = simple.VisibilityExtraction(Input=samples)
     boundary = simple.BoundaryExtraction(Input=views)
     tangents = simple.TangentEstimation(Input=boundary)
-    model = simple.MEAMHashing(Input=tangents, Surface=simple.SymmetryDetection(Input=samples))
+    symmetries = simple.SymmetryDetection(Input=samples)
+    model = simple.MEAMHashing(Input=tangents, Surface=symmetries)
     edges = simple.SceneEdgeExtraction(Input=simple.OutputPort(scene, 0))
     edges = simple.TangentEstimation(Input=simple.OutputPort(edges, 0), Model=model)
     candidates = simple.PoseDetection(Input=edges, Model=model)
@@ -30,6 +31,13 @@ def build_and_show():
     box = simple.MEAMPoseEstimation(Input=mesh, Scene=scan)
 
     view = simple.GetActiveViewOrCreate("RenderView")
+    exact = simple.BoundaryExtraction(Input=views, Mesh=mesh, Method="Mesh Edges")
+    whole = simple.BoundaryExtraction(Input=simple.VisibilityExtraction(Input=samples, NumberOfViewpoints=0))
+    for step, array in ((symmetries, "Deviation"), (simple.MEAMFeatureEdges(Input=mesh), "EdgeType"),
+                        (boundary, "EdgeType"), (exact, "EdgeType"), (whole, "EdgeType"), (tangents, "EdgeType")):
+        colours = list(simple.Show(step, view).ColorArrayName)
+        assert colours == ["POINTS", array], f"{step} is coloured by {colours}"
+        simple.Hide(step, view)
     simple.ColorBy(simple.Show(scan, view), None)  # grey: the only colours are those of the ranks
     display = simple.Show(chain, view)
     simple.ColorBy(display, ("CELLS", "RankColor"))

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Geometry.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace meam
+{
+/// Distances from a part's surface or from its edges on a grid about the part: one look-up for each point asked. Between
+/// samples the surface is taken as flat and an edge as straight.
+class DistanceField
+{
+public:
+  DistanceField() = default;
+
+  /// From the surface that samples with normals stand for. Lengths in mm: `reach` is the largest distance told,
+  /// `spacing` that of the samples, `cellSize` the side of a cell.
+  static DistanceField ofSurface(const PointCloud& samples, double spacing, double reach, double cellSize);
+  /// From the edges that points with tangents stand for.
+  static DistanceField ofEdges(const PointCloud& edges, double spacing, double reach, double cellSize);
+
+  /// mm, `reach` for all that is farther.
+  float at(const Eigen::Vector3f& point) const
+  {
+    const Eigen::Array3f cell = (point - this->Origin).array() * this->InverseCell;
+    if (!((cell >= 0.0f).all() && (cell < this->Extent).all()))
+    {
+      return this->Reach;
+    }
+    const Eigen::Array3i index = cell.cast<int>();
+    return this->Step *
+      this->Distances[(static_cast<std::size_t>(index.z()) * this->Size.y() + index.y()) * this->Size.x() + index.x()];
+  }
+
+  /// A ball around all that the distances are from.
+  const Eigen::Vector3f& middle() const { return this->Middle; }
+  float radius() const { return this->Radius; }
+
+private:
+  template <typename Metric>
+  DistanceField(const Points& points, double spacing, double reach, double cellSize, Metric&& metric);
+
+  Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
+  float InverseCell = 1.0f;
+  Eigen::Array3i Size = Eigen::Array3i::Zero();
+  Eigen::Array3f Extent = Eigen::Array3f::Zero(); ///< the size, to compare with
+  Eigen::Vector3f Middle = Eigen::Vector3f::Zero();
+  float Radius = 0.0f;
+  float Reach = 0.0f;
+  float Step = 1.0f; ///< mm for each unit of what is stored
+  std::vector<std::uint8_t> Distances;
+};
+}

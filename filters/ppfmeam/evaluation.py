@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the scripts that measure share: scenes with their true poses, and the figures over them."""
+import os
+import statistics
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from . import filters, scripting
+
+# mm. Part 3's STL is in another frame than its true poses.
+OFFSETS = {3: (-20.9645, -17.4974, -9.3144)}
+FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "recall": "Recall",
+           "AP": "AveragePrecision", "mm": "MedianTranslationError", "deg": "MedianRotationError",
+           "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
+           "mean_deg": "MeanRotationError"}
+STAGES = scripting.STAGES[2:-1]
+
+
+def numbers(text):
+    """1,2,5-7 as a list."""
+    result = []
+    for item in text.split(","):
+        first, _, last = item.partition("-")
+        result += range(int(first), int(last or first) + 1)
+    return result
+
+
+def tohoku_mesh(folder, part):
+    """The part of the Tohoku dataset in DIR/Part_P, in the frame of its true poses."""
+    return scripting.read_mesh(os.path.join(folder, f"Part_{part}", f"Part_{part}.STL"), OFFSETS.get(part, (0, 0, 0)))
+
+
+def tohoku_truth(folder, part, scene):
+    """The true poses of a scene."""
+    path = os.path.join(folder, f"Part_{part}", "Results", f"trans{scene}.txt")
+    return scripting.read_with(filters.vtkMEAMPoseReader(), path)
+
+
+def tohoku_clouds(folder, part, scene):
+    """The measured surface and the edge points of a scene."""
+    names = (f"Scene{scene}.pcd", f"Scene_boundary{scene}.pcd")
+    return tuple(scripting.read(os.path.join(folder, f"Part_{part}", "Scenes", name)) for name in names)
+
+
+def with_visibility(truth, model, edges, surface):
+    """The true poses with the share of each instance that nothing hides."""
+    tangents = filters.vtkMEAMTangentEstimation()
+    tangents.SetInputDataObject(edges)
+    tangents.SetInputDataObject(1, model)
+    verification = filters.vtkMEAMPoseVerification()
+    for port, data in enumerate((truth, model, scripting.update(tangents).GetOutputDataObject(0), surface)):
+        verification.SetInputDataObject(port, data)
+    verification.SetMaximumNumberOfPoses(0)
+    verification.SetClusterDistance(1e-6)  # every pose stays
+    return scripting.update(verification).GetOutput()
+
+
+class Evaluation:
+    """Finds the poses of scene after scene with a trained model and compares them with the true ones."""
+
+    def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0):
+        self.estimation = filters.vtkMEAMPoseEstimation()
+        self.estimation.SetInputDataObject(model)
+        scripting.set_choice(self.estimation, "Preset", preset)
+        self.estimation.SetMaximumNumberOfPoses(0)  # those beyond the poses asked for matter for recall and AP
+        self.estimation.SetNumberOfThreads(threads)
+        self.judge = filters.vtkMEAMPoseEvaluation()
+        self.judge.SetDiameter(scripting.field(model, "Diameter"))
+        self.judge.SetPosesAskedFor(poses_asked_for)
+        self.judge.SetInputDataObject(2, model)  # its symmetries
+        self.times = []
+
+    def find(self, surface, edges):
+        """The poses in a scene, best first."""
+        self.estimation.SetInputDataObject(1, surface)
+        self.estimation.SetInputDataObject(2, edges)
+        poses = vtkPolyData()
+        poses.ShallowCopy(scripting.update(self.estimation).GetOutput())
+        self.times.append({stage: 1000 * scripting.field(poses, "Seconds" + stage) for stage in scripting.STAGES})
+        return poses
+
+    def add(self, poses, truth):
+        """A scene, its poses found and its true ones."""
+        self.judge.AddInputDataObject(0, poses)
+        self.judge.AddInputDataObject(1, truth)
+
+    def figures(self):
+        """Over all scenes: how many poses were judged, FIGURES, and the median ms of a scene and its stages."""
+        def median(of):
+            return statistics.median(of(times) for times in self.times) if self.times else float("nan")
+
+        table = scripting.update(self.judge).GetOutput()
+        row = {"poses": int(scripting.field(table, "Poses"))}
+        row.update((name, scripting.field(table, array)) for name, array in FIGURES.items())
+        row["ms"] = median(lambda times: times["Total"] - times["Training"])
+        row.update((f"{stage}_ms", median(lambda times: times[stage])) for stage in STAGES)
+        return row

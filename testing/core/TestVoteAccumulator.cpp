@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/VoteAccumulator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+constexpr double Step = 7.2 * M_PI / 180.0; // 50 bins
+
+/// An entry of the table as voting reads it.
+std::uint32_t entry(std::uint32_t modelPoint, bool against, double degrees)
+{
+  const auto turn = static_cast<std::uint32_t>(std::lround(degrees / 360.0 * (1 << meam::TurnBits))) & meam::TurnMask;
+  return (modelPoint << (meam::TurnBits + 1)) | ((against ? 1u : 0u) << meam::TurnBits) | turn;
+}
+
+meam::PairTurn sceneTurn(bool against, double degrees) { return entry(0, against, degrees); }
+
+void vote(meam::VoteAccumulator& votes, std::uint32_t one, meam::PairTurn scene, int times = 1)
+{
+  for (int i = 0; i < times; ++i)
+  {
+    votes.vote(&one, &one + 1, scene);
+  }
+}
+}
+
+TEST(VoteAccumulator, TheTurnIsTheDifferenceOrTheSum)
+{
+  meam::VoteAccumulator votes(3, Step);
+  vote(votes, entry(2, false, 30.0), sceneTurn(false, 100.0)); // the same sense: 100 - 30
+  meam::VotePeak peak = votes.peaks(1).at(0);
+  EXPECT_EQ(peak.modelPoint, 2);
+  EXPECT_EQ(peak.votes, 1);
+  EXPECT_FALSE(peak.flip);
+  EXPECT_NEAR(peak.alpha * 180.0 / M_PI, 70.0, 2.0 * 7.2);
+  votes.clear();
+  EXPECT_TRUE(votes.peaks(1).empty());
+  vote(votes, entry(1, true, 30.0), sceneTurn(false, 100.0)); // against: 100 + 30
+  peak = votes.peaks(1).at(0);
+  EXPECT_EQ(peak.modelPoint, 1);
+  EXPECT_TRUE(peak.flip);
+  EXPECT_NEAR(peak.alpha * 180.0 / M_PI, 130.0, 2.0 * 7.2);
+  votes.clear();
+  vote(votes, entry(1, true, 30.0), sceneTurn(true, 100.0)); // both against: no flip
+  EXPECT_FALSE(votes.peaks(1).at(0).flip);
+}
+
+TEST(VoteAccumulator, NeighbouringBinsAddUpAndPullThePeak)
+{
+  meam::VoteAccumulator votes(1, Step);
+  vote(votes, entry(0, false, 0.0), sceneTurn(false, 3.6), 6);    // bin 0
+  vote(votes, entry(0, false, 0.0), sceneTurn(false, 356.4), 2);  // bin 49, its neighbour over the turn's end
+  vote(votes, entry(0, false, 0.0), sceneTurn(false, 10.8), 4);   // bin 1
+  const meam::VotePeak peak = votes.peaks(1).at(0);
+  EXPECT_EQ(peak.votes, 12);
+  EXPECT_NEAR(peak.alpha, (0.5 + (4.0 - 2.0) / 12.0) * Step, 1e-9);
+}
+
+TEST(VoteAccumulator, PeaksComeBestFirstAndOfDifferentPoints)
+{
+  meam::VoteAccumulator votes(4, Step);
+  vote(votes, entry(3, false, 0.0), sceneTurn(false, 90.0), 5);
+  vote(votes, entry(1, false, 0.0), sceneTurn(false, 20.0), 7);
+  vote(votes, entry(1, false, 0.0), sceneTurn(false, 200.0), 6);
+  vote(votes, entry(2, true, 0.0), sceneTurn(false, 90.0), 5);
+  const auto peaks = votes.peaks(10);
+  ASSERT_EQ(peaks.size(), 3u);
+  EXPECT_EQ(peaks[0].modelPoint, 1);
+  EXPECT_EQ(peaks[0].votes, 7);
+  EXPECT_EQ(peaks[1].modelPoint, 2) << "of equals the first";
+  EXPECT_EQ(peaks[2].modelPoint, 3);
+  EXPECT_EQ(votes.peaks(2).size(), 2u) << "asking does not change the votes";
+}
+
+TEST(VoteAccumulator, VeryManyVotesDoNotWrap)
+{
+  meam::VoteAccumulator votes(2, Step);
+  vote(votes, entry(1, false, 0.0), sceneTurn(false, 50.0), 200000);
+  vote(votes, entry(0, false, 0.0), sceneTurn(false, 50.0), 100);
+  EXPECT_EQ(votes.peaks(1).at(0).modelPoint, 1);
+  EXPECT_GT(votes.peaks(1).at(0).votes, 20000);
+}
