@@ -55,7 +55,7 @@ public:
   ///@}
 
   ///@{
-  /** Between corresponding points at the start, in mm; 0: 5 % of the part's diameter. Default: 0. */
+  /** Between corresponding points at the start, in mm; 0: 5 % of the part's diameter, point-to-point 4 %. Default: 0. */
   vtkSetClampMacro(MaximumDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumDistance, double);
   ///@}

@@ -16,9 +16,10 @@ namespace meam
 {
 namespace
 {
-constexpr double DistanceShare = 0.05;     // of the diameter: farthest correspondence at the start
-constexpr double LastDistanceShare = 0.24; // of that at the end
-constexpr double SurfaceLeafShare = 0.015; // of the diameter: scene surface points used
+constexpr double DistanceShare = 0.05;      // of the diameter: farthest correspondence at the start
+constexpr double PointDistanceShare = 0.04; // the same of point-to-point ICP
+constexpr double LastDistanceShare = 0.24;  // of that at the end
+constexpr double SurfaceLeafShare = 0.015;  // of the diameter: scene surface points used
 constexpr float ParallelTangents = 0.85f;
 constexpr int FewestCorrespondences = 4;   // of point-to-point ICP
 
@@ -174,7 +175,8 @@ Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& sc
   const PoseRefinementSettings& settings, const Progress& progress)
 {
   requirePoints(scene.edges.points, "The scene's edge cloud");
-  const double distance = settings.maximumDistance > 0.0 ? settings.maximumDistance : DistanceShare * model.diameter;
+  const double share = settings.method == RefinementMethod::PointToPoint ? PointDistanceShare : DistanceShare;
+  const double distance = settings.maximumDistance > 0.0 ? settings.maximumDistance : share * model.diameter;
   Poses refined = poses;
   const int count = static_cast<int>(refined.size());
   if (settings.method == RefinementMethod::EdgesAndSurface)

@@ -19,7 +19,7 @@ struct PoseRefinementSettings
 {
   RefinementMethod method = RefinementMethod::EdgesAndSurface;
   int iterations = 10;
-  double maximumDistance = 0.0; ///< between corresponding points; 0: 5 % of the diameter
+  double maximumDistance = 0.0; ///< between corresponding points; 0: 5 % of the diameter, point-to-point 4 %
   int threads = 0;              ///< 0: one for each processor
 };
 

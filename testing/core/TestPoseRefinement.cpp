@@ -64,7 +64,7 @@ TEST(PoseRefinement, EdgesAlone)
 
 TEST(PoseRefinement, PointToPointOfThePaper)
 {
-  expectNear(meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene(), meam::paperRefinementSettings()), 0.8, 1.7);
+  expectNear(meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene(), meam::paperRefinementSettings()), 0.8, 1.5);
 }
 
 TEST(PoseRefinement, ScoresAndOrderStayAndThreadsDoNotMatter)
