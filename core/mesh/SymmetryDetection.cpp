@@ -330,6 +330,15 @@ private:
     return result;
   }
 
+  /// The turn fitted to the surface, or as it is where it is exact and fitting makes it worse: a flat sheet can slide
+  /// along itself.
+  NearSymmetry bestNear(const Eigen::Isometry3d& T) const
+  {
+    const NearSymmetry fitted = this->measured(this->Matcher.fitted(this->Scan, T, this->Middle));
+    const NearSymmetry unfitted = this->measured(T);
+    return unfitted.deviation < std::min(fitted.deviation, this->Tolerance) ? unfitted : fitted;
+  }
+
   bool isContinuous(const Eigen::Vector3d& roughly, ContinuousSymmetry& result) const
   {
     // The axis of a fitted third of a turn is the exact one, if there is one.
@@ -379,11 +388,10 @@ private:
       {
         continue;
       }
-      const Eigen::Isometry3d T =
-        this->Matcher.fitted(this->Scan, turnAbout(axis, 2.0 * M_PI * step / Steps, this->Middle), this->Middle);
-      if (Eigen::AngleAxisd(T.linear()).angle() > 2.0 * SameTurn * Degree)
+      const NearSymmetry turn = this->bestNear(turnAbout(axis, 2.0 * M_PI * step / Steps, this->Middle));
+      if (Eigen::AngleAxisd(turn.T.linear()).angle() > 2.0 * SameTurn * Degree)
       {
-        turns.push_back(this->measured(T));
+        turns.push_back(turn);
       }
     }
     return turns;
@@ -399,7 +407,8 @@ private:
     {
       if (turnBetween(known.T, candidate.T) < SameTurn)
       {
-        if (candidate.overlap > known.overlap)
+        if (candidate.overlap > known.overlap ||
+          (candidate.overlap == known.overlap && candidate.deviation < known.deviation))
         {
           known = candidate;
         }
@@ -452,7 +461,11 @@ private:
         if (!known)
         {
           // The product of two symmetries is one; fitted again, so that errors do not add up.
-          exact.push_back(this->measured(this->Matcher.fitted(this->Scan, product, this->Middle)));
+          const NearSymmetry fitted = this->bestNear(product);
+          if (fitted.deviation <= this->Tolerance)
+          {
+            exact.push_back(fitted);
+          }
         }
       }
     }

@@ -51,6 +51,17 @@ TEST(SymmetryDetection, OfABoxTheThreeHalfTurns)
   }
 }
 
+TEST(SymmetryDetection, OfAFlatSheetTheHalfTurn)
+{
+  meam::TriangleMesh sheet;
+  sheet.vertices = { { 0, 0, 0 }, { 60, 0, 0 }, { 60, 40, 0 }, { 0, 40, 0 } };
+  sheet.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  const meam::Symmetries found = meam::detectSymmetries(sampled(sheet)); // its other side is no surface
+  EXPECT_TRUE(found.continuous.empty());
+  ASSERT_EQ(found.discrete.size(), 1u);
+  EXPECT_TRUE(contains(found.discrete, { 0, 0, 1 }, 180.0));
+}
+
 TEST(SymmetryDetection, OfACubeTheWholeGroup)
 {
   const meam::Symmetries found = meam::detectSymmetries(sampled(parts::box({ -9, -9, -9 }, { 9, 9, 9 })));
