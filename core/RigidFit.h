@@ -23,7 +23,15 @@ public:
     row << (point - this->Centre).cross(direction), direction;
     this->A += weight * row * row.transpose();
     this->b -= weight * residual * row;
+    this->Weights += weight;
+    this->Squares += weight * residual * residual;
   }
+
+  /// Of the motion (rotation vector, translation): the inverse of its covariance for residuals of variance 1.
+  const Eigen::Matrix<double, 6, 6>& information() const { return this->A; }
+  double weights() const { return this->Weights; }
+  /// Sum of the squared residuals, weighted.
+  double squares() const { return this->Squares; }
 
   /// The motion to apply on the left; the identity when nothing can be said.
   Eigen::Isometry3d motion() const
@@ -49,5 +57,7 @@ private:
   Eigen::Vector3d Centre;
   Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
+  double Weights = 0.0;
+  double Squares = 0.0;
 };
 }

@@ -6,6 +6,9 @@
 #include "simulation/SamplePart.h"
 #include "vtkMEAMConversion.h"
 
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
@@ -18,13 +21,60 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 vtkStandardNewMacro(vtkMEAMBinSceneSource);
+
+namespace
+{
+/// An array of `components` numbers for each tuple, with all its values.
+template <typename Array, typename Values>
+vtkNew<Array> arrayOf(const char* name, int components, const Values& values)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+/// The truth in the image: where each copy is seen.
+void addMasks(const std::vector<meam::BinInstance>& copies, vtkPolyData* truth)
+{
+  std::vector<int> pixels;
+  std::vector<int> visible;
+  std::vector<int> boxes;
+  std::vector<unsigned char> silhouettes;
+  for (const meam::BinInstance& copy : copies)
+  {
+    const meam::Mask& mask = copy.silhouette;
+    pixels.push_back(mask.count());
+    visible.push_back(copy.visiblePixels);
+    boxes.insert(boxes.end(), { mask.left, mask.top, mask.width, mask.height });
+    silhouettes.insert(silhouettes.end(), mask.pixels.begin(), mask.pixels.end());
+  }
+  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("Pixels", 1, pixels));
+  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("VisiblePixels", 1, visible));
+  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("Box", 4, boxes));
+  truth->GetFieldData()->AddArray(arrayOf<vtkUnsignedCharArray>("Silhouettes", 1, silhouettes));
+}
+
+void addCamera(const meam::Camera& camera, vtkDataObject* data)
+{
+  const std::array<double, 9> matrix{ camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0 };
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> pose = camera.T_camera_scene.matrix();
+  data->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("CameraMatrix", 9, matrix));
+  data->GetFieldData()->AddArray(
+    arrayOf<vtkDoubleArray>("CameraPose", 16, std::vector<double>(pose.data(), pose.data() + 16)));
+}
+}
 
 vtkMEAMBinSceneSource::vtkMEAMBinSceneSource()
 {
   this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 int vtkMEAMBinSceneSource::FillInputPortInformation(int, vtkInformation* info)
@@ -36,7 +86,8 @@ int vtkMEAMBinSceneSource::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkMEAMBinSceneSource::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkStructuredGrid" : "vtkPolyData");
+  static const char* const types[] = { "vtkStructuredGrid", "vtkPolyData", "vtkPolyData", "vtkImageData" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
 
@@ -44,7 +95,10 @@ int vtkMEAMBinSceneSource::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   const int extent[6] = { 0, this->Width - 1, 0, this->Height - 1, 0, 0 };
-  outputVector->GetInformationObject(0)->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  for (const int port : { 0, 3 })
+  {
+    outputVector->GetInformationObject(port)->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  }
   return 1;
 }
 
@@ -56,6 +110,7 @@ int vtkMEAMBinSceneSource::RequestData(
   auto* scan = vtkStructuredGrid::GetData(outputVector, 0);
   auto* truth = vtkPolyData::GetData(outputVector, 1);
   auto* part = vtkPolyData::GetData(outputVector, 2);
+  auto* picture = vtkImageData::GetData(outputVector, 3);
   return vtkMEAMRun(
     this,
     [&]
@@ -68,38 +123,42 @@ int vtkMEAMBinSceneSource::RequestData(
       settings.sensorHeight = this->SensorHeight;
       settings.width = this->Width;
       settings.height = this->Height;
-      settings.depthNoise = this->DepthNoise;
-      settings.dropout = this->Dropout;
-      settings.imageNoise = this->ImageNoise;
+      settings.colored = this->Colored;
+      settings.baseline = this->Baseline;
+      settings.quality.depthNoise = this->DepthNoise;
+      settings.quality.depthStep = this->DepthStep;
+      settings.quality.dropout = this->Dropout;
+      settings.quality.jumpDropout = this->JumpDropout;
+      settings.quality.matchingWindow = this->MatchingWindow;
+      settings.quality.imageNoise = this->ImageNoise;
+      settings.quality.imageBlur = this->ImageBlur;
       const meam::BinScene scene = meam::simulateBin(mesh, settings, progressOf(this));
 
       fromOrganizedCloud(scene.cloud, scan);
-      const auto pixels = static_cast<vtkIdType>(scene.cloud.size());
-      vtkNew<vtkUnsignedCharArray> intensity;
-      intensity->SetName("Intensity");
-      intensity->SetNumberOfTuples(pixels);
-      std::copy(scene.image.pixels.begin(), scene.image.pixels.end(), intensity->GetPointer(0));
-      scan->GetPointData()->SetScalars(intensity);
-      vtkNew<vtkIntArray> instance;
-      instance->SetName("Instance");
-      instance->SetNumberOfTuples(pixels);
-      std::copy(scene.instanceOfPixel.begin(), scene.instanceOfPixel.end(), instance->GetPointer(0));
-      scan->GetPointData()->AddArray(instance);
-      setFieldValue(scan, "FocalLength", scene.focalLength);
+      if (this->Baseline == 0.0)
+      {
+        scan->GetPointData()->SetScalars(
+          arrayOf<vtkUnsignedCharArray>(this->Colored ? "RGB" : "Intensity", scene.image.channels, scene.image.pixels));
+      }
+      scan->GetPointData()->AddArray(arrayOf<vtkIntArray>("Instance", 1, scene.instanceOfPixel));
+      addCamera(scene.sensor, scan);
       setFieldValue(scan, "BinSize", scene.binSize);
+      fromImage(scene.image, picture);
+      addCamera(scene.camera, picture);
 
       meam::Poses poses;
       for (const meam::BinInstance& copy : scene.instances)
       {
         poses.emplace_back();
         poses.back().T_scene_model = copy.T_scene_model;
-        poses.back().visibleFraction = copy.visibleFraction;
+        poses.back().visibleFraction = copy.visibleFraction();
       }
       fromPoses(poses, truth);
+      addMasks(scene.instances, truth);
       setDiameter(truth, meam::diameter(mesh.vertices));
       fromMesh(mesh, part);
     },
-    scan, truth, part);
+    scan, truth, part, picture);
 }
 
 void vtkMEAMBinSceneSource::PrintSelf(ostream& os, vtkIndent indent)
@@ -111,7 +170,13 @@ void vtkMEAMBinSceneSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SensorHeight: " << this->SensorHeight << " mm\n";
   os << indent << "Width: " << this->Width << " pixels\n";
   os << indent << "Height: " << this->Height << " pixels\n";
+  os << indent << "Colored: " << this->Colored << "\n";
+  os << indent << "Baseline: " << this->Baseline << " mm\n";
   os << indent << "DepthNoise: " << this->DepthNoise << " mm\n";
+  os << indent << "DepthStep: " << this->DepthStep << " mm\n";
   os << indent << "Dropout: " << this->Dropout << "\n";
+  os << indent << "JumpDropout: " << this->JumpDropout << "\n";
+  os << indent << "MatchingWindow: " << this->MatchingWindow << " pixels\n";
   os << indent << "ImageNoise: " << this->ImageNoise << "\n";
+  os << indent << "ImageBlur: " << this->ImageBlur << " pixels\n";
 }

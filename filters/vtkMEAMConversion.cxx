@@ -438,6 +438,11 @@ meam::Poses toPoses(vtkPolyData* input)
   vtkDataArray* views = pointArray(input, "ViewId", 1);
   vtkDataArray* fractions = pointArray(input, "VisibleFraction", 1);
   vtkDataArray* certainties = pointArray(input, "Certainty", 1);
+  vtkDataArray* probabilities = pointArray(input, "Probability", 1);
+  vtkDataArray* residuals = pointArray(input, "Residual", 1);
+  vtkDataArray* iterations = pointArray(input, "Iterations", 1);
+  vtkDataArray* covariances = pointArray(input, "Covariance", 36);
+  vtkDataArray* constrained = pointArray(input, "ConstrainedDegreesOfFreedom", 1);
   for (vtkIdType i = 0; i < count; ++i)
   {
     Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix;
@@ -457,6 +462,14 @@ meam::Poses toPoses(vtkPolyData* input)
     pose.viewId = views ? static_cast<int>(views->GetComponent(i, 0)) : -1;
     pose.visibleFraction = fractions ? fractions->GetComponent(i, 0) : 0.0;
     pose.certainty = certainties ? certainties->GetComponent(i, 0) : 1.0;
+    pose.probability = probabilities ? probabilities->GetComponent(i, 0) : 0.0;
+    if (residuals && iterations && covariances && constrained)
+    {
+      pose.fit.residual = residuals->GetComponent(i, 0);
+      pose.fit.iterations = static_cast<int>(iterations->GetComponent(i, 0));
+      covariances->GetTuple(i, pose.fit.covariance.data());
+      pose.fit.constrained = static_cast<int>(constrained->GetComponent(i, 0));
+    }
     poses.push_back(pose);
   }
   return poses;
@@ -499,6 +512,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
   double* transform = doubles("Transform", 16);
   double* quaternion = doubles("Quaternion", 4);
   double* score = doubles("Score", 1);
+  double* probability = doubles("Probability", 1);
   int* votes = integers("Votes");
   int* view = integers("ViewId");
   double* fraction = doubles("VisibleFraction", 1);
@@ -523,8 +537,24 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
     view[i] = pose.viewId;
     fraction[i] = pose.visibleFraction;
     certainty[i] = pose.certainty;
+    probability[i] = pose.probability;
     rank[i] = static_cast<int>(i) + 1;
     points->SetPoint(i, pose.T_scene_model.translation().data());
+  }
+  if (std::any_of(poses.begin(), poses.end(), [](const meam::Pose& pose) { return pose.fit.iterations > 0; }))
+  {
+    double* residual = doubles("Residual", 1);
+    int* iterations = integers("Iterations");
+    double* covariance = doubles("Covariance", 36);
+    int* constrained = integers("ConstrainedDegreesOfFreedom");
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const meam::PoseFit& fit = poses[i].fit;
+      residual[i] = fit.residual;
+      iterations[i] = fit.iterations;
+      Eigen::Map<Eigen::Matrix<double, 6, 6>>(covariance + 36 * i) = fit.covariance; // symmetric
+      constrained[i] = fit.constrained;
+    }
   }
   output->SetPoints(points);
   addVertices(output);

@@ -12,14 +12,22 @@
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
 #include "pose/Scene.h"
+#include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkObject.h"
 #include "vtkSetGet.h"
 
+#include <optional>
 #include <vector>
 
+namespace meam
+{
+struct CameraFile;
+struct MeasuredCloud;
+struct SceneEdges;
+}
 class vtkDataObject;
 class vtkDataSet;
 class vtkFieldData;
@@ -50,6 +58,22 @@ meam::Image imageOfCloud(vtkStructuredGrid* input);
 meam::Image toImage(vtkImageData* input);
 void fromImage(const meam::Image& image, vtkImageData* output);
 
+/// An organized cloud for a vtkStructuredGrid, otherwise a vertex for each point that has depth; `Normals`, `Intensity`
+/// (whole numbers from 0 to 255 are kept, other values are spread so that the largest becomes 255) and `RGB` where
+/// they are known.
+void fromMeasuredCloud(const meam::MeasuredCloud& measured, vtkPointSet* output);
+/// The point array `Intensity` or `RGB` of an organized cloud.
+void addRegisteredImage(const meam::Image& image, vtkStructuredGrid* output);
+/// The sensor's calibration: that of the file, when one is named, otherwise a pinhole. Throws Error for neither.
+meam::CameraFile calibrationOf(const char* file, const double focalLength[2], const double principalPoint[2]);
+
+/// The camera beside the sensor that took an image: from a calibration file, when one is named, otherwise from the
+/// image's field data `CameraMatrix` (9, row-major, pixels) and `CameraPose` (16, row-major T_camera_scene, mm). None
+/// when neither is there, and when the field data say that the image is registered with the cloud. `image` may be null.
+std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, const meam::OrganizedCloud& cloud);
+/// Edge points as fromCloud() has them, and the point array `EdgeSource`.
+void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output);
+
 /// One partition for each viewpoint, named, with the field data `ViewDirection` (3) and, where it is known,
 /// `Viewpoint` (3, mm); `WholePart` (1) stands where there is no viewpoint at all.
 std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetCollection* input);
@@ -60,7 +84,8 @@ meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input);
 void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output);
 
 /// One vertex for each pose, best first: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w),
-/// `Score`, `Votes`, `ViewId`, `VisibleFraction`, `Certainty`, `Rank` (from 1).
+/// `Score`, `Probability`, `Votes`, `ViewId`, `VisibleFraction`, `Certainty`, `Rank` (from 1); of refined poses `Residual`,
+/// `Iterations`, `Covariance` (36) and `ConstrainedDegreesOfFreedom`.
 meam::Poses toPoses(vtkPolyData* input);
 /// The same, with the appearance model nearest to the sensor for poses that do not name one, as from a file.
 meam::Poses toPoses(vtkPolyData* input, const meam::TrainedModel& model, const meam::Sensor& sensor);

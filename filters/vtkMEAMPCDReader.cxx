@@ -4,21 +4,14 @@
 #include "io/PCDFile.h"
 #include "vtkMEAMConversion.h"
 
-#include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtksys/SystemTools.hxx"
-
-#include <algorithm>
-#include <cmath>
 
 vtkStandardNewMacro(vtkMEAMPCDReader);
 
@@ -35,65 +28,6 @@ std::array<int, 2> sizeOf(const char* fileName)
   {
     return { 0, 0 };
   }
-}
-
-vtkSmartPointer<vtkUnsignedCharArray> newBytes(const char* name, int components, std::size_t tuples)
-{
-  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return array;
-}
-
-void addIntensity(const std::vector<float>& intensities, const std::vector<int>& kept, vtkDataSet* output)
-{
-  float largest = 0.0f;
-  bool whole = true;
-  for (const float value : intensities)
-  {
-    if (std::isfinite(value))
-    {
-      largest = std::max(largest, value);
-      whole = whole && value >= 0.0f && value == std::floor(value);
-    }
-  }
-  const float factor = (whole && largest <= 255.0f) || largest <= 0.0f ? 1.0f : 255.0f / largest;
-  const auto array = newBytes("Intensity", 1, kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    const float value = std::round(factor * intensities[kept[i]]);
-    *array->GetPointer(static_cast<vtkIdType>(i)) =
-      value > 0.0f ? static_cast<unsigned char>(std::min(value, 255.0f)) : 0; // NaN is black
-  }
-  output->GetPointData()->SetScalars(array);
-}
-
-void addNormals(const meam::Points& normals, vtkStructuredGrid* output)
-{
-  if (normals.empty())
-  {
-    return;
-  }
-  vtkNew<vtkFloatArray> array;
-  array->SetName("Normals");
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(normals.size()));
-  for (std::size_t i = 0; i < normals.size(); ++i)
-  {
-    std::copy_n(normals[i].data(), 3, array->GetPointer(3 * static_cast<vtkIdType>(i)));
-  }
-  output->GetPointData()->SetNormals(array);
-}
-
-void addColors(const std::vector<std::uint8_t>& colors, const std::vector<int>& kept, vtkDataSet* output)
-{
-  const auto array = newBytes("RGB", 3, kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    std::copy_n(&colors[3 * static_cast<std::size_t>(kept[i])], 3, array->GetPointer(3 * static_cast<vtkIdType>(i)));
-  }
-  output->GetPointData()->SetScalars(array);
 }
 }
 
@@ -169,36 +103,7 @@ int vtkMEAMPCDReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
       {
         point *= static_cast<float>(this->Scale);
       }
-
-      auto* grid = vtkStructuredGrid::SafeDownCast(output);
-      std::vector<int> kept;
-      for (std::size_t i = 0; i < data.cloud.size(); ++i)
-      {
-        if (grid || data.cloud.points[i].allFinite())
-        {
-          kept.push_back(static_cast<int>(i));
-        }
-      }
-      if (grid)
-      {
-        vtkMEAMConversion::fromOrganizedCloud(data.cloud, grid);
-        addNormals(data.normals, grid);
-      }
-      else
-      {
-        meam::PointCloud cloud;
-        cloud.points = std::move(data.cloud.points);
-        cloud.normals = std::move(data.normals);
-        vtkMEAMConversion::fromCloud(cloud.subset(kept), vtkPolyData::SafeDownCast(output));
-      }
-      if (!data.intensities.empty())
-      {
-        addIntensity(data.intensities, kept, output);
-      }
-      if (!data.colors.empty())
-      {
-        addColors(data.colors, kept, output);
-      }
+      vtkMEAMConversion::fromMeasuredCloud(data, output);
     },
     output);
 }

@@ -82,7 +82,7 @@ vtkMEAMPoseEstimation::vtkMEAMPoseEstimation()
   this->SetNumberOfOutputPorts(2);
 }
 
-vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() = default;
+vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() { this->SetCameraFile(nullptr); }
 
 int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -155,6 +155,7 @@ int vtkMEAMPoseEstimation::RequestData(
 
       const double loaded = vtkTimerLog::GetUniversalTime();
       meam::Scene scene;
+      meam::SceneEdges found;
       scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
       if (boundary)
       {
@@ -164,8 +165,20 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       else
       {
-        scene.edges = meam::extractSceneEdges(cloud, image ? toImage(image) : imageOfCloud(organized), {},
-          meam::subProgress(progress, 0.0, AfterSceneEdges));
+        meam::SceneEdgeExtractionSettings extraction;
+        extraction.imageEdges = this->ImageEdges;
+        extraction.depthEdges = this->DepthEdges;
+        extraction.creases = this->Creases;
+        extraction.tangents = this->Preset == Recommended;
+        extraction.threads = this->NumberOfThreads;
+        meam::Image pixels;
+        if (this->ImageEdges)
+        {
+          pixels = image ? toImage(image) : imageOfCloud(organized);
+          extraction.camera = cameraOf(this->CameraFile, image, cloud);
+        }
+        found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
+        scene.edges = found.cloud;
       }
       scene.surface = meam::finitePoints({ std::move(cloud.points), {}, {}, {} }).points;
       const double extracted = vtkTimerLog::GetUniversalTime();
@@ -176,13 +189,21 @@ int vtkMEAMPoseEstimation::RequestData(
       const double trained = vtkTimerLog::GetUniversalTime();
 
       meam::DetectionSettings settings = meam::detectionSettings(
-        static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses, this->NumberOfThreads);
+        static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses, this->NumberOfThreads,
+        this->MinimumProbability);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
       meam::StageTimes times;
       const meam::Poses poses =
         meam::estimatePoses(model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
 
-      fromCloud(scene.edges, edges);
+      if (boundary)
+      {
+        fromCloud(scene.edges, edges);
+      }
+      else
+      {
+        fromSceneEdges(found, edges);
+      }
       fromPoses(poses, output);
       setDiameter(output, model.diameter);
       setFieldValue(output, "SecondsTraining", trained - extracted);
@@ -205,7 +226,12 @@ void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Preset: " << (this->Preset == Paper ? "Paper" : "Recommended") << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
+  os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "ImageEdges: " << this->ImageEdges << "\n";
+  os << indent << "DepthEdges: " << this->DepthEdges << "\n";
+  os << indent << "Creases: " << this->Creases << "\n";
+  os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
   os << indent << "CADScale: " << this->CADScale << "\n";
   os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2]
      << "\n";

@@ -13,8 +13,9 @@
  * Input port 1: the scene in mm, a vtkStructuredGrid of W x H x 1 points in the sensor's frame, or a
  * vtkPolyData with the points of the measured surface.
  * Input port 2 (optional): the scene's edge points, a vtkPolyData. Without it the scene has to be
- * organized and to have an image: port 3, or the point array `Intensity` (1) or `RGB` (3).
- * Input port 3 (optional): the image, a vtkImageData of W x H with 1, 3 or 4 components.
+ * organized and, for edges of the image, to have one: port 3, or the point array `Intensity` (1) or `RGB` (3).
+ * Input port 3 (optional): the image, a vtkImageData with 1, 3 or 4 components; of W x H, or of any size when the
+ * camera that took it is known as vtkMEAMSceneEdgeExtraction has it.
  *
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score` in [0, 1], `Votes`,
@@ -22,7 +23,8 @@
  * `SecondsSceneEdges`, `SecondsTangents`, `SecondsDetection`, `SecondsVerification`,
  * `SecondsRefinement`, `SecondsSelection`, `SecondsTotal`, and the counts `ScenePoints`,
  * `SceneEdgePoints` and `ModelEdgePoints`.
- * Output port 1: the scene's edge points as extracted, a vtkPolyData.
+ * Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`,
+ * unless they came in.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h
@@ -70,9 +72,34 @@ public:
   ///@}
 
   ///@{
+  /** Of what comes out, poses that are less likely to be right are dropped, in [0, 1]. Default: 0. */
+  vtkSetClampMacro(MinimumProbability, double, 0.0, 1.0);
+  vtkGetMacro(MinimumProbability, double);
+  ///@}
+
+  ///@{
   /** Of all random choices: the same seed gives the same result. Default: 1. */
   vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /** Which edges of the scene to look for, as in vtkMEAMSceneEdgeExtraction. Default: those of the image alone. */
+  vtkSetMacro(ImageEdges, bool);
+  vtkGetMacro(ImageEdges, bool);
+  vtkBooleanMacro(ImageEdges, bool);
+  vtkSetMacro(DepthEdges, bool);
+  vtkGetMacro(DepthEdges, bool);
+  vtkBooleanMacro(DepthEdges, bool);
+  vtkSetMacro(Creases, bool);
+  vtkGetMacro(Creases, bool);
+  vtkBooleanMacro(Creases, bool);
+  ///@}
+
+  ///@{
+  /** The calibration of a camera beside the sensor that took the image. Default: none. */
+  vtkSetFilePathMacro(CameraFile);
+  vtkGetFilePathMacro(CameraFile);
   ///@}
 
   ///@{
@@ -104,7 +131,12 @@ private:
 
   int Preset = Recommended;
   int MaximumNumberOfPoses = 5;
+  double MinimumProbability = 0.0;
   int Seed = 1;
+  bool ImageEdges = true;
+  bool DepthEdges = false;
+  bool Creases = false;
+  char* CameraFile = nullptr;
   double CADScale = 1.0;
   double CADOffset[3] = { 0.0, 0.0, 0.0 };
 };

@@ -15,7 +15,10 @@
  * (vtkStructuredGrid, invalid points NaN or blanked) or any cloud. Without it only edges count.
  *
  * Output port 0: vtkPolyData, the same poses in the same order with a better `Transform`; the other arrays
- * of vtkMEAMPoseDetection stay, so verify them again for a score. Field data `Diameter` (mm, of the part).
+ * of vtkMEAMPoseDetection stay, so verify them again for a score. Added: `Residual` (mm, root mean square),
+ * `Iterations`, `Covariance` (6 x 6: rotation vector in radians and translation in mm of a small motion about the middle
+ * of the part's surface, scene axes) and `ConstrainedDegreesOfFreedom` (0 to 6: what the scene's points fix). Field data
+ * `Diameter` (mm, of the part).
  */
 #ifndef vtkMEAMPoseRefinement_h
 #define vtkMEAMPoseRefinement_h
@@ -49,13 +52,13 @@ public:
   ///@}
 
   ///@{
-  /** Steps at most. Default: 10. */
+  /** Steps at most. Default: 12. */
   vtkSetClampMacro(NumberOfIterations, int, 1, 10000);
   vtkGetMacro(NumberOfIterations, int);
   ///@}
 
   ///@{
-  /** Between corresponding points at the start, in mm; 0: 5 % of the part's diameter, point-to-point 4 %. Default: 0. */
+  /** Between corresponding points at the start, in mm; 0: 10 % of the part's diameter, point-to-point 4 %. Default: 0. */
   vtkSetClampMacro(MaximumDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumDistance, double);
   ///@}

@@ -32,6 +32,7 @@ void vtkMEAMPoseVerification::SetParameters(const meam::PoseVerificationSettings
   this->ClusterAngle = settings.clusterAngle;
   this->PosesPerInstance = settings.posesPerInstance;
   this->MaximumNumberOfPoses = settings.maximumPoses;
+  this->MinimumProbability = settings.minimumProbability;
   this->Modified();
 }
 
@@ -66,6 +67,7 @@ int vtkMEAMPoseVerification::RequestData(
     settings.clusterAngle = this->ClusterAngle;
     settings.posesPerInstance = this->PosesPerInstance;
     settings.maximumPoses = this->MaximumNumberOfPoses;
+    settings.minimumProbability = this->MinimumProbability;
     settings.threads = this->NumberOfThreads;
     const meam::TrainedModel model = toTrainedModel(trained);
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
@@ -89,4 +91,5 @@ void vtkMEAMPoseVerification::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ClusterAngle: " << this->ClusterAngle << "\n";
   os << indent << "PosesPerInstance: " << this->PosesPerInstance << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
+  os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
 }

@@ -15,7 +15,8 @@
  * Input port 3, optional: vtkPointSet, all points the sensor measured, in mm: an organized cloud
  * (vtkStructuredGrid, invalid points NaN or blanked) or any cloud. Without it only edges count.
  *
- * Output port 0: vtkPolyData, the poses that stay, best first, with `Score` in [0, 1], `VisibleFraction`,
+ * Output port 0: vtkPolyData, the poses that stay, best first, with `Score` (share of what should be visible that is
+ * there) and `Probability` (that the pose is right), both in [0, 1], `VisibleFraction`,
  * `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection. Field data `Diameter` (mm, of the part).
  */
 #ifndef vtkMEAMPoseVerification_h
@@ -97,6 +98,12 @@ public:
   vtkGetMacro(MaximumNumberOfPoses, int);
   ///@}
 
+  ///@{
+  /** Of what comes out, poses that are less likely to be right are dropped, in [0, 1]. Default: 0. */
+  vtkSetClampMacro(MinimumProbability, double, 0.0, 1.0);
+  vtkGetMacro(MinimumProbability, double);
+  ///@}
+
   /** The parameters of the paper, Section 6. Sensor and number of threads stay. */
   void SetParametersToPaper();
   /** The parameters that measure better: the defaults. Sensor and number of threads stay. */
@@ -122,6 +129,7 @@ private:
   double ClusterAngle;
   int PosesPerInstance;
   int MaximumNumberOfPoses;
+  double MinimumProbability;
 };
 
 #endif

@@ -77,7 +77,7 @@ void vtkMEAMPoseWriter::WriteData()
         row.imageId = this->ImageId;
         row.objectId = this->ObjectId;
         row.T_scene_model = pose.T_scene_model;
-        row.score = pose.score;
+        row.score = meam::confidence(pose);
         row.time = this->Time >= 0.0 ? this->Time : measured;
         row.rank = static_cast<int>(rows.size()) + 1;
         row.viewId = pose.viewId;

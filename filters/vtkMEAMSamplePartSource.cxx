@@ -2,6 +2,7 @@
 #include "vtkMEAMSamplePartSource.h"
 
 #include "mesh/ConvexHull.h"
+#include "simulation/ExampleParts.h"
 #include "simulation/SamplePart.h"
 #include "vtkMEAMConversion.h"
 
@@ -11,10 +12,7 @@
 
 vtkStandardNewMacro(vtkMEAMSamplePartSource);
 
-vtkMEAMSamplePartSource::vtkMEAMSamplePartSource()
-{
-  this->SetNumberOfInputPorts(0);
-}
+vtkMEAMSamplePartSource::vtkMEAMSamplePartSource() { this->SetNumberOfInputPorts(0); }
 
 int vtkMEAMSamplePartSource::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -23,7 +21,9 @@ int vtkMEAMSamplePartSource::RequestData(vtkInformation*, vtkInformationVector**
     this,
     [&]
     {
-      const meam::TriangleMesh mesh = meam::makeSamplePart();
+      const meam::TriangleMesh mesh =
+        this->Part == RibbedFlange ? meam::makeSamplePart()
+                                   : meam::makeExamplePart(static_cast<meam::ExamplePart>(this->Part - RidgedDisc));
       vtkMEAMConversion::fromMesh(mesh, output);
       vtkMEAMConversion::setDiameter(output, meam::diameter(mesh.vertices));
     },
@@ -33,4 +33,5 @@ int vtkMEAMSamplePartSource::RequestData(vtkInformation*, vtkInformationVector**
 void vtkMEAMSamplePartSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Part: " << this->Part << "\n";
 }

@@ -21,6 +21,8 @@ vtkMEAMSceneEdgeExtraction::vtkMEAMSceneEdgeExtraction()
   this->SetNumberOfOutputPorts(2);
 }
 
+vtkMEAMSceneEdgeExtraction::~vtkMEAMSceneEdgeExtraction() { this->SetCameraFile(nullptr); }
+
 int vtkMEAMSceneEdgeExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkStructuredGrid" : "vtkImageData");
@@ -75,24 +77,34 @@ int vtkMEAMSceneEdgeExtraction::RequestData(
     [&]
     {
       meam::SceneEdgeExtractionSettings settings;
-      settings.smoothing = this->Smoothing;
-      settings.lowThreshold = this->LowThreshold;
-      settings.highThreshold = this->HighThreshold;
+      settings.imageEdges = this->ImageEdges;
+      settings.depthEdges = this->DepthEdges;
+      settings.creases = this->Creases;
+      settings.creaseAngle = this->CreaseAngle;
+      settings.tangents = this->ImageTangents;
+      settings.image.smoothing = this->Smoothing;
+      settings.image.lowThreshold = this->LowThreshold;
+      settings.image.highThreshold = this->HighThreshold;
       settings.searchRadius = this->SearchRadius;
       settings.depthJump = this->DepthJump;
+      settings.threads = this->NumberOfThreads;
       const meam::OrganizedCloud cloud = vtkMEAMConversion::toOrganizedCloud(scene);
       meam::requirePoints(cloud.points, "The scene");
-      const meam::Image image =
-        imageInput ? vtkMEAMConversion::toImage(imageInput) : vtkMEAMConversion::imageOfCloud(scene);
-      const meam::PointCloud found =
+      meam::Image image;
+      if (this->ImageEdges)
+      {
+        image = imageInput ? vtkMEAMConversion::toImage(imageInput) : vtkMEAMConversion::imageOfCloud(scene);
+        settings.camera = vtkMEAMConversion::cameraOf(this->CameraFile, imageInput, cloud);
+      }
+      const meam::SceneEdges found =
         meam::extractSceneEdges(cloud, image, settings, vtkMEAMConversion::progressOf(this));
-      vtkMEAMConversion::fromCloud(found, edges);
+      vtkMEAMConversion::fromSceneEdges(found, edges);
 
       meam::Image pixels;
       pixels.width = cloud.width;
       pixels.height = cloud.height;
       pixels.pixels.assign(cloud.size(), 0);
-      for (const int id : found.pointIds)
+      for (const int id : found.cloud.pointIds)
       {
         pixels.pixels[id] = 255;
       }
@@ -105,9 +117,16 @@ int vtkMEAMSceneEdgeExtraction::RequestData(
 void vtkMEAMSceneEdgeExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "ImageEdges: " << this->ImageEdges << "\n";
+  os << indent << "DepthEdges: " << this->DepthEdges << "\n";
+  os << indent << "Creases: " << this->Creases << "\n";
+  os << indent << "CreaseAngle: " << this->CreaseAngle << " degrees\n";
+  os << indent << "ImageTangents: " << this->ImageTangents << "\n";
+  os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
   os << indent << "Smoothing: " << this->Smoothing << " pixels\n";
   os << indent << "LowThreshold: " << this->LowThreshold << "\n";
   os << indent << "HighThreshold: " << this->HighThreshold << "\n";
   os << indent << "SearchRadius: " << this->SearchRadius << " pixels\n";
   os << indent << "DepthJump: " << this->DepthJump << " mm\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }

@@ -3,17 +3,22 @@
  * @class vtkMEAMSceneEdgeExtraction
  * @brief Finds the edges of a scene in its image and takes them to 3D (paper, Section 5.1).
  *
- * Canny's edge detector runs on the image that is registered with the organized cloud; every edge pixel
- * becomes the scene point there. At a depth jump the edge belongs to the surface that is nearer to the
- * sensor, and a pixel without depth takes its neighbour's.
+ * Canny's edge detector runs on the image; every edge pixel becomes the scene point there. At a depth jump
+ * the edge belongs to the surface that is nearer to the camera, and a pixel without depth takes its
+ * neighbour's. The image is registered with the organized cloud, or comes from a camera beside the sensor
+ * whose calibration is known: then the cloud tells what that camera sees, and what is hidden from it gets no
+ * edge. Where the image is poor, the cloud's own depth jumps and creases may be added.
  *
  * Input port 0: the scene, a vtkStructuredGrid of W x H x 1 points in the sensor's frame (mm); points
  * without depth are blanked or NaN. Without the second input it needs the point array `Intensity` (1) or
  * `RGB` (3).
- * Input port 1 (optional): the image, a vtkImageData of the same W x H with 1, 3 or 4 components.
+ * Input port 1 (optional): the image, a vtkImageData with 1, 3 or 4 components: of the same W x H, or of any
+ * size with a camera, which is read from CameraFile or else from the image's field data `CameraMatrix` (9,
+ * row-major, pixels) and `CameraPose` (16, row-major; takes points of the scan to the camera's frame, mm).
  *
- * Output port 0: the edge points, a vtkPolyData with a vertex each and the point array `PointId`: the
- * index of the point in the grid.
+ * Output port 0: the edge points, a vtkPolyData with a vertex each and the point arrays `PointId`, the
+ * index of the point in the grid, `EdgeSource` (unsigned char: 0 image, 1 depth jump, 2 crease) and, with
+ * ImageTangents, `Tangent` (unit), which vtkMEAMTangentEstimation keeps.
  * Output port 1: a vtkImageData of W x H with the point array `Edges` (unsigned char): 255 where an edge
  * point came from, otherwise 0.
  */
@@ -34,6 +39,53 @@ public:
   void SetImageConnection(vtkAlgorithmOutput* image) { this->SetInputConnection(1, image); }
 
   ///@{
+  /** Edges of the image. Default: true. */
+  vtkSetMacro(ImageEdges, bool);
+  vtkGetMacro(ImageEdges, bool);
+  vtkBooleanMacro(ImageEdges, bool);
+  ///@}
+
+  ///@{
+  /** Points at which the surface ends in front of another one, from the cloud alone. Default: false. */
+  vtkSetMacro(DepthEdges, bool);
+  vtkGetMacro(DepthEdges, bool);
+  vtkBooleanMacro(DepthEdges, bool);
+  ///@}
+
+  ///@{
+  /** Points at which two pieces of the surface meet at an angle, from the cloud alone. Default: false. */
+  vtkSetMacro(Creases, bool);
+  vtkGetMacro(Creases, bool);
+  vtkBooleanMacro(Creases, bool);
+  ///@}
+
+  ///@{
+  /** Degrees: pieces of the surface that meet at less make no crease. Default: 30. */
+  vtkSetClampMacro(CreaseAngle, double, 1.0, 179.0);
+  vtkGetMacro(CreaseAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Tangents from the direction of the edge in the image and the local surface, in place of those that
+   * vtkMEAMTangentEstimation finds among the points. Default: true.
+   */
+  vtkSetMacro(ImageTangents, bool);
+  vtkGetMacro(ImageTangents, bool);
+  vtkBooleanMacro(ImageTangents, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The calibration of a camera beside the sensor that took the image, a file as meam::readCamera() knows it:
+   * OpenCV's YAML, XML or JSON, or a BOP camera.json. None: the image's field data, or else the image is
+   * registered with the scene. Default: none.
+   */
+  vtkSetFilePathMacro(CameraFile);
+  vtkGetFilePathMacro(CameraFile);
+  ///@}
+
+  ///@{
   /** Pixels: sigma of the Gaussian before Canny; 0 for none. Default: 1. */
   vtkSetClampMacro(Smoothing, double, 0.0, 50.0);
   vtkGetMacro(Smoothing, double);
@@ -52,7 +104,7 @@ public:
   ///@}
 
   ///@{
-  /** Pixels around an edge pixel in which its depth is looked for. Default: 1. */
+  /** Grid steps around an edge pixel in which its depth is looked for. Default: 1. */
   vtkSetClampMacro(SearchRadius, int, 0, 50);
   vtkGetMacro(SearchRadius, int);
   ///@}
@@ -60,15 +112,21 @@ public:
   ///@{
   /**
    * mm: neighbours that differ by more in depth are of two surfaces; 0 for three times the distance of
-   * neighbouring points. Default: 0.
+   * neighbouring points and five times the noise. Default: 0.
    */
   vtkSetClampMacro(DepthJump, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DepthJump, double);
   ///@}
 
+  ///@{
+  /** Threads to work with; 0: one for each processor. The result does not depend on it. Default: 0. */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
 protected:
   vtkMEAMSceneEdgeExtraction();
-  ~vtkMEAMSceneEdgeExtraction() override = default;
+  ~vtkMEAMSceneEdgeExtraction() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -80,11 +138,18 @@ private:
   vtkMEAMSceneEdgeExtraction(const vtkMEAMSceneEdgeExtraction&) = delete;
   void operator=(const vtkMEAMSceneEdgeExtraction&) = delete;
 
+  bool ImageEdges = true;
+  bool DepthEdges = false;
+  bool Creases = false;
+  double CreaseAngle = 30.0;
+  bool ImageTangents = true;
+  char* CameraFile = nullptr;
   double Smoothing = 1.0;
   double LowThreshold = 0.0;
   double HighThreshold = 0.0;
   int SearchRadius = 1;
   double DepthJump = 0.0;
+  int NumberOfThreads = 0;
 };
 
 #endif

@@ -31,6 +31,11 @@ vtkMEAMSymmetryDetection::vtkMEAMSymmetryDetection()
   this->LeastOverlap = settings.leastOverlap;
 }
 
+vtkMEAMSymmetryDetection::~vtkMEAMSymmetryDetection()
+{
+  this->SetModelsInfoFile(nullptr);
+}
+
 int vtkMEAMSymmetryDetection::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -43,7 +48,11 @@ int vtkMEAMSymmetryDetection::RequestData(
     settings.tolerance = this->Tolerance;
     settings.leastOverlap = this->LeastOverlap;
     const meam::PointCloud surface = toCloud(input);
-    const meam::Symmetries found = meam::detectSymmetries(surface, settings, progressOf(this));
+    const bool known = this->ModelsInfoFile && *this->ModelsInfoFile;
+    const meam::Symmetries exact =
+      known ? meam::readModelsInfo(this->ModelsInfoFile, this->ObjectId) : meam::Symmetries();
+    meam::Symmetries found = meam::detectSymmetries(surface, settings, progressOf(this));
+    found = known ? meam::withKnownExact(found, exact) : found;
 
     output->ShallowCopy(input);
     setSymmetries(output, found);
@@ -73,4 +82,6 @@ void vtkMEAMSymmetryDetection::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "LeastOverlap: " << this->LeastOverlap << "\n";
   os << indent << "ShownNearSymmetry: " << this->ShownNearSymmetry << "\n";
+  os << indent << "ModelsInfoFile: " << (this->ModelsInfoFile ? this->ModelsInfoFile : "(none)") << "\n";
+  os << indent << "ObjectId: " << this->ObjectId << "\n";
 }

@@ -47,9 +47,24 @@ public:
   vtkGetMacro(ShownNearSymmetry, int);
   ///@}
 
+  ///@{
+  /**
+   * A BOP dataset's models_info.json that names the exact symmetries; only the near ones are then looked for.
+   * Default: none, all are found.
+   */
+  vtkSetFilePathMacro(ModelsInfoFile);
+  vtkGetFilePathMacro(ModelsInfoFile);
+  ///@}
+
+  ///@{
+  /** The part's number in the ModelsInfoFile. Default: 1. */
+  vtkSetClampMacro(ObjectId, int, 0, VTK_INT_MAX);
+  vtkGetMacro(ObjectId, int);
+  ///@}
+
 protected:
   vtkMEAMSymmetryDetection();
-  ~vtkMEAMSymmetryDetection() override = default;
+  ~vtkMEAMSymmetryDetection() override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
@@ -59,6 +74,8 @@ private:
   double Tolerance;
   double LeastOverlap;
   int ShownNearSymmetry = 0;
+  char* ModelsInfoFile = nullptr;
+  int ObjectId = 1;
 };
 
 #endif

@@ -89,14 +89,9 @@ int vtkMEAMTangentEstimation::RequestData(
         vtkPolyData::SafeDownCast(output));
       return;
     }
-    std::vector<meam::AppearanceModel> views = toAppearanceModels(vtkPartitionedDataSetCollection::SafeDownCast(input));
-    for (std::size_t v = 0; v < views.size(); ++v)
-    {
-      const double share = 1.0 / static_cast<double>(views.size());
-      views[v].cloud = meam::estimateTangents(views[v].cloud, diameter, views[v].direction, settings,
-        meam::subProgress(progress, share * v, share * (v + 1)));
-    }
-    fromAppearanceModels(views, vtkPartitionedDataSetCollection::SafeDownCast(output));
+    const auto views = toAppearanceModels(vtkPartitionedDataSetCollection::SafeDownCast(input));
+    fromAppearanceModels(meam::estimateTangents(views, diameter, settings, progress),
+      vtkPartitionedDataSetCollection::SafeDownCast(output));
   };
   return vtkMEAMRun(this, work, output);
 }

@@ -14,5 +14,5 @@ sources=(filters/*.h filters/*.cxx)
 forbid "core/ does not include VTK" '#include *["<]vtk' "${core[@]}"
 forbid "core/ does not print" 'std::(cout|cerr|clog)|(^|[^a-zA-Z_])printf *\(' "${core[@]}"
 forbid "filters/ knows nothing of ParaView" '[Pp]ara[Vv]iew|PARAVIEW|vtkPV|vtkSM[A-Z]' "${sources[@]}"
-forbid "no third-party type in a filter's header" '(pcl|cv|Eigen|CGAL|OpenMesh)::|#include *[<"](pcl|opencv2|Eigen|CGAL|OpenMesh)/' "${headers[@]}"
+forbid "no third-party type in a filter's header" '(pcl|cv|Eigen|CGAL|OpenMesh)::|#include *[<"](pcl|opencv2|Eigen|CGAL|OpenMesh)/|#include *[<"](bullet|btBullet)' "${headers[@]}"
 exit $status

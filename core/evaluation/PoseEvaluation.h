@@ -39,7 +39,7 @@ struct SceneEvaluation
   std::vector<PoseJudgement> judgements; ///< of each estimate, in its order
   int asked = 0;                         ///< poses that count for the rates below
   int visibleInstances = 0;              ///< true instances that have to be found
-  /// Score of each estimate, and whether it is the first for an instance that has to be found.
+  /// Confidence of each estimate, and whether it is the first for an instance that has to be found.
   /// Poses of instances that are too hidden to count are left out.
   std::vector<std::pair<double, bool>> ranking;
 };

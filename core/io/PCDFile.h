@@ -2,20 +2,16 @@
 #pragma once
 
 #include "Error.h"
-#include "scene/OrganizedCloud.h"
+#include "scene/MeasuredCloud.h"
 
 #include <array>
 
 namespace meam
 {
-/// What a PCD file holds, in the file's own unit. Arrays other than the points are empty when the
-/// file has no such field; a cloud of height 1 is not organized.
-struct PCDData
+/// What a PCD file holds, in the file's own unit: normals from normal_x, normal_y and normal_z, intensities from
+/// intensity, of any type, colours from rgb or rgba.
+struct PCDData : MeasuredCloud
 {
-  OrganizedCloud cloud;
-  Points normals;                   ///< from normal_x, normal_y, normal_z
-  std::vector<float> intensities;   ///< from intensity, of any type
-  std::vector<std::uint8_t> colors; ///< red, green, blue of each point; from rgb or rgba
   /// Sensor position and quaternion w x y z.
   std::array<double, 7> viewpoint = { 0, 0, 0, 1, 0, 0, 0 };
 };

@@ -61,6 +61,23 @@ Eigen::Isometry3d nearestEqual(
   return best;
 }
 
+Symmetries withKnownExact(const Symmetries& found, const Symmetries& known)
+{
+  // Two turns of a part that differ by less than this are one.
+  constexpr double sameTurn = 3.0 * M_PI / 180.0;
+  Symmetries result = known;
+  result.near.clear();
+  for (const NearSymmetry& near : found.near)
+  {
+    const Eigen::Isometry3d rest = nearestEqual(near.T, Eigen::Isometry3d::Identity(), known);
+    if (Eigen::AngleAxisd(Eigen::Matrix3d(rest.linear())).angle() > sameTurn)
+    {
+      result.near.push_back(near);
+    }
+  }
+  return result;
+}
+
 std::vector<bool> representatives(const Points& points, const Symmetries& symmetries, double margin)
 {
   // Of the images of a point, the one that lies farthest along a generic direction.

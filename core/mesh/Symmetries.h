@@ -40,6 +40,9 @@ Eigen::Isometry3d turnAbout(const Eigen::Vector3d& axis, double angle, const Eig
 Eigen::Isometry3d nearestEqual(
   const Eigen::Isometry3d& T_scene_model, const Eigen::Isometry3d& reference, const Symmetries& symmetries);
 
+/// The exact symmetries that are known of a part, and what was found of near ones besides them.
+Symmetries withKnownExact(const Symmetries& found, const Symmetries& known);
+
 /// For each point whether it is one of those that stand for all others: every point has an image under the exact
 /// symmetries that is within `margin` (mm) of them. All points of a part without symmetries.
 std::vector<bool> representatives(const Points& points, const Symmetries& symmetries, double margin);

@@ -20,6 +20,7 @@ namespace
 constexpr std::size_t MostEdges = 65536;        // a reference point has 16 bits in a vote
 constexpr std::size_t MostEntries = 50000000;    // 2 GB while it is made
 constexpr double DefaultVoxelShare = 0.015;     // of the diameter
+constexpr double MergeVoxels = 2.0;             // distance at which points of two views are one
 constexpr double SurfaceLeafShare = 0.015;      // of the diameter, for verification
 constexpr float ParallelTangents = 0.94f;       // cosine of 20 degrees: the same edge in two views
 
@@ -334,7 +335,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   {
     throw Error("The pair table would have more than 50 million keys: enlarge the distance step or the angle step.");
   }
-  collectEdges(edgeModels, voxelSize, model, subProgress(progress, 0.0, 0.1));
+  collectEdges(edgeModels, MergeVoxels * voxelSize, model, subProgress(progress, 0.0, 0.1));
   if (model.edges.size() < 2)
   {
     throw Error("The appearance models have no edges: the part shows no boundary from these viewpoints, or the "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/TangentEstimation.h"
 
+#include "AllVectors.h"
 #include "Parallel.h"
 #include "PointGrid.h"
 
@@ -14,71 +15,107 @@ namespace meam
 {
 namespace
 {
+// Shares of the diameter.
+constexpr double SceneLeafShare = 0.03;
+constexpr double ModelLeafShare = 0.04;
+constexpr double RadiusShare = 0.06;
+constexpr double InlierShare = 0.012;
+
 constexpr std::size_t MostPerTile = 4000;  // the work grows with its cube
-constexpr std::size_t FewestInliers = 4; // a line through three points of a band of edge points is chance
+constexpr int LinesTried = 40;           // at a point, about
+constexpr int FewestInliers = 4;         // a line through three points of a band of edge points is chance
 
 float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f& direction)
 {
   return offset.cross(direction).squaredNorm();
 }
 
-/// Principal axis of the offsets, zero when they have no extent.
-Eigen::Vector3f principalAxis(const Points& offsets)
+/// Neighbours of a point, relative to it, coordinate by coordinate.
+struct Neighbours
 {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& offset : offsets)
+  std::vector<float> x, y, z;
+
+  int size() const { return static_cast<int>(this->x.size()); }
+  Eigen::Vector3f at(int k) const { return { this->x[k], this->y[k], this->z[k] }; }
+  void clear()
   {
-    mean += offset.cast<double>();
+    this->x.clear();
+    this->y.clear();
+    this->z.clear();
   }
-  mean /= static_cast<double>(offsets.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto& offset : offsets)
+  void add(const Eigen::Vector3f& offset)
   {
-    const Eigen::Vector3d d = offset.cast<double>() - mean;
-    covariance += d * d.transpose();
+    this->x.push_back(offset.x());
+    this->y.push_back(offset.y());
+    this->z.push_back(offset.z());
+  }
+};
+
+/// How many of the offsets lie within sqrt(limit) of the line through the origin.
+MEAM_ALL_VECTORS
+int lineSupport(const float* x, const float* y, const float* z, int count, const Eigen::Vector3f& line, float limit)
+{
+  const float lx = line.x(), ly = line.y(), lz = line.z();
+  int support = 0;
+#pragma omp simd reduction(+ : support)
+  for (int k = 0; k < count; ++k)
+  {
+    const float cx = y[k] * lz - z[k] * ly, cy = z[k] * lx - x[k] * lz, cz = x[k] * ly - y[k] * lx;
+    support += cx * cx + cy * cy + cz * cz <= limit ? 1 : 0;
+  }
+  return support;
+}
+
+/// Principal axis of the offsets near a line, zero when they have no extent.
+Eigen::Vector3f principalAxis(const Neighbours& offsets, const Eigen::Vector3f& line, float limit)
+{
+  // Offsets are small, so sums about the origin lose nothing.
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (int k = 0; k < offsets.size(); ++k)
+  {
+    const Eigen::Vector3f offset = offsets.at(k);
+    if (squaredDistanceToLine(offset, line) <= limit)
+    {
+      const Eigen::Vector3d d = offset.cast<double>();
+      sum += d;
+      products += d * d.transpose();
+      ++count;
+    }
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance);
+  solver.computeDirect(products - sum * sum.transpose() / count);
   return solver.eigenvalues()[2] > 0.0 ? solver.eigenvectors().col(2).cast<float>().eval() : Eigen::Vector3f::Zero();
 }
 
 /// Tangent at a point from its neighbours' offsets; zero when no line is supported. Lines through the
-/// point and each neighbour are tried, as in Algorithm 2; the sphere makes the neighbourhood the same
+/// point and its neighbours are tried, as in Algorithm 2; the sphere makes the neighbourhood the same
 /// wherever the point lies, and the inliers' axis uses all of them instead of one far point.
-Eigen::Vector3f robustLine(const Points& offsets, double inlierDistance)
+Eigen::Vector3f robustLine(const Neighbours& offsets, double inlierDistance)
 {
   const float limit = static_cast<float>(inlierDistance * inlierDistance);
-  std::size_t best = 0;
+  int best = 0;
   Eigen::Vector3f direction = Eigen::Vector3f::Zero();
-  for (const auto& candidate : offsets)
+  const int step = std::max(1, offsets.size() / LinesTried);
+  for (int k = 0; k < offsets.size(); k += step)
   {
+    const Eigen::Vector3f candidate = offsets.at(k);
     const float length = candidate.norm();
     if (length <= static_cast<float>(inlierDistance))
     {
       continue;
     }
     const Eigen::Vector3f line = candidate / length;
-    const std::size_t support = std::count_if(offsets.begin(), offsets.end(),
-      [&](const auto& offset) { return squaredDistanceToLine(offset, line) <= limit; });
+    const int support =
+      lineSupport(offsets.x.data(), offsets.y.data(), offsets.z.data(), offsets.size(), line, limit);
     if (support > best)
     {
       best = support;
       direction = line;
     }
   }
-  if (best < FewestInliers)
-  {
-    return Eigen::Vector3f::Zero();
-  }
-  Points inliers;
-  for (const auto& offset : offsets)
-  {
-    if (squaredDistanceToLine(offset, direction) <= limit)
-    {
-      inliers.push_back(offset);
-    }
-  }
-  return principalAxis(inliers);
+  return best < FewestInliers ? Eigen::Vector3f::Zero() : principalAxis(offsets, direction, limit);
 }
 
 Points robustTangents(const Points& edges, const std::vector<int>& kept, double radius, double inlierDistance,
@@ -89,11 +126,12 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, double 
   parallelFor(static_cast<int>(kept.size()), threads, progress,
     [&](int begin, int end, int)
     {
+      Neighbours offsets;
       for (int i = begin; i < end; ++i)
       {
         const Eigen::Vector3f& centre = edges[kept[i]];
-        Points offsets;
-        grid.forEachWithin(centre, radius, [&](int index, float) { offsets.push_back(edges[index] - centre); });
+        offsets.clear();
+        grid.forEachWithin(centre, radius, [&](int index, float) { offsets.add(edges[index] - centre); });
         tangents[i] = robustLine(offsets, inlierDistance);
       }
     });
@@ -165,7 +203,9 @@ TangentEstimationSettings paperTangentSettings()
   return settings;
 }
 
-PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
+namespace
+{
+PointCloud estimate(const PointCloud& edges, double partDiameter, double leafShare, const Eigen::Vector3f& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
   requirePoints(edges.points, "The edge cloud");
@@ -184,12 +224,12 @@ PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const 
     }
     return share * partDiameter;
   };
-  const std::vector<int> kept = thinPoints(cloud.points, length(settings.leafSize, 0.03));
+  const std::vector<int> kept = thinPoints(cloud.points, length(settings.leafSize, leafShare));
   PointCloud result = cloud.subset(kept);
   if (result.tangents.empty())
   {
     result.tangents = robust
-      ? robustTangents(cloud.points, kept, length(settings.radius, 0.06), length(settings.inlierDistance, 0.012),
+      ? robustTangents(cloud.points, kept, length(settings.radius, RadiusShare), length(settings.inlierDistance, InlierShare),
           settings.threads, progress)
       : tileTangents(result.points, viewDirection, settings, progress);
   }
@@ -203,5 +243,24 @@ PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const 
   }
   report(progress, 1.0);
   return result.subset(found);
+}
+}
+
+PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
+  const TangentEstimationSettings& settings, const Progress& progress)
+{
+  return estimate(edges, partDiameter, SceneLeafShare, viewDirection, settings, progress);
+}
+
+std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> models, double partDiameter,
+  const TangentEstimationSettings& settings, const Progress& progress)
+{
+  const double share = 1.0 / static_cast<double>(models.size());
+  for (std::size_t v = 0; v < models.size(); ++v)
+  {
+    models[v].cloud = estimate(models[v].cloud, partDiameter, ModelLeafShare, models[v].direction, settings,
+      subProgress(progress, share * v, share * (v + 1)));
+  }
+  return models;
 }
 }

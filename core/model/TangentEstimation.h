@@ -16,7 +16,8 @@ enum class TangentMethod
 struct TangentEstimationSettings
 {
   TangentMethod method = TangentMethod::RobustLine;
-  double leafSize = 0.0; ///< one point is kept per cube of this side; 0: 3 % of the diameter; negative: all
+  /// One point is kept per cube of this side; 0: 3 % of the diameter in a scene, 4 % in a model; negative: all.
+  double leafSize = 0.0;
 
   // RobustLine
   double radius = 0.0;         ///< of the sphere; 0: 6 % of the diameter
@@ -39,5 +40,9 @@ TangentEstimationSettings paperTangentSettings();
 /// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across
 /// `viewDirection`. Throws Error for an empty cloud, or when a length is 0 and the diameter is too.
 PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
+  const TangentEstimationSettings& settings = {}, const Progress& progress = {});
+
+/// The same for each edge appearance model, seen from its viewpoint.
+std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> models, double partDiameter,
   const TangentEstimationSettings& settings = {}, const Progress& progress = {});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/TrainedModel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meam
@@ -11,6 +12,43 @@ namespace
 constexpr double CellShare = 0.0075;
 constexpr double SurfaceSpacing = 0.018; // a little over that of the surface points
 constexpr double EdgeSpacing = 0.03;
+
+
+void deriveVotes(const PointCloud& edges, PairTable& pairs)
+{
+  pairs.votes.resize(pairs.size());
+  pairs.voteStarts.assign(2 * (pairs.offsets.size() - 1) + 1, 0);
+  pairs.mostOfOne = 1;
+  std::vector<std::uint32_t> against;
+  for (std::size_t bucket = 0; bucket + 1 < pairs.offsets.size(); ++bucket)
+  {
+    std::uint32_t place = pairs.offsets[bucket];
+    std::uint32_t last = UINT32_MAX;
+    int ofOne = 0;
+    against.clear();
+    for (std::uint32_t k = pairs.offsets[bucket]; k < pairs.offsets[bucket + 1]; ++k)
+    {
+      const std::uint32_t reference = pairs.references[k];
+      const Eigen::Vector3f d = edges.points[pairs.referreds[k]] - edges.points[reference];
+      const auto turn = static_cast<PairTurn>(std::lround(pairs.angles[k] * (1 << TurnBits) / (2.0 * M_PI))) & TurnMask;
+      const std::uint32_t vote = (reference << (TurnBits + 1)) | turn;
+      if (edges.tangents[reference].dot(d) < 0.0f)
+      {
+        against.push_back(vote);
+      }
+      else
+      {
+        pairs.votes[place++] = vote;
+      }
+      ofOne = reference == last ? ofOne + 1 : 1; // entries are sorted by reference
+      last = reference;
+      pairs.mostOfOne = std::max(pairs.mostOfOne, ofOne);
+    }
+    pairs.voteStarts[2 * bucket + 1] = place;
+    std::copy(against.begin(), against.end(), pairs.votes.begin() + place);
+    pairs.voteStarts[2 * bucket + 2] = pairs.offsets[bucket + 1];
+  }
+}
 }
 
 PairFeatureQuantizer TrainedModel::quantizer() const
@@ -21,16 +59,7 @@ PairFeatureQuantizer TrainedModel::quantizer() const
 
 void TrainedModel::deriveFields()
 {
-  PairTable& pairs = this->table;
-  pairs.votes.resize(pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-  {
-    const std::uint32_t reference = pairs.references[k];
-    const Eigen::Vector3f d = this->edges.points[pairs.referreds[k]] - this->edges.points[reference];
-    const PairTurn against = this->edges.tangents[reference].dot(d) < 0.0f ? 1u << TurnBits : 0u;
-    const auto turn = static_cast<PairTurn>(std::lround(pairs.angles[k] * (1 << TurnBits) / (2.0 * M_PI))) & TurnMask;
-    pairs.votes[k] = (reference << (TurnBits + 1)) | against | turn;
-  }
+  deriveVotes(this->edges, this->table);
   const double reach = DistanceReach * this->diameter;
   const double cell = CellShare * this->diameter;
   this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfaceSpacing * this->diameter, reach, cell);

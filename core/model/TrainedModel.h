@@ -40,8 +40,14 @@ struct PairTable
   std::vector<std::uint32_t> referreds;  ///< index of the referred edge point
   std::vector<float> angles;             ///< of the referred point about the reference's tangent, radians
   std::vector<std::uint32_t> viewBits;   ///< bit v: both points are on the edge seen in view v
-  /// The reference point and below it the PairTurn of each entry in one word, as voting reads them: made by deriveFields().
+
+  // As voting reads it, made by deriveFields():
+  /// Reference point in the upper 16 bits, below it the angle as a PairTurn without its sense. In each bucket the entries
+  /// that run along their reference's tangent come before those that run against it.
   std::vector<std::uint32_t> votes;
+  /// Of bucket k: votes [voteStarts[2k], voteStarts[2k + 1]) run along, [voteStarts[2k + 1], voteStarts[2k + 2]) against.
+  std::vector<std::uint32_t> voteStarts;
+  int mostOfOne = 1; ///< entries of one reference point in a bucket
 
   std::size_t size() const { return this->references.size(); }
   std::size_t bytes() const { return (this->offsets.size() + 4 * this->size()) * sizeof(std::uint32_t); }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meam
 {
@@ -12,10 +11,12 @@ namespace
 constexpr float Empty = std::numeric_limits<float>::infinity();
 constexpr float LargestSide = 4096.0f; // cells; a wider scene gets coarser cells
 constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
+constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
 }
 
 DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
   : Eye(sensor)
+  , CellSize(cellSize)
 {
   const Eigen::Matrix3f frame = frameAround(sensor.direction);
   this->Axes.row(0) = frame.col(1);
@@ -49,81 +50,83 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
   this->Low = box.min().head<2>();
   this->Width = static_cast<int>(box.sizes().x() * this->InverseCell) + 1;
   this->Height = static_cast<int>(box.sizes().y() * this->InverseCell) + 1;
-  this->Nearest.assign(static_cast<std::size_t>(this->Width) * this->Height, Empty);
-  this->Farthest.assign(static_cast<std::size_t>(this->Width) * this->Height, -Empty);
+  this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height, { Empty, -Empty, Eigen::Vector3f::Zero() });
   for (const auto& p : projected)
   {
-    if (!box.contains(Eigen::Vector3f(p.x(), p.y(), box.min().z())))
+    if (box.contains(Eigen::Vector3f(p.x(), p.y(), box.min().z())))
     {
-      continue;
+      const Eigen::Vector2i index = ((p.head<2>() - this->Low) * this->InverseCell).cast<int>();
+      Cell& seen = this->Cells[static_cast<std::size_t>(index.y()) * this->Width + index.x()];
+      seen.nearest = std::min(seen.nearest, p.z());
+      seen.farthest = std::max(seen.farthest, p.z());
     }
-    const Eigen::Vector2i index = ((p.head<2>() - this->Low) * this->InverseCell).cast<int>();
-    const int place = index.y() * this->Width + index.x();
-    this->Nearest[place] = std::min(this->Nearest[place], p.z());
-    this->Farthest[place] = std::max(this->Farthest[place], p.z());
   }
+  this->average(surface, static_cast<float>(LayerCells * cellSize));
+  this->fillGaps();
 }
 
-Eigen::Vector3f DepthMap::project(const Eigen::Vector3f& point) const
+void DepthMap::average(const Points& surface, float layer)
 {
-  Eigen::Vector3f p = this->Axes * (this->Eye.perspective ? (point - this->Eye.position).eval() : point);
-  if (this->Eye.perspective)
+  std::vector<int> counts(this->Cells.size(), 0);
+  for (const auto& point : surface)
   {
-    p.head<2>() /= p.z();
-  }
-  return p;
-}
-
-DepthMap::Place DepthMap::placeOf(const Eigen::Vector3f& point) const
-{
-  const Eigen::Vector3f p = this->project(point);
-  const Eigen::Array2f index = ((p.head<2>() - this->Low) * this->InverseCell).array().floor();
-  if (!(index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height) ||
-    (this->Eye.perspective && p.z() <= 0.0f))
-  {
-    return { -1, p.z() };
-  }
-  return { static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()), p.z() };
-}
-
-int DepthMap::occupiedCell(int cell) const
-{
-  if (cell < 0 || this->Nearest[cell] != Empty)
-  {
-    return cell;
-  }
-  // Between the samples of a surface some cells stay empty: the nearest surface around speaks for them.
-  const int x = cell % this->Width;
-  const int y = cell / this->Width;
-  int best = -1;
-  for (int v = std::max(0, y - 1); v <= std::min(this->Height - 1, y + 1); ++v)
-  {
-    for (int u = std::max(0, x - 1); u <= std::min(this->Width - 1, x + 1); ++u)
+    const Place place = this->placeOf(point);
+    if (place.cell >= 0 && place.depth <= this->Cells[place.cell].nearest + layer)
     {
-      const int other = v * this->Width + u;
-      if (this->Nearest[other] != Empty && (best < 0 || this->Nearest[other] < this->Nearest[best]))
+      // A running mean keeps its precision far from the origin.
+      Eigen::Vector3f& mean = this->Cells[place.cell].mean;
+      mean += (point - mean) / static_cast<float>(++counts[place.cell]);
+    }
+  }
+  for (std::size_t i = 0; i < this->Cells.size(); ++i)
+  {
+    if (counts[i] > 0)
+    {
+      this->Means.push_back(this->Cells[i].mean);
+    }
+  }
+}
+
+void DepthMap::fillGaps()
+{
+  // Between the samples of a surface some cells stay empty: the nearest surface around speaks for them.
+  const std::vector<Cell> seen = this->Cells;
+  for (int row = 0; row < this->Height; ++row)
+  {
+    for (int column = 0; column < this->Width; ++column)
+    {
+      Cell& cell = this->Cells[static_cast<std::size_t>(row) * this->Width + column];
+      if (cell.nearest < NothingSeen)
       {
-        best = other;
+        continue;
+      }
+      for (int v = std::max(0, row - 1); v <= std::min(this->Height - 1, row + 1); ++v)
+      {
+        for (int u = std::max(0, column - 1); u <= std::min(this->Width - 1, column + 1); ++u)
+        {
+          const Cell& other = seen[static_cast<std::size_t>(v) * this->Width + u];
+          if (other.nearest < cell.nearest)
+          {
+            cell = other;
+          }
+        }
       }
     }
   }
-  return best;
 }
 
 DepthMap::Relation DepthMap::relation(const Eigen::Vector3f& point, float tolerance) const
 {
-  Place place = this->placeOf(point);
-  place.cell = this->occupiedCell(place.cell);
-  if (place.cell < 0)
+  const Place place = this->placeOf(point);
+  const Cell* cell = this->cellOf(place);
+  if (!cell)
   {
     return Relation::NoSurface;
   }
-  const float nearest = this->Nearest[place.cell];
-  const float farthest = this->Farthest[place.cell];
-  if (std::abs(place.depth - nearest) <= tolerance || std::abs(place.depth - farthest) <= tolerance)
+  if (std::abs(place.depth - cell->nearest) <= tolerance || std::abs(place.depth - cell->farthest) <= tolerance)
   {
     return Relation::OnSurface;
   }
-  return nearest < place.depth ? Relation::Hidden : Relation::InFront;
+  return cell->nearest < place.depth ? Relation::Hidden : Relation::InFront;
 }
 }

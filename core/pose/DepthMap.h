@@ -3,10 +3,12 @@
 
 #include "scene/Sensor.h"
 
+#include <limits>
+
 namespace meam
 {
-/// What the sensor sees along each line of sight, from a cloud of any kind: the nearest and the
-/// farthest surface point in each cell of a grid across the lines of sight.
+/// What the sensor sees along each line of sight, from a cloud of any kind: a grid across the lines of sight, with the
+/// nearest and the farthest surface in each cell.
 class DepthMap
 {
 public:
@@ -22,28 +24,72 @@ public:
   /// `cellSize` is in mm, for a perspective sensor at the middle of the scene.
   DepthMap(const Points& surface, const Sensor& sensor, double cellSize);
 
+  /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
+  double cellSize() const { return this->CellSize; }
+
   /// `tolerance` in mm along the line of sight.
   Relation relation(const Eigen::Vector3f& point, float tolerance) const;
 
+  /// One point of the surface for each occupied cell: the mean of the nearest layer, which a sensor's noise moves less
+  /// than single points.
+  const Points& means() const { return this->Means; }
+
+  /// The mean along the line of sight through a point; where the sensor has a gap of one cell, that of the nearest
+  /// surface beside it. Null when there is none.
+  const Eigen::Vector3f* meanAt(const Eigen::Vector3f& point) const
+  {
+    const Cell* cell = this->cellOf(this->placeOf(point));
+    return cell ? &cell->mean : nullptr;
+  }
+
 private:
-  /// Cell of a point and its depth (mm) along the line of sight; cell -1 outside the map.
+  struct Cell
+  {
+    float nearest;
+    float farthest;
+    Eigen::Vector3f mean;
+  };
+  /// Cell of a point, -1 outside the map, and its depth (mm) along the line of sight.
   struct Place
   {
     int cell;
     float depth;
   };
-  Place placeOf(const Eigen::Vector3f& point) const;
-  Eigen::Vector3f project(const Eigen::Vector3f& point) const;
-  /// The cell itself, or of its neighbours the one with the nearest surface, or -1.
-  int occupiedCell(int cell) const;
+  Eigen::Vector3f project(const Eigen::Vector3f& point) const
+  {
+    Eigen::Vector3f p = this->Axes * (this->Eye.perspective ? (point - this->Eye.position).eval() : point);
+    if (this->Eye.perspective)
+    {
+      p.head<2>() /= p.z();
+    }
+    return p;
+  }
+  Place placeOf(const Eigen::Vector3f& point) const
+  {
+    const Eigen::Vector3f p = this->project(point);
+    const Eigen::Array2f index = (p.head<2>() - this->Low) * this->InverseCell;
+    const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
+      !(this->Eye.perspective && p.z() <= 0.0f);
+    return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };
+  }
+  void average(const Points& surface, float layer);
+  void fillGaps();
+  /// Null outside the map and where nothing was seen.
+  const Cell* cellOf(const Place& place) const
+  {
+    const bool seen = place.cell >= 0 && this->Cells[place.cell].nearest < NothingSeen;
+    return seen ? &this->Cells[place.cell] : nullptr;
+  }
+  static constexpr float NothingSeen = std::numeric_limits<float>::max();
 
   Sensor Eye;
   Eigen::Matrix3f Axes; ///< rows: right, down, depth
+  double CellSize;
   float InverseCell = 1.0f;
   Eigen::Vector2f Low = Eigen::Vector2f::Zero();
   int Width = 0;
   int Height = 0;
-  std::vector<float> Nearest;
-  std::vector<float> Farthest;
+  std::vector<Cell> Cells;
+  Points Means;
 };
 }

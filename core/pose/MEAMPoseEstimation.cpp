@@ -38,7 +38,7 @@ TrainingSettings trainingSettings(Preset preset)
   return settings;
 }
 
-DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads)
+DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
 {
   DetectionSettings settings;
   if (preset == Preset::Paper)
@@ -51,6 +51,7 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
   }
   settings.selection.posesPerInstance = 1;
   settings.selection.maximumPoses = maximumPoses;
+  settings.selection.minimumProbability = minimumProbability;
   settings.tangents.threads = threads;
   settings.detection.threads = threads;
   settings.verification.threads = threads;
@@ -66,10 +67,7 @@ TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settin
   std::vector<AppearanceModel> models =
     extractVisibility(surface, settings.visibility, &mesh, subProgress(progress, 0.1, 0.3));
   models = extractBoundary(models, settings.boundary, &mesh, subProgress(progress, 0.3, 0.4));
-  for (AppearanceModel& model : models)
-  {
-    model.cloud = estimateTangents(model.cloud, partDiameter, model.direction, settings.tangents);
-  }
+  models = estimateTangents(std::move(models), partDiameter, settings.tangents);
   PartSurface part{ surface, partDiameter, {} };
   if (settings.findSymmetries)
   {
@@ -91,11 +89,12 @@ Poses estimatePoses(const TrainedModel& model, const Scene& scene, const Detecti
   spent.tangents = watch.lap();
   Poses poses = detectPoses(withTangents.edges, model, settings.detection, subProgress(progress, 0.1, 0.5));
   spent.detection = watch.lap();
-  poses = verifyPoses(poses, model, withTangents, settings.verification, subProgress(progress, 0.5, 0.7));
+  const SceneIndex index(model, withTangents);
+  poses = verifyPoses(poses, index, settings.verification, subProgress(progress, 0.5, 0.7));
   spent.verification = watch.lap();
-  poses = refinePoses(poses, model, withTangents, settings.refinement, subProgress(progress, 0.7, 0.95));
+  poses = refinePoses(poses, index, settings.refinement, subProgress(progress, 0.7, 0.95));
   spent.refinement = watch.lap();
-  poses = verifyPoses(poses, model, withTangents, settings.selection, subProgress(progress, 0.95, 1.0));
+  poses = verifyPoses(poses, index, settings.selection, subProgress(progress, 0.95, 1.0));
   spent.selection = watch.lap();
   if (times)
   {

@@ -41,8 +41,10 @@ struct DetectionSettings
 };
 
 TrainingSettings trainingSettings(Preset preset);
-/// `maximumPoses` is the number of poses wanted, 0 for all; `threads` 0 for one for each processor.
-DetectionSettings detectionSettings(Preset preset, int maximumPoses = 5, int threads = 0);
+/// `maximumPoses` is the number of poses wanted, 0 for all, and `minimumProbability` that of each; `threads` 0 for one
+/// for each processor.
+DetectionSettings detectionSettings(
+  Preset preset, int maximumPoses = 5, int threads = 0, double minimumProbability = 0.0);
 
 /// The offline phase, from a prepared mesh (mm) to the trained model.
 TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PartView.h"
 
+#include "AllVectors.h"
 #include "PointGrid.h"
 
 #include <algorithm>
@@ -27,6 +28,81 @@ Eigen::Vector3f meanOf(const Points& points)
   return (sum / static_cast<double>(points.size())).cast<float>();
 }
 
+/// A depth buffer across the lines of sight.
+struct View
+{
+  Eigen::Matrix3f frame; ///< columns: towards the sensor, right, down
+  float half;            ///< mm from the middle to the border
+  float inverseCell;
+  int side; ///< cells
+};
+
+struct Projected
+{
+  std::vector<int> cells;
+  std::vector<float> heights; ///< towards the sensor, mm
+};
+
+MEAM_ALL_VECTORS
+void project(const View& view, const float* x, const float* y, const float* z, int count, int* cells, float* heights)
+{
+  const float hx = view.frame(0, 0), hy = view.frame(1, 0), hz = view.frame(2, 0);
+  const float ux = view.frame(0, 1), uy = view.frame(1, 1), uz = view.frame(2, 1);
+  const float vx = view.frame(0, 2), vy = view.frame(1, 2), vz = view.frame(2, 2);
+  const float half = view.half, scale = view.inverseCell;
+  const int side = view.side;
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const int u = static_cast<int>((ux * x[k] + uy * y[k] + uz * z[k] + half) * scale);
+    const int v = static_cast<int>((vx * x[k] + vy * y[k] + vz * z[k] + half) * scale);
+    cells[k] = std::min(std::max(v, 0), side - 1) * side + std::min(std::max(u, 0), side - 1);
+    heights[k] = hx * x[k] + hy * y[k] + hz * z[k];
+  }
+}
+
+/// Adds to heights what a surface of that slope may lie below its neighbours in a cell; surfaces seen too flatly sink
+/// below all others.
+MEAM_ALL_VECTORS
+void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float* ny, const float* nz, int count,
+  float cell, float* heights)
+{
+  const float hx = towards.x(), hy = towards.y(), hz = towards.z();
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const float cosine = nx[k] * hx + ny[k] * hy + nz[k] * hz;
+    const float bounded = std::min(std::max(cosine, GrazingCosine), 1.0f);
+    const float slope = std::sqrt(1.0f - bounded * bounded) / bounded;
+    heights[k] = cosine > GrazingCosine ? heights[k] + slope * cell : -std::numeric_limits<float>::max();
+  }
+}
+
+void raise(const Projected& points, std::vector<float>& buffer)
+{
+  for (std::size_t k = 0; k < points.cells.size(); ++k)
+  {
+    float& height = buffer[points.cells[k]];
+    height = std::max(height, points.heights[k]);
+  }
+}
+
+/// Sets `inSight` to `names[k]` (k itself without names) for each point not more than `tolerance` below the buffer.
+void keepInSight(const Projected& points, const std::vector<float>& buffer, float tolerance, const int* names,
+  std::vector<int>& inSight)
+{
+  const std::size_t count = points.cells.size();
+  inSight.resize(count);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    // Without a branch: half of them would be predicted wrongly.
+    inSight[found] = names ? names[k] : static_cast<int>(k);
+    found += points.heights[k] + tolerance >= buffer[points.cells[k]] ? 1 : 0;
+  }
+  inSight.resize(found);
+}
+
 Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_scene_model, const Eigen::Vector3f& middle)
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
@@ -34,11 +110,31 @@ Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_sce
 }
 }
 
+void PartView::Columns::add(const Eigen::Vector3f& point)
+{
+  this->x.push_back(point.x());
+  this->y.push_back(point.y());
+  this->z.push_back(point.z());
+}
+
 PartView::PartView(const TrainedModel& model)
   : Model(model)
-  , Judged(thinPoints(model.surface.points, JudgedLeafShare * model.diameter))
   , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
+  , Judged(thinPoints(model.surface.points, JudgedLeafShare * model.diameter))
 {
+  for (const auto& point : model.surface.points)
+  {
+    this->Surface.add(point - this->Middle);
+  }
+  for (const auto& point : model.edges.points)
+  {
+    this->Edges.add(point - this->Middle);
+  }
+  for (const int i : this->Judged)
+  {
+    this->JudgedPoints.add(model.surface.points[i] - this->Middle);
+    this->JudgedNormals.add(model.surface.normals[i]);
+  }
 }
 
 int PartView::view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
@@ -53,45 +149,29 @@ PartView::Visible PartView::visible(const Eigen::Isometry3d& T_scene_model, cons
 {
   // The part is small against its distance: lines of sight are taken as parallel.
   const Eigen::Vector3f towards = directionTo(sensor, T_scene_model, this->Middle);
-  const Eigen::Matrix3f frame = frameAround(towards);
   const float cell = static_cast<float>(CellShare * this->Model.diameter);
   const float tolerance = static_cast<float>(ToleranceShare * this->Model.diameter);
   const float half = static_cast<float>(this->Model.diameter); // a point is never farther from the middle
-  const int side = static_cast<int>(std::ceil(2.0f * half / cell)) + 1;
-  std::vector<float> nearest(static_cast<std::size_t>(side) * side, -std::numeric_limits<float>::infinity());
-  const auto cellOf = [&](const Eigen::Vector3f& offset)
+  const View across{ frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
+  const auto projected = [&](const Columns& points, Projected& result)
   {
-    const int u = std::clamp(static_cast<int>((frame.col(1).dot(offset) + half) / cell), 0, side - 1);
-    const int v = std::clamp(static_cast<int>((frame.col(2).dot(offset) + half) / cell), 0, side - 1);
-    return v * side + u;
+    result.cells.resize(points.x.size());
+    result.heights.resize(points.x.size());
+    project(across, points.x.data(), points.y.data(), points.z.data(), static_cast<int>(points.x.size()),
+      result.cells.data(), result.heights.data());
   };
-  for (const auto& point : this->Model.surface.points)
-  {
-    const Eigen::Vector3f offset = point - this->Middle;
-    float& height = nearest[cellOf(offset)];
-    height = std::max(height, towards.dot(offset));
-  }
-  const auto inSight = [&](const Eigen::Vector3f& point, float slope)
-  {
-    const Eigen::Vector3f offset = point - this->Middle;
-    return towards.dot(offset) >= nearest[cellOf(offset)] - tolerance - slope * cell;
-  };
+  thread_local Projected surface, others; // of the size of the part, and there are hundreds of poses
+  thread_local std::vector<float> nearest;
+  nearest.assign(static_cast<std::size_t>(across.side) * across.side, -std::numeric_limits<float>::infinity());
+  projected(this->Surface, surface);
+  raise(surface, nearest);
   Visible visible;
-  for (std::size_t i = 0; i < this->Model.edges.size(); ++i)
-  {
-    if (inSight(this->Model.edges.points[i], EdgeSlope))
-    {
-      visible.edges.push_back(static_cast<int>(i));
-    }
-  }
-  for (const int i : this->Judged)
-  {
-    const float cosine = this->Model.surface.normals[i].dot(towards);
-    if (cosine > GrazingCosine && inSight(this->Model.surface.points[i], std::sqrt(1.0f - std::min(1.0f, cosine * cosine)) / cosine))
-    {
-      visible.surface.push_back(i);
-    }
-  }
+  projected(this->Edges, others);
+  keepInSight(others, nearest, tolerance + EdgeSlope * cell, nullptr, visible.edges);
+  projected(this->JudgedPoints, others);
+  allowForSlope(towards, this->JudgedNormals.x.data(), this->JudgedNormals.y.data(), this->JudgedNormals.z.data(),
+    static_cast<int>(this->Judged.size()), cell, others.heights.data());
+  keepInSight(others, nearest, tolerance, this->Judged.data(), visible.surface);
   return visible;
 }
 

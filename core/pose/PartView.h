@@ -6,7 +6,7 @@
 
 namespace meam
 {
-/// Which points of a part the sensor should see at a pose, if nothing else were in the way.
+/// Which points of a part the sensor should see at a pose, if nothing else were in the way. Calls may run in parallel.
 class PartView
 {
 public:
@@ -33,8 +33,19 @@ public:
   PointCloud viewEdges(int view) const;
 
 private:
+  /// Points relative to the middle, coordinate by coordinate.
+  struct Columns
+  {
+    std::vector<float> x, y, z;
+    void add(const Eigen::Vector3f& point);
+  };
+
   const TrainedModel& Model;
-  std::vector<int> Judged; ///< surface points that evidence is taken from
   Eigen::Vector3f Middle;
+  std::vector<int> Judged; ///< surface points that evidence is taken from
+  Columns Surface;
+  Columns Edges;
+  Columns JudgedPoints;
+  Columns JudgedNormals;
 };
 }

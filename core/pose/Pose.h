@@ -5,20 +5,36 @@
 
 namespace meam
 {
+/// How well the scene fixes a pose: what the last step of refinement saw.
+struct PoseFit
+{
+  int iterations = 0;   ///< 0: the pose has not been refined
+  double residual = 0.0; ///< mm, root mean square over what corresponds, weighted
+  /// Of a small motion about the middle of the part's surface, scene axes: rotation vector (radians), then translation
+  /// (mm). Errors of the measured points are taken as independent.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  int constrained = 0; ///< degrees of freedom, of six, that the scene's points fix
+};
+
 /// A copy of the part in the scene: where it is and what speaks for it.
 struct Pose
 {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm
-  double score = 0.0;           ///< [0, 1]; 0 until the pose is verified
+  double score = 0.0;           ///< [0, 1], share of what should be visible that is there; 0 until the pose is verified
+  double probability = 0.0;     ///< [0, 1], that the pose is right; 0 until it is verified
   /// [0, 1], how sure it is that the part is not turned by one of its near-symmetries: low when what breaks them is
   /// not in sight.
   double certainty = 1.0;
   int votes = 0;                ///< of the peak it came from
   int viewId = -1;              ///< the appearance model that shows what the sensor sees of it
   double visibleFraction = 0.0; ///< [0, 1], share of the part's side towards the sensor that nothing hides
+  PoseFit fit;
 };
 
 using Poses = std::vector<Pose>;
+
+/// What poses of different scenes are compared by: the probability, or the score where none is known.
+inline double confidence(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
 
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);

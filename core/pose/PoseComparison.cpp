@@ -11,29 +11,21 @@ namespace
 // Shares of the diameter.
 constexpr double FarShare = 0.02;        // a point this far from the part is not explained
 constexpr double NearShare = 0.01;       // an edge this near is
-constexpr double SceneLeafShare = 0.015; // spacing of the scene's points used
-constexpr double CellShare = 0.05;
 constexpr double EdgeWeight = 3.0;        // of an edge point against a surface point
-}
-
-PoseComparison::PoseComparison(const TrainedModel& model, const Scene& scene)
-  : Model(model)
-  , InScene(scene)
-  , Surface(PointCloud{ scene.surface, {}, {}, {} }.subset(thinPoints(scene.surface, SceneLeafShare * model.diameter)).points)
-  , SceneSurface(this->Surface, CellShare * model.diameter)
-  , SceneEdges(scene.edges.points, CellShare * model.diameter)
-{
 }
 
 double PoseComparison::advantage(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
 {
-  const float far = static_cast<float>(FarShare * this->Model.diameter);
-  const float near = static_cast<float>(NearShare * this->Model.diameter);
+  const TrainedModel& model = this->Index.model;
+  const Points& sceneSurface = this->Index.depth.means();
+  const Points& sceneEdges = this->Index.scene.edges.points;
+  const float far = static_cast<float>(FarShare * model.diameter);
+  const float near = static_cast<float>(NearShare * model.diameter);
   const Eigen::Isometry3f toA = a.inverse().cast<float>();
   const Eigen::Isometry3f toB = b.inverse().cast<float>();
-  const DistanceField& surface = this->Model.surfaceDistance;
-  const DistanceField& edges = this->Model.edgeDistance;
-  const DistanceField& whole = this->Model.surface.empty() ? edges : surface;
+  const DistanceField& surface = model.surfaceDistance;
+  const DistanceField& edges = model.edgeDistance;
+  const DistanceField& whole = model.surface.empty() ? edges : surface;
   const Eigen::Vector3f middleA = a.cast<float>() * whole.middle();
   const Eigen::Vector3f middleB = b.cast<float>() * whole.middle();
   // Every point near one of the two, once.
@@ -50,17 +42,17 @@ double PoseComparison::advantage(const Eigen::Isometry3d& a, const Eigen::Isomet
       });
   };
   double sum = 0.0;
-  forEachNear(this->SceneSurface, this->Surface,
+  forEachNear(this->Index.surface, sceneSurface,
     [&](int k)
     {
-      const Eigen::Vector3f& point = this->Surface[k];
+      const Eigen::Vector3f& point = sceneSurface[k];
       sum += (std::min(surface.at(toB * point), far) - std::min(surface.at(toA * point), far)) / far;
     });
-  forEachNear(this->SceneEdges, this->InScene.edges.points,
+  forEachNear(this->Index.edges, sceneEdges,
     [&](int k)
     {
-      const Eigen::Vector3f& point = this->InScene.edges.points[k];
-      if (!this->Model.surface.empty() && surface.at(toA * point) >= far && surface.at(toB * point) >= far)
+      const Eigen::Vector3f& point = sceneEdges[k];
+      if (!model.surface.empty() && surface.at(toA * point) >= far && surface.at(toB * point) >= far)
       {
         return; // of another object
       }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PointGrid.h"
-#include "model/TrainedModel.h"
-#include "pose/Scene.h"
+#include "pose/SceneIndex.h"
 
 namespace meam
 {
@@ -13,17 +11,16 @@ namespace meam
 class PoseComparison
 {
 public:
-  /// Keeps references to both.
-  PoseComparison(const TrainedModel& model, const Scene& scene);
+  /// Keeps a reference to the index.
+  explicit PoseComparison(const SceneIndex& index)
+    : Index(index)
+  {
+  }
 
   /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not.
   double advantage(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
 
 private:
-  const TrainedModel& Model;
-  const Scene& InScene;
-  Points Surface;         ///< thinned, of the scene
-  PointGrid SceneSurface;
-  PointGrid SceneEdges;
+  const SceneIndex& Index;
 };
 }

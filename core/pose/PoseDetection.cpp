@@ -68,8 +68,8 @@ private:
     int keys[BlockSize];
     PairTurn turns[BlockSize];
     this->Pairs.compute(reference, begin, end, keys, turns);
-    const std::uint32_t* offsets = this->Model.table.offsets.data();
-    const std::uint32_t* votes = this->Model.table.votes.data();
+    const PairTable& table = this->Model.table;
+    const std::uint32_t* starts = table.voteStarts.data();
     int pairs = 0;
     for (int k = 0; k < end - begin; ++k)
     {
@@ -79,25 +79,18 @@ private:
     }
     for (int k = 0; k < pairs; ++k)
     {
-      __builtin_prefetch(offsets + keys[k]);
+      __builtin_prefetch(starts + 2 * keys[k]);
     }
-    struct Bucket
-    {
-      std::uint32_t begin, end;
-      PairTurn turn;
-    };
-    Bucket buckets[BlockSize];
+    VoteBucket buckets[BlockSize];
     int filled = 0;
     for (int k = 0; k < pairs; ++k)
     {
-      buckets[filled] = { offsets[keys[k]], offsets[keys[k] + 1], turns[k] };
-      __builtin_prefetch(votes + buckets[filled].begin);
+      const std::uint32_t* bucket = starts + 2 * keys[k];
+      buckets[filled] = { bucket[0], bucket[1], bucket[2], turns[k] };
+      __builtin_prefetch(table.votes.data() + buckets[filled].begin);
       filled += buckets[filled].begin < buckets[filled].end ? 1 : 0;
     }
-    for (int k = 0; k < filled; ++k)
-    {
-      accumulator.vote(votes + buckets[k].begin, votes + buckets[k].end, buckets[k].turn);
-    }
+    accumulator.vote(table.votes.data(), buckets, filled, table.mostOfOne);
   }
 
   const TrainedModel& Model;

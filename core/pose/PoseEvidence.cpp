@@ -8,7 +8,6 @@ namespace meam
 {
 namespace
 {
-constexpr double CellShare = 0.02;         // of the diameter: cells of the scene's depth map
 constexpr double SurfaceReachShare = 0.04; // of the diameter: a little over the spacing of judged points
 constexpr float OnSurface = 0.7f;          // tolerances within which a scene edge lies on the part
 constexpr float ParallelTangents = 0.85f;  // cosine
@@ -49,43 +48,42 @@ double PoseEvidence::visibleFraction() const
   return states.empty() ? 0.0 : 1.0 - static_cast<double>(count(states, PointState::Hidden)) / states.size();
 }
 
-EvidenceCollector::EvidenceCollector(const TrainedModel& model, const Scene& scene, double tolerance)
-  : Model(model)
-  , InScene(scene)
+EvidenceCollector::EvidenceCollector(const SceneIndex& index, double tolerance)
+  : Index(index)
   , Tolerance(tolerance)
-  , View(model)
-  , Edges(scene.edges.points, tolerance)
-  , Depth(scene.surface, scene.sensor, CellShare * model.diameter)
 {
 }
 
 PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) const
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const PartView::Visible visible = this->View.visible(T_scene_model, this->InScene.sensor);
+  const TrainedModel& model = this->Index.model;
+  const PointCloud& sceneEdges = this->Index.scene.edges;
+  const DepthMap& depth = this->Index.depth;
+  const PartView::Visible visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
   const float tolerance = static_cast<float>(this->Tolerance);
   PoseEvidence evidence;
   for (const int i : visible.edges)
   {
-    const Eigen::Vector3f point = T * this->Model.edges.points[i];
-    const Eigen::Vector3f tangent = T.linear() * this->Model.edges.tangents[i];
+    const Eigen::Vector3f point = T * model.edges.points[i];
+    const Eigen::Vector3f tangent = T.linear() * model.edges.tangents[i];
     bool matched = false;
-    this->Edges.forEachWithin(point, tolerance,
-      [&](int k, float) { matched = matched || std::abs(this->InScene.edges.tangents[k].dot(tangent)) > ParallelTangents; });
+    this->Index.edges.forEachWithin(point, tolerance,
+      [&](int k, float) { matched = matched || std::abs(sceneEdges.tangents[k].dot(tangent)) > ParallelTangents; });
     const PointState state = matched ? PointState::Matched
-      : this->Depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
+      : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
                                                                              : PointState::Violated;
     evidence.edges.push_back(point);
     evidence.edgeStates.push_back(state);
   }
-  if (this->InScene.surface.empty())
+  if (this->Index.scene.surface.empty())
   {
     return evidence;
   }
   for (const int i : visible.surface)
   {
-    const Eigen::Vector3f point = T * this->Model.surface.points[i];
-    const DepthMap::Relation relation = this->Depth.relation(point, tolerance);
+    const Eigen::Vector3f point = T * model.surface.points[i];
+    const DepthMap::Relation relation = depth.relation(point, tolerance);
     evidence.surface.push_back(point);
     evidence.surfaceStates.push_back(relation == DepthMap::Relation::OnSurface ? PointState::Matched
         : relation == DepthMap::Relation::Hidden                               ? PointState::Hidden
@@ -93,13 +91,13 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
   }
   // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
   const Eigen::Isometry3f toModel = T.inverse();
-  this->Edges.forEachWithin(T * this->Model.surfaceDistance.middle(), this->Model.surfaceDistance.radius(),
+  this->Index.edges.forEachWithin(T * model.surfaceDistance.middle(), model.surfaceDistance.radius(),
     [&](int k, float)
     {
-      const Eigen::Vector3f point = toModel * this->InScene.edges.points[k];
-      if (this->Model.surfaceDistance.at(point) < OnSurface * tolerance)
+      const Eigen::Vector3f point = toModel * sceneEdges.points[k];
+      if (model.surfaceDistance.at(point) < OnSurface * tolerance)
       {
-        ++(this->Model.edgeDistance.at(point) < tolerance ? evidence.explained : evidence.unexplained);
+        ++(model.edgeDistance.at(point) < tolerance ? evidence.explained : evidence.unexplained);
       }
     });
   return evidence;
@@ -122,7 +120,7 @@ double EvidenceCollector::shared(const PoseEvidence& a, const PoseEvidence& b) c
     }
     return result;
   };
-  const double reach = SurfaceReachShare * this->Model.diameter;
+  const double reach = SurfaceReachShare * this->Index.model.diameter;
   const Points ofA = matched(a);
   const PointGrid ofB(matched(b), reach);
   const auto near =

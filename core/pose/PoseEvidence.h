@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PointGrid.h"
-#include "model/TrainedModel.h"
-#include "pose/DepthMap.h"
-#include "pose/PartView.h"
-#include "pose/Scene.h"
+#include "pose/SceneIndex.h"
 
 namespace meam
 {
@@ -33,25 +29,19 @@ struct PoseEvidence
   double visibleFraction() const;
 };
 
-/// Judges poses of a part against a scene. Keeps references to both; calls may run in parallel.
+/// Judges poses of a part against a scene. Keeps a reference to the index; calls may run in parallel.
 class EvidenceCollector
 {
 public:
-  EvidenceCollector(const TrainedModel& model, const Scene& scene, double tolerance);
+  EvidenceCollector(const SceneIndex& index, double tolerance);
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model) const;
-  const PartView& view() const { return this->View; }
-  const TrainedModel& model() const { return this->Model; }
   /// Share of what `a` matched that `b` matched, too, [0, 1]: poses of one instance share most of it.
   double shared(const PoseEvidence& a, const PoseEvidence& b) const;
   /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.
-  bool nearEdge(const Eigen::Vector3f& point) const { return this->Edges.nearest(point, this->Tolerance) >= 0; }
+  bool nearEdge(const Eigen::Vector3f& point) const { return this->Index.edges.nearest(point, this->Tolerance) >= 0; }
 
 private:
-  const TrainedModel& Model;
-  const Scene& InScene;
+  const SceneIndex& Index;
   double Tolerance;
-  PartView View;
-  PointGrid Edges;
-  DepthMap Depth;
 };
 }

@@ -3,9 +3,9 @@
 
 #include "PCLConversion.h"
 #include "Parallel.h"
-#include "PointGrid.h"
 #include "RigidFit.h"
-#include "pose/PartView.h"
+
+#include <Eigen/Eigenvalues>
 
 #include <pcl/registration/icp.h>
 
@@ -16,12 +16,16 @@ namespace meam
 {
 namespace
 {
-constexpr double DistanceShare = 0.05;      // of the diameter: farthest correspondence at the start
+constexpr double DistanceShare = 0.1;      // of the diameter: farthest correspondence at the start
 constexpr double PointDistanceShare = 0.04; // the same of point-to-point ICP
-constexpr double LastDistanceShare = 0.24;  // of that at the end
-constexpr double SurfaceLeafShare = 0.015;  // of the diameter: scene surface points used
+constexpr double LastDistanceShare = 0.12;  // of that at the end
+constexpr int FullSteps = 3;                // the last ones, with all points
+constexpr int CoarseStride = 5;             // of the points in the steps before
 constexpr float ParallelTangents = 0.85f;
-constexpr int FewestCorrespondences = 4;   // of point-to-point ICP
+constexpr int FewestCorrespondences = 4;
+// Shares of what corresponds that have to speak for a motion.
+constexpr double ConstrainedShare = 0.01; // so that it counts as fixed
+constexpr double LeastShare = 1e-6;       // taken for the variance of one that nothing fixes
 
 /// Tukey's weight: 1 at 0, 0 from the limit on.
 double tukey(double squared, double limit)
@@ -33,63 +37,97 @@ double tukey(double squared, double limit)
 class Refiner
 {
 public:
-  Refiner(const TrainedModel& model, const Scene& scene, double distance, int iterations)
-    : Model(model)
-    , View(model)
-    , InScene(scene)
+  Refiner(const SceneIndex& index, double distance, int iterations)
+    : Index(index)
     , Distance(distance)
     , Iterations(iterations)
-    , Surface(PointCloud{ scene.surface, {}, {}, {} }.subset(thinPoints(scene.surface, SurfaceLeafShare * model.diameter)).points)
-    , EdgeGrid(scene.edges.points, distance)
-    , SurfaceGrid(this->Surface, distance)
   {
   }
 
   void refine(Pose& pose) const
   {
-    const PartView::Visible visible = this->View.visible(pose.T_scene_model, this->InScene.sensor);
+    PartView::Visible visible = this->visible(pose);
     for (int iteration = 0; iteration < this->Iterations; ++iteration)
     {
       const double share = this->Iterations > 1 ? static_cast<double>(iteration) / (this->Iterations - 1) : 1.0;
       const double limit = this->Distance * std::pow(LastDistanceShare, share);
-      if (this->step(pose.T_scene_model, visible, limit) < 1e-7 * this->Model.diameter && share == 1.0)
+      if (iteration > 0 && iteration + FullSteps == this->Iterations)
       {
-        break;
+        visible = this->visible(pose); // nearly there: what is in sight can be told better now
       }
+      const int stride = iteration + FullSteps < this->Iterations ? CoarseStride : 1;
+      const RigidFit fit = this->correspondences(pose.T_scene_model, visible, stride, limit);
+      pose.T_scene_model = fit.motion() * pose.T_scene_model;
     }
+    pose.fit = this->fitAt(pose, visible);
+    pose.fit.iterations = this->Iterations;
+  }
+
+  /// How well the scene fixes the pose; the iterations are left to the caller.
+  PoseFit fitAt(const Pose& pose, const PartView::Visible& visible) const
+  {
+    const RigidFit fit =
+      this->correspondences(pose.T_scene_model, visible, 1, this->Distance * LastDistanceShare);
+    PoseFit result;
+    if (fit.weights() < FewestCorrespondences)
+    {
+      return result;
+    }
+    result.residual = std::sqrt(fit.squares() / fit.weights());
+    // Rotations count as what they move half a diameter from the middle, so all six are lengths.
+    Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Ones();
+    scale.head<3>().setConstant(2.0 / this->Index.model.diameter);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
+      scale.asDiagonal() * fit.information() * scale.asDiagonal() / fit.weights());
+    const auto& values = solver.eigenvalues();
+    result.constrained = static_cast<int>((values.array() > ConstrainedShare).count());
+    const Eigen::Matrix<double, 6, 1> variances = result.residual * result.residual / fit.weights() *
+      values.array().max(LeastShare).inverse();
+    result.covariance = scale.asDiagonal() * solver.eigenvectors() * variances.asDiagonal() *
+      solver.eigenvectors().transpose() * scale.asDiagonal();
+    return result;
+  }
+
+  PartView::Visible visible(const Pose& pose) const
+  {
+    return this->Index.view.visible(pose.T_scene_model, this->Index.scene.sensor);
   }
 
 private:
-  /// One Gauss-Newton step; returns how far it moved, mm.
-  double step(Eigen::Isometry3d& T, const PartView::Visible& visible, double limit) const
+  /// Residuals of every `stride`-th visible point that something in the scene within `limit` (mm) corresponds to.
+  RigidFit correspondences(
+    const Eigen::Isometry3d& T, const PartView::Visible& visible, int stride, double limit) const
   {
+    const TrainedModel& model = this->Index.model;
+    const PointCloud& scene = this->Index.scene.edges;
     const Eigen::Isometry3f Tf = T.cast<float>();
-    const Eigen::Vector3d centre = T * this->View.middle().cast<double>();
-    RigidFit fit(centre);
-    for (const int i : visible.edges)
+    RigidFit fit(T * this->Index.view.middle().cast<double>());
+    const double gap = this->Index.depth.cellSize();
+    for (std::size_t k = 0; k < visible.edges.size(); k += stride)
     {
-      const Eigen::Vector3f point = Tf * this->Model.edges.points[i];
-      const Eigen::Vector3f tangent = Tf.linear() * this->Model.edges.tangents[i];
+      const int i = visible.edges[k];
+      const Eigen::Vector3f point = Tf * model.edges.points[i];
+      const Eigen::Vector3f tangent = Tf.linear() * model.edges.tangents[i];
       int nearest = -1;
       float best = static_cast<float>(limit * limit);
-      this->EdgeGrid.forEachWithin(point, limit,
-        [&](int k, float)
+      this->Index.edges.forEachWithin(point, limit,
+        [&](int e, float)
         {
           // Distance to the scene's tangent line, which counts, not to the point on it.
           const float distance =
-            this->InScene.edges.tangents[k].cross(point - this->InScene.edges.points[k]).squaredNorm();
-          if (distance < best && std::abs(this->InScene.edges.tangents[k].dot(tangent)) > ParallelTangents)
+            scene.tangents[e].cross(point - scene.points[e]).squaredNorm();
+          if (distance < best && std::abs(scene.tangents[e].dot(tangent)) > ParallelTangents)
           {
             best = distance;
-            nearest = k;
+            nearest = e;
           }
         });
       if (nearest < 0)
       {
         continue;
       }
-      const Eigen::Vector3d line = this->InScene.edges.tangents[nearest].cast<double>();
-      const Eigen::Vector3d offset = (point - this->InScene.edges.points[nearest]).cast<double>();
+      const Eigen::Vector3d line = scene.tangents[nearest].cast<double>();
+      const Eigen::Vector3d offset = (point - scene.points[nearest]).cast<double>();
       const Eigen::Matrix3f frame = frameAround(line.cast<float>());
       const double weight = tukey(best, limit);
       for (int axis = 1; axis < 3; ++axis)
@@ -98,32 +136,30 @@ private:
         fit.add(point.cast<double>(), across, across.dot(offset), weight);
       }
     }
-    for (const int i : visible.surface)
+    for (std::size_t k = 0; k < visible.surface.size(); k += stride)
     {
-      const Eigen::Vector3f point = Tf * this->Model.surface.points[i];
-      const Eigen::Vector3f normal = Tf.linear() * this->Model.surface.normals[i];
-      const int nearest = this->SurfaceGrid.nearest(point, limit);
-      if (nearest < 0)
+      const int i = visible.surface[k];
+      const Eigen::Vector3f point = Tf * model.surface.points[i];
+      const Eigen::Vector3f normal = Tf.linear() * model.surface.normals[i];
+      const Eigen::Vector3f* seen = this->Index.depth.meanAt(point);
+      if (!seen || (point - *seen).squaredNorm() > limit * limit + gap * gap)
       {
         continue;
       }
-      const double residual = normal.dot(point - this->Surface[nearest]);
+      const double residual = normal.dot(point - *seen);
       fit.add(point.cast<double>(), normal.cast<double>(), residual, tukey(residual * residual, limit));
     }
-    const Eigen::Isometry3d move = fit.motion();
-    T = move * T;
-    return (move * centre - centre).norm() +
-      Eigen::AngleAxisd(move.linear()).angle() * 0.5 * this->Model.diameter;
+    return fit;
   }
 
-  const TrainedModel& Model;
-  PartView View;
-  const Scene& InScene;
+  const SceneIndex& Index;
   double Distance;
   int Iterations;
-  Points Surface;
-  PointGrid EdgeGrid;
-  PointGrid SurfaceGrid;
+};
+
+struct CountedICP : pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ, double>
+{
+  int iterations() const { return this->nr_iterations_; }
 };
 
 /// Section 5.3: the edge appearance model of the pose's view against the scene's edges.
@@ -145,7 +181,7 @@ void refinePointToPoint(Pose& pose, const PCLCloud::ConstPtr& view, const PCLClo
   {
     return;
   }
-  pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ, double> icp;
+  CountedICP icp;
   icp.setInputSource(view);
   icp.setInputTarget(scene);
   icp.setSearchMethodTarget(tree, true);
@@ -159,6 +195,7 @@ void refinePointToPoint(Pose& pose, const PCLCloud::ConstPtr& view, const PCLClo
   {
     pose.T_scene_model.linear() = Eigen::Quaterniond(Eigen::Matrix3d(result.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
     pose.T_scene_model.translation() = result.topRightCorner<3, 1>();
+    pose.fit.iterations = icp.iterations();
   }
 }
 }
@@ -171,17 +208,17 @@ PoseRefinementSettings paperRefinementSettings()
   return settings;
 }
 
-Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& scene,
-  const PoseRefinementSettings& settings, const Progress& progress)
+Poses refinePoses(
+  const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings, const Progress& progress)
 {
-  requirePoints(scene.edges.points, "The scene's edge cloud");
+  const TrainedModel& model = index.model;
   const double share = settings.method == RefinementMethod::PointToPoint ? PointDistanceShare : DistanceShare;
   const double distance = settings.maximumDistance > 0.0 ? settings.maximumDistance : share * model.diameter;
   Poses refined = poses;
   const int count = static_cast<int>(refined.size());
+  const Refiner refiner(index, distance, settings.iterations);
   if (settings.method == RefinementMethod::EdgesAndSurface)
   {
-    const Refiner refiner(model, scene, distance, settings.iterations);
     parallelFor(count, settings.threads, progress,
       [&](int begin, int end, int)
       {
@@ -193,14 +230,13 @@ Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& sc
     report(progress, 1.0);
     return refined;
   }
-  const PCLCloud::Ptr target = toPCL(scene.edges.points);
+  const PCLCloud::Ptr target = toPCL(index.scene.edges.points);
   const auto tree = pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
   tree->setInputCloud(target);
-  const PartView view(model);
   std::vector<PCLCloud::Ptr> views;
   for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
   {
-    views.push_back(toPCL(view.viewEdges(static_cast<int>(v)).points));
+    views.push_back(toPCL(index.view.viewEdges(static_cast<int>(v)).points));
   }
   parallelFor(count, settings.threads, progress,
     [&](int begin, int end, int)
@@ -208,6 +244,9 @@ Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& sc
       for (int i = begin; i < end; ++i)
       {
         refinePointToPoint(refined[i], views.at(refined[i].viewId), target, tree, distance, settings.iterations);
+        const int iterations = refined[i].fit.iterations;
+        refined[i].fit = refiner.fitAt(refined[i], refiner.visible(refined[i]));
+        refined[i].fit.iterations = iterations;
       }
     });
   report(progress, 1.0);

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "Error.h"
-#include "model/TrainedModel.h"
 #include "pose/Pose.h"
-#include "pose/Scene.h"
+#include "pose/SceneIndex.h"
 
 namespace meam
 {
@@ -18,8 +17,8 @@ enum class RefinementMethod
 struct PoseRefinementSettings
 {
   RefinementMethod method = RefinementMethod::EdgesAndSurface;
-  int iterations = 10;
-  double maximumDistance = 0.0; ///< between corresponding points; 0: 5 % of the diameter, point-to-point 4 %
+  int iterations = 12;
+  double maximumDistance = 0.0; ///< between corresponding points; 0: 10 % of the diameter, point-to-point 4 %
   int threads = 0;              ///< 0: one for each processor
 };
 
@@ -27,7 +26,14 @@ struct PoseRefinementSettings
 PoseRefinementSettings paperRefinementSettings();
 
 /// Iterative closest point for each pose (paper, Section 5.3), in the order they come; scores stay.
-/// Without a surface only edges count. Throws Error when the scene has no edges.
-Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& scene,
-  const PoseRefinementSettings& settings = {}, const Progress& progress = {});
+/// Without a surface only edges count.
+Poses refinePoses(const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings = {},
+  const Progress& progress = {});
+
+/// The same in a scene that nothing else is asked about. Throws Error when the scene has no edges.
+inline Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& scene, const PoseRefinementSettings& settings = {},
+  const Progress& progress = {})
+{
+  return refinePoses(poses, SceneIndex(model, scene), settings, progress);
+}
 }

@@ -17,9 +17,15 @@ namespace
 {
 constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
+constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
 constexpr double SharedByOne = 0.5;        // share of the matched surface from which on two poses are of one instance
-constexpr double SureAdvantage = 2.0;      // points that make a turn e times likelier than another
+constexpr double SureAdvantage = 10.0;      // points that make a turn e times likelier than another
 constexpr double VisibilityExponent = 0.5; // parts that nothing hides come first: they can be grasped
+
+// Logistic regression of whether a pose is right, over poses in scenes with true ones.
+constexpr double WithSurface[] = { -20.0, 29.0 }; // constant, score
+constexpr double EdgesAlone[] = { -0.8, 9.2 };
+constexpr double CertaintyWeight = 5.0; // of the logarithm of the certainty
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
 void scoreCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)
@@ -28,14 +34,25 @@ void scoreCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector&
   const auto fitted = std::count_if(
     viewEdges.begin(), viewEdges.end(), [&](const auto& point) { return collector.nearEdge(T * point); });
   pose.score = viewEdges.empty() ? 0.0 : static_cast<double>(fitted) / viewEdges.size();
+  pose.probability = pose.score;
   pose.visibleFraction = pose.score;
 }
 
-void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceCollector& collector, const Sensor& sensor)
+void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& index)
 {
-  pose.viewId = collector.view().view(pose.T_scene_model, sensor);
+  pose.viewId = index.view.view(pose.T_scene_model, index.scene.sensor);
   pose.visibleFraction = evidence.visibleFraction();
-  pose.score = evidence.support() * std::pow(pose.visibleFraction, VisibilityExponent);
+  pose.score = evidence.support();
+  const auto& weights = index.scene.surface.empty() ? EdgesAlone : WithSurface;
+  const double logit =
+    weights[0] + weights[1] * pose.score + CertaintyWeight * std::log(std::max(pose.certainty, 1e-9));
+  pose.probability = 1.0 / (1.0 + std::exp(-logit));
+}
+
+/// What poses are ordered by: likely ones that nothing hides come first.
+double preference(const Pose& pose)
+{
+  return pose.probability * std::pow(pose.visibleFraction, VisibilityExponent);
 }
 
 /// Of the pose and its turns by the part's near-symmetries takes the one that the scene speaks for.
@@ -60,15 +77,48 @@ void settleNearSymmetry(Pose& pose, const PoseComparison& comparison, const Symm
   pose.certainty = 1.0 / odds;
 }
 
+/// Of poses that are nearly the same the one with most votes, of equals the first; in the order they come.
+Poses distinctPoses(const Poses& poses, const SceneIndex& index, double distance, double angle)
+{
+  const Eigen::Vector3d middle = index.view.middle().cast<double>();
+  std::vector<int> order(poses.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return poses[a].votes > poses[b].votes; });
+  std::vector<int> kept;
+  for (const int i : order)
+  {
+    const Eigen::Isometry3d& T = poses[i].T_scene_model;
+    const bool known = std::any_of(kept.begin(), kept.end(),
+      [&](int k)
+      {
+        const Eigen::Isometry3d& other = poses[k].T_scene_model;
+        return (T * middle - other * middle).norm() < distance &&
+          rotationError(nearestEqual(T, other, index.model.symmetries), other) < angle;
+      });
+    if (!known)
+    {
+      kept.push_back(i);
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  Poses distinct;
+  for (const int i : kept)
+  {
+    distinct.push_back(poses[i]);
+  }
+  return distinct;
+}
+
 /// Indices of the poses that stay, best first.
 class Clusters
 {
 public:
   /// `comparison` may be null: then the better score decides.
-  Clusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const EvidenceCollector& collector,
-    const PoseComparison* comparison, const PoseVerificationSettings& settings, double distance, double reach)
+  Clusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const SceneIndex& index,
+    const EvidenceCollector& collector, const PoseComparison* comparison, const PoseVerificationSettings& settings, double distance, double reach)
     : InPoses(poses)
     , Evidence(evidence)
+    , Index(index)
     , Collector(collector)
     , Comparison(comparison)
     , Settings(settings)
@@ -125,16 +175,17 @@ private:
   double turnBetween(int a, int b) const
   {
     const Eigen::Isometry3d& T = this->InPoses[b].T_scene_model;
-    return rotationError(nearestEqual(this->InPoses[a].T_scene_model, T, this->Collector.model().symmetries), T);
+    return rotationError(nearestEqual(this->InPoses[a].T_scene_model, T, this->Index.model.symmetries), T);
   }
 
   Eigen::Vector3d middle(int index) const
   {
-    return this->InPoses[index].T_scene_model * this->Collector.view().middle().cast<double>();
+    return this->InPoses[index].T_scene_model * this->Index.view.middle().cast<double>();
   }
 
   const Poses& InPoses;
   const std::vector<PoseEvidence>& Evidence;
+  const SceneIndex& Index;
   const EvidenceCollector& Collector;
   const PoseComparison* Comparison;
   const PoseVerificationSettings& Settings;
@@ -153,19 +204,23 @@ PoseVerificationSettings paperVerificationSettings()
   return settings;
 }
 
-Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& scene,
-  const PoseVerificationSettings& settings, const Progress& progress)
+Poses verifyPoses(
+  const Poses& poses, const SceneIndex& index, const PoseVerificationSettings& settings, const Progress& progress)
 {
-  requirePoints(scene.edges.points, "The scene's edge cloud");
+  const TrainedModel& model = index.model;
   const bool byEvidence = settings.method == VerificationMethod::VisibleEvidence;
   const EvidenceCollector collector(
-    model, scene, settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * model.diameter);
+    index, settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * model.diameter);
   std::vector<Points> viewEdges;
   for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
   {
-    viewEdges.push_back(collector.view().viewEdges(static_cast<int>(v)).points);
+    viewEdges.push_back(index.view.viewEdges(static_cast<int>(v)).points);
   }
-  Poses scored = poses;
+  const double clusterDistance =
+    settings.clusterDistance > 0.0 ? settings.clusterDistance : ClusterShare * model.diameter;
+  Poses scored = byEvidence
+    ? distinctPoses(poses, index, SameShare * clusterDistance, SameShare * settings.clusterAngle)
+    : poses;
   std::vector<PoseEvidence> evidence(byEvidence ? scored.size() : 0);
   parallelFor(static_cast<int>(scored.size()), settings.threads, subProgress(progress, 0.0, 0.8),
     [&](int begin, int end, int)
@@ -175,7 +230,7 @@ Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& sc
         if (byEvidence)
         {
           evidence[i] = collector.collect(scored[i].T_scene_model);
-          scoreEvidence(scored[i], evidence[i], collector, scene.sensor);
+          scoreEvidence(scored[i], evidence[i], index);
         }
         else
         {
@@ -185,16 +240,16 @@ Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& sc
     });
   std::vector<int> order(scored.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto better = [&](int a, int b) { return scored[a].score > scored[b].score; };
+  const auto better = [&](int a, int b) { return preference(scored[a]) > preference(scored[b]); };
   std::stable_sort(order.begin(), order.end(), better);
 
   std::optional<PoseComparison> comparison;
   if (byEvidence && settings.posesPerInstance == 1)
   {
-    comparison.emplace(model, scene);
+    comparison.emplace(index);
   }
-  Clusters clusters(scored, evidence, collector, comparison ? &*comparison : nullptr, settings,
-    settings.clusterDistance > 0.0 ? settings.clusterDistance : ClusterShare * model.diameter, 0.5 * model.diameter);
+  Clusters clusters(scored, evidence, index, collector, comparison ? &*comparison : nullptr, settings,
+    clusterDistance, 0.5 * model.diameter);
   std::vector<int> ofView(TrainedModel::MaximumViews, 0);
   for (const int i : order)
   {
@@ -213,16 +268,18 @@ Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& sc
         {
           const int i = clusters.Kept[k];
           settleNearSymmetry(scored[i], *comparison, model.symmetries);
-          scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), collector, scene.sensor);
+          scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), index);
         }
       });
   }
-  const auto surer = [&](int a, int b)
-  { return scored[a].score * scored[a].certainty > scored[b].score * scored[b].certainty; };
-  std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), surer);
+  std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), better);
   Poses best;
   for (const int i : clusters.Kept)
   {
+    if (scored[i].probability < settings.minimumProbability)
+    {
+      continue;
+    }
     if (settings.maximumPoses == 0 || static_cast<int>(best.size()) < settings.maximumPoses)
     {
       best.push_back(scored[i]);

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "Error.h"
-#include "model/TrainedModel.h"
 #include "pose/Pose.h"
-#include "pose/Scene.h"
+#include "pose/SceneIndex.h"
 
 namespace meam
 {
@@ -20,6 +19,7 @@ struct PoseVerificationSettings
   VerificationMethod method = VerificationMethod::VisibleEvidence;
   double tolerance = 0.0;       ///< a model point this near to the scene fits; 0: 3 % of the diameter
   double minimumScore = 0.0;    ///< poses below are dropped
+  double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   int posesPerView = 0;         ///< N_pv: best poses kept for each appearance model; 0: no limit
   double clusterDistance = 0.0; ///< poses nearer than this are of one instance; 0: 10 % of the diameter
   double clusterAngle = 15.0;   ///< and those turned less than this (degrees) are the same
@@ -34,7 +34,14 @@ struct PoseVerificationSettings
 PoseVerificationSettings paperVerificationSettings();
 
 /// Scores every pose against the scene, keeps the best of each cluster and returns them best first.
-/// Without a surface only edges count. Throws Error when the scene has no edges.
-Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& scene,
-  const PoseVerificationSettings& settings = {}, const Progress& progress = {});
+/// Without a surface only edges count.
+Poses verifyPoses(const Poses& poses, const SceneIndex& index, const PoseVerificationSettings& settings = {},
+  const Progress& progress = {});
+
+/// The same in a scene that nothing else is asked about. Throws Error when the scene has no edges.
+inline Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& scene, const PoseVerificationSettings& settings = {},
+  const Progress& progress = {})
+{
+  return verifyPoses(poses, SceneIndex(model, scene), settings, progress);
+}
 }

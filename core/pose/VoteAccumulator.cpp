@@ -10,6 +10,59 @@ namespace meam
 {
 namespace
 {
+constexpr int MostVotes = 21845; // of a bin: three fit into 16 bits
+constexpr int Chunk = 256;       // votes whose bins are computed at once
+
+/// One after the other, so that votes for one bin add up.
+void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::uint16_t* counts)
+{
+  if (!mayOverflow)
+  {
+    for (int k = 0; k < votes; ++k)
+    {
+      ++counts[bins[k]];
+    }
+    return;
+  }
+  for (int k = 0; k < votes; ++k)
+  {
+    counts[bins[k]] = static_cast<std::uint16_t>(counts[bins[k]] + (counts[bins[k]] < MostVotes ? 1 : 0));
+  }
+}
+
+MEAM_ALL_VECTORS
+void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pairs, std::uint32_t turns, bool mayOverflow,
+  std::uint16_t* counts)
+{
+  const std::uint32_t stride = turns + 2;
+  std::uint32_t bins[Chunk];
+  for (int pair = 0; pair < pairs; ++pair)
+  {
+    const VoteBucket& bucket = buckets[pair];
+    const std::uint32_t turn = bucket.turn & TurnMask;
+    const std::uint32_t sceneAgainst = bucket.turn >> TurnBits;
+    for (std::uint32_t half = 0; half < 2; ++half)
+    {
+      const std::uint32_t flip = half ^ sceneAgainst;
+      const std::uint32_t sign = flip - 1; // all ones for a difference
+      const std::uint32_t sheet = flip * stride + 1;
+      const std::uint32_t end = half ? bucket.end : bucket.against;
+      for (std::uint32_t begin = half ? bucket.against : bucket.begin; begin < end; begin += Chunk)
+      {
+        const int votes = static_cast<int>(std::min<std::uint32_t>(Chunk, end - begin));
+        const std::uint32_t* entry = entries + begin;
+#pragma omp simd
+        for (int k = 0; k < votes; ++k)
+        {
+          const std::uint32_t sum = (turn + ((entry[k] ^ sign) - sign)) & TurnMask;
+          bins[k] = (entry[k] >> (TurnBits + 1)) * 2 * stride + sheet + ((sum * turns) >> TurnBits);
+        }
+        count(bins, votes, mayOverflow, counts);
+      }
+    }
+  }
+}
+
 MEAM_ALL_VECTORS
 void findMaxima(std::uint16_t* counts, std::size_t sheets, int turns, std::uint16_t* maxima)
 {
@@ -37,7 +90,17 @@ VoteAccumulator::VoteAccumulator(int modelPoints, double angleStep)
 {
 }
 
-void VoteAccumulator::clear() { std::fill(this->Counts.begin(), this->Counts.end(), 0); }
+void VoteAccumulator::clear()
+{
+  std::fill(this->Counts.begin(), this->Counts.end(), 0);
+  this->Cast = 0;
+}
+
+void VoteAccumulator::vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne)
+{
+  this->Cast += static_cast<std::int64_t>(count) * mostOfOne;
+  castVotes(entries, buckets, count, this->Turns, this->Cast > MostVotes, this->Counts.data());
+}
 
 std::vector<VotePeak> VoteAccumulator::peaks(int count)
 {

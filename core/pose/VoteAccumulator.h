@@ -17,6 +17,16 @@ struct VotePeak
   double alpha = 0.0; ///< radians
 };
 
+/// What one scene pair votes for: the entries [begin, against) of PairTable::votes, which run along their reference's
+/// tangent, and [against, end), which run against it.
+struct VoteBucket
+{
+  std::uint32_t begin;
+  std::uint32_t against;
+  std::uint32_t end;
+  PairTurn turn; ///< of the scene pair
+};
+
 /// Votes of one reference point in the space (m_r, flip, alpha), paper Section 5.1. A tangent has no sign; the sign of
 /// d along it decides whether the stored tangents agree (alpha = beta_s - beta_m) or not (alpha = beta_s + beta_m).
 class VoteAccumulator
@@ -27,29 +37,16 @@ public:
 
   void clear();
 
-  /// The entries [entry, end) of one bucket (PairTable::votes) vote for a scene pair with this turn.
-  void vote(const std::uint32_t* entry, const std::uint32_t* end, PairTurn sceneTurn)
-  {
-    const std::uint32_t sceneAgainst = sceneTurn >> TurnBits;
-    for (; entry != end; ++entry)
-    {
-      const std::uint32_t flip = ((*entry >> TurnBits) & 1u) ^ sceneAgainst;
-      const std::uint32_t sign = 0u - (flip ^ 1u); // all ones for a difference
-      const std::uint32_t turn = (sceneTurn + ((*entry ^ sign) - sign)) & TurnMask;
-      const std::uint32_t bin = (turn * this->Turns) >> TurnBits;
-      std::uint16_t& count = this->Counts[((*entry >> (TurnBits + 1)) * 2 + flip) * this->Stride + 1 + bin];
-      count = static_cast<std::uint16_t>(count + (count < MostVotes ? 1 : 0));
-    }
-  }
+  /// The scene pairs of `buckets` vote for entries of the table. A model point has at most `mostOfOne` in a bucket.
+  void vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne = 1);
 
   /// The best supported turns, summed over three neighbouring bins, each at another model point or flip; best
   /// first, of equals the first. Without votes none.
   std::vector<VotePeak> peaks(int count);
 
 private:
-  static constexpr int MostVotes = 21845; // of a bin: three fit into 16 bits
-
   std::uint32_t Turns;
+  std::int64_t Cast = 0; ///< no bin has more votes
   std::uint32_t Stride; ///< the bins of a sheet between copies of the last and the first
   std::vector<std::uint16_t> Counts;
   std::vector<std::uint16_t> Maxima; ///< of each sheet

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/SceneEdgeExtraction.h"
 
-#include <opencv2/imgproc.hpp>
+#include "Parallel.h"
+#include "scene/CloudEdges.h"
+#include "scene/GridSurface.h"
+#include "scene/PixelMap.h"
 
-#include <algorithm>
+#include <Eigen/LU>
+
 #include <cmath>
-#include <limits>
 
 namespace meam
 {
 namespace
 {
-// The automatic high threshold: this share of the pixels has a stronger gradient...
-constexpr double EdgeShare = 0.18;
-// ...but never below what noise makes: some times the median, and this many grey values.
-constexpr double NoiseInMedians = 4.0;
-constexpr double LeastGradient = 20.0;
-constexpr double LowShare = 0.4;
-constexpr double JumpInPointDistances = 3.0;
-
 std::string sizeOf(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
 void check(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtractionSettings& settings)
@@ -29,165 +24,202 @@ void check(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtra
     throw Error("The scene is not organized (it is " + sizeOf(cloud.width, cloud.height) +
                 " points): edges of an image need a cloud with one point for each pixel.");
   }
-  if (image.width != cloud.width || image.height != cloud.height)
+  if (settings.imageEdges && !settings.camera && (image.width != cloud.width || image.height != cloud.height))
   {
     throw Error("The image is " + sizeOf(image.width, image.height) + " pixels but the cloud is " +
-                sizeOf(cloud.width, cloud.height) + " points: give the image that is registered with the cloud.");
+                sizeOf(cloud.width, cloud.height) +
+                " points: give the image that is registered with the cloud, or the camera that took it.");
   }
-  if ((image.channels != 1 && image.channels != 3) || image.pixels.size() != cloud.size() * image.channels)
+  if (settings.imageEdges && settings.camera && settings.camera->width > 0 &&
+      (image.width != settings.camera->width || image.height != settings.camera->height))
   {
-    throw Error("The image must have one channel (grey) or three (red, green, blue), 8 bits each.");
+    throw Error("The image is " + sizeOf(image.width, image.height) + " pixels but its camera has " +
+                sizeOf(settings.camera->width, settings.camera->height) + ": one is not that of the other.");
   }
-  const auto valid = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  if (!valid(settings.smoothing) || !valid(settings.lowThreshold) || !valid(settings.highThreshold) ||
-      !valid(settings.depthJump) || settings.smoothing > 50.0 || settings.searchRadius < 0 ||
-      settings.searchRadius > 50)
+  if (!settings.imageEdges && !settings.depthEdges && !settings.creases)
   {
-    throw Error("Settings of the scene edges are out of range: smoothing and search radius are 0 "
-                "to 50 pixels, "
-                "thresholds and depth jump 0 or more.");
+    throw Error("No edges are asked for: switch on those of the image, of depth jumps or of creases.");
+  }
+  const bool angleFits = settings.creaseAngle > 0.0 && settings.creaseAngle < 180.0;
+  if (!(settings.depthJump >= 0.0) || !std::isfinite(settings.depthJump) || settings.searchRadius < 0 ||
+      settings.searchRadius > 50 || !angleFits)
+  {
+    throw Error("Settings of the scene edges are out of range: the search radius is 0 to 50 points, the depth jump 0 or "
+                "more, and the angle of creases above 0 and below 180 degrees.");
   }
 }
 
-double automaticThreshold(const cv::Mat& dx, const cv::Mat& dy)
+/// Edge points as they are found: the first source, and the sum of the directions, which have no sign, as
+/// cosines and sines of twice their angles.
+class FoundEdges
 {
-  std::vector<float> gradients;
-  gradients.reserve(dx.total());
-  for (int row = 0; row < dx.rows; ++row)
+public:
+  explicit FoundEdges(std::size_t gridPoints)
+    : Places(gridPoints, -1)
   {
-    const short* x = dx.ptr<short>(row);
-    const short* y = dy.ptr<short>(row);
-    for (int column = 0; column < dx.cols; ++column)
+  }
+
+  void add(int point, EdgeSource source, const Eigen::Vector2f& direction)
+  {
+    int& place = this->Places[point];
+    if (place < 0)
     {
-      gradients.push_back(std::hypot(static_cast<float>(x[column]), static_cast<float>(y[column])));
+      place = static_cast<int>(this->Sources.size());
+      this->Sources.push_back(source);
+      this->Doubled.emplace_back(0.0f, 0.0f);
+    }
+    if (this->Sources[place] == source)
+    {
+      const float x = direction.x();
+      const float y = direction.y();
+      this->Doubled[place] += Eigen::Vector2f(x * x - y * y, 2.0f * x * y);
     }
   }
-  const auto quantile = [&](double share)
-  {
-    const auto at = gradients.begin() + static_cast<long>(share * static_cast<double>(gradients.size() - 1));
-    std::nth_element(gradients.begin(), at, gradients.end());
-    return static_cast<double>(*at);
-  };
-  return std::max({ quantile(1.0 - EdgeShare), NoiseInMedians * quantile(0.5), LeastGradient });
-}
 
-cv::Mat edgePixels(const Image& image, const SceneEdgeExtractionSettings& settings)
-{
-  // OpenCV wants a pointer that is not const; it only reads.
-  cv::Mat grey(
-    image.height, image.width, image.channels == 3 ? CV_8UC3 : CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()));
-  if (image.channels == 3)
+  void add(const std::vector<GridEdge>& edges, EdgeSource source)
   {
-    cv::cvtColor(cv::Mat(grey), grey, cv::COLOR_RGB2GRAY);
-  }
-  if (settings.smoothing > 0.0)
-  {
-    cv::Mat smooth;
-    cv::GaussianBlur(grey, smooth, cv::Size(), settings.smoothing);
-    grey = smooth;
-  }
-  cv::Mat dx, dy;
-  cv::Sobel(grey, dx, CV_16S, 1, 0, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-  cv::Sobel(grey, dy, CV_16S, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-  const double high = settings.highThreshold > 0.0 ? settings.highThreshold : automaticThreshold(dx, dy);
-  const double low = settings.lowThreshold > 0.0 ? settings.lowThreshold : LowShare * high;
-  cv::Mat edges;
-  cv::Canny(dx, dy, edges, std::min(low, high), high, true);
-  return edges;
-}
-
-/// The median distance across the line of sight between neighbours in a row, in mm.
-double pointDistance(const OrganizedCloud& cloud)
-{
-  std::vector<float> distances;
-  for (std::size_t i = 0; i + 1 < cloud.size(); ++i)
-  {
-    const Eigen::Vector3f d = cloud.points[i + 1] - cloud.points[i];
-    if (d.allFinite() && (i + 1) % cloud.width != 0)
+    for (const GridEdge& edge : edges)
     {
-      distances.push_back(d.head<2>().norm());
+      this->add(edge.point, source, edge.direction);
     }
   }
-  if (distances.empty())
-  {
-    return 0.0;
-  }
-  const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
-}
 
-/// The grid point of an edge pixel, or -1: the closest pixel that is on the nearest surface around
-/// it.
-int pointOfPixel(const OrganizedCloud& cloud, int row, int column, int radius, float jump)
-{
-  const int top = std::max(row - radius, 0);
-  const int bottom = std::min(row + radius, cloud.height - 1);
-  const int left = std::max(column - radius, 0);
-  const int right = std::min(column + radius, cloud.width - 1);
-  const auto forEach = [&](const auto& visit)
+  /// Calls visit(grid point, source, direction) in the order of the grid.
+  template <typename Visitor>
+  void forEach(const Visitor& visit) const
   {
-    for (int r = top; r <= bottom; ++r)
+    for (std::size_t i = 0; i < this->Places.size(); ++i)
     {
-      for (int c = left; c <= right; ++c)
+      if (this->Places[i] >= 0)
       {
-        const int index = r * cloud.width + c;
-        if (cloud.points[index].allFinite())
+        const Eigen::Vector2f& doubled = this->Doubled[this->Places[i]];
+        const float angle = 0.5f * std::atan2(doubled.y(), doubled.x());
+        visit(static_cast<int>(i), this->Sources[this->Places[i]], Eigen::Vector2f(std::cos(angle), std::sin(angle)));
+      }
+    }
+  }
+
+private:
+  std::vector<int> Places; ///< of a grid point in the others, -1: none
+  std::vector<EdgeSource> Sources;
+  std::vector<Eigen::Vector2f> Doubled;
+};
+
+/// A direction in the image of a camera as one in columns and rows of the grid; zero when the camera looks
+/// along the surface.
+Eigen::Vector2f onGrid(const Camera& camera, const GridPlane& plane, const Eigen::Vector2f& direction)
+{
+  const Eigen::Vector3d middle = plane.middle.cast<double>();
+  const Eigen::Vector2d pixel = project(camera, middle);
+  Eigen::Matrix2d steps;
+  steps.col(0) = project(camera, middle + plane.alongColumn.cast<double>()) - pixel;
+  steps.col(1) = project(camera, middle + plane.alongRow.cast<double>()) - pixel;
+  const Eigen::Vector2d inGrid = steps.inverse() * direction.cast<double>();
+  return inGrid.allFinite() ? inGrid.normalized().cast<float>().eval() : Eigen::Vector2f::Zero().eval();
+}
+void addImageEdges(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtractionSettings& settings,
+  double jump, FoundEdges& found, const Progress& progress)
+{
+  const std::vector<EdgePixel> pixels = findImageEdges(image, settings.image);
+  report(progress, 0.5);
+  PixelMap map;
+  if (settings.camera)
+  {
+    Camera camera = *settings.camera;
+    camera.width = image.width;
+    camera.height = image.height;
+    map = projectedPixels(cloud, camera, jump, settings.threads, subProgress(progress, 0.5, 0.9));
+  }
+  else
+  {
+    map = registeredPixels(cloud);
+  }
+  const int radius = static_cast<int>(std::ceil(settings.searchRadius * map.pixelsPerPoint));
+  for (const EdgePixel& pixel : pixels)
+  {
+    const int point = pointOfPixel(map, pixel.row, pixel.column, radius, jump);
+    if (point >= 0)
+    {
+      found.add(point, EdgeSource::Image, pixel.direction);
+    }
+  }
+}
+
+/// Lifts each point's direction to the surface there; points whose surface cannot be told are left out.
+SceneEdges withTangents(const SceneEdges& edges, const std::vector<Eigen::Vector2f>& directions,
+  const OrganizedCloud& cloud, const SceneEdgeExtractionSettings& settings, double jump, int radius,
+  const Progress& progress)
+{
+  Points tangents(edges.cloud.size(), Eigen::Vector3f::Zero());
+  parallelFor(static_cast<int>(tangents.size()), settings.threads, progress,
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        const int point = edges.cloud.pointIds[i];
+        const GridWindow window{ 2 * radius, radius, directions[i] }; // long: the slope along the edge is what counts
+        const GridPlane plane = fitPlane(cloud, point / cloud.width, point % cloud.width, window, jump);
+        if (plane.valid())
         {
-          visit(index, cloud.points[index].z(), (r - row) * (r - row) + (c - column) * (c - column));
+          const bool inImage = settings.camera && edges.sources[i] == EdgeSource::Image;
+          tangents[i] = plane.lifted(inImage ? onGrid(*settings.camera, plane, directions[i]) : directions[i]);
         }
       }
-    }
-  };
-  float nearest = std::numeric_limits<float>::infinity();
-  forEach([&](int, float z, int) { nearest = std::min(nearest, z); });
-  int best = -1;
-  int bestPixels = 0;
-  forEach(
-    [&](int index, float z, int pixels)
-    {
-      if (z <= nearest + jump &&
-          (best < 0 || pixels < bestPixels || (pixels == bestPixels && z < cloud.points[best].z())))
-      {
-        best = index;
-        bestPixels = pixels;
-      }
     });
-  return best;
+  std::vector<int> kept;
+  SceneEdges result;
+  for (std::size_t i = 0; i < tangents.size(); ++i)
+  {
+    if (tangents[i].norm() > 0.5f) // unit; not zero and a number
+    {
+      kept.push_back(static_cast<int>(i));
+      result.sources.push_back(edges.sources[i]);
+    }
+  }
+  result.cloud = edges.cloud;
+  result.cloud.tangents = std::move(tangents);
+  result.cloud = result.cloud.subset(kept);
+  return result;
 }
 }
 
-PointCloud extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
+SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   const SceneEdgeExtractionSettings& settings, const Progress& progress)
 {
   check(cloud, image, settings);
   report(progress, 0.0);
-  const cv::Mat edges = edgePixels(image, settings);
-  report(progress, 0.6);
-
-  const double jump = settings.depthJump > 0.0 ? settings.depthJump : JumpInPointDistances * pointDistance(cloud);
-  std::vector<bool> taken(cloud.size(), false);
-  for (int row = 0; row < cloud.height; ++row)
+  const GridScale scale = gridScale(cloud);
+  const double jump = settings.depthJump > 0.0 ? settings.depthJump : scale.depthJump();
+  FoundEdges found(cloud.size());
+  if (settings.imageEdges)
   {
-    const std::uint8_t* isEdge = edges.ptr<std::uint8_t>(row);
-    for (int column = 0; column < cloud.width; ++column)
-    {
-      const int point =
-        isEdge[column] ? pointOfPixel(cloud, row, column, settings.searchRadius, static_cast<float>(jump)) : -1;
-      if (point >= 0)
-      {
-        taken[point] = true;
-      }
-    }
+    addImageEdges(cloud, image, settings, jump, found, subProgress(progress, 0.0, 0.5));
   }
-  PointCloud result;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
+  if (settings.depthEdges)
   {
-    if (taken[i])
+    found.add(findDepthEdges(cloud, jump, settings.threads, subProgress(progress, 0.5, 0.6)), EdgeSource::DepthJump);
+  }
+  if (settings.creases)
+  {
+    found.add(
+      findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)),
+      EdgeSource::Crease);
+  }
+
+  SceneEdges result;
+  std::vector<Eigen::Vector2f> directions;
+  found.forEach(
+    [&](int point, EdgeSource source, const Eigen::Vector2f& direction)
     {
-      result.points.push_back(cloud.points[i]);
-      result.pointIds.push_back(static_cast<int>(i));
-    }
+      result.cloud.points.push_back(cloud.points[point]);
+      result.cloud.pointIds.push_back(point);
+      result.sources.push_back(source);
+      directions.push_back(direction);
+    });
+  if (settings.tangents)
+  {
+    result = withTangents(
+      result, directions, cloud, settings, jump, scale.windowRadius(), subProgress(progress, 0.8, 1.0));
   }
   report(progress, 1.0);
   return result;

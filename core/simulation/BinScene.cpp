@@ -3,8 +3,9 @@
 
 #include "mesh/ConvexHull.h"
 #include "mesh/RequireMesh.h"
-#include "simulation/BinPacking.h"
-#include "simulation/VirtualSensor.h"
+#include "simulation/BinPhysics.h"
+#include "simulation/Lighting.h"
+#include "simulation/Rasterizer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,13 @@ namespace
 {
 constexpr double SpacePerCopy = 0.75;  // side of the bin over diameter and root of the copies: about two layers
 constexpr double LeastBinSize = 1.6;   // diameters
-constexpr double WallHeight = 0.35;    // diameters
+constexpr double WallHeight = 0.6;     // diameters
 constexpr double WallThickness = 0.05; // diameters
 constexpr double FilledView = 0.96;    // share of the image's shorter side
+constexpr double Nearness = 0.1;       // diameters: what lies so much deeper than its surroundings is in their shade
+const Eigen::Vector3d PartTint(1.02, 1.0, 0.96);
+const Eigen::Vector3d WallAlbedo(0.42, 0.45, 0.50);
+const Eigen::Vector3d FloorAlbedo(0.24, 0.25, 0.27);
 
 TriangleMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
 {
@@ -53,12 +58,35 @@ void check(const BinSceneSettings& settings)
   {
     throw Error("The sensor's image must be 16 to 8192 pixels wide and high.");
   }
-  if (!valid(settings.binSize) || !valid(settings.sensorHeight) || !valid(settings.depthNoise) ||
-      !valid(settings.imageNoise) || !(settings.dropout >= 0.0 && settings.dropout <= 1.0))
+  if (!valid(settings.binSize) || !valid(settings.sensorHeight) || !valid(settings.baseline))
   {
-    throw Error("Sizes and noise of the simulated bin must be 0 or more, and the dropout a share "
-                "from 0 to 1.");
+    throw Error("Sizes of the simulated bin must be 0 or more.");
   }
+  requireQuality(settings.quality);
+}
+
+/// A camera of a size in pixels whose image a square of side `side` fills, `distance` mm away.
+Camera cameraFor(int width, int height, double side, double distance)
+{
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = camera.fy = FilledView * std::min(width, height) * distance / side;
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  return camera;
+}
+
+/// The camera `baseline` mm to the right of the sensor, turned to the middle of the floor.
+Camera cameraBeside(const Camera& sensor, double baseline, double floor)
+{
+  Camera camera = sensor;
+  camera.fx = camera.fy = sensor.fx * std::hypot(floor, baseline) / floor;
+  Eigen::Isometry3d T_scene_camera = Eigen::Isometry3d::Identity();
+  T_scene_camera.translation().x() = baseline;
+  T_scene_camera.linear() = Eigen::AngleAxisd(-std::atan2(baseline, floor), Eigen::Vector3d::UnitY()).matrix();
+  camera.T_camera_scene = T_scene_camera.inverse();
+  return camera;
 }
 }
 
@@ -80,55 +108,62 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   {
     throw Error("The bin is more than a hundred times larger than the part: check their units.");
   }
+  const double sensorHeight = settings.sensorHeight > 0.0 ? settings.sensorHeight : 3.0 * scene.binSize;
+  const double wallHeight = WallHeight * partDiameter;
+  const double wallThickness = WallThickness * partDiameter;
+  if (sensorHeight <= wallHeight)
+  {
+    throw Error("The sensor is not above the bin: raise it.");
+  }
   Random random(settings.seed);
   const std::vector<Eigen::Isometry3d> poses =
-    packBin(part, scene.binSize, settings.copies, random, subProgress(progress, 0.0, 0.6));
+    fillBin(part, scene.binSize, settings.copies, random, subProgress(progress, 0.0, 0.6)).poses;
 
   // The sensor's z looks down, its x along the bin's x.
-  const double sensorHeight = settings.sensorHeight > 0.0 ? settings.sensorHeight : 3.0 * scene.binSize;
   Eigen::Isometry3d T_scene_bin = Eigen::Isometry3d::Identity();
   T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   T_scene_bin.translation().z() = sensorHeight;
   std::vector<Body> bodies;
   for (const auto& pose : poses)
   {
-    bodies.push_back({ &part, T_scene_bin * pose, random.uniform(0.72, 0.88) });
+    const double brightness = random.uniform(0.72, 0.88);
+    bodies.push_back({ &part, T_scene_bin * pose, brightness * PartTint });
   }
-  const double wallHeight = WallHeight * partDiameter;
-  const double wallThickness = WallThickness * partDiameter;
   const std::vector<TriangleMesh> sides = walls(scene.binSize, wallHeight, wallThickness);
   for (const auto& side : sides)
   {
-    bodies.push_back({ &side, T_scene_bin, 0.45 });
+    bodies.push_back({ &side, T_scene_bin, WallAlbedo });
   }
+  const std::vector<Facet> facets = facetsOf(bodies);
+  scene.sensor =
+    cameraFor(settings.width, settings.height, scene.binSize + 2.0 * wallThickness, sensorHeight - wallHeight);
+  scene.camera = settings.baseline > 0.0 ? cameraBeside(scene.sensor, settings.baseline, sensorHeight) : scene.sensor;
 
-  VirtualSensorSettings sensor;
-  sensor.width = settings.width;
-  sensor.height = settings.height;
-  sensor.floor = sensorHeight;
-  sensor.focalLength = FilledView * std::min(settings.width, settings.height) * (sensorHeight - wallHeight) /
-                       (scene.binSize + 2.0 * wallThickness);
-  sensor.nearness = 0.1 * partDiameter;
-  sensor.depthNoise = settings.depthNoise;
-  sensor.dropout = settings.dropout;
-  sensor.imageNoise = settings.imageNoise;
-  SensorData data = renderBodies(bodies, sensor, random, subProgress(progress, 0.6, 1.0));
+  const View view = rasterize(facets, sensorHeight, scene.sensor);
+  report(progress, 0.65);
+  const auto lightOf = [&](const View& seen)
+  {
+    return illuminate(
+      seen, scene.camera, facets, bodies, FloorAlbedo, Nearness * partDiameter, subProgress(progress, 0.65, 0.85));
+  };
+  const std::vector<Eigen::Vector3f> colors =
+    settings.baseline > 0.0 ? lightOf(rasterize(facets, sensorHeight, scene.camera)) : lightOf(view);
+  scene.image = takeImage(colors, scene.camera, settings.colored, settings.quality, random);
+  scene.cloud = measureDepth(view, scene.sensor, settings.quality, random, subProgress(progress, 0.85, 0.95));
 
   const int copies = static_cast<int>(poses.size());
+  std::vector<Mask> silhouettes = silhouettesOf(facets, copies, scene.sensor);
   for (int i = 0; i < copies; ++i)
   {
-    const int alone = data.alonePixels[i];
-    scene.instances.push_back(
-      { bodies[i].T_scene_model, alone > 0 ? static_cast<double>(data.visiblePixels[i]) / alone : 0.0 });
+    scene.instances.push_back({ bodies[i].T_scene_model, std::move(silhouettes[i]), 0 });
   }
-  for (int& body : data.bodyOfPixel)
+  scene.instanceOfPixel = view.bodies;
+  for (int& body : scene.instanceOfPixel)
   {
     body = body < copies ? body : -1;
+    scene.instances[std::max(body, 0)].visiblePixels += body >= 0;
   }
-  scene.cloud = std::move(data.cloud);
-  scene.image = std::move(data.image);
-  scene.instanceOfPixel = std::move(data.bodyOfPixel);
-  scene.focalLength = sensor.focalLength;
+  report(progress, 1.0);
   return scene;
 }
 }

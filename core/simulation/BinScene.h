@@ -2,7 +2,9 @@
 #pragma once
 
 #include "Error.h"
+#include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
+#include "simulation/VirtualSensor.h"
 
 namespace meam
 {
@@ -14,31 +16,38 @@ struct BinSceneSettings
   double sensorHeight = 0.0; ///< mm above the floor; 0: three times the bin's side
   int width = 960;           ///< pixels
   int height = 768;
-  double depthNoise = 0.1; ///< mm, standard deviation
-  double dropout = 0.002;  ///< share of the pixels without depth, besides those seen too flatly
-  double imageNoise = 1.5; ///< grey values, standard deviation
+  bool colored = false;  ///< the image: red, green and blue, or grey
+  double baseline = 0.0; ///< mm from the sensor to a camera beside it that takes the image; 0: the sensor does
+  SensorQuality quality{};
 };
 
 /// One copy of the part in the bin.
 struct BinInstance
 {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm, in the sensor's frame
-  double visibleFraction = 0.0; ///< pixels seen over pixels if nothing else were there
+  Mask silhouette;       ///< the pixels of the depth it would have if nothing else were there
+  int visiblePixels = 0; ///< of these, those that nothing hides
+  double visibleFraction() const
+  {
+    const int whole = this->silhouette.count();
+    return whole > 0 ? static_cast<double>(this->visiblePixels) / whole : 0.0;
+  }
 };
 
 /// What a sensor straight above the bin returns, and the truth.
 struct BinScene
 {
   OrganizedCloud cloud;
-  Image image;                      ///< grey, registered with the cloud
-  std::vector<int> instanceOfPixel; ///< -1: the bin
+  Camera sensor; ///< of the depth; at the origin
+  Image image;
+  Camera camera;                    ///< of the image; the sensor when the image is registered with the cloud
+  std::vector<int> instanceOfPixel; ///< of the depth; -1: the bin
   std::vector<BinInstance> instances;
-  double focalLength = 0.0; ///< pixels; the principal point is the middle of the image
-  double binSize = 0.0;     ///< mm
+  double binSize = 0.0; ///< mm
 };
 
-/// A bin with a floor, low walls and copies of `part` (mm) that lie as they fell, and the scan of
-/// it by a virtual sensor. Throws Error for a mesh without faces or settings out of range, among
-/// them a bin into which the part does not fit.
+/// A bin with a floor, walls and copies of `part` (mm) that lie as they fell, and the scan of it by a virtual
+/// sensor. A camera beside it looks at the middle of the floor and has as many pixels. Throws Error for a mesh
+/// without faces or settings out of range, among them a bin into which the part does not fit.
 BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings = {}, const Progress& progress = {});
 }

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/SamplePart.h"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "simulation/ColumnMesh.h"
 
 #include <array>
 #include <cmath>
-#include <map>
-
-// How it is built: all outlines are drawn into one constrained triangulation of the plane, so that
-// each of its triangles is the base of a column that is solid or empty between two levels of z. The
-// part's surface is every face between solid and empty. Columns tile space: the mesh is closed and
-// does not cross itself.
 
 namespace meam
 {
 namespace
 {
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_predicates_tag>;
 using Vector = Eigen::Vector2d;
 
 /// A circle drawn as a regular polygon with a corner at angle 0.
@@ -47,8 +38,8 @@ Vector polar(double radius, double degrees)
   return radius * Vector(std::cos(degrees * M_PI / 180.0), std::sin(degrees * M_PI / 180.0));
 }
 
-constexpr std::array<double, 6> Levels = { 0.0, 3.0, 6.0, 10.0, 12.0, 22.0 };
-constexpr int Layers = Levels.size() - 1;
+constexpr int Layers = 5;
+const std::vector<double> Levels{ 0.0, 3.0, 6.0, 10.0, 12.0, 22.0 };
 enum Layer
 {
   SpigotLayer,
@@ -108,11 +99,10 @@ Column columnAt(const Vector& point)
   return solid;
 }
 
-Triangulation drawOutlines()
+std::vector<Polyline> drawOutlines()
 {
-  Triangulation plane;
-  const auto line = [&](const Vector& a, const Vector& b)
-  { plane.insert_constraint(Triangulation::Point(a.x(), a.y()), Triangulation::Point(b.x(), b.y())); };
+  std::vector<Polyline> lines;
+  const auto line = [&](const Vector& a, const Vector& b) { lines.push_back({ a, b }); };
   const auto outline = [&](const Circle& circle)
   {
     for (int i = 0; i < circle.corners; ++i)
@@ -152,61 +142,12 @@ Triangulation drawOutlines()
     line(RibStart * along + across, RibEnd * along + across);
     line(RibStart * along - across, RibEnd * along - across);
   }
-  return plane;
+  return lines;
 }
 }
 
 TriangleMesh makeSamplePart()
 {
-  const Triangulation plane = drawOutlines();
-  std::map<Triangulation::Face_handle, Column> columns;
-  for (const auto face : plane.finite_face_handles())
-  {
-    const auto middle = CGAL::centroid(plane.triangle(face));
-    columns[face] = columnAt({ middle.x(), middle.y() });
-  }
-  const auto solid = [&](const Triangulation::Face_handle& face, int layer)
-  { return !plane.is_infinite(face) && layer >= 0 && layer < Layers && columns.at(face)[layer]; };
-
-  TriangleMesh mesh;
-  std::map<std::pair<Triangulation::Vertex_handle, int>, int> indices;
-  const auto vertex = [&](const Triangulation::Vertex_handle& at, int level)
-  {
-    const auto [entry, isNew] = indices.try_emplace({ at, level }, static_cast<int>(mesh.vertices.size()));
-    if (isNew)
-    {
-      mesh.vertices.push_back(Eigen::Vector3d(at->point().x(), at->point().y(), Levels[level]).cast<float>());
-    }
-    return entry->second;
-  };
-  for (const auto face : plane.finite_face_handles())
-  {
-    for (int level = 0; level <= Layers; ++level)
-    {
-      const bool below = solid(face, level - 1);
-      if (below != solid(face, level))
-      {
-        // Corners are counter-clockwise seen from above.
-        mesh.triangles.emplace_back(vertex(face->vertex(0), level), vertex(face->vertex(below ? 1 : 2), level),
-          vertex(face->vertex(below ? 2 : 1), level));
-      }
-    }
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int layer = 0; layer < Layers; ++layer)
-      {
-        if (solid(face, layer) && !solid(face->neighbor(i), layer))
-        {
-          const auto from = face->vertex(Triangulation::ccw(i));
-          const auto to = face->vertex(Triangulation::cw(i));
-          const int corners[4] = { vertex(from, layer), vertex(to, layer), vertex(to, layer + 1),
-            vertex(from, layer + 1) };
-          mesh.triangles.emplace_back(corners[0], corners[1], corners[2]);
-          mesh.triangles.emplace_back(corners[0], corners[2], corners[3]);
-        }
-      }
-    }
-  }
-  return mesh;
+  return columnMesh(Levels, drawOutlines(), [](const Vector& point, int layer) { return columnAt(point)[layer]; });
 }
 }

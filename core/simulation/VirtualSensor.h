@@ -4,43 +4,31 @@
 #include "Error.h"
 #include "Random.h"
 #include "scene/OrganizedCloud.h"
+#include "simulation/Rasterizer.h"
 
 namespace meam
 {
-/// Something the sensor looks at.
-struct Body
+/// How well a sensor measures. The defaults are moderate: those of a good stereo camera with projector.
+struct SensorQuality
 {
-  const TriangleMesh* mesh = nullptr;
-  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm, in the sensor's frame
-  double albedo = 0.6;                                             ///< share of the light it reflects
+  double depthNoise = 0.3;  ///< mm, standard deviation at a distance of 1 m; it grows with the square of the distance
+  double depthStep = 0.05;  ///< mm between depths that the sensor can tell apart; 0: none
+  double dropout = 0.002;   ///< share of the pixels without depth, wherever they look
+  double jumpDropout = 0.5; ///< share of the pixels beside a depth jump that have no depth
+  int matchingWindow = 17;  ///< pixels: a surface that fills less than half of such a square has no depth; 1: any has
+  double imageNoise = 1.5;  ///< grey values, standard deviation
+  double imageBlur = 0.7;   ///< pixels, sigma of a Gaussian
 };
 
-/// A pinhole at the origin, looking along z; x right, y down. The principal point is the middle.
-struct VirtualSensorSettings
-{
-  int width = 960;
-  int height = 768;
-  double focalLength = 1000.0; ///< pixels
-  double floor = 1000.0;       ///< mm, z of an endless plane across the view
-  double floorAlbedo = 0.25;
-  double nearness = 10.0;  ///< mm; a pixel so much behind its surroundings is in their shade
-  double depthNoise = 0.0; ///< mm, standard deviation along the line of sight
-  double dropout = 0.0;    ///< share of the pixels without depth
-  double imageNoise = 0.0; ///< grey values, standard deviation
-};
+/// Throws Error for a quality out of range.
+void requireQuality(const SensorQuality& quality);
 
-/// What the sensor returns, and what it saw.
-struct SensorData
-{
-  OrganizedCloud cloud;
-  Image image;                    ///< grey
-  std::vector<int> bodyOfPixel;   ///< index of the body; -1: the floor
-  std::vector<int> visiblePixels; ///< of each body
-  std::vector<int> alonePixels;   ///< of each body if it were alone
-};
+/// What a sensor with `quality` measures of a view; no depth where it looks at a surface flatter than 7 degrees.
+/// `camera` is at the origin of the scene.
+OrganizedCloud measureDepth(
+  const View& view, const Camera& camera, const SensorQuality& quality, Random& random, const Progress& progress = {});
 
-/// Renders the bodies: depth, and a grey image with two lamps that cast shadows. Nothing may come
-/// nearer to the sensor than a hundredth of the floor's distance. Throws Error when something does.
-SensorData renderBodies(const std::vector<Body>& bodies, const VirtualSensorSettings& settings, Random& random,
-  const Progress& progress = {});
+/// The image that a camera with `quality` makes of shares of white: grey, or in colour.
+Image takeImage(const std::vector<Eigen::Vector3f>& colors, const Camera& camera, bool colored,
+  const SensorQuality& quality, Random& random);
 }

@@ -70,10 +70,13 @@ class Evaluation:
         self.judge.SetInputDataObject(2, model)  # its symmetries
         self.times = []
 
-    def find(self, surface, edges):
-        """The poses in a scene, best first."""
+    def find(self, surface, edges=None, image=None, camera=None):
+        """The poses in a scene, best first; without edges those of its image, or of an image that a camera beside
+        the sensor took, with that camera's calibration file."""
         self.estimation.SetInputDataObject(1, surface)
         self.estimation.SetInputDataObject(2, edges)
+        self.estimation.SetInputDataObject(3, image)
+        self.estimation.SetCameraFile(camera if image else None)
         poses = vtkPolyData()
         poses.ShallowCopy(scripting.update(self.estimation).GetOutput())
         self.times.append({stage: 1000 * scripting.field(poses, "Seconds" + stage) for stage in scripting.STAGES})

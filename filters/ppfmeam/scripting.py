@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts of examples/ share: files by extension, errors as exceptions, tables and pictures."""
+import json
 import math
 import os
 import re
@@ -10,7 +11,7 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutput
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
-from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOImage import vtkBMPReader, vtkJPEGReader, vtkPNGReader, vtkTIFFReader
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
@@ -19,6 +20,7 @@ from . import filters, meshfiles
 
 READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, ".ply": vtkPLYReader,
            ".stl": vtkSTLReader, ".obj": vtkOBJReader}
+IMAGES = (vtkPNGReader, vtkJPEGReader, vtkBMPReader, vtkTIFFReader)
 WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
 STAGES = ("Training", "SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total")
 
@@ -37,14 +39,14 @@ def run(main):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def update(algorithm, step="Update"):
+def update(algorithm, step="Update", *arguments):
     """Updates an algorithm (or calls another method); what it reports as an error is raised as a Failure."""
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     vtkOutputWindow.SetInstance(window)
     try:
-        getattr(algorithm, step)()
+        getattr(algorithm, step)(*arguments)
     finally:
         vtkOutputWindow.SetInstance(before)
         vtkLogger.SetStderrVerbosity(verbosity)
@@ -86,6 +88,16 @@ def require_folder_of(*paths):
         folder = os.path.dirname(os.path.abspath(path))
         if os.path.isdir(path) or not os.access(folder, os.W_OK):
             raise Failure(f"cannot write {path}: {'it is a folder' if os.path.isdir(path) else 'no such folder'}")
+
+
+def read_json(path):
+    """What a JSON file holds."""
+    require_file(path)
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except ValueError as error:
+        raise Failure(f"{path} is not JSON: {error}") from None
 
 
 def read_with(reader, path):
@@ -133,11 +145,37 @@ def read_mesh(path, offset=(0, 0, 0), scale=1.0):
 
 
 def read_image(path):
-    """The image in a PNG file."""
-    reader = vtkPNGReader()
+    """The image in a PNG, JPEG, BMP or TIFF file."""
     require_file(path)
-    if not reader.CanReadFile(path):
-        raise Failure(f"{path} is not a PNG image")
+    reader = next((kind() for kind in IMAGES if kind().CanReadFile(path)), None)
+    if not reader:
+        raise Failure(f"{path} is not a PNG, JPEG, BMP or TIFF image")
+    if isinstance(reader, vtkTIFFReader):
+        reader.SetOrientationType(4)  # else it turns files upside down whose first row is the upper one
+    return read_with(reader, path)
+
+
+def read_scan(path, scale=1.0, camera=None):
+    """The cloud in a .pcd or .ply file, or the points of a mesh, in mm; with its camera's calibration (a file) a .ply
+    comes back onto the camera's pixels."""
+    extension = os.path.splitext(path)[1].lower()
+    if camera and extension != ".ply":
+        raise Failure(f"{path}: only a .ply cloud is organized with the camera of the sensor")
+    if extension != ".ply":
+        return read(path, scale)
+    if not 0 < scale < float("inf"):
+        raise Failure(f"{path}: the scale has to be a positive number, not {scale}")
+    reader = filters.vtkMEAMPLYReader()
+    reader.SetScale(scale)
+    reader.SetCameraFile(camera)
+    return read_with(reader, path)
+
+
+def read_depth(path, camera, scale=0.0):
+    """The organized cloud of a depth image and its camera's calibration."""
+    reader = filters.vtkMEAMDepthImageReader()
+    reader.SetCameraFile(camera)
+    reader.SetDepthScale(scale)
     return read_with(reader, path)
 
 

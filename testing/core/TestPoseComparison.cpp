@@ -53,7 +53,8 @@ Eigen::Isometry3d quarter(int turns)
 TEST(PoseComparison, TheCutCornerDecidesBetweenTurns)
 {
   const meam::Scene scene = lyingPlate(false);
-  const meam::PoseComparison comparison(plate(), scene);
+  const meam::SceneIndex index(plate(), scene);
+  const meam::PoseComparison comparison(index);
   for (int turns = 1; turns < 4; ++turns)
   {
     const double advantage = comparison.advantage(quarter(0), quarter(turns));
@@ -66,7 +67,8 @@ TEST(PoseComparison, TheCutCornerDecidesBetweenTurns)
 TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
 {
   const meam::Scene scene = lyingPlate(true);
-  const meam::PoseComparison comparison(plate(), scene);
+  const meam::SceneIndex index(plate(), scene);
+  const meam::PoseComparison comparison(index);
   // Turned by 180 degrees the cut would lie where whole surface was seen.
   EXPECT_GT(comparison.advantage(quarter(0), quarter(2)), 5.0);
   const meam::Scene nothing = [&]
@@ -74,10 +76,11 @@ TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
     meam::Scene half = scene;
     const auto far = [](const auto& p) { return std::abs(p.x()) > 10 || std::abs(p.y()) > 10; };
     half.surface.erase(std::remove_if(half.surface.begin(), half.surface.end(), far), half.surface.end());
-    half.edges = {};
+    half.edges = half.edges.subset({ 0 });
+    half.edges.points[0].x() += 1000.0f; // none here
     return half;
   }();
-  EXPECT_LT(std::abs(meam::PoseComparison(plate(), nothing).advantage(quarter(0), quarter(1))), 1.0);
+  EXPECT_LT(std::abs(meam::PoseComparison(meam::SceneIndex(plate(), nothing)).advantage(quarter(0), quarter(1))), 1.0);
 }
 
 TEST(PoseComparison, NearSymmetriesAreSettledInVerification)
@@ -101,5 +104,5 @@ TEST(PoseComparison, EdgesAloneDecide)
 {
   meam::Scene scene = lyingPlate(false);
   scene.surface.clear();
-  EXPECT_GT(meam::PoseComparison(plate(), scene).advantage(quarter(0), quarter(1)), 5.0);
+  EXPECT_GT(meam::PoseComparison(meam::SceneIndex(plate(), scene)).advantage(quarter(0), quarter(1)), 5.0);
 }

@@ -99,6 +99,45 @@ TEST(PoseRefinement, FarFromAnythingThePoseStaysFinite)
   }
 }
 
+TEST(PoseRefinement, TellsHowWellTheSceneFixesThePose)
+{
+  for (const meam::Pose& pose : meam::refinePoses(disturbed(1.0, 1.5), scenes::bracket(), scene()))
+  {
+    EXPECT_EQ(pose.fit.constrained, 6);
+    EXPECT_EQ(pose.fit.iterations, 12);
+    EXPECT_GT(pose.fit.residual, 0.0);
+    EXPECT_LT(pose.fit.residual, 0.01 * scenes::bracket().diameter);
+    EXPECT_TRUE(pose.fit.covariance.isApprox(pose.fit.covariance.transpose()));
+    EXPECT_GT(pose.fit.covariance.diagonal().minCoeff(), 0.0);
+    EXPECT_LT(std::sqrt(pose.fit.covariance.diagonal().tail<3>().maxCoeff()), 0.1) << "mm";
+    EXPECT_LT(std::sqrt(pose.fit.covariance.diagonal().head<3>().maxCoeff()) * 180.0 / M_PI, 0.2) << "degrees";
+  }
+}
+
+TEST(PoseRefinement, AlongASingleEdgeNothingFixesThePose)
+{
+  // One straight edge: it may slide along itself and turn about itself.
+  meam::Scene line = scene();
+  line.surface.clear();
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const Eigen::Vector3f start = (T * Eigen::Vector3d(0, 0, 15)).cast<float>();
+  const Eigen::Vector3f end = (T * Eigen::Vector3d(60, 0, 15)).cast<float>();
+  line.edges = {};
+  for (int k = 0; k <= 40; ++k)
+  {
+    line.edges.points.push_back(start + (end - start) * (k / 40.0f));
+    line.edges.tangents.push_back((end - start).normalized());
+  }
+  meam::Poses pose = disturbed(0.0, 0.0);
+  pose.resize(1);
+  const meam::PoseFit fit = meam::refinePoses(pose, scenes::bracket(), line)[0].fit;
+  EXPECT_EQ(fit.constrained, 4);
+  const Eigen::Vector3d along = (end - start).normalized().cast<double>();
+  const Eigen::Matrix3d shifts = fit.covariance.bottomRightCorner<3, 3>();
+  const Eigen::Vector3d across = along.unitOrthogonal();
+  EXPECT_GT(along.dot(shifts * along), 100.0 * across.dot(shifts * across));
+}
+
 TEST(PoseRefinement, BadInput)
 {
   EXPECT_THROW(meam::refinePoses(disturbed(0, 0), scenes::bracket(), {}), meam::Error);

@@ -97,8 +97,8 @@ TEST(PoseVerification, APartUnderAPlateIsHiddenNotWrong)
   const meam::Pose pose = meam::verifyPoses({ at(T) }, scenes::bracket(), covered)[0];
   EXPECT_LT(pose.visibleFraction, before - 0.2);
   EXPECT_GT(pose.visibleFraction, 0.2);
-  // What is left to see still fits: the score falls no more than the visible share explains.
-  EXPECT_GT(pose.score, 0.75 * std::sqrt(pose.visibleFraction));
+  // What is left to see still fits.
+  EXPECT_GT(pose.score, 0.75);
 }
 
 TEST(PoseVerification, OneInstanceIsReturnedOnce)
@@ -118,12 +118,26 @@ TEST(PoseVerification, OneInstanceIsReturnedOnce)
   ASSERT_EQ(best.size(), 3u);
   for (std::size_t i = 1; i < best.size(); ++i)
   {
-    EXPECT_GE(best[i - 1].score, best[i].score);
+    EXPECT_GE(best[i - 1].probability * std::sqrt(best[i - 1].visibleFraction),
+      best[i].probability * std::sqrt(best[i].visibleFraction));
   }
   settings.maximumPoses = 2;
   EXPECT_EQ(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).size(), 2u);
   settings.minimumScore = 1.1;
   EXPECT_TRUE(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).empty());
+}
+
+TEST(PoseVerification, RightPosesAreLikelyAndWrongOnesAreNot)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const meam::Pose right = meam::verifyPoses({ at(T) }, scenes::bracket(), scene()).at(0);
+  const meam::Pose wrong = meam::verifyPoses({ displaced(T, 9.0, 20.0) }, scenes::bracket(), scene()).at(0);
+  EXPECT_GT(right.probability, 0.9);
+  EXPECT_LT(wrong.probability, 0.1);
+  EXPECT_EQ(meam::confidence(right), right.probability);
+  meam::PoseVerificationSettings settings;
+  settings.minimumProbability = 0.5;
+  EXPECT_EQ(meam::verifyPoses({ at(T), displaced(scenes::threeCopies()[1], 9.0, 20.0) }, scenes::bracket(), scene(), settings).size(), 1u);
 }
 
 TEST(PoseVerification, PosesThatMatchTheSameSurfaceAreOfOneInstance)

@@ -175,3 +175,17 @@ TEST(Symmetries, TheModelsInfoOfABOPDataset)
   EXPECT_NEAR(rows[7], -6.0, 1e-9); // y goes to -6 - y: row-major
   EXPECT_FALSE(nlohmann::json::parse(meam::modelsInfo({}, 1.0, box)).contains("symmetries_discrete"));
 }
+
+TEST(Symmetries, whatIsKnownReplacesTheExactOnes)
+{
+  meam::Symmetries found = hexagon(true);
+  const Eigen::Isometry3d flip = turn(Eigen::Vector3d::UnitX(), 180.0);
+  found.near = { { turn(Eigen::Vector3d::UnitZ(), 61.0), 0.9, 1.0 }, { flip, 0.85, 2.0 } };
+  const meam::Symmetries known = hexagon(false);
+  const meam::Symmetries both = meam::withKnownExact(found, known);
+  EXPECT_EQ(both.discrete.size(), 5u);
+  ASSERT_EQ(both.near.size(), 1u) << "a near turn that is known as an exact one is none";
+  EXPECT_TRUE(both.near[0].T.isApprox(flip));
+  EXPECT_EQ(meam::withKnownExact(found, {}).near.size(), 2u);
+  EXPECT_FALSE(meam::withKnownExact(found, {}).exact());
+}

@@ -1,138 +1,196 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestVirtualCamera.h"
+
 #include "simulation/VirtualSensor.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <numeric>
+
+using namespace meam::test;
 
 namespace
 {
-/// A square plate of side 100 mm around the origin, facing the sensor.
-meam::TriangleMesh plate()
+/// A sensor that makes no errors.
+meam::SensorQuality perfect()
 {
-  meam::TriangleMesh mesh;
-  mesh.vertices = { { -50, -50, 0 }, { 50, -50, 0 }, { 50, 50, 0 }, { -50, 50, 0 } };
-  mesh.triangles = { { 0, 2, 1 }, { 0, 3, 2 } };
-  return mesh;
+  meam::SensorQuality quality;
+  quality.depthNoise = quality.depthStep = quality.dropout = quality.jumpDropout = 0.0;
+  quality.imageNoise = quality.imageBlur = 0.0;
+  quality.matchingWindow = 1;
+  return quality;
 }
 
-meam::Body at(const meam::TriangleMesh& mesh, double x, double z, double tilt = 0.0)
-{
-  meam::Body body{ &mesh, Eigen::Isometry3d::Identity(), 0.6 };
-  body.T_scene_model.translation() << x, 0.0, z;
-  body.T_scene_model.linear() = Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()).matrix();
-  return body;
-}
-
-/// 101 x 101 pixels; a millimetre is 100 / z of them.
-meam::VirtualSensorSettings sensor()
-{
-  meam::VirtualSensorSettings settings;
-  settings.width = settings.height = 101;
-  settings.focalLength = 100.0;
-  settings.floor = 1000.0;
-  return settings;
-}
-
-meam::SensorData render(const std::vector<meam::Body>& bodies, const meam::VirtualSensorSettings& settings = sensor())
+meam::OrganizedCloud measure(const std::vector<meam::Body>& bodies, const meam::SensorQuality& quality)
 {
   meam::Random random(1);
-  return meam::renderBodies(bodies, settings, random);
+  return meam::measureDepth(meam::rasterize(meam::facetsOf(bodies), Floor, camera()), camera(), quality, random);
 }
 
-constexpr int Middle = 50 * 101 + 50;
-}
-
-TEST(VirtualSensor, depthOfAPlate)
+/// The standard deviation of the depth of a plate at z.
+double noiseAt(double z, double depthNoise)
 {
-  const meam::TriangleMesh mesh = plate();
-  const meam::SensorData data = render({ at(mesh, 0.0, 500.0) });
-  ASSERT_EQ(data.cloud.width, 101);
-  ASSERT_EQ(data.cloud.size(), 101u * 101u);
-  EXPECT_EQ(data.cloud.points[Middle], Eigen::Vector3f(0, 0, 500));
-  // 20 pixels wide; pixels whose middle is on the border belong to it.
-  EXPECT_EQ(data.visiblePixels[0], 21 * 21);
-  EXPECT_EQ(data.alonePixels[0], 21 * 21);
-  EXPECT_TRUE(data.cloud.points[Middle + 10].isApprox(Eigen::Vector3f(50, 0, 500)));
-  EXPECT_TRUE(data.cloud.points[Middle + 11].isApprox(Eigen::Vector3f(110, 0, 1000)));
-  EXPECT_EQ(data.bodyOfPixel[Middle + 10], 0);
-  EXPECT_EQ(data.bodyOfPixel[Middle + 11], -1);
-  EXPECT_EQ(data.image.pixels.size(), data.cloud.size());
-}
-
-TEST(VirtualSensor, theNearerPlateHidesTheOther)
-{
-  const meam::TriangleMesh mesh = plate();
-  // At 250 mm a plate is 40 pixels wide; the far one reaches 10 pixels out of its right side.
-  const meam::SensorData data = render({ at(mesh, 100.0, 500.0), at(mesh, 0.0, 250.0) });
-  EXPECT_EQ(data.alonePixels[0], 21 * 21);
-  EXPECT_EQ(data.alonePixels[1], 41 * 41);
-  EXPECT_EQ(data.visiblePixels[0], 21 * 10);
-  EXPECT_EQ(data.visiblePixels[1], 41 * 41);
-}
-
-TEST(VirtualSensor, aTiltedPlateIsExactInPerspective)
-{
-  const meam::TriangleMesh mesh = plate();
-  const double tilt = 0.7;
-  const meam::SensorData data = render({ at(mesh, 10.0, 500.0, tilt) });
-  int seen = 0;
-  for (std::size_t i = 0; i < data.cloud.size(); ++i)
-  {
-    if (data.bodyOfPixel[i] == 0)
-    {
-      // In the plane through (10, 0, 500) with normal (sin, 0, cos).
-      const Eigen::Vector3d d = data.cloud.points[i].cast<double>() - Eigen::Vector3d(10, 0, 500);
-      EXPECT_NEAR(d.x() * std::sin(tilt) + d.z() * std::cos(tilt), 0.0, 1e-3);
-      ++seen;
-    }
-  }
-  EXPECT_GT(seen, 200);
-}
-
-TEST(VirtualSensor, shadingTellsFacesApartAndPlatesCastShadows)
-{
-  const meam::TriangleMesh mesh = plate();
-  const int left = render({ at(mesh, 0.0, 500.0, -0.7) }).image.pixels[Middle];
-  const int right = render({ at(mesh, 0.0, 500.0, 0.7) }).image.pixels[Middle];
-  EXPECT_GT(std::abs(left - right), 20);
-  const meam::SensorData empty = render({});
-  EXPECT_EQ(*std::min_element(empty.image.pixels.begin(), empty.image.pixels.end()),
-    *std::max_element(empty.image.pixels.begin(), empty.image.pixels.end()));
-  const meam::SensorData data = render({ at(mesh, 0.0, 800.0) });
-  int shaded = 0;
-  for (std::size_t i = 0; i < data.cloud.size(); ++i)
-  {
-    shaded += data.bodyOfPixel[i] < 0 && data.image.pixels[i] < 0.8 * empty.image.pixels[i];
-  }
-  EXPECT_GT(shaded, 20);
-}
-
-TEST(VirtualSensor, noiseIsAsAskedFor)
-{
-  meam::VirtualSensorSettings settings = sensor();
-  settings.depthNoise = 0.5;
-  const meam::SensorData data = render({}, settings);
+  const meam::TriangleMesh mesh = plate(1e5f);
+  meam::SensorQuality quality = perfect();
+  quality.depthNoise = depthNoise;
+  meam::Body body = at(mesh, 0.0, z);
+  body.T_scene_model.linear() *= 100.0; // fills the view
   double squares = 0.0;
-  for (const auto& point : data.cloud.points)
+  const meam::OrganizedCloud cloud = measure({ body }, quality);
+  for (const auto& point : cloud.points)
   {
-    const double along = point.cast<double>().norm() - 1000.0 * point.cast<double>().norm() / point.z();
-    squares += along * along;
+    squares += (point.z() - z) * (point.z() - z);
   }
-  EXPECT_NEAR(std::sqrt(squares / data.cloud.size()), 0.5, 0.02);
-  settings.dropout = 1.0;
-  for (const auto& point : render({}, settings).cloud.points)
+  return std::sqrt(squares / cloud.size());
+}
+
+int missing(const meam::OrganizedCloud& cloud)
+{
+  return static_cast<int>(
+    std::count_if(cloud.points.begin(), cloud.points.end(), [](const auto& p) { return std::isnan(p.x()); }));
+}
+}
+
+TEST(VirtualSensor, aPerfectOneMeasuresWhatIsThere)
+{
+  const meam::TriangleMesh mesh = plate();
+  const meam::OrganizedCloud cloud = measure({ at(mesh, 0.0, 500.0) }, perfect());
+  ASSERT_EQ(cloud.width, 101);
+  ASSERT_EQ(cloud.size(), 101u * 101u);
+  EXPECT_EQ(missing(cloud), 0);
+  EXPECT_EQ(cloud.points[Middle], Eigen::Vector3f(0, 0, 500));
+  EXPECT_TRUE(cloud.points[Middle + 10].isApprox(Eigen::Vector3f(50, 0, 500)));
+  EXPECT_TRUE(cloud.points[Middle + 11].isApprox(Eigen::Vector3f(110, 0, 1000)));
+}
+
+TEST(VirtualSensor, noiseGrowsWithTheSquareOfTheDistance)
+{
+  EXPECT_NEAR(noiseAt(900.0, 0.3), 0.3 * 0.81, 0.01);
+  EXPECT_NEAR(noiseAt(450.0, 0.3), 0.3 * 0.2025, 0.0025);
+}
+
+TEST(VirtualSensor, depthComesInSteps)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = perfect();
+  quality.depthNoise = 1.0;
+  quality.depthStep = 0.25;
+  int different = 0;
+  for (const auto& point : measure({ at(mesh, 0.0, 900.0, 0.3) }, quality).points)
   {
-    EXPECT_TRUE(std::isnan(point.x()));
+    EXPECT_NEAR(std::remainder(point.z(), 0.25), 0.0, 1e-4);
+    different += std::abs(point.z() - 900.0) > 0.2 && std::abs(point.z() - 1000.0) > 0.2;
   }
+  EXPECT_GT(different, 100);
+}
+
+TEST(VirtualSensor, dropouts)
+{
+  meam::SensorQuality quality = perfect();
+  quality.dropout = 0.3;
+  EXPECT_NEAR(missing(measure({}, quality)) / 10201.0, 0.3, 0.02);
+  quality.dropout = 1.0;
+  EXPECT_EQ(missing(measure({}, quality)), 10201);
+}
+
+TEST(VirtualSensor, nothingComesFromFlatViews)
+{
+  const meam::TriangleMesh mesh = plate();
+  // To the left of the view's middle and tilted so that its middle is seen at 4 degrees.
+  const double tilt = std::atan2(100.0, 500.0) + (90.0 - 4.0) * M_PI / 180.0;
+  const meam::View view = meam::rasterize(meam::facetsOf({ at(mesh, -100.0, 500.0, -tilt) }), Floor, camera());
+  const meam::OrganizedCloud cloud = measure({ at(mesh, -100.0, 500.0, -tilt) }, perfect());
+  int seen = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    EXPECT_EQ(std::isnan(cloud.points[i].z()), view.bodies[i] == 0);
+    seen += view.bodies[i] == 0;
+  }
+  EXPECT_GT(seen, 10);
+}
+
+TEST(VirtualSensor, jumpsLosePoints)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = perfect();
+  quality.jumpDropout = 1.0;
+  // The border of a square of 21 x 21 pixels, and the pixels around it.
+  EXPECT_EQ(missing(measure({ at(mesh, 0.0, 500.0) }, quality)), 4 * 20 + 4 * 22);
+  quality.jumpDropout = 0.5;
+  EXPECT_NEAR(missing(measure({ at(mesh, 0.0, 500.0) }, quality)), 84, 25);
+}
+
+TEST(VirtualSensor, thinRidgesAreLostAndWideOnesAreNot)
+{
+  meam::SensorQuality quality = perfect();
+  quality.matchingWindow = 9;
+  const auto middleIsLost = [&](float height, double z)
+  {
+    const meam::TriangleMesh ridge = plate(height);
+    return std::isnan(measure({ at(ridge, 0.0, z) }, quality).points[Middle].z());
+  };
+  // 3 pixels of 5 mm, then 7.
+  EXPECT_TRUE(middleIsLost(14.0f, 500.0));
+  EXPECT_FALSE(middleIsLost(34.0f, 500.0));
+  // One that rises by less than the sensor can tell is no ridge.
+  EXPECT_FALSE(middleIsLost(28.0f, 985.0));
+  // A slanted plate is not lost, its straight border neither.
+  const meam::TriangleMesh mesh = plate();
+  const meam::OrganizedCloud cloud = measure({ at(mesh, 0.0, 500.0, 0.9) }, quality);
+  EXPECT_FALSE(std::isnan(cloud.points[Middle].z()));
+  EXPECT_FALSE(std::isnan(cloud.points[Middle - 10 * 101].z()));
+}
+
+TEST(VirtualSensor, anImageIsNoisyAndBlurred)
+{
+  std::vector<Eigen::Vector3f> light(101 * 101, Eigen::Vector3f(0.6f, 0.4f, 0.2f));
+  meam::Random random(1);
+  const meam::Image colored = meam::takeImage(light, camera(), true, perfect(), random);
+  ASSERT_EQ(colored.channels, 3);
+  ASSERT_EQ(colored.pixels.size(), 3u * 101u * 101u);
+  EXPECT_EQ(colored.pixels[3 * Middle], 153);
+  EXPECT_EQ(colored.pixels[3 * Middle + 1], 102);
+  EXPECT_EQ(colored.pixels[3 * Middle + 2], 51);
+
+  light.assign(101 * 101, Eigen::Vector3f::Constant(0.4f));
+  light[Middle].setConstant(0.8f);
+  meam::SensorQuality quality = perfect();
+  quality.imageBlur = 1.0;
+  const meam::Image blurred = meam::takeImage(light, camera(), false, quality, random);
+  ASSERT_EQ(blurred.channels, 1);
+  EXPECT_NEAR(blurred.pixels[Middle], 102 + 102 * 0.16, 1.5);
+  EXPECT_NEAR(blurred.pixels[Middle + 1], 102 + 102 * 0.097, 1.5);
+  EXPECT_EQ(blurred.pixels[Middle + 20], 102);
+
+  quality = perfect();
+  quality.imageNoise = 3.0;
+  const meam::Image noisy = meam::takeImage(light, camera(), false, quality, random);
+  double squares = 0.0;
+  for (const std::uint8_t value : noisy.pixels)
+  {
+    squares += (value - 102.0) * (value - 102.0);
+  }
+  EXPECT_NEAR(std::sqrt(squares / noisy.pixels.size()), 3.2, 0.3);
 }
 
 TEST(VirtualSensor, badInput)
 {
-  const meam::TriangleMesh mesh = plate();
-  EXPECT_THROW(render({ at(mesh, 0.0, 0.0) }), meam::Error);
-  EXPECT_THROW(render({ at(mesh, 0.0, -500.0) }), meam::Error);
+  const auto fails = [](const auto& change)
+  {
+    meam::SensorQuality quality;
+    meam::requireQuality(quality);
+    change(quality);
+    EXPECT_THROW(meam::requireQuality(quality), meam::Error);
+  };
+  fails([](auto& q) { q.depthNoise = -1.0; });
+  fails([](auto& q) { q.depthStep = std::nan(""); });
+  fails([](auto& q) { q.dropout = 1.5; });
+  fails([](auto& q) { q.jumpDropout = -0.1; });
+  fails([](auto& q) { q.matchingWindow = 0; });
+  fails([](auto& q) { q.imageBlur = 1e9; });
+  const meam::View view = meam::rasterize({}, Floor, camera());
   meam::Random random(1);
-  EXPECT_THROW(meam::renderBodies({}, sensor(), random, [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(
+    meam::measureDepth(view, camera(), meam::SensorQuality(), random, [](double) { return false; }), meam::Aborted);
 }

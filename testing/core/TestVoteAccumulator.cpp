@@ -4,25 +4,40 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace
 {
 constexpr double Step = 7.2 * M_PI / 180.0; // 50 bins
 
-/// An entry of the table as voting reads it.
-std::uint32_t entry(std::uint32_t modelPoint, bool against, double degrees)
+std::uint32_t turnOf(double degrees)
 {
-  const auto turn = static_cast<std::uint32_t>(std::lround(degrees / 360.0 * (1 << meam::TurnBits))) & meam::TurnMask;
-  return (modelPoint << (meam::TurnBits + 1)) | ((against ? 1u : 0u) << meam::TurnBits) | turn;
+  return static_cast<std::uint32_t>(std::lround(degrees / 360.0 * (1 << meam::TurnBits))) & meam::TurnMask;
 }
 
-meam::PairTurn sceneTurn(bool against, double degrees) { return entry(0, against, degrees); }
-
-void vote(meam::VoteAccumulator& votes, std::uint32_t one, meam::PairTurn scene, int times = 1)
+/// An entry of the table, and whether it runs against its reference's tangent.
+struct Entry
 {
+  std::uint32_t word;
+  bool against;
+};
+
+Entry entry(std::uint32_t modelPoint, bool against, double degrees)
+{
+  return { (modelPoint << (meam::TurnBits + 1)) | turnOf(degrees), against };
+}
+
+meam::PairTurn sceneTurn(bool against, double degrees)
+{
+  return ((against ? 1u : 0u) << meam::TurnBits) | turnOf(degrees);
+}
+
+void vote(meam::VoteAccumulator& votes, Entry one, meam::PairTurn scene, int times = 1)
+{
+  const meam::VoteBucket bucket{ 0, one.against ? 0u : 1u, 1, scene };
   for (int i = 0; i < times; ++i)
   {
-    votes.vote(&one, &one + 1, scene);
+    votes.vote(&one.word, &bucket, 1);
   }
 }
 }
@@ -82,4 +97,49 @@ TEST(VoteAccumulator, VeryManyVotesDoNotWrap)
   vote(votes, entry(0, false, 0.0), sceneTurn(false, 50.0), 100);
   EXPECT_EQ(votes.peaks(1).at(0).modelPoint, 1);
   EXPECT_GT(votes.peaks(1).at(0).votes, 20000);
+}
+
+TEST(VoteAccumulator, HalvesOfABucketAreCountedApart)
+{
+  // Two entries along, one against, of three model points; the scene pair runs against its tangent.
+  const std::uint32_t entries[] = { entry(9, false, 0.0).word, entry(0, false, 30.0).word, entry(1, false, 30.0).word,
+    entry(2, true, 30.0).word };
+  const meam::VoteBucket bucket{ 1, 3, 4, sceneTurn(true, 100.0) };
+  meam::VoteAccumulator votes(10, Step);
+  votes.vote(entries, &bucket, 1);
+  const auto peaks = votes.peaks(10);
+  ASSERT_EQ(peaks.size(), 3u);
+  EXPECT_TRUE(peaks[0].modelPoint == 0 && peaks[0].flip);
+  EXPECT_TRUE(peaks[1].modelPoint == 1 && peaks[1].flip);
+  EXPECT_TRUE(peaks[2].modelPoint == 2 && !peaks[2].flip);
+  EXPECT_NEAR(peaks[0].alpha * 180.0 / M_PI, 130.0, 2.0 * 7.2);
+  EXPECT_NEAR(peaks[2].alpha * 180.0 / M_PI, 70.0, 2.0 * 7.2);
+}
+
+TEST(VoteAccumulator, LongBucketsCountEveryEntry)
+{
+  std::vector<std::uint32_t> entries;
+  for (int k = 0; k < 1000; ++k)
+  {
+    entries.push_back(entry(k % 7, false, 0.36 * k).word);
+  }
+  const meam::VoteBucket bucket{ 0, 1000, 1000, sceneTurn(false, 0.0) };
+  meam::VoteAccumulator votes(7, Step);
+  votes.vote(entries.data(), &bucket, 1, 1000);
+  votes.vote(entries.data(), &bucket, 1, 100000); // from here on bins might run over
+  int slow[7][50] = {};
+  for (int k = 0; k < 1000; ++k)
+  {
+    const std::uint32_t turn = (0u - (entries[k] & meam::TurnMask)) & meam::TurnMask;
+    slow[k % 7][(turn * 50) >> meam::TurnBits] += 2;
+  }
+  for (const meam::VotePeak& peak : votes.peaks(14))
+  {
+    int most = 0;
+    for (int bin = 0; bin < 50; ++bin)
+    {
+      most = std::max(most, slow[peak.modelPoint][bin] + slow[peak.modelPoint][(bin + 1) % 50] + slow[peak.modelPoint][(bin + 49) % 50]);
+    }
+    EXPECT_EQ(peak.votes, most) << peak.modelPoint;
+  }
 }

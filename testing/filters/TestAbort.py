@@ -1,8 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A filter that is asked to stop stops, reports no error, leaves nothing in its output and works again."""
+import os
+import tempfile
+
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_SHORT
+
 from ppfmeam.filters import (
     vtkMEAMBoundaryExtraction,
+    vtkMEAMDepthImageReader,
     vtkMEAMFeatureEdges,
+    vtkMEAMPLYReader,
     vtkMEAMPoseDetection,
     vtkMEAMPoseEstimation,
     vtkMEAMPoseRefinement,
@@ -10,7 +17,7 @@ from ppfmeam.filters import (
     vtkMEAMTangentEstimation,
     vtkMEAMVisibilityExtraction,
 )
-from meamtest import Errors, MovedView, Trained, bracket, check, connect, is_empty, poses, run
+from meamtest import Errors, MovedView, Trained, bracket, check, connect, is_empty, png, poses, run
 
 trained = Trained(bracket())
 model = run(trained.model)
@@ -22,7 +29,18 @@ exact_views = connect(vtkMEAMVisibilityExtraction(), trained.samples, trained.pr
 exact_views.SetMethodToMeshVisibility()
 exact_edges = connect(vtkMEAMBoundaryExtraction(), exact_views, trained.prepared)
 exact_edges.SetMethodToMeshEdges()
+folder = tempfile.TemporaryDirectory()
+depth_reader, ply_reader = vtkMEAMDepthImageReader(), vtkMEAMPLYReader()
+depth_reader.SetFileName(png(os.path.join(folder.name, "depth.png"), [[(500,)] * 8] * 200, VTK_UNSIGNED_SHORT))
+ply_reader.SetFileName(os.path.join(folder.name, "cloud.ply"))
+ply_reader.SetImageSize(8, 200)
+with open(ply_reader.GetFileName(), "w") as file:
+    file.write("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+               "0 0 500\n")
+for reader in (depth_reader, ply_reader):
+    reader.SetFocalLength(100, 100)
 filters = [
+    depth_reader, ply_reader,
     trained.prepared, trained.samples, trained.views, trained.edges, trained.tangents, trained.symmetries, trained.model,
     connect(vtkMEAMFeatureEdges(), trained.prepared), exact_views, exact_edges,
     connect(vtkMEAMPoseEstimation(), trained.prepared, scene.surface, scene.edges),  # most of it is training

@@ -12,7 +12,7 @@ def bin_of(part=None, **properties):
     filter = vtkMEAMBinSceneSource()
     if part:
         filter.SetInputDataObject(part)
-    for name, value in {**dict(Copies=3, Width=160, Height=120, Dropout=0.01), **properties}.items():
+    for name, value in {**dict(Copies=3, Width=160, Height=120, MatchingWindow=3), **properties}.items():
         getattr(filter, "Set" + name)(value)
     return filter
 
@@ -20,7 +20,7 @@ def bin_of(part=None, **properties):
 part = run(vtkMEAMSamplePartSource())
 source = bin_of()
 scan = run(source)
-truth, mesh = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
+truth, mesh, image = (source.GetOutputDataObject(port) for port in (1, 2, 3))
 size = [0, 0, 0]
 scan.GetDimensions(size)
 check(size == [160, 120, 1], f"the scan is {size}")
@@ -41,7 +41,44 @@ for point, (instance,) in zip(points(scan), tuples(scan, "Instance")):
         check(all(low[c] - 1 < inside[c] < high[c] + 1 for c in range(3)), f"{inside} is not on the part")
         seen += 1
 check(seen > 1000, f"only {seen} pixels show the part")
-check(all(0 < f <= 1 for f, in tuples(truth, "VisibleFraction")), "every copy is seen")
+fractions = [f for f, in tuples(truth, "VisibleFraction")]
+check(all(0 < f <= 1 for f in fractions), "every copy is seen")
+
+# The truth in the image: what is seen of a copy is in its silhouette.
+instances = [int(i) for i, in tuples(scan, "Instance")]
+silhouettes = [value for value, in field(truth, "Silhouettes")]
+place = 0
+for i, (left, top, width, height) in enumerate(tuples(truth, "Box")):
+    left, top, width, height = int(left), int(top), int(width), int(height)
+    mask = silhouettes[place:place + width * height]
+    place += width * height
+    check(set(mask) <= {0, 255} and mask.count(255) == tuples(truth, "Pixels")[i][0], f"the pixels of copy {i}")
+    check(instances.count(i) == tuples(truth, "VisiblePixels")[i][0], f"the visible pixels of copy {i}")
+    check(close([fractions[i]], [instances.count(i) / mask.count(255)]), f"the visible share of copy {i}")
+    seen = [k for k, instance in enumerate(instances) if instance == i]
+    check(all(mask[(k // 160 - top) * width + k % 160 - left] == 255 for k in seen), f"copy {i} is outside")
+check(place == len(silhouettes), "silhouettes of all copies")
+
+# The scan and its image come from one camera, at the origin.
+fx, _, cx, _, fy, cy, _, _, _ = field(scan, "CameraMatrix")[0]
+for i in range(0, 160 * 120, 37):
+    x, y, z = points(scan)[i] if i not in blank else (0, 0, 0)
+    check(z == 0 or (abs(fx * x / z + cx - i % 160) < 0.01 and abs(fy * y / z + cy - i // 160) < 0.01), f"point {i}")
+check(field(image, "CameraMatrix") == field(scan, "CameraMatrix"), "another camera took the image")
+check(field(image, "CameraPose")[0] == tuple(float(k % 5 == 0) for k in range(16)), "the camera is not at the origin")
+grey, whole = tuples(image, "Intensity"), tuples(scan, "Intensity")
+check(grey[-160:] == whole[:160], "the image is upside down")
+
+# A camera beside the sensor, in colour.
+beside = bin_of(Baseline=80, Colored=True)
+beside_scan = run(beside)
+picture = beside.GetOutputDataObject(3)
+check(not beside_scan.GetPointData().HasArray("RGB"), "the scan has the image of another camera")
+check(len(tuples(picture, "RGB")) == 160 * 120, "an image of its own")
+pose = field(picture, "CameraPose")[0]
+check(close([math.dist((0, 0, 0), pose[3::4][:3])], [80]), f"the camera is {pose[3::4]} from the sensor")
+colored = run(bin_of(Colored=True))
+check(len(tuples(colored, "RGB")[0]) == 3 and not colored.GetPointData().HasArray("Intensity"), "an image in colour")
 
 # The same seed is the same scene, another one is not.
 check(tuples(run(bin_of()), "Intensity") == tuples(scan, "Intensity"), "not the same scene again")
@@ -55,4 +92,6 @@ fails(bin_of(vtkPolyData()))
 source.SetBinSize(5)
 fails(source, "fit")
 check(is_empty(truth) and is_empty(mesh), "no truth without a scene")
-prints(source, "Copies", "Seed", "BinSize", "SensorHeight", "Width", "Height", "DepthNoise", "Dropout", "ImageNoise")
+fails(bin_of(part, SensorHeight=10), "raise")
+prints(source, "Copies", "Seed", "BinSize", "SensorHeight", "Width", "Height", "Colored", "Baseline", "DepthNoise",
+       "DepthStep", "Dropout", "JumpDropout", "MatchingWindow", "ImageNoise", "ImageBlur")

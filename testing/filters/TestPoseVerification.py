@@ -130,4 +130,4 @@ filter = vtkMEAMPoseVerification()
 filter.SetParametersToPaper()
 check((filter.GetMethod(), filter.GetTolerance(), filter.GetPosesPerView()) == (0, 1.0, 5), "the paper's parameters")
 prints(filter, "Method", "Tolerance", "MinimumScore", "PosesPerView", "ClusterDistance", "ClusterAngle",
-       "PosesPerInstance", "MaximumNumberOfPoses", "Projection", "ViewDirection", "SensorPosition", "NumberOfThreads")
+       "PosesPerInstance", "MaximumNumberOfPoses", "MinimumProbability", "Projection", "ViewDirection", "SensorPosition", "NumberOfThreads")

@@ -2,6 +2,8 @@
 """A box has three half turns; with a notch it keeps them nearly, and the deviation shows the notch."""
 import json
 import math
+import os
+import tempfile
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
@@ -52,4 +54,17 @@ check(field(run(filter), "NearSymmetries") == [], "none keeps all of the surface
 fails(connect(vtkMEAMSymmetryDetection(), vtkPolyData()), "no points")
 fails(connect(vtkMEAMSymmetryDetection(), cloud([(0, 0, 0), (1, 0, 0), (0, 1, 0)])), "no normals")
 fails(connect(vtkMEAMSymmetryDetection(), image()), "vtkPolyData")
-prints(vtkMEAMSymmetryDetection(), "Tolerance", "LeastOverlap", "ShownNearSymmetry")
+
+# Exact symmetries from a file: the box is said to have one half turn alone.
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "models_info.json")
+    turned = [-1, 0, 0, 30, 0, -1, 0, 20, 0, 0, 1, 0, 0, 0, 0, 1]
+    with open(path, "w") as file:
+        json.dump({"4": {"symmetries_discrete": [turned]}}, file)
+    filter = detection(box(30, 20, 10))
+    filter.SetModelsInfoFile(path)
+    filter.SetObjectId(4)
+    check(field(run(filter), "SymmetriesDiscrete") == [tuple(turned)], "the symmetries of the file")
+    filter.SetObjectId(5)
+    fails(filter, "no object 5")
+prints(vtkMEAMSymmetryDetection(), "Tolerance", "LeastOverlap", "ShownNearSymmetry", "ModelsInfoFile", "ObjectId")

@@ -3,10 +3,11 @@
 import math
 import sys
 
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPartitionedDataSetCollection, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
 from ppfmeam.filters import (
     vtkMEAMBoundaryExtraction,
@@ -213,6 +214,22 @@ def image(width=4, height=3):
     data = vtkImageData()
     data.SetDimensions(width, height, 1)
     return data
+
+
+def png(path, rows, kind=VTK_UNSIGNED_CHAR):
+    """Writes a PNG file of rows of pixels, from the top left; a pixel is a tuple. Returns the path."""
+    data = vtkImageData()
+    data.SetDimensions(len(rows[0]), len(rows), 1)
+    data.AllocateScalars(kind, len(rows[0][0]))
+    for y, row in enumerate(reversed(rows)):
+        for x, pixel in enumerate(row):
+            for c, value in enumerate(pixel):
+                data.SetScalarComponentFromDouble(x, y, 0, c, value)
+    writer = vtkPNGWriter()
+    writer.SetInputData(data)
+    writer.SetFileName(path)
+    writer.Write()
+    return path
 
 
 def tuples(data, name):

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/ImageFile.h"
+
+#include "Error.h"
+#include "io/FileBytes.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+// No file that a camera writes has more pixels, and none of the formats packs more of them into a byte.
+constexpr std::uint64_t MostPixels = 1 << 26;
+constexpr std::uint64_t MostPixelsOfByte = 4096;
+
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+  throw Error("The image '" + path + "' " + what + ".");
+}
+
+struct Size
+{
+  std::uint64_t width = 0;
+  std::uint64_t height = 0;
+};
+
+/// `count` bytes from a place in the file as a whole number; 0 beyond its end.
+std::uint64_t numberAt(const std::string& bytes, std::uint64_t at, int count, bool bigEndian)
+{
+  std::uint64_t value = 0;
+  for (int i = 0; at + count <= bytes.size() && i < count; ++i)
+  {
+    const auto byte = static_cast<unsigned char>(bytes[at + (bigEndian ? i : count - 1 - i)]);
+    value = value << 8 | byte;
+  }
+  return value;
+}
+
+/// The first start-of-frame segment tells the size.
+Size sizeOfJPEG(const std::string& bytes)
+{
+  for (std::uint64_t at = 2; at + 9 < bytes.size() && numberAt(bytes, at, 1, true) == 0xff;)
+  {
+    const std::uint64_t marker = numberAt(bytes, at + 1, 1, true);
+    if (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc)
+    {
+      return { numberAt(bytes, at + 7, 2, true), numberAt(bytes, at + 5, 2, true) };
+    }
+    // 0xff may be repeated in front of a marker.
+    at += marker == 0xff ? 1 : 2 + std::max<std::uint64_t>(numberAt(bytes, at + 2, 2, true), 2);
+  }
+  return {};
+}
+
+/// The tags 256 and 257 of the first directory.
+Size sizeOfTIFF(const std::string& bytes)
+{
+  const bool big = bytes[0] == 'M';
+  const std::uint64_t directory = numberAt(bytes, 4, 4, big);
+  const std::uint64_t tags = numberAt(bytes, directory, 2, big);
+  Size size;
+  for (std::uint64_t tag = 0; tag < tags; ++tag)
+  {
+    const std::uint64_t at = directory + 2 + 12 * tag;
+    const std::uint64_t name = numberAt(bytes, at, 2, big);
+    const int width = numberAt(bytes, at + 2, 2, big) == 3 ? 2 : 4; // short or long
+    if (name == 256 || name == 257)
+    {
+      (name == 256 ? size.width : size.height) = numberAt(bytes, at + 8, width, big);
+    }
+  }
+  return size;
+}
+
+Size sizeOf(const std::string& path, const std::string& bytes)
+{
+  const auto starts = [&](const std::string& magic) { return bytes.compare(0, magic.size(), magic) == 0; };
+  if (starts("\x89PNG\r\n\x1a\n"))
+  {
+    return { numberAt(bytes, 16, 4, true), numberAt(bytes, 20, 4, true) };
+  }
+  if (starts("\xff\xd8"))
+  {
+    return sizeOfJPEG(bytes);
+  }
+  if (starts("BM"))
+  {
+    const auto height = static_cast<std::int32_t>(numberAt(bytes, 22, 4, false));
+    return { numberAt(bytes, 18, 4, false), static_cast<std::uint64_t>(std::abs(static_cast<std::int64_t>(height))) };
+  }
+  if (starts(std::string("II*\0", 4)) || starts(std::string("MM\0*", 4)))
+  {
+    return sizeOfTIFF(bytes);
+  }
+  fail(path, "is not a PNG, JPEG, BMP or TIFF image");
+}
+
+/// The size, once it is sure that the file can have it.
+Size checkedSize(const std::string& path, const std::string& bytes)
+{
+  const Size size = sizeOf(path, bytes);
+  if (size.width == 0 || size.height == 0)
+  {
+    fail(path, "is cut off or damaged: its header has no size");
+  }
+  const std::uint64_t most = std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * bytes.size());
+  if (size.width > most || size.height > most || size.width * size.height > most)
+  {
+    fail(path, "promises " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                 " pixels, more than the file has room for: it is cut off or damaged");
+  }
+  return size;
+}
+
+/// What OpenCV makes of the file, channels and depth as they are.
+cv::Mat decode(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  const Size size = checkedSize(path, bytes);
+  cv::Mat pixels;
+  try
+  {
+    // OpenCV takes a matrix that is not const; it only reads.
+    const cv::Mat file(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+    pixels = cv::imdecode(file, cv::IMREAD_UNCHANGED);
+  }
+  catch (const cv::Exception&)
+  {
+    pixels.release();
+  }
+  if (pixels.cols != static_cast<int>(size.width) || pixels.rows != static_cast<int>(size.height))
+  {
+    fail(path, "is cut off or damaged");
+  }
+  return pixels;
+}
+}
+
+std::array<int, 2> readImageSize(const std::string& path)
+{
+  const Size size = checkedSize(path, readFile(path));
+  return { static_cast<int>(size.width), static_cast<int>(size.height) };
+}
+
+Image readImage(const std::string& path)
+{
+  cv::Mat pixels = decode(path);
+  if (pixels.depth() == CV_16U)
+  {
+    pixels.convertTo(pixels, CV_8U, 1.0 / 257.0);
+  }
+  if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3 && pixels.channels() != 4))
+  {
+    fail(path, "is neither grey nor coloured with 8 or 16 bits");
+  }
+  if (pixels.channels() > 1)
+  {
+    cv::cvtColor(cv::Mat(pixels), pixels, pixels.channels() == 3 ? cv::COLOR_BGR2RGB : cv::COLOR_BGRA2RGB);
+  }
+  Image image;
+  image.width = pixels.cols;
+  image.height = pixels.rows;
+  image.channels = pixels.channels();
+  image.pixels.assign(pixels.datastart, pixels.dataend);
+  return image;
+}
+
+void requireRegistered(const Image& image, const OrganizedCloud& cloud, const std::string& path)
+{
+  if (image.width != cloud.width || image.height != cloud.height)
+  {
+    fail(path, "has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                 " pixels, but the scan has " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
+                 ": it is not registered with the scan");
+  }
+}
+
+Image16 readImage16(const std::string& path)
+{
+  const cv::Mat pixels = decode(path);
+  if (pixels.type() != CV_16UC1)
+  {
+    fail(path, "has " + std::to_string(pixels.channels()) + " channels of " + std::to_string(8 * pixels.elemSize1()) +
+                 " bits: a depth image has one of 16 bits");
+  }
+  Image16 image;
+  image.width = pixels.cols;
+  image.height = pixels.rows;
+  image.pixels.assign(pixels.begin<std::uint16_t>(), pixels.end<std::uint16_t>());
+  return image;
+}
+}

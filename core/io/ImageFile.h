@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene/OrganizedCloud.h"
+
+#include <array>
+#include <string>
+
+namespace meam
+{
+/// Width and height of a PNG, JPEG, BMP or TIFF image, as its header promises them. Throws Error, naming the file,
+/// for another kind of file and for a size that its bytes cannot hold.
+std::array<int, 2> readImageSize(const std::string& path);
+
+/// Reads a grey or colour image: PNG, JPEG, BMP or TIFF. An alpha channel is dropped; 16 bit images use their
+/// whole range. Throws Error, naming the file and what is wrong with it; allocates no more than its length
+/// justifies.
+Image readImage(const std::string& path);
+
+/// Throws Error, naming the image's file, unless it has a pixel for each point of the cloud.
+void requireRegistered(const Image& image, const OrganizedCloud& cloud, const std::string& path);
+
+/// The values of an image of one channel, row by row, 16 bits each.
+struct Image16
+{
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint16_t> pixels;
+};
+
+/// Reads an image of one channel and 16 bits (PNG or TIFF), as depth images are. Throws Error as readImage().
+Image16 readImage16(const std::string& path);
+}

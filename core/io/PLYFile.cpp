@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/PLYFile.h"
+
+#include "io/FileBytes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <sstream>
+#include <string_view>
+
+namespace meam
+{
+namespace
+{
+enum class Type
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Float,
+  Double
+};
+
+struct Property
+{
+  std::string name;
+  Type type = Type::Float;
+  bool list = false;
+  Type countType = Type::UInt8; ///< of a list
+};
+
+struct Element
+{
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Encoding
+{
+  Ascii,
+  LittleEndian,
+  BigEndian
+};
+
+struct Header
+{
+  Encoding encoding = Encoding::Ascii;
+  std::vector<Element> elements;
+  std::size_t dataAt = 0; ///< position in the file
+};
+
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+  throw Error("The PLY file '" + path + "' " + what + ".");
+}
+
+std::size_t sizeOf(Type type)
+{
+  constexpr std::size_t sizes[] = { 1, 1, 2, 2, 4, 4, 4, 8 };
+  return sizes[static_cast<int>(type)];
+}
+
+Type typeOf(const std::string& path, const std::string& name)
+{
+  constexpr const char* names[][2] = { { "char", "int8" }, { "uchar", "uint8" }, { "short", "int16" },
+    { "ushort", "uint16" }, { "int", "int32" }, { "uint", "uint32" }, { "float", "float32" }, { "double", "float64" } };
+  for (int i = 0; i < 8; ++i)
+  {
+    if (name == names[i][0] || name == names[i][1])
+    {
+      return static_cast<Type>(i);
+    }
+  }
+  fail(path, "has a property of the unknown type '" + name.substr(0, 40) + "'");
+}
+
+Property propertyOf(const std::string& path, std::istringstream& words)
+{
+  Property property;
+  std::string type;
+  words >> type;
+  property.list = type == "list";
+  if (property.list)
+  {
+    std::string countType;
+    words >> countType >> type;
+    property.countType = typeOf(path, countType);
+  }
+  property.type = typeOf(path, type);
+  words >> property.name;
+  return property;
+}
+
+Header parseHeader(const std::string& path, const std::string& bytes)
+{
+  Header header;
+  bool first = true;
+  bool hasFormat = false;
+  for (std::string key; key != "end_header"; first = false)
+  {
+    const std::size_t end = bytes.find('\n', header.dataAt);
+    std::istringstream words(bytes.substr(header.dataAt, end == std::string::npos ? end : end - header.dataAt));
+    key.clear();
+    words >> key;
+    if (first && key != "ply")
+    {
+      fail(path, "does not start with ply: it is not a PLY file");
+    }
+    if (end == std::string::npos)
+    {
+      fail(path, "has no line end_header: it is cut off");
+    }
+    header.dataAt = end + 1;
+    std::string value;
+    if (key == "format")
+    {
+      words >> value;
+      hasFormat = true;
+      header.encoding = value == "ascii"               ? Encoding::Ascii
+                        : value == "binary_big_endian" ? Encoding::BigEndian
+                                                       : Encoding::LittleEndian;
+      if (header.encoding == Encoding::LittleEndian && value != "binary_little_endian")
+      {
+        fail(path, "has the unknown format '" + value.substr(0, 40) + "'");
+      }
+    }
+    else if (key == "element")
+    {
+      header.elements.emplace_back();
+      words >> header.elements.back().name >> value;
+      const auto [stop, failure] =
+        std::from_chars(value.data(), value.data() + value.size(), header.elements.back().count);
+      if (failure != std::errc() || stop != value.data() + value.size())
+      {
+        fail(path, "has an element whose number is '" + value.substr(0, 40) + "'");
+      }
+    }
+    else if (key == "property")
+    {
+      if (header.elements.empty())
+      {
+        fail(path, "has a property before the first element");
+      }
+      header.elements.back().properties.push_back(propertyOf(path, words));
+    }
+    else if (!first && key != "comment" && key != "obj_info" && key != "end_header")
+    {
+      fail(path, "has an unknown header line '" + key.substr(0, 40) + "'");
+    }
+  }
+  if (!hasFormat)
+  {
+    fail(path, "has no line format in its header");
+  }
+  return header;
+}
+
+const Element* verticesOf(const Header& header)
+{
+  const auto found = std::find_if(
+    header.elements.begin(), header.elements.end(), [](const Element& element) { return element.name == "vertex"; });
+  return found == header.elements.end() ? nullptr : &*found;
+}
+
+/// Takes one value after the other from the file's data, whatever the encoding.
+class Values
+{
+public:
+  Values(const std::string& path, const std::string& bytes, const Header& header)
+    : Path(path)
+    , Rest(std::string_view(bytes).substr(header.dataAt))
+    , Form(header.encoding)
+  {
+  }
+
+  double next(Type type) { return this->Form == Encoding::Ascii ? this->text() : this->binary(type); }
+
+  /// Fails unless the rest of the file has room for so many values of one of these types each.
+  void requireRoom(std::uint64_t times, const std::vector<Property>& properties)
+  {
+    std::size_t bytes = 0;
+    for (const Property& property : properties)
+    {
+      // A value of a text takes a character and one between two of them.
+      bytes += this->Form == Encoding::Ascii ? 2 : sizeOf(property.list ? property.countType : property.type);
+    }
+    const std::size_t rest = this->Rest.size() + (this->Form == Encoding::Ascii ? 1 : 0);
+    if (bytes > 0 && times > rest / bytes)
+    {
+      this->cutOff();
+    }
+  }
+
+private:
+  [[noreturn]] void cutOff() const { fail(this->Path, "is cut off: it promises more than it has room for"); }
+
+  double text()
+  {
+    constexpr const char* blanks = " \t\r\n";
+    this->Rest.remove_prefix(std::min(this->Rest.find_first_not_of(blanks), this->Rest.size()));
+    std::string_view word = this->Rest.substr(0, this->Rest.find_first_of(blanks));
+    if (word.empty())
+    {
+      this->cutOff();
+    }
+    this->Rest.remove_prefix(word.size());
+    const std::string shown(word.substr(0, 40));
+    if (word[0] == '+')
+    {
+      word.remove_prefix(1);
+    }
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (failure != std::errc() || end != word.data() + word.size())
+    {
+      fail(this->Path, "has a value that is not a number: '" + shown + "'");
+    }
+    return value;
+  }
+
+  double binary(Type type)
+  {
+    const std::size_t size = sizeOf(type);
+    if (this->Rest.size() < size)
+    {
+      this->cutOff();
+    }
+    char bytes[8] = {};
+    std::copy_n(this->Rest.data(), size, bytes);
+    this->Rest.remove_prefix(size);
+    if (this->Form == Encoding::BigEndian)
+    {
+      std::reverse(bytes, bytes + size);
+    }
+    switch (type)
+    {
+      case Type::Int8:
+        return load<std::int8_t>(bytes);
+      case Type::UInt8:
+        return load<std::uint8_t>(bytes);
+      case Type::Int16:
+        return load<std::int16_t>(bytes);
+      case Type::UInt16:
+        return load<std::uint16_t>(bytes);
+      case Type::Int32:
+        return load<std::int32_t>(bytes);
+      case Type::UInt32:
+        return load<std::uint32_t>(bytes);
+      case Type::Float:
+        return static_cast<double>(load<float>(bytes));
+      default:
+        return load<double>(bytes);
+    }
+  }
+
+  template <typename T>
+  static T load(const char* bytes)
+  {
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return value;
+  }
+
+  const std::string& Path;
+  std::string_view Rest;
+  Encoding Form;
+};
+
+/// Goes through an element; `take` gets the record's number and its values, those of lists left out.
+template <typename Take>
+void forEachRecord(const std::string& path, Values& values, const Element& element, const Take& take)
+{
+  values.requireRoom(element.count, element.properties);
+  // A record without properties takes no room: there is nothing in it.
+  const std::uint64_t count = element.properties.empty() ? 0 : element.count;
+  std::vector<double> record(element.properties.size(), 0.0);
+  for (std::uint64_t i = 0; i < count; ++i)
+  {
+    for (std::size_t k = 0; k < element.properties.size(); ++k)
+    {
+      const Property& property = element.properties[k];
+      record[k] = values.next(property.list ? property.countType : property.type);
+      if (!property.list)
+      {
+        continue;
+      }
+      if (!(record[k] >= 0.0 && record[k] <= std::numeric_limits<std::uint32_t>::max()) ||
+          record[k] != std::floor(record[k]))
+      {
+        fail(path, "has a list of an impossible length");
+      }
+      for (std::uint64_t entry = 0; entry < static_cast<std::uint64_t>(record[k]); ++entry)
+      {
+        values.next(property.type);
+      }
+    }
+    take(i, record);
+  }
+}
+
+/// The place of a property among the element's, or -1.
+int find(const Element& element, std::initializer_list<const char*> names)
+{
+  for (const char* name : names)
+  {
+    for (std::size_t k = 0; k < element.properties.size(); ++k)
+    {
+      if (element.properties[k].name == name && !element.properties[k].list)
+      {
+        return static_cast<int>(k);
+      }
+    }
+  }
+  return -1;
+}
+
+/// Places of the properties that belong to a point; -1 where there is none.
+struct Layout
+{
+  int point[3];
+  int normal[3];
+  int color[3];
+  int intensity;
+  double colorScale; ///< to 0..255
+
+  explicit Layout(const Element& vertex)
+    : point{ find(vertex, { "x" }), find(vertex, { "y" }), find(vertex, { "z" }) }
+    , normal{ find(vertex, { "nx" }), find(vertex, { "ny" }), find(vertex, { "nz" }) }
+    , color{ find(vertex, { "red" }), find(vertex, { "green" }), find(vertex, { "blue" }) }
+    , intensity(find(vertex, { "intensity", "gray", "scalar_intensity", "scalar_Intensity" }))
+  {
+    const Type type = this->color[0] < 0 ? Type::UInt8 : vertex.properties[this->color[0]].type;
+    this->colorScale = type == Type::Float || type == Type::Double ? 255.0 : type == Type::UInt16 ? 1.0 / 257.0 : 1.0;
+  }
+
+  static bool whole(const int places[3]) { return places[0] >= 0 && places[1] >= 0 && places[2] >= 0; }
+};
+
+Eigen::Vector3f vectorOf(const std::vector<double>& record, const int places[3])
+{
+  return Eigen::Vector3d(record[places[0]], record[places[1]], record[places[2]]).cast<float>();
+}
+}
+
+MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
+{
+  const std::string bytes = readFile(path);
+  report(progress, 0.0);
+  const Header header = parseHeader(path, bytes);
+  const Element* vertex = verticesOf(header);
+  if (!vertex || vertex->count == 0)
+  {
+    fail(path, "has no points");
+  }
+  const Layout layout(*vertex);
+  if (!Layout::whole(layout.point))
+  {
+    fail(path, "has no properties x, y and z of its points");
+  }
+  if (vertex->count > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+  {
+    fail(path, "promises an impossible number of points");
+  }
+
+  Values values(path, bytes, header);
+  for (const Element* before = header.elements.data(); before != vertex; ++before)
+  {
+    forEachRecord(path, values, *before, [](std::uint64_t, const std::vector<double>&) {});
+  }
+  MeasuredCloud result;
+  const auto take = [&](std::uint64_t i, const std::vector<double>& record)
+  {
+    result.cloud.points.push_back(vectorOf(record, layout.point));
+    if (Layout::whole(layout.normal))
+    {
+      result.normals.push_back(vectorOf(record, layout.normal));
+    }
+    if (layout.intensity >= 0)
+    {
+      result.intensities.push_back(static_cast<float>(record[layout.intensity]));
+    }
+    for (int k = 0; k < 3 && Layout::whole(layout.color); ++k)
+    {
+      const double value = std::round(layout.colorScale * record[layout.color[k]]);
+      result.colors.push_back(value > 0.0 ? static_cast<std::uint8_t>(std::min(value, 255.0)) : 0); // NaN is black
+    }
+    if (i % 65536 == 0)
+    {
+      report(progress, static_cast<double>(i) / static_cast<double>(vertex->count));
+    }
+  };
+  forEachRecord(path, values, *vertex, take);
+  result.cloud.width = static_cast<int>(result.cloud.size());
+  result.cloud.height = 1;
+  report(progress, 1.0);
+  return result;
+}
+
+bool isPLYCloud(const std::string& path)
+{
+  try
+  {
+    const Header header = parseHeader(path, readFile(path));
+    const Element* vertex = verticesOf(header);
+    return vertex && vertex->count > 0 &&
+           std::none_of(header.elements.begin(), header.elements.end(),
+             [](const Element& element) { return element.name == "face" && element.count > 0; });
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+}

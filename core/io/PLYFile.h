@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "scene/MeasuredCloud.h"
+
+#include <string>
+
+namespace meam
+{
+/// Reads the points of a PLY file (ascii or binary) as a cloud that is not organized, in the file's own unit:
+/// x y z, normals from nx ny nz, intensities from intensity, gray or scalar_intensity, colours from red green blue;
+/// faces and what else there may be are skipped. Colours in floats go from 0 to 1. Throws Error, naming the
+/// file and what is wrong with it; allocates no more than the length of the file justifies.
+MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress = {});
+
+/// Whether the file's header is that of a PLY file with points and no faces; false for one that cannot be read.
+bool isPLYCloud(const std::string& path);
+}

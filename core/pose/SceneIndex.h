@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "PointGrid.h"
+#include "pose/DepthMap.h"
+#include "pose/PartView.h"
+#include "pose/Scene.h"
+
+namespace meam
+{
+/// A scene and a part with what judging and refining poses looks up in them: built once for all steps. Keeps references
+/// to both; calls may run in parallel.
+struct SceneIndex
+{
+  /// Throws Error when the scene has no edges, or edges without tangents.
+  SceneIndex(const TrainedModel& model, const Scene& scene);
+
+  const TrainedModel& model;
+  const Scene& scene;
+  PartView view;
+  PointGrid edges;   ///< of the scene's edge points
+  DepthMap depth;    ///< of its surface
+  PointGrid surface; ///< of depth.means()
+};
+}

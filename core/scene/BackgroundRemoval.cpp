@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/BackgroundRemoval.h"
+
+#include "Random.h"
+#include "scene/GridSurface.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace meam
+{
+namespace
+{
+using Plane = Eigen::Hyperplane<float, 3>;
+
+constexpr double PointsInTolerance = 2.0;
+constexpr double NoiseInTolerance = 3.0;
+constexpr std::size_t EnoughPoints = 10000; // to find planes among
+constexpr int Tries = 3;                    // planes looked at for each one that may go
+constexpr double MostBehind = 0.03;         // of the points: dirt and wrong points behind the floor
+constexpr int MostSamples = 2000;
+constexpr double MissedOnce = 0.001; // probability that no sample of RANSAC lies on the largest plane
+
+void check(const OrganizedCloud& cloud, const Image* mask, const BackgroundRemovalSettings& settings)
+{
+  requirePoints(cloud.points, "The scene");
+  if (cloud.height <= 1 || cloud.width <= 1 || cloud.size() != static_cast<std::size_t>(cloud.width) * cloud.height)
+  {
+    throw Error("The scene is not organized: its background is removed from a grid of width x height points.");
+  }
+  if (mask && (mask->width != cloud.width || mask->height != cloud.height ||
+                mask->pixels.size() != cloud.size() * static_cast<std::size_t>(mask->channels)))
+  {
+    throw Error("The mask is " + std::to_string(mask->width) + " x " + std::to_string(mask->height) +
+                " pixels but the cloud is " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
+                " points: give a mask with a pixel for each point.");
+  }
+  if (settings.planes < 0 || settings.planes > 20 || !(settings.tolerance >= 0.0) ||
+      !std::isfinite(settings.tolerance) || !(settings.leastShare >= 0.0 && settings.leastShare <= 100.0))
+  {
+    throw Error("Settings of the background are out of range: 0 to 20 planes, a tolerance of 0 mm or more, and a least "
+                "share of 0 to 100 %.");
+  }
+}
+
+/// Up to EnoughPoints of the indices, spread evenly over them.
+std::vector<int> spread(const std::vector<int>& indices)
+{
+  const std::size_t count = std::min(indices.size(), EnoughPoints);
+  std::vector<int> result;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    result.push_back(indices[i * indices.size() / count]);
+  }
+  return result;
+}
+
+/// The plane through points with the least sum of squared distances; its normal points to the origin.
+Plane fittedPlane(const Points& points)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& point : points)
+  {
+    mean += point.cast<double>();
+  }
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& point : points)
+  {
+    const Eigen::Vector3d d = point.cast<double>() - mean;
+    covariance += d * d.transpose();
+  }
+  Eigen::Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  normal *= normal.dot(mean) > 0.0 ? -1.0 : 1.0;
+  return { normal.cast<float>().normalized(), static_cast<float>(-normal.dot(mean)) };
+}
+
+/// The plane with the most points within the tolerance (RANSAC, then least squares); false when there is none.
+bool largestPlane(const Points& points, double tolerance, Plane& plane)
+{
+  const auto near = [&](const Plane& candidate)
+  {
+    return [&candidate, limit = static_cast<float>(tolerance)](const Eigen::Vector3f& point)
+    { return candidate.absDistance(point) <= limit; };
+  };
+  Random random(1);
+  std::ptrdiff_t most = 2;
+  double samples = MostSamples; // needed, as the largest plane so far tells
+  for (int sample = 0; sample < samples && points.size() >= 3; ++sample)
+  {
+    const Eigen::Vector3f& a = points[random.index(points.size())];
+    const Eigen::Vector3f& b = points[random.index(points.size())];
+    const Eigen::Vector3f& c = points[random.index(points.size())];
+    const Eigen::Vector3f normal = (b - a).cross(c - a);
+    if (!(normal.norm() > 1e-3f * (b - a).norm() * (c - a).norm()))
+    {
+      continue; // on a line
+    }
+    const Plane candidate(normal.normalized(), a);
+    const std::ptrdiff_t count = std::count_if(points.begin(), points.end(), near(candidate));
+    if (count > most)
+    {
+      most = count;
+      plane = candidate;
+      const double share = static_cast<double>(count) / static_cast<double>(points.size());
+      samples = std::min(samples, std::log(MissedOnce) / std::log(1.0 - std::min(std::pow(share, 3.0), 0.999)));
+    }
+  }
+  if (most < 3)
+  {
+    return false;
+  }
+  Points inliers;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(inliers), near(plane));
+  plane = fittedPlane(inliers);
+  return true;
+}
+}
+
+BackgroundRemoval removeBackground(const OrganizedCloud& cloud, const Image* mask,
+  const BackgroundRemovalSettings& settings, const Progress& progress)
+{
+  check(cloud, mask, settings);
+  report(progress, 0.0);
+  BackgroundRemoval result{ cloud, std::vector<Background>(cloud.size(), Background::Kept), {} };
+  std::vector<int> left;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (!cloud.points[i].allFinite())
+    {
+      continue;
+    }
+    const std::size_t pixel = mask ? i * static_cast<std::size_t>(mask->channels) : 0;
+    if (mask && std::all_of(&mask->pixels[pixel], &mask->pixels[pixel] + mask->channels, [](int v) { return v == 0; }))
+    {
+      result.reasons[i] = Background::Masked;
+    }
+    else if (!settings.region.isEmpty() && !settings.region.contains(cloud.points[i]))
+    {
+      result.reasons[i] = Background::Outside;
+    }
+    else
+    {
+      left.push_back(static_cast<int>(i));
+    }
+  }
+
+  const GridScale scale = gridScale(cloud);
+  const double tolerance = settings.tolerance > 0.0
+    ? settings.tolerance
+    : PointsInTolerance * scale.pointDistance + NoiseInTolerance * scale.noise;
+  const double fewest = std::max(3.0, settings.leastShare / 100.0 * static_cast<double>(left.size()));
+  std::vector<int> candidates = spread(left); // those of a plane that stays are not looked at again
+  const auto on = [&](const Plane& plane) {
+    return [&plane, &cloud, tolerance](int i) { return std::abs(plane.signedDistance(cloud.points[i])) <= tolerance; };
+  };
+  for (int k = 0; k < Tries * settings.planes && static_cast<int>(result.planes.size()) < settings.planes; ++k)
+  {
+    report(progress, static_cast<double>(k) / (Tries * settings.planes));
+    Points points;
+    for (const int i : candidates)
+    {
+      points.push_back(cloud.points[i]);
+    }
+    Plane plane;
+    if (!largestPlane(points, tolerance, plane))
+    {
+      break;
+    }
+    const auto size = static_cast<double>(std::count_if(left.begin(), left.end(), on(plane)));
+    const auto behind = static_cast<double>(std::count_if(
+      left.begin(), left.end(), [&](int i) { return plane.signedDistance(cloud.points[i]) < -tolerance; }));
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), on(plane)), candidates.end());
+    if (size < fewest || behind > MostBehind * static_cast<double>(left.size()))
+    {
+      continue;
+    }
+    result.planes.push_back(plane);
+    for (const int i : left)
+    {
+      if (on(plane)(i))
+      {
+        result.reasons[i] = Background::Plane;
+      }
+    }
+    left.erase(std::remove_if(left.begin(), left.end(), on(plane)), left.end());
+  }
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (result.reasons[i] != Background::Kept)
+    {
+      result.cloud.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+  report(progress, 1.0);
+  return result;
+}
+}

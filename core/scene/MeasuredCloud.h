@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene/OrganizedCloud.h"
+
+namespace meam
+{
+/// A cloud with what a sensor says of each point; an array is empty when it says nothing. A cloud of height 1
+/// is not organized.
+struct MeasuredCloud
+{
+  OrganizedCloud cloud;
+  Points normals;
+  std::vector<float> intensities;   ///< grey values of any range
+  std::vector<std::uint8_t> colors; ///< red, green, blue of each point
+};
+}

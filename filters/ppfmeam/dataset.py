@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads datasets in the form of the BOP benchmark, and writes results as the benchmark wants them."""
+import csv
+import os
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkFiltersCore import vtkThresholdPoints
+
+from . import filters, scripting
+
+BESIDE = ("rgb_beside", "gray_beside")  # images of the camera of image_camera.json, where the sensor has none
+
+
+class Image:
+    """An image of a dataset: the organized scan, the true poses of all objects, and the image that a camera beside the
+    sensor took, or None."""
+
+    def __init__(self, scan, truth, folder):
+        self.scan, self.truth = vtkStructuredGrid(), vtkPolyData()
+        self.scan.ShallowCopy(scan)
+        self.truth.ShallowCopy(truth)
+        self.scene, self.number = (int(scripting.field(scan, name)) for name in ("SceneId", "ImageId"))
+        paths = (os.path.join(folder, kind, f"{self.number:06d}.png") for kind in BESIDE)
+        path = next(filter(os.path.exists, paths), None)
+        self.beside = scripting.read_image(path) if path else None
+
+    def truth_of(self, number):
+        """The true poses of an object; no points where it is not in the image or nothing is known of it."""
+        if self.truth.GetNumberOfPoints() == 0:
+            return self.truth
+        objects = vtkThresholdPoints()
+        objects.SetInputData(self.truth)
+        objects.SetInputArrayToProcess(0, 0, 0, vtkPolyData.FIELD_ASSOCIATION_POINTS, "ObjectId")
+        objects.ThresholdBetween(number, number)
+        return scripting.update(objects).GetOutput()
+
+
+class Dataset:
+    """The folder of a dataset: models/, and the scenes of a split."""
+
+    def __init__(self, path, split="test"):
+        self.path, self.split = path, os.path.join(path, split)
+        if not os.path.isdir(self.split):
+            raise scripting.Failure(f"{path} has no folder {split}: give a BOP dataset, and the --split of it to use")
+
+    def objects(self):
+        """The numbers of all objects in models/."""
+        models = os.path.join(self.path, "models")
+        names = os.listdir(models) if os.path.isdir(models) else ()
+        numbers = sorted(int(name[4:-4]) for name in names if name[:4] + name[-4:] == "obj_.ply" and name[4:-4].isdigit())
+        if not numbers:
+            raise scripting.Failure(f"{models} has no obj_000001.ply or other object")
+        return numbers
+
+    def train(self, number, preset):
+        """The trained model of an object, with the symmetries of models_info.json where that knows it."""
+        models = os.path.join(self.path, "models")
+        training = scripting.Training(scripting.read_mesh(os.path.join(models, f"obj_{number:06d}.ply")), preset)
+        info = os.path.join(models, "models_info.json")
+        if str(number) in (scripting.read_json(info) if os.path.exists(info) else ()):
+            training.symmetries.SetModelsInfoFile(info)
+            training.symmetries.SetObjectId(number)
+        return training.model()
+
+    def beside(self):
+        """The calibration of the camera beside the sensor, or None."""
+        path = os.path.join(self.path, "image_camera.json")
+        return path if os.path.exists(path) else None
+
+    def scenes(self):
+        """The numbers of all scenes."""
+        return sorted(int(name) for name in os.listdir(self.split) if name.isdigit())
+
+    def scene(self, number):
+        """A scene by its number."""
+        return Scene(os.path.join(self.split, f"{number:06d}"))
+
+
+class Scene:
+    """The images of a scene: one for each of its `steps`."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.reader = filters.vtkMEAMBOPReader()
+        self.reader.SetFileName(folder)
+        scripting.update(self.reader, "UpdateInformation")
+        steps = self.reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+        self.steps = steps or (0,)  # reading it says what is wrong with a scene that has none
+
+    def image(self, step):
+        """The image of a step."""
+        scripting.update(self.reader, "UpdateTimeStep", step)
+        return Image(self.reader.GetOutputDataObject(0), self.reader.GetOutputDataObject(1), self.folder)
+
+
+class Results:
+    """A file of results, written as the rows come."""
+
+    def __init__(self, file):
+        self.writer = csv.writer(file, lineterminator="\n")
+        self.writer.writerow(("scene_id", "im_id", "obj_id", "score", "R", "t", "time"))
+
+    def add(self, image, found, most):
+        """The poses of each object (number, poses best first) in an image, no more than `most` of each; 0: all."""
+        seconds = sum(scripting.field(poses, "SecondsTotal") - scripting.field(poses, "SecondsTraining")
+                      for poses in found.values())
+        for number, poses in found.items():
+            scores, transforms = (poses.GetPointData().GetArray(name) for name in ("Score", "Transform"))
+            count = poses.GetNumberOfPoints()
+            for i in range(min(count, most) if most else count):
+                T = transforms.GetTuple(i)
+                R, t = (*T[0:3], *T[4:7], *T[8:11]), (T[3], T[7], T[11])
+                self.writer.writerow((image.scene, image.number, number, repr(scores.GetValue(i)),
+                                      " ".join(map(repr, R)), " ".join(map(repr, t)), repr(seconds)))

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMBackgroundRemoval.h"
+
+#include "scene/BackgroundRemoval.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <limits>
+
+vtkStandardNewMacro(vtkMEAMBackgroundRemoval);
+
+namespace
+{
+Eigen::AlignedBox3f boxOf(const double region[6])
+{
+  constexpr float endless = std::numeric_limits<float>::infinity();
+  Eigen::AlignedBox3f box(Eigen::Vector3f::Constant(-endless), Eigen::Vector3f::Constant(endless));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double low = region[2 * axis];
+    const double high = region[2 * axis + 1];
+    if (!(low <= high))
+    {
+      throw meam::Error("The region's least value along an axis is above its greatest one: give xmin, xmax, ymin, ymax, "
+                        "zmin, zmax.");
+    }
+    if (low < high)
+    {
+      box.min()[axis] = static_cast<float>(low);
+      box.max()[axis] = static_cast<float>(high);
+    }
+  }
+  return box;
+}
+}
+
+vtkMEAMBackgroundRemoval::vtkMEAMBackgroundRemoval() { this->SetNumberOfInputPorts(2); }
+
+int vtkMEAMBackgroundRemoval::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkStructuredGrid" : "vtkImageData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMEAMBackgroundRemoval::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  // Planes are found in the whole scan, whatever part of the output somebody asks for.
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  return 1;
+}
+
+int vtkMEAMBackgroundRemoval::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  auto* scene = vtkStructuredGrid::GetData(inputVector[0]);
+  auto* maskInput = vtkImageData::GetData(inputVector[1]);
+  auto* output = vtkStructuredGrid::GetData(outputVector, 0);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      meam::BackgroundRemovalSettings settings;
+      settings.region = boxOf(this->Region);
+      settings.planes = this->NumberOfPlanes;
+      settings.tolerance = this->Tolerance;
+      settings.leastShare = this->LeastShare;
+      const meam::OrganizedCloud cloud = vtkMEAMConversion::toOrganizedCloud(scene);
+      meam::Image mask;
+      if (maskInput)
+      {
+        mask = vtkMEAMConversion::toImage(maskInput);
+      }
+      const meam::BackgroundRemoval found = meam::removeBackground(
+        cloud, maskInput ? &mask : nullptr, settings, vtkMEAMConversion::progressOf(this));
+
+      output->GetPointData()->ShallowCopy(scene->GetPointData());
+      output->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+      output->GetFieldData()->ShallowCopy(scene->GetFieldData());
+      vtkMEAMConversion::fromOrganizedCloud(found.cloud, output);
+      vtkNew<vtkUnsignedCharArray> reasons;
+      reasons->SetName("Background");
+      reasons->SetNumberOfTuples(static_cast<vtkIdType>(found.reasons.size()));
+      std::transform(found.reasons.begin(), found.reasons.end(), reasons->GetPointer(0),
+        [](meam::Background reason) { return static_cast<unsigned char>(reason); });
+      output->GetPointData()->AddArray(reasons);
+      vtkNew<vtkDoubleArray> planes;
+      planes->SetName("Planes");
+      planes->SetNumberOfComponents(4);
+      for (const auto& plane : found.planes)
+      {
+        const Eigen::Vector4d numbers = plane.coeffs().cast<double>();
+        planes->InsertNextTuple(numbers.data());
+      }
+      output->GetFieldData()->AddArray(planes);
+    },
+    output);
+}
+
+void vtkMEAMBackgroundRemoval::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Region:";
+  for (const double value : this->Region)
+  {
+    os << " " << value;
+  }
+  os << " mm\n";
+  os << indent << "NumberOfPlanes: " << this->NumberOfPlanes << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << " mm\n";
+  os << indent << "LeastShare: " << this->LeastShare << " %\n";
+}

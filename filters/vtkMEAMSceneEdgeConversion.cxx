@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of vtkMEAMConversion.h that deals with a scene's edges and the camera that took its image.
+#include "io/CameraFile.h"
+#include "scene/SceneEdgeExtraction.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <string>
+
+namespace vtkMEAMConversion
+{
+namespace
+{
+/// The numbers of a field data array, row by row; nothing when it is not there.
+template <int Count>
+std::optional<Eigen::Matrix<double, Count, 1>> numbersOf(vtkImageData* image, const char* name)
+{
+  vtkDataArray* array = image->GetFieldData()->GetArray(name);
+  if (!array)
+  {
+    return std::nullopt;
+  }
+  if (array->GetNumberOfValues() != Count)
+  {
+    throw meam::Error("The image's field data '" + std::string(name) + "' must have " + std::to_string(Count) +
+                      " numbers.");
+  }
+  Eigen::Matrix<double, Count, 1> numbers;
+  for (int i = 0; i < Count; ++i)
+  {
+    numbers[i] = array->GetComponent(i / array->GetNumberOfComponents(), i % array->GetNumberOfComponents());
+  }
+  return numbers;
+}
+}
+
+std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, const meam::OrganizedCloud& cloud)
+{
+  if (file && *file)
+  {
+    return meam::readCamera(file).camera;
+  }
+  const auto matrix = image ? numbersOf<9>(image, "CameraMatrix") : std::nullopt;
+  const auto pose = image ? numbersOf<16>(image, "CameraPose") : std::nullopt;
+  if (!matrix || !pose)
+  {
+    return std::nullopt;
+  }
+  meam::Camera camera;
+  int size[3];
+  image->GetDimensions(size);
+  camera.width = size[0];
+  camera.height = size[1];
+  camera.fx = (*matrix)[0];
+  camera.cx = (*matrix)[2];
+  camera.fy = (*matrix)[4];
+  camera.cy = (*matrix)[5];
+  camera.T_camera_scene.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(pose->data());
+  if (camera.width == cloud.width && camera.height == cloud.height &&
+      camera.T_camera_scene.isApprox(Eigen::Isometry3d::Identity(), 1e-9))
+  {
+    return std::nullopt; // the sensor's own image
+  }
+  return camera;
+}
+
+void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
+{
+  fromCloud(edges.cloud, output);
+  vtkNew<vtkUnsignedCharArray> sources;
+  sources->SetName("EdgeSource");
+  sources->SetNumberOfTuples(static_cast<vtkIdType>(edges.sources.size()));
+  std::transform(edges.sources.begin(), edges.sources.end(), sources->GetPointer(0),
+    [](meam::EdgeSource source) { return static_cast<unsigned char>(source); });
+  output->GetPointData()->SetScalars(sources); // what a view colours by
+}
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestFiles.h"
+#include "io/CameraFile.h"
+
+namespace
+{
+meam::CameraFile read(const std::string& text)
+{
+  const files::Folder folder;
+  return meam::readCamera(folder.write("camera", text));
+}
+
+/// The message names the file and has the word.
+void expectError(const std::string& text, const std::string& word)
+{
+  const files::Folder folder;
+  const std::string path = folder.write("camera", text);
+  const std::string error = files::errorOf([&] { meam::readCamera(path); });
+  EXPECT_TRUE(files::contains(error, word) && files::contains(error, path)) << text << "\nsays: " << error;
+}
+
+const std::string yaml = R"(%YAML:1.0
+---
+calibration_time: "Mon 05 Feb 2024"
+image_width: 1280
+image_height: 1024
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 1200.5, 0., 640.25, 0., 1190., 511.5, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 5
+   cols: 1
+   dt: d
+   data: [ -2.1e-01, 0.13, 0.0011, -0.0007, -0.035 ]
+R: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 0., 0., -1., 0., 1., 0., 1., 0., 0. ]
+T: [ 400, 0, -100 ]
+)";
+
+const std::string xml = R"(<?xml version="1.0"?>
+<opencv_storage>
+<camera_matrix type_id="opencv-matrix"><rows>3</rows><cols>3</cols><dt>d</dt>
+  <data>800. 0. 320. 0. 801. 240. 0. 0. 1.</data></camera_matrix>
+<dist_coeffs type_id="opencv-matrix"><rows>1</rows><cols>4</cols><dt>d</dt>
+  <data>0.1 0.2 0.3 0.4</data></dist_coeffs>
+<depth_scale>0.1</depth_scale>
+</opencv_storage>
+)";
+
+const std::string json = R"({ "camera_matrix": { "type_id": "opencv-matrix", "rows": 3, "cols": 3, "dt": "d",
+  "data": [ 800.0, 0.0, 320.0, 0.0, 801.0, 240.0, 0.0, 0.0, 1.0 ] }, "dist_coeffs": [ 0, 0, 0, 0, 0, 0, 0, 0 ],
+  "image_width": 640, "image_height": 480,
+  "T_camera_scene": [[1, 0, 0, 5], [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]], "name": "left", "roi": { "x": 3 } })";
+
+const std::string bop = R"( {"cx": 325.26, "cy": 242.05, "depth_scale": 0.1, "fx": 572.41, "fy": 573.57, "height": 480,
+  "width": 640})";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+}
+
+TEST(CameraFile, yamlOfOpenCV)
+{
+  const meam::CameraFile file = read(yaml);
+  EXPECT_EQ(file.camera.width, 1280);
+  EXPECT_EQ(file.camera.height, 1024);
+  EXPECT_EQ(file.camera.fx, 1200.5);
+  EXPECT_EQ(file.camera.fy, 1190.0);
+  EXPECT_EQ(file.camera.cx, 640.25);
+  EXPECT_EQ(file.camera.cy, 511.5);
+  EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{ -0.21, 0.13, 0.0011, -0.0007, -0.035 }));
+  EXPECT_EQ(file.camera.T_camera_scene * Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(397, 2, -99));
+  EXPECT_EQ(file.depthScale, 1.0);
+}
+
+TEST(CameraFile, xmlOfOpenCV)
+{
+  const meam::CameraFile file = read(xml);
+  EXPECT_EQ(file.camera.width, 0) << "not known";
+  EXPECT_EQ(file.camera.fy, 801.0);
+  EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{ 0.1, 0.2, 0.3, 0.4, 0 }));
+  EXPECT_TRUE(file.camera.T_camera_scene.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_EQ(file.depthScale, 0.1);
+}
+
+TEST(CameraFile, jsonOfOpenCV)
+{
+  const meam::CameraFile file = read(json);
+  EXPECT_EQ(file.camera.width, 640);
+  EXPECT_EQ(file.camera.fx, 800.0);
+  EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{}));
+  EXPECT_EQ(Eigen::Vector3d(file.camera.T_camera_scene.translation()), Eigen::Vector3d(5, 6, 7));
+}
+
+TEST(CameraFile, yamlWithoutOpenCVsTypes)
+{
+  const meam::CameraFile file =
+    read("image_width: 640 # pixels\ncamera_name: left\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+         "  data: [800, 0, 320,\n         0, 801, 240,\n         0, 0, 1]\n"
+         "rectification_matrix:\n  data: [1, 2]\nT_camera_scene: [[1, 0, 0, 5],\n"
+         "  [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]\nimage_height: 480\n");
+  EXPECT_EQ(file.camera.fy, 801.0);
+  EXPECT_EQ(file.camera.height, 480);
+  EXPECT_EQ(Eigen::Vector3d(file.camera.T_camera_scene.translation()), Eigen::Vector3d(5, 6, 7));
+}
+
+TEST(CameraFile, cameraOfBOP)
+{
+  const meam::CameraFile file = read(bop);
+  EXPECT_EQ(file.camera.width, 640);
+  EXPECT_EQ(file.camera.height, 480);
+  EXPECT_EQ(file.camera.fx, 572.41);
+  EXPECT_EQ(file.camera.fy, 573.57);
+  EXPECT_EQ(file.camera.cx, 325.26);
+  EXPECT_EQ(file.camera.cy, 242.05);
+  EXPECT_EQ(file.depthScale, 0.1);
+}
+
+TEST(CameraFile, whatIsNoCalibration)
+{
+  EXPECT_THROW(meam::readCamera("/no/such/camera.json"), meam::Error);
+  EXPECT_THROW(meam::readCamera(testing::TempDir()), meam::Error);
+  expectError("", "empty");
+  expectError("nothing of the kind", "neither");
+  expectError("{}", "neither");
+  expectError("{ \"fx\": 1, ", "not JSON");
+  expectError(yaml.substr(0, 150), "neither");
+  expectError(yaml.substr(0, yaml.find("511.5")), "within a list");
+  expectError(xml.substr(0, 200), "cut off");
+  expectError(xml.substr(0, xml.find("</opencv")), "no end of <opencv_storage>");
+  expectError(replaced(xml, "</dist_coeffs>", "</lens>"), "wrong place");
+  expectError(replaced(bop, "\"fy\"", "\"fz\""), "neither");
+  expectError(replaced(bop, "573.57", "-1"), "focal lengths");
+  expectError(replaced(bop, "573.57", "\"wide\""), "neither");
+  expectError(replaced(bop, "640", "640.5"), "width or height");
+  expectError(replaced(bop, "640", "4000000000"), "width or height");
+  expectError(replaced(bop, "0.1", "0"), "depth_scale");
+  expectError(replaced(bop, "0.1", "1e999"), "too large");
+  expectError(replaced(json, "800.0, ", ""), "camera_matrix");
+  expectError(replaced(json, "800.0", "\"a\""), "camera_matrix");
+  expectError(replaced(json, "800.0, 0.0", "800.0, 3.0"), "camera matrix that is not");
+  expectError(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0"), "dist_coeffs");
+  expectError(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0, 0, 0, 1"), "rational");
+  expectError(replaced(json, "[1, 0, 0, 5]", "[2, 0, 0, 5]"), "not a rotation");
+  expectError(replaced(yaml, "T: [ 400, 0, -100 ]\n", ""), "only one of R and T");
+  expectError(replaced(yaml, "400, 0, -100", "400, 0, .Nan"), "in T that is not a number");
+  expectError(replaced(yaml, "400, 0, -100", "400, 0, x"), "in T that is not a number");
+  expectError(std::string(2 << 20, ' ') + bop, "not a text");
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestFiles.h"
+#include "TestImages.h"
+#include "io/DepthImage.h"
+#include "io/ImageFile.h"
+
+#include <cmath>
+
+namespace
+{
+const cv::Mat depths = (cv::Mat_<std::uint16_t>(2, 3) << 0, 5000, 65535, 1, 2, 3);
+
+meam::Camera camera()
+{
+  meam::Camera result;
+  result.fx = 100.0;
+  result.fy = 200.0;
+  result.cx = 1.0;
+  result.cy = 0.5;
+  return result;
+}
+}
+
+TEST(DepthImage, aPointForEachPixel)
+{
+  const files::Folder folder;
+  meam::Camera beside = camera();
+  beside.T_camera_scene.translation() << 7, 8, 9; // does not matter for its own depth
+  for (const char* form : { ".png", ".tiff" })
+  {
+    const std::string path = folder.write("depth", images::encoded(form, depths));
+    const meam::OrganizedCloud cloud = meam::readDepthImage(path, beside, 0.1);
+    EXPECT_EQ(cloud.width, 3);
+    EXPECT_EQ(cloud.height, 2);
+    ASSERT_EQ(cloud.size(), 6u);
+    EXPECT_TRUE(std::isnan(cloud.points[0].z()));
+    EXPECT_TRUE(cloud.points[1].isApprox(Eigen::Vector3f(0, -0.5f / 200 * 500, 500)));
+    EXPECT_TRUE(cloud.points[2].isApprox(Eigen::Vector3f(65.535f, -0.5f / 200 * 6553.5f, 6553.5f)));
+    EXPECT_TRUE(cloud.points[5].isApprox(Eigen::Vector3f(0.003f, 0.5f / 200 * 0.3f, 0.3f)));
+  }
+}
+
+TEST(DepthImage, theLensIsUndone)
+{
+  const files::Folder folder;
+  meam::Camera lens = camera();
+  lens.distortion = { 0.2, 0, 0.01, 0, 0 };
+  const meam::OrganizedCloud cloud =
+    meam::readDepthImage(folder.write("depth.png", images::encoded(".png", depths)), lens);
+  EXPECT_LT((meam::project(lens, cloud.points[2].cast<double>()) - Eigen::Vector2d(2, 0)).norm(), 1e-4);
+}
+
+TEST(DepthImage, badInput)
+{
+  const files::Folder folder;
+  const std::string path = folder.write("depth.png", images::encoded(".png", depths));
+  const auto errorOf = [&](const std::string& file, const meam::Camera& of, double scale)
+  { return files::errorOf([&] { meam::readDepthImage(file, of, scale); }); };
+  for (const double scale : { 0.0, -1.0, std::nan("") })
+  {
+    EXPECT_TRUE(files::contains(errorOf(path, camera(), scale), "depth scale"));
+  }
+  meam::Camera bad = camera();
+  bad.fx = 0;
+  EXPECT_TRUE(files::contains(errorOf(path, bad, 1), "focal lengths"));
+  bad = camera();
+  bad.width = 640;
+  EXPECT_TRUE(files::contains(errorOf(path, bad, 1), "3 x 2"));
+  const std::string grey = folder.write("grey.png", images::encoded(".png", cv::Mat::zeros(2, 3, CV_8UC1)));
+  EXPECT_TRUE(files::contains(errorOf(grey, camera(), 1), "1 channels of 8 bits"));
+  const std::string colour = folder.write("colour.png", images::encoded(".png", cv::Mat::zeros(2, 3, CV_16UC3)));
+  EXPECT_TRUE(files::contains(errorOf(colour, camera(), 1), "3 channels of 16 bits"));
+  EXPECT_TRUE(files::contains(errorOf("/no/such/depth.png", camera(), 1), "/no/such/depth.png"));
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/DepthMap.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+meam::Sensor fromAbove()
+{
+  meam::Sensor sensor;
+  sensor.perspective = false;
+  sensor.direction = -Eigen::Vector3f::UnitZ();
+  return sensor;
+}
+
+/// A table of 21 x 21 points at z = 0 and a step of 5 x 21 on it at z = 8.
+meam::Points step()
+{
+  meam::Points points;
+  for (int x = 0; x <= 20; ++x)
+  {
+    for (int y = 0; y <= 20; ++y)
+    {
+      points.push_back({ static_cast<float>(x), static_cast<float>(y), x >= 8 && x < 13 ? 8.0f : 0.0f });
+    }
+  }
+  return points;
+}
+}
+
+TEST(DepthMap, TellsHowAPointLiesToTheSurface)
+{
+  const meam::DepthMap map(step(), fromAbove(), 1.5);
+  using Relation = meam::DepthMap::Relation;
+  EXPECT_EQ(map.relation({ 3, 3, 0.2f }, 0.5f), Relation::OnSurface);
+  EXPECT_EQ(map.relation({ 3, 3, 2.0f }, 0.5f), Relation::InFront);
+  EXPECT_EQ(map.relation({ 3, 3, -2.0f }, 0.5f), Relation::Hidden);
+  EXPECT_EQ(map.relation({ 10, 3, 8.2f }, 0.5f), Relation::OnSurface);
+  EXPECT_EQ(map.relation({ 10, 3, 0.0f }, 0.5f), Relation::Hidden);
+  EXPECT_EQ(map.relation({ 40, 3, 0.0f }, 0.5f), Relation::NoSurface);
+  EXPECT_EQ(map.relation({ NAN, 3, 0.0f }, 0.5f), Relation::NoSurface);
+}
+
+TEST(DepthMap, MeansAreOfTheNearestLayer)
+{
+  // Four points of one cell on a slope, two far below them.
+  const meam::Points points = { { 0, 0, 1 }, { 1, 0, 2 }, { 0, 1, 1 }, { 1, 1, 2 }, { 0.5f, 0.5f, -30 }, { 0.2f, 0.4f, -31 } };
+  const meam::DepthMap map(points, fromAbove(), 4.0);
+  ASSERT_EQ(map.means().size(), 1u);
+  EXPECT_TRUE(map.means()[0].isApprox(Eigen::Vector3f(0.5f, 0.5f, 1.5f), 1e-5f));
+  ASSERT_NE(map.meanAt({ 0.3f, 0.3f, 5 }), nullptr);
+  EXPECT_TRUE(map.meanAt({ 0.3f, 0.3f, 5 })->isApprox(map.means()[0]));
+  EXPECT_EQ(map.meanAt({ 100, 0, 0 }), nullptr);
+  EXPECT_EQ(map.relation({ 0.3f, 0.3f, -31 }, 0.5f), meam::DepthMap::Relation::OnSurface) << "the farthest was seen, too";
+}
+
+TEST(DepthMap, AGapOfOneCellIsFilledFromTheNearestSurface)
+{
+  meam::Points points;
+  for (int x = 0; x < 5; ++x)
+  {
+    if (x != 2)
+    {
+      points.push_back({ static_cast<float>(x), 0, x < 2 ? 4.0f : 0.0f });
+    }
+  }
+  const meam::DepthMap map(points, fromAbove(), 1.0);
+  ASSERT_NE(map.meanAt({ 2, 0, 0 }), nullptr);
+  EXPECT_EQ(map.meanAt({ 2, 0, 0 })->z(), 4.0f);
+  EXPECT_EQ(map.means().size(), 4u);
+}
+
+TEST(DepthMap, FollowsLinesOfSightOfAPerspectiveSensor)
+{
+  meam::Sensor sensor; // at the origin, looking along z
+  meam::Points wall;
+  for (int x = -20; x <= 20; ++x)
+  {
+    for (int y = -20; y <= 20; ++y)
+    {
+      wall.push_back({ 5.0f * x, 5.0f * y, 500.0f });
+    }
+  }
+  const meam::DepthMap map(wall, sensor, 8.0);
+  EXPECT_EQ(map.relation({ 40, 0, 250 }, 5.0f), meam::DepthMap::Relation::InFront) << "80 on the wall";
+  EXPECT_EQ(map.relation({ 70, 0, 250 }, 5.0f), meam::DepthMap::Relation::NoSurface) << "140: beside it";
+  EXPECT_EQ(map.relation({ 90, 0, 503 }, 5.0f), meam::DepthMap::Relation::OnSurface);
+  EXPECT_EQ(map.relation({ 90, 0, -503 }, 5.0f), meam::DepthMap::Relation::NoSurface) << "behind the sensor";
+}
+
+TEST(DepthMap, OfNothingTellsNothing)
+{
+  const meam::DepthMap map({}, fromAbove(), 1.0);
+  EXPECT_EQ(map.relation({ 0, 0, 0 }, 1.0f), meam::DepthMap::Relation::NoSurface);
+  EXPECT_EQ(map.meanAt({ 0, 0, 0 }), nullptr);
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of a test, and the messages that reading them gives.
+#pragma once
+
+#include "Error.h"
+#include "io/FileBytes.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace files
+{
+/// A folder of the test that is running, removed at its end.
+class Folder
+{
+public:
+  explicit Folder(const std::string& place = testing::TempDir())
+  {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    this->Path = std::filesystem::path(place) / (std::string("meam-") + test->test_suite_name() + "-" + test->name());
+    std::filesystem::remove_all(this->Path);
+    std::filesystem::create_directories(this->Path);
+  }
+  ~Folder() { std::filesystem::remove_all(this->Path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string path(const std::string& name = {}) const { return (this->Path / name).string(); }
+
+  /// Writes a file, in folders that it makes, and returns its path.
+  std::string write(const std::string& name, const std::string& bytes) const
+  {
+    const std::filesystem::path file = this->Path / name;
+    std::filesystem::create_directories(file.parent_path());
+    meam::writeFile(file.string(), bytes);
+    return file.string();
+  }
+
+private:
+  std::filesystem::path Path;
+};
+
+/// The message of the meam::Error that `work` throws; empty without.
+template <typename Work>
+std::string errorOf(Work&& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const meam::Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+template <typename T>
+std::string raw(T value)
+{
+  return std::string(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+}

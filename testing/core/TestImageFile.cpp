@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestFiles.h"
+#include "TestImages.h"
+#include "io/ImageFile.h"
+
+namespace
+{
+void expectError(const std::string& bytes, const std::string& word)
+{
+  const files::Folder folder;
+  const std::string path = folder.write("image", bytes);
+  const std::string error = files::errorOf([&] { meam::readImage(path); });
+  EXPECT_TRUE(files::contains(error, word) && files::contains(error, path)) << error;
+}
+
+meam::Image read(const std::string& bytes)
+{
+  const files::Folder folder;
+  return meam::readImage(folder.write("image", bytes));
+}
+
+const cv::Mat grey = (cv::Mat_<std::uint8_t>(2, 3) << 0, 50, 100, 150, 200, 255);
+}
+
+TEST(ImageFile, greyImages)
+{
+  for (const char* form : { ".png", ".bmp", ".tiff" })
+  {
+    const files::Folder folder;
+    const std::string path = folder.write("image", images::encoded(form, grey));
+    const meam::Image image = meam::readImage(path);
+    EXPECT_EQ(image.width, 3) << form;
+    EXPECT_EQ(image.height, 2) << form;
+    EXPECT_EQ(image.channels, 1) << form;
+    EXPECT_EQ(image.pixels, (std::vector<std::uint8_t>{ 0, 50, 100, 150, 200, 255 })) << form;
+    EXPECT_EQ(meam::readImageSize(path), (std::array<int, 2>{ 3, 2 })) << form;
+  }
+}
+
+TEST(ImageFile, coloursAreRedGreenBlue)
+{
+  const cv::Mat colour(16, 24, CV_8UC3, cv::Scalar(10, 20, 200));
+  for (const char* form : { ".png", ".bmp", ".tiff", ".jpg" })
+  {
+    const meam::Image image = read(images::encoded(form, colour));
+    ASSERT_EQ(image.channels, 3) << form;
+    EXPECT_EQ(image.width, 24) << form;
+    ASSERT_EQ(image.pixels.size(), 3u * 16 * 24) << form;
+    EXPECT_NEAR(image.pixels[0], 200, 2) << form;
+    EXPECT_NEAR(image.pixels[1], 20, 2) << form;
+    EXPECT_NEAR(image.pixels[2], 10, 2) << form;
+  }
+  const cv::Mat seen = cv::Mat(1, 1, CV_8UC4, cv::Scalar(1, 2, 3, 0));
+  EXPECT_EQ(read(images::encoded(".png", seen)).pixels, (std::vector<std::uint8_t>{ 3, 2, 1 })) << "alpha is dropped";
+}
+
+TEST(ImageFile, sixteenBitsUseTheirWholeRange)
+{
+  const cv::Mat deep = (cv::Mat_<std::uint16_t>(1, 3) << 0, 257 * 40, 65535);
+  EXPECT_EQ(read(images::encoded(".png", deep)).pixels, (std::vector<std::uint8_t>{ 0, 40, 255 }));
+  const files::Folder folder;
+  EXPECT_EQ(meam::readImage16(folder.write("deep", images::encoded(".png", deep))).pixels,
+    (std::vector<std::uint16_t>{ 0, 257 * 40, 65535 }));
+}
+
+TEST(ImageFile, badFiles)
+{
+  EXPECT_THROW(meam::readImage("/no/such/image.png"), meam::Error);
+  expectError("", "not a PNG");
+  expectError("GIF89a", "not a PNG");
+  expectError(images::encoded(".png", cv::Mat::zeros(4, 4, CV_32FC1)).substr(0, 20), "no size");
+  for (const char* form : { ".png", ".jpg", ".tiff", ".bmp" })
+  {
+    const std::string bytes = images::encoded(form, cv::Mat::zeros(40, 40, CV_8UC1));
+    expectError(bytes.substr(0, 12), "no size");
+  }
+  const std::string png = images::encoded(".png", grey);
+  expectError(png.substr(0, png.size() / 2), "damaged");
+  std::string flipped = png;
+  flipped[45] ^= 1;
+  expectError(flipped, "damaged");
+}
+
+TEST(ImageFile, absurdSizesAreRefusedBeforeMemoryIsTaken)
+{
+  const auto with = [](std::string bytes, std::size_t at, const std::string& value)
+  { return bytes.replace(at, value.size(), value); };
+  const std::string most = "\x7f\xff\xff\xff";
+  expectError(with(images::encoded(".png", grey), 16, most + most), "more than the file has room for");
+  expectError(with(images::encoded(".bmp", grey), 18, "\xff\xff\xff\x7f\xff\xff\xff\xff"), "more than the file");
+  expectError(with(images::encoded(".png", grey), 16, std::string("\0\0\x40\0\0\0\x40\0", 8)), "16384 x 16384");
+}

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""detect.py and evaluate.py on what sensors and datasets give: depth images, PLY clouds, images of any kind, BOP."""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkBMPWriter, vtkPNGWriter, vtkTIFFWriter
+from vtkmodules.vtkIOPLY import vtkPLYWriter
+
+from ppfmeam.filters import vtkMEAMBinSceneSource
+from meamtest import check, connect, pose_error, run, tuples
+
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+
+
+def script(name, *arguments):
+    environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
+    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], env=environment,
+                          capture_output=True, text=True)
+
+
+def works(name, *arguments):
+    result = script(name, *arguments)
+    check(result.returncode == 0 and result.stderr == "", f"{name} {arguments}: {result.stderr}")
+    return result.stdout
+
+
+def refuses(word, name, *arguments, status=1):
+    result = script(name, *arguments)
+    check(result.returncode == status and word in result.stderr, f"expected '{word}': {result.returncode}, {result.stderr}")
+
+
+def write_json(path, content):
+    os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(content, file)
+
+
+def write_image(path, pixels, writer=vtkPNGWriter):
+    """H x W values from the top left."""
+    os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
+    image = vtkImageData()
+    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(pixels[::-1]).ravel(), deep=True))
+    writer = connect(writer(), image)
+    writer.SetFileName(path)
+    writer.Write()
+
+
+def write_ply(path, points, grey):
+    """Binary, metres, grey values as intensities."""
+    with open(path, "wb") as file:
+        file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\n"
+                   "property float y\nproperty float z\nproperty float intensity\nend_header\n".encode())
+        file.write(numpy.column_stack((points / 1000, grey)).astype("<f4").tobytes())
+
+
+def matrices(path):
+    with open(path, encoding="utf-8") as file:
+        return [tuple(row) for row in numpy.array(file.read().split(), float).reshape(-1, 16)]
+
+
+def all_true(found, what, count=2, distance=1, angle=2):
+    """Every pose is a true one."""
+    check(len(found) == count, f"{what}: {len(found)} poses")
+    for pose in found:
+        errors = [pose_error(pose, t) for t in true]
+        check(any(d < distance and a < angle for d, a in errors), f"{what}: {pose} is not a true pose, {min(errors)}")
+
+
+W, H, SCALE = 640, 480, 0.05
+source = vtkMEAMBinSceneSource()
+source.SetCopies(4)
+source.SetWidth(W)
+source.SetHeight(H)
+scan = run(source)
+true = tuples(source.GetOutputDataObject(1), "Transform")
+points = vtk_to_numpy(scan.GetPoints().GetData())
+grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
+valid = numpy.isfinite(points).all(axis=1)
+fx, _, cx, _, fy, cy, *_ = scan.GetFieldData().GetArray("CameraMatrix").GetTuple(0)
+depth = numpy.rint(numpy.nan_to_num(points[:, 2]) / SCALE).astype(numpy.uint16).reshape(H, W)
+part = connect(vtkPLYWriter(), source.GetOutputDataObject(2))
+part.SetFileName("part.ply")
+part.Write()
+write_image("depth.png", depth)
+write_image("image.png", grey.reshape(H, W))
+write_json("camera.json", {"fx": fx, "fy": fy, "cx": cx, "cy": cy, "width": W, "height": H, "depth_scale": SCALE})
+
+# detect.py with a depth image; the scale from the calibration or from the user, the image in any form.
+CAD = ("--cad", "part.ply", "--poses", "2")
+works("train.py", "--cad", "part.ply", "--out", "part.vtpc")
+MODEL = ("--model", "part.vtpc", "--poses", "2")
+works("detect.py", *CAD, "--depth", "depth.png", "--camera", "camera.json", "--image", "image.png", "--matrices", "a.txt")
+all_true(matrices("a.txt"), "a depth image")
+with open("camera.yaml", "w", encoding="utf-8") as file:
+    file.write(f"%YAML:1.0\n---\nimage_width: {W}\nimage_height: {H}\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n"
+               f"   dt: d\n   data: [ {fx}, 0., {cx}, 0., {fy}, {cy}, 0., 0., 1. ]\n")
+for name, writer in (("image.tif", vtkTIFFWriter), ("image.bmp", vtkBMPWriter)):
+    write_image(name, grey.reshape(H, W), writer)
+    works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.yaml", "--depth-scale", str(SCALE),
+          "--image", name, "--matrices", "b.txt")
+    check(matrices("b.txt") == matrices("a.txt"), f"with {name} and OpenCV's calibration the poses differ")
+
+# A PLY cloud, in any order, comes back onto the grid of its camera.
+order = numpy.random.default_rng(1).permutation(numpy.flatnonzero(valid))
+write_ply("scan.ply", points[order], grey[order])
+works("detect.py", *MODEL, "--scene", "scan.ply", "--scene-scale", "1000", "--camera", "camera.json", "--matrices", "c.txt")
+all_true(matrices("c.txt"), "a PLY cloud")
+refuses("boundary", "detect.py", *MODEL, "--scene", "scan.ply", "--scene-scale", "1000")
+refuses("1000", "detect.py", *MODEL, "--scene", "scan.ply", "--camera", "camera.json")
+refuses("only a .ply", "detect.py", *MODEL, "--scene", "part.stl", "--camera", "camera.json")
+refuses("--camera", "detect.py", *MODEL, "--depth", "depth.png", status=2)
+refuses("not allowed with", "detect.py", *MODEL, "--depth", "depth.png", "--scene", "scan.ply", status=2)
+refuses("8 bits", "detect.py", *MODEL, "--depth", "image.png", "--camera", "camera.json")
+refuses("no image", "detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json")
+
+# evaluate.py on a dataset: object 3 is in the first image alone, object 8 in none; the second scene has no truth.
+SCENE = {"cam_K": [fx, 0, cx, 0, fy, cy, 0, 0, 1], "depth_scale": SCALE}
+R = [[*t[0:3], *t[4:7], *t[8:11]] for t in true]
+for scene in (2, 5):
+    write_image(f"set/test/{scene:06d}/depth/000007.png", depth)
+    write_image(f"set/test/{scene:06d}/gray/000007.png", grey.reshape(H, W))
+    write_json(f"set/test/{scene:06d}/scene_camera.json", {"7": SCENE})
+write_json("set/test/000002/scene_gt.json", {
+    "7": [{"obj_id": 3, "cam_R_m2c": r, "cam_t_m2c": [t[3], t[7], t[11]]} for r, t in zip(R, true)]})
+write_json("set/test/000002/scene_gt_info.json", {
+    "7": [{"visib_fract": f} for f, in tuples(source.GetOutputDataObject(1), "VisibleFraction")]})
+os.makedirs("set/models")
+for number in (3, 8):
+    os.link("part.ply", f"set/models/obj_{number:06d}.ply")
+write_json("set/models/models_info.json", {"3": {"diameter": 1}})
+text = works("evaluate.py", "bop", "set", "--objects", "3", "--poses", "2", "--out", "results.csv")
+table = [line.split() for line in text.splitlines()]
+check(table[0][0] == "obj." and table[1][:3] == ["3", "1", "2"], f"an object in one image: {text}")
+check(float(table[1][4]) == 100 and float(table[1][5]) == 100, f"strict and top1: {text}")
+with open("results.csv", encoding="utf-8") as file:
+    check(file.readline() == "scene_id,im_id,obj_id,score,R,t,time\n", "the header of the benchmark")
+    file.seek(0)
+    rows = list(csv.DictReader(file))
+check([(row["scene_id"], row["im_id"], row["obj_id"]) for row in rows] == [("2", "7", "3")] * 2 + [("5", "7", "3")] * 2,
+      "two poses of each image")
+for row in rows:
+    r, t = [float(v) for v in row["R"].split()], [float(v) for v in row["t"].split()]
+    all_true([(*r[0:3], t[0], *r[3:6], t[1], *r[6:9], t[2], 0, 0, 0, 1)], "a result", 1)
+    check(0 < float(row["time"]) < 60 and 0 < float(row["score"]) <= 1, f"time and score: {row}")
+check(len({row["time"] for row in rows[:2]}) == 1, "the time is that of the image")
+text = works("evaluate.py", "bop", "set", "--scenes", "5", "--poses", "1", "--out", "other.csv")
+with open("other.csv", encoding="utf-8") as file:
+    check([row["obj_id"] for row in csv.DictReader(file)] == ["3", "8"], "all objects, no figures without truth")
+check(text == "", f"no table without truth: {text}")
+
+refuses("no folder val", "evaluate.py", "bop", "set", "--split", "val", "--out", "o.csv")
+refuses("obj_000004.ply", "evaluate.py", "bop", "set", "--objects", "4", "--out", "o.csv")
+refuses("cannot write", "evaluate.py", "bop", "set", "--out", "no/such/folder.csv")
+refuses("no scene", "evaluate.py", "bop", "set", "--objects", "3", "--scenes", "9", "--out", "o.csv")
+os.remove("set/test/000002/depth/000007.png")
+refuses("failed", "evaluate.py", "bop", "set", "--objects", "3", "--out", "o.csv")

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""simulate.py writes datasets whose depth, image, masks and truth fit each other."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+
+from ppfmeam.filters import vtkMEAMSamplePartSource
+from meamtest import check, close, run
+
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+PART = os.path.join(EXAMPLES, "parts", "hole_plate.stl")
+COPIES = 4
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+
+
+def simulate(*arguments):
+    return subprocess.run([sys.executable, os.path.join(EXAMPLES, "simulate.py"), *arguments], capture_output=True,
+                          text=True)
+
+
+def load(*path):
+    with open(os.path.join(*path), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def pixels(*path):
+    reader = vtkPNGReader()
+    reader.SetFileName(os.path.join(*path))
+    check(reader.CanReadFile(reader.GetFileName()), f"{reader.GetFileName()} is not there")
+    image = run(reader)
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[::-1]
+
+
+done = simulate("--cad", PART, "--copies", str(COPIES), "--scenes", "2", "--seed", "5", "--out", "plates")
+check(done.returncode == 0, done.stderr)
+check(sorted(os.listdir("plates")) == ["camera.json", "models", "test"], f"{os.listdir('plates')}")
+check(sorted(os.listdir("plates/test")) == ["000000", "000001"], "two scenes")
+
+# The part.
+source = vtkMEAMSamplePartSource()
+source.SetPartToHolePlate()
+part = run(source)
+ply = vtkPLYReader()
+ply.SetFileName("plates/models/obj_000001.ply")
+check(close(run(ply).GetBounds(), part.GetBounds()), "the model is not the part")
+info = load("plates/models/models_info.json")["1"]
+check(abs(info["diameter"] - 84.5) < 0.5 and close([info["size_x"]], [74]), f"{info}")
+check("symmetries_discrete" not in info, "the plate has no symmetry")
+
+# The scenes.
+K = load("plates/camera.json")
+for scene in ("plates/test/000000", "plates/test/000001"):
+    camera = load(scene, "scene_camera.json")["0"]
+    check(close(camera["cam_K"], [K["fx"], 0, K["cx"], 0, K["fy"], K["cy"], 0, 0, 1]), "one camera")
+    scale = camera["depth_scale"]
+    raw = pixels(scene, "depth", "000000.png")
+    depth = scale * raw[..., 0]
+    check(raw.dtype == numpy.uint16 and depth.shape == (K["height"], K["width"]) and scale <= 0.05, "16 bits of depth")
+    grey = pixels(scene, "gray", "000000.png")
+    check(grey.shape == raw.shape and grey.dtype == numpy.uint8 and grey.std() > 10, "a grey image")
+    truth, infos = load(scene, "scene_gt.json")["0"], load(scene, "scene_gt_info.json")["0"]
+    check(len(truth) == len(infos) == COPIES, f"{len(truth)} copies")
+    union = numpy.zeros(depth.shape, int)
+    for i, (pose, entry) in enumerate(zip(truth, infos)):
+        whole = pixels(scene, "mask", f"000000_{i:06d}.png")[..., 0] == 255
+        visible = pixels(scene, "mask_visib", f"000000_{i:06d}.png")[..., 0] == 255
+        union += visible
+        check(not (visible & ~whole).any(), "what is seen is part of the whole")
+        check(entry["px_count_all"] == whole.sum() and entry["px_count_visib"] == visible.sum(), f"{entry}")
+        check(close([entry["visib_fract"]], [visible.sum() / whole.sum()]), f"{entry}")
+        check(entry["px_count_valid"] == (whole & (depth > 0)).sum() > 0.5 * whole.sum(), f"{entry}")
+        left, top, width, height = entry["bbox_obj"]
+        check(whole[top:top + height, left:left + width].sum() == whole.sum(), "the box holds all of it")
+        check(whole[top].any() and whole[top + height - 1].any() and whole[:, left].any(), "the box is narrow")
+        # Measured points of the copy are within the part's bounds, where its pose is undone.
+        rows, columns = numpy.nonzero(visible & (depth > 0))
+        z = depth[rows, columns]
+        points = numpy.stack(((columns - K["cx"]) / K["fx"] * z, (rows - K["cy"]) / K["fy"] * z, z))
+        R, t = numpy.reshape(pose["cam_R_m2c"], (3, 3)), numpy.reshape(pose["cam_t_m2c"], (3, 1))
+        check(numpy.allclose(R @ R.T, numpy.eye(3), atol=1e-6) and numpy.linalg.det(R) > 0, "a rotation")
+        inside = R.T @ (points - t)
+        low, high = numpy.reshape(part.GetBounds(), (3, 2)).T[..., None]
+        check(((inside > low - 2) & (inside < high + 2)).all(), "points of the copy are not on the part")
+    check(union.max() == 1, "a pixel shows one copy")
+check(load("plates/test/000000/scene_gt.json") != load("plates/test/000001/scene_gt.json"), "another seed, another bin")
+
+# A camera beside the sensor; the same seed again, with other noise.
+done = simulate("--cad", PART, "--copies", str(COPIES), "--seed", "6", "--noise", "0", "--camera", "beside",
+                "--baseline", "90", "--colored", "--out", "beside")
+check(done.returncode == 0, done.stderr)
+check(load("beside/test/000000/scene_gt.json") == load("plates/test/000001/scene_gt.json"), "the same bin")
+check(not os.path.exists("beside/test/000000/rgb"), "an image that is not registered")
+check(pixels("beside/test/000000/rgb_beside/000000.png").shape[2] == 3, "in colour")
+calibration = load("beside/image_camera.json")
+T = numpy.reshape(calibration["T_camera_scene"]["data"], (4, 4))
+check(close([numpy.linalg.norm(T[:3, 3])], [90]), f"{T}")
+
+for arguments in (["--out", "plates"], ["--out", "new", "--copies", "0"], ["--out", "new", "--noise", "-1"]):
+    done = simulate("--cad", PART, *arguments)
+    check(done.returncode != 0 and "Traceback" not in done.stderr and done.stderr, f"{arguments}: {done.stderr}")
+check(simulate("--cad", "nothing.stl", "--out", "new").returncode == 1, "a file that is not there")
