@@ -3,6 +3,8 @@
 
 #include "Error.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -120,6 +122,71 @@ Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
   frame.col(1) = axis.cross(Eigen::Vector3f::Unit(least)).normalized();
   frame.col(2) = axis.cross(frame.col(1));
   return frame;
+}
+
+Eigen::Isometry3d principalFrame(const Points& points)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const auto& point : points)
+  {
+    if (point.allFinite())
+    {
+      sum += point.cast<double>();
+      ++count;
+    }
+  }
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  if (count == 0.0)
+  {
+    return frame;
+  }
+  const Eigen::Vector3d mean = sum / count;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& point : points)
+  {
+    if (point.allFinite())
+    {
+      const Eigen::Vector3d d = point.cast<double>() - mean;
+      covariance += d * d.transpose() / count;
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
+  if (!axes.allFinite())
+  {
+    return frame; // coordinates beyond all measure
+  }
+  Eigen::Vector3d skewness = Eigen::Vector3d::Zero();
+  for (const auto& point : points)
+  {
+    if (point.allFinite())
+    {
+      skewness += (axes.transpose() * (point.cast<double>() - mean)).array().cube().matrix();
+    }
+  }
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    if (skewness[axis] < 0.0)
+    {
+      axes.col(axis) *= -1.0;
+    }
+  }
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  frame.linear() = axes.transpose();
+  frame.translation() = -(axes.transpose() * mean);
+  return frame;
+}
+
+Points moved(const Points& points, const Eigen::Isometry3d& motion)
+{
+  Points result;
+  result.reserve(points.size());
+  for (const auto& point : points)
+  {
+    result.push_back((motion * point.cast<double>()).cast<float>());
+  }
+  return result;
 }
 
 void requireSameUnits(const Points& scene, double partDiameter)

@@ -69,6 +69,13 @@ Eigen::AlignedBox3f innerBounds(const Points& points, double share);
 /// A right-handed frame whose first column is `axis`; a continuous function of it almost everywhere.
 Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis);
 
+/// Takes points to their own principal frame (mean, axes of most and second most extent, signs by their skewness):
+/// what is cut into cells and steps there does not depend on how the scene lies in its coordinates.
+Eigen::Isometry3d principalFrame(const Points& points);
+
+/// The points after a motion.
+Points moved(const Points& points, const Eigen::Isometry3d& motion);
+
 /// Throws Error when a scene cannot be in the part's unit of length: its extent is far smaller or
 /// larger than `partDiameter` allows. The message names the likely factor.
 void requireSameUnits(const Points& scene, double partDiameter);

@@ -5,13 +5,14 @@
 
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
+#include <tuple>
 
 namespace meam
 {
 namespace
 {
 constexpr double MostCells = 4e6;
+constexpr double SameDistance = 1e-4; // of a cube's side
 constexpr double StrayShare = 0.001; // of the points, at each end of each axis
 
 /// A cube of side leafSize, counted from the origin.
@@ -21,14 +22,13 @@ struct Cube
   bool operator==(const Cube& other) const { return this->x == other.x && this->y == other.y && this->z == other.z; }
 };
 
-struct CubeHash
+std::size_t hashOf(const Cube& cube)
 {
-  std::size_t operator()(const Cube& cube) const
-  {
-    const auto bits = [](std::int64_t index) { return static_cast<std::uint64_t>(index); }; // these may wrap
-    return (bits(cube.x) * 73856093) ^ (bits(cube.y) * 19349663) ^ (bits(cube.z) * 83492791);
-  }
-};
+  const auto bits = [](std::int64_t index) { return static_cast<std::uint64_t>(index); }; // these may wrap
+  const std::uint64_t mixed =
+    (bits(cube.x) * 0x9E3779B97F4A7C15ull) ^ (bits(cube.y) * 0xC2B2AE3D27D4EB4Full) ^ (bits(cube.z) * 0x165667B19E3779F9ull);
+  return mixed ^ (mixed >> 32);
+}
 }
 
 PointGrid::PointGrid(const Points& points, double cellSize)
@@ -94,10 +94,12 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
   }
   struct Cell
   {
+    Cube cube;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int count = 0;
     int nearest = -1;
-    double distance = 0.0;
+    double distance = 0.0;   // to the mean
+    double offCentre = 0.0;  // to the cube's middle: of two points both are equally near to their mean
   };
   constexpr double farthest = 9e18; // what 64 bits count
   const auto cubeOf = [&](const Eigen::Vector3f& point)
@@ -106,7 +108,13 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
     return Cube{ static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
       static_cast<std::int64_t>(cell.z()) };
   };
-  std::unordered_map<Cube, int, CubeHash> cellAt;
+  // An open hash table of cells: place of a cube in `cells`, or -1.
+  std::size_t size = 16;
+  while (size < 2 * points.size())
+  {
+    size *= 2;
+  }
+  std::vector<int> cellAt(size, -1);
   std::vector<Cell> cells;
   std::vector<int> cellOf(points.size(), -1);
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -115,14 +123,21 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
     {
       continue;
     }
-    const auto [entry, isNew] = cellAt.try_emplace(cubeOf(points[i]), static_cast<int>(cells.size()));
-    if (isNew)
+    const Cube cube = cubeOf(points[i]);
+    std::size_t slot = hashOf(cube) & (size - 1);
+    while (cellAt[slot] >= 0 && !(cells[cellAt[slot]].cube == cube))
     {
-      cells.emplace_back();
+      slot = (slot + 1) & (size - 1);
     }
-    cellOf[i] = entry->second;
-    cells[entry->second].sum += points[i].cast<double>();
-    ++cells[entry->second].count;
+    if (cellAt[slot] < 0)
+    {
+      cellAt[slot] = static_cast<int>(cells.size());
+      cells.emplace_back();
+      cells.back().cube = cube;
+    }
+    cellOf[i] = cellAt[slot];
+    cells[cellOf[i]].sum += points[i].cast<double>();
+    ++cells[cellOf[i]].count;
   }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -131,18 +146,32 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
       continue;
     }
     Cell& cell = cells[cellOf[i]];
-    const double distance = (points[i].cast<double>() - cell.sum / cell.count).squaredNorm();
-    if (cell.nearest < 0 || distance < cell.distance)
+    const Eigen::Vector3d point = points[i].cast<double>();
+    const Eigen::Array3d middle(cell.cube.x + 0.5, cell.cube.y + 0.5, cell.cube.z + 0.5);
+    const double distance = (point - cell.sum / cell.count).norm() / leafSize;
+    const double offCentre = (point.array() / leafSize - middle).matrix().norm();
+    const double nearer = cell.distance - distance;
+    if (cell.nearest < 0 || nearer > SameDistance || (nearer > -SameDistance && offCentre < cell.offCentre))
     {
       cell.nearest = static_cast<int>(i);
       cell.distance = distance;
+      cell.offCentre = offCentre;
     }
   }
+  std::vector<int> order(cells.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+    [&](int a, int b)
+    {
+      const Cube& one = cells[a].cube;
+      const Cube& other = cells[b].cube;
+      return std::tie(one.z, one.y, one.x) < std::tie(other.z, other.y, other.x);
+    });
   std::vector<int> kept;
   kept.reserve(cells.size());
-  for (const Cell& cell : cells)
+  for (const int cell : order)
   {
-    kept.push_back(cell.nearest);
+    kept.push_back(cells[cell].nearest);
   }
   return kept;
 }

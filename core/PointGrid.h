@@ -98,7 +98,7 @@ private:
 
 /// Indices of one point for each occupied cube of side `leafSize` (mm): the point nearest to the
 /// mean of the cube's points. Cubes are counted from the origin of the coordinates, so views of one
-/// part share them; points that are not finite are left out. Ordered by the first point in each cube. A
+/// part share them; points that are not finite are left out. Ordered by cube: along z, then y, then x. A
 /// leaf of 0 or less keeps every point.
 std::vector<int> thinPoints(const Points& points, double leafSize);
 }

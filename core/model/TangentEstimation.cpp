@@ -22,7 +22,7 @@ constexpr double RadiusShare = 0.06;
 constexpr double InlierShare = 0.012;
 
 constexpr std::size_t MostPerTile = 4000;  // the work grows with its cube
-constexpr int LinesTried = 40;           // at a point, about
+constexpr double CandidateShare = 0.3;     // of the radius: spacing of the neighbours that lines are tried through
 constexpr int FewestInliers = 4;         // a line through three points of a band of edge points is chance
 
 float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f& direction)
@@ -89,18 +89,18 @@ Eigen::Vector3f principalAxis(const Neighbours& offsets, const Eigen::Vector3f& 
   return solver.eigenvalues()[2] > 0.0 ? solver.eigenvectors().col(2).cast<float>().eval() : Eigen::Vector3f::Zero();
 }
 
-/// Tangent at a point from its neighbours' offsets; zero when no line is supported. Lines through the
-/// point and its neighbours are tried, as in Algorithm 2; the sphere makes the neighbourhood the same
-/// wherever the point lies, and the inliers' axis uses all of them instead of one far point.
-Eigen::Vector3f robustLine(const Neighbours& offsets, double inlierDistance)
+/// Tangent at a point from its neighbours' offsets; zero when no line is supported. Lines through the point and some of
+/// its neighbours are tried, as in Algorithm 2; the sphere makes the neighbourhood the same wherever the point lies, and
+/// the inliers' axis uses all of them instead of one far point.
+Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidates, double inlierDistance)
 {
   const float limit = static_cast<float>(inlierDistance * inlierDistance);
   int best = 0;
+  float farthest = 0.0f;
   Eigen::Vector3f direction = Eigen::Vector3f::Zero();
-  const int step = std::max(1, offsets.size() / LinesTried);
-  for (int k = 0; k < offsets.size(); k += step)
+  for (int k = 0; k < candidates.size(); ++k)
   {
-    const Eigen::Vector3f candidate = offsets.at(k);
+    const Eigen::Vector3f candidate = candidates.at(k);
     const float length = candidate.norm();
     if (length <= static_cast<float>(inlierDistance))
     {
@@ -109,9 +109,10 @@ Eigen::Vector3f robustLine(const Neighbours& offsets, double inlierDistance)
     const Eigen::Vector3f line = candidate / length;
     const int support =
       lineSupport(offsets.x.data(), offsets.y.data(), offsets.z.data(), offsets.size(), line, limit);
-    if (support > best)
+    if (support > best || (support == best && length > farthest))
     {
       best = support;
+      farthest = length;
       direction = line;
     }
   }
@@ -122,17 +123,25 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, double 
   int threads, const Progress& progress)
 {
   const PointGrid grid(edges, radius);
+  Points sparse;
+  for (const int i : thinPoints(edges, CandidateShare * radius))
+  {
+    sparse.push_back(edges[i]);
+  }
+  const PointGrid sparseGrid(sparse, radius);
   Points tangents(kept.size());
   parallelFor(static_cast<int>(kept.size()), threads, progress,
     [&](int begin, int end, int)
     {
-      Neighbours offsets;
+      Neighbours offsets, candidates;
       for (int i = begin; i < end; ++i)
       {
         const Eigen::Vector3f& centre = edges[kept[i]];
         offsets.clear();
+        candidates.clear();
         grid.forEachWithin(centre, radius, [&](int index, float) { offsets.add(edges[index] - centre); });
-        tangents[i] = robustLine(offsets, inlierDistance);
+        sparseGrid.forEachWithin(centre, radius, [&](int index, float) { candidates.add(sparse[index] - centre); });
+        tangents[i] = robustLine(offsets, candidates, inlierDistance);
       }
     });
   return tangents;
@@ -205,8 +214,9 @@ TangentEstimationSettings paperTangentSettings()
 
 namespace
 {
-PointCloud estimate(const PointCloud& edges, double partDiameter, double leafShare, const Eigen::Vector3f& viewDirection,
-  const TangentEstimationSettings& settings, const Progress& progress)
+/// `cubes` takes the points to the frame in which they are thinned.
+PointCloud estimate(const PointCloud& edges, double partDiameter, double leafShare, const Eigen::Isometry3d& cubes,
+  const Eigen::Vector3f& viewDirection, const TangentEstimationSettings& settings, const Progress& progress)
 {
   requirePoints(edges.points, "The edge cloud");
   const PointCloud cloud = finitePoints(edges);
@@ -224,13 +234,16 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
     }
     return share * partDiameter;
   };
-  const std::vector<int> kept = thinPoints(cloud.points, length(settings.leafSize, leafShare));
+  const Points points = moved(cloud.points, cubes);
+  const std::vector<int> kept = thinPoints(points, length(settings.leafSize, leafShare));
+  Eigen::Isometry3d turnBack = Eigen::Isometry3d::Identity();
+  turnBack.linear() = cubes.linear().transpose();
   PointCloud result = cloud.subset(kept);
   if (result.tangents.empty())
   {
     result.tangents = robust
-      ? robustTangents(cloud.points, kept, length(settings.radius, RadiusShare), length(settings.inlierDistance, InlierShare),
-          settings.threads, progress)
+      ? moved(robustTangents(points, kept, length(settings.radius, RadiusShare), length(settings.inlierDistance, InlierShare),
+          settings.threads, progress), turnBack)
       : tileTangents(result.points, viewDirection, settings, progress);
   }
   std::vector<int> found;
@@ -249,7 +262,7 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
 PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
-  return estimate(edges, partDiameter, SceneLeafShare, viewDirection, settings, progress);
+  return estimate(edges, partDiameter, SceneLeafShare, principalFrame(edges.points), viewDirection, settings, progress);
 }
 
 std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> models, double partDiameter,
@@ -258,8 +271,9 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
   const double share = 1.0 / static_cast<double>(models.size());
   for (std::size_t v = 0; v < models.size(); ++v)
   {
-    models[v].cloud = estimate(models[v].cloud, partDiameter, ModelLeafShare, models[v].direction, settings,
-      subProgress(progress, share * v, share * (v + 1)));
+    // In the part's own frame, so that views share the cubes.
+    models[v].cloud = estimate(models[v].cloud, partDiameter, ModelLeafShare, Eigen::Isometry3d::Identity(),
+      models[v].direction, settings, subProgress(progress, share * v, share * (v + 1)));
   }
   return models;
 }

@@ -18,10 +18,14 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
   : Eye(sensor)
   , CellSize(cellSize)
 {
+  // Right is the way the surface extends most, so that the cells move with the scene.
+  const Eigen::Vector3f most = principalFrame(surface).linear().row(0).cast<float>();
+  const Eigen::Vector3f across = most - most.dot(sensor.direction) * sensor.direction;
   const Eigen::Matrix3f frame = frameAround(sensor.direction);
-  this->Axes.row(0) = frame.col(1);
-  this->Axes.row(1) = frame.col(2);
-  this->Axes.row(2) = frame.col(0);
+  const Eigen::Vector3f right = across.norm() > 1e-3f ? across.normalized() : Eigen::Vector3f(frame.col(1));
+  this->Axes.row(0) = right;
+  this->Axes.row(1) = sensor.direction.cross(right);
+  this->Axes.row(2) = sensor.direction;
   Points projected;
   projected.reserve(surface.size());
   double depthSum = 0.0;

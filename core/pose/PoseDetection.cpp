@@ -3,7 +3,6 @@
 
 #include "Parallel.h"
 #include "PointGrid.h"
-#include "Random.h"
 #include "pose/VoteAccumulator.h"
 
 #include <algorithm>
@@ -14,27 +13,60 @@ namespace meam
 {
 namespace
 {
-constexpr int LeastReferences = 50;     // that a few copies are found by in a small scene
+constexpr int LeastReferences = 100;    // that a few copies are found by in a small scene
 constexpr int BlockSize = 512;          // pairs whose keys are computed at once
 constexpr double CellShare = 0.25;       // of the diameter
+constexpr double LotShare = 0.01;        // of the diameter: points nearer than this share a lot
 
-/// `share` of the numbers below `count`, at least `least` where there are so many, chosen by `seed`, ascending.
-std::vector<int> chooseShare(int count, double share, int least, unsigned seed)
+/// A number that looks random, from a place and a seed (finalizer of MurmurHash3).
+std::uint64_t lot(const Eigen::Vector3f& point, double cell, unsigned seed)
 {
+  std::uint64_t hash = seed;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    hash ^= static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(point[axis] / cell)));
+    hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdull;
+    hash = (hash ^ (hash >> 33)) * 0xc4ceb9fe1a85ec53ull;
+    hash ^= hash >> 33;
+  }
+  return hash;
+}
+
+/// Indices of `share` of the points, at least `least` where there are so many, ascending. The lot falls on places, so the
+/// order of the points has no part in it.
+std::vector<int> chooseShare(const Points& points, double share, int least, double cell, unsigned seed)
+{
+  const int count = static_cast<int>(points.size());
   std::vector<int> indices(count);
   std::iota(indices.begin(), indices.end(), 0);
   const int wanted = std::min(count, std::max(least, static_cast<int>(std::ceil(share * count))));
   if (wanted < count)
   {
-    Random random(seed);
-    for (int i = 0; i < wanted; ++i)
+    std::vector<std::uint64_t> lots;
+    for (const auto& point : points)
     {
-      std::swap(indices[i], indices[i + random.index(count - i)]);
+      lots.push_back(lot(point, cell, seed));
     }
+    std::nth_element(indices.begin(), indices.begin() + wanted, indices.end(),
+      [&](int a, int b) { return lots[a] != lots[b] ? lots[a] < lots[b] : a < b; });
     indices.resize(wanted);
     std::sort(indices.begin(), indices.end());
   }
   return indices;
+}
+
+/// The points in their principal frame, each tangent with the sign that lets it run along the first axis.
+PointCloud inOwnFrame(const PointCloud& edges, const Eigen::Isometry3d& frame)
+{
+  PointCloud result;
+  result.points = moved(edges.points, frame);
+  const Eigen::Matrix3f turn = frame.linear().cast<float>();
+  for (const auto& tangent : edges.tangents)
+  {
+    const Eigen::Vector3f turned = turn * tangent;
+    result.tangents.push_back(turned.x() < 0.0f ? Eigen::Vector3f(-turned) : turned);
+  }
+  return result;
 }
 
 /// Votes of the scene's pairs, reference by reference.
@@ -107,15 +139,15 @@ PoseDetectionSettings paperDetectionSettings()
   return settings;
 }
 
-Poses detectPoses(const PointCloud& edges, const TrainedModel& model, const PoseDetectionSettings& settings,
+Poses detectPoses(const PointCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
   const Progress& progress)
 {
-  requirePoints(edges.points, "The scene's edge cloud");
-  if (edges.tangents.size() != edges.size())
+  requirePoints(sceneEdges.points, "The scene's edge cloud");
+  if (sceneEdges.tangents.size() != sceneEdges.size())
   {
     throw Error("The scene's edge points have no tangents: estimate them before detection.");
   }
-  requireSameUnits(edges.points, model.diameter);
+  requireSameUnits(sceneEdges.points, model.diameter);
   if (!(settings.referenceShare > 0.0 && settings.referenceShare <= 1.0) ||
     !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
   {
@@ -127,9 +159,13 @@ Poses detectPoses(const PointCloud& edges, const TrainedModel& model, const Pose
   }
   const int modelPoints = static_cast<int>(model.edges.size());
   const double angleStep = model.settings.angleStep * M_PI / 180.0;
-  const int count = static_cast<int>(edges.size());
-  const std::vector<int> references = chooseShare(count, settings.referenceShare, LeastReferences, settings.seed);
-  const Voting voting(model, edges.subset(chooseShare(count, settings.referredShare, 1, settings.seed + 1)));
+  const Eigen::Isometry3d frame = principalFrame(sceneEdges.points);
+  const PointCloud edges = inOwnFrame(sceneEdges, frame);
+  const double cell = LotShare * model.diameter;
+  const std::vector<int> references =
+    chooseShare(edges.points, settings.referenceShare, LeastReferences, cell, settings.seed);
+  const Voting voting(
+    model, edges.subset(chooseShare(edges.points, settings.referredShare, 1, cell, settings.seed + 1)));
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
   std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(modelPoints, angleStep));
@@ -156,6 +192,7 @@ Poses detectPoses(const PointCloud& edges, const TrainedModel& model, const Pose
       pose.T_scene_model =
         alignFrames(TangentFrame(model.edges.points[peak.modelPoint], model.edges.tangents[peak.modelPoint]), scene,
           peak.flip, peak.alpha);
+      pose.T_scene_model = frame.inverse() * pose.T_scene_model;
       pose.T_scene_model = nearestEqual(pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
       pose.votes = peak.votes;
       pose.viewId = __builtin_ctz(model.edgeViews[peak.modelPoint]);

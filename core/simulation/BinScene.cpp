@@ -111,13 +111,13 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   const double sensorHeight = settings.sensorHeight > 0.0 ? settings.sensorHeight : 3.0 * scene.binSize;
   const double wallHeight = WallHeight * partDiameter;
   const double wallThickness = WallThickness * partDiameter;
+  Random random(settings.seed);
+  const std::vector<Eigen::Isometry3d> poses =
+    fillBin(part, scene.binSize, settings.copies, random, subProgress(progress, 0.0, 0.6)).poses;
   if (sensorHeight <= wallHeight)
   {
     throw Error("The sensor is not above the bin: raise it.");
   }
-  Random random(settings.seed);
-  const std::vector<Eigen::Isometry3d> poses =
-    fillBin(part, scene.binSize, settings.copies, random, subProgress(progress, 0.0, 0.6)).poses;
 
   // The sensor's z looks down, its x along the bin's x.
   Eigen::Isometry3d T_scene_bin = Eigen::Isometry3d::Identity();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry.h"
 
+#include "TestParts.h"
+
 #include "Error.h"
 
 #include <gtest/gtest.h>
@@ -62,4 +64,28 @@ TEST(Geometry, MetresAgainstMillimetresIsAnError)
   EXPECT_THROW(meam::requireSameUnits(metres, 60.0), meam::Error);
   EXPECT_THROW(meam::requireSameUnits(millimetres, 0.06), meam::Error);
   EXPECT_NO_THROW(meam::requireSameUnits(millimetres, 60.0));
+}
+
+TEST(Geometry, ThePrincipalFrameMovesWithThePoints)
+{
+  std::mt19937 random(4);
+  std::gamma_distribution<float> skewed(2.0f, 1.0f);
+  meam::Points points;
+  for (int i = 0; i < 300; ++i)
+  {
+    points.push_back({ 9.0f * skewed(random), 4.0f * skewed(random), skewed(random) });
+  }
+  const Eigen::Isometry3d frame = meam::principalFrame(points);
+  EXPECT_NEAR(frame.linear().determinant(), 1.0, 1e-9);
+  EXPECT_GT(std::abs(frame.linear()(0, 0)), 0.9) << "most extent along x";
+  const meam::Points inFrame = meam::moved(points, frame);
+  const Eigen::Isometry3d T = parts::motion(random, 100.0);
+  meam::Points elsewhere = meam::moved(points, T);
+  elsewhere.push_back(Eigen::Vector3f::Constant(NAN));
+  const meam::Points again = meam::moved(elsewhere, meam::principalFrame(elsewhere));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_LT((inFrame[i] - again[i]).norm(), 1e-3f);
+  }
+  EXPECT_TRUE(meam::principalFrame({}).isApprox(Eigen::Isometry3d::Identity()));
 }

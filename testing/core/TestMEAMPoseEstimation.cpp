@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
+#include "Random.h"
 #include "TestScene.h"
 
 #include <gtest/gtest.h>
@@ -35,6 +36,52 @@ TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
   EXPECT_EQ(instancesFound(poses, 0.2, 0.3), 3);
   EXPECT_GT(times.detection, 0.0);
   EXPECT_GT(times.selection, 0.0);
+}
+
+TEST(MEAMPoseEstimation, TheOrderOfPointsDoesNotMatter)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  meam::Scene shuffled = scene;
+  meam::Random random(3);
+  random.shuffle(shuffled.edges.points);
+  random.shuffle(shuffled.surface);
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses one = meam::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses other = meam::estimatePoses(scenes::bracket(), shuffled, settings);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_LT(meam::translationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+    EXPECT_LT(meam::rotationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+  }
+}
+
+TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses before = meam::estimatePoses(scenes::bracket(), scene, settings);
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 3; ++trial)
+  {
+    const Eigen::Isometry3d T = parts::motion(random, 200.0);
+    meam::Scene turned = scene;
+    turned.edges.points = meam::moved(scene.edges.points, T);
+    turned.surface = meam::moved(scene.surface, T);
+    turned.sensor.direction = T.linear().cast<float>() * scene.sensor.direction;
+    const meam::Poses after = meam::estimatePoses(scenes::bracket(), turned, settings);
+    ASSERT_EQ(after.size(), before.size());
+    for (const meam::Pose& pose : before)
+    {
+      // Rounding moves a point over the border of its cube now and then; nothing more may change.
+      EXPECT_TRUE(std::any_of(after.begin(), after.end(),
+        [&](const meam::Pose& other)
+        {
+          return meam::translationError(T * pose.T_scene_model, other.T_scene_model) < 0.02 &&
+            meam::rotationError(T * pose.T_scene_model, other.T_scene_model) < 0.05;
+        })) << trial;
+    }
+  }
 }
 
 TEST(MEAMPoseEstimation, ThePaperPresetFindsThemToo)

@@ -82,7 +82,10 @@ TEST(PointGrid, OnePointStaysPerOccupiedCube)
 {
   // Cubes of 2 mm from the origin: the first holds three points, whose mean is (0.9, 0, 0).
   const meam::Points points = { { 0.1f, 0, 0 }, { 5, 0, 0 }, { 0.8f, 0, 0 }, { 1.8f, 0, 0 }, { -0.1f, 0, 0 } };
-  EXPECT_EQ(meam::thinPoints(points, 2.0), std::vector<int>({ 2, 1, 4 }));
+  EXPECT_EQ(meam::thinPoints(points, 2.0), std::vector<int>({ 4, 2, 1 })) << "cube by cube";
+  const meam::Points two = { { 0.2f, 0, 0 }, { 1.2f, 0, 0 } }; // equally near to their mean, the second to the middle
+  EXPECT_EQ(meam::thinPoints(two, 2.0), std::vector<int>({ 1 }));
+  EXPECT_EQ(meam::thinPoints({ two[1], two[0] }, 2.0), std::vector<int>({ 0 }));
   EXPECT_EQ(meam::thinPoints(points, 0.0).size(), 5u);
   EXPECT_EQ(meam::thinPoints({ { NAN, 0, 0 }, { 1, 0, 0 }, { 0, INFINITY, 0 } }, 2.0), std::vector<int>({ 1 }));
   EXPECT_EQ(meam::thinPoints({ { 3e38f, 0, 0 }, { 1, 0, 0 } }, 1e-3).size(), 2u);
