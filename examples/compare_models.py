@@ -66,10 +66,7 @@ class Scenes:
 def tohoku(folder, part, count):
     scenes = Scenes(f"Part {part} of the Tohoku dataset", evaluation.tohoku_mesh(folder, part))
     model = scripting.train(scenes.mesh)  # the same for all: how much of an instance is visible is no choice of a model
-    for scene in range(count):
-        surface, edges = evaluation.tohoku_clouds(folder, part, scene)
-        truth = evaluation.tohoku_truth(folder, part, scene)
-        scenes.scenes.append((surface, edges, evaluation.with_visibility(truth, model, edges, surface)))
+    scenes.scenes = [evaluation.tohoku_scene(folder, part, scene, model) for scene in range(count)]
     return scenes
 
 

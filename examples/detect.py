@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finds the copies of a part in a scan: prints the poses, best first, and the time of every stage."""
+"""Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
 import argparse
 
 from ppfmeam import filters, picture, scripting
@@ -8,11 +8,14 @@ from ppfmeam import filters, picture, scripting
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cad", metavar="PART", help="CAD file of the part: .stl, .obj or .ply, in mm")
+    parser.add_argument("--cad", action="append", default=[], metavar="PART",
+                        help="CAD file of the part: .stl, .obj or .ply, in mm; once for each type of part")
     parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
                         help="added to the CAD's coordinates, in mm")
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
-    parser.add_argument("--model", help="trained model of train.py, instead of training; --cad is then for the picture")
+    parser.add_argument("--model", action="append", default=[],
+                        help="trained model of train.py, instead of training, once for each type of part; --cad is then for "
+                             "the picture")
     scan = parser.add_mutually_exclusive_group(required=True)
     scan.add_argument("--scene", metavar="CLOUD", help="scan: .pcd, .ply, .stl or .obj, in mm")
     scan.add_argument("--depth", metavar="PNG", help="scan: a depth image of 16 bits, with --camera")
@@ -39,23 +42,15 @@ def options_of_user():
     options = parser.parse_args()
     if not options.cad and not options.model:
         parser.error("give the part: --cad, or --model of train.py")
+    if options.cad and options.model and len(options.cad) != len(options.model):
+        parser.error("give a --cad for each --model, in the same order, or none")
     if options.depth and not options.camera:
         parser.error("a depth image needs its --camera")
     return options
 
 
-def main():
-    options = options_of_user()
-    scripting.require_folder_of(options.out, options.json, options.matrices, options.picture)
-    if options.picture:
-        picture.require_display()
-    mesh = scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale) if options.cad else None
-    part = scripting.read_model(options.model) if options.model else mesh
-    if options.depth:
-        scene = scripting.read_depth(options.depth, options.camera, options.depth_scale)
-    else:
-        scene = scripting.read_scan(options.scene, options.scene_scale, options.camera)
-
+def estimate(options, part, scene, poses):
+    """vtkMEAMPoseEstimation of one part, brought up to date."""
     estimation = filters.vtkMEAMPoseEstimation()
     estimation.SetInputDataObject(part)
     estimation.SetInputDataObject(1, scene)
@@ -65,18 +60,47 @@ def main():
         estimation.SetInputDataObject(3, scripting.read_image(options.image))
         estimation.SetCameraFile(options.image_camera)
     scripting.set_choice(estimation, "Preset", options.preset)
-    estimation.SetMaximumNumberOfPoses(options.poses)
+    estimation.SetMaximumNumberOfPoses(poses)
     estimation.SetNumberOfThreads(options.threads)
-    scripting.update(estimation)
+    return scripting.update(estimation)
 
-    poses = estimation.GetOutput()
+
+def estimate_several(options, models, scene):
+    """The poses of all parts together and the poses of each alone, which know the times."""
+    estimations = [estimate(options, model, scene, 0) for model in models]
+    found = [estimation.GetOutput() for estimation in estimations]
+    edges = estimations[0].GetOutputDataObject(1)
+    return scripting.resolve_conflicts(found, models, scene, edges, options.preset, options.poses, options.threads), found
+
+
+def main():
+    options = options_of_user()
+    scripting.require_folder_of(options.out, options.json, options.matrices, options.picture)
+    if options.picture:
+        picture.require_display()
+    meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale) for path in options.cad]
+    parts = [scripting.read_model(path) for path in options.model] or meshes
+    if options.depth:
+        scene = scripting.read_depth(options.depth, options.camera, options.depth_scale)
+    else:
+        scene = scripting.read_scan(options.scene, options.scene_scale, options.camera)
+
+    if len(parts) == 1:
+        poses = estimate(options, parts[0], scene, options.poses).GetOutput()
+        found = [poses]
+    else:
+        models = parts if options.model else [scripting.train(mesh, options.preset) for mesh in meshes]
+        poses, found = estimate_several(options, models, scene)
     scripting.print_poses(poses)
-    scripting.print_times(poses)
+    for number, of_part in enumerate(found, 1):
+        print(f"part {number} " if len(parts) > 1 else "", end="")
+        scripting.print_times(of_part)
+    seconds = sum(scripting.field(of_part, "SecondsTotal") for of_part in found)
     for path, form in ((options.out, "BOPCSV"), (options.json, "JSON"), (options.matrices, "Matrices")):
         if path:
-            scripting.write_poses(poses, path, form)
+            scripting.write_poses(poses, path, form, Time=seconds)
     if options.picture:
-        picture.save(options.picture, scene, poses, mesh or part)
+        picture.save(options.picture, scene, poses, *(meshes or parts))
 
 
 scripting.run(main)

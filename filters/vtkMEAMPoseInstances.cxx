@@ -5,6 +5,7 @@
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
@@ -80,6 +81,7 @@ int vtkMEAMPoseInstances::RequestData(
         ? std::min<std::size_t>(poses.size(), this->MaximumNumberOfInstances)
         : poses.size();
 
+      vtkDataArray* ranks = posesInput->GetPointData()->GetArray("Rank");
       vtkNew<vtkAppendPolyData> append;
       for (std::size_t k = 0; k < copies; ++k)
       {
@@ -95,8 +97,10 @@ int vtkMEAMPoseInstances::RequestData(
         vtkNew<vtkPolyData> instance;
         instance->CopyStructure(mesh);
         instance->SetPoints(moved);
-        describe(instance->GetPointData(), instance->GetNumberOfPoints(), static_cast<int>(k) + 1, poses[k].score);
-        describe(instance->GetCellData(), instance->GetNumberOfCells(), static_cast<int>(k) + 1, poses[k].score);
+        const int place = static_cast<int>(k) + 1;
+        const int rank = ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : place;
+        describe(instance->GetPointData(), instance->GetNumberOfPoints(), rank, poses[k].score);
+        describe(instance->GetCellData(), instance->GetNumberOfCells(), rank, poses[k].score);
         append->AddInputDataObject(instance);
       }
       if (copies > 0)

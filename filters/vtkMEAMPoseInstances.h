@@ -4,11 +4,11 @@
  * @brief Puts a copy of the CAD mesh at every pose, coloured by rank, to look at.
  *
  * Input port 0: poses, best first, a vtkPolyData with the point array `Transform` (16, row-major
- * T_scene_model) and, where it is there, `Score`.
+ * T_scene_model) and, where they are there, `Score` and `Rank`.
  * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; MeshPreparation gives it.
  *
  * Output port 0: a vtkPolyData with all copies, best first. Point and cell arrays:
- * - `Rank`: 1 for the best;
+ * - `Rank`: 1 for the best; that of the poses, so that those of one part (a threshold of `PartId`) keep theirs;
  * - `Score`: [0, 1];
  * - `RankColor` (3, unsigned char), the active scalars: red, green, blue, yellow and pink for the ranks
  *   1 to 5, grey for the others.

@@ -63,6 +63,7 @@ void vtkMEAMPoseWriter::WriteData()
       const int format = this->Format == BY_EXTENSION ? formatOf(this->FileName) : this->Format;
       vtkDataArray* seconds = input->GetFieldData()->GetArray("SecondsTotal");
       const double measured = seconds && seconds->GetNumberOfValues() == 1 ? seconds->GetComponent(0, 0) : -1.0;
+      vtkDataArray* parts = input->GetPointData()->GetArray("PartId");
       const auto known = [&](const char* name) { return input->GetPointData()->HasArray(name) == 1; };
       std::vector<meam::PoseRow> rows;
       meam::Poses poses = vtkMEAMConversion::toPoses(input);
@@ -75,7 +76,7 @@ void vtkMEAMPoseWriter::WriteData()
         meam::PoseRow row;
         row.sceneId = this->SceneId;
         row.imageId = this->ImageId;
-        row.objectId = this->ObjectId;
+        row.objectId = this->ObjectId + (parts ? static_cast<int>(parts->GetComponent(rows.size(), 0)) : 0);
         row.T_scene_model = pose.T_scene_model;
         row.score = meam::confidence(pose);
         row.time = this->Time >= 0.0 ? this->Time : measured;

@@ -7,7 +7,8 @@
  * Write() returns 0 when it did not.
  *
  * Input port 0: poses, a vtkPolyData with the point array `Transform` (16) and, where it is there,
- * `Score`, `Votes`, `ViewId` and `VisibleFraction`; the field data `SecondsTotal` becomes the time.
+ * `Score`, `Votes`, `ViewId` and `VisibleFraction`; the field data `SecondsTotal` becomes the time. Where there is
+ * `PartId` (vtkMEAMConflictResolution), the parts are numbered from ObjectId on.
  */
 #ifndef vtkMEAMPoseWriter_h
 #define vtkMEAMPoseWriter_h
@@ -67,7 +68,7 @@ public:
   ///@}
 
   ///@{
-  /** Number of the part in its dataset. Default: 1. */
+  /** Number of the part in its dataset; of several parts that of the first. Default: 1. */
   vtkSetMacro(ObjectId, int);
   vtkGetMacro(ObjectId, int);
   ///@}

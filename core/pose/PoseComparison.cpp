@@ -11,16 +11,51 @@ namespace
 // Shares of the diameter.
 constexpr double FarShare = 0.02;        // a point this far from the part is not explained
 constexpr double NearShare = 0.01;       // an edge this near is
+constexpr double PastWeight = 2.25;       // of a predicted point: they are so much sparser than measured ones
+constexpr double MissingWeight = 1.0;        // of a predicted edge point: images lose edges
 constexpr double EdgeWeight = 3.0;        // of an edge point against a surface point
 }
 
-double PoseComparison::advantage(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
+PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const
+{
+  return { T_scene_model, this->Index.view.visible(T_scene_model, this->Index.scene.sensor) };
+}
+
+double PoseComparison::contradicted(const Contender& one, const Eigen::Isometry3f& toOther) const
+{
+  const TrainedModel& model = this->Index.model;
+  const float far = static_cast<float>(FarShare * model.diameter);
+  const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
+  double sum = 0.0;
+  for (const int i : one.visible.surface)
+  {
+    const Eigen::Vector3f point = T * model.surface.points[i];
+    sum += model.surfaceDistance.at(toOther * point) >= far &&
+        this->Index.depth.relation(point, far) == DepthMap::Relation::InFront
+      ? PastWeight
+      : 0.0;
+  }
+  for (const int i : one.visible.edges)
+  {
+    const Eigen::Vector3f point = T * model.edges.points[i];
+    sum += model.edgeDistance.at(toOther * point) >= far &&
+        this->Index.depth.relation(point, far) == DepthMap::Relation::OnSurface &&
+        this->Index.edges.nearest(point, far) < 0
+      ? MissingWeight
+      : 0.0;
+  }
+  return sum;
+}
+
+double PoseComparison::advantage(const Contender& one, const Contender& other) const
 {
   const TrainedModel& model = this->Index.model;
   const Points& sceneSurface = this->Index.depth.means();
   const Points& sceneEdges = this->Index.scene.edges.points;
   const float far = static_cast<float>(FarShare * model.diameter);
   const float near = static_cast<float>(NearShare * model.diameter);
+  const Eigen::Isometry3d& a = one.T_scene_model;
+  const Eigen::Isometry3d& b = other.T_scene_model;
   const Eigen::Isometry3f toA = a.inverse().cast<float>();
   const Eigen::Isometry3f toB = b.inverse().cast<float>();
   const DistanceField& surface = model.surfaceDistance;
@@ -41,7 +76,7 @@ double PoseComparison::advantage(const Eigen::Isometry3d& a, const Eigen::Isomet
         }
       });
   };
-  double sum = 0.0;
+  double sum = this->contradicted(other, toA) - this->contradicted(one, toB);
   forEachNear(this->Index.surface, sceneSurface,
     [&](int k)
     {

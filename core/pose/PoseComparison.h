@@ -17,10 +17,23 @@ public:
   {
   }
 
-  /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not.
-  double advantage(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
+  /// A pose and what of the part the sensor should see at it.
+  struct Contender
+  {
+    Eigen::Isometry3d T_scene_model;
+    PartView::Visible visible;
+  };
+  Contender contender(const Eigen::Isometry3d& T_scene_model) const;
+
+  /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not,
+  /// and surface and edges that one of them alone predicts and that are not there.
+  double advantage(const Contender& a, const Contender& b) const;
 
 private:
+  /// What `one` predicts and the other (`toOther` takes points of the scene to its part) does not: surface that the
+  /// sensor looked past, and edges on surface it saw where the scene has none.
+  double contradicted(const Contender& one, const Eigen::Isometry3f& toOther) const;
+
   const SceneIndex& Index;
 };
 }

@@ -25,7 +25,6 @@ constexpr double VisibilityExponent = 0.5; // parts that nothing hides come firs
 // Logistic regression of whether a pose is right, over poses in scenes with true ones.
 constexpr double WithSurface[] = { -20.0, 29.0 }; // constant, score
 constexpr double EdgesAlone[] = { -0.8, 9.2 };
-constexpr double CertaintyWeight = 5.0; // of the logarithm of the certainty
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
 void scoreCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)
@@ -44,9 +43,8 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.support();
   const auto& weights = index.scene.surface.empty() ? EdgesAlone : WithSurface;
-  const double logit =
-    weights[0] + weights[1] * pose.score + CertaintyWeight * std::log(std::max(pose.certainty, 1e-9));
-  pose.probability = 1.0 / (1.0 + std::exp(-logit));
+  // Squared: over scenes with true poses the certainty alone is too high.
+  pose.probability = pose.certainty * pose.certainty / (1.0 + std::exp(-weights[0] - weights[1] * pose.score));
 }
 
 /// What poses are ordered by: likely ones that nothing hides come first.
@@ -59,10 +57,15 @@ double preference(const Pose& pose)
 void settleNearSymmetry(Pose& pose, const PoseComparison& comparison, const Symmetries& symmetries)
 {
   const Eigen::Isometry3d T = pose.T_scene_model;
+  if (symmetries.near.empty())
+  {
+    return;
+  }
+  const PoseComparison::Contender asItIs = comparison.contender(T);
   std::vector<double> advantages{ 0.0 };
   for (const NearSymmetry& symmetry : symmetries.near)
   {
-    advantages.push_back(comparison.advantage(T * symmetry.T, T));
+    advantages.push_back(comparison.advantage(comparison.contender(T * symmetry.T), asItIs));
   }
   const auto best = std::max_element(advantages.begin(), advantages.end());
   double odds = 0.0; // of all turns against the best
@@ -145,8 +148,8 @@ public:
         std::all_of(alternatives.begin(), alternatives.end(),
           [&](int kept)
           {
-            return this->Comparison->advantage(
-                     this->InPoses[candidate].T_scene_model, this->InPoses[kept].T_scene_model) > 0.0;
+            return this->Comparison->advantage(this->Comparison->contender(this->InPoses[candidate].T_scene_model),
+                     this->Comparison->contender(this->InPoses[kept].T_scene_model)) > 0.0;
           });
       if (!best)
       {

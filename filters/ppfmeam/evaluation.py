@@ -3,6 +3,9 @@
 import os
 import statistics
 
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import filters, scripting
@@ -14,6 +17,8 @@ FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "re
            "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
            "mean_deg": "MeanRotationError"}
 STAGES = scripting.STAGES[2:-1]
+NOISE_HELP = ("normal noise of every coordinate of the scenes' points: mm, or % of the part's diameter, such as 0.3 or 1%% "
+              "(default: %(default)s)")
 
 
 def numbers(text):
@@ -53,6 +58,30 @@ def with_visibility(truth, model, edges, surface):
     verification.SetMaximumNumberOfPoses(0)
     verification.SetClusterDistance(1e-6)  # every pose stays
     return scripting.update(verification).GetOutput()
+
+
+def with_noise(clouds, noise, diameter, seed):
+    """The clouds with noise as NOISE_HELP has it."""
+    try:
+        deviation = float(noise[:-1]) / 100 * diameter if noise.endswith("%") else float(noise)
+    except ValueError:
+        raise scripting.Failure(f"noise is a number of mm or a percentage, not {noise}") from None
+    random, noisy = numpy.random.default_rng(seed), []
+    for cloud in clouds:
+        places = vtk_to_numpy(cloud.GetPoints().GetData())
+        places = places + random.normal(0.0, deviation, places.shape) if deviation else places
+        noisy.append(cloud.NewInstance())
+        noisy[-1].ShallowCopy(cloud)
+        noisy[-1].SetPoints(vtkPoints())
+        noisy[-1].GetPoints().SetData(numpy_to_vtk(places.astype(numpy.float32), deep=True))
+    return noisy
+
+
+def tohoku_scene(folder, part, scene, model, noise="0"):
+    """Of a scene the surface and the edge points, with noise, and the true poses with their visibility."""
+    surface, edges = tohoku_clouds(folder, part, scene)
+    truth = with_visibility(tohoku_truth(folder, part, scene), model, edges, surface)
+    return *with_noise((surface, edges), noise, scripting.field(model, "Diameter"), scene), truth
 
 
 class Evaluation:

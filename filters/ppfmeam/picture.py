@@ -6,8 +6,9 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStructuredGrid
-from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkPolyDataNormals, vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
@@ -31,18 +32,15 @@ def require_display():
         raise Failure("a picture needs a display: use examples/run.sh, which starts a virtual one, or xvfb-run -a")
 
 
-def save(path, scene, poses, part, looks=None):
-    """Writes a PNG. `part` is the mesh, or the trained model; the sensor `looks` along +z at an organized
-    scene and from above, along -z, at any other."""
+def save(path, scene, poses, *parts, looks=None):
+    """Writes a PNG. A part is the mesh, or the trained model; of several each stands at the poses with its `PartId`. The
+    sensor `looks` along +z at an organized scene and from above, along -z, at any other."""
     require_display()
     if looks is None:
         looks = (0, 0, 1) if isinstance(scene, vtkStructuredGrid) else (0, 0, -1)
     points = vtk_to_numpy(scene.GetPoints().GetData())
     valid = numpy.isfinite(points).all(axis=1)
-    instances = vtkMEAMPoseInstances()
-    instances.SetInputDataObject(0, poses)
-    instances.SetInputDataObject(1, shape_of(part))
-    update(instances)
+    instances = posed(poses, parts)
 
     renderer = vtkRenderer()
     renderer.SetBackground(BACKGROUND)
@@ -254,6 +252,28 @@ def copies(instances):
     actor.GetProperty().SetPointSize(3)  # of a model without faces
     actor.GetProperty().SetLighting(instances.GetOutput().GetNumberOfPolys() > 0)
     return actor
+
+
+def posed(poses, parts):
+    """Each part at its poses."""
+    together = vtkAppendPolyData()
+    for number, part in enumerate(parts):
+        instances = vtkMEAMPoseInstances()
+        instances.SetInputDataObject(0, of_part(poses, number) if len(parts) > 1 else poses)
+        instances.SetInputDataObject(1, shape_of(part))
+        together.AddInputDataObject(update(instances).GetOutput())
+    return update(together)
+
+
+def of_part(poses, number):
+    """The poses with that `PartId`."""
+    threshold, geometry = vtkThreshold(), vtkGeometryFilter()
+    threshold.SetInputDataObject(poses)
+    threshold.SetInputArrayToProcess(0, 0, 0, 0, "PartId")
+    threshold.SetLowerThreshold(number)
+    threshold.SetUpperThreshold(number)
+    geometry.SetInputConnection(threshold.GetOutputPort())
+    return update(geometry).GetOutput()
 
 
 def legend(copies_made, poses):

@@ -220,6 +220,24 @@ def train(mesh, preset="recommended"):
     return Training(mesh, preset).model()
 
 
+def resolve_conflicts(found, models, scene, edges, preset="recommended", poses=0, threads=0):
+    """Of the poses of several parts, found in the same scan, those that stay, best first; `PartId` is the part's place.
+    `edges` are the scan's edge points; as many poses as wanted, 0 for all."""
+    tangents = filters.vtkMEAMTangentEstimation()
+    set_choice(tangents, "Parameters", preset)
+    tangents.SetInputDataObject(edges)
+    tangents.SetInputDataObject(1, models[0])
+    resolution = filters.vtkMEAMConflictResolution()
+    for port, inputs in enumerate((found, models)):
+        for data in inputs:
+            resolution.AddInputDataObject(port, data)
+    resolution.SetInputConnection(2, tangents.GetOutputPort())
+    resolution.SetInputDataObject(3, scene)
+    resolution.SetMaximumNumberOfPoses(poses)
+    resolution.SetNumberOfThreads(threads)
+    return update(resolution).GetOutput()
+
+
 def write_model(model, path):
     """Writes a trained model, NAME.vtpc and the folder NAME beside it, whole or not at all."""
     name, extension = os.path.splitext(os.path.basename(path))
@@ -292,13 +310,15 @@ def symmetry_words(samples):
 
 
 def print_poses(poses):
-    """Prints poses as a table."""
+    """Prints poses as a table; with the number of the part, from 1, where there are several."""
     array = poses.GetPointData().GetArray
-    print("rank  score  translation (mm)               quaternion (x y z w)                view  visible")
+    part = array("PartId")
+    print(f"rank  {'part  ' if part else ''}score  translation (mm)               quaternion (x y z w)                view  visible")
     for i in range(poses.GetNumberOfPoints()):
         t = array("Transform").GetTuple(i)
         q = array("Quaternion").GetTuple(i)
-        print(f"{array('Rank').GetValue(i):4d}  {array('Score').GetValue(i):.3f}"
+        number = f"{part.GetValue(i) + 1:4d}  " if part else ""
+        print(f"{array('Rank').GetValue(i):4d}  {number}{array('Score').GetValue(i):.3f}"
               f"  {t[3]:9.3f} {t[7]:9.3f} {t[11]:9.3f}  {q[0]:8.5f} {q[1]:8.5f} {q[2]:8.5f} {q[3]:8.5f}"
               f"  {array('ViewId').GetValue(i):4d}  {100 * array('VisibleFraction').GetValue(i):5.0f} %")
     if poses.GetNumberOfPoints() == 0:

@@ -60,6 +60,34 @@ inline meam::TriangleMesh lBracket()
   return prism({ { 18, 12 }, { 18, 40 }, { 0, 40 }, { 0, 0 }, { 60, 0 }, { 60, 12 } }, 15);
 }
 
+/// A plate of 60 x 40 x 10 mm with a window of 14 x 20 mm towards one corner: no rotation maps it onto itself.
+inline meam::TriangleMesh windowPlate()
+{
+  meam::TriangleMesh mesh;
+  for (const float z : { 0.0f, 10.0f })
+  {
+    for (const auto& corner : { Eigen::Vector2f(0, 0), { 60, 0 }, { 60, 40 }, { 0, 40 }, //
+           { 40, 14 }, { 54, 14 }, { 54, 34 }, { 40, 34 } })
+    {
+      mesh.vertices.emplace_back(corner.x(), corner.y(), z);
+    }
+  }
+  const auto quad = [&](int a, int b, int c, int d)
+  {
+    mesh.triangles.emplace_back(a, b, c);
+    mesh.triangles.emplace_back(a, c, d);
+  };
+  for (int i = 0; i < 4; ++i)
+  {
+    const int j = (i + 1) % 4;
+    quad(8 + i, 8 + j, 12 + j, 12 + i); // top: the lower 8 corners are the bottom's, 4 outer and 4 of the window
+    quad(i, 4 + i, 4 + j, j);
+    quad(i, j, 8 + j, 8 + i);
+    quad(4 + i, 12 + i, 12 + j, 4 + j);
+  }
+  return mesh;
+}
+
 inline Eigen::Isometry3d motion(std::mt19937& random, double reach)
 {
   const auto number = [&] { return random() / 2147483648.0 - 1.0; };

@@ -44,6 +44,16 @@ meam::Scene lyingPlate(bool hidden)
   return scene;
 }
 
+Eigen::Isometry3d quarter(int turns);
+
+/// Of the true pose over a quarter turn.
+double advantageIn(const meam::Scene& scene)
+{
+  const meam::SceneIndex index(plate(), scene);
+  const meam::PoseComparison comparison(index);
+  return comparison.advantage(comparison.contender(quarter(0)), comparison.contender(quarter(1)));
+}
+
 Eigen::Isometry3d quarter(int turns)
 {
   return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2, Eigen::Vector3d::Zero());
@@ -55,13 +65,14 @@ TEST(PoseComparison, TheCutCornerDecidesBetweenTurns)
   const meam::Scene scene = lyingPlate(false);
   const meam::SceneIndex index(plate(), scene);
   const meam::PoseComparison comparison(index);
+  const auto at = [&](int turns) { return comparison.contender(quarter(turns)); };
   for (int turns = 1; turns < 4; ++turns)
   {
-    const double advantage = comparison.advantage(quarter(0), quarter(turns));
+    const double advantage = comparison.advantage(at(0), at(turns));
     EXPECT_GT(advantage, 20.0) << turns;
-    EXPECT_NEAR(comparison.advantage(quarter(turns), quarter(0)), -advantage, 1e-9) << "antisymmetric";
+    EXPECT_NEAR(comparison.advantage(at(turns), at(0)), -advantage, 1e-9) << "antisymmetric";
   }
-  EXPECT_EQ(comparison.advantage(quarter(0), quarter(0)), 0.0);
+  EXPECT_EQ(comparison.advantage(at(0), at(0)), 0.0);
 }
 
 TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
@@ -69,8 +80,9 @@ TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
   const meam::Scene scene = lyingPlate(true);
   const meam::SceneIndex index(plate(), scene);
   const meam::PoseComparison comparison(index);
+  const auto at = [&](int turns) { return comparison.contender(quarter(turns)); };
   // Turned by 180 degrees the cut would lie where whole surface was seen.
-  EXPECT_GT(comparison.advantage(quarter(0), quarter(2)), 5.0);
+  EXPECT_GT(comparison.advantage(at(0), at(2)), 5.0);
   const meam::Scene nothing = [&]
   {
     meam::Scene half = scene;
@@ -80,7 +92,7 @@ TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
     half.edges.points[0].x() += 1000.0f; // none here
     return half;
   }();
-  EXPECT_LT(std::abs(meam::PoseComparison(meam::SceneIndex(plate(), nothing)).advantage(quarter(0), quarter(1))), 1.0);
+  EXPECT_LT(std::abs(advantageIn(nothing)), 1.0);
 }
 
 TEST(PoseComparison, NearSymmetriesAreSettledInVerification)
@@ -104,5 +116,5 @@ TEST(PoseComparison, EdgesAloneDecide)
 {
   meam::Scene scene = lyingPlate(false);
   scene.surface.clear();
-  EXPECT_GT(meam::PoseComparison(meam::SceneIndex(plate(), scene)).advantage(quarter(0), quarter(1)), 5.0);
+  EXPECT_GT(advantageIn(scene), 5.0);
 }

@@ -19,17 +19,23 @@ inline const meam::TrainedModel& bracket(meam::Preset preset = meam::Preset::Rec
   return preset == meam::Preset::Paper ? paper : recommended;
 }
 
-/// What a sensor far above sees of brackets at the given poses: surface and edge points, no tangents.
-inline meam::Scene seenFromAbove(const std::vector<Eigen::Isometry3d>& poses)
+/// A part and where a copy of it is.
+struct Copy
+{
+  meam::TriangleMesh part;
+  Eigen::Isometry3d T_scene_model;
+};
+
+/// What a sensor far above sees of copies of any parts: surface and edge points, no tangents.
+inline meam::Scene seenFromAbove(const std::vector<Copy>& copies)
 {
   meam::SurfaceSamplingSettings sampling;
   sampling.spacing = 0.7;
   sampling.seed = 7; // other points than the model's
-  const meam::PointCloud part = meam::sampleSurface(parts::lBracket(), sampling);
   meam::PointCloud all;
-  for (const auto& T : poses)
+  for (const auto& [part, T] : copies)
   {
-    const meam::PointCloud copy = parts::moved(part, T);
+    const meam::PointCloud copy = parts::moved(meam::sampleSurface(part, sampling), T);
     all.points.insert(all.points.end(), copy.points.begin(), copy.points.end());
     all.normals.insert(all.normals.end(), copy.normals.begin(), copy.normals.end());
   }
@@ -41,6 +47,17 @@ inline meam::Scene seenFromAbove(const std::vector<Eigen::Isometry3d>& poses)
   scene.sensor.perspective = false;
   scene.sensor.direction = -Eigen::Vector3f::UnitZ();
   return scene;
+}
+
+/// The same of brackets at the given poses.
+inline meam::Scene seenFromAbove(const std::vector<Eigen::Isometry3d>& poses)
+{
+  std::vector<Copy> copies;
+  for (const auto& T : poses)
+  {
+    copies.push_back({ parts::lBracket(), T });
+  }
+  return seenFromAbove(copies);
 }
 
 inline meam::Scene withTangents(meam::Scene scene)

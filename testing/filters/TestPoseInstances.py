@@ -33,6 +33,9 @@ strong = [tuple(c > 160 for c in color) for color in colors[:5]]
 check(strong == [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1)], f"the colours are {colors}")
 check(len(set(colors[5])) == 1 and colors[5] == colors[6], f"later ranks are grey: {colors[5:]}")
 check(close(tuples(copies, "Score")[8 * 6], (0.3,)), "the score is there")
+ranked = cloud([(0, 0, 0)] * 2, Transform=[at(0), at(1)], Rank=[2, 9])
+check([tuples(run(connect(vtkMEAMPoseInstances(), ranked, part)), name)[i] for i in (0, 8) for name in ("Rank", "RankColor")]
+      == [(2,), colors[1], (9,), colors[6]], "poses keep the ranks that they have")
 filter.SetMaximumNumberOfInstances(3)
 check({r for r, in tuples(run(filter), "Rank")} == {1, 2, 3}, "only the best")
 

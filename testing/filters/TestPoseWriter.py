@@ -53,6 +53,9 @@ check(tuples(read, "Transform") == [QUARTER, IDENTITY], "the same matrices come 
 check(writer(data, "poses.csv", SceneId=3, ImageId=4, ObjectId=5).Write() == 1, "Write() succeeds")
 check(text("poses.csv") == "scene_id,im_id,obj_id,score,R,t,time\n"
       "3,4,5,0,0 -1 0 1 0 0 0 0 1,1.5 -2 0.1,0.25\n3,4,5,0,1 0 0 0 1 0 0 0 1,7 8 9,0.25\n", text("poses.csv"))
+typed = cloud([(0, 0, 0)] * 2, Transform=[QUARTER, IDENTITY], PartId=[1, 0])
+check(writer(typed, "typed.csv").Write() == 1, "Write() succeeds")
+check([row.split(",")[2] for row in text("typed.csv").splitlines()[1:]] == ["2", "1"], text("typed.csv"))
 full = cloud([(1.5, -2, 0.1)], Transform=[QUARTER], Score=[0.75], Votes=[12], ViewId=[2], VisibleFraction=[0.5])
 check(writer(full, "poses.json", Time=2.0).Write() == 1, "Write() succeeds")
 row, = json.loads(text("poses.json"))["poses"]

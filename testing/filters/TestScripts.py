@@ -12,7 +12,7 @@ import tempfile
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOGeometry import vtkSTLWriter
+from vtkmodules.vtkIOGeometry import vtkSTLReader, vtkSTLWriter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
 from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseWriter, vtkMEAMSceneEdgeExtraction
@@ -125,6 +125,32 @@ for moved in numpy.array(read("d.txt").split(), float).reshape(-1, 4, 4):
     shift = min(numpy.abs(moved @ (0, 0, 5, 1) - transform[:, 3]).max() for transform in transforms)
     check(shift < 0.2, f"the offset part is {shift} mm away")
 
+# Two types of part: the left half of a bin of one, the right half of a bin of the other, seen by the same camera.
+plate = vtkSTLReader()
+plate.SetFileName(os.path.join(EXAMPLES, "parts", "hole_plate.stl"))
+bins = {"1": vtkMEAMBinSceneSource(), "2": connect(vtkMEAMBinSceneSource(), plate)}
+halves = numpy.arange(W * H) % W < W // 2
+columns = []
+for half in bins.values():
+    for name, value in (("Copies", 6), ("Seed", 2), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
+        getattr(half, "Set" + name)(value)
+    data = run(half)
+    columns.append(numpy.column_stack((vtk_to_numpy(data.GetPoints().GetData()),
+                                       vtk_to_numpy(data.GetPointData().GetArray("Intensity")))))
+write_pcd("two.pcd", numpy.where(halves[:, None], *columns), W, H, "x y z intensity")
+text = works("detect.py", "--cad", "part.stl", "--cad", plate.GetFileName(), "--scene", "two.pcd", "--poses", "3",
+             "--out", "two.csv", "--json", "two.json", "--matrices", "two.txt")
+check(text.startswith("rank  part  score") and "\npart 2 time" in text, f"a table with parts: {text}")
+rows = list(csv.DictReader(read("two.csv").splitlines()))
+check(len(rows) == 3 and {row["obj_id"] for row in rows} == {"1", "2"}, f"both types are found: {rows}")
+check([pose["obj_id"] for pose in json.loads(read("two.json"))["poses"]] == [int(row["obj_id"]) for row in rows], "JSON")
+for row, found in zip(rows, numpy.array(read("two.txt").split(), float).reshape(-1, 4, 4)):
+    here = bins[row["obj_id"]].GetOutputDataObject(1)
+    miss = min(numpy.abs(found - t).max() for t in numpy.array(tuples(here, "Transform")).reshape(-1, 4, 4))
+    check(miss < 1, f"{miss} mm from a true pose of part {row['obj_id']}: {found}")
+result = script("detect.py", "--cad", "part.stl", "--cad", "box.stl", "--model", "model.vtpc", "--scene", "two.pcd")
+check(result.returncode == 2 and "a --cad for each --model" in result.stderr, result.stderr)
+
 # evaluate.py, on a dataset of our own: seen from above, z up. The second scene is missing.
 up = numpy.diag((1.0, -1.0, -1.0, 1.0))
 edges = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
@@ -149,6 +175,13 @@ check(result.returncode == 1 and "scene 1: cannot read" in result.stderr and "1 
 rows = list(csv.DictReader(read("result/tohoku.csv").splitlines()))
 check(math.isclose(float(rows[0]["strict"]), float(row["strict"]) / 2), "the missing scene counts")
 check(os.listdir("result/Part_1") == ["trans0.txt"], "there is no file for the missing scene")
+# Noise: the same again with the same one.
+noisy = [works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--noise", noise,
+               "--out", "noisy") and read("noisy/Part_1/trans0.txt") for noise in ("0.2", "0.2", "0.1%")]
+check(noisy[0] == noisy[1] != noisy[2], "the noise is not what was asked for")
+check(noisy[0] != read("result/Part_1/trans0.txt"), "there is no noise")
+result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--noise", "loud")
+check(result.returncode == 1 and "not loud" in result.stderr, result.stderr)
 
 # compare_models.py: a row for each model, the same scenes for all.
 text = works("compare_models.py", "--tohoku", "data", "--parts", "1", "--scenes", "1", "--simulated", "1", "--copies", "2",
@@ -156,6 +189,13 @@ text = works("compare_models.py", "--tohoku", "data", "--parts", "1", "--scenes"
 check(text.strip() == read("models.md").strip() and text.count("###") == 2, f"two tables: {text}")
 rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if "MEAM |" in line or "mesh edges |" in line]
 check(len(rows) == 4 and all(float(row[1].rstrip(" %")) >= 50 and float(row[5]) > 1000 for row in rows), f"{text}")
+
+# ablation.py: a row for each decision, with a time where the online phase is as it was.
+text = works("ablation.py", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--only", "none,near,edges,no-refinement")
+rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()[4:] if line]
+check([row[0] for row in rows] == ["nothing", "no near-symmetries", "edges alone, no surface", "no refinement"], text)
+check(all(float(row[1].rstrip(" %")) >= 50 for row in rows) and [row[5] == "-" for row in rows] == [False, False, True, True],
+      text)
 
 # Bad input.
 for name in ("empty.stl", "empty.ply", "empty.obj", "empty.pcd"):
@@ -210,6 +250,7 @@ refuses("no faces", "train.py", "--cad", "points.ply", "--out", "o.vtpc")
 refuses(".vtpc", "train.py", "--cad", "part.stl", "--out", "o.model")
 refuses("cannot write", "train.py", "--cad", "part.stl", "--out", "o.vtpc", "--models-info", "no/such/folder.json")
 refuses("display", "simulated_bin.py", "--picture", "o.png")
+refuses("cannot read nowhere", "ablation.py", "nowhere")
 refuses("cannot read nowhere", "compare_models.py", "--tohoku", "nowhere", "--out", "o.md")
 result = script("evaluate.py", "tohoku", "nowhere", "--out", "o")
 check(result.returncode == 1 and "cannot read nowhere" in result.stderr and not os.path.exists("o"), result.stderr)

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene of the Tohoku dataset with one decision of the online phase changed at a time; docs/method.md has what each
+// is worth. One thread.
+#include "BenchmarkScene.h"
+
+namespace
+{
+using Settings = meam::DetectionSettings;
+
+void Decision(benchmark::State& state, void (*change)(Settings&))
+{
+  const scenes::Search* search = scenes::tohokuSearch();
+  if (!search)
+  {
+    return scenes::skip(state);
+  }
+  Settings settings = meam::detectionSettings(meam::Preset::Recommended, 0, 1);
+  change(settings);
+  for (auto _ : state)
+  {
+    benchmark::DoNotOptimize(meam::estimatePoses(search->model, search->scan, settings));
+  }
+}
+
+#define MEAM_DECISION(name, statement)                                                                                 \
+  BENCHMARK_CAPTURE(Decision, name, [](Settings& settings) { statement; })->UseRealTime()->Unit(benchmark::kMillisecond)
+
+MEAM_DECISION(none, (void)settings);
+MEAM_DECISION(p_ref_5, settings.detection.referenceShare = 0.05);
+MEAM_DECISION(p_ref_2, settings.detection.referenceShare = 0.02);
+MEAM_DECISION(p_ref_1, settings.detection.referenceShare = 0.01);
+MEAM_DECISION(two_peaks, settings.detection.peaksPerReference = 2);
+MEAM_DECISION(candidates_15, settings.verification.maximumPoses = 15);
+MEAM_DECISION(candidates_25, settings.verification.maximumPoses = 25);
+MEAM_DECISION(one_of_an_instance, settings.verification.posesPerInstance = 1);
+MEAM_DECISION(
+  edge_coverage, settings.verification.method = settings.selection.method = meam::VerificationMethod::EdgeCoverage);
+MEAM_DECISION(point_to_point, settings.refinement = meam::paperRefinementSettings(); settings.refinement.threads = 1);
+}

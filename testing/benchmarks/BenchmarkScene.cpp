@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole online phase, from edge points to poses. The first argument of Scene is the number of threads, that of the
+// others what grows: copies in the scene, or how finely the model is thinned. Complexity is told in its points.
+#include "BenchmarkScene.h"
+
+namespace
+{
+void estimate(benchmark::State& state, const scenes::Search& search, int threads)
+{
+  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 0, threads);
+  std::size_t poses = 0;
+  for (auto _ : state)
+  {
+    poses = meam::estimatePoses(search.model, search.scan, settings).size();
+  }
+  state.counters["poses"] = static_cast<double>(poses);
+}
+
+void Scene(benchmark::State& state) { estimate(state, *scenes::bracketSearch(), static_cast<int>(state.range(0))); }
+BENCHMARK(Scene)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void SceneByScenePoints(benchmark::State& state)
+{
+  const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
+  estimate(state, search, 1);
+  state.SetComplexityN(static_cast<std::int64_t>(search.scan.edges.size()));
+}
+BENCHMARK(SceneByScenePoints)
+  ->ArgsProduct({ scenes::Copies })
+  ->Complexity()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+void SceneByModelPoints(benchmark::State& state)
+{
+  const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
+  estimate(state, search, 1);
+  state.SetComplexityN(static_cast<std::int64_t>(search.model.edges.size()));
+}
+BENCHMARK(SceneByModelPoints)
+  ->ArgsProduct({ scenes::Leaves })
+  ->Complexity()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+}

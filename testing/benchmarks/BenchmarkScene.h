@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the benchmarks share: brackets on a table and, where it is there, a scene of the Tohoku dataset.
+#pragma once
+
+#include "pose/MEAMPoseEstimation.h"
+
+#include <benchmark/benchmark.h>
+
+namespace scenes
+{
+/// A part and a scene of it.
+struct Search
+{
+  const meam::TrainedModel& model;
+  const meam::Scene& scene; ///< its edges have tangents
+  const meam::Scene& scan;  ///< before they had
+};
+
+/// Copies of the bracket on a table, far enough from each other that no pair of points joins two; the bracket as it is
+/// trained by default.
+Search searchOfCopies(int copies);
+
+/// Twelve copies; the bracket trained with edge points thinned to one in a cube of `tenths` of a millimetre.
+Search searchOfThinned(int tenths);
+
+/// Twelve copies.
+const Search* bracketSearch();
+
+/// Part 1 and scene 0 of the dataset in $PPFMEAM_DATA/tohoku; null without it.
+const Search* tohokuSearch();
+
+/// Skips a benchmark for want of data.
+inline void skip(benchmark::State& state) { state.SkipWithError("no Tohoku dataset: set PPFMEAM_DATA"); }
+
+/// Copies in a scene, for what grows with the scene.
+inline const std::vector<std::int64_t> Copies{ 3, 6, 12, 24, 48 };
+
+/// Tenths of a millimetre, for what grows with the model.
+inline const std::vector<std::int64_t> Leaves{ 40, 28, 20, 14, 10 };
+}

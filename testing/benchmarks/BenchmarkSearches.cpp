@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BenchmarkScene.h"
+
+#include "../core/TestScene.h"
+#include "io/PCDFile.h"
+#include "mesh/MeshPreparation.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <memory>
+
+namespace scenes
+{
+namespace
+{
+/// A trained part and a scene of it, kept.
+struct KeptSearch
+{
+  meam::TrainedModel model;
+  meam::Scene scan;
+  meam::Scene scene;
+  Search search{ model, scene, scan };
+};
+
+meam::TriangleMesh readAsciiSTL(const std::string& path)
+{
+  std::ifstream file(path);
+  meam::TriangleMesh mesh;
+  for (std::string word; file >> word;)
+  {
+    if (word == "vertex")
+    {
+      Eigen::Vector3f& vertex = mesh.vertices.emplace_back();
+      file >> vertex.x() >> vertex.y() >> vertex.z();
+    }
+  }
+  for (int i = 0; i + 2 < static_cast<int>(mesh.vertices.size()); i += 3)
+  {
+    mesh.triangles.emplace_back(i, i + 1, i + 2);
+  }
+  return meam::prepareMesh(mesh).mesh;
+}
+
+/// Made once for each argument.
+template <typename Value, typename Make>
+const Value& kept(std::map<int, Value>& values, int argument, Make&& make)
+{
+  const auto found = values.find(argument);
+  return found != values.end() ? found->second : values[argument] = make();
+}
+
+const meam::Scene& scanOfBrackets(int copies)
+{
+  static std::map<int, meam::Scene> scans;
+  return kept(scans, copies,
+    [&]
+    {
+      const int inRow = static_cast<int>(std::ceil(std::sqrt(copies)));
+      std::vector<Eigen::Isometry3d> poses;
+      for (int i = 0; i < copies; ++i)
+      {
+        poses.push_back(lying(80.0 * (i % inRow), 80.0 * (i / inRow), 37.0 * i, i % 2 == 0));
+      }
+      return seenFromAbove(poses);
+    });
+}
+
+const meam::Scene& sceneOfBrackets(int copies)
+{
+  static std::map<int, meam::Scene> scans;
+  return kept(scans, copies, [&] { return withTangents(scanOfBrackets(copies)); });
+}
+}
+
+Search searchOfCopies(int copies) { return { bracket(), sceneOfBrackets(copies), scanOfBrackets(copies) }; }
+
+Search searchOfThinned(int tenths)
+{
+  static std::map<int, meam::TrainedModel> models;
+  const meam::TrainedModel& model = kept(models, tenths,
+    [&]
+    {
+      meam::TrainingSettings settings = meam::trainingSettings(meam::Preset::Recommended);
+      settings.tangents.leafSize = 0.1 * tenths;
+      return meam::trainModel(parts::lBracket(), settings);
+    });
+  return { model, sceneOfBrackets(12), scanOfBrackets(12) };
+}
+
+const Search* bracketSearch()
+{
+  static const Search search = searchOfCopies(12);
+  return &search;
+}
+
+const Search* tohokuSearch()
+{
+  static const std::unique_ptr<KeptSearch> kept = []() -> std::unique_ptr<KeptSearch>
+  {
+    const char* data = std::getenv("PPFMEAM_DATA");
+    const std::string folder = std::string(data ? data : "") + "/tohoku/Part_1/";
+    if (!std::ifstream(folder + "Part_1.STL"))
+    {
+      return nullptr;
+    }
+    const meam::TriangleMesh mesh = readAsciiSTL(folder + "Part_1.STL");
+    auto result = std::make_unique<KeptSearch>();
+    result->model = meam::trainModel(mesh, meam::trainingSettings(meam::Preset::Recommended));
+    result->scan.surface = meam::readPCD(folder + "Scenes/Scene0.pcd").cloud.points;
+    result->scan.edges.points = meam::readPCD(folder + "Scenes/Scene_boundary0.pcd").cloud.points;
+    result->scan.sensor.perspective = false;
+    result->scan.sensor.direction = -Eigen::Vector3f::UnitZ();
+    result->scene = result->scan;
+    result->scene.edges =
+      meam::estimateTangents(result->scan.edges, result->model.diameter, result->scan.sensor.direction);
+    return result;
+  }();
+  return kept ? &kept->search : nullptr;
+}
+}
