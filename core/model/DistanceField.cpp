@@ -8,7 +8,6 @@ namespace meam
 {
 namespace
 {
-constexpr float Farthest = 255.0f;  // of what a cell stores
 constexpr double MostCells = 2.0e7; // larger cells are taken for more
 }
 
@@ -33,7 +32,7 @@ DistanceField::DistanceField(const Points& points, double spacing, double reach,
   this->InverseCell = static_cast<float>(1.0 / cell);
   this->Size = (size / cell).floor().cast<int>() + 1;
   this->Extent = this->Size.cast<float>();
-  this->Distances.assign(static_cast<std::size_t>(this->Size.prod()), static_cast<std::uint8_t>(Farthest));
+  this->Distances.assign(static_cast<std::size_t>(this->Size.prod()), Farthest);
   const float around = static_cast<float>(reach + spacing);
   for (std::size_t i = 0; i < points.size(); ++i)
   {

@@ -30,8 +30,8 @@ public:
       return this->Reach;
     }
     const Eigen::Array3i index = cell.cast<int>();
-    return this->Step *
-      this->Distances[(static_cast<std::size_t>(index.z()) * this->Size.y() + index.y()) * this->Size.x() + index.x()];
+    const std::uint8_t stored = this->Distances[(static_cast<std::size_t>(index.z()) * this->Size.y() + index.y()) * this->Size.x() + index.x()];
+    return stored == Farthest ? this->Reach : this->Step * stored;
   }
 
   /// A ball around all that the distances are from.
@@ -39,6 +39,8 @@ public:
   float radius() const { return this->Radius; }
 
 private:
+  static constexpr std::uint8_t Farthest = 255; ///< of what a cell stores: `reach` or more
+
   template <typename Metric>
   DistanceField(const Points& points, double spacing, double reach, double cellSize, Metric&& metric);
 

@@ -19,7 +19,6 @@ constexpr double ExplainedShare = 0.02; // a point this far from a part is not e
 constexpr double ResolvedShare = 0.01;  // what the distance to a part's surface is known to
 
 constexpr double MostProbable = 0.99;      // no pose is surer: 99 to 1
-constexpr double VisibilityExponent = 0.5; // parts that nothing hides come first, as after verification
 
 /// What the sensor measured, the same for all parts: the finest of the maps of its surface, or the scene's edges.
 struct Measured
@@ -102,11 +101,6 @@ double sharedPoints(const Claim& a, const Claim& b)
     a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
   const std::size_t fewer = std::min(a.points.size(), b.points.size());
   return fewer > 0 ? static_cast<double>(common.size()) / fewer : 0.0;
-}
-
-double preference(const Pose& pose)
-{
-  return confidence(pose) * std::pow(pose.visibleFraction, VisibilityExponent);
 }
 
 /// The part with the smallest diameter, after checks.

@@ -36,6 +36,9 @@ using Poses = std::vector<Pose>;
 /// What poses of different scenes are compared by: the probability, or the score where none is known.
 inline double confidence(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
 
+/// What poses of a scene are ordered by: likely ones that nothing hides come first, for they can be grasped.
+inline double preference(const Pose& pose) { return confidence(pose) * std::sqrt(pose.visibleFraction); }
+
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 /// Distance between the origins of two poses, mm.

@@ -20,7 +20,6 @@ constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
 constexpr double SharedByOne = 0.5;        // share of the matched surface from which on two poses are of one instance
 constexpr double SureAdvantage = 10.0;      // points that make a turn e times likelier than another
-constexpr double VisibilityExponent = 0.5; // parts that nothing hides come first: they can be grasped
 
 // Logistic regression of whether a pose is right, over poses in scenes with true ones.
 constexpr double WithSurface[] = { -20.0, 29.0 }; // constant, score
@@ -45,12 +44,6 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
   const auto& weights = index.scene.surface.empty() ? EdgesAlone : WithSurface;
   // Squared: over scenes with true poses the certainty alone is too high.
   pose.probability = pose.certainty * pose.certainty / (1.0 + std::exp(-weights[0] - weights[1] * pose.score));
-}
-
-/// What poses are ordered by: likely ones that nothing hides come first.
-double preference(const Pose& pose)
-{
-  return pose.probability * std::pow(pose.visibleFraction, VisibilityExponent);
 }
 
 /// Of the pose and its turns by the part's near-symmetries takes the one that the scene speaks for.
