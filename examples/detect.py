@@ -30,7 +30,8 @@ def options_of_user():
                         help="image of an organized scan that carries none: .png, .jpg, .bmp or .tif")
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
-    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted; 0: all (default: %(default)s)")
+    parser.add_argument("--poses", type=scripting.count, default=5,
+                        help="poses wanted; 0: all that are more likely right than wrong (default: %(default)s)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
@@ -61,6 +62,7 @@ def estimate(options, part, scene, poses):
         estimation.SetCameraFile(options.image_camera)
     scripting.set_choice(estimation, "Preset", options.preset)
     estimation.SetMaximumNumberOfPoses(poses)
+    estimation.SetMinimumProbability(0 if options.poses else 0.5)
     estimation.SetNumberOfThreads(options.threads)
     return scripting.update(estimation)
 

@@ -112,6 +112,27 @@ TEST(PoseComparison, NearSymmetriesAreSettledInVerification)
   }
 }
 
+TEST(PoseComparison, FloorSeenWhereAPoseHasSurfaceSpeaksAgainstIt)
+{
+  const meam::Scene onTheFloor = [&]
+  {
+    meam::Scene scene = lyingPlate(false);
+    for (float x = -29.5f; x < 30.0f; x += 0.7f)
+    {
+      for (float y = -29.5f; y < 30.0f; y += 0.7f)
+      {
+        const bool besideTheCut = (x - 6.0f) * 10.0f + (y - 30.0f) * 24.0f > 0.0f; // beyond the line of the corner
+        if (besideTheCut)
+        {
+          scene.surface.push_back({ x, y, -40.0f });
+        }
+      }
+    }
+    return scene;
+  }();
+  EXPECT_GT(advantageIn(onTheFloor), advantageIn(lyingPlate(false)) + 5.0);
+}
+
 TEST(PoseComparison, EdgesAloneDecide)
 {
   meam::Scene scene = lyingPlate(false);
