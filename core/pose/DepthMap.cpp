@@ -9,7 +9,7 @@ namespace meam
 namespace
 {
 constexpr float Empty = std::numeric_limits<float>::infinity();
-constexpr float LargestSide = 4096.0f; // cells; a wider scene gets coarser cells
+constexpr float LargestSide = 2048.0f; // cells; a wider scene gets coarser cells
 constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
 }

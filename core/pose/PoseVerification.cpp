@@ -18,8 +18,8 @@ namespace
 constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
-constexpr double SharedByOne = 0.5;        // share of the matched surface from which on two poses are of one instance
-constexpr double SureAdvantage = 10.0;      // points that make a turn e times likelier than another
+constexpr double SharedByOne = 0.5;     // share of the matched surface from which on two poses are of one instance
+constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
 
 // Logistic regression of whether a pose is right, over poses in scenes with true ones.
 constexpr double WithSurface[] = { -20.0, 29.0 }; // constant, score
