@@ -53,7 +53,7 @@ class Chain(evaluation.Evaluation):
 
 def thicker_model(training):
     diameter = scripting.field(scripting.update(training.surface).GetOutput(), "Diameter")
-    training.tangents.SetLeafSize(0.03 * diameter)
+    training.hashing.SetLeafSize(0.03 * diameter)
 
 
 def no_near_symmetries(training):

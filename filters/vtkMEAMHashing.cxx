@@ -29,6 +29,7 @@ void vtkMEAMHashing::SetParameters(const meam::MEAMHashingSettings& settings)
   this->AngleStep = settings.angleStep;
   this->ViewMerging = static_cast<int>(settings.merging);
   this->VoxelSize = settings.voxelSize;
+  this->LeafSize = settings.leafSize;
   this->CoVisibilityDirections = settings.coVisibilityDirections;
   this->Modified();
 }
@@ -57,6 +58,7 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
     settings.angleStep = this->AngleStep;
     settings.merging = static_cast<meam::ViewMerging>(this->ViewMerging);
     settings.voxelSize = this->VoxelSize;
+    settings.leafSize = this->LeafSize;
     settings.coVisibilityDirections = this->CoVisibilityDirections;
     const meam::PointCloud surface = toCloud(samples);
     if (samples)
@@ -81,5 +83,6 @@ void vtkMEAMHashing::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AngleStep: " << this->AngleStep << "\n";
   os << indent << "ViewMerging: " << this->ViewMerging << "\n";
   os << indent << "VoxelSize: " << this->VoxelSize << "\n";
+  os << indent << "LeafSize: " << this->LeafSize << "\n";
   os << indent << "CoVisibilityDirections: " << this->CoVisibilityDirections << "\n";
 }

@@ -104,6 +104,15 @@ public:
 
   ///@{
   /**
+   * With ViewMerging Points, of the edge points in a cube of this side, in mm, one makes pairs and votes; all of them
+   * judge and refine poses. 0: 4 % of the part's diameter. Otherwise every edge point makes pairs. Default: 0.
+   */
+  vtkSetClampMacro(LeafSize, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(LeafSize, double);
+  ///@}
+
+  ///@{
+  /**
    * Number of directions, up to 32, from which two points have to be visible together to make a pair;
    * 0: only the views themselves, as in the paper. Default: 26.
    */
@@ -133,6 +142,7 @@ private:
   double AngleStep;
   int ViewMerging;
   double VoxelSize;
+  double LeafSize;
   int CoVisibilityDirections;
 };
 

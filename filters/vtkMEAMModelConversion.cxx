@@ -254,6 +254,7 @@ private:
     settings.angleStep = this->number("AngleStep");
     settings.merging = static_cast<meam::ViewMerging>(this->choice("ViewMerging", 3));
     settings.voxelSize = this->number("VoxelSize");
+    settings.leafSize = this->number("LeafSize");
     settings.coVisibilityDirections = static_cast<int>(this->number("CoVisibilityDirections"));
     if (!(settings.distanceStep > 0.0 && settings.distanceStep <= 1.0) ||
         !(settings.angleStep >= 1.0 && settings.angleStep <= 90.0))
@@ -414,6 +415,24 @@ private:
 };
 }
 
+Eigen::Vector3d middleOf(vtkDataObject* input)
+{
+  auto* data = vtkDataSet::SafeDownCast(input);
+  if (auto* model = vtkPartitionedDataSetCollection::SafeDownCast(input))
+  {
+    for (unsigned int i = 0; i < model->GetNumberOfPartitionedDataSets(); ++i)
+    {
+      data = nameOf(model, i) == "Surface" ? partitionOf(model, i) : data;
+    }
+  }
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  if (data && data->GetNumberOfPoints() > 0)
+  {
+    data->GetCenter(middle.data());
+  }
+  return middle;
+}
+
 std::vector<meam::AppearanceModel> toAppearanceModels(vtkPartitionedDataSetCollection* input)
 {
   std::vector<meam::AppearanceModel> models;
@@ -519,6 +538,7 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   setFieldValue(output, "AngleStep", model.settings.angleStep);
   setFieldInteger(output, "ViewMerging", static_cast<std::size_t>(model.settings.merging));
   setFieldValue(output, "VoxelSize", model.settings.voxelSize);
+  setFieldValue(output, "LeafSize", model.settings.leafSize);
   setFieldInteger(output, "CoVisibilityDirections", model.settings.coVisibilityDirections);
   setFieldVectors(output, "ViewDirections", model.viewDirections);
   setFieldInteger(output, "NumberOfViews", model.viewDirections.size());

@@ -14,7 +14,8 @@
  * The part's diameter is the property, or else the field data `Diameter` of an input.
  *
  * Input port 2 (optional): the part's samples from vtkMEAMSymmetryDetection, or its trained model. Of poses that are
- * equal under the part's exact symmetries the one nearest to the true pose is judged.
+ * equal under the part's exact symmetries the one nearest to the true pose is judged, and translation errors are
+ * displacements of the part's middle. Without it they are those of the origin, which may lie far from the part.
  *
  * Output port 0: a vtkTable with a row for each estimated pose, and the columns `Scene` (from 0), `Rank`,
  * `Score`, `Right` (0 or 1), `Duplicate` (1: a better pose has found the same instance), `Instance`

@@ -52,7 +52,7 @@ public:
 
   ///@{
   /**
-   * One point is kept for each cube of this side, in mm; 0: 3 % of the part's diameter in a scene, 4 % in a model; negative: all
+   * One point is kept for each cube of this side, in mm; 0: 3 % of the part's diameter in a scene, 2 % in a model; negative: all
    * points are kept. Default: 0. The paper: 1.
    */
   vtkSetMacro(LeafSize, double);

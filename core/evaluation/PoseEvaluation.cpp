@@ -30,10 +30,11 @@ void check(const PoseEvaluationSettings& settings)
     throw Error("Poses can only be judged against the size of the part: give its diameter in mm.");
   }
   if (!(settings.translationTolerance >= 0.0) || !(settings.rotationTolerance >= 0.0) ||
-      settings.posesAskedFor < 0 || !(settings.axis.norm() > 0.0) || !settings.axis.allFinite())
+      settings.posesAskedFor < 0 || !(settings.axis.norm() > 0.0) || !settings.axis.allFinite() ||
+      !settings.middle.allFinite())
   {
     throw Error("Settings of the evaluation are out of range: tolerances and the number of poses "
-                "are 0 or more, the axis is not 0.");
+                "are 0 or more, the axis is not 0, the middle is finite.");
   }
 }
 
@@ -55,13 +56,15 @@ PoseJudgement judge(
 {
   PoseJudgement judgement;
   const double reach = settings.translationTolerance / 100.0 * settings.diameter;
+  const auto displacement = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
+  { return (a * settings.middle - b * settings.middle).norm(); };
   double nearest = std::numeric_limits<double>::infinity();
   double leastTurn = settings.rotationTolerance;
   for (std::size_t i = 0; i < truths.size(); ++i)
   {
     const Eigen::Isometry3d equal =
       nearestEqual(estimate.T_scene_model, truths[i].T_scene_model, settings.symmetries);
-    const double distance = translationError(equal, truths[i].T_scene_model);
+    const double distance = displacement(equal, truths[i].T_scene_model);
     if (distance < nearest)
     {
       nearest = distance;
@@ -86,7 +89,7 @@ PoseJudgement judge(
   }
   const Eigen::Isometry3d& truth = truths[to].T_scene_model;
   const Eigen::Isometry3d equal = nearestEqual(estimate.T_scene_model, truth, settings.symmetries);
-  judgement.translationError = translationError(equal, truth);
+  judgement.translationError = displacement(equal, truth);
   judgement.rotationError = rotationError(equal, truth);
   splitRotation(equal, truth, settings.axis.normalized(), judgement);
   return judgement;

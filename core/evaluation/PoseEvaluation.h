@@ -16,6 +16,9 @@ struct PoseEvaluationSettings
   double translationTolerance = 10.0; ///< % of the diameter; a right pose is nearer to a true one
   double rotationTolerance = 5.0;     ///< degrees; and is turned by less
   int posesAskedFor = 5;              ///< best ones of a scene that are judged; 0: all there are
+  /// Point of the part, model frame, mm, whose displacement is the translation error. An origin far from the part
+  /// would turn the least rotation into one.
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(); ///< of the part, model frame, for axis and roll
   Symmetries symmetries;               ///< of the part; the equal pose that is nearest to the true one is judged
   double minimumVisibleFraction = 0.5; ///< of a true instance that has to be found, for the recall
@@ -26,7 +29,7 @@ struct PoseEvaluationSettings
 struct PoseJudgement
 {
   int instance = -1;       ///< index of the true instance it matches, or -1: a wrong pose
-  int nearest = -1;        ///< index of the true instance with the nearest origin
+  int nearest = -1;        ///< index of the true instance whose middle is nearest
   bool duplicate = false;  ///< a better pose has matched the same instance
   double translationError; ///< mm
   double rotationError;    ///< degrees

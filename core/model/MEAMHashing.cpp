@@ -20,7 +20,7 @@ namespace
 constexpr std::size_t MostEdges = 65536;        // a reference point has 16 bits in a vote
 constexpr std::size_t MostEntries = 50000000;    // 2 GB while it is made
 constexpr double DefaultVoxelShare = 0.015;     // of the diameter
-constexpr double MergeVoxels = 2.0;             // distance at which points of two views are one
+constexpr double VotingLeafShare = 0.04;        // of the diameter
 constexpr double SurfaceLeafShare = 0.015;      // of the diameter, for verification
 constexpr float ParallelTangents = 0.94f;       // cosine of 20 degrees: the same edge in two views
 
@@ -168,12 +168,39 @@ struct Entry
   std::uint32_t views;
 };
 
-void buildTable(TrainedModel& model, double voxelSize, const Progress& progress)
+/// Takes one edge point of each cube to the front; returns how many these are.
+int bringVotersForward(TrainedModel& model, double leafSize)
+{
+  std::vector<int> order = thinPoints(model.edges.points, leafSize);
+  const int voters = static_cast<int>(order.size());
+  std::vector<bool> votes(model.edges.size(), false);
+  for (const int i : order)
+  {
+    votes[i] = true;
+  }
+  for (int i = 0; i < static_cast<int>(votes.size()); ++i)
+  {
+    if (!votes[i])
+    {
+      order.push_back(i);
+    }
+  }
+  model.edges = model.edges.subset(order);
+  std::vector<std::uint32_t> views;
+  for (const int i : order)
+  {
+    views.push_back(model.edgeViews[i]);
+  }
+  model.edgeViews = std::move(views);
+  return voters;
+}
+
+/// Of the pairs among the first `count` edge points.
+void buildTable(TrainedModel& model, int count, double voxelSize, const Progress& progress)
 {
   const PointCloud& edges = model.edges;
   const PairFeatureQuantizer quantizer = model.quantizer();
   const ViewMerging merging = model.settings.merging;
-  const int count = static_cast<int>(edges.size());
   std::vector<TangentFrame> frames;
   frames.reserve(count);
   for (int i = 0; i < count; ++i)
@@ -335,12 +362,15 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   {
     throw Error("The pair table would have more than 50 million keys: enlarge the distance step or the angle step.");
   }
-  collectEdges(edgeModels, MergeVoxels * voxelSize, model, subProgress(progress, 0.0, 0.1));
+  collectEdges(edgeModels, voxelSize, model, subProgress(progress, 0.0, 0.1));
   if (model.edges.size() < 2)
   {
     throw Error("The appearance models have no edges: the part shows no boundary from these viewpoints, or the "
                 "surface is sampled too coarsely.");
   }
+  const int voters = settings.merging == ViewMerging::Points
+    ? bringVotersForward(model, settings.leafSize > 0.0 ? settings.leafSize : VotingLeafShare * model.diameter)
+    : static_cast<int>(model.edges.size());
   const std::vector<std::uint32_t> surfaceBits =
     visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.1, 0.7));
   model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, 2.0 * voxelSize);
@@ -349,7 +379,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     model.surface.points.push_back(surface.points[i]);
     model.surface.normals.push_back(surface.normals[i]);
   }
-  buildTable(model, voxelSize, subProgress(progress, 0.7, 1.0));
+  buildTable(model, voters, voxelSize, subProgress(progress, 0.7, 1.0));
   model.deriveFields();
   Digest digest;
   digest.add(surface.points);
@@ -372,6 +402,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   digest.add(settings.angleStep);
   digest.add(settings.merging);
   digest.add(settings.voxelSize);
+  digest.add(settings.leafSize);
   digest.add(settings.coVisibilityDirections);
   model.digest = digest.text();
   report(progress, 1.0);

@@ -17,7 +17,7 @@ namespace
 {
 // Shares of the diameter.
 constexpr double SceneLeafShare = 0.03;
-constexpr double ModelLeafShare = 0.04;
+constexpr double ModelLeafShare = 0.02;
 constexpr double RadiusShare = 0.06;
 constexpr double InlierShare = 0.012;
 

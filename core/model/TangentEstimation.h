@@ -16,7 +16,7 @@ enum class TangentMethod
 struct TangentEstimationSettings
 {
   TangentMethod method = TangentMethod::RobustLine;
-  /// One point is kept per cube of this side; 0: 3 % of the diameter in a scene, 4 % in a model; negative: all.
+  /// One point is kept per cube of this side; 0: 3 % of the diameter in a scene, 2 % in a model; negative: all.
   double leafSize = 0.0;
 
   // RobustLine

@@ -13,7 +13,6 @@ constexpr double CellShare = 0.0075;
 constexpr double SurfaceSpacing = 0.018; // a little over that of the surface points
 constexpr double EdgeSpacing = 0.03;
 
-
 void deriveVotes(const PointCloud& edges, PairTable& pairs)
 {
   pairs.votes.resize(pairs.size());
@@ -59,6 +58,12 @@ PairFeatureQuantizer TrainedModel::quantizer() const
 
 void TrainedModel::deriveFields()
 {
+  this->votingEdges = 0;
+  for (const auto* indices : { &this->table.references, &this->table.referreds })
+  {
+    const auto last = std::max_element(indices->begin(), indices->end());
+    this->votingEdges = std::max(this->votingEdges, last == indices->end() ? 0 : static_cast<int>(*last) + 1);
+  }
   deriveVotes(this->edges, this->table);
   const double reach = DistanceReach * this->diameter;
   const double cell = CellShare * this->diameter;

@@ -23,6 +23,9 @@ struct MEAMHashingSettings
   double angleStep = 7.2;     ///< d_angle, degrees; also the step of the votes' turn about the tangent
   ViewMerging merging = ViewMerging::Points;
   double voxelSize = 0.0;     ///< L_voxel in mm; 0: 1.5 % of the diameter
+  /// ViewMerging::Points: of the edge points in a cube of this side (mm) one makes pairs, the others are there to
+  /// judge and refine poses; 0: 4 % of the diameter. Otherwise all make pairs.
+  double leafSize = 0.0;
   /// Directions from which two points must be visible together to make a pair; 0: only the views
   /// themselves (paper).
   int coVisibilityDirections = 26;
@@ -56,7 +59,7 @@ struct PairTable
 /// All that detection needs to know of a part: the result of the offline phase.
 struct TrainedModel
 {
-  static constexpr int FormatVersion = 2;
+  static constexpr int FormatVersion = 3;
   static constexpr int MaximumViews = 32; ///< views and directions are bits of a word
   static constexpr std::int64_t MostKeys = 50000000;
 
@@ -65,7 +68,7 @@ struct TrainedModel
   MEAMHashingSettings settings;
 
   Points viewDirections;                  ///< unit, from the part to each viewpoint
-  PointCloud edges;                       ///< edge points with tangents
+  PointCloud edges;                       ///< edge points with tangents, those that make pairs before the others
   std::vector<std::uint32_t> edgeViews;   ///< bit v: on the edge seen in view v
   std::vector<std::uint32_t> edgeVisible; ///< bit c: visible from co-visibility direction c
 
@@ -75,6 +78,7 @@ struct TrainedModel
   PairTable table;
 
   // What deriveFields() makes of the above.
+  int votingEdges = 0;           ///< so many of the edge points make pairs
   DistanceField surfaceDistance; ///< capped at DistanceReach of the diameter
   DistanceField edgeDistance;
   static constexpr double DistanceReach = 0.03;

@@ -157,7 +157,6 @@ Poses detectPoses(const PointCloud& sceneEdges, const TrainedModel& model, const
   {
     throw Error("At least one peak of each reference point is needed.");
   }
-  const int modelPoints = static_cast<int>(model.edges.size());
   const double angleStep = model.settings.angleStep * M_PI / 180.0;
   const Eigen::Isometry3d frame = principalFrame(sceneEdges.points);
   const PointCloud edges = inOwnFrame(sceneEdges, frame);
@@ -168,7 +167,7 @@ Poses detectPoses(const PointCloud& sceneEdges, const TrainedModel& model, const
     model, edges.subset(chooseShare(edges.points, settings.referredShare, 1, cell, settings.seed + 1)));
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
-  std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(modelPoints, angleStep));
+  std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep));
   std::vector<std::vector<VotePeak>> peaks(references.size());
   parallelFor(static_cast<int>(references.size()), threads, progress,
     [&](int begin, int end, int thread)

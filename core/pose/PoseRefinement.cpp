@@ -20,7 +20,7 @@ constexpr double DistanceShare = 0.1;      // of the diameter: farthest correspo
 constexpr double PointDistanceShare = 0.04; // the same of point-to-point ICP
 constexpr double LastDistanceShare = 0.12;  // of that at the end
 constexpr int FullSteps = 3;                // the last ones, with all points
-constexpr int CoarseStride = 5;             // of the points in the steps before
+constexpr int CoarseStride = 3;             // of the points in the steps before
 constexpr float ParallelTangents = 0.85f;
 constexpr int FewestCorrespondences = 4;
 // Shares of what corresponds that have to speak for a motion.

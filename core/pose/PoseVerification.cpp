@@ -167,11 +167,22 @@ private:
     return apart < this->Reach && this->Collector.shared(this->Evidence[a], this->Evidence[b]) > SharedByOne;
   }
 
-  /// Degrees, up to the part's exact symmetries.
+  /// Degrees, up to the part's exact symmetries. Of several poses of an instance also up to its near-symmetries: which
+  /// of their turns is right is settled later, and each would take the place of another alternative.
   double turnBetween(int a, int b) const
   {
+    const Symmetries& symmetries = this->Index.model.symmetries;
+    const Eigen::Isometry3d& of = this->InPoses[a].T_scene_model;
     const Eigen::Isometry3d& T = this->InPoses[b].T_scene_model;
-    return rotationError(nearestEqual(this->InPoses[a].T_scene_model, T, this->Index.model.symmetries), T);
+    double least = rotationError(nearestEqual(of, T, symmetries), T);
+    if (this->Settings.posesPerInstance > 1 && this->Settings.method == VerificationMethod::VisibleEvidence)
+    {
+      for (const NearSymmetry& symmetry : symmetries.near)
+      {
+        least = std::min(least, rotationError(nearestEqual(of * symmetry.T, T, symmetries), T));
+      }
+    }
+    return least;
   }
 
   Eigen::Vector3d middle(int index) const

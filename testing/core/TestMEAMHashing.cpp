@@ -158,9 +158,9 @@ TEST(MEAMHashing, EveryBucketHoldsThePairsOfItsKey)
   }
   // Brute force: all ordered pairs that some view or direction shows together.
   std::size_t expected = 0;
-  for (std::size_t r = 0; r < model.edges.size(); ++r)
+  for (int r = 0; r < model.votingEdges; ++r)
   {
-    for (std::size_t i = 0; i < model.edges.size(); ++i)
+    for (int i = 0; i < model.votingEdges; ++i)
     {
       expected += r != i && model.edges.points[r] != model.edges.points[i] &&
           ((model.edgeViews[r] & model.edgeViews[i]) != 0 || (model.edgeVisible[r] & model.edgeVisible[i]) != 0)
@@ -169,6 +169,32 @@ TEST(MEAMHashing, EveryBucketHoldsThePairsOfItsKey)
     }
   }
   EXPECT_EQ(stored, expected);
+}
+
+TEST(MEAMHashing, OneEdgePointOfACubeVotes)
+{
+  const auto trained = [](double leafSize)
+  {
+    meam::AppearanceModel view;
+    for (int k = 0; k < 40; ++k) // 1 mm apart
+    {
+      view.cloud.points.push_back({ k + 0.5f, 0.5f, 0.5f });
+      view.cloud.tangents.push_back(Eigen::Vector3f::UnitX());
+    }
+    MEAMHashingSettings with = settings(true);
+    with.voxelSize = 0.1;
+    with.leafSize = leafSize;
+    return meam::hashModels({ view }, {}, with);
+  };
+  const meam::TrainedModel thin = trained(4.0);
+  EXPECT_EQ(thin.edges.size(), 40u) << "all judge poses";
+  EXPECT_EQ(thin.votingEdges, 10);
+  EXPECT_EQ(thin.table.size(), 90u);
+  const meam::Points voting(thin.edges.points.begin(), thin.edges.points.begin() + 10);
+  EXPECT_EQ(meam::thinPoints(voting, 4.0).size(), 10u) << "in different cubes";
+  const meam::TrainedModel whole = trained(0.5);
+  EXPECT_EQ(whole.votingEdges, 40);
+  EXPECT_NE(whole.digest, thin.digest);
 }
 
 TEST(MEAMHashing, TrainingIsDeterministicAndTheDigestTellsModelsApart)

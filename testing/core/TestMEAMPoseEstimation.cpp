@@ -112,7 +112,7 @@ TEST(MEAMPoseEstimation, AModelOfTheWholePartWithoutVisibilityFindsThemToo)
   const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
   EXPECT_EQ(model.edgeViews, std::vector<std::uint32_t>(model.edges.size(), 1u));
   // Every pair that the table reaches is there: also of points that are never seen together.
-  EXPECT_EQ(model.table.size(), model.edges.size() * (model.edges.size() - 1));
+  EXPECT_EQ(static_cast<int>(model.table.size()), model.votingEdges * (model.votingEdges - 1));
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
   const meam::Poses poses = meam::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
   EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);

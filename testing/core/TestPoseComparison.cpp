@@ -112,6 +112,27 @@ TEST(PoseComparison, NearSymmetriesAreSettledInVerification)
   }
 }
 
+TEST(PoseComparison, TurnsByNearSymmetriesDoNotTakeThePlaceOfOtherPoses)
+{
+  // All quarter turns, as they lie and upside down, and one that stands on its side: of two kept of the instance one is this.
+  meam::Poses poses;
+  const Eigen::Isometry3d flip = meam::turnAbout(Eigen::Vector3d::UnitX(), M_PI, Eigen::Vector3d(0, 0, 5));
+  const Eigen::Isometry3d side = meam::turnAbout(Eigen::Vector3d::UnitX(), M_PI / 2, Eigen::Vector3d(0, 0, 5));
+  for (int turns = 0; turns < 4; ++turns)
+  {
+    for (const Eigen::Isometry3d& T : { quarter(turns), quarter(turns) * flip })
+    {
+      poses.emplace_back();
+      poses.back().T_scene_model = T;
+    }
+  }
+  poses.emplace_back();
+  poses.back().T_scene_model = side;
+  const meam::Poses kept = meam::verifyPoses(poses, plate(), lyingPlate(false));
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_NEAR(meam::rotationError(kept[1].T_scene_model, side), 0.0, 1e-4);
+}
+
 TEST(PoseComparison, FloorSeenWhereAPoseHasSurfaceSpeaksAgainstIt)
 {
   const meam::Scene onTheFloor = [&]

@@ -216,11 +216,28 @@ TEST(PoseEvaluation, equalPosesOfASymmetricPartAreRight)
   EXPECT_TRUE(meam::evaluatePoses({ poseAt(0), turned }, { poseAt(0) }, with).judgements.at(1).duplicate);
 }
 
+TEST(PoseEvaluation, thePartsMiddleIsWhatMoves)
+{
+  meam::PoseEvaluationSettings with = settings();
+  with.middle = Vector3d(1000, 0, 0); // a part 1 m from its origin
+  const meam::Pose truth = poseAt(0);
+  meam::Pose turned = truth;
+  turned.T_scene_model = truth.T_scene_model * meam::turnAbout(Vector3d::UnitZ(), M_PI / 180.0, with.middle);
+  EXPECT_EQ(meam::evaluatePoses({ turned }, { truth }, settings()).judgements.at(0).instance, -1);
+  const auto judgement = meam::evaluatePoses({ turned }, { truth }, with).judgements.at(0);
+  EXPECT_EQ(judgement.instance, 0);
+  EXPECT_NEAR(judgement.translationError, 0.0, 1e-9);
+  EXPECT_NEAR(judgement.rotationError, 1.0, 1e-6);
+}
+
 TEST(PoseEvaluation, badInput)
 {
   EXPECT_THROW(meam::evaluatePoses({}, {}, {}), meam::Error);
   meam::PoseEvaluationSettings with = settings();
   with.axis.setZero();
+  EXPECT_THROW(meam::evaluatePoses({}, {}, with), meam::Error);
+  with = settings();
+  with.middle.x() = std::numeric_limits<double>::infinity();
   EXPECT_THROW(meam::evaluatePoses({}, {}, with), meam::Error);
   with = settings();
   with.posesAskedFor = -1;

@@ -160,7 +160,7 @@ try:
         result.GetFieldData().AddArray(array)
         return result
 
-    fails(detection(changed("FormatVersion", 99)), "version 99", "version 2", "train the model again")
+    fails(detection(changed("FormatVersion", 99)), "version 99", "version 3", "train the model again")
     fails(detection(changed("NumberOfPairs", 17)), "PairTableEntries")
     fails(detection(changed("NumberOfViews", 5)), "view")
     fails(detection(changed("DistanceStep", 1)), "PairTableBuckets")

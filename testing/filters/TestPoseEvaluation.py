@@ -52,6 +52,14 @@ table = run(filter)
 check(close(column(table, "AxisError")[3:], (90,)) and close(column(table, "RollError")[3:], (0,)), "all is swing")
 check((figure(table, "PaperRate"), figure(table, "StrictRate"), figure(table, "Poses")) == (100, 50, 2), "rates of two")
 
+# Of a part 1 m from its origin a turn by 1 degree about its own middle displaces the origin, but not the part.
+away = connect(vtkMEAMPoseEvaluation(), poses(at(0, 1)), poses((*at(0)[:3], 1000 * math.cos(math.radians(1)) - 1000, *at(0)[4:7],
+                                                                1000 * math.sin(math.radians(1)), *at(0)[8:])))
+away.SetDiameter(50)
+check(column(run(away), "TranslationError")[0] > 17, "the origin")
+away.SetInputDataObject(2, cloud([(990, -5, 0), (1010, 5, 0)]))
+check(close(column(run(away), "TranslationError"), (0,)), "the middle")
+
 # A second scene in which nothing was found; the diameter comes with the poses.
 filter = evaluation(set_fields(poses(at(0)), Diameter=50.0), poses(at(0)), 0.0)
 filter.AddInputDataObject(0, poses())
