@@ -19,6 +19,7 @@
 #include "vtkObject.h"
 #include "vtkSetGet.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -102,7 +103,7 @@ meam::Symmetries symmetriesOf(vtkDataObject* input);
 void setSymmetries(vtkDataObject* output, const meam::Symmetries& symmetries);
 /// Middle of the box around a part's samples or the surface of its trained model, mm; the origin for null and for what
 /// has no points.
-Eigen::Vector3d middleOf(vtkDataObject* input);
+std::array<double, 3> middleOf(vtkDataObject* input);
 /// A number as field data; replaces an array of that name.
 void setFieldValue(vtkDataObject* output, const char* name, double value);
 

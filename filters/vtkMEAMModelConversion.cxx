@@ -415,7 +415,7 @@ private:
 };
 }
 
-Eigen::Vector3d middleOf(vtkDataObject* input)
+std::array<double, 3> middleOf(vtkDataObject* input)
 {
   auto* data = vtkDataSet::SafeDownCast(input);
   if (auto* model = vtkPartitionedDataSetCollection::SafeDownCast(input))
@@ -425,7 +425,7 @@ Eigen::Vector3d middleOf(vtkDataObject* input)
       data = nameOf(model, i) == "Surface" ? partitionOf(model, i) : data;
     }
   }
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  std::array<double, 3> middle{};
   if (data && data->GetNumberOfPoints() > 0)
   {
     data->GetCenter(middle.data());

@@ -97,7 +97,7 @@ int vtkMEAMPoseEvaluation::RequestData(
           settings.diameter = diameterOf(vtkDataObject::GetData(inputVector[port], i));
         }
       }
-      settings.middle = middleOf(vtkDataObject::GetData(inputVector[2]));
+      settings.middle = Eigen::Map<const Eigen::Vector3d>(middleOf(vtkDataObject::GetData(inputVector[2])).data());
       settings.symmetries = symmetriesOf(vtkDataObject::GetData(inputVector[2]));
       settings.translationTolerance = this->TranslationTolerance;
       settings.rotationTolerance = this->RotationTolerance;

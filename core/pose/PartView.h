@@ -29,6 +29,22 @@ public:
   };
   Visible visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
+  /// Calls visit(index) for every `stride`-th of the surface points that are judged and face the sensor, also for those
+  /// behind other points of the part.
+  template <typename Visitor>
+  void forEachFacing(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, int stride, Visitor&& visit) const
+  {
+    const Eigen::Isometry3f T = T_scene_model.cast<float>();
+    const Eigen::Vector3f towards = T.linear().transpose() * sensor.towards(T * this->Middle);
+    for (std::size_t k = 0; k < this->Judged.size(); k += stride)
+    {
+      if (this->Model.surface.normals[this->Judged[k]].dot(towards) > 0.0f)
+      {
+        visit(this->Judged[k]);
+      }
+    }
+  }
+
   /// The edge appearance model of a view.
   PointCloud viewEdges(int view) const;
 

@@ -12,6 +12,8 @@ constexpr double SurfaceReachShare = 0.04; // of the diameter: a little over the
 constexpr float OnSurface = 0.7f;          // tolerances within which a scene edge lies on the part
 constexpr float ParallelTangents = 0.85f;  // cosine
 
+constexpr int GlanceStride = 3; // of the judged points
+
 // What each kind of evidence counts in the score.
 constexpr double EdgeWeight = 0.4;
 constexpr double SurfaceWeight = 0.4;
@@ -101,6 +103,22 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
       }
     });
   return evidence;
+}
+
+double EvidenceCollector::glance(const Eigen::Isometry3d& T_scene_model) const
+{
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const float tolerance = static_cast<float>(this->Tolerance);
+  int matched = 0;
+  int violated = 0;
+  this->Index.view.forEachFacing(T_scene_model, this->Index.scene.sensor, GlanceStride,
+    [&](int i)
+    {
+      const DepthMap::Relation relation = this->Index.depth.relation(T * this->Index.model.surface.points[i], tolerance);
+      matched += relation == DepthMap::Relation::OnSurface ? 1 : 0;
+      violated += relation == DepthMap::Relation::InFront || relation == DepthMap::Relation::NoSurface ? 1 : 0;
+    });
+  return matched > 0 ? static_cast<double>(matched) / (matched + violated) : 0.0;
 }
 
 double EvidenceCollector::shared(const PoseEvidence& a, const PoseEvidence& b) const

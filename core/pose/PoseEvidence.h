@@ -35,6 +35,9 @@ class EvidenceCollector
 public:
   EvidenceCollector(const SceneIndex& index, double tolerance);
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model) const;
+  /// A first impression, at a tenth of the cost: of the surface points that face the sensor and that nothing hides the
+  /// share that is there, [0, 1].
+  double glance(const Eigen::Isometry3d& T_scene_model) const;
   /// Share of what `a` matched that `b` matched, too, [0, 1]: poses of one instance share most of it.
   double shared(const PoseEvidence& a, const PoseEvidence& b) const;
   /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.

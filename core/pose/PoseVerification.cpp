@@ -4,6 +4,8 @@
 #include "Parallel.h"
 #include "pose/PoseComparison.h"
 #include "pose/PoseEvidence.h"
+#include "pose/PoseRefinement.h"
+#include "pose/TurnSearch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +20,7 @@ namespace
 constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
+constexpr double LeastAtAGlance = 0.4;  // share of the surface; a pose with less is not looked at closely
 constexpr double SharedByOne = 0.5;     // share of the matched surface from which on two poses are of one instance
 constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
 
@@ -44,6 +47,23 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
   const auto& weights = index.scene.surface.empty() ? EdgesAlone : WithSurface;
   // Squared: over scenes with true poses the certainty alone is too high.
   pose.probability = pose.certainty * pose.certainty / (1.0 + std::exp(-weights[0] - weights[1] * pose.score));
+}
+
+/// Turns the pose about the axis of a nearly round part where another turn fits better.
+void settleTurn(Pose& pose, const PoseComparison& comparison, const TurnSearch& search, const SceneIndex& index)
+{
+  PoseRefinementSettings refinement;
+  refinement.threads = 1; // poses are settled in parallel
+  for (const Eigen::Isometry3d& T : search.better(pose.T_scene_model))
+  {
+    Pose turned = pose;
+    turned.T_scene_model = T;
+    turned = refinePoses({ turned }, index, refinement)[0];
+    if (comparison.advantage(comparison.contender(turned.T_scene_model), comparison.contender(pose.T_scene_model)) > 0.0)
+    {
+      pose = turned;
+    }
+  }
 }
 
 /// Of the pose and its turns by the part's near-symmetries takes the one that the scene speaks for.
@@ -103,6 +123,29 @@ Poses distinctPoses(const Poses& poses, const SceneIndex& index, double distance
     distinct.push_back(poses[i]);
   }
   return distinct;
+}
+
+/// Without the poses whose surface cannot be there at a glance, in the order they come.
+Poses promisingPoses(const Poses& poses, const EvidenceCollector& collector, int threads)
+{
+  std::vector<char> isPromising(poses.size());
+  parallelFor(static_cast<int>(poses.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        isPromising[i] = collector.glance(poses[i].T_scene_model) >= LeastAtAGlance;
+      }
+    });
+  Poses promising;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    if (isPromising[i])
+    {
+      promising.push_back(poses[i]);
+    }
+  }
+  return promising;
 }
 
 /// Indices of the poses that stay, best first.
@@ -228,6 +271,11 @@ Poses verifyPoses(
   Poses scored = byEvidence
     ? distinctPoses(poses, index, SameShare * clusterDistance, SameShare * settings.clusterAngle)
     : poses;
+  const bool someMustGo = settings.maximumPoses > 0 && static_cast<int>(scored.size()) > settings.maximumPoses;
+  if (byEvidence && someMustGo && !index.scene.surface.empty())
+  {
+    scored = promisingPoses(scored, collector, settings.threads);
+  }
   std::vector<PoseEvidence> evidence(byEvidence ? scored.size() : 0);
   parallelFor(static_cast<int>(scored.size()), settings.threads, subProgress(progress, 0.0, 0.8),
     [&](int begin, int end, int)
@@ -268,12 +316,14 @@ Poses verifyPoses(
   }
   if (comparison)
   {
+    const TurnSearch search(index);
     parallelFor(static_cast<int>(clusters.Kept.size()), settings.threads, subProgress(progress, 0.8, 1.0),
       [&](int begin, int end, int)
       {
         for (int k = begin; k < end; ++k)
         {
           const int i = clusters.Kept[k];
+          settleTurn(scored[i], *comparison, search, index);
           settleNearSymmetry(scored[i], *comparison, model.symmetries);
           scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), index);
         }

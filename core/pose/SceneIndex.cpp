@@ -8,7 +8,7 @@ namespace meam
 namespace
 {
 // Shares of the diameter.
-constexpr double EdgeCellShare = 0.03;
+constexpr double EdgeCellShare = 0.05;
 constexpr double DepthCellShare = 0.02;
 constexpr double SurfaceCellShare = 0.05;
 

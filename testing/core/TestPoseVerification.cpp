@@ -58,6 +58,21 @@ TEST(PoseVerification, TheFlippedPartIsWorse)
   EXPECT_LT(scoreOf(at(flipped), scene()), scoreOf(at(T), scene()) - 0.1);
 }
 
+TEST(PoseVerification, WhatIsNotThereGoesAtAGlanceWhereSomeMustGo)
+{
+  meam::Poses poses;
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    poses.push_back(at(T));
+    poses.push_back(displaced(T, 500.0, 0.0)); // where there is nothing
+  }
+  meam::PoseVerificationSettings settings;
+  settings.maximumPoses = 5;
+  EXPECT_EQ(meam::verifyPoses(poses, scenes::bracket(), scene(), settings).size(), 3u);
+  settings.maximumPoses = 6;
+  EXPECT_EQ(meam::verifyPoses(poses, scenes::bracket(), scene(), settings).size(), 6u) << "all may stay";
+}
+
 TEST(PoseVerification, WithoutASurfaceEdgesDecide)
 {
   meam::Scene edgesOnly = scene();

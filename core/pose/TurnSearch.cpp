@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/TurnSearch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+constexpr double Reach = 0.02;         // of the diameter: an edge this far from the part's is not explained
+constexpr int Steps = 180;             // of 2 degrees
+constexpr double LeastGain = 2.0;      // edge points that a better turn explains more than the pose as it is
+constexpr std::size_t MostTurns = 2;   // of an axis
+constexpr double HalfTurn = 170.0;     // degrees: a turn from here on is one
+constexpr double SameAxis = 0.99;      // cosine
+
+/// The axis of a turn, through the point of it that is nearest to the origin.
+ContinuousSymmetry axisOf(const Eigen::Isometry3d& turn)
+{
+  const Eigen::AngleAxisd rotation(Eigen::Matrix3d(turn.linear()));
+  const Eigen::Vector3d axis = rotation.axis();
+  const Eigen::Vector3d across = turn.translation() - axis.dot(turn.translation()) * axis;
+  return { axis, 0.5 * (across + axis.cross(across) / std::tan(0.5 * rotation.angle())) };
+}
+}
+
+TurnSearch::TurnSearch(const SceneIndex& index)
+  : Index(index)
+{
+  for (const NearSymmetry& symmetry : index.model.symmetries.near)
+  {
+    const double angle = Eigen::AngleAxisd(Eigen::Matrix3d(symmetry.T.linear())).angle() * 180.0 / M_PI;
+    const ContinuousSymmetry found = axisOf(symmetry.T);
+    const bool known = std::any_of(this->Axes.begin(), this->Axes.end(),
+      [&](const ContinuousSymmetry& axis) { return std::abs(axis.axis.dot(found.axis)) > SameAxis; });
+    if (angle < HalfTurn && !known)
+    {
+      this->Axes.push_back(found);
+    }
+  }
+}
+
+std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_scene_model) const
+{
+  std::vector<Eigen::Isometry3d> found;
+  if (this->Axes.empty())
+  {
+    return found;
+  }
+  const TrainedModel& model = this->Index.model;
+  const float reach = static_cast<float>(Reach * model.diameter);
+  const DistanceField& whole = model.surface.empty() ? model.edgeDistance : model.surfaceDistance;
+  // The scene's edges on the part, in its frame.
+  const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
+  Points edges;
+  this->Index.edges.forEachWithin(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
+    [&](int k, float)
+    {
+      const Eigen::Vector3f point = toModel * this->Index.scene.edges.points[k];
+      if (model.surface.empty() || whole.at(point) < reach)
+      {
+        edges.push_back(point);
+      }
+    });
+  for (const ContinuousSymmetry& axis : this->Axes)
+  {
+    const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
+    std::vector<double> explained(Steps, 0.0);
+    for (int step = 0; step < Steps; ++step)
+    {
+      const Eigen::Isometry3f back = turn(-step).cast<float>();
+      for (const Eigen::Vector3f& point : edges)
+      {
+        explained[step] += std::max(0.0f, 1.0f - model.edgeDistance.at(back * point) / reach);
+      }
+    }
+    const auto at = [&](int step) { return explained[(step + Steps) % Steps]; };
+    const double asItIs = std::max({ at(-1), at(0), at(1) });
+    std::vector<int> maxima;
+    for (int step = 2; step < Steps - 1; ++step)
+    {
+      if (at(step) > at(step - 1) && at(step) >= at(step + 1) && at(step) > asItIs + LeastGain)
+      {
+        maxima.push_back(step);
+      }
+    }
+    std::stable_sort(maxima.begin(), maxima.end(), [&](int a, int b) { return at(a) > at(b); });
+    maxima.resize(std::min(maxima.size(), MostTurns));
+    for (const int step : maxima)
+    {
+      found.push_back(T_scene_model * turn(step));
+    }
+  }
+  return found;
+}
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/TurnSearch.h"
+
+#include "TestScene.h"
+#include "pose/PoseVerification.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+constexpr double Degree = M_PI / 180.0;
+
+/// A gear of ten teeth, one of which is missing: turns by 36 degrees are near-symmetries.
+meam::TriangleMesh gear()
+{
+  constexpr int Corners = 40;
+  meam::TriangleMesh mesh;
+  for (const float z : { 0.0f, 10.0f })
+  {
+    for (int k = 0; k < Corners; ++k)
+    {
+      const bool tooth = k % 4 < 2 && k >= 4;
+      const double angle = 9 * k * Degree;
+      mesh.vertices.emplace_back((tooth ? 34.0 : 28.0) * std::cos(angle), (tooth ? 34.0 : 28.0) * std::sin(angle), z);
+    }
+  }
+  mesh.vertices.emplace_back(0, 0, 0);
+  mesh.vertices.emplace_back(0, 0, 10);
+  for (int k = 0; k < Corners; ++k)
+  {
+    const int next = (k + 1) % Corners;
+    mesh.triangles.push_back({ next, k, 2 * Corners });
+    mesh.triangles.push_back({ Corners + k, Corners + next, 2 * Corners + 1 });
+    mesh.triangles.push_back({ k, next, Corners + next });
+    mesh.triangles.push_back({ k, Corners + next, Corners + k });
+  }
+  return mesh;
+}
+
+const meam::TrainedModel& model()
+{
+  static const meam::TrainedModel trained =
+    meam::trainModel(gear(), meam::trainingSettings(meam::Preset::Recommended));
+  return trained;
+}
+
+Eigen::Isometry3d turned(double degrees)
+{
+  return Eigen::Translation3d(40, -20, 7) *
+    meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * Degree, Eigen::Vector3d::Zero());
+}
+
+/// The gear at turned(0), seen from above.
+const meam::Scene& scene()
+{
+  static const meam::Scene seen = []
+  {
+    meam::SurfaceSamplingSettings sampling;
+    sampling.spacing = 0.7;
+    sampling.seed = 4;
+    const meam::PointCloud part = meam::sampleSurface(gear(), sampling);
+    meam::AppearanceModel view;
+    view.cloud = part.subset(meam::visiblePoints(part.points, { 0, 0, 2000 }, 1000.0));
+    meam::Scene scene;
+    scene.edges.points = meam::moved(meam::extractBoundary({ view })[0].cloud.points, turned(0));
+    scene.surface = meam::moved(view.cloud.points, turned(0));
+    scene.sensor.perspective = false;
+    scene.sensor.direction = -Eigen::Vector3f::UnitZ();
+    scene.edges = meam::estimateTangents(scene.edges, model().diameter, scene.sensor.direction);
+    return scene;
+  }();
+  return seen;
+}
+}
+
+TEST(TurnSearch, FindsTheTurnThatEdgesExplain)
+{
+  ASSERT_FALSE(model().symmetries.near.empty());
+  const meam::SceneIndex index(model(), scene());
+  const meam::TurnSearch search(index);
+  for (const double degrees : { 11.0, 36.0, 90.0, 144.0, 200.0 })
+  {
+    const std::vector<Eigen::Isometry3d> better = search.better(turned(degrees));
+    ASSERT_FALSE(better.empty()) << degrees;
+    EXPECT_LT(meam::rotationError(better[0], turned(0)), 2.0) << degrees; // the step of the search
+    EXPECT_LT(meam::translationError(better[0], turned(0)), 0.5) << degrees;
+  }
+}
+
+TEST(TurnSearch, TheTrueTurnIsLeftAlone)
+{
+  const meam::SceneIndex index(model(), scene());
+  EXPECT_TRUE(meam::TurnSearch(index).better(turned(0)).empty());
+}
+
+TEST(TurnSearch, APartThatIsNotRoundHasNoAxis)
+{
+  const meam::Scene seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const meam::SceneIndex index(scenes::bracket(), seen);
+  Eigen::Isometry3d T = scenes::threeCopies()[0];
+  T.rotate(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE(meam::TurnSearch(index).better(T).empty());
+}
+
+TEST(TurnSearch, SelectionTurnsAPoseThatNoNearSymmetryLeadsFrom)
+{
+  meam::Pose wrong;
+  wrong.T_scene_model = turned(18); // teeth on gaps
+  meam::PoseVerificationSettings settings;
+  settings.posesPerInstance = 1;
+  const meam::Poses found = meam::verifyPoses({ wrong }, model(), scene(), settings);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_LT(meam::rotationError(found[0].T_scene_model, turned(0)), 0.3);
+  EXPECT_LT(meam::translationError(found[0].T_scene_model, turned(0)), 0.2);
+  EXPECT_GT(found[0].fit.iterations, 0);
+}
