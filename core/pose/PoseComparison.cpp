@@ -18,7 +18,15 @@ constexpr double EdgeWeight = 3.0;        // of an edge point against a surface 
 
 PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const
 {
-  return { T_scene_model, this->Index.view.visible(T_scene_model, this->Index.scene.sensor) };
+  const DistanceField& surface = this->Index.model.surfaceDistance;
+  const float far = static_cast<float>(FarShare * this->Index.model.diameter);
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
+  const Points& measured = this->Index.depth.means();
+  double explained = 0.0;
+  this->Index.surface.forEachWithin(T * surface.middle(), surface.radius(),
+    [&](int k, float) { explained += std::max(0.0f, 1.0f - surface.at(toModel * measured[k]) / far); });
+  return { T_scene_model, this->Index.view.visible(T_scene_model, this->Index.scene.sensor), explained };
 }
 
 double PoseComparison::contradicted(const Contender& one, const Eigen::Isometry3f& toOther) const
@@ -50,7 +58,6 @@ double PoseComparison::contradicted(const Contender& one, const Eigen::Isometry3
 double PoseComparison::advantage(const Contender& one, const Contender& other) const
 {
   const TrainedModel& model = this->Index.model;
-  const Points& sceneSurface = this->Index.depth.means();
   const Points& sceneEdges = this->Index.scene.edges.points;
   const float far = static_cast<float>(FarShare * model.diameter);
   const float near = static_cast<float>(NearShare * model.diameter);
@@ -63,27 +70,21 @@ double PoseComparison::advantage(const Contender& one, const Contender& other) c
   const DistanceField& whole = model.surface.empty() ? edges : surface;
   const Eigen::Vector3f middleA = a.cast<float>() * whole.middle();
   const Eigen::Vector3f middleB = b.cast<float>() * whole.middle();
-  // Every point near one of the two, once.
-  const auto forEachNear = [&](const PointGrid& grid, const Points& points, auto&& visit)
+  // Every edge near one of the two, once.
+  const auto forEachNear = [&](auto&& visit)
   {
-    grid.forEachWithin(middleA, whole.radius(), [&](int k, float) { visit(k); });
-    grid.forEachWithin(middleB, whole.radius(),
+    this->Index.edges.forEachWithin(middleA, whole.radius(), [&](int k, float) { visit(k); });
+    this->Index.edges.forEachWithin(middleB, whole.radius(),
       [&](int k, float)
       {
-        if ((points[k] - middleA).squaredNorm() > whole.radius() * whole.radius())
+        if ((sceneEdges[k] - middleA).squaredNorm() > whole.radius() * whole.radius())
         {
           visit(k);
         }
       });
   };
-  double sum = this->contradicted(other, toA) - this->contradicted(one, toB);
-  forEachNear(this->Index.surface, sceneSurface,
-    [&](int k)
-    {
-      const Eigen::Vector3f& point = sceneSurface[k];
-      sum += (std::min(surface.at(toB * point), far) - std::min(surface.at(toA * point), far)) / far;
-    });
-  forEachNear(this->Index.edges, sceneEdges,
+  double sum = one.explained - other.explained + this->contradicted(other, toA) - this->contradicted(one, toB);
+  forEachNear(
     [&](int k)
     {
       const Eigen::Vector3f& point = sceneEdges[k];

@@ -17,11 +17,13 @@ public:
   {
   }
 
-  /// A pose and what of the part the sensor should see at it.
+  /// A pose, what of the part the sensor should see at it, and how many points of the measured surface it explains:
+  /// one for each that lies on the part, less for those beside it.
   struct Contender
   {
     Eigen::Isometry3d T_scene_model;
     PartView::Visible visible;
+    double explained;
   };
   Contender contender(const Eigen::Isometry3d& T_scene_model) const;
 

@@ -12,6 +12,7 @@ constexpr double SurfaceReachShare = 0.04; // of the diameter: a little over the
 constexpr float OnSurface = 0.7f;          // tolerances within which a scene edge lies on the part
 constexpr float ParallelTangents = 0.85f;  // cosine
 
+constexpr std::size_t EdgeStride = 2; // of the visible edge points: neighbours tell the same
 constexpr int GlanceStride = 3; // of the judged points
 
 // What each kind of evidence counts in the score.
@@ -65,8 +66,9 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
   const PartView::Visible visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
   const float tolerance = static_cast<float>(this->Tolerance);
   PoseEvidence evidence;
-  for (const int i : visible.edges)
+  for (std::size_t k = 0; k < visible.edges.size(); k += EdgeStride)
   {
+    const int i = visible.edges[k];
     const Eigen::Vector3f point = T * model.edges.points[i];
     const Eigen::Vector3f tangent = T.linear() * model.edges.tangents[i];
     bool matched = false;

@@ -13,7 +13,7 @@ enum class PointState : unsigned char
   Violated ///< the sensor looked past it: speaks against the pose
 };
 
-/// The points a pose predicts to be visible, scene frame (mm), and what became of each.
+/// Of the points a pose predicts to be visible those that are judged, scene frame (mm), and what became of each.
 struct PoseEvidence
 {
   Points edges;

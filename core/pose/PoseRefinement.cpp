@@ -19,7 +19,7 @@ namespace
 constexpr double DistanceShare = 0.1;      // of the diameter: farthest correspondence at the start
 constexpr double PointDistanceShare = 0.04; // the same of point-to-point ICP
 constexpr double LastDistanceShare = 0.12;  // of that at the end
-constexpr int FullSteps = 3;                // the last ones, with all points
+constexpr int FullSteps = 2;                // the last ones, with all points
 constexpr int CoarseStride = 3;             // of the points in the steps before
 constexpr float ParallelTangents = 0.85f;
 constexpr int FewestCorrespondences = 4;

@@ -22,6 +22,8 @@ constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
 constexpr double LeastAtAGlance = 0.4;  // share of the surface; a pose with less is not looked at closely
 constexpr double SharedByOne = 0.5;     // share of the matched surface from which on two poses are of one instance
+constexpr int TurnIterations = 6;       // of the refinement of another turn, which is nearly right
+constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
 constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
 
 // Logistic regression of whether a pose is right, over poses in scenes with true ones.
@@ -53,6 +55,8 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
 void settleTurn(Pose& pose, const PoseComparison& comparison, const TurnSearch& search, const SceneIndex& index)
 {
   PoseRefinementSettings refinement;
+  refinement.iterations = TurnIterations;
+  refinement.maximumDistance = TurnDistanceShare * index.model.diameter;
   refinement.threads = 1; // poses are settled in parallel
   for (const Eigen::Isometry3d& T : search.better(pose.T_scene_model))
   {
@@ -163,6 +167,7 @@ public:
     , Settings(settings)
     , Distance(distance)
     , Reach(reach)
+    , Contenders(poses.size())
   {
   }
 
@@ -184,8 +189,7 @@ public:
         std::all_of(alternatives.begin(), alternatives.end(),
           [&](int kept)
           {
-            return this->Comparison->advantage(this->Comparison->contender(this->InPoses[candidate].T_scene_model),
-                     this->Comparison->contender(this->InPoses[kept].T_scene_model)) > 0.0;
+            return this->Comparison->advantage(this->contender(candidate), this->contender(kept)) > 0.0;
           });
       if (!best)
       {
@@ -228,6 +232,16 @@ private:
     return least;
   }
 
+  const PoseComparison::Contender& contender(int index)
+  {
+    std::optional<PoseComparison::Contender>& known = this->Contenders[index];
+    if (!known)
+    {
+      known = this->Comparison->contender(this->InPoses[index].T_scene_model);
+    }
+    return *known;
+  }
+
   Eigen::Vector3d middle(int index) const
   {
     return this->InPoses[index].T_scene_model * this->Index.view.middle().cast<double>();
@@ -241,6 +255,7 @@ private:
   const PoseVerificationSettings& Settings;
   double Distance;
   double Reach; ///< middles farther apart are of two instances
+  std::vector<std::optional<PoseComparison::Contender>> Contenders; ///< of the poses, as far as they were asked for
 };
 }
 

@@ -10,7 +10,9 @@ namespace
 {
 constexpr double Reach = 0.02;         // of the diameter: an edge this far from the part's is not explained
 constexpr int Steps = 180;             // of 2 degrees
-constexpr double LeastGain = 2.0;      // edge points that a better turn explains more than the pose as it is
+constexpr double LeastGain = 1.0;      // points and
+constexpr double LeastGainShare = 0.02; // of what the pose as it is explains that a better turn explains more
+constexpr std::size_t MostPoints = 150; // of the scene's edges that are looked at
 constexpr std::size_t MostTurns = 2;   // of an axis
 constexpr double HalfTurn = 170.0;     // degrees: a turn from here on is one
 constexpr double SameAxis = 0.99;      // cosine
@@ -63,6 +65,7 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
         edges.push_back(point);
       }
     });
+  const std::size_t stride = edges.size() / MostPoints + 1;
   for (const ContinuousSymmetry& axis : this->Axes)
   {
     const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
@@ -70,17 +73,18 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
     for (int step = 0; step < Steps; ++step)
     {
       const Eigen::Isometry3f back = turn(-step).cast<float>();
-      for (const Eigen::Vector3f& point : edges)
+      for (std::size_t k = 0; k < edges.size(); k += stride)
       {
-        explained[step] += std::max(0.0f, 1.0f - model.edgeDistance.at(back * point) / reach);
+        explained[step] += std::max(0.0f, 1.0f - model.edgeDistance.at(back * edges[k]) / reach);
       }
     }
     const auto at = [&](int step) { return explained[(step + Steps) % Steps]; };
     const double asItIs = std::max({ at(-1), at(0), at(1) });
+    const double least = asItIs + LeastGain + LeastGainShare * asItIs;
     std::vector<int> maxima;
     for (int step = 2; step < Steps - 1; ++step)
     {
-      if (at(step) > at(step - 1) && at(step) >= at(step + 1) && at(step) > asItIs + LeastGain)
+      if (at(step) > at(step - 1) && at(step) >= at(step + 1) && at(step) > least)
       {
         maxima.push_back(step);
       }
