@@ -27,8 +27,9 @@ constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
 constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
 
 // Logistic regression of whether a pose is right, over poses in scenes with true ones.
-constexpr double WithSurface[] = { -20.0, 29.0 }; // constant, score
+constexpr double WithSurface[] = { -18.9, 26.4 }; // constant, score
 constexpr double EdgesAlone[] = { -0.8, 9.2 };
+constexpr double CertaintyWeight = 5.8; // of its logarithm
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
 void scoreCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)
@@ -47,8 +48,8 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.support();
   const auto& weights = index.scene.surface.empty() ? EdgesAlone : WithSurface;
-  // Squared: over scenes with true poses the certainty alone is too high.
-  pose.probability = pose.certainty * pose.certainty / (1.0 + std::exp(-weights[0] - weights[1] * pose.score));
+  pose.probability =
+    1.0 / (1.0 + std::exp(-weights[0] - weights[1] * pose.score) * std::pow(pose.certainty, -CertaintyWeight));
 }
 
 /// Turns the pose about the axis of a nearly round part where another turn fits better.
