@@ -44,6 +44,7 @@ def build_and_show():
     display.MapScalars = 0
     view.ResetActiveCameraToPositiveZ()
     simple.ResetCamera(view)
+    simple.GetActiveCamera().Dolly(1.6)  # the bin fills the view
     simple.Render(view)
     picture = os.path.join(tempfile.mkdtemp(), "found.png")
     simple.SaveScreenshot(picture, view, ImageResolution=[800, 600])
