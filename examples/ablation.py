@@ -51,9 +51,9 @@ class Chain(evaluation.Evaluation):
         return poses
 
 
-def thicker_model(training):
-    diameter = scripting.field(scripting.update(training.surface).GetOutput(), "Diameter")
-    training.hashing.SetLeafSize(0.03 * diameter)
+def length(training, share):
+    """A share of the part's diameter, in mm."""
+    return share * scripting.field(scripting.update(training.surface).GetOutput(), "Diameter")
 
 
 def no_near_symmetries(training):
@@ -88,7 +88,10 @@ DECISIONS = {
     "common-views": ("pairs of common views only", lambda training: training.hashing.SetCoVisibilityDirections(0), None),
     "voxel-codes": ("views merged by voxel codes", lambda training: training.hashing.SetViewMergingToVoxelCodes(), None),
     "separate": ("views not merged", lambda training: training.hashing.SetViewMergingToNone(), None),
-    "model-leaf": ("model thinned at 3 %, not 4 %", thicker_model, None),
+    "more-votes": ("one point of cubes of 3 % votes, not of 4 %",
+                   lambda training: training.hashing.SetLeafSize(length(training, 0.03)), None),
+    "sparse-edges": ("only points that vote judge, too",
+                     lambda training: training.tangents.SetLeafSize(length(training, 0.04)), None),
     "near": ("no near-symmetries", no_near_symmetries, None),
     "p-ref-5": ("P_ref 5 %", None, lambda chain: chain.detection.SetReferenceShare(0.05)),
     "p-ref-2": ("P_ref 2 %", None, lambda chain: chain.detection.SetReferenceShare(0.02)),

@@ -3,6 +3,7 @@
 
 #include "Parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -57,10 +58,12 @@ const Eigen::Vector3f* pointAt(const OrganizedCloud& cloud, int row, int column)
   return inside ? &cloud.points[static_cast<std::size_t>(row) * cloud.width + column] : nullptr;
 }
 
-/// Whether the surface ends at a point in a direction, in front of another one.
+/// Whether the surface ends at a point in a direction, in front of another one: farther away than its slope leads.
 bool endsInFront(const OrganizedCloud& cloud, int row, int column, int down, int right, float jump)
 {
   const float z = pointAt(cloud, row, column)->z();
+  const Eigen::Vector3f* before = pointAt(cloud, row - down, column - right);
+  const float slope = before && before->allFinite() ? std::max(0.0f, z - before->z()) : 0.0f;
   for (int step = 1; step <= WidestShadow; ++step)
   {
     const Eigen::Vector3f* next = pointAt(cloud, row + step * down, column + step * right);
@@ -70,7 +73,7 @@ bool endsInFront(const OrganizedCloud& cloud, int row, int column, int down, int
     }
     if (next->allFinite())
     {
-      return next->z() - z > jump * static_cast<float>(step);
+      return next->z() - z > (jump + slope) * static_cast<float>(step);
     }
   }
   return false;

@@ -44,6 +44,19 @@ TEST(CloudEdges, slopesHolesAndSinglePointsAreNoJumps)
     grids::surface(20, 15, [](int x, int y) { return x == 8 && y == 7 ? 450.0 : 500.0; }), 3.0).empty());
 }
 
+TEST(CloudEdges, steepWallsAreNoJumpsButEndInOne)
+{
+  // 8 mm a pixel, as a bin's wall at a grazing angle falls.
+  const auto wall = [](int x) { return 400.0 + 8.0 * x; };
+  EXPECT_TRUE(meam::findDepthEdges(grids::surface(20, 15, [&](int x, int) { return wall(x); }), 3.0).empty());
+  // The rim above it: a flat surface that the wall begins beside.
+  const auto rim = grids::surface(20, 15, [&](int x, int) { return x < 10 ? 400.0 : wall(x - 9); });
+  for (const auto& edge : meam::findDepthEdges(rim, 3.0))
+  {
+    EXPECT_EQ(edge.point % 20, 9);
+  }
+}
+
 TEST(CloudEdges, aRoofHasACreaseAlongItsRidge)
 {
   // Both sides fall by 45 degrees, the ridge runs along column 30.
