@@ -13,7 +13,7 @@ namespace meam
 {
 namespace
 {
-constexpr int LeastReferences = 200;    // that a few copies are found by in a small scene
+constexpr int LeastReferences = 100;    // that a few copies are found by in a small scene
 constexpr int BlockSize = 512;          // pairs whose keys are computed at once
 constexpr double CellShare = 0.25;       // of the diameter
 constexpr double LotShare = 0.01;        // of the diameter: points nearer than this share a lot
