@@ -30,13 +30,7 @@ FIGURES = ("strict", "top1", "recall", "AP", "mm", "deg")
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F",
-                        help="factor to mm: 1000 for a CAD in metres")
-    parser.add_argument("--copies", type=scripting.count, default=20, help="copies in a bin (default: %(default)s)")
-    parser.add_argument("--scenes", type=scripting.count, default=5, help="bins to fill (default: %(default)s)")
-    parser.add_argument("--seed", type=scripting.count, default=1,
-                        help="of the first bin, the next has the next one (default: %(default)s)")
+    scripting.add_bin_arguments(parser, scenes=5)
     parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--out", metavar="CSV", help="write the table, with more columns")

@@ -14,13 +14,7 @@ from ppfmeam import bop, filters, scripting
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F",
-                        help="factor to mm: 1000 for a CAD in metres")
-    parser.add_argument("--copies", type=scripting.count, default=20, help="copies in a bin (default: %(default)s)")
-    parser.add_argument("--scenes", type=scripting.count, default=1, help="bins to fill (default: %(default)s)")
-    parser.add_argument("--seed", type=scripting.count, default=1,
-                        help="of the first bin, the next has the next one (default: %(default)s)")
+    scripting.add_bin_arguments(parser, scenes=1)
     parser.add_argument("--noise", type=float, default=0.3, metavar="MM",
                         help="standard deviation of the depth at a distance of 1 m, in mm; it grows with the square "
                              "of the distance (default: %(default)s)")

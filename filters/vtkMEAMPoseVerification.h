@@ -7,7 +7,8 @@
  * pose that has a scene edge point near. VisibleEvidence, the recommended one, asks of each edge and surface
  * point that should be visible at the pose whether the sensor saw it, saw something in front of it (which
  * says nothing) or looked past it (which speaks against the pose), and which scene edges on the part stay
- * unexplained. Then poses near each other are of one instance, of which the best are kept.
+ * unexplained. Then poses near each other are of one instance, of which the best are kept. When more poses come than
+ * may stay, those whose surface is not there at a glance go first.
  *
  * Input port 0: vtkPolyData of poses (vtkMEAMPoseDetection, vtkMEAMPoseRefinement or a pose file): `Transform`.
  * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).
@@ -85,8 +86,9 @@ public:
 
   ///@{
   /**
-   * Poses kept of one instance. With 1, as for the result, alternatives are decided on the points that
-   * tell them apart; more keep the alternatives for refinement. Default: 2. The paper: 1.
+   * Poses kept of one instance; of those that a near-symmetry turns into each other one is kept. With 1, as for the
+   * result, alternatives are decided on the points that tell them apart, and a nearly round part is turned to where
+   * it fits best and refined there; more keep the alternatives for refinement. Default: 2. The paper: 1.
    */
   vtkSetClampMacro(PosesPerInstance, int, 1, VTK_INT_MAX);
   vtkGetMacro(PosesPerInstance, int);

@@ -56,15 +56,13 @@ PoseJudgement judge(
 {
   PoseJudgement judgement;
   const double reach = settings.translationTolerance / 100.0 * settings.diameter;
-  const auto displacement = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
-  { return (a * settings.middle - b * settings.middle).norm(); };
   double nearest = std::numeric_limits<double>::infinity();
   double leastTurn = settings.rotationTolerance;
   for (std::size_t i = 0; i < truths.size(); ++i)
   {
     const Eigen::Isometry3d equal =
       nearestEqual(estimate.T_scene_model, truths[i].T_scene_model, settings.symmetries);
-    const double distance = displacement(equal, truths[i].T_scene_model);
+    const double distance = translationError(equal, truths[i].T_scene_model, settings.middle);
     if (distance < nearest)
     {
       nearest = distance;
@@ -89,7 +87,7 @@ PoseJudgement judge(
   }
   const Eigen::Isometry3d& truth = truths[to].T_scene_model;
   const Eigen::Isometry3d equal = nearestEqual(estimate.T_scene_model, truth, settings.symmetries);
-  judgement.translationError = displacement(equal, truth);
+  judgement.translationError = translationError(equal, truth, settings.middle);
   judgement.rotationError = rotationError(equal, truth);
   splitRotation(equal, truth, settings.axis.normalized(), judgement);
   return judgement;

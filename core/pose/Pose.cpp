@@ -10,8 +10,8 @@ double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() * 180.0 / M_PI;
 }
 
-double translationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
+double translationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Eigen::Vector3d& point)
 {
-  return (a.translation() - b.translation()).norm();
+  return (a * point - b * point).norm();
 }
 }

@@ -41,6 +41,7 @@ inline double preference(const Pose& pose) { return confidence(pose) * std::sqrt
 
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
-/// Distance between the origins of two poses, mm.
-double translationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
+/// Distance between where two poses take a point of the part (model frame, mm), mm.
+double translationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b,
+  const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
 }

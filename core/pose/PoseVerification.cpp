@@ -113,7 +113,7 @@ Poses distinctPoses(const Poses& poses, const SceneIndex& index, double distance
       [&](int k)
       {
         const Eigen::Isometry3d& other = poses[k].T_scene_model;
-        return (T * middle - other * middle).norm() < distance &&
+        return translationError(T, other, middle) < distance &&
           rotationError(nearestEqual(T, other, index.model.symmetries), other) < angle;
       });
     if (!known)

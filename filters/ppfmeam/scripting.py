@@ -68,6 +68,17 @@ def count(text):
     return number
 
 
+def add_bin_arguments(parser, scenes):
+    """What a script that simulates bins asks for: the part, and how many bins of how many copies; `scenes` by default."""
+    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
+    parser.add_argument("--cad-scale", type=float, default=1, metavar="F",
+                        help="factor to mm: 1000 for a CAD in metres")
+    parser.add_argument("--copies", type=count, default=20, help="copies in a bin (default: %(default)s)")
+    parser.add_argument("--scenes", type=count, default=scenes, help="bins to fill (default: %(default)s)")
+    parser.add_argument("--seed", type=count, default=1,
+                        help="of the first bin, the next has the next one (default: %(default)s)")
+
+
 def set_choice(algorithm, name, choice):
     """Sets an enumerated property: Preset, recommended calls SetPresetToRecommended()."""
     getattr(algorithm, f"Set{name}To{choice[0].upper()}{choice[1:]}")()

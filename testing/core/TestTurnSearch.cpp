@@ -55,17 +55,7 @@ const meam::Scene& scene()
 {
   static const meam::Scene seen = []
   {
-    meam::SurfaceSamplingSettings sampling;
-    sampling.spacing = 0.7;
-    sampling.seed = 4;
-    const meam::PointCloud part = meam::sampleSurface(gear(), sampling);
-    meam::AppearanceModel view;
-    view.cloud = part.subset(meam::visiblePoints(part.points, { 0, 0, 2000 }, 1000.0));
-    meam::Scene scene;
-    scene.edges.points = meam::moved(meam::extractBoundary({ view })[0].cloud.points, turned(0));
-    scene.surface = meam::moved(view.cloud.points, turned(0));
-    scene.sensor.perspective = false;
-    scene.sensor.direction = -Eigen::Vector3f::UnitZ();
+    meam::Scene scene = scenes::seenFromAbove({ scenes::Copy{ gear(), turned(0) } });
     scene.edges = meam::estimateTangents(scene.edges, model().diameter, scene.sensor.direction);
     return scene;
   }();
