@@ -12,7 +12,7 @@ constexpr double Reach = 0.02;         // of the diameter: an edge this far from
 constexpr int Steps = 180;             // of 2 degrees
 constexpr double LeastGain = 1.0;      // points and
 constexpr double LeastGainShare = 0.02; // of what the pose as it is explains that a better turn explains more
-constexpr std::size_t MostPoints = 150; // of the scene's edges that are looked at
+constexpr std::size_t MostPoints = 200; // of the scene's edges that are looked at
 constexpr std::size_t MostTurns = 2;   // of an axis
 constexpr double HalfTurn = 170.0;     // degrees: a turn from here on is one
 constexpr double SameAxis = 0.99;      // cosine
@@ -65,7 +65,7 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
         edges.push_back(point);
       }
     });
-  const std::size_t stride = edges.size() / MostPoints + 1;
+  const std::size_t stride = (edges.size() + MostPoints - 1) / MostPoints;
   for (const ContinuousSymmetry& axis : this->Axes)
   {
     const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
