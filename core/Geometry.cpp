@@ -148,10 +148,10 @@ Eigen::Isometry3d principalFrame(const Points& points)
     if (point.allFinite())
     {
       const Eigen::Vector3d d = point.cast<double>() - mean;
-      covariance += d * d.transpose() / count;
+      covariance += d * d.transpose();
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance / count);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   if (!axes.allFinite())
   {

@@ -98,8 +98,7 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int count = 0;
     int nearest = -1;
-    double distance = 0.0;   // to the mean
-    double offCentre = 0.0;  // to the cube's middle: of two points both are equally near to their mean
+    double distance = 0.0; // to the mean
   };
   constexpr double farthest = 9e18; // what 64 bits count
   const auto cubeOf = [&](const Eigen::Vector3f& point)
@@ -146,32 +145,29 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
       continue;
     }
     Cell& cell = cells[cellOf[i]];
-    const Eigen::Vector3d point = points[i].cast<double>();
-    const Eigen::Array3d middle(cell.cube.x + 0.5, cell.cube.y + 0.5, cell.cube.z + 0.5);
-    const double distance = (point - cell.sum / cell.count).norm() / leafSize;
-    const double offCentre = (point.array() / leafSize - middle).matrix().norm();
+    const double distance = (points[i].cast<double>() - cell.sum / cell.count).norm() / leafSize;
     const double nearer = cell.distance - distance;
-    if (cell.nearest < 0 || nearer > SameDistance || (nearer > -SameDistance && offCentre < cell.offCentre))
+    // Of two points both are equally near to their mean: the one nearer to the cube's middle.
+    const auto offCentre = [&](int k)
+    {
+      const Eigen::Array3d middle(cell.cube.x + 0.5, cell.cube.y + 0.5, cell.cube.z + 0.5);
+      return (points[k].cast<double>().array() / leafSize - middle).matrix().squaredNorm();
+    };
+    if (cell.nearest < 0 || nearer > SameDistance ||
+      (nearer > -SameDistance && offCentre(static_cast<int>(i)) < offCentre(cell.nearest)))
     {
       cell.nearest = static_cast<int>(i);
       cell.distance = distance;
-      cell.offCentre = offCentre;
     }
   }
-  std::vector<int> order(cells.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-    [&](int a, int b)
-    {
-      const Cube& one = cells[a].cube;
-      const Cube& other = cells[b].cube;
-      return std::tie(one.z, one.y, one.x) < std::tie(other.z, other.y, other.x);
-    });
+  std::sort(cells.begin(), cells.end(),
+    [](const Cell& a, const Cell& b)
+    { return std::tie(a.cube.z, a.cube.y, a.cube.x) < std::tie(b.cube.z, b.cube.y, b.cube.x); });
   std::vector<int> kept;
   kept.reserve(cells.size());
-  for (const int cell : order)
+  for (const Cell& cell : cells)
   {
-    kept.push_back(cells[cell].nearest);
+    kept.push_back(cell.nearest);
   }
   return kept;
 }

@@ -37,6 +37,8 @@ public:
 
   /// The finite points' indices cell by cell: the order that forEachRange counts in.
   const std::vector<int>& order() const { return this->Order; }
+  /// The points in that order.
+  const Points& sorted() const { return this->Sorted; }
 
   /// Calls visit(begin, end) with ranges of `order` that together hold all points within `radius`, and others.
   template <typename Visitor>

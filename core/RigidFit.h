@@ -19,45 +19,40 @@ public:
   /// A point that is off by `residual` (mm) along the unit `direction`.
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double residual, double weight = 1.0)
   {
-    Eigen::Matrix<double, 6, 1> row;
-    row << (point - this->Centre).cross(direction), direction;
-    this->A += weight * row * row.transpose();
-    this->b -= weight * residual * row;
-    this->Weights += weight;
-    this->Squares += weight * residual * residual;
-  }
-
-  /// Of the motion (rotation vector, translation): the inverse of its covariance for residuals of variance 1.
-  const Eigen::Matrix<double, 6, 6>& information() const { return this->A; }
-  double weights() const { return this->Weights; }
-  /// Sum of the squared residuals, weighted.
-  double squares() const { return this->Squares; }
-
-  /// The motion to apply on the left; the identity when nothing can be said.
-  Eigen::Isometry3d motion() const
-  {
-    // A little damping keeps what the residuals do not fix where it is.
-    const double damping = 1e-6 * this->A.diagonal().maxCoeff();
-    const Eigen::Matrix<double, 6, 1> twist =
-      (this->A + damping * Eigen::Matrix<double, 6, 6>::Identity()).ldlt().solve(this->b);
-    Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
-    if (twist.allFinite())
+    const Eigen::Vector3d turn = (point - this->Centre).cross(direction);
+    const double values[Values] = { turn.x(), turn.y(), turn.z(), direction.x(), direction.y(), direction.z(), residual,
+      weight };
+    for (int i = 0; i < Values; ++i)
     {
-      const double angle = twist.head<3>().norm();
-      if (angle > 0.0)
-      {
-        move.linear() = Eigen::AngleAxisd(angle, twist.head<3>() / angle).toRotationMatrix();
-      }
-      move.translation() = this->Centre + twist.tail<3>() - move.linear() * this->Centre;
+      this->Waiting[i][this->Filled] = values[i];
     }
-    return move;
+    if (++this->Filled == Lanes)
+    {
+      this->sum();
+    }
   }
+
+  /// What the residuals say.
+  struct Result
+  {
+    /// Of the motion (rotation vector, translation): the inverse of its covariance for residuals of variance 1.
+    Eigen::Matrix<double, 6, 6> information;
+    Eigen::Isometry3d motion; ///< to apply on the left; the identity when nothing can be said
+    double weights;           ///< their sum
+    double squares;           ///< sum of the squared residuals, weighted
+  };
+  Result result();
 
 private:
+  static constexpr int Lanes = 8;        // residuals that are summed at once
+  static constexpr int Values = 8;       // of a residual: its row of the Jacobian, itself, its weight
+  static constexpr int Sums = 21 + 6 + 2; // lower triangle of the information, right side, squares, weights
+
+  void sum();
+
   Eigen::Vector3d Centre;
-  Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
-  double Weights = 0.0;
-  double Squares = 0.0;
+  int Filled = 0;
+  double Waiting[Values][Lanes];
+  double Summed[Sums][Lanes] = {};
 };
 }

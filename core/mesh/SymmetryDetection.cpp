@@ -119,7 +119,7 @@ public:
           fit.add(point.cast<double>(), normal.cast<double>(), normal.dot(point - this->Surface.points[k]));
         }
       }
-      T = fit.motion() * T;
+      T = fit.result().motion * T;
     }
     return T;
   }

@@ -16,6 +16,9 @@ constexpr std::uint32_t TurnMask = (1u << TurnBits) - 1;
 /// the bit above them when d runs against that tangent.
 using PairTurn = std::uint32_t;
 
+/// Votes that are computed at once.
+constexpr int VoteBlock = 16;
+
 /// Keys and turns of one reference point with many referred points, computed for several points at a time with the
 /// widest vectors the processor has; the result is the same with all of them.
 class PairKeys

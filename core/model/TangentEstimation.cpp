@@ -31,24 +31,44 @@ float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f
 }
 
 /// Neighbours of a point, relative to it, coordinate by coordinate.
-struct Neighbours
+class Neighbours
 {
-  std::vector<float> x, y, z;
+public:
+  int size() const { return this->Count; }
+  const float* x() const { return this->X.data(); }
+  const float* y() const { return this->Y.data(); }
+  const float* z() const { return this->Z.data(); }
+  Eigen::Vector3f at(int k) const { return { this->X[k], this->Y[k], this->Z[k] }; }
 
-  int size() const { return static_cast<int>(this->x.size()); }
-  Eigen::Vector3f at(int k) const { return { this->x[k], this->y[k], this->z[k] }; }
-  void clear()
+  void gather(const PointGrid& grid, const Eigen::Vector3f& centre, double radius)
   {
-    this->x.clear();
-    this->y.clear();
-    this->z.clear();
+    const float limit = static_cast<float>(radius) * static_cast<float>(radius);
+    this->Count = 0;
+    grid.forEachRange(centre, radius,
+      [&](int begin, int end)
+      {
+        const std::size_t most = static_cast<std::size_t>(this->Count) + end - begin;
+        if (this->X.size() < most)
+        {
+          this->X.resize(2 * most);
+          this->Y.resize(2 * most);
+          this->Z.resize(2 * most);
+        }
+        for (int k = begin; k < end; ++k)
+        {
+          // Without a branch: half of them would be predicted wrongly.
+          const Eigen::Vector3f offset = grid.sorted()[k] - centre;
+          this->X[this->Count] = offset.x();
+          this->Y[this->Count] = offset.y();
+          this->Z[this->Count] = offset.z();
+          this->Count += offset.squaredNorm() <= limit ? 1 : 0;
+        }
+      });
   }
-  void add(const Eigen::Vector3f& offset)
-  {
-    this->x.push_back(offset.x());
-    this->y.push_back(offset.y());
-    this->z.push_back(offset.z());
-  }
+
+private:
+  std::vector<float> X, Y, Z;
+  int Count = 0;
 };
 
 /// How many of the offsets lie within sqrt(limit) of the line through the origin.
@@ -108,7 +128,7 @@ Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidat
     }
     const Eigen::Vector3f line = candidate / length;
     const int support =
-      lineSupport(offsets.x.data(), offsets.y.data(), offsets.z.data(), offsets.size(), line, limit);
+      lineSupport(offsets.x(), offsets.y(), offsets.z(), offsets.size(), line, limit);
     if (support > best || (support == best && length > farthest))
     {
       best = support;
@@ -137,10 +157,8 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, double 
       for (int i = begin; i < end; ++i)
       {
         const Eigen::Vector3f& centre = edges[kept[i]];
-        offsets.clear();
-        candidates.clear();
-        grid.forEachWithin(centre, radius, [&](int index, float) { offsets.add(edges[index] - centre); });
-        sparseGrid.forEachWithin(centre, radius, [&](int index, float) { candidates.add(sparse[index] - centre); });
+        offsets.gather(grid, centre, radius);
+        candidates.gather(sparseGrid, centre, radius);
         tangents[i] = robustLine(offsets, candidates, inlierDistance);
       }
     });

@@ -15,7 +15,7 @@ constexpr double EdgeSpacing = 0.03;
 
 void deriveVotes(const PointCloud& edges, PairTable& pairs)
 {
-  pairs.votes.resize(pairs.size());
+  pairs.votes.assign(pairs.size() + VoteBlock, 0);
   pairs.voteStarts.assign(2 * (pairs.offsets.size() - 1) + 1, 0);
   pairs.mostOfOne = 1;
   std::vector<std::uint32_t> against;

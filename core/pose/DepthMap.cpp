@@ -14,13 +14,11 @@ constexpr double StrayShare = 0.001;   // of the points, at each end of each axi
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
 }
 
-DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize)
+DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize, const Eigen::Vector3f& along)
   : Eye(sensor)
   , CellSize(cellSize)
 {
-  // Right is the way the surface extends most, so that the cells move with the scene.
-  const Eigen::Vector3f most = principalFrame(surface).linear().row(0).cast<float>();
-  const Eigen::Vector3f across = most - most.dot(sensor.direction) * sensor.direction;
+  const Eigen::Vector3f across = along - along.dot(sensor.direction) * sensor.direction;
   const Eigen::Matrix3f frame = frameAround(sensor.direction);
   const Eigen::Vector3f right = across.norm() > 1e-3f ? across.normalized() : Eigen::Vector3f(frame.col(1));
   this->Axes.row(0) = right;

@@ -21,8 +21,10 @@ public:
     NoSurface ///< the sensor saw nothing there
   };
 
-  /// `cellSize` is in mm, for a perspective sensor at the middle of the scene.
-  DepthMap(const Points& surface, const Sensor& sensor, double cellSize);
+  /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the direction
+  /// `along`, as seen by the sensor: one that moves with the scene lets the cells move with it.
+  DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
+    const Eigen::Vector3f& along = Eigen::Vector3f::UnitX());
 
   /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
   double cellSize() const { return this->CellSize; }

@@ -29,26 +29,27 @@ PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_s
   return { T_scene_model, this->Index.view.visible(T_scene_model, this->Index.scene.sensor), explained };
 }
 
-double PoseComparison::contradicted(const Contender& one, const Eigen::Isometry3f& toOther) const
+double PoseComparison::contradicted(const Contender& one, const Contender& other) const
 {
   const TrainedModel& model = this->Index.model;
   const float far = static_cast<float>(FarShare * model.diameter);
   const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
+  const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
   double sum = 0.0;
   for (const int i : one.visible.surface)
   {
-    const Eigen::Vector3f point = T * model.surface.points[i];
+    const Eigen::Vector3f& point = model.surface.points[i];
     sum += model.surfaceDistance.at(toOther * point) >= far &&
-        this->Index.depth.relation(point, far) == DepthMap::Relation::InFront
+        this->Index.depth.relation(T * point, far) == DepthMap::Relation::InFront
       ? PastWeight
       : 0.0;
   }
   for (const int i : one.visible.edges)
   {
-    const Eigen::Vector3f point = T * model.edges.points[i];
+    const Eigen::Vector3f& point = model.edges.points[i];
     sum += model.edgeDistance.at(toOther * point) >= far &&
-        this->Index.depth.relation(point, far) == DepthMap::Relation::OnSurface &&
-        this->Index.edges.nearest(point, far) < 0
+        this->Index.depth.relation(T * point, far) == DepthMap::Relation::OnSurface &&
+        this->Index.edges.nearest(T * point, far) < 0
       ? MissingWeight
       : 0.0;
   }
@@ -83,7 +84,7 @@ double PoseComparison::advantage(const Contender& one, const Contender& other) c
         }
       });
   };
-  double sum = one.explained - other.explained + this->contradicted(other, toA) - this->contradicted(one, toB);
+  double sum = one.explained - other.explained + this->contradicted(other, one) - this->contradicted(one, other);
   forEachNear(
     [&](int k)
     {

@@ -32,9 +32,9 @@ public:
   double advantage(const Contender& a, const Contender& b) const;
 
 private:
-  /// What `one` predicts and the other (`toOther` takes points of the scene to its part) does not: surface that the
-  /// sensor looked past, and edges on surface it saw where the scene has none.
-  double contradicted(const Contender& one, const Eigen::Isometry3f& toOther) const;
+  /// What `one` predicts and the other does not: surface that the sensor looked past, and edges on surface it saw where
+  /// the scene has none.
+  double contradicted(const Contender& one, const Contender& other) const;
 
   const SceneIndex& Index;
 };

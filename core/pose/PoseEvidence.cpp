@@ -10,7 +10,6 @@ namespace
 {
 constexpr double SurfaceReachShare = 0.04; // of the diameter: a little over the spacing of judged points
 constexpr float OnSurface = 0.7f;          // tolerances within which a scene edge lies on the part
-constexpr float ParallelTangents = 0.85f;  // cosine
 
 constexpr std::size_t EdgeStride = 2; // of the visible edge points: neighbours tell the same
 constexpr int GlanceStride = 3; // of the judged points
@@ -71,9 +70,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
     const int i = visible.edges[k];
     const Eigen::Vector3f point = T * model.edges.points[i];
     const Eigen::Vector3f tangent = T.linear() * model.edges.tangents[i];
-    bool matched = false;
-    this->Index.edges.forEachWithin(point, tolerance,
-      [&](int k, float) { matched = matched || std::abs(sceneEdges.tangents[k].dot(tangent)) > ParallelTangents; });
+    const bool matched = this->Index.lines.nearest(point, tangent, tolerance).edge >= 0;
     const PointState state = matched ? PointState::Matched
       : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
                                                                              : PointState::Violated;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meam
 {
@@ -19,10 +20,17 @@ namespace
 constexpr double DistanceShare = 0.1;      // of the diameter: farthest correspondence at the start
 constexpr double PointDistanceShare = 0.04; // the same of point-to-point ICP
 constexpr double LastDistanceShare = 0.12;  // of that at the end
-constexpr int FullSteps = 2;                // the last ones, with all points
-constexpr int CoarseStride = 3;             // of the points in the steps before
-constexpr float ParallelTangents = 0.85f;
+constexpr int FullSteps = 1;                // the last ones, with all points
+constexpr int CoarseStride = 4;             // of the points in the steps before
 constexpr int FewestCorrespondences = 4;
+// Of a pose that settles.
+constexpr double LatticeShare = 0.02;        // of the diameter: where it starts from
+constexpr double LatticeTurn = 0.04;         // the same of a quaternion: 4.6 degrees
+constexpr double SettleDistanceShare = 0.06; // of the diameter
+constexpr int SettleIterations = 4;
+constexpr int MostSteps = 6;
+constexpr int StepsOfSight = 2;              // in the first ones what is in sight is told anew
+constexpr double LeastMotionShare = 1e-5;    // of the diameter
 // Shares of what corresponds that have to speak for a motion.
 constexpr double ConstrainedShare = 0.01; // so that it counts as fixed
 constexpr double LeastShare = 1e-6;       // taken for the variance of one that nothing fixes
@@ -56,32 +64,51 @@ public:
         visible = this->visible(pose); // nearly there: what is in sight can be told better now
       }
       const int stride = iteration + FullSteps < this->Iterations ? CoarseStride : 1;
-      const RigidFit fit = this->correspondences(pose.T_scene_model, visible, stride, limit);
-      pose.T_scene_model = fit.motion() * pose.T_scene_model;
+      this->step(pose, visible, stride, limit);
     }
     pose.fit = this->fitAt(pose, visible);
     pose.fit.iterations = this->Iterations;
   }
 
+  /// Steps with all points until the pose stays.
+  void settle(Pose& pose) const
+  {
+    const double least = LeastMotionShare * this->Index.model.diameter;
+    PartView::Visible visible;
+    double moved = std::numeric_limits<double>::infinity();
+    int steps = 0;
+    for (; steps < MostSteps && moved > least; ++steps)
+    {
+      if (steps < StepsOfSight)
+      {
+        visible = this->visible(pose);
+      }
+      moved = this->step(pose, visible, 1, this->Distance * LastDistanceShare);
+    }
+    const int before = pose.fit.iterations;
+    pose.fit = this->fitAt(pose, visible);
+    pose.fit.iterations = before + steps;
+  }
+
   /// How well the scene fixes the pose; the iterations are left to the caller.
   PoseFit fitAt(const Pose& pose, const PartView::Visible& visible) const
   {
-    const RigidFit fit =
+    const RigidFit::Result fit =
       this->correspondences(pose.T_scene_model, visible, 1, this->Distance * LastDistanceShare);
     PoseFit result;
-    if (fit.weights() < FewestCorrespondences)
+    if (fit.weights < FewestCorrespondences)
     {
       return result;
     }
-    result.residual = std::sqrt(fit.squares() / fit.weights());
+    result.residual = std::sqrt(fit.squares / fit.weights);
     // Rotations count as what they move half a diameter from the middle, so all six are lengths.
     Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Ones();
     scale.head<3>().setConstant(2.0 / this->Index.model.diameter);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
-      scale.asDiagonal() * fit.information() * scale.asDiagonal() / fit.weights());
+      scale.asDiagonal() * fit.information * scale.asDiagonal() / fit.weights);
     const auto& values = solver.eigenvalues();
     result.constrained = static_cast<int>((values.array() > ConstrainedShare).count());
-    const Eigen::Matrix<double, 6, 1> variances = result.residual * result.residual / fit.weights() *
+    const Eigen::Matrix<double, 6, 1> variances = result.residual * result.residual / fit.weights *
       values.array().max(LeastShare).inverse();
     result.covariance = scale.asDiagonal() * solver.eigenvectors() * variances.asDiagonal() *
       solver.eigenvectors().transpose() * scale.asDiagonal();
@@ -94,8 +121,18 @@ public:
   }
 
 private:
+  /// Returns how far (mm) the pose moved: its middle, or a point half a diameter from it.
+  double step(Pose& pose, const PartView::Visible& visible, int stride, double limit) const
+  {
+    const Eigen::Isometry3d motion = this->correspondences(pose.T_scene_model, visible, stride, limit).motion;
+    const Eigen::Vector3d middle = pose.T_scene_model * this->Index.view.middle().cast<double>();
+    pose.T_scene_model = motion * pose.T_scene_model;
+    const double turn = Eigen::AngleAxisd(Eigen::Matrix3d(motion.linear())).angle();
+    return (motion * middle - middle).norm() + turn * 0.5 * this->Index.model.diameter;
+  }
+
   /// Residuals of every `stride`-th visible point that something in the scene within `limit` (mm) corresponds to.
-  RigidFit correspondences(
+  RigidFit::Result correspondences(
     const Eigen::Isometry3d& T, const PartView::Visible& visible, int stride, double limit) const
   {
     const TrainedModel& model = this->Index.model;
@@ -108,28 +145,16 @@ private:
       const int i = visible.edges[k];
       const Eigen::Vector3f point = Tf * model.edges.points[i];
       const Eigen::Vector3f tangent = Tf.linear() * model.edges.tangents[i];
-      int nearest = -1;
-      float best = static_cast<float>(limit * limit);
-      this->Index.edges.forEachWithin(point, limit,
-        [&](int e, float)
-        {
-          // Distance to the scene's tangent line, which counts, not to the point on it.
-          const float distance =
-            scene.tangents[e].cross(point - scene.points[e]).squaredNorm();
-          if (distance < best && std::abs(scene.tangents[e].dot(tangent)) > ParallelTangents)
-          {
-            best = distance;
-            nearest = e;
-          }
-        });
-      if (nearest < 0)
+      // Distance to the scene's tangent line, which counts, not to the point on it.
+      const EdgeLines::Match match = this->Index.lines.nearest(point, tangent, limit);
+      if (match.edge < 0)
       {
         continue;
       }
-      const Eigen::Vector3d line = scene.tangents[nearest].cast<double>();
-      const Eigen::Vector3d offset = (point - scene.points[nearest]).cast<double>();
+      const Eigen::Vector3d line = scene.tangents[match.edge].cast<double>();
+      const Eigen::Vector3d offset = (point - scene.points[match.edge]).cast<double>();
       const Eigen::Matrix3f frame = frameAround(line.cast<float>());
-      const double weight = tukey(best, limit);
+      const double weight = tukey(match.squaredDistance, limit);
       for (int axis = 1; axis < 3; ++axis)
       {
         const Eigen::Vector3d across = frame.col(axis).cast<double>();
@@ -149,7 +174,7 @@ private:
       const double residual = normal.dot(point - *seen);
       fit.add(point.cast<double>(), normal.cast<double>(), residual, tukey(residual * residual, limit));
     }
-    return fit;
+    return fit.result();
   }
 
   const SceneIndex& Index;
@@ -206,6 +231,27 @@ PoseRefinementSettings paperRefinementSettings()
   settings.method = RefinementMethod::PointToPoint;
   settings.iterations = 50;
   return settings;
+}
+
+Pose settlePose(const Pose& pose, const SceneIndex& index)
+{
+  const TrainedModel& model = index.model;
+  const Eigen::Vector3d middle = index.view.middle().cast<double>();
+  const Eigen::Isometry3d inFrame =
+    nearestEqual(index.frame * pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
+  const double step = LatticeShare * model.diameter;
+  const Eigen::Vector3d place = ((inFrame * middle) / step).array().round() * step;
+  const Eigen::Quaterniond turn(Eigen::Matrix3d(inFrame.linear()));
+  const Eigen::Vector4d rounded = (turn.coeffs() / LatticeTurn).array().round() * LatticeTurn;
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  start.linear() = Eigen::Quaterniond(rounded).normalized().toRotationMatrix();
+  start.translation() = place - start.linear() * middle;
+  Pose settled = pose;
+  settled.T_scene_model = index.frame.inverse() * start;
+  const Refiner refiner(index, SettleDistanceShare * model.diameter, SettleIterations);
+  refiner.refine(settled);
+  refiner.settle(settled);
+  return settled.fit.constrained == 6 ? settled : pose;
 }
 
 Poses refinePoses(

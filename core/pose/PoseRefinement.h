@@ -30,7 +30,12 @@ PoseRefinementSettings paperRefinementSettings();
 Poses refinePoses(const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings = {},
   const Progress& progress = {});
 
-/// The same in a scene that nothing else is asked about. Throws Error when the scene has no edges.
+/// The pose refined once more by edges and surface, from the nearest place of a lattice in the scene's own frame and until
+/// it stays: the same whichever candidate led there and however the scene lies in its coordinates. As it came where the
+/// scene leaves it a freedom.
+Pose settlePose(const Pose& pose, const SceneIndex& index);
+
+/// refinePoses in a scene that nothing else is asked about. Throws Error when the scene has no edges.
 inline Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& scene, const PoseRefinementSettings& settings = {},
   const Progress& progress = {})
 {

@@ -341,23 +341,30 @@ Poses verifyPoses(
           const int i = clusters.Kept[k];
           settleTurn(scored[i], *comparison, search, index);
           settleNearSymmetry(scored[i], *comparison, model.symmetries);
+          scored[i] = settlePose(scored[i], index);
           scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), index);
         }
       });
   }
   std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), better);
-  Poses best;
+  const auto middle = [&](int i) { return (scored[i].T_scene_model * index.view.middle().cast<double>()).eval(); };
+  std::vector<int> kept;
   for (const int i : clusters.Kept)
   {
-    if (scored[i].probability < settings.minimumProbability)
+    // Poses that were settled may have come to the same place.
+    const bool known = comparison &&
+      std::any_of(kept.begin(), kept.end(), [&](int k) { return (middle(i) - middle(k)).norm() < clusterDistance; });
+    const bool full = settings.maximumPoses > 0 && static_cast<int>(kept.size()) >= settings.maximumPoses;
+    if (!known && !full && scored[i].probability >= settings.minimumProbability)
     {
-      continue;
+      kept.push_back(i);
     }
-    if (settings.maximumPoses == 0 || static_cast<int>(best.size()) < settings.maximumPoses)
-    {
-      best.push_back(scored[i]);
-      best.back().T_scene_model = nearestEqual(scored[i].T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
-    }
+  }
+  Poses best;
+  for (const int i : kept)
+  {
+    best.push_back(scored[i]);
+    best.back().T_scene_model = nearestEqual(scored[i].T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
   }
   report(progress, 1.0);
   return best;

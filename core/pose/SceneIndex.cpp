@@ -8,7 +8,7 @@ namespace meam
 namespace
 {
 // Shares of the diameter.
-constexpr double EdgeCellShare = 0.05;
+constexpr double EdgeCellShare = 0.08;
 constexpr double DepthCellShare = 0.02;
 constexpr double SurfaceCellShare = 0.05;
 
@@ -26,9 +26,11 @@ const Scene& withTangents(const Scene& scene)
 SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen)
   : model(trained)
   , scene(withTangents(seen))
+  , frame(principalFrame(seen.edges.points))
   , view(trained)
   , edges(seen.edges.points, EdgeCellShare * trained.diameter)
-  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter)
+  , lines(seen.edges, this->edges)
+  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, this->frame.linear().row(0).transpose().cast<float>())
   , surface(this->depth.means(), SurfaceCellShare * trained.diameter)
 {
 }

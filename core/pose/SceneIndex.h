@@ -3,6 +3,7 @@
 
 #include "PointGrid.h"
 #include "pose/DepthMap.h"
+#include "pose/EdgeLines.h"
 #include "pose/PartView.h"
 #include "pose/Scene.h"
 
@@ -17,9 +18,14 @@ struct SceneIndex
 
   const TrainedModel& model;
   const Scene& scene;
+  Eigen::Isometry3d frame; ///< takes the scene to the principal frame of its edge points
   PartView view;
   PointGrid edges;   ///< of the scene's edge points
+  EdgeLines lines;   ///< of these
   DepthMap depth;    ///< of its surface
   PointGrid surface; ///< of depth.means()
+
+  SceneIndex(const SceneIndex&) = delete; // lines refers to edges
+  void operator=(const SceneIndex&) = delete;
 };
 }

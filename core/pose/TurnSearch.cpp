@@ -13,6 +13,8 @@ constexpr int Steps = 180;             // of 2 degrees
 constexpr double LeastGain = 1.0;      // points and
 constexpr double LeastGainShare = 0.02; // of what the pose as it is explains that a better turn explains more
 constexpr std::size_t MostPoints = 200; // of the scene's edges that are looked at
+constexpr std::size_t RoughStride = 4;  // of these at first
+constexpr std::size_t MostMaxima = 10;  // that are looked at closely
 constexpr std::size_t MostTurns = 2;   // of an axis
 constexpr double HalfTurn = 170.0;     // degrees: a turn from here on is one
 constexpr double SameAxis = 0.99;      // cosine
@@ -69,29 +71,50 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
   for (const ContinuousSymmetry& axis : this->Axes)
   {
     const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
-    std::vector<double> explained(Steps, 0.0);
-    for (int step = 0; step < Steps; ++step)
+    const auto explained = [&](int step, std::size_t every)
     {
       const Eigen::Isometry3f back = turn(-step).cast<float>();
-      for (std::size_t k = 0; k < edges.size(); k += stride)
+      double sum = 0.0;
+      for (std::size_t k = 0; k < edges.size(); k += every)
       {
-        explained[step] += std::max(0.0f, 1.0f - model.edgeDistance.at(back * edges[k]) / reach);
+        sum += std::max(0.0f, 1.0f - model.edgeDistance.at(back * edges[k]) / reach);
       }
+      return sum;
+    };
+    // Maxima by some of the points, which then all are asked about.
+    std::vector<double> roughly(Steps);
+    for (int step = 0; step < Steps; ++step)
+    {
+      roughly[step] = explained(step, RoughStride * stride);
     }
-    const auto at = [&](int step) { return explained[(step + Steps) % Steps]; };
-    const double asItIs = std::max({ at(-1), at(0), at(1) });
-    const double least = asItIs + LeastGain + LeastGainShare * asItIs;
     std::vector<int> maxima;
     for (int step = 2; step < Steps - 1; ++step)
     {
-      if (at(step) > at(step - 1) && at(step) >= at(step + 1) && at(step) > least)
+      if (roughly[step] > roughly[step - 1] && roughly[step] >= roughly[(step + 1) % Steps])
       {
         maxima.push_back(step);
       }
     }
-    std::stable_sort(maxima.begin(), maxima.end(), [&](int a, int b) { return at(a) > at(b); });
-    maxima.resize(std::min(maxima.size(), MostTurns));
-    for (const int step : maxima)
+    std::stable_sort(maxima.begin(), maxima.end(), [&](int a, int b) { return roughly[a] > roughly[b]; });
+    maxima.resize(std::min(maxima.size(), MostMaxima));
+    const double asItIs = std::max({ explained(-1, stride), explained(0, stride), explained(1, stride) });
+    const double least = asItIs + LeastGain + LeastGainShare * asItIs;
+    std::vector<std::pair<double, int>> better;
+    for (const int rough : maxima)
+    {
+      std::pair<double, int> best{ 0.0, rough };
+      for (const int step : { rough - 1, rough, rough + 1 })
+      {
+        best = std::max(best, { explained(step, stride), step });
+      }
+      if (best.first > least)
+      {
+        better.push_back(best);
+      }
+    }
+    std::stable_sort(better.begin(), better.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    better.resize(std::min(better.size(), MostTurns));
+    for (const auto& [gain, step] : better)
     {
       found.push_back(T_scene_model * turn(step));
     }

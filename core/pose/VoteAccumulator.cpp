@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace meam
 {
 namespace
 {
 constexpr int MostVotes = 21845; // of a bin: three fit into 16 bits
-constexpr int Chunk = 256;       // votes whose bins are computed at once
+constexpr int Chunk = 512;       // bins that wait until they are counted
 
 /// One after the other, so that votes for one bin add up.
 void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::uint16_t* counts)
@@ -35,47 +36,75 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
   std::uint16_t* counts)
 {
   const std::uint32_t stride = turns + 2;
-  std::uint32_t bins[Chunk];
+  std::uint32_t bins[Chunk + VoteBlock];
+  int waiting = 0;
   for (int pair = 0; pair < pairs; ++pair)
   {
     const VoteBucket& bucket = buckets[pair];
     const std::uint32_t turn = bucket.turn & TurnMask;
     const std::uint32_t sceneAgainst = bucket.turn >> TurnBits;
-    for (std::uint32_t half = 0; half < 2; ++half)
+    for (std::uint32_t begin = bucket.begin; begin < bucket.end; begin += VoteBlock)
     {
-      const std::uint32_t flip = half ^ sceneAgainst;
-      const std::uint32_t sign = flip - 1; // all ones for a difference
-      const std::uint32_t sheet = flip * stride + 1;
-      const std::uint32_t end = half ? bucket.end : bucket.against;
-      for (std::uint32_t begin = half ? bucket.against : bucket.begin; begin < end; begin += Chunk)
-      {
-        const int votes = static_cast<int>(std::min<std::uint32_t>(Chunk, end - begin));
-        const std::uint32_t* entry = entries + begin;
+      const std::uint32_t* entry = entries + begin;
+      std::uint32_t* bin = bins + waiting;
 #pragma omp simd
-        for (int k = 0; k < votes; ++k)
-        {
-          const std::uint32_t sum = (turn + ((entry[k] ^ sign) - sign)) & TurnMask;
-          bins[k] = (entry[k] >> (TurnBits + 1)) * 2 * stride + sheet + ((sum * turns) >> TurnBits);
-        }
-        count(bins, votes, mayOverflow, counts);
+      for (int k = 0; k < VoteBlock; ++k) // also of entries after the bucket's end, which are not counted
+      {
+        const std::uint32_t flip = (begin + k >= bucket.against ? 1u : 0u) ^ sceneAgainst;
+        const std::uint32_t sign = flip - 1; // all ones for a difference
+        const std::uint32_t sum = (turn + ((entry[k] ^ sign) - sign)) & TurnMask;
+        bin[k] = (entry[k] >> (TurnBits + 1)) * 2 * stride + flip * stride + 1 + ((sum * turns) >> TurnBits);
+      }
+      waiting += static_cast<int>(std::min<std::uint32_t>(VoteBlock, bucket.end - begin));
+      if (waiting >= Chunk)
+      {
+        count(bins, waiting, mayOverflow, counts);
+        waiting = 0;
       }
     }
   }
+  count(bins, waiting, mayOverflow, counts);
 }
 
+constexpr int Lanes = 16;
+using Bins = std::uint16_t __attribute__((vector_size(Lanes * sizeof(std::uint16_t))));
+
+Bins load(const std::uint16_t* bins)
+{
+  Bins result;
+  std::memcpy(&result, bins, sizeof(result));
+  return result;
+}
+
+Bins larger(const Bins& a, const Bins& b) { return a > b ? a : b; }
+
+/// Of each row of bins, which starts and ends with a copy of the last and the first, the largest sum of three neighbours.
 MEAM_ALL_VECTORS
-void findMaxima(std::uint16_t* counts, std::size_t sheets, int turns, std::uint16_t* maxima)
+void findMaxima(const std::uint16_t* counts, std::size_t sheets, int turns, std::uint16_t* maxima)
 {
   for (std::size_t sheet = 0; sheet < sheets; ++sheet)
   {
-    std::uint16_t* row = counts + sheet * (turns + 2);
-    row[0] = row[turns];
-    row[turns + 1] = row[1];
+    const std::uint16_t* row = counts + sheet * (turns + 2);
     std::uint16_t most = 0;
-#pragma omp simd reduction(max : most)
-    for (int bin = 0; bin < turns; ++bin)
+    if (turns < Lanes)
     {
-      most = std::max(most, static_cast<std::uint16_t>(row[bin] + row[bin + 1] + row[bin + 2]));
+      for (int bin = 0; bin < turns; ++bin)
+      {
+        most = std::max(most, static_cast<std::uint16_t>(row[bin] + row[bin + 1] + row[bin + 2]));
+      }
+    }
+    else
+    {
+      Bins sums = {};
+      for (int begin = 0; begin < turns; begin += Lanes)
+      {
+        const std::uint16_t* bins = row + std::min(begin, turns - Lanes); // the last block overlaps the one before
+        sums = larger(sums, load(bins) + load(bins + 1) + load(bins + 2));
+      }
+      sums = larger(sums, __builtin_shufflevector(sums, sums, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
+      sums = larger(sums, __builtin_shufflevector(sums, sums, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3));
+      sums = larger(sums, __builtin_shufflevector(sums, sums, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1));
+      most = std::max(sums[0], sums[1]);
     }
     maxima[sheet] = most;
   }
@@ -104,6 +133,12 @@ void VoteAccumulator::vote(const std::uint32_t* entries, const VoteBucket* bucke
 
 std::vector<VotePeak> VoteAccumulator::peaks(int count)
 {
+  for (std::size_t begin = 0; begin < this->Counts.size(); begin += this->Stride)
+  {
+    std::uint16_t* row = this->Counts.data() + begin;
+    row[0] = row[this->Turns];
+    row[this->Turns + 1] = row[1];
+  }
   findMaxima(this->Counts.data(), this->Maxima.size(), static_cast<int>(this->Turns), this->Maxima.data());
   std::vector<VotePeak> found;
   for (int k = 0; k < count; ++k)

@@ -38,6 +38,7 @@ public:
   void clear();
 
   /// The scene pairs of `buckets` vote for entries of the table. A model point has at most `mostOfOne` in a bucket.
+  /// VoteBlock words after the last entry are read.
   void vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne = 1);
 
   /// The best supported turns, summed over three neighbouring bins, each at another model point or flip; best

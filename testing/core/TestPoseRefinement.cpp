@@ -114,6 +114,43 @@ TEST(PoseRefinement, TellsHowWellTheSceneFixesThePose)
   }
 }
 
+TEST(PoseRefinement, APoseSettlesInOnePlaceWhereverItComesFrom)
+{
+  const meam::SceneIndex index(scenes::bracket(), scene());
+  const meam::Poses right = disturbed(0.0, 0.0);
+  const meam::Poses near = disturbed(0.05, 0.1);
+  meam::Poses settled;
+  for (std::size_t i = 0; i < near.size(); ++i)
+  {
+    settled.push_back(meam::settlePose(near[i], index));
+    EXPECT_EQ(settled[i].score, near[i].score);
+    EXPECT_EQ(settled[i].fit.constrained, 6);
+    const Eigen::Isometry3d other = meam::settlePose(right[i], index).T_scene_model;
+    EXPECT_LT(meam::translationError(settled[i].T_scene_model, other), 1e-3);
+    EXPECT_LT(meam::rotationError(settled[i].T_scene_model, other), 1e-3);
+  }
+  expectNear(settled, 0.15, 0.25);
+}
+
+TEST(PoseRefinement, WhereTheSceneLeavesAFreedomAPoseIsNotSettled)
+{
+  meam::Scene face = scene(); // the upper faces alone, in which a part may slide
+  meam::Points upper;
+  for (const auto& point : face.surface)
+  {
+    if (point.z() > 14.5f)
+    {
+      upper.push_back(point);
+    }
+  }
+  face.surface = upper;
+  face.edges = face.edges.subset({ 0 });
+  const meam::SceneIndex index(scenes::bracket(), face);
+  const meam::Pose pose = disturbed(0.3, 0.5)[0];
+  EXPECT_LT(meam::refinePoses({ pose }, index)[0].fit.constrained, 6);
+  EXPECT_TRUE(meam::settlePose(pose, index).T_scene_model.isApprox(pose.T_scene_model, 1e-12));
+}
+
 TEST(PoseRefinement, AlongASingleEdgeNothingFixesThePose)
 {
   // One straight edge: it may slide along itself and turn about itself.

@@ -35,9 +35,10 @@ meam::PairTurn sceneTurn(bool against, double degrees)
 void vote(meam::VoteAccumulator& votes, Entry one, meam::PairTurn scene, int times = 1)
 {
   const meam::VoteBucket bucket{ 0, one.against ? 0u : 1u, 1, scene };
+  const std::uint32_t entries[1 + meam::VoteBlock] = { one.word };
   for (int i = 0; i < times; ++i)
   {
-    votes.vote(&one.word, &bucket, 1);
+    votes.vote(entries, &bucket, 1);
   }
 }
 }
@@ -102,7 +103,7 @@ TEST(VoteAccumulator, VeryManyVotesDoNotWrap)
 TEST(VoteAccumulator, HalvesOfABucketAreCountedApart)
 {
   // Two entries along, one against, of three model points; the scene pair runs against its tangent.
-  const std::uint32_t entries[] = { entry(9, false, 0.0).word, entry(0, false, 30.0).word, entry(1, false, 30.0).word,
+  const std::uint32_t entries[4 + meam::VoteBlock] = { entry(9, false, 0.0).word, entry(0, false, 30.0).word, entry(1, false, 30.0).word,
     entry(2, true, 30.0).word };
   const meam::VoteBucket bucket{ 1, 3, 4, sceneTurn(true, 100.0) };
   meam::VoteAccumulator votes(10, Step);
@@ -123,6 +124,7 @@ TEST(VoteAccumulator, LongBucketsCountEveryEntry)
   {
     entries.push_back(entry(k % 7, false, 0.36 * k).word);
   }
+  entries.resize(1000 + meam::VoteBlock);
   const meam::VoteBucket bucket{ 0, 1000, 1000, sceneTurn(false, 0.0) };
   meam::VoteAccumulator votes(7, Step);
   votes.vote(entries.data(), &bucket, 1, 1000);

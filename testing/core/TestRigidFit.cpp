@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RigidFit.h"
+
+#include "TestParts.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+struct Residual
+{
+  Eigen::Vector3d point, direction;
+  double value, weight;
+};
+
+std::vector<Residual> residuals(int count, const Eigen::Isometry3d& motion)
+{
+  std::mt19937 random(3);
+  std::vector<Residual> all;
+  for (int k = 0; k < count; ++k)
+  {
+    const Eigen::Vector3d point = parts::motion(random, 30.0).translation();
+    const Eigen::Vector3d direction = parts::motion(random, 1.0).linear().col(0);
+    all.push_back({ point, direction, direction.dot(point - motion * point), 0.5 + 0.1 * (k % 5) });
+  }
+  return all;
+}
+}
+
+TEST(RigidFit, SumsAreThoseOfAllResiduals)
+{
+  // Fewer, as many and more than are summed at once.
+  for (const int count : { 1, 7, 8, 9, 61 })
+  {
+    const Eigen::Vector3d centre(4, -2, 9);
+    meam::RigidFit fit(centre);
+    Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+    double weights = 0.0, squares = 0.0;
+    for (const Residual& r : residuals(count, Eigen::Isometry3d(Eigen::Translation3d(0.1, 0.2, 0.3))))
+    {
+      fit.add(r.point, r.direction, r.value, r.weight);
+      Eigen::Matrix<double, 6, 1> row;
+      row << (r.point - centre).cross(r.direction), r.direction;
+      information += r.weight * row * row.transpose();
+      weights += r.weight;
+      squares += r.weight * r.value * r.value;
+    }
+    const meam::RigidFit::Result result = fit.result();
+    EXPECT_TRUE(result.information.isApprox(information, 1e-12)) << count;
+    EXPECT_NEAR(result.weights, weights, 1e-12);
+    EXPECT_NEAR(result.squares, squares, 1e-12);
+  }
+}
+
+TEST(RigidFit, FindsASmallMotion)
+{
+  Eigen::Isometry3d motion(Eigen::Translation3d(0.02, -0.01, 0.03));
+  motion.rotate(Eigen::AngleAxisd(1e-4, Eigen::Vector3d(1, 2, -2).normalized()));
+  meam::RigidFit fit(Eigen::Vector3d(1, 2, 3));
+  for (const Residual& r : residuals(40, motion))
+  {
+    fit.add(r.point, r.direction, r.value, r.weight);
+  }
+  EXPECT_TRUE(fit.result().motion.isApprox(motion, 1e-4)); // damped
+}
+
+TEST(RigidFit, WithoutResidualsNothingMoves)
+{
+  EXPECT_TRUE(meam::RigidFit(Eigen::Vector3d(5, 6, 7)).result().motion.isApprox(Eigen::Isometry3d::Identity()));
+}
