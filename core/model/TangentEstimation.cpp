@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace meam
@@ -23,6 +24,14 @@ constexpr double InlierShare = 0.012;
 
 constexpr std::size_t MostPerTile = 4000;  // the work grows with its cube
 constexpr double CandidateShare = 0.3;     // of the radius: spacing of the neighbours that lines are tried through
+// A measured point's line: what its lengths are at most, and what they are of noise and spacing.
+constexpr double MostInlierShare = 0.03;  // of the diameter
+constexpr double MostRadiusShare = 0.12;  // of the diameter
+constexpr double InlierNoise = 2.2;
+constexpr double RadiusInliers = 4.0;
+constexpr double RadiusSpacings = 3.0;
+constexpr std::size_t MeasuredPoints = 400; // around which noise and spacing are measured
+constexpr int FewestForNoise = 12;
 constexpr int FewestInliers = 4;         // a line through three points of a band of edge points is chance
 
 float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f& direction)
@@ -139,18 +148,87 @@ Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidat
   return best < FewestInliers ? Eigen::Vector3f::Zero() : principalAxis(offsets, direction, limit);
 }
 
-Points robustTangents(const Points& edges, const std::vector<int>& kept, double radius, double inlierDistance,
-  int threads, const Progress& progress)
+/// What the edge points themselves say of how they were measured, mm.
+struct Measured
 {
-  const PointGrid grid(edges, radius);
-  Points sparse;
-  for (const int i : thinPoints(edges, CandidateShare * radius))
+  double noise = 0.0;   ///< standard deviation of a coordinate
+  double spacing = 0.0; ///< median distance of a point to its nearest
+};
+
+double quantile(std::vector<double>& values, double share)
+{
+  if (values.empty())
   {
-    sparse.push_back(edges[i]);
+    return 0.0;
   }
-  const PointGrid sparseGrid(sparse, radius);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Lines that meet mostly lie in a plane: the points' distances from it are noise. Where they are curved or there are
+/// several planes these are larger, so a low quantile counts.
+Measured measured(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius)
+{
+  std::vector<double> deviations, distances;
+  Neighbours offsets;
+  for (std::size_t k = 0; k < kept.size(); k += kept.size() / MeasuredPoints + 1)
+  {
+    offsets.gather(grid, edges[kept[k]], radius);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < offsets.size(); ++i)
+    {
+      const Eigen::Vector3d d = offsets.at(i).cast<double>();
+      sum += d;
+      products += d * d.transpose();
+      nearest = d.isZero() ? nearest : std::min(nearest, d.norm());
+    }
+    const double count = offsets.size();
+    if (std::isfinite(nearest))
+    {
+      distances.push_back(nearest);
+    }
+    if (count >= FewestForNoise)
+    {
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+      solver.computeDirect(products - sum * sum.transpose() / count, Eigen::EigenvaluesOnly);
+      deviations.push_back(std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / (count - 3.0)));
+    }
+  }
+  return { quantile(deviations, 0.25), quantile(distances, 0.5) };
+}
+
+/// Tangents at the points `kept`, by lines through the points `sparse`. Lengths of the settings that are 0 follow the part
+/// and the points.
+Points robustTangents(const Points& edges, const std::vector<int>& kept, const std::vector<int>& sparse,
+  double partDiameter, const TangentEstimationSettings& settings, const Progress& progress)
+{
+  double radius = settings.radius > 0.0 ? settings.radius : RadiusShare * partDiameter;
+  double inlierDistance = settings.inlierDistance;
+  const PointGrid grid(edges, radius);
+  if (settings.radius <= 0.0 || settings.inlierDistance <= 0.0)
+  {
+    const Measured points = measured(edges, kept, grid, radius);
+    if (settings.inlierDistance <= 0.0)
+    {
+      inlierDistance = std::clamp(InlierNoise * points.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
+    }
+    if (settings.radius <= 0.0)
+    {
+      radius = std::clamp(std::max(RadiusInliers * inlierDistance, RadiusSpacings * points.spacing), radius,
+        MostRadiusShare * partDiameter);
+    }
+  }
+  Points ends;
+  for (const int i : sparse)
+  {
+    ends.push_back(edges[i]);
+  }
+  const PointGrid sparseGrid(ends, radius);
   Points tangents(kept.size());
-  parallelFor(static_cast<int>(kept.size()), threads, progress,
+  parallelFor(static_cast<int>(kept.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
       Neighbours offsets, candidates;
@@ -253,15 +331,23 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
     return share * partDiameter;
   };
   const Points points = moved(cloud.points, cubes);
-  const std::vector<int> kept = thinPoints(points, length(settings.leafSize, leafShare));
+  const double leaf = length(settings.leafSize, leafShare);
+  const double candidateLeaf = robust ? CandidateShare * length(settings.radius, RadiusShare) : 0.0;
+  if (robust)
+  {
+    length(settings.inlierDistance, InlierShare);
+  }
+  std::vector<int> thinned[2];
+  parallelFor(robust ? 2 : 1, settings.threads, {},
+    [&](int i, int, int) { thinned[i] = thinPoints(points, i == 0 ? leaf : candidateLeaf); });
+  const std::vector<int>& kept = thinned[0];
   Eigen::Isometry3d turnBack = Eigen::Isometry3d::Identity();
   turnBack.linear() = cubes.linear().transpose();
   PointCloud result = cloud.subset(kept);
   if (result.tangents.empty())
   {
     result.tangents = robust
-      ? moved(robustTangents(points, kept, length(settings.radius, RadiusShare), length(settings.inlierDistance, InlierShare),
-          settings.threads, progress), turnBack)
+      ? moved(robustTangents(points, kept, thinned[1], partDiameter, settings, progress), turnBack)
       : tileTangents(result.points, viewDirection, settings, progress);
   }
   std::vector<int> found;
@@ -287,11 +373,15 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
   const TangentEstimationSettings& settings, const Progress& progress)
 {
   const double share = 1.0 / static_cast<double>(models.size());
+  // A model's points are exact: nothing has to be made of their noise.
+  TangentEstimationSettings exact = settings;
+  exact.radius = settings.radius > 0.0 ? settings.radius : RadiusShare * partDiameter;
+  exact.inlierDistance = settings.inlierDistance > 0.0 ? settings.inlierDistance : InlierShare * partDiameter;
   for (std::size_t v = 0; v < models.size(); ++v)
   {
     // In the part's own frame, so that views share the cubes.
     models[v].cloud = estimate(models[v].cloud, partDiameter, ModelLeafShare, Eigen::Isometry3d::Identity(),
-      models[v].direction, settings, subProgress(progress, share * v, share * (v + 1)));
+      models[v].direction, exact, subProgress(progress, share * v, share * (v + 1)));
   }
   return models;
 }

@@ -20,8 +20,8 @@ struct TangentEstimationSettings
   double leafSize = 0.0;
 
   // RobustLine
-  double radius = 0.0;         ///< of the sphere; 0: 6 % of the diameter
-  double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter
+  double radius = 0.0;         ///< of the sphere; 0: 6 % of the diameter, up to 12 % for noisy or sparse points
+  double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter, up to 3 % for noisy points
 
   // Tiles
   int tilePixels = 10;         ///< H_rec = W_rec
