@@ -87,15 +87,19 @@ public:
   ///@{
   /**
    * Poses kept of one instance; of those that a near-symmetry turns into each other one is kept. With 1, as for the
-   * result, alternatives are decided on the points that tell them apart, and a nearly round part is turned to where
-   * it fits best and refined there; more keep the alternatives for refinement. Default: 2. The paper: 1.
+   * result, alternatives are decided on the points that tell them apart, a nearly round part is turned to where it
+   * fits best, and each pose settles where edges and surface fix it, the same whichever candidate led there; more keep
+   * the alternatives for refinement. Default: 2. The paper: 1.
    */
   vtkSetClampMacro(PosesPerInstance, int, 1, VTK_INT_MAX);
   vtkGetMacro(PosesPerInstance, int);
   ///@}
 
   ///@{
-  /** Poses kept of all; 0: no limit. Default: 40. */
+  /**
+   * Poses kept of all; 0: no limit. When more come, those that are a thousand times less likely than the best go, too.
+   * Default: 100.
+   */
   vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfPoses, int);
   ///@}

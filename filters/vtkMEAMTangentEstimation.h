@@ -60,13 +60,19 @@ public:
   ///@}
 
   ///@{
-  /** RobustLine: radius of the sphere in mm; 0: 6 % of the part's diameter. Default: 0. */
+  /**
+   * RobustLine: radius of the sphere in mm; 0: 6 % of the part's diameter, up to 12 % where a scene's points are noisy
+   * or sparse. Default: 0.
+   */
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
   ///@}
 
   ///@{
-  /** RobustLine: points this near to the line are on it, in mm; 0: 1.2 % of the part's diameter. Default: 0. */
+  /**
+   * RobustLine: points this near to the line are on it, in mm; 0: 1.2 % of the part's diameter, up to 3 % where a
+   * scene's points are noisy. Default: 0.
+   */
   vtkSetClampMacro(InlierDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(InlierDistance, double);
   ///@}

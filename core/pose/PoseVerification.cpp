@@ -21,6 +21,7 @@ constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
 constexpr double LeastAtAGlance = 0.4;  // share of the surface; a pose with less is not looked at closely
+constexpr double LeastPlausible = 0.001; // of the best candidate's preference: those with less are not worth refining
 constexpr double SharedByOne = 0.5;     // share of the matched surface from which on two poses are of one instance
 constexpr int TurnIterations = 6;       // of the refinement of another turn, which is nearly right
 constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
@@ -348,6 +349,8 @@ Poses verifyPoses(
   }
   std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), better);
   const auto middle = [&](int i) { return (scored[i].T_scene_model * index.view.middle().cast<double>()).eval(); };
+  const double plausible =
+    byEvidence && someMustGo && !clusters.Kept.empty() ? LeastPlausible * preference(scored[clusters.Kept[0]]) : 0.0;
   std::vector<int> kept;
   for (const int i : clusters.Kept)
   {
@@ -355,7 +358,7 @@ Poses verifyPoses(
     const bool known = comparison &&
       std::any_of(kept.begin(), kept.end(), [&](int k) { return (middle(i) - middle(k)).norm() < clusterDistance; });
     const bool full = settings.maximumPoses > 0 && static_cast<int>(kept.size()) >= settings.maximumPoses;
-    if (!known && !full && scored[i].probability >= settings.minimumProbability)
+    if (!known && !full && scored[i].probability >= settings.minimumProbability && preference(scored[i]) >= plausible)
     {
       kept.push_back(i);
     }

@@ -25,9 +25,10 @@ struct PoseVerificationSettings
   double clusterAngle = 15.0;   ///< and those turned less than this (degrees) are the same
   /// Poses kept of one instance; of those that a near-symmetry turns into each other one is kept. With 1, as for the
   /// result, poses that share most of what they match are of one instance, too, alternatives are decided on the
-  /// points that tell them apart, and a nearly round part is turned to where it fits best and refined there.
+  /// points that tell them apart, a nearly round part is turned to where it fits best, and each pose settles
+  /// (settlePose).
   int posesPerInstance = 2;
-  int maximumPoses = 40;        ///< 0: no limit
+  int maximumPoses = 100;       ///< 0: no limit; when more come, those a thousand times less likely than the best go, too
   int threads = 0;              ///< 0: one for each processor
 };
 

@@ -60,6 +60,48 @@ TEST(TangentEstimation, OnACircleItIsAcrossTheRadius)
   }
 }
 
+TEST(TangentEstimation, LengthsFollowTheNoiseOfThePoints)
+{
+  // 1.2 % of the diameter is the deviation of the noise: two thirds of a line's points would be off it.
+  std::mt19937 random(2);
+  std::normal_distribution<float> noise(0.0f, 0.6f);
+  meam::PointCloud edges = line({ 1, 0, 0 }, 400, 0.25f);
+  for (auto& point : edges.points)
+  {
+    point += Eigen::Vector3f(noise(random), noise(random), noise(random));
+  }
+  const auto typicalError = [&](const meam::TangentEstimationSettings& settings)
+  {
+    const meam::PointCloud found = meam::estimateTangents(edges, 50.0, Down, settings);
+    std::vector<double> errors;
+    for (const auto& tangent : found.tangents)
+    {
+      errors.push_back(std::acos(std::min(std::abs(tangent.x()), 1.0f)) * 180.0 / M_PI);
+    }
+    std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+    return errors[errors.size() / 2];
+  };
+  meam::TangentEstimationSettings fixed;
+  fixed.radius = 3.0;
+  fixed.inlierDistance = 0.6;
+  EXPECT_LT(typicalError({}), 0.6 * typicalError(fixed));
+}
+
+TEST(TangentEstimation, TheRadiusFollowsTheirSpacing)
+{
+  // 6 % of the diameter hold three points, too few for a line.
+  const meam::PointCloud sparse = line({ 0, 1, 0 }, 60, 1.9f);
+  meam::TangentEstimationSettings fixed;
+  fixed.radius = 3.0;
+  EXPECT_TRUE(meam::estimateTangents(sparse, 50.0, Down, fixed).empty());
+  const meam::PointCloud edges = meam::estimateTangents(sparse, 50.0, Down);
+  EXPECT_GT(edges.size(), 50u);
+  for (const auto& tangent : edges.tangents)
+  {
+    EXPECT_NEAR(std::abs(tangent.y()), 1.0f, 1e-5f);
+  }
+}
+
 TEST(TangentEstimation, ItMovesWithThePoints)
 {
   meam::TangentEstimationSettings settings;
