@@ -10,6 +10,8 @@ A pose is right when a true one is within 10 % of the part's diameter and 5 degr
   strict  right poses / poses asked for: each true instance counts once, a missing pose is wrong
   top1    scenes whose first pose is right
   recall, AP  (average precision) of all poses that come out, over instances that are at least half visible
+  ADD, ADI    recall at a tenth of the diameter, over instances that are at least a tenth visible, by as many poses
+  MSSD, MSPD, VSD  of the benchmark: recall over its ten thresholds; AR is the mean of the three
 Times are the median over the scenes, without reading files and training.
 """
 import argparse
@@ -91,8 +93,11 @@ def bop(options):
     """Image by image, all objects in each; returns how many of these failed."""
     scripting.require_folder_of(options.out)
     data = dataset.Dataset(options.folder, options.split)
-    runs = {number: evaluation.Evaluation(data.train(number, options.preset), options.preset, options.poses,
-                                          options.threads) for number in options.objects or data.objects()}
+    runs, benchmark = {}, {}
+    for number in options.objects or data.objects():
+        model = data.train(number, options.preset)
+        runs[number] = evaluation.Evaluation(model, options.preset, options.poses, options.threads)
+        benchmark[number] = dataset.BOPFigures(data.mesh(number), model)
     judged, failures = dict.fromkeys(runs, 0), 0
     with open(options.out, "w", encoding="utf-8", newline="") as file:
         results = dataset.Results(file)
@@ -110,13 +115,18 @@ def bop(options):
                 for number, run in runs.items():
                     truth = image.truth_of(number)
                     if truth.GetNumberOfPoints():  # an object that is not in an image is not judged
-                        run.add(found.get(number, vtkPolyData()), truth)
+                        poses = found.get(number, vtkPolyData())
+                        run.add(poses, truth)
+                        benchmark[number].add(poses, image, truth)
                         judged[number] += 1
     rows = [{"part": number, "scenes": judged[number], **run.figures()} for number, run in runs.items() if judged[number]]
     if rows:
         print("obj.  " + COLUMNS)
         for row in rows:
             print(ROW.format(**row))
+        print("\nobj.  recall of " + "  ".join(f"{name:>6}" for name in (*dataset.BOP_FIGURES, "AR")))
+        for row in rows:
+            print(f"{row['part']:4d}            " + "  ".join(f"{r:6.1f}" for r in benchmark[row["part"]].recalls().values()))
         print_stages(rows)
     return failures
 

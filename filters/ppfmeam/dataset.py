@@ -53,11 +53,14 @@ class Dataset:
             raise scripting.Failure(f"{models} has no obj_000001.ply or other object")
         return numbers
 
+    def mesh(self, number):
+        """The mesh of an object."""
+        return scripting.read_mesh(os.path.join(self.path, "models", f"obj_{number:06d}.ply"))
+
     def train(self, number, preset):
         """The trained model of an object, with the symmetries of models_info.json where that knows it."""
-        models = os.path.join(self.path, "models")
-        training = scripting.Training(scripting.read_mesh(os.path.join(models, f"obj_{number:06d}.ply")), preset)
-        info = os.path.join(models, "models_info.json")
+        training = scripting.Training(self.mesh(number), preset)
+        info = os.path.join(self.path, "models", "models_info.json")
         if str(number) in (scripting.read_json(info) if os.path.exists(info) else ()):
             training.symmetries.SetModelsInfoFile(info)
             training.symmetries.SetObjectId(number)
@@ -92,6 +95,42 @@ class Scene:
         """The image of a step."""
         scripting.update(self.reader, "UpdateTimeStep", step)
         return Image(self.reader.GetOutputDataObject(0), self.reader.GetOutputDataObject(1), self.folder)
+
+
+BOP_FIGURES = ("ADD", "ADI", "MSSD", "MSPD", "VSD")
+
+
+class BOPFigures:
+    """Recalls of an object over images as the benchmark measures them."""
+
+    def __init__(self, mesh, model):
+        self.judge = filters.vtkMEAMBOPEvaluation()
+        self.judge.SetInputDataObject(2, mesh)
+        self.judge.SetInputDataObject(4, model)
+        self.targets = 0
+        self.found = {name: [] for name in BOP_FIGURES}  # of each image, at each threshold
+
+    def add(self, poses, image, truth):
+        """The poses found in an image and the true ones."""
+        self.judge.SetInputDataObject(0, poses)
+        self.judge.SetInputDataObject(1, truth)
+        self.judge.SetInputDataObject(3, image.scan)
+        table = scripting.update(self.judge).GetOutput()
+        self.targets += int(scripting.field(table, "Targets"))
+        for name, counts in self.found.items():
+            column = table.GetColumnByName(name)
+            counts.append([column.GetValue(k) for k in range(column.GetNumberOfTuples())])
+
+    def recalls(self):
+        """In %: ADD and ADI at a tenth of the diameter, MSSD, MSPD and VSD as means over ten thresholds, and AR, the mean
+        of these three; none where no copy had to be found."""
+        if not self.targets:
+            return {}
+        sums = {name: [sum(counts) for counts in zip(*images)] for name, images in self.found.items()}
+        recalls = {name: 100 * (at[1] if name in ("ADD", "ADI") else sum(at) / len(at)) / self.targets
+                   for name, at in sums.items()}
+        recalls["AR"] = sum(recalls[name] for name in ("MSSD", "MSPD", "VSD")) / 3
+        return recalls
 
 
 class Results:

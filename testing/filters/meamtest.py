@@ -61,6 +61,8 @@ def run(algorithm):
 def is_empty(data):
     if data.IsA("vtkPartitionedDataSetCollection"):
         return data.GetNumberOfPartitionedDataSets() == 0
+    if data.IsA("vtkTable"):
+        return data.GetNumberOfRows() == 0
     return data.GetNumberOfPoints() == 0 and data.GetNumberOfCells() == 0
 
 

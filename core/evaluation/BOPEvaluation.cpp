@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/BOPEvaluation.h"
+
+#include "PCLConversion.h"
+#include "mesh/ConvexHull.h"
+#include "simulation/Rasterizer.h"
+
+#include <Eigen/LU>
+
+#include <pcl/kdtree/kdtree_flann.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meam
+{
+namespace
+{
+constexpr double VisibleShare = 0.1;   // of a copy that has to be found
+constexpr double Behind = 15.0;        // mm a surface may lie behind the measured one and still be visible
+constexpr double SymmetryStep = 0.01;  // of the diameter: no vertex moves more between turns about an axis
+constexpr double ReferenceWidth = 640; // of the image whose pixels MSPD counts
+constexpr double OffRay = 0.05;        // pixels a point of a scan may be off its ray, in the mean
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/// Distances (mm) of the nearest surface of a part from the camera in a part of the image, 0 where there is none.
+struct Rendering
+{
+  int left = 0, top = 0, width = 0, height = 0;
+  std::vector<float> distances;
+
+  float at(int column, int row) const
+  {
+    const int u = column - this->left, v = row - this->top;
+    return u < 0 || v < 0 || u >= this->width || v >= this->height
+      ? 0.0f
+      : this->distances[static_cast<std::size_t>(v) * this->width + u];
+  }
+};
+
+Eigen::Vector2d onImage(const Eigen::Vector3d& point, const Camera& camera)
+{
+  return { camera.fx * point.x() / point.z() + camera.cx, camera.fy * point.y() / point.z() + camera.cy };
+}
+
+/// The whole group: turns about an axis in steps, each with and without what is left beside it.
+std::vector<Eigen::Isometry3d> equalPoses(const Symmetries& symmetries, const Points& vertices, double diameter)
+{
+  std::vector<Eigen::Isometry3d> turns{ Eigen::Isometry3d::Identity() };
+  for (const ContinuousSymmetry& symmetry : symmetries.continuous)
+  {
+    double farthest = 0.0;
+    for (const auto& vertex : vertices)
+    {
+      farthest = std::max(farthest, symmetry.axis.cross(vertex.cast<double>() - symmetry.point).norm());
+    }
+    const int steps = std::max(1, static_cast<int>(std::ceil(M_PI * farthest / (SymmetryStep * diameter))));
+    std::vector<Eigen::Isometry3d> all;
+    // A ball has three axes: the first is enough to make its turns ever finer, all three would be millions.
+    for (int k = 0; k < steps; ++k)
+    {
+      all.push_back(turnAbout(symmetry.axis, 2.0 * M_PI * k / steps, symmetry.point));
+    }
+    turns = all;
+    break;
+  }
+  std::vector<Eigen::Isometry3d> group = turns;
+  for (const Eigen::Isometry3d& S : symmetries.discrete)
+  {
+    for (const Eigen::Isometry3d& turn : turns)
+    {
+      group.push_back(S * turn);
+    }
+  }
+  return group;
+}
+}
+
+Camera cameraOfCloud(const OrganizedCloud& cloud)
+{
+  // u z = fx x + cx z for every point, and the same for v.
+  Eigen::Matrix2d normalU = Eigen::Matrix2d::Zero(), normalV = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d rightU = Eigen::Vector2d::Zero(), rightV = Eigen::Vector2d::Zero();
+  const auto forEach = [&](auto&& visit)
+  {
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+    {
+      const Eigen::Vector3d p = cloud.points[i].cast<double>();
+      if (p.allFinite() && p.z() > 0.0)
+      {
+        visit(p.x() / p.z(), p.y() / p.z(), static_cast<double>(i % cloud.width), static_cast<double>(i / cloud.width));
+      }
+    }
+  };
+  double count = 0.0;
+  forEach(
+    [&](double x, double y, double u, double v)
+    {
+      const Eigen::Vector2d a(x, 1.0), b(y, 1.0);
+      normalU += a * a.transpose();
+      normalV += b * b.transpose();
+      rightU += u * a;
+      rightV += v * b;
+      ++count;
+    });
+  const Eigen::Vector2d U = normalU.ldlt().solve(rightU), V = normalV.ldlt().solve(rightV);
+  Camera camera;
+  camera.width = cloud.width;
+  camera.height = cloud.height;
+  camera.fx = U.x();
+  camera.cx = U.y();
+  camera.fy = V.x();
+  camera.cy = V.y();
+  double off = 0.0;
+  forEach([&](double x, double y, double u, double v)
+    { off += std::hypot(camera.fx * x + camera.cx - u, camera.fy * y + camera.cy - v); });
+  if (!(count >= 4.0 && camera.fx > 0.0 && camera.fy > 0.0 && off / count < OffRay))
+  {
+    throw Error("The scan's points are not on the rays of a pinhole camera, one for each pixel: give the organized cloud "
+                "in the frame of the camera that took it.");
+  }
+  return camera;
+}
+
+struct BOPEvaluation::Impl
+{
+  TriangleMesh mesh;
+  double diameter;
+  std::vector<Eigen::Isometry3d> equal; ///< the identity first
+  pcl::KdTreeFLANN<pcl::PointXYZ> vertices;
+
+  double add(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
+  {
+    double sum = 0.0;
+    for (const auto& vertex : this->mesh.vertices)
+    {
+      sum += (a * vertex.cast<double>() - b * vertex.cast<double>()).norm();
+    }
+    return sum / this->mesh.vertices.size();
+  }
+
+  double adi(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) const
+  {
+    const Eigen::Isometry3f toTruth = (truth.inverse() * estimate).cast<float>();
+    double sum = 0.0;
+    pcl::Indices nearest(1);
+    std::vector<float> squared(1);
+    for (const auto& vertex : this->mesh.vertices)
+    {
+      const Eigen::Vector3f p = toTruth * vertex;
+      this->vertices.nearestKSearch(pcl::PointXYZ(p.x(), p.y(), p.z()), 1, nearest, squared);
+      sum += std::sqrt(squared[0]);
+    }
+    return sum / this->mesh.vertices.size();
+  }
+
+  /// Least over the symmetries of the largest of distance(estimate, true) over the vertices.
+  template <typename Distance>
+  double largest(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, Distance&& distance) const
+  {
+    double least = Infinity;
+    for (const Eigen::Isometry3d& S : this->equal)
+    {
+      const Eigen::Isometry3d equalTruth = truth * S;
+      double most = 0.0;
+      for (std::size_t i = 0; i < this->mesh.vertices.size() && most < least; ++i)
+      {
+        const Eigen::Vector3d vertex = this->mesh.vertices[i].cast<double>();
+        most = std::max(most, distance(estimate * vertex, equalTruth * vertex));
+      }
+      least = std::min(least, most);
+    }
+    return least;
+  }
+
+  Rendering render(const Eigen::Isometry3d& T, const Camera& camera) const
+  {
+    Rendering result;
+    std::vector<Eigen::Vector3d> points;
+    std::vector<Eigen::Vector2d> pixels;
+    Eigen::AlignedBox2d box;
+    for (const auto& vertex : this->mesh.vertices)
+    {
+      points.push_back(T * vertex.cast<double>());
+      pixels.push_back(onImage(points.back(), camera));
+      if (!(points.back().z() > 0.0))
+      {
+        return result; // not in front of the camera
+      }
+      box.extend(pixels.back());
+    }
+    const Eigen::Vector2d low = box.min().cwiseMax(Eigen::Vector2d::Zero());
+    const Eigen::Vector2d high = box.max().cwiseMin(Eigen::Vector2d(camera.width - 1.0, camera.height - 1.0));
+    if (!((high - low).minCoeff() >= 0.0))
+    {
+      return result;
+    }
+    result.left = static_cast<int>(low.x());
+    result.top = static_cast<int>(low.y());
+    result.width = static_cast<int>(high.x()) - result.left + 1;
+    result.height = static_cast<int>(high.y()) - result.top + 1;
+    result.distances.assign(static_cast<std::size_t>(result.width) * result.height, 0.0f);
+    const Eigen::Vector2d corner(result.left, result.top);
+    for (const auto& t : this->mesh.triangles)
+    {
+      const Eigen::Vector3d inverse(1.0 / points[t[0]].z(), 1.0 / points[t[1]].z(), 1.0 / points[t[2]].z());
+      forEachPixel({ pixels[t[0]] - corner, pixels[t[1]] - corner, pixels[t[2]] - corner }, result.width, result.height,
+        [&](int u, int v, const Eigen::Vector3d& weights)
+        {
+          const double depth = 1.0 / weights.dot(inverse); // 1 / z is linear on the image
+          const Eigen::Vector3d ray((u + result.left - camera.cx) / camera.fx, (v + result.top - camera.cy) / camera.fy, 1.0);
+          const float distance = static_cast<float>(depth * ray.norm());
+          float& nearest = result.distances[static_cast<std::size_t>(v) * result.width + u];
+          nearest = nearest == 0.0f ? distance : std::min(nearest, distance);
+        });
+    }
+    return result;
+  }
+
+  /// `measured`: distances of the scan, 0 where there is none.
+  std::array<double, BOPThresholds> vsd(const Rendering& estimate, const Rendering& truth, const std::vector<float>& measured,
+    const Camera& camera) const
+  {
+    std::array<int, BOPThresholds> wrong{};
+    int both = 0, either = 0;
+    const auto isVisible = [](float distance, float seen)
+    { return distance > 0.0f && (seen == 0.0f || distance - seen <= static_cast<float>(Behind)); };
+    const int left = std::min(estimate.left, truth.left), top = std::min(estimate.top, truth.top);
+    const int right = std::max(estimate.left + estimate.width, truth.left + truth.width);
+    const int bottom = std::max(estimate.top + estimate.height, truth.top + truth.height);
+    for (int row = top; row < bottom; ++row)
+    {
+      for (int column = left; column < right; ++column)
+      {
+        const float ofEstimate = estimate.at(column, row), ofTruth = truth.at(column, row);
+        const float seen = measured[static_cast<std::size_t>(row) * camera.width + column];
+        const bool truthIn = isVisible(ofTruth, seen);
+        const bool estimateIn = isVisible(ofEstimate, seen) || (truthIn && ofEstimate > 0.0f);
+        either += truthIn || estimateIn ? 1 : 0;
+        if (truthIn && estimateIn)
+        {
+          ++both;
+          const double share = std::abs(ofEstimate - ofTruth) / this->diameter;
+          for (int k = 0; k < BOPThresholds; ++k)
+          {
+            wrong[k] += share >= bopThreshold(k) ? 1 : 0;
+          }
+        }
+      }
+    }
+    std::array<double, BOPThresholds> cost;
+    for (int k = 0; k < BOPThresholds; ++k)
+    {
+      cost[k] = either > 0 ? static_cast<double>(wrong[k] + either - both) / either : 1.0;
+    }
+    return cost;
+  }
+
+  BOPErrors errors(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const Rendering& ofEstimate,
+    const Rendering& ofTruth, const std::vector<float>& measured, const Camera& camera) const
+  {
+    BOPErrors result;
+    result.add = this->add(estimate, truth);
+    result.adi = this->adi(estimate, truth);
+    result.mssd = this->largest(
+      estimate, truth, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); });
+    result.mspd = this->largest(estimate, truth,
+      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+      { return a.z() > 0.0 && b.z() > 0.0 ? (onImage(a, camera) - onImage(b, camera)).norm() : Infinity; });
+    result.vsd = this->vsd(ofEstimate, ofTruth, measured, camera);
+    return result;
+  }
+};
+
+namespace
+{
+std::vector<float> distancesOf(const OrganizedCloud& scan)
+{
+  std::vector<float> distances;
+  for (const auto& point : scan.points)
+  {
+    distances.push_back(point.allFinite() ? point.norm() : 0.0f);
+  }
+  return distances;
+}
+
+/// How many of the valid truths are found: error(e, t) < threshold.
+template <typename ErrorOf>
+int found(int estimates, const std::vector<char>& isTarget, double threshold, ErrorOf&& errorOf)
+{
+  std::vector<char> taken(isTarget.size(), 0);
+  int count = 0;
+  for (int e = 0; e < estimates; ++e)
+  {
+    int best = -1;
+    double least = threshold;
+    for (std::size_t t = 0; t < taken.size(); ++t)
+    {
+      if (!taken[t] && errorOf(e, t) < least)
+      {
+        least = errorOf(e, t);
+        best = static_cast<int>(t);
+      }
+    }
+    if (best >= 0)
+    {
+      taken[best] = 1;
+      count += isTarget[best];
+    }
+  }
+  return count;
+}
+}
+
+BOPEvaluation::BOPEvaluation(const TriangleMesh& mesh, const Symmetries& symmetries, double partDiameter)
+  : Data(std::make_unique<Impl>())
+{
+  if (mesh.triangles.empty())
+  {
+    throw Error("The part has no triangles: give the mesh that the poses are of.");
+  }
+  this->Data->mesh = mesh;
+  this->Data->diameter = partDiameter > 0.0 ? partDiameter : diameter(mesh.vertices);
+  this->Data->equal = equalPoses(symmetries, mesh.vertices, this->Data->diameter);
+  this->Data->vertices.setInputCloud(toPCL(mesh.vertices));
+}
+
+BOPEvaluation::~BOPEvaluation() = default;
+
+BOPErrors BOPEvaluation::errors(
+  const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const OrganizedCloud& scan) const
+{
+  const Camera camera = cameraOfCloud(scan);
+  return this->Data->errors(estimate, truth, this->Data->render(estimate, camera), this->Data->render(truth, camera),
+    distancesOf(scan), camera);
+}
+
+BOPRecall BOPEvaluation::recall(
+  const Poses& estimates, const Poses& truths, const OrganizedCloud& scan, const Progress& progress) const
+{
+  BOPRecall recall;
+  const bool isVisibilityKnown =
+    std::any_of(truths.begin(), truths.end(), [](const Pose& pose) { return pose.visibleFraction > 0.0; });
+  std::vector<char> isTarget;
+  for (const Pose& truth : truths)
+  {
+    isTarget.push_back(!isVisibilityKnown || truth.visibleFraction >= VisibleShare ? 1 : 0);
+    recall.targets += isTarget.back();
+  }
+  const int count = std::min(static_cast<int>(estimates.size()), recall.targets);
+  if (count == 0)
+  {
+    return recall;
+  }
+  const Camera camera = cameraOfCloud(scan);
+  const std::vector<float> measured = distancesOf(scan);
+  std::vector<Rendering> renderings;
+  for (const Pose& truth : truths)
+  {
+    renderings.push_back(this->Data->render(truth.T_scene_model, camera));
+  }
+  const Eigen::Vector3d middle = bounds(this->Data->mesh.vertices).center().cast<double>();
+  BOPErrors none; // of poses too far apart for any threshold
+  none.add = none.adi = none.mssd = none.mspd = Infinity;
+  none.vsd.fill(1.0);
+  std::vector<std::vector<BOPErrors>> errors(count, std::vector<BOPErrors>(truths.size(), none));
+  for (int e = 0; e < count; ++e)
+  {
+    report(progress, static_cast<double>(e) / count);
+    const Eigen::Isometry3d& T = estimates[e].T_scene_model;
+    const Rendering rendering = this->Data->render(T, camera);
+    for (std::size_t t = 0; t < truths.size(); ++t)
+    {
+      if ((T * middle - truths[t].T_scene_model * middle).norm() < this->Data->diameter)
+      {
+        errors[e][t] = this->Data->errors(T, truths[t].T_scene_model, rendering, renderings[t], measured, camera);
+      }
+    }
+  }
+  const double diameter = this->Data->diameter;
+  for (int k = 0; k < BOPThresholds; ++k)
+  {
+    const double threshold = bopThreshold(k);
+    recall.add[k] = found(count, isTarget, threshold * diameter, [&](int e, int t) { return errors[e][t].add; });
+    recall.adi[k] = found(count, isTarget, threshold * diameter, [&](int e, int t) { return errors[e][t].adi; });
+    recall.mssd[k] = found(count, isTarget, threshold * diameter, [&](int e, int t) { return errors[e][t].mssd; });
+    recall.mspd[k] = found(count, isTarget, 100.0 * threshold * camera.width / ReferenceWidth,
+      [&](int e, int t) { return errors[e][t].mspd; });
+    for (int tau = 0; tau < BOPThresholds; ++tau)
+    {
+      recall.vsd[k] += found(count, isTarget, threshold, [&](int e, int t) { return errors[e][t].vsd[tau]; });
+    }
+    recall.vsd[k] /= BOPThresholds;
+  }
+  return recall;
+}
+}

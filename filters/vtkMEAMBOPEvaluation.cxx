@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMBOPEvaluation.h"
+
+#include "evaluation/BOPEvaluation.h"
+#include "vtkMEAMConversion.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTable.h"
+
+#include <cmath>
+#include <numeric>
+
+vtkStandardNewMacro(vtkMEAMBOPEvaluation);
+
+namespace
+{
+constexpr int AtATenth = 1; // the threshold of 10 %
+
+void addColumn(const char* name, const meam::BOPRecall::Counts& counts, vtkTable* table)
+{
+  vtkNew<vtkDoubleArray> column;
+  column->SetName(name);
+  for (const double count : counts)
+  {
+    column->InsertNextValue(count);
+  }
+  table->AddColumn(column);
+}
+
+double meanOf(const meam::BOPRecall::Counts& counts)
+{
+  return std::accumulate(counts.begin(), counts.end(), 0.0) / counts.size();
+}
+}
+
+vtkMEAMBOPEvaluation::vtkMEAMBOPEvaluation()
+{
+  this->SetNumberOfInputPorts(5);
+}
+
+int vtkMEAMBOPEvaluation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+    port < 3       ? "vtkPolyData"
+      : port == 3 ? "vtkStructuredGrid"
+                  : "vtkDataObject");
+  if (port == 4)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMEAMBOPEvaluation::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  auto* output = vtkTable::GetData(outputVector);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      auto* part = vtkDataObject::GetData(inputVector[4]);
+      const meam::BOPEvaluation evaluation(
+        toMesh(vtkPolyData::GetData(inputVector[2])), symmetriesOf(part), part ? diameterOf(part) : 0.0);
+      const meam::BOPRecall recall =
+        evaluation.recall(toPoses(vtkPolyData::GetData(inputVector[0])), toPoses(vtkPolyData::GetData(inputVector[1])),
+          toOrganizedCloud(vtkStructuredGrid::GetData(inputVector[3])), progressOf(this));
+      meam::BOPRecall::Counts thresholds;
+      for (int k = 0; k < meam::BOPThresholds; ++k)
+      {
+        thresholds[k] = meam::bopThreshold(k);
+      }
+      addColumn("Threshold", thresholds, output);
+      addColumn("ADD", recall.add, output);
+      addColumn("ADI", recall.adi, output);
+      addColumn("MSSD", recall.mssd, output);
+      addColumn("MSPD", recall.mspd, output);
+      addColumn("VSD", recall.vsd, output);
+      const double share = 100.0 / recall.targets * (recall.targets > 0 ? 1.0 : std::nan(""));
+      setFieldValue(output, "Targets", recall.targets);
+      setFieldValue(output, "ADDRecall", share * recall.add[AtATenth]);
+      setFieldValue(output, "ADIRecall", share * recall.adi[AtATenth]);
+      setFieldValue(output, "MSSDRecall", share * meanOf(recall.mssd));
+      setFieldValue(output, "MSPDRecall", share * meanOf(recall.mspd));
+      setFieldValue(output, "VSDRecall", share * meanOf(recall.vsd));
+      setFieldValue(output, "AverageRecall", share * (meanOf(recall.mssd) + meanOf(recall.mspd) + meanOf(recall.vsd)) / 3.0);
+    },
+    output);
+}
+
+void vtkMEAMBOPEvaluation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
