@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""simulate.py writes datasets whose depth, image, masks and truth fit each other."""
+"""simulate.py writes datasets whose depth, image, masks and truth fit each other; evaluate.py finds the parts in them,
+and robustness.py in worse and worse bins."""
+import csv
 import json
 import os
 import subprocess
@@ -21,9 +23,12 @@ folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
 
 
+def script(name, *arguments):
+    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], capture_output=True, text=True)
+
+
 def simulate(*arguments):
-    return subprocess.run([sys.executable, os.path.join(EXAMPLES, "simulate.py"), *arguments], capture_output=True,
-                          text=True)
+    return script("simulate.py", *arguments)
 
 
 def load(*path):
@@ -108,3 +113,26 @@ for arguments in (["--out", "plates"], ["--out", "new", "--copies", "0"], ["--ou
     done = simulate("--cad", PART, *arguments)
     check(done.returncode != 0 and "Traceback" not in done.stderr and done.stderr, f"{arguments}: {done.stderr}")
 check(simulate("--cad", "nothing.stl", "--out", "new").returncode == 1, "a file that is not there")
+
+# What is found in them, and as the benchmark measures it.
+done = script("evaluate.py", "bop", "plates", "--out", "plates.csv")
+check(done.returncode == 0, done.stderr)
+lines = done.stdout.splitlines()
+at = next(i for i, line in enumerate(lines) if "recall of" in line)
+check(lines[at].split()[-6:] == ["ADD", "ADI", "MSSD", "MSPD", "VSD", "AR"], lines[at])
+recalls = [float(word) for word in lines[at + 1].split()[1:]]
+check(len(recalls) == 6 and all(50 < recall <= 100 for recall in recalls[1:]), lines[at + 1])
+check(abs(recalls[5] - sum(recalls[2:5]) / 3) < 0.2, "AR is the mean of three")
+with open("plates.csv", newline="", encoding="utf-8") as table:
+    check(len(list(csv.DictReader(table))) >= 6, "poses of both bins")
+
+# One bin that gets worse.
+done = script("robustness.py", "--cad", PART, "--copies", "3", "--scenes", "1", "--poses", "3", "--out", "curve.csv")
+check(done.returncode == 0, done.stderr)
+with open("curve.csv", newline="", encoding="utf-8") as table:
+    rows = list(csv.DictReader(table))
+check(len(rows) == 17 and len(done.stdout.splitlines()) == 2 + 18, "a row for each level, the usual one is in both curves")
+check(float(rows[0]["strict"]) == 100, f"three of three where the depth has no noise: {rows[0]}")
+for arguments in (["--cad", "nothing.stl"], ["--cad", PART, "--scenes", "0"], ["--cad", PART, "--out", "no/such/curve.csv"]):
+    done = script("robustness.py", *arguments)
+    check(done.returncode != 0 and "Traceback" not in done.stderr and done.stderr, f"{arguments}: {done.stderr}")
