@@ -11,7 +11,8 @@ A pose is right when a true one is within 10 % of the part's diameter and 5 degr
   top1    scenes whose first pose is right
   recall, AP  (average precision) of all poses that come out, over instances that are at least half visible
   ADD, ADI    recall at a tenth of the diameter, over instances that are at least a tenth visible, by as many poses
-  MSSD, MSPD, VSD  of the benchmark: recall over its ten thresholds; AR is the mean of the three
+  MSSD, MSPD, VSD  of the benchmark: recall over its ten thresholds; AR is the mean of the three. These are of all poses
+  that come out; the file holds --poses of each object
 Times are the median over the scenes, without reading files and training.
 """
 import argparse
@@ -117,7 +118,11 @@ def bop(options):
                     if truth.GetNumberOfPoints():  # an object that is not in an image is not judged
                         poses = found.get(number, vtkPolyData())
                         run.add(poses, truth)
-                        benchmark[number].add(poses, image, truth)
+                        try:
+                            benchmark[number].add(poses, image, truth)
+                        except scripting.Failure as failure:
+                            print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
+                            failures += 1
                         judged[number] += 1
     rows = [{"part": number, "scenes": judged[number], **run.figures()} for number, run in runs.items() if judged[number]]
     if rows:

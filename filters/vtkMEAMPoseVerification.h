@@ -97,8 +97,8 @@ public:
 
   ///@{
   /**
-   * Poses kept of all; 0: no limit. When more come, those that are a thousand times less likely than the best go, too.
-   * Default: 100.
+   * Poses kept of all; 0: no limit. When more come and alternatives are kept, those that are a thousand times less likely
+   * than the best go, too. Default: 100.
    */
   vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfPoses, int);

@@ -18,7 +18,7 @@ namespace meam
 namespace
 {
 constexpr double VisibleShare = 0.1;   // of a copy that has to be found
-constexpr double Behind = 15.0;        // mm a surface may lie behind the measured one and still be visible
+constexpr double VisibilityTolerance = 15.0; // mm a surface may lie behind the measured one and still be visible
 constexpr double SymmetryStep = 0.01;  // of the diameter: no vertex moves more between turns about an axis
 constexpr double ReferenceWidth = 640; // of the image whose pixels MSPD counts
 constexpr double OffRay = 0.05;        // pixels a point of a scan may be off its ray, in the mean
@@ -44,26 +44,24 @@ Eigen::Vector2d onImage(const Eigen::Vector3d& point, const Camera& camera)
   return { camera.fx * point.x() / point.z() + camera.cx, camera.fy * point.y() / point.z() + camera.cy };
 }
 
-/// The whole group: turns about an axis in steps, each with and without what is left beside it.
+/// The whole group: turns about an axis in steps, each with and without what is left beside it. Of a ball the turns about
+/// one axis: any other is asked for when two poses are compared.
 std::vector<Eigen::Isometry3d> equalPoses(const Symmetries& symmetries, const Points& vertices, double diameter)
 {
   std::vector<Eigen::Isometry3d> turns{ Eigen::Isometry3d::Identity() };
-  for (const ContinuousSymmetry& symmetry : symmetries.continuous)
+  if (!symmetries.continuous.empty())
   {
+    const ContinuousSymmetry& symmetry = symmetries.continuous.front();
     double farthest = 0.0;
     for (const auto& vertex : vertices)
     {
       farthest = std::max(farthest, symmetry.axis.cross(vertex.cast<double>() - symmetry.point).norm());
     }
-    const int steps = std::max(1, static_cast<int>(std::ceil(M_PI * farthest / (SymmetryStep * diameter))));
-    std::vector<Eigen::Isometry3d> all;
-    // A ball has three axes: the first is enough to make its turns ever finer, all three would be millions.
-    for (int k = 0; k < steps; ++k)
+    const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * M_PI * farthest / (SymmetryStep * diameter))));
+    for (int k = 1; k < steps; ++k)
     {
-      all.push_back(turnAbout(symmetry.axis, 2.0 * M_PI * k / steps, symmetry.point));
+      turns.push_back(turnAbout(symmetry.axis, 2.0 * M_PI * k / steps, symmetry.point));
     }
-    turns = all;
-    break;
   }
   std::vector<Eigen::Isometry3d> group = turns;
   for (const Eigen::Isometry3d& S : symmetries.discrete)
@@ -127,7 +125,10 @@ struct BOPEvaluation::Impl
 {
   TriangleMesh mesh;
   double diameter;
+  Symmetries symmetries;
   std::vector<Eigen::Isometry3d> equal; ///< the identity first
+  Eigen::Vector3d middle;               ///< of the vertices
+  double radius;                        ///< mm, of the vertices about it
   pcl::KdTreeFLANN<pcl::PointXYZ> vertices;
 
   double add(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
@@ -142,13 +143,13 @@ struct BOPEvaluation::Impl
 
   double adi(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) const
   {
-    const Eigen::Isometry3f toTruth = (truth.inverse() * estimate).cast<float>();
+    const Eigen::Isometry3f toEstimate = (estimate.inverse() * truth).cast<float>();
     double sum = 0.0;
     pcl::Indices nearest(1);
     std::vector<float> squared(1);
     for (const auto& vertex : this->mesh.vertices)
     {
-      const Eigen::Vector3f p = toTruth * vertex;
+      const Eigen::Vector3f p = toEstimate * vertex;
       this->vertices.nearestKSearch(pcl::PointXYZ(p.x(), p.y(), p.z()), 1, nearest, squared);
       sum += std::sqrt(squared[0]);
     }
@@ -160,9 +161,8 @@ struct BOPEvaluation::Impl
   double largest(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, Distance&& distance) const
   {
     double least = Infinity;
-    for (const Eigen::Isometry3d& S : this->equal)
+    const auto ask = [&](const Eigen::Isometry3d& equalTruth)
     {
-      const Eigen::Isometry3d equalTruth = truth * S;
       double most = 0.0;
       for (std::size_t i = 0; i < this->mesh.vertices.size() && most < least; ++i)
       {
@@ -170,8 +170,23 @@ struct BOPEvaluation::Impl
         most = std::max(most, distance(estimate * vertex, equalTruth * vertex));
       }
       least = std::min(least, most);
+    };
+    for (const Eigen::Isometry3d& S : this->equal)
+    {
+      ask(truth * S);
+    }
+    if (!this->symmetries.continuous.empty())
+    {
+      ask(nearestEqual(truth, estimate, this->symmetries));
     }
     return least;
+  }
+
+  double mspd(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const Camera& camera) const
+  {
+    return this->largest(estimate, truth,
+      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+      { return a.z() > 0.0 && b.z() > 0.0 ? (onImage(a, camera) - onImage(b, camera)).norm() : Infinity; });
   }
 
   Rendering render(const Eigen::Isometry3d& T, const Camera& camera) const
@@ -225,7 +240,7 @@ struct BOPEvaluation::Impl
     std::array<int, BOPThresholds> wrong{};
     int both = 0, either = 0;
     const auto isVisible = [](float distance, float seen)
-    { return distance > 0.0f && (seen == 0.0f || distance - seen <= static_cast<float>(Behind)); };
+    { return distance > 0.0f && (seen == 0.0f || distance - seen <= static_cast<float>(VisibilityTolerance)); };
     const int left = std::min(estimate.left, truth.left), top = std::min(estimate.top, truth.top);
     const int right = std::max(estimate.left + estimate.width, truth.left + truth.width);
     const int bottom = std::max(estimate.top + estimate.height, truth.top + truth.height);
@@ -265,9 +280,7 @@ struct BOPEvaluation::Impl
     result.adi = this->adi(estimate, truth);
     result.mssd = this->largest(
       estimate, truth, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); });
-    result.mspd = this->largest(estimate, truth,
-      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-      { return a.z() > 0.0 && b.z() > 0.0 ? (onImage(a, camera) - onImage(b, camera)).norm() : Infinity; });
+    result.mspd = this->mspd(estimate, truth, camera);
     result.vsd = this->vsd(ofEstimate, ofTruth, measured, camera);
     return result;
   }
@@ -285,7 +298,7 @@ std::vector<float> distancesOf(const OrganizedCloud& scan)
   return distances;
 }
 
-/// How many of the valid truths are found: error(e, t) < threshold.
+/// How many targets are found: error(e, t) < threshold.
 template <typename ErrorOf>
 int found(int estimates, const std::vector<char>& isTarget, double threshold, ErrorOf&& errorOf)
 {
@@ -297,7 +310,7 @@ int found(int estimates, const std::vector<char>& isTarget, double threshold, Er
     double least = threshold;
     for (std::size_t t = 0; t < taken.size(); ++t)
     {
-      if (!taken[t] && errorOf(e, t) < least)
+      if (isTarget[t] && !taken[t] && errorOf(e, t) < least)
       {
         least = errorOf(e, t);
         best = static_cast<int>(t);
@@ -306,7 +319,7 @@ int found(int estimates, const std::vector<char>& isTarget, double threshold, Er
     if (best >= 0)
     {
       taken[best] = 1;
-      count += isTarget[best];
+      ++count;
     }
   }
   return count;
@@ -320,10 +333,41 @@ BOPEvaluation::BOPEvaluation(const TriangleMesh& mesh, const Symmetries& symmetr
   {
     throw Error("The part has no triangles: give the mesh that the poses are of.");
   }
-  this->Data->mesh = mesh;
-  this->Data->diameter = partDiameter > 0.0 ? partDiameter : diameter(mesh.vertices);
-  this->Data->equal = equalPoses(symmetries, mesh.vertices, this->Data->diameter);
-  this->Data->vertices.setInputCloud(toPCL(mesh.vertices));
+  // Vertices of no triangle are not of the part.
+  TriangleMesh& part = this->Data->mesh;
+  std::vector<int> number(mesh.vertices.size(), -1);
+  for (auto t : mesh.triangles)
+  {
+    for (int& corner : t)
+    {
+      if (number[corner] < 0)
+      {
+        number[corner] = static_cast<int>(part.vertices.size());
+        part.vertices.push_back(mesh.vertices[corner]);
+      }
+      corner = number[corner];
+    }
+    part.triangles.push_back(t);
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& vertex : part.vertices)
+  {
+    sum += vertex.cast<double>();
+  }
+  this->Data->middle = sum / part.vertices.size();
+  this->Data->radius = 0.0;
+  for (const auto& vertex : part.vertices)
+  {
+    this->Data->radius = std::max(this->Data->radius, (vertex.cast<double>() - this->Data->middle).norm());
+  }
+  if (!sum.allFinite() || !(this->Data->radius > 0.0))
+  {
+    throw Error("The part's mesh has no extent, or vertices that are not finite: clean it first.");
+  }
+  this->Data->diameter = partDiameter > 0.0 ? partDiameter : diameter(part.vertices);
+  this->Data->symmetries = symmetries;
+  this->Data->equal = equalPoses(symmetries, part.vertices, this->Data->diameter);
+  this->Data->vertices.setInputCloud(toPCL(part.vertices));
 }
 
 BOPEvaluation::~BOPEvaluation() = default;
@@ -360,25 +404,32 @@ BOPRecall BOPEvaluation::recall(
   {
     renderings.push_back(this->Data->render(truth.T_scene_model, camera));
   }
-  const Eigen::Vector3d middle = bounds(this->Data->mesh.vertices).center().cast<double>();
-  BOPErrors none; // of poses too far apart for any threshold
-  none.add = none.adi = none.mssd = none.mspd = Infinity;
+  // So far apart no threshold of a distance is met; on the image they may still be in the same place.
+  const Impl& part = *this->Data;
+  const double far = 2.0 * part.radius + bopThreshold(BOPThresholds - 1) * part.diameter;
+  BOPErrors none;
+  none.add = none.adi = none.mssd = Infinity;
   none.vsd.fill(1.0);
   std::vector<std::vector<BOPErrors>> errors(count, std::vector<BOPErrors>(truths.size(), none));
   for (int e = 0; e < count; ++e)
   {
     report(progress, static_cast<double>(e) / count);
     const Eigen::Isometry3d& T = estimates[e].T_scene_model;
-    const Rendering rendering = this->Data->render(T, camera);
+    const Rendering rendering = part.render(T, camera);
     for (std::size_t t = 0; t < truths.size(); ++t)
     {
-      if ((T * middle - truths[t].T_scene_model * middle).norm() < this->Data->diameter)
+      const Eigen::Isometry3d& truth = truths[t].T_scene_model;
+      if ((T * part.middle - truth * part.middle).norm() < far)
       {
-        errors[e][t] = this->Data->errors(T, truths[t].T_scene_model, rendering, renderings[t], measured, camera);
+        errors[e][t] = part.errors(T, truth, rendering, renderings[t], measured, camera);
+      }
+      else
+      {
+        errors[e][t].mspd = part.mspd(T, truth, camera);
       }
     }
   }
-  const double diameter = this->Data->diameter;
+  const double diameter = part.diameter;
   for (int k = 0; k < BOPThresholds; ++k)
   {
     const double threshold = bopThreshold(k);

@@ -22,10 +22,11 @@ inline double bopThreshold(int k) { return 0.05 * (k + 1); }
 struct BOPErrors
 {
   double add = 0.0;  ///< mm, mean distance of the vertices
-  double adi = 0.0;  ///< mm, mean distance of a vertex to the nearest vertex of the true pose
+  double adi = 0.0;  ///< mm, mean distance of a vertex at the true pose to the nearest one at the estimated pose
   double mssd = 0.0; ///< mm, largest distance of a vertex, least over the part's symmetries
   double mspd = 0.0; ///< pixels, the same on the image; infinite for a vertex behind the camera
-  /// Share of the visible surface whose distance is wrong by more than bopThreshold(k) of the diameter, [0, 1].
+  /// Share of the visible surface whose distance is wrong by bopThreshold(k) of the diameter or more, [0, 1]. Visible is
+  /// what lies no more than 15 mm behind the measured surface.
   std::array<double, BOPThresholds> vsd{};
 };
 
@@ -42,15 +43,16 @@ struct BOPRecall
 class BOPEvaluation
 {
 public:
-  /// `diameter` in mm, 0: the largest distance of two vertices. Throws Error for a mesh without triangles.
+  /// `diameter` in mm, 0: the largest distance of two vertices. Throws Error for a mesh without triangles or
+  /// extent. Vertices of no triangle do not count.
   BOPEvaluation(const TriangleMesh& mesh, const Symmetries& symmetries, double diameter = 0.0);
   ~BOPEvaluation();
 
   /// `scan` is what the sensor measured, in the frame of the poses; its camera is taken from it.
   BOPErrors errors(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const OrganizedCloud& scan) const;
 
-  /// Estimates, best first: no more than there are targets count. Each takes the copy it errs least at of those that no
-  /// better one has taken.
+  /// Estimates, best first: no more than there are targets count. Each takes, of the targets that no better one
+  /// has taken, the nearest by the error in question.
   BOPRecall recall(
     const Poses& estimates, const Poses& truths, const OrganizedCloud& scan, const Progress& progress = {}) const;
 

@@ -149,7 +149,7 @@ Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidat
 }
 
 /// What the edge points themselves say of how they were measured, mm.
-struct Measured
+struct PointStatistics
 {
   double noise = 0.0;   ///< standard deviation of a coordinate
   double spacing = 0.0; ///< median distance of a point to its nearest
@@ -168,7 +168,7 @@ double quantile(std::vector<double>& values, double share)
 
 /// Lines that meet mostly lie in a plane: the points' distances from it are noise. Where they are curved or there are
 /// several planes these are larger, so a low quantile counts.
-Measured measured(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius)
+PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius)
 {
   std::vector<double> deviations, distances;
   Neighbours offsets;
@@ -210,14 +210,14 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const s
   const PointGrid grid(edges, radius);
   if (settings.radius <= 0.0 || settings.inlierDistance <= 0.0)
   {
-    const Measured points = measured(edges, kept, grid, radius);
+    const PointStatistics statistics = statisticsOf(edges, kept, grid, radius);
     if (settings.inlierDistance <= 0.0)
     {
-      inlierDistance = std::clamp(InlierNoise * points.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
+      inlierDistance = std::clamp(InlierNoise * statistics.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
     }
     if (settings.radius <= 0.0)
     {
-      radius = std::clamp(std::max(RadiusInliers * inlierDistance, RadiusSpacings * points.spacing), radius,
+      radius = std::clamp(std::max(RadiusInliers * inlierDistance, RadiusSpacings * statistics.spacing), radius,
         MostRadiusShare * partDiameter);
     }
   }
@@ -316,7 +316,7 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
 {
   requirePoints(edges.points, "The edge cloud");
   const PointCloud cloud = finitePoints(edges);
-  const bool robust = settings.method == TangentMethod::RobustLine;
+  const bool robust = settings.method == TangentMethod::RobustLine && cloud.tangents.empty();
   const auto length = [&](double value, double share)
   {
     if (value != 0.0)
@@ -339,7 +339,13 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
   }
   std::vector<int> thinned[2];
   parallelFor(robust ? 2 : 1, settings.threads, {},
-    [&](int i, int, int) { thinned[i] = thinPoints(points, i == 0 ? leaf : candidateLeaf); });
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        thinned[i] = thinPoints(points, i == 0 ? leaf : candidateLeaf);
+      }
+    });
   const std::vector<int>& kept = thinned[0];
   Eigen::Isometry3d turnBack = Eigen::Isometry3d::Identity();
   turnBack.linear() = cubes.linear().transpose();

@@ -25,9 +25,11 @@ constexpr int CoarseStride = 4;             // of the points in the steps before
 constexpr int FewestCorrespondences = 4;
 // Of a pose that settles.
 constexpr double LatticeShare = 0.02;        // of the diameter: where it starts from
-constexpr double LatticeTurn = 0.04;         // the same of a quaternion: 4.6 degrees
+constexpr double LatticeTurn = 0.04;         // step of each coefficient of the quaternion: 4.6 degrees about an axis
 constexpr double SettleDistanceShare = 0.06; // of the diameter
 constexpr int SettleIterations = 4;
+constexpr double SettledShare = 0.015;       // of the diameter: it stays within this
+constexpr double SettledTurn = 2.0;          // and this many degrees of where it was
 constexpr int MostSteps = 6;
 constexpr int StepsOfSight = 2;              // in the first ones what is in sight is told anew
 constexpr double LeastMotionShare = 1e-5;    // of the diameter
@@ -251,7 +253,16 @@ Pose settlePose(const Pose& pose, const SceneIndex& index)
   const Refiner refiner(index, SettleDistanceShare * model.diameter, SettleIterations);
   refiner.refine(settled);
   refiner.settle(settled);
-  return settled.fit.constrained == 6 ? settled : pose;
+  const Eigen::Isometry3d equal = nearestEqual(settled.T_scene_model, pose.T_scene_model, model.symmetries);
+  if (translationError(equal, pose.T_scene_model, middle) > SettledShare * model.diameter ||
+    rotationError(equal, pose.T_scene_model) > SettledTurn)
+  {
+    // The way from the lattice leads elsewhere, as to the next tooth of a fine gear.
+    settled = pose;
+    refiner.settle(settled);
+  }
+  const std::size_t axes = model.symmetries.continuous.size(); // turns about them are free, and equal
+  return settled.fit.constrained >= 6 - static_cast<int>(axes) ? settled : pose;
 }
 
 Poses refinePoses(

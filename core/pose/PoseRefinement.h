@@ -32,7 +32,8 @@ Poses refinePoses(const Poses& poses, const SceneIndex& index, const PoseRefinem
 
 /// The pose refined once more by edges and surface, from the nearest place of a lattice in the scene's own frame and until
 /// it stays: the same whichever candidate led there and however the scene lies in its coordinates. As it came where the
-/// scene leaves it a freedom.
+/// scene leaves it a freedom that is none of the part's symmetries; from where it is when the way from the lattice leads
+/// elsewhere.
 Pose settlePose(const Pose& pose, const SceneIndex& index);
 
 /// refinePoses in a scene that nothing else is asked about. Throws Error when the scene has no edges.

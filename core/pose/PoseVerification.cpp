@@ -350,7 +350,7 @@ Poses verifyPoses(
   std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), better);
   const auto middle = [&](int i) { return (scored[i].T_scene_model * index.view.middle().cast<double>()).eval(); };
   const double plausible =
-    byEvidence && someMustGo && !clusters.Kept.empty() ? LeastPlausible * preference(scored[clusters.Kept[0]]) : 0.0;
+    byEvidence && !comparison && someMustGo && !clusters.Kept.empty() ? LeastPlausible * preference(scored[clusters.Kept[0]]) : 0.0;
   std::vector<int> kept;
   for (const int i : clusters.Kept)
   {

@@ -113,10 +113,16 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
       }
     }
     std::stable_sort(better.begin(), better.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    better.resize(std::min(better.size(), MostTurns));
+    std::vector<int> taken;
     for (const auto& [gain, step] : better)
     {
-      found.push_back(T_scene_model * turn(step));
+      const bool known =
+        std::any_of(taken.begin(), taken.end(), [step = step](int other) { return std::abs(step - other) <= 1; });
+      if (!known && taken.size() < MostTurns)
+      {
+        taken.push_back(step);
+        found.push_back(T_scene_model * turn(step));
+      }
     }
   }
   return found;

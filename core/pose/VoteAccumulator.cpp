@@ -69,14 +69,14 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
 constexpr int Lanes = 16;
 using Bins = std::uint16_t __attribute__((vector_size(Lanes * sizeof(std::uint16_t))));
 
-Bins load(const std::uint16_t* bins)
+[[gnu::always_inline]] inline Bins load(const std::uint16_t* bins)
 {
   Bins result;
   std::memcpy(&result, bins, sizeof(result));
   return result;
 }
 
-Bins larger(const Bins& a, const Bins& b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline Bins larger(const Bins& a, const Bins& b) { return a > b ? a : b; }
 
 /// Of each row of bins, which starts and ends with a copy of the last and the first, the largest sum of three neighbours.
 MEAM_ALL_VECTORS

@@ -89,6 +89,41 @@ TEST(BOPEvaluation, SymmetriesCountForMSSDAndADIAlone)
   EXPECT_LT(meam::BOPEvaluation(plate(), symmetries).errors(T * some, T, wall(600)).mssd, 0.01 * 57.0);
 }
 
+TEST(BOPEvaluation, ABallIsTheSameAnyWayItIsTurned)
+{
+  meam::TriangleMesh ball = parts::box({ -10, -10, -10 }, { 10, 10, 10 }); // that it is one is said below
+  meam::Symmetries symmetries;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    symmetries.continuous.push_back({ Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Zero() });
+  }
+  ball.vertices.emplace_back(1e4f, 0.0f, -900.0f); // of no triangle
+  const meam::BOPEvaluation evaluation(ball, symmetries);
+  const Eigen::Isometry3d T = at(5, 6, 500);
+  std::mt19937 random(4);
+  Eigen::Isometry3d turned = T;
+  turned.rotate(parts::motion(random, 1.0).linear());
+  const meam::BOPErrors errors = evaluation.errors(turned, T, wall(600));
+  EXPECT_NEAR(errors.mssd, 0.0, 1e-6);
+  EXPECT_NEAR(errors.mspd, 0.0, 1e-6);
+}
+
+TEST(BOPEvaluation, FarAlongTheRayIsNearOnTheImage)
+{
+  const meam::BOPEvaluation evaluation(plate(), {});
+  const meam::BOPRecall recall = evaluation.recall({ pose(at(-20, -20, 5120)) }, { pose(at(-20, -20, 5000)) }, wall(6000));
+  EXPECT_EQ(recall.mssd[9], 0.0);
+  EXPECT_EQ(recall.vsd[9], 0.0);
+  EXPECT_EQ(recall.mspd[0], 1.0);
+}
+
+TEST(BOPEvaluation, CopiesThatNeedNotBeFoundTakeNoPose)
+{
+  const meam::BOPEvaluation evaluation(plate(), {});
+  const meam::Poses truths = { pose(at(0, 0, 505), 0.05), pose(at(0, 0, 500), 0.9) };
+  EXPECT_EQ(evaluation.recall({ pose(at(0, 0, 503)) }, truths, wall(600)).add[1], 1.0);
+}
+
 TEST(BOPEvaluation, RecallCountsEveryCopyOnce)
 {
   const meam::BOPEvaluation evaluation(plate(), {}, 50.0);

@@ -169,6 +169,19 @@ TEST(PoseVerification, PosesThatMatchTheSameSurfaceAreOfOneInstance)
   EXPECT_LT(meam::rotationError(best[0].T_scene_model, T), 0.25);
 }
 
+TEST(PoseVerification, AsManyComeOutAsAreAskedForHoweverUnlikely)
+{
+  meam::Poses poses;
+  for (const auto& T : scenes::threeCopies())
+  {
+    poses.push_back(poses.empty() ? at(T) : displaced(T, 9.0, 20.0));
+  }
+  meam::PoseVerificationSettings settings;
+  settings.posesPerInstance = 1;
+  settings.maximumPoses = 2;
+  EXPECT_EQ(meam::verifyPoses(poses, scenes::bracket(), scene(), settings).size(), 2u);
+}
+
 TEST(PoseVerification, PosesThatSettleInOnePlaceAreOne)
 {
   // Nearer than the scene tells apart, farther than the cluster distance.

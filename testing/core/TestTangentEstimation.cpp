@@ -185,6 +185,10 @@ TEST(TangentEstimation, PointsThatCarryTangentsAreOnlyThinned)
     EXPECT_EQ(edges.edgeTypes, std::vector<meam::EdgeType>(10, meam::EdgeType::Crease));
     EXPECT_EQ(meam::estimateTangents(edges, 50.0, Down, settings).points, edges.points);
   }
+  // Nothing else has to be known of the part.
+  meam::TangentEstimationSettings given;
+  given.leafSize = 1.0;
+  EXPECT_NO_THROW(meam::estimateTangents(meam::estimateTangents(line({ 1, 0, 0 }, 41, 0.5f), 50.0, Down), 0.0, Down, given));
 }
 
 TEST(TangentEstimation, BadInput)
