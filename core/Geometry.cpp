@@ -189,6 +189,20 @@ Points moved(const Points& points, const Eigen::Isometry3d& motion)
   return result;
 }
 
+std::string unitsWarning(const Points& scene, double partDiameter)
+{
+  // A scene spans a part or more, and mostly some tens of them.
+  const double parts = bounds(scene).diagonal().norm() / partDiameter;
+  if (parts >= 0.7 && parts <= 200.0)
+  {
+    return {};
+  }
+  const int factor = parts < 1.0 ? (10.0 * parts >= 1.5 ? 10 : 1000) : (parts / 10.0 <= 100.0 ? 10 : 1000);
+  return "The scene spans " + number(parts * partDiameter) + " and the part's diameter is " + number(partDiameter) +
+    ": if their units differ, the likely factor is " + std::to_string(factor) + ". Scale the " +
+    (parts < 1.0 ? "scene" : "part") + " by it.";
+}
+
 void requireSameUnits(const Points& scene, double partDiameter)
 {
   const double extent = bounds(scene).diagonal().norm();

@@ -56,6 +56,11 @@ int vtkMEAMPoseDetection::RequestData(
     const meam::Scene scene = sceneOf(edges, nullptr, {});
     fromPoses(meam::detectPoses(scene.edges, model, settings, progressOf(this)), output);
     setDiameter(output, model.diameter);
+    const std::string warning = meam::unitsWarning(scene.edges.points, model.diameter);
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
   };
   return vtkMEAMRun(this, work, output);
 }

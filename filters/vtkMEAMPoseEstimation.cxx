@@ -195,6 +195,11 @@ int vtkMEAMPoseEstimation::RequestData(
       meam::StageTimes times;
       const meam::Poses poses =
         meam::estimatePoses(model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
+      const std::string warning = meam::unitsWarning(scene.edges.points, model.diameter);
+      if (!warning.empty())
+      {
+        vtkWarningMacro(<< warning);
+      }
 
       if (boundary)
       {

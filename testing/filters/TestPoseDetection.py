@@ -5,7 +5,7 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseDetection, vtkMEAMTangentEstimation
-from meamtest import (MovedView, Trained, bracket, check, close, cloud, connect, fails, field, image, is_empty, points,
+from meamtest import (MovedView, Trained, Warnings, bracket, check, close, cloud, connect, fails, field, image, is_empty, points,
                       pose_error, prints, run, tuples)
 
 trained = Trained(bracket())
@@ -54,6 +54,13 @@ check(not is_empty(run(detection(holes))), "a point of NaN")
 
 metres = cloud([tuple(1e-3 * c for c in p) for p in points(edges)], Tangent=tuples(edges, "Tangent"))
 fails(detection(metres), "units differ", "1000")
+smaller = detection(cloud([tuple(0.3 * c for c in p) for p in points(edges)], Tangent=tuples(edges, "Tangent")))
+warnings = Warnings(smaller)
+run(smaller)
+check("likely factor is 10" in str(warnings), f"a scene that is unlikely small: {warnings}")
+warnings = Warnings(detection())
+run(warnings.algorithm)
+check(not str(warnings), f"nothing to warn of: {warnings}")
 fails(detection(vtkPolyData()), "no points")
 fails(detection(cloud([(math.nan, 0, 0)] * 5, Tangent=[(1, 0, 0)] * 5)), "NaN")
 fails(detection(scene.edges), "Tangent", "TangentEstimation")

@@ -50,6 +50,22 @@ class Errors:
         return "\n".join(self.messages)
 
 
+class Warnings:
+    """Collects what an algorithm warns of, and keeps it from the console."""
+
+    def __init__(self, algorithm):
+        self.algorithm, self.messages = algorithm, []
+
+        def collect(caller, event, text):
+            self.messages.append(text)
+
+        collect.CallDataType = "string0"
+        algorithm.AddObserver("WarningEvent", collect)
+
+    def __str__(self):
+        return "\n".join(self.messages)
+
+
 def run(algorithm):
     """Brings the algorithm up to date; fails on any error. Returns the output."""
     errors = Errors(algorithm)
