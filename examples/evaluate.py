@@ -166,7 +166,7 @@ def main():
     options = parser.parse_args()
     failures = options.run(options)
     if failures:
-        raise scripting.Failure(f"{failures} scenes failed; they count as scenes in which nothing was found")
+        raise scripting.Failure(f"{failures} failed, see above; where the true poses could be read nothing counts as found")
 
 
 scripting.run(main)

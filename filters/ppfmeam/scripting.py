@@ -40,7 +40,8 @@ def run(main):
 
 
 def update(algorithm, step="Update", *arguments):
-    """Updates an algorithm (or calls another method); what it reports as an error is raised as a Failure."""
+    """Updates an algorithm (or calls another method); what it reports as an error is raised as a Failure, and what our own
+    filters warn of is printed on stderr."""
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
@@ -53,6 +54,8 @@ def update(algorithm, step="Update", *arguments):
     text = window.GetOutput()
     if isinstance(text, bytes):  # a message with bytes of a file that is not text
         text = text.decode(errors="replace")
+    for warning in re.findall(r"Warning: In .*\nvtkMEAM\w+ \(.*?\): ((?:.+\n?)+)", text):
+        print("warning: " + " ".join(warning.split()), file=sys.stderr)
     errors = re.findall(r"ERROR: In .*\n(?:\w+ \(.*?\): )?((?:.+\n?)+)", text)
     if errors:
         causes = [error for error in errors if "returned failure for request" not in error]

@@ -239,6 +239,8 @@ for scaled in numpy.array(read("metres.txt").split(), float).reshape(-1, 4, 4):
     difference = min(numpy.abs(scaled - transform).max() for transform in transforms)
     check(difference < 0.2, f"metres, scaled: a pose differs by {difference} mm")
 os.remove("metres.txt")
+larger = script("detect.py", "--cad", "part.stl", "--cad-scale", "12", "--scene", "scan.pcd")
+check(larger.returncode == 0 and larger.stderr.startswith("warning: ") and "likely factor is 10" in larger.stderr, larger.stderr)
 refuses("no image", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", *out)
 refuses("30 x 20", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "small.png", *out)
 refuses("not a PNG", "detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--image", "junk.png", *out)
