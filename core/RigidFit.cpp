@@ -3,6 +3,7 @@
 
 #include "AllVectors.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace meam
@@ -82,8 +83,11 @@ RigidFit::Result RigidFit::result()
   const Eigen::Matrix<double, 6, 1> twist =
     (result.information + damping * Eigen::Matrix<double, 6, 6>::Identity()).ldlt().solve(right);
   result.motion.setIdentity();
+  result.remaining = result.squares;
   if (twist.allFinite())
   {
+    result.remaining += twist.dot(result.information * twist - 2.0 * right);
+    result.remaining = std::max(result.remaining, 0.0); // of what rounding leaves
     const double angle = twist.head<3>().norm();
     if (angle > 0.0)
     {

@@ -40,6 +40,7 @@ public:
     Eigen::Isometry3d motion; ///< to apply on the left; the identity when nothing can be said
     double weights;           ///< their sum
     double squares;           ///< sum of the squared residuals, weighted
+    double remaining;         ///< the same after the motion, to first order
   };
   Result result();
 

@@ -63,8 +63,9 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
       seen.farthest = std::max(seen.farthest, p.z());
     }
   }
-  this->average(surface, static_cast<float>(LayerCells * cellSize));
-  this->fillGaps();
+  const float layer = static_cast<float>(LayerCells * cellSize);
+  this->average(surface, layer);
+  this->fillGaps(layer);
 }
 
 void DepthMap::average(const Points& surface, float layer)
@@ -89,7 +90,7 @@ void DepthMap::average(const Points& surface, float layer)
   }
 }
 
-void DepthMap::fillGaps()
+void DepthMap::fillGaps(float layer)
 {
   // Between the samples of a surface some cells stay empty: the nearest surface around speaks for them.
   const std::vector<Cell> seen = this->Cells;
@@ -102,17 +103,27 @@ void DepthMap::fillGaps()
       {
         continue;
       }
-      for (int v = std::max(0, row - 1); v <= std::min(this->Height - 1, row + 1); ++v)
+      const auto forEachBeside = [&](auto&& visit)
       {
-        for (int u = std::max(0, column - 1); u <= std::min(this->Width - 1, column + 1); ++u)
+        for (int v = std::max(0, row - 1); v <= std::min(this->Height - 1, row + 1); ++v)
         {
-          const Cell& other = seen[static_cast<std::size_t>(v) * this->Width + u];
-          if (other.nearest < cell.nearest)
+          for (int u = std::max(0, column - 1); u <= std::min(this->Width - 1, column + 1); ++u)
           {
-            cell = other;
+            visit(seen[static_cast<std::size_t>(v) * this->Width + u]);
           }
         }
-      }
+      };
+      forEachBeside([&](const Cell& other) { cell.nearest = std::min(cell.nearest, other.nearest); });
+      int count = 0;
+      forEachBeside(
+        [&](const Cell& other)
+        {
+          if (other.nearest < NothingSeen && other.nearest <= cell.nearest + layer)
+          {
+            cell.mean += (other.mean - cell.mean) / static_cast<float>(++count);
+            cell.farthest = std::max(cell.farthest, std::min(other.farthest, cell.nearest + layer));
+          }
+        });
     }
   }
 }

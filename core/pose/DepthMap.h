@@ -37,10 +37,21 @@ public:
   const Points& means() const { return this->Means; }
 
   /// The mean along the line of sight through a point; where the sensor has a gap of one cell, that of the nearest
-  /// surface beside it. Null when there is none.
+  /// layer beside it. Null when there is none.
   const Eigen::Vector3f* meanAt(const Eigen::Vector3f& point) const
   {
     const Cell* cell = this->cellOf(this->placeOf(point));
+    return cell ? &cell->mean : nullptr;
+  }
+
+  /// The same; `inside` tells how far inside its cell the point lies: 1 in the middle, 0 at the border, where the mean
+  /// changes.
+  const Eigen::Vector3f* meanAt(const Eigen::Vector3f& point, float& inside) const
+  {
+    const Place place = this->placeOf(point);
+    const Eigen::Array2f off = 2.0f * (place.index - place.index.floor()) - 1.0f; // from the middle
+    inside = (1.0f - off.square()).prod();
+    const Cell* cell = this->cellOf(place);
     return cell ? &cell->mean : nullptr;
   }
 
@@ -51,11 +62,11 @@ private:
     float farthest;
     Eigen::Vector3f mean;
   };
-  /// Cell of a point, -1 outside the map, and its depth (mm) along the line of sight.
   struct Place
   {
-    int cell;
-    float depth;
+    int cell;             ///< -1: outside the map
+    float depth;          ///< mm, along the line of sight
+    Eigen::Array2f index; ///< across it, cells
   };
   Eigen::Vector3f project(const Eigen::Vector3f& point) const
   {
@@ -72,10 +83,11 @@ private:
     const Eigen::Array2f index = (p.head<2>() - this->Low) * this->InverseCell;
     const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
       !(this->Eye.perspective && p.z() <= 0.0f);
-    return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };
+    return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z(),
+      index };
   }
   void average(const Points& surface, float layer);
-  void fillGaps();
+  void fillGaps(float layer);
   /// Null outside the map and where nothing was seen.
   const Cell* cellOf(const Place& place) const
   {

@@ -17,10 +17,7 @@ struct Query
   float squaredRadius;
 };
 
-struct Columns
-{
-  const float *x, *y, *z, *tangentX, *tangentY, *tangentZ;
-};
+using Columns = std::array<std::vector<float>, 6>;
 
 struct Range
 {
@@ -37,6 +34,8 @@ struct Nearest
 MEAM_ALL_VECTORS
 void search(const Columns& edges, const Range* ranges, int count, const Query& query, Nearest& nearest)
 {
+  const float *ex = edges[0].data(), *ey = edges[1].data(), *ez = edges[2].data();
+  const float *tangentX = edges[3].data(), *tangentY = edges[4].data(), *tangentZ = edges[5].data();
   const float px = query.point.x(), py = query.point.y(), pz = query.point.z();
   const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
   const float squaredRadius = query.squaredRadius;
@@ -57,8 +56,8 @@ void search(const Columns& edges, const Range* ranges, int count, const Query& q
       for (int lane = 0; lane < Lanes; ++lane) // the last ones may be of the next range
       {
         const int k = begin + lane;
-        const float tx = edges.tangentX[k], ty = edges.tangentY[k], tz = edges.tangentZ[k];
-        const float dx = px - edges.x[k], dy = py - edges.y[k], dz = pz - edges.z[k];
+        const float tx = tangentX[k], ty = tangentY[k], tz = tangentZ[k];
+        const float dx = px - ex[k], dy = py - ey[k], dz = pz - ez[k];
         const float cx = ty * dz - tz * dy, cy = tz * dx - tx * dz, cz = tx * dy - ty * dx;
         const float squared = dx * dx + dy * dy + dz * dz;
         const float across = cx * cx + cy * cy + cz * cz;
@@ -77,37 +76,73 @@ void search(const Columns& edges, const Range* ranges, int count, const Query& q
     nearest.places[lane] = places[lane];
   }
 }
+
+/// Sums of each lane.
+struct Sums
+{
+  float weight[Lanes] = {};
+  float x[Lanes] = {};
+  float y[Lanes] = {};
+  float z[Lanes] = {};
+};
+
+MEAM_ALL_VECTORS
+void addOffsets(const Columns& edges, const Range* ranges, int count, const Query& query, float squaredAcross, Sums& sums)
+{
+  const float *ex = edges[0].data(), *ey = edges[1].data(), *ez = edges[2].data();
+  const float *tangentX = edges[3].data(), *tangentY = edges[4].data(), *tangentZ = edges[5].data();
+  const float px = query.point.x(), py = query.point.y(), pz = query.point.z();
+  const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
+  const float inverseRadius = 1.0f / query.squaredRadius, inverseAcross = 1.0f / squaredAcross;
+  constexpr float least = ParallelTangents * ParallelTangents;
+  for (int r = 0; r < count; ++r)
+  {
+    const int end = ranges[r].end;
+    for (int begin = ranges[r].begin; begin < end; begin += Lanes)
+    {
+#pragma omp simd
+      for (int lane = 0; lane < Lanes; ++lane) // the last ones may be of the next range
+      {
+        const int k = begin + lane;
+        const float dx = px - ex[k], dy = py - ey[k], dz = pz - ez[k];
+        const float along = qx * dx + qy * dy + qz * dz;
+        const float cx = dx - along * qx, cy = dy - along * qy, cz = dz - along * qz;
+        const float cosine = tangentX[k] * qx + tangentY[k] * qy + tangentZ[k] * qz;
+        const float near = std::max(0.0f, 1.0f - (dx * dx + dy * dy + dz * dz) * inverseRadius);
+        const float close = std::max(0.0f, 1.0f - (cx * cx + cy * cy + cz * cz) * inverseAcross);
+        const float parallel = std::max(0.0f, (cosine * cosine - least) / (1.0f - least));
+        const float weight = k < end ? near * near * close * close * parallel : 0.0f;
+        sums.weight[lane] += weight;
+        sums.x[lane] += weight * cx;
+        sums.y[lane] += weight * cy;
+        sums.z[lane] += weight * cz;
+      }
+    }
+  }
+}
 }
 
 EdgeLines::EdgeLines(const PointCloud& edges, const PointGrid& grid)
   : Grid(grid)
 {
-  const std::size_t size = grid.order().size() + Lanes;
-  for (std::vector<float>* column : { &this->X, &this->Y, &this->Z, &this->TangentX, &this->TangentY, &this->TangentZ })
+  for (std::vector<float>& column : this->Columns)
   {
-    column->assign(size, 0.0f);
+    column.assign(grid.order().size() + Lanes, 0.0f);
   }
   for (std::size_t k = 0; k < grid.order().size(); ++k)
   {
-    const Eigen::Vector3f& point = edges.points[grid.order()[k]];
-    const Eigen::Vector3f& tangent = edges.tangents[grid.order()[k]];
-    this->X[k] = point.x();
-    this->Y[k] = point.y();
-    this->Z[k] = point.z();
-    this->TangentX[k] = tangent.x();
-    this->TangentY[k] = tangent.y();
-    this->TangentZ[k] = tangent.z();
+    const int i = grid.order()[k];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Columns[axis][k] = edges.points[i][axis];
+      this->Columns[3 + axis][k] = edges.tangents[i][axis];
+    }
   }
 }
 
-EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const
+template <typename Visitor>
+void EdgeLines::forEachRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const
 {
-  const Columns columns{ this->X.data(), this->Y.data(), this->Z.data(), this->TangentX.data(), this->TangentY.data(),
-    this->TangentZ.data() };
-  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius) };
-  Nearest nearest;
-  std::fill_n(nearest.distances, Lanes, query.squaredRadius);
-  std::fill_n(nearest.places, Lanes, -1);
   Range ranges[MostRanges];
   int count = 0;
   this->Grid.forEachRange(point, radius,
@@ -119,14 +154,24 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
       }
       if (count == MostRanges)
       {
-        search(columns, ranges, count, query, nearest);
+        visit(ranges, count);
         count = 0;
       }
     });
   if (count > 0)
   {
-    search(columns, ranges, count, query, nearest);
+    visit(ranges, count);
   }
+}
+
+EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const
+{
+  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius) };
+  Nearest nearest;
+  std::fill_n(nearest.distances, Lanes, query.squaredRadius);
+  std::fill_n(nearest.places, Lanes, -1);
+  this->forEachRanges(point, radius,
+    [&](const Range* ranges, int count) { search(this->Columns, ranges, count, query, nearest); });
   Match match;
   int place = -1;
   for (int lane = 0; lane < Lanes; ++lane)
@@ -142,5 +187,26 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
   }
   match.edge = place < 0 ? -1 : this->Grid.order()[place];
   return match;
+}
+
+EdgeLines::Mean EdgeLines::meanAround(
+  const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius, double across) const
+{
+  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius) };
+  const float squaredAcross = static_cast<float>(across) * static_cast<float>(across);
+  Sums sums;
+  this->forEachRanges(point, radius,
+    [&](const Range* ranges, int count) { addOffsets(this->Columns, ranges, count, query, squaredAcross, sums); });
+  Mean mean;
+  for (int lane = 0; lane < Lanes; ++lane)
+  {
+    mean.weight += sums.weight[lane];
+    mean.offset += Eigen::Vector3f(sums.x[lane], sums.y[lane], sums.z[lane]);
+  }
+  if (mean.weight > 0.0f)
+  {
+    mean.offset /= mean.weight;
+  }
+  return mean;
 }
 }

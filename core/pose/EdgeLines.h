@@ -3,6 +3,8 @@
 
 #include "PointGrid.h"
 
+#include <array>
+
 namespace meam
 {
 /// Tangent lines of a scene's edge points, for look-ups of the one that an edge of a part may lie on: several at a time
@@ -22,8 +24,22 @@ public:
   /// line is nearest to the point.
   Match nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const;
 
+  struct Mean
+  {
+    Eigen::Vector3f offset = Eigen::Vector3f::Zero(); ///< mm, at right angles to the tangent
+    float weight = 0.0f;                              ///< 1: as a point all on the line; 0: there is none
+  };
+  /// How far a point with a unit tangent is from the edge points about it, on average, across the tangent. Their weights
+  /// fall to 0 at `radius` (mm) from the point, at `across` (mm) across the tangent and where the tangents are 32 degrees
+  /// apart, so that the mean changes steadily with point and tangent: no edge point comes in or goes out at once.
+  Mean meanAround(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius, double across) const;
+
 private:
+  /// Calls visit(ranges, count) with ranges of the columns, several at once, that hold all within `radius` of the point.
+  template <typename Visitor>
+  void forEachRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const;
+
   const PointGrid& Grid;
-  std::vector<float> X, Y, Z, TangentX, TangentY, TangentZ; ///< in the order of the grid
+  std::array<std::vector<float>, 6> Columns; ///< x, y, z of the points and of their tangents, in the order of the grid
 };
 }

@@ -16,6 +16,7 @@ constexpr double JudgedLeafShare = 0.03;   // of the diameter: distance of the s
 constexpr double CellShare = 0.025;        // of the diameter: cells of the depth buffer
 constexpr double ToleranceShare = 0.01;    // of the diameter: depth a point may lie behind the nearest
 constexpr float GrazingCosine = 0.15f;     // a surface seen at a flatter angle is not judged
+constexpr float DirectionSteps = 64.0f;    // of each coordinate of the direction to the sensor, from 0 to 1
 constexpr float EdgeSlope = 1.5f;          // slope allowed for at an edge, whose surface is not known
 
 Eigen::Vector3f meanOf(const Points& points)
@@ -108,6 +109,12 @@ Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_sce
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   return T.linear().transpose() * sensor.towards(T * middle);
 }
+
+/// The same for directions less than a degree apart, save where it steps.
+Eigen::Vector3f rounded(const Eigen::Vector3f& direction)
+{
+  return (direction * DirectionSteps).array().round().matrix().normalized();
+}
 }
 
 void PartView::Columns::add(const Eigen::Vector3f& point)
@@ -147,8 +154,21 @@ int PartView::view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor)
 
 PartView::Visible PartView::visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
 {
-  // The part is small against its distance: lines of sight are taken as parallel.
-  const Eigen::Vector3f towards = directionTo(sensor, T_scene_model, this->Middle);
+  Visible visible;
+  this->update(visible, T_scene_model, sensor);
+  return visible;
+}
+
+void PartView::update(Visible& visible, const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
+{
+  // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged on
+  // the same points.
+  const Eigen::Vector3f towards = rounded(directionTo(sensor, T_scene_model, this->Middle));
+  if (towards == visible.from)
+  {
+    return;
+  }
+  visible.from = towards;
   const float cell = static_cast<float>(CellShare * this->Model.diameter);
   const float tolerance = static_cast<float>(ToleranceShare * this->Model.diameter);
   const float half = static_cast<float>(this->Model.diameter); // a point is never farther from the middle
@@ -165,14 +185,12 @@ PartView::Visible PartView::visible(const Eigen::Isometry3d& T_scene_model, cons
   nearest.assign(static_cast<std::size_t>(across.side) * across.side, -std::numeric_limits<float>::infinity());
   projected(this->Surface, surface);
   raise(surface, nearest);
-  Visible visible;
   projected(this->Edges, others);
   keepInSight(others, nearest, tolerance + EdgeSlope * cell, nullptr, visible.edges);
   projected(this->JudgedPoints, others);
   allowForSlope(towards, this->JudgedNormals.x.data(), this->JudgedNormals.y.data(), this->JudgedNormals.z.data(),
     static_cast<int>(this->Judged.size()), cell, others.heights.data());
   keepInSight(others, nearest, tolerance, this->Judged.data(), visible.surface);
-  return visible;
 }
 
 PointCloud PartView::viewEdges(int view) const

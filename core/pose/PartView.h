@@ -24,10 +24,13 @@ public:
   /// part are judged on the same points.
   struct Visible
   {
+    Eigen::Vector3f from = Eigen::Vector3f::Zero(); ///< unit direction to the sensor, model frame
     std::vector<int> edges;
     std::vector<int> surface;
   };
   Visible visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+  /// Makes `visible` what it is at that pose; at once when the pose is seen from the same direction.
+  void update(Visible& visible, const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
   /// Calls visit(index) for every `stride`-th of the surface points that are judged and face the sensor, also for those
   /// behind other points of the part.

@@ -16,7 +16,7 @@ constexpr double MissingWeight = 1.0;        // of a predicted edge point: image
 constexpr double EdgeWeight = 3.0;        // of an edge point against a surface point
 }
 
-PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const
+double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
 {
   const DistanceField& surface = this->Index.model.surfaceDistance;
   const float far = static_cast<float>(FarShare * this->Index.model.diameter);
@@ -26,7 +26,13 @@ PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_s
   double explained = 0.0;
   this->Index.surface.forEachWithin(T * surface.middle(), surface.radius(),
     [&](int k, float) { explained += std::max(0.0f, 1.0f - surface.at(toModel * measured[k]) / far); });
-  return { T_scene_model, this->Index.view.visible(T_scene_model, this->Index.scene.sensor), explained };
+  return explained;
+}
+
+PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const
+{
+  return { T_scene_model, this->explained(T_scene_model),
+    this->Index.view.visible(T_scene_model, this->Index.scene.sensor) };
 }
 
 double PoseComparison::contradicted(const Contender& one, const Contender& other) const
@@ -58,6 +64,23 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
 
 double PoseComparison::advantage(const Contender& one, const Contender& other) const
 {
+  return this->advantageAtMost(one, other) - this->contradicted(one, other);
+}
+
+double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const
+{
+  Contender one{ T_scene_model, this->explained(T_scene_model), {} };
+  const double most = this->advantageAtMost(one, other);
+  if (most < enough)
+  {
+    return most;
+  }
+  this->Index.view.update(one.visible, T_scene_model, this->Index.scene.sensor);
+  return most - this->contradicted(one, other);
+}
+
+double PoseComparison::advantageAtMost(const Contender& one, const Contender& other) const
+{
   const TrainedModel& model = this->Index.model;
   const Points& sceneEdges = this->Index.scene.edges.points;
   const float far = static_cast<float>(FarShare * model.diameter);
@@ -84,18 +107,19 @@ double PoseComparison::advantage(const Contender& one, const Contender& other) c
         }
       });
   };
-  double sum = one.explained - other.explained + this->contradicted(other, one) - this->contradicted(one, other);
+  double sum = one.explained - other.explained + this->contradicted(other, one);
   forEachNear(
     [&](int k)
     {
-      const Eigen::Vector3f& point = sceneEdges[k];
-      if (!model.surface.empty() && surface.at(toA * point) >= far && surface.at(toB * point) >= far)
+      const Eigen::Vector3f inA = toA * sceneEdges[k];
+      const Eigen::Vector3f inB = toB * sceneEdges[k];
+      const float ofA = edges.at(inA);
+      const float ofB = edges.at(inB);
+      const double weight = ofA < near && ofB >= far ? EdgeWeight : ofB < near && ofA >= far ? -EdgeWeight : 0.0;
+      if (weight != 0.0 && (model.surface.empty() || surface.at(inA) < far || surface.at(inB) < far)) // else another object's
       {
-        return; // of another object
+        sum += weight;
       }
-      const float ofA = edges.at(toA * point);
-      const float ofB = edges.at(toB * point);
-      sum += ofA < near && ofB >= far ? EdgeWeight : ofB < near && ofA >= far ? -EdgeWeight : 0.0;
     });
   return sum;
 }

@@ -22,16 +22,21 @@ public:
   struct Contender
   {
     Eigen::Isometry3d T_scene_model;
-    PartView::Visible visible;
     double explained;
+    PartView::Visible visible;
   };
   Contender contender(const Eigen::Isometry3d& T_scene_model) const;
 
   /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not,
   /// and surface and edges that one of them alone predicts and that are not there.
   double advantage(const Contender& a, const Contender& b) const;
+  /// The same of a pose that is a contender no more; not less than it is, and at less cost, where it is below `enough`.
+  double advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
 
 private:
+  double explained(const Eigen::Isometry3d& T_scene_model) const;
+  /// Without what contradicts `one`, which need not know what is visible of it.
+  double advantageAtMost(const Contender& one, const Contender& other) const;
   /// What `one` predicts and the other does not: surface that the sensor looked past, and edges on surface it saw where
   /// the scene has none.
   double contradicted(const Contender& one, const Contender& other) const;

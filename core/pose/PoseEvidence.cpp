@@ -56,7 +56,7 @@ EvidenceCollector::EvidenceCollector(const SceneIndex& index, double tolerance)
 {
 }
 
-PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) const
+PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const TrainedModel& model = this->Index.model;
@@ -65,7 +65,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
   const PartView::Visible visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
   const float tolerance = static_cast<float>(this->Tolerance);
   PoseEvidence evidence;
-  for (std::size_t k = 0; k < visible.edges.size(); k += EdgeStride)
+  for (std::size_t k = 0; k < visible.edges.size(); k += stride * EdgeStride)
   {
     const int i = visible.edges[k];
     const Eigen::Vector3f point = T * model.edges.points[i];
@@ -81,9 +81,9 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model) 
   {
     return evidence;
   }
-  for (const int i : visible.surface)
+  for (std::size_t k = 0; k < visible.surface.size(); k += stride)
   {
-    const Eigen::Vector3f point = T * model.surface.points[i];
+    const Eigen::Vector3f point = T * model.surface.points[visible.surface[k]];
     const DepthMap::Relation relation = depth.relation(point, tolerance);
     evidence.surface.push_back(point);
     evidence.surfaceStates.push_back(relation == DepthMap::Relation::OnSurface ? PointState::Matched

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meam
 {
@@ -23,16 +22,15 @@ constexpr double LastDistanceShare = 0.12;  // of that at the end
 constexpr int FullSteps = 1;                // the last ones, with all points
 constexpr int CoarseStride = 4;             // of the points in the steps before
 constexpr int FewestCorrespondences = 4;
-// Of a pose that settles.
-constexpr double LatticeShare = 0.02;        // of the diameter: where it starts from
-constexpr double LatticeTurn = 0.04;         // step of each coefficient of the quaternion: 4.6 degrees about an axis
-constexpr double SettleDistanceShare = 0.06; // of the diameter
-constexpr int SettleIterations = 4;
-constexpr double SettledShare = 0.015;       // of the diameter: it stays within this
-constexpr double SettledTurn = 2.0;          // and this many degrees of where it was
-constexpr int MostSteps = 6;
-constexpr int StepsOfSight = 2;              // in the first ones what is in sight is told anew
-constexpr double LeastMotionShare = 1e-5;    // of the diameter
+// Of a pose that settles, shares of the diameter.
+constexpr double WindowShare = 0.02;      // from a point of the part to edge points that count
+constexpr double AcrossShare = 0.006;     // the same across its tangent, and along the normal of its surface
+constexpr double WidestFirst = 3.0;       // times that in the first step, half as much in the next
+constexpr double LeastMotionShare = 3e-6; // less is none
+constexpr int MostSteps = 15;
+constexpr int StepsOfSight = 8;           // in the first ones what is in sight is told anew
+constexpr double MostFarther = -4.0;      // shares of the step before that a step is taken farther,
+constexpr double MostBack = 0.5;          // or less far
 // Shares of what corresponds that have to speak for a motion.
 constexpr double ConstrainedShare = 0.01; // so that it counts as fixed
 constexpr double LeastShare = 1e-6;       // taken for the variance of one that nothing fixes
@@ -56,53 +54,85 @@ public:
 
   void refine(Pose& pose) const
   {
-    PartView::Visible visible = this->visible(pose);
+    PartView::Visible visible;
+    this->see(pose, visible);
+    RigidFit::Result fit;
     for (int iteration = 0; iteration < this->Iterations; ++iteration)
     {
       const double share = this->Iterations > 1 ? static_cast<double>(iteration) / (this->Iterations - 1) : 1.0;
       const double limit = this->Distance * std::pow(LastDistanceShare, share);
       if (iteration > 0 && iteration + FullSteps == this->Iterations)
       {
-        visible = this->visible(pose); // nearly there: what is in sight can be told better now
+        this->see(pose, visible); // nearly there: what is in sight can be told better now
       }
       const int stride = iteration + FullSteps < this->Iterations ? CoarseStride : 1;
-      this->step(pose, visible, stride, limit);
+      fit = this->correspondences(pose.T_scene_model, visible, stride, limit);
+      pose.T_scene_model = fit.motion * pose.T_scene_model;
     }
-    pose.fit = this->fitAt(pose, visible);
-    pose.fit.iterations = this->Iterations;
+    pose.fit = this->poseFit(fit, fit.remaining, this->Iterations);
   }
 
   /// Steps with all points until the pose stays.
   void settle(Pose& pose) const
   {
-    const double least = LeastMotionShare * this->Index.model.diameter;
+    const double diameter = this->Index.model.diameter;
     PartView::Visible visible;
-    double moved = std::numeric_limits<double>::infinity();
+    RigidFit::Result fit;
+    Twist wanted, taken;      // in the step before
+    bool isFollowing = false; // a step with the same limit
+    double wide = WidestFirst;
+    double moved = 0.0;
     int steps = 0;
-    for (; steps < MostSteps && moved > least; ++steps)
+    for (; steps < MostSteps && !(isFollowing && moved <= LeastMotionShare * diameter); ++steps)
     {
       if (steps < StepsOfSight)
       {
-        visible = this->visible(pose);
+        this->see(pose, visible);
       }
-      moved = this->step(pose, visible, 1, this->Distance * LastDistanceShare);
+      fit = this->means(pose.T_scene_model, visible, wide * AcrossShare * diameter);
+      const Twist step = this->twistOf(pose, fit.motion);
+      moved = step.head<3>().norm() + step.tail<3>().norm();
+      Twist farther = step;
+      if (isFollowing)
+      {
+        // The steps shrink by a nearly constant share, for the weights follow the pose: the secant foresees the rest.
+        const Twist change = step - wanted;
+        const double share = change.dot(step) / change.squaredNorm();
+        if (share > MostFarther && share < MostBack)
+        {
+          farther -= share * (taken + change);
+        }
+      }
+      wanted = step;
+      taken = farther;
+      isFollowing = wide == 1.0;
+      wide = std::max(1.0, 0.5 * wide);
+      pose.T_scene_model = this->motionOf(pose, farther) * pose.T_scene_model;
     }
-    const int before = pose.fit.iterations;
-    pose.fit = this->fitAt(pose, visible);
-    pose.fit.iterations = before + steps;
+    pose.fit = this->poseFit(fit, fit.remaining, pose.fit.iterations + steps);
   }
 
-  /// How well the scene fixes the pose; the iterations are left to the caller.
-  PoseFit fitAt(const Pose& pose, const PartView::Visible& visible) const
+  /// How well the scene fixes a pose that came from elsewhere.
+  PoseFit fitAt(const Pose& pose) const
   {
+    PartView::Visible visible;
+    this->see(pose, visible);
     const RigidFit::Result fit =
       this->correspondences(pose.T_scene_model, visible, 1, this->Distance * LastDistanceShare);
+    return this->poseFit(fit, fit.squares, pose.fit.iterations);
+  }
+
+private:
+  /// `squares` are those of the fit's residuals at the pose.
+  PoseFit poseFit(const RigidFit::Result& fit, double squares, int iterations) const
+  {
     PoseFit result;
+    result.iterations = iterations;
     if (fit.weights < FewestCorrespondences)
     {
       return result;
     }
-    result.residual = std::sqrt(fit.squares / fit.weights);
+    result.residual = std::sqrt(squares / fit.weights);
     // Rotations count as what they move half a diameter from the middle, so all six are lengths.
     Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Ones();
     scale.head<3>().setConstant(2.0 / this->Index.model.diameter);
@@ -117,20 +147,37 @@ public:
     return result;
   }
 
-  PartView::Visible visible(const Pose& pose) const
+  void see(const Pose& pose, PartView::Visible& visible) const
   {
-    return this->Index.view.visible(pose.T_scene_model, this->Index.scene.sensor);
+    this->Index.view.update(visible, pose.T_scene_model, this->Index.scene.sensor);
   }
 
-private:
-  /// Returns how far (mm) the pose moved: its middle, or a point half a diameter from it.
-  double step(Pose& pose, const PartView::Visible& visible, int stride, double limit) const
+  /// A small motion of a pose about its middle: the rotation vector, as what it moves half a diameter from there, and the
+  /// translation, both in mm.
+  using Twist = Eigen::Matrix<double, 6, 1>;
+  Twist twistOf(const Pose& pose, const Eigen::Isometry3d& motion) const
   {
-    const Eigen::Isometry3d motion = this->correspondences(pose.T_scene_model, visible, stride, limit).motion;
-    const Eigen::Vector3d middle = pose.T_scene_model * this->Index.view.middle().cast<double>();
-    pose.T_scene_model = motion * pose.T_scene_model;
-    const double turn = Eigen::AngleAxisd(Eigen::Matrix3d(motion.linear())).angle();
-    return (motion * middle - middle).norm() + turn * 0.5 * this->Index.model.diameter;
+    const Eigen::Vector3d middle = this->middle(pose);
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(motion.linear()));
+    Twist twist;
+    twist << 0.5 * this->Index.model.diameter * turn.angle() * turn.axis(), motion * middle - middle;
+    return twist;
+  }
+  Eigen::Isometry3d motionOf(const Pose& pose, const Twist& twist) const
+  {
+    const Eigen::Vector3d middle = this->middle(pose);
+    const Eigen::Vector3d rotation = twist.head<3>() / (0.5 * this->Index.model.diameter);
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    if (rotation.norm() > 0.0)
+    {
+      motion.linear() = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
+    }
+    motion.translation() = middle + twist.tail<3>() - motion.linear() * middle;
+    return motion;
+  }
+  Eigen::Vector3d middle(const Pose& pose) const
+  {
+    return pose.T_scene_model * this->Index.view.middle().cast<double>();
   }
 
   /// Residuals of every `stride`-th visible point that something in the scene within `limit` (mm) corresponds to.
@@ -175,6 +222,44 @@ private:
       }
       const double residual = normal.dot(point - *seen);
       fit.add(point.cast<double>(), normal.cast<double>(), residual, tukey(residual * residual, limit));
+    }
+    return fit.result();
+  }
+
+  /// Residuals of all visible points that change steadily with the pose, so that it comes to stay in one place: against
+  /// the mean of the edge points about each, up to `limit` (mm), and against the surface, weighing the less the nearer to
+  /// where its mean changes.
+  RigidFit::Result means(const Eigen::Isometry3d& T, const PartView::Visible& visible, double limit) const
+  {
+    const TrainedModel& model = this->Index.model;
+    const Eigen::Isometry3f Tf = T.cast<float>();
+    const double window = WindowShare * model.diameter;
+    RigidFit fit(T * this->Index.view.middle().cast<double>());
+    for (const int i : visible.edges)
+    {
+      const Eigen::Vector3f point = Tf * model.edges.points[i];
+      const Eigen::Vector3f tangent = Tf.linear() * model.edges.tangents[i];
+      const EdgeLines::Mean mean = this->Index.lines.meanAround(point, tangent, window, limit);
+      if (mean.weight > 0.0f)
+      {
+        const Eigen::Matrix3f frame = frameAround(tangent);
+        for (int axis = 1; axis < 3; ++axis)
+        {
+          const Eigen::Vector3f across = frame.col(axis);
+          fit.add(point.cast<double>(), across.cast<double>(), across.dot(mean.offset), std::min(mean.weight, 1.0f));
+        }
+      }
+    }
+    for (const int i : visible.surface)
+    {
+      const Eigen::Vector3f point = Tf * model.surface.points[i];
+      const Eigen::Vector3f normal = Tf.linear() * model.surface.normals[i];
+      float inside;
+      if (const Eigen::Vector3f* seen = this->Index.depth.meanAt(point, inside))
+      {
+        const double residual = normal.dot(point - *seen);
+        fit.add(point.cast<double>(), normal.cast<double>(), residual, inside * tukey(residual * residual, limit));
+      }
     }
     return fit.result();
   }
@@ -237,31 +322,9 @@ PoseRefinementSettings paperRefinementSettings()
 
 Pose settlePose(const Pose& pose, const SceneIndex& index)
 {
-  const TrainedModel& model = index.model;
-  const Eigen::Vector3d middle = index.view.middle().cast<double>();
-  const Eigen::Isometry3d inFrame =
-    nearestEqual(index.frame * pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
-  const double step = LatticeShare * model.diameter;
-  const Eigen::Vector3d place = ((inFrame * middle) / step).array().round() * step;
-  const Eigen::Quaterniond turn(Eigen::Matrix3d(inFrame.linear()));
-  const Eigen::Vector4d rounded = (turn.coeffs() / LatticeTurn).array().round() * LatticeTurn;
-  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
-  start.linear() = Eigen::Quaterniond(rounded).normalized().toRotationMatrix();
-  start.translation() = place - start.linear() * middle;
   Pose settled = pose;
-  settled.T_scene_model = index.frame.inverse() * start;
-  const Refiner refiner(index, SettleDistanceShare * model.diameter, SettleIterations);
-  refiner.refine(settled);
-  refiner.settle(settled);
-  const Eigen::Isometry3d equal = nearestEqual(settled.T_scene_model, pose.T_scene_model, model.symmetries);
-  if (translationError(equal, pose.T_scene_model, middle) > SettledShare * model.diameter ||
-    rotationError(equal, pose.T_scene_model) > SettledTurn)
-  {
-    // The way from the lattice leads elsewhere, as to the next tooth of a fine gear.
-    settled = pose;
-    refiner.settle(settled);
-  }
-  const std::size_t axes = model.symmetries.continuous.size(); // turns about them are free, and equal
+  Refiner(index, DistanceShare * index.model.diameter, 0).settle(settled);
+  const std::size_t axes = index.model.symmetries.continuous.size(); // turns about them are free, and equal
   return settled.fit.constrained >= 6 - static_cast<int>(axes) ? settled : pose;
 }
 
@@ -301,9 +364,7 @@ Poses refinePoses(
       for (int i = begin; i < end; ++i)
       {
         refinePointToPoint(refined[i], views.at(refined[i].viewId), target, tree, distance, settings.iterations);
-        const int iterations = refined[i].fit.iterations;
-        refined[i].fit = refiner.fitAt(refined[i], refiner.visible(refined[i]));
-        refined[i].fit.iterations = iterations;
+        refined[i].fit = refiner.fitAt(refined[i]);
       }
     });
   report(progress, 1.0);

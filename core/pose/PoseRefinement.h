@@ -17,7 +17,7 @@ enum class RefinementMethod
 struct PoseRefinementSettings
 {
   RefinementMethod method = RefinementMethod::EdgesAndSurface;
-  int iterations = 12;
+  int iterations = 8;
   double maximumDistance = 0.0; ///< between corresponding points; 0: 10 % of the diameter, point-to-point 4 %
   int threads = 0;              ///< 0: one for each processor
 };
@@ -30,10 +30,9 @@ PoseRefinementSettings paperRefinementSettings();
 Poses refinePoses(const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings = {},
   const Progress& progress = {});
 
-/// The pose refined once more by edges and surface, from the nearest place of a lattice in the scene's own frame and until
-/// it stays: the same whichever candidate led there and however the scene lies in its coordinates. As it came where the
-/// scene leaves it a freedom that is none of the part's symmetries; from where it is when the way from the lattice leads
-/// elsewhere.
+/// The pose refined once more by edges and surface, by residuals that change steadily and until it stays: the same
+/// whichever candidate led there and however the scene lies in its coordinates. As it came where the scene leaves it a
+/// freedom that is none of the part's symmetries.
 Pose settlePose(const Pose& pose, const SceneIndex& index);
 
 /// refinePoses in a scene that nothing else is asked about. Throws Error when the scene has no edges.

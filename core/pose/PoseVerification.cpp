@@ -21,11 +21,13 @@ constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
 constexpr double LeastAtAGlance = 0.4;  // share of the surface; a pose with less is not looked at closely
+constexpr std::size_t CandidateStride = 2; // of the points that judge more candidates than can stay
 constexpr double LeastPlausible = 0.001; // of the best candidate's preference: those with less are not worth refining
 constexpr double SharedByOne = 0.5;     // share of the matched surface from which on two poses are of one instance
 constexpr int TurnIterations = 6;       // of the refinement of another turn, which is nearly right
 constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
 constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
+constexpr double Negligible = 7.0;      // times that: a turn so unlikely is one in a thousand
 
 // Logistic regression of whether a pose is right, over poses in scenes with true ones.
 constexpr double WithSurface[] = { -18.9, 26.4 }; // constant, score
@@ -53,8 +55,9 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
     1.0 / (1.0 + std::exp(-weights[0] - weights[1] * pose.score) * std::pow(pose.certainty, -CertaintyWeight));
 }
 
-/// Turns the pose about the axis of a nearly round part where another turn fits better.
-void settleTurn(Pose& pose, const PoseComparison& comparison, const TurnSearch& search, const SceneIndex& index)
+/// `asItIs` is the pose as a contender, and follows it. Turns the pose about the axis of a nearly round part where another turn fits better.
+void settleTurn(Pose& pose, PoseComparison::Contender& asItIs, const PoseComparison& comparison, const TurnSearch& search,
+  const SceneIndex& index)
 {
   PoseRefinementSettings refinement;
   refinement.iterations = TurnIterations;
@@ -65,26 +68,23 @@ void settleTurn(Pose& pose, const PoseComparison& comparison, const TurnSearch& 
     Pose turned = pose;
     turned.T_scene_model = T;
     turned = refinePoses({ turned }, index, refinement)[0];
-    if (comparison.advantage(comparison.contender(turned.T_scene_model), comparison.contender(pose.T_scene_model)) > 0.0)
+    if (comparison.advantage(turned.T_scene_model, asItIs, 0.0) > 0.0)
     {
       pose = turned;
+      asItIs = comparison.contender(pose.T_scene_model);
     }
   }
 }
 
 /// Of the pose and its turns by the part's near-symmetries takes the one that the scene speaks for.
-void settleNearSymmetry(Pose& pose, const PoseComparison& comparison, const Symmetries& symmetries)
+void settleNearSymmetry(
+  Pose& pose, const PoseComparison::Contender& asItIs, const PoseComparison& comparison, const Symmetries& symmetries)
 {
   const Eigen::Isometry3d T = pose.T_scene_model;
-  if (symmetries.near.empty())
-  {
-    return;
-  }
-  const PoseComparison::Contender asItIs = comparison.contender(T);
   std::vector<double> advantages{ 0.0 };
   for (const NearSymmetry& symmetry : symmetries.near)
   {
-    advantages.push_back(comparison.advantage(comparison.contender(T * symmetry.T), asItIs));
+    advantages.push_back(comparison.advantage(T * symmetry.T, asItIs, -Negligible * SureAdvantage));
   }
   const auto best = std::max_element(advantages.begin(), advantages.end());
   double odds = 0.0; // of all turns against the best
@@ -202,6 +202,17 @@ public:
     this->Kept.push_back(candidate);
   }
 
+  /// Different ones may be asked for in parallel.
+  PoseComparison::Contender& contender(int index)
+  {
+    std::optional<PoseComparison::Contender>& known = this->Contenders[index];
+    if (!known)
+    {
+      known = this->Comparison->contender(this->InPoses[index].T_scene_model);
+    }
+    return *known;
+  }
+
   std::vector<int> Kept;
 
 private:
@@ -232,16 +243,6 @@ private:
       }
     }
     return least;
-  }
-
-  const PoseComparison::Contender& contender(int index)
-  {
-    std::optional<PoseComparison::Contender>& known = this->Contenders[index];
-    if (!known)
-    {
-      known = this->Comparison->contender(this->InPoses[index].T_scene_model);
-    }
-    return *known;
   }
 
   Eigen::Vector3d middle(int index) const
@@ -289,6 +290,8 @@ Poses verifyPoses(
     ? distinctPoses(poses, index, SameShare * clusterDistance, SameShare * settings.clusterAngle)
     : poses;
   const bool someMustGo = settings.maximumPoses > 0 && static_cast<int>(scored.size()) > settings.maximumPoses;
+  // Candidates are judged again once they are refined.
+  const std::size_t stride = someMustGo && settings.posesPerInstance > 1 ? CandidateStride : 1;
   if (byEvidence && someMustGo && !index.scene.surface.empty())
   {
     scored = promisingPoses(scored, collector, settings.threads);
@@ -301,7 +304,7 @@ Poses verifyPoses(
       {
         if (byEvidence)
         {
-          evidence[i] = collector.collect(scored[i].T_scene_model);
+          evidence[i] = collector.collect(scored[i].T_scene_model, stride);
           scoreEvidence(scored[i], evidence[i], index);
         }
         else
@@ -340,8 +343,12 @@ Poses verifyPoses(
         for (int k = begin; k < end; ++k)
         {
           const int i = clusters.Kept[k];
-          settleTurn(scored[i], *comparison, search, index);
-          settleNearSymmetry(scored[i], *comparison, model.symmetries);
+          if (!model.symmetries.near.empty())
+          {
+            PoseComparison::Contender& asItIs = clusters.contender(i);
+            settleTurn(scored[i], asItIs, *comparison, search, index);
+            settleNearSymmetry(scored[i], asItIs, *comparison, model.symmetries);
+          }
           scored[i] = settlePose(scored[i], index);
           scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), index);
         }

@@ -70,6 +70,29 @@ TEST(DepthMap, AGapOfOneCellIsFilledFromTheNearestSurface)
   EXPECT_EQ(map.means().size(), 4u);
 }
 
+TEST(DepthMap, AGapInOneSurfaceIsTheMeanOfWhatIsBesideIt)
+{
+  const meam::DepthMap map({ { 0, 0, 4.0f }, { 1, 0, 4.0f }, { 3, 0, 5.0f }, { 4, 0, 5.0f } }, fromAbove(), 1.0);
+  ASSERT_NE(map.meanAt({ 2, 0, 0 }), nullptr);
+  EXPECT_TRUE(map.meanAt({ 2, 0, 0 })->isApprox(Eigen::Vector3f(2, 0, 4.5f), 1e-6f));
+  EXPECT_EQ(map.relation({ 2, 0, 5.0f }, 0.1f), meam::DepthMap::Relation::OnSurface);
+  EXPECT_EQ(map.relation({ 2, 0, 4.0f }, 0.1f), meam::DepthMap::Relation::OnSurface);
+}
+
+TEST(DepthMap, TellsHowFarInsideItsCellAPointLies)
+{
+  const meam::DepthMap map({ { 0, 0, 0 }, { 2, 2, 0 } }, fromAbove(), 1.0, Eigen::Vector3f::UnitX()); // cells from 0 or 2
+  float inside = -1.0f;
+  ASSERT_NE(map.meanAt({ 0.5f, 0.5f, 3.0f }, inside), nullptr);
+  EXPECT_NEAR(inside, 1.0f, 1e-5f);
+  map.meanAt({ 0.25f, 0.5f, 3.0f }, inside);
+  EXPECT_NEAR(inside, 0.75f, 1e-5f);
+  map.meanAt({ 0.25f, 0.75f, 3.0f }, inside);
+  EXPECT_NEAR(inside, 0.5625f, 1e-5f);
+  map.meanAt({ 0.0001f, 0.5f, 3.0f }, inside);
+  EXPECT_NEAR(inside, 0.0f, 1e-3f);
+}
+
 TEST(DepthMap, FollowsLinesOfSightOfAPerspectiveSensor)
 {
   meam::Sensor sensor; // at the origin, looking along z

@@ -74,8 +74,67 @@ TEST(EdgeLines, DistanceIsThatToTheLine)
   EXPECT_EQ(lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, -1, 0 }, 1.0).edge, -1);
 }
 
+TEST(EdgeLines, MeanIsThatOfAllEdgePointsAround)
+{
+  const meam::PointCloud edges = scattered(2000);
+  const meam::PointGrid grid(edges.points, 3.0);
+  const meam::EdgeLines lines(edges, grid);
+  const meam::PointCloud asked = scattered(100);
+  int found = 0;
+  for (const double radius : { 2.0, 15.0 })
+  {
+    const double across = 0.5 * radius;
+    for (std::size_t k = 0; k < asked.size(); ++k)
+    {
+      const Eigen::Vector3f point = asked.points[k] + Eigen::Vector3f(0.3f, -0.2f, 0.1f);
+      const Eigen::Vector3d tangent = asked.tangents[k].cast<double>();
+      double weights = 0.0;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (std::size_t i = 0; i < edges.size(); ++i)
+      {
+        const Eigen::Vector3d d = (point - edges.points[i]).cast<double>();
+        const Eigen::Vector3d beside = d - d.dot(tangent) * tangent;
+        const double cosine = tangent.dot(edges.tangents[i].cast<double>());
+        const double near = std::max(0.0, 1.0 - d.squaredNorm() / (radius * radius));
+        const double close = std::max(0.0, 1.0 - beside.squaredNorm() / (across * across));
+        const double parallel = std::max(0.0, (cosine * cosine - 0.7225) / 0.2775);
+        const double weight = near * near * close * close * parallel;
+        weights += weight;
+        sum += weight * beside;
+      }
+      const meam::EdgeLines::Mean mean = lines.meanAround(point, asked.tangents[k], radius, across);
+      EXPECT_NEAR(mean.weight, weights, 1e-4 * weights + 1e-5);
+      if (weights > 1e-3)
+      {
+        EXPECT_LT((mean.offset.cast<double>() - sum / weights).norm(), 1e-3 * radius);
+        ++found;
+      }
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST(EdgeLines, TheMeanByHand)
+{
+  meam::PointCloud edges;
+  edges.points = { { 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0.5f } };
+  edges.tangents = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 } }; // the last runs across
+  const meam::PointGrid grid(edges.points, 1.0);
+  const meam::EdgeLines lines(edges, grid);
+  // Half way between two lines; along them nothing counts.
+  meam::EdgeLines::Mean mean = lines.meanAround({ 0.6f, 0.5f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
+  EXPECT_TRUE(mean.offset.isZero(1e-6f));
+  const double near = 1.0 - (0.36 + 0.25) / 4.0;
+  EXPECT_NEAR(mean.weight, 2.0 * near * near * 0.75 * 0.75, 1e-5);
+  // One of them out of reach.
+  mean = lines.meanAround({ 0.0f, -0.25f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
+  EXPECT_TRUE(mean.offset.isApprox(Eigen::Vector3f(0, -0.25f, 0), 1e-5f));
+  EXPECT_EQ(lines.meanAround({ 0.0f, 9.0f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0).weight, 0.0f);
+}
+
 TEST(EdgeLines, NoEdgesNoMatch)
 {
   const meam::PointGrid grid({}, 1.0);
   EXPECT_EQ(meam::EdgeLines({}, grid).nearest({ 1, 2, 3 }, { 1, 0, 0 }, 5.0).edge, -1);
+  EXPECT_EQ(meam::EdgeLines({}, grid).meanAround({ 1, 2, 3 }, { 1, 0, 0 }, 5.0, 5.0).weight, 0.0f);
 }

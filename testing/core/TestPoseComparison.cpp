@@ -75,6 +75,19 @@ TEST(PoseComparison, TheCutCornerDecidesBetweenTurns)
   EXPECT_EQ(comparison.advantage(at(0), at(0)), 0.0);
 }
 
+TEST(PoseComparison, WhatIsFarBehindIsNotLookedAtToTheEnd)
+{
+  const meam::Scene scene = lyingPlate(false);
+  const meam::SceneIndex index(plate(), scene);
+  const meam::PoseComparison comparison(index);
+  const meam::PoseComparison::Contender right = comparison.contender(quarter(0));
+  const double whole = comparison.advantage(comparison.contender(quarter(1)), right);
+  EXPECT_EQ(comparison.advantage(quarter(1), right, -1e9), whole);
+  const double most = comparison.advantage(quarter(1), right, 1e9);
+  EXPECT_GE(most, whole);
+  EXPECT_LT(most, 0.0);
+}
+
 TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
 {
   const meam::Scene scene = lyingPlate(true);

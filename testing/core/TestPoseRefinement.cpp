@@ -104,7 +104,7 @@ TEST(PoseRefinement, TellsHowWellTheSceneFixesThePose)
   for (const meam::Pose& pose : meam::refinePoses(disturbed(1.0, 1.5), scenes::bracket(), scene()))
   {
     EXPECT_EQ(pose.fit.constrained, 6);
-    EXPECT_EQ(pose.fit.iterations, 12);
+    EXPECT_EQ(pose.fit.iterations, meam::PoseRefinementSettings().iterations);
     EXPECT_GT(pose.fit.residual, 0.0);
     EXPECT_LT(pose.fit.residual, 0.01 * scenes::bracket().diameter);
     EXPECT_TRUE(pose.fit.covariance.isApprox(pose.fit.covariance.transpose()));
@@ -130,6 +130,42 @@ TEST(PoseRefinement, APoseSettlesInOnePlaceWhereverItComesFrom)
     EXPECT_LT(meam::rotationError(settled[i].T_scene_model, other), 1e-3);
   }
   expectNear(settled, 0.15, 0.25);
+}
+
+TEST(PoseRefinement, APoseSettlesInTheSamePlaceOfASceneThatIsMoved)
+{
+  std::mt19937 random(8);
+  const meam::SceneIndex index(scenes::bracket(), scene());
+  const meam::Poses near = disturbed(0.05, 0.1);
+  for (int k = 0; k < 5; ++k)
+  {
+    const Eigen::Isometry3d T = parts::motion(random, 200.0);
+    const Eigen::Isometry3f moving = T.cast<float>();
+    meam::Scene moved = scene();
+    for (meam::Points* points : { &moved.surface, &moved.edges.points })
+    {
+      for (auto& point : *points)
+      {
+        point = moving * point;
+      }
+    }
+    for (auto& tangent : moved.edges.tangents)
+    {
+      tangent = moving.linear() * tangent;
+    }
+    moved.sensor.position = moving * moved.sensor.position;
+    moved.sensor.direction = moving.linear() * moved.sensor.direction;
+    const meam::SceneIndex elsewhere(scenes::bracket(), moved);
+    for (const meam::Pose& pose : near)
+    {
+      const Eigen::Isometry3d expected = T * meam::settlePose(pose, index).T_scene_model;
+      meam::Pose other = pose;
+      other.T_scene_model = T * pose.T_scene_model;
+      other = meam::settlePose(other, elsewhere);
+      EXPECT_LT(meam::translationError(other.T_scene_model, expected, index.view.middle().cast<double>()), 1e-3);
+      EXPECT_LT(meam::rotationError(other.T_scene_model, expected), 1e-3);
+    }
+  }
 }
 
 TEST(PoseRefinement, WhereTheSceneLeavesAFreedomAPoseIsNotSettled)

@@ -64,6 +64,28 @@ TEST(RigidFit, FindsASmallMotion)
   EXPECT_TRUE(fit.result().motion.isApprox(motion, 1e-4)); // damped
 }
 
+TEST(RigidFit, TellsWhatRemainsAfterTheMotion)
+{
+  // A turn so small that residuals are linear in it, and noise that no motion takes away.
+  Eigen::Isometry3d motion(Eigen::Translation3d(0.02, -0.01, 0.03));
+  motion.rotate(Eigen::AngleAxisd(1e-5, Eigen::Vector3d(1, 2, -2).normalized()));
+  meam::RigidFit before(Eigen::Vector3d(1, 2, 3)), after(Eigen::Vector3d(1, 2, 3));
+  std::vector<Residual> all = residuals(40, motion);
+  for (std::size_t k = 0; k < all.size(); ++k)
+  {
+    all[k].value += k % 2 ? 0.005 : -0.005;
+    before.add(all[k].point, all[k].direction, all[k].value, all[k].weight);
+  }
+  const meam::RigidFit::Result result = before.result();
+  for (const Residual& r : all)
+  {
+    const double moved = r.value + r.direction.dot(result.motion * r.point - r.point);
+    after.add(r.point, r.direction, moved, r.weight);
+  }
+  EXPECT_LT(result.remaining, 0.5 * result.squares);
+  EXPECT_NEAR(result.remaining, after.result().squares, 1e-4 * result.remaining);
+}
+
 TEST(RigidFit, WithoutResidualsNothingMoves)
 {
   EXPECT_TRUE(meam::RigidFit(Eigen::Vector3d(5, 6, 7)).result().motion.isApprox(Eigen::Isometry3d::Identity()));
