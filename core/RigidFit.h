@@ -36,11 +36,11 @@ public:
   struct Result
   {
     /// Of the motion (rotation vector, translation): the inverse of its covariance for residuals of variance 1.
-    Eigen::Matrix<double, 6, 6> information;
-    Eigen::Isometry3d motion; ///< to apply on the left; the identity when nothing can be said
-    double weights;           ///< their sum
-    double squares;           ///< sum of the squared residuals, weighted
-    double remaining;         ///< the same after the motion, to first order
+    Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity(); ///< to apply on the left; the identity when nothing can be said
+    double weights = 0.0;     ///< their sum
+    double squares = 0.0;     ///< sum of the squared residuals, weighted
+    double remaining = 0.0;   ///< the same after the motion, to first order
   };
   Result result();
 

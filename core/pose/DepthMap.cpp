@@ -121,7 +121,8 @@ void DepthMap::fillGaps(float layer)
           if (other.nearest < NothingSeen && other.nearest <= cell.nearest + layer)
           {
             cell.mean += (other.mean - cell.mean) / static_cast<float>(++count);
-            cell.farthest = std::max(cell.farthest, std::min(other.farthest, cell.nearest + layer));
+            const bool isOneLayer = other.farthest <= cell.nearest + layer;
+            cell.farthest = std::max(cell.farthest, isOneLayer ? other.farthest : other.nearest);
           }
         });
     }

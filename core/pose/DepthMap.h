@@ -45,7 +45,7 @@ public:
   }
 
   /// The same; `inside` tells how far inside its cell the point lies: 1 in the middle, 0 at the border, where the mean
-  /// changes.
+  /// changes. It means nothing where there is none.
   const Eigen::Vector3f* meanAt(const Eigen::Vector3f& point, float& inside) const
   {
     const Place place = this->placeOf(point);

@@ -95,6 +95,7 @@ void addOffsets(const Columns& edges, const Range* ranges, int count, const Quer
   const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
   const float inverseRadius = 1.0f / query.squaredRadius, inverseAcross = 1.0f / squaredAcross;
   constexpr float least = ParallelTangents * ParallelTangents;
+  Sums local = sums;
   for (int r = 0; r < count; ++r)
   {
     const int end = ranges[r].end;
@@ -112,13 +113,14 @@ void addOffsets(const Columns& edges, const Range* ranges, int count, const Quer
         const float close = std::max(0.0f, 1.0f - (cx * cx + cy * cy + cz * cz) * inverseAcross);
         const float parallel = std::max(0.0f, (cosine * cosine - least) / (1.0f - least));
         const float weight = k < end ? near * near * close * close * parallel : 0.0f;
-        sums.weight[lane] += weight;
-        sums.x[lane] += weight * cx;
-        sums.y[lane] += weight * cy;
-        sums.z[lane] += weight * cz;
+        local.weight[lane] += weight;
+        local.x[lane] += weight * cx;
+        local.y[lane] += weight * cy;
+        local.z[lane] += weight * cz;
       }
     }
   }
+  sums = local;
 }
 }
 

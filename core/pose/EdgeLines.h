@@ -27,7 +27,7 @@ public:
   struct Mean
   {
     Eigen::Vector3f offset = Eigen::Vector3f::Zero(); ///< mm, at right angles to the tangent
-    float weight = 0.0f;                              ///< 1: as a point all on the line; 0: there is none
+    float weight = 0.0f;                              ///< 1 for each point at the same place; 0: there is none
   };
   /// How far a point with a unit tangent is from the edge points about it, on average, across the tangent. Their weights
   /// fall to 0 at `radius` (mm) from the point, at `across` (mm) across the tangent and where the tangents are 32 degrees

@@ -110,7 +110,7 @@ Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_sce
   return T.linear().transpose() * sensor.towards(T * middle);
 }
 
-/// The same for directions less than a degree apart, save where it steps.
+/// The direction to within 0.8 degrees.
 Eigen::Vector3f rounded(const Eigen::Vector3f& direction)
 {
   return (direction * DirectionSteps).array().round().matrix().normalized();

@@ -4,6 +4,8 @@
 #include "model/TrainedModel.h"
 #include "scene/Sensor.h"
 
+#include <limits>
+
 namespace meam
 {
 /// Which points of a part the sensor should see at a pose, if nothing else were in the way. Calls may run in parallel.
@@ -20,16 +22,16 @@ public:
   int view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
   /// Indices of edge points and of thinned surface points that face the sensor and are not behind
-  /// other points of the part: computed for the very pose, so poses that differ by a symmetry of the
-  /// part are judged on the same points.
+  /// other points of the part. The direction to the sensor is taken to within 0.8 degrees.
   struct Visible
   {
-    Eigen::Vector3f from = Eigen::Vector3f::Zero(); ///< unit direction to the sensor, model frame
+    /// That direction, in the model's frame; not a number before any was asked about.
+    Eigen::Vector3f from = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
     std::vector<int> edges;
     std::vector<int> surface;
   };
   Visible visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
-  /// Makes `visible` what it is at that pose; at once when the pose is seen from the same direction.
+  /// Makes `visible`, of this very part, what it is at that pose; at once when it is seen from the same direction.
   void update(Visible& visible, const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
   /// Calls visit(index) for every `stride`-th of the surface points that are judged and face the sensor, also for those

@@ -30,7 +30,8 @@ public:
   /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not,
   /// and surface and edges that one of them alone predicts and that are not there.
   double advantage(const Contender& a, const Contender& b) const;
-  /// The same of a pose that is a contender no more; not less than it is, and at less cost, where it is below `enough`.
+  /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what comes
+  /// back is below `enough`, but may be more than it is.
   double advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
 
 private:

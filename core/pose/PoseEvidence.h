@@ -34,7 +34,8 @@ class EvidenceCollector
 {
 public:
   EvidenceCollector(const SceneIndex& index, double tolerance);
-  /// Of every `stride`-th of the points that the pose predicts.
+  /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points. What is
+  /// collected with a stride is no use to `shared`.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
   /// A first impression, at a tenth of the cost: of the surface points that face the sensor and that nothing hides the
   /// share that is there, [0, 1].

@@ -29,8 +29,9 @@ constexpr double WidestFirst = 3.0;       // times that in the first step, half 
 constexpr double LeastMotionShare = 3e-6; // less is none
 constexpr int MostSteps = 15;
 constexpr int StepsOfSight = 8;           // in the first ones what is in sight is told anew
-constexpr double MostFarther = -4.0;      // shares of the step before that a step is taken farther,
-constexpr double MostBack = 0.5;          // or less far
+constexpr double MostTimes = 5.0;         // a step is taken farther
+constexpr double FarthestShare = 0.02;    // a pose that settles farther from where it was has gone astray,
+constexpr double MostTurned = 3.0;        // or turned by more degrees
 // Shares of what corresponds that have to speak for a motion.
 constexpr double ConstrainedShare = 0.01; // so that it counts as fixed
 constexpr double LeastShare = 1e-6;       // taken for the variance of one that nothing fixes
@@ -45,31 +46,30 @@ double tukey(double squared, double limit)
 class Refiner
 {
 public:
-  Refiner(const SceneIndex& index, double distance, int iterations)
+  explicit Refiner(const SceneIndex& index)
     : Index(index)
-    , Distance(distance)
-    , Iterations(iterations)
   {
   }
 
-  void refine(Pose& pose) const
+  /// `distance` (mm) between corresponding points at the start.
+  void refine(Pose& pose, double distance, int iterations) const
   {
     PartView::Visible visible;
     this->see(pose, visible);
     RigidFit::Result fit;
-    for (int iteration = 0; iteration < this->Iterations; ++iteration)
+    for (int iteration = 0; iteration < iterations; ++iteration)
     {
-      const double share = this->Iterations > 1 ? static_cast<double>(iteration) / (this->Iterations - 1) : 1.0;
-      const double limit = this->Distance * std::pow(LastDistanceShare, share);
-      if (iteration > 0 && iteration + FullSteps == this->Iterations)
+      const double share = iterations > 1 ? static_cast<double>(iteration) / (iterations - 1) : 1.0;
+      const double limit = distance * std::pow(LastDistanceShare, share);
+      if (iteration > 0 && iteration + FullSteps == iterations)
       {
         this->see(pose, visible); // nearly there: what is in sight can be told better now
       }
-      const int stride = iteration + FullSteps < this->Iterations ? CoarseStride : 1;
+      const int stride = iteration + FullSteps < iterations ? CoarseStride : 1;
       fit = this->correspondences(pose.T_scene_model, visible, stride, limit);
       pose.T_scene_model = fit.motion * pose.T_scene_model;
     }
-    pose.fit = this->poseFit(fit, fit.remaining, this->Iterations);
+    pose.fit = this->poseFit(fit, fit.remaining, iterations);
   }
 
   /// Steps with all points until the pose stays.
@@ -79,7 +79,7 @@ public:
     PartView::Visible visible;
     RigidFit::Result fit;
     Twist wanted, taken;      // in the step before
-    bool isFollowing = false; // a step with the same limit
+    bool isFollowing = false; // a step of the same kind
     double wide = WidestFirst;
     double moved = 0.0;
     int steps = 0;
@@ -87,22 +87,31 @@ public:
     {
       if (steps < StepsOfSight)
       {
+        const Eigen::Vector3f from = visible.from;
         this->see(pose, visible);
+        isFollowing = isFollowing && visible.from == from;
       }
       fit = this->means(pose.T_scene_model, visible, wide * AcrossShare * diameter);
-      const Twist step = this->twistOf(pose, fit.motion);
-      moved = step.head<3>().norm() + step.tail<3>().norm();
+      Twist step = this->twistOf(pose, fit.motion);
+      for (const ContinuousSymmetry& symmetry : this->Index.model.symmetries.continuous)
+      {
+        const Eigen::Vector3d axis = pose.T_scene_model.linear() * symmetry.axis; // turns about it are all the same
+        step.head<3>() -= axis.dot(step.head<3>()) * axis;
+      }
       Twist farther = step;
       if (isFollowing)
       {
-        // The steps shrink by a nearly constant share, for the weights follow the pose: the secant foresees the rest.
+        // Steps shrink by a nearly constant share, for the weights follow the pose: the secant foresees all that are left.
         const Twist change = step - wanted;
         const double share = change.dot(step) / change.squaredNorm();
-        if (share > MostFarther && share < MostBack)
+        const Twist foreseen = step - share * (taken + change);
+        const double times = foreseen.norm() / step.norm();
+        if (times > 0.0)
         {
-          farther -= share * (taken + change);
+          farther = foreseen * (std::min(times, MostTimes) / times);
         }
       }
+      moved = farther.head<3>().norm() + farther.tail<3>().norm();
       wanted = step;
       taken = farther;
       isFollowing = wide == 1.0;
@@ -113,12 +122,12 @@ public:
   }
 
   /// How well the scene fixes a pose that came from elsewhere.
-  PoseFit fitAt(const Pose& pose) const
+  PoseFit fitAt(const Pose& pose, double distance) const
   {
     PartView::Visible visible;
     this->see(pose, visible);
     const RigidFit::Result fit =
-      this->correspondences(pose.T_scene_model, visible, 1, this->Distance * LastDistanceShare);
+      this->correspondences(pose.T_scene_model, visible, 1, distance * LastDistanceShare);
     return this->poseFit(fit, fit.squares, pose.fit.iterations);
   }
 
@@ -265,8 +274,6 @@ private:
   }
 
   const SceneIndex& Index;
-  double Distance;
-  int Iterations;
 };
 
 struct CountedICP : pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ, double>
@@ -323,20 +330,29 @@ PoseRefinementSettings paperRefinementSettings()
 Pose settlePose(const Pose& pose, const SceneIndex& index)
 {
   Pose settled = pose;
-  Refiner(index, DistanceShare * index.model.diameter, 0).settle(settled);
-  const std::size_t axes = index.model.symmetries.continuous.size(); // turns about them are free, and equal
-  return settled.fit.constrained >= 6 - static_cast<int>(axes) ? settled : pose;
+  Refiner(index).settle(settled);
+  const Symmetries& symmetries = index.model.symmetries;
+  const std::size_t axes = symmetries.continuous.size(); // turns about them are free, and equal
+  const bool isFixed = settled.fit.constrained >= 6 - static_cast<int>(axes);
+  const bool isNear = rotationError(settled.T_scene_model, pose.T_scene_model) < MostTurned &&
+    translationError(settled.T_scene_model, pose.T_scene_model, index.view.middle().cast<double>()) <
+      FarthestShare * index.model.diameter;
+  return isFixed && isNear ? settled : pose;
 }
 
 Poses refinePoses(
   const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings, const Progress& progress)
 {
+  if (settings.iterations < 1)
+  {
+    throw Error("Refinement takes at least one step.");
+  }
   const TrainedModel& model = index.model;
   const double share = settings.method == RefinementMethod::PointToPoint ? PointDistanceShare : DistanceShare;
   const double distance = settings.maximumDistance > 0.0 ? settings.maximumDistance : share * model.diameter;
   Poses refined = poses;
   const int count = static_cast<int>(refined.size());
-  const Refiner refiner(index, distance, settings.iterations);
+  const Refiner refiner(index);
   if (settings.method == RefinementMethod::EdgesAndSurface)
   {
     parallelFor(count, settings.threads, progress,
@@ -344,7 +360,7 @@ Poses refinePoses(
       {
         for (int i = begin; i < end; ++i)
         {
-          refiner.refine(refined[i]);
+          refiner.refine(refined[i], distance, settings.iterations);
         }
       });
     report(progress, 1.0);
@@ -364,7 +380,7 @@ Poses refinePoses(
       for (int i = begin; i < end; ++i)
       {
         refinePointToPoint(refined[i], views.at(refined[i].viewId), target, tree, distance, settings.iterations);
-        refined[i].fit = refiner.fitAt(refined[i]);
+        refined[i].fit = refiner.fitAt(refined[i], distance);
       }
     });
   report(progress, 1.0);

@@ -27,7 +27,7 @@ constexpr double SharedByOne = 0.5;     // share of the matched surface from whi
 constexpr int TurnIterations = 6;       // of the refinement of another turn, which is nearly right
 constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
 constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
-constexpr double Negligible = 7.0;      // times that: a turn so unlikely is one in a thousand
+constexpr double Negligible = 9.0;      // times that: a turn so unlikely is one in ten thousand
 
 // Logistic regression of whether a pose is right, over poses in scenes with true ones.
 constexpr double WithSurface[] = { -18.9, 26.4 }; // constant, score
@@ -55,7 +55,8 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
     1.0 / (1.0 + std::exp(-weights[0] - weights[1] * pose.score) * std::pow(pose.certainty, -CertaintyWeight));
 }
 
-/// `asItIs` is the pose as a contender, and follows it. Turns the pose about the axis of a nearly round part where another turn fits better.
+/// Turns the pose about the axis of a nearly round part where another turn fits better. `asItIs` is the
+/// pose as a contender, and follows it.
 void settleTurn(Pose& pose, PoseComparison::Contender& asItIs, const PoseComparison& comparison, const TurnSearch& search,
   const SceneIndex& index)
 {
@@ -203,7 +204,7 @@ public:
   }
 
   /// Different ones may be asked for in parallel.
-  PoseComparison::Contender& contender(int index)
+  const PoseComparison::Contender& contender(int index)
   {
     std::optional<PoseComparison::Contender>& known = this->Contenders[index];
     if (!known)
@@ -345,7 +346,7 @@ Poses verifyPoses(
           const int i = clusters.Kept[k];
           if (!model.symmetries.near.empty())
           {
-            PoseComparison::Contender& asItIs = clusters.contender(i);
+            PoseComparison::Contender asItIs = clusters.contender(i);
             settleTurn(scored[i], asItIs, *comparison, search, index);
             settleNearSymmetry(scored[i], asItIs, *comparison, model.symmetries);
           }

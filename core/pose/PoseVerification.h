@@ -27,7 +27,8 @@ struct PoseVerificationSettings
   /// result, poses that share most of what they match are of one instance, too, alternatives are decided on the
   /// points that tell them apart, a nearly round part is turned to where it fits best, and each pose settles
   /// (settlePose).
-  /// With more, and more poses than may stay, those whose preference is a thousandth of the best's go, too.
+  /// With more, and more poses than may stay, every other point judges, for refined poses are judged again, and those
+  /// whose preference is a thousandth of the best's go, too.
   int posesPerInstance = 2;
   int maximumPoses = 100;       ///< 0: no limit
   int threads = 0;              ///< 0: one for each processor

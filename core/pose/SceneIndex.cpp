@@ -21,16 +21,21 @@ const Scene& withTangents(const Scene& scene)
   }
   return scene;
 }
+
+/// A direction that moves with the points.
+Eigen::Vector3f firstAxis(const Points& points)
+{
+  return principalFrame(points).linear().row(0).transpose().cast<float>();
+}
 }
 
 SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen)
   : model(trained)
   , scene(withTangents(seen))
-  , frame(principalFrame(seen.edges.points))
   , view(trained)
   , edges(seen.edges.points, EdgeCellShare * trained.diameter)
   , lines(seen.edges, this->edges)
-  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, this->frame.linear().row(0).transpose().cast<float>())
+  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, firstAxis(seen.edges.points))
   , surface(this->depth.means(), SurfaceCellShare * trained.diameter)
 {
 }

@@ -18,7 +18,6 @@ struct SceneIndex
 
   const TrainedModel& model;
   const Scene& scene;
-  Eigen::Isometry3d frame; ///< takes the scene to the principal frame of its edge points
   PartView view;
   PointGrid edges;   ///< of the scene's edge points
   EdgeLines lines;   ///< of these

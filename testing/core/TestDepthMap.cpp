@@ -79,6 +79,15 @@ TEST(DepthMap, AGapInOneSurfaceIsTheMeanOfWhatIsBesideIt)
   EXPECT_EQ(map.relation({ 2, 0, 4.0f }, 0.1f), meam::DepthMap::Relation::OnSurface);
 }
 
+TEST(DepthMap, AGapIsNotFilledWithWhatLiesBehind)
+{
+  // The cell beside the gap holds two surfaces: what is between them was never seen.
+  const meam::DepthMap map({ { 0, 0, 4.0f }, { 1, 0, 4.0f }, { 1, 0, -9.0f }, { 3, 0, 4.0f } }, fromAbove(), 1.0);
+  EXPECT_EQ(map.relation({ 2, 0, 4.0f }, 0.1f), meam::DepthMap::Relation::OnSurface);
+  EXPECT_EQ(map.relation({ 2, 0, 2.0f }, 0.1f), meam::DepthMap::Relation::Hidden);
+  EXPECT_EQ(map.relation({ 2, 0, -9.0f }, 0.1f), meam::DepthMap::Relation::Hidden);
+}
+
 TEST(DepthMap, TellsHowFarInsideItsCellAPointLies)
 {
   const meam::DepthMap map({ { 0, 0, 0 }, { 2, 2, 0 } }, fromAbove(), 1.0, Eigen::Vector3f::UnitX()); // cells from 0 or 2

@@ -213,5 +213,8 @@ TEST(PoseRefinement, AlongASingleEdgeNothingFixesThePose)
 
 TEST(PoseRefinement, BadInput)
 {
+  meam::PoseRefinementSettings none;
+  none.iterations = 0;
+  EXPECT_THROW(meam::refinePoses(disturbed(0, 0), scenes::bracket(), scene(), none), meam::Error);
   EXPECT_THROW(meam::refinePoses(disturbed(0, 0), scenes::bracket(), {}), meam::Error);
 }
