@@ -17,7 +17,7 @@ enum class RefinementMethod
 struct PoseRefinementSettings
 {
   RefinementMethod method = RefinementMethod::EdgesAndSurface;
-  int iterations = 8;
+  int iterations = 10;
   double maximumDistance = 0.0; ///< between corresponding points; 0: 10 % of the diameter, point-to-point 4 %
   int threads = 0;              ///< 0: one for each processor
 };
