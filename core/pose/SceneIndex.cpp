@@ -35,7 +35,7 @@ SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen)
   , view(trained)
   , edges(seen.edges.points, EdgeCellShare * trained.diameter)
   , lines(seen.edges, this->edges)
-  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, firstAxis(seen.edges.points))
+  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, firstAxis(seen.surface))
   , surface(this->depth.means(), SurfaceCellShare * trained.diameter)
 {
 }
