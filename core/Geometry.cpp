@@ -126,45 +126,66 @@ Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
 
 Eigen::Isometry3d principalFrame(const Points& points)
 {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double count = 0.0;
-  for (const auto& point : points)
+  // Scans have a million points: three passes of plain numbers.
+  const auto forEachFinite = [&points](auto&& visit)
   {
-    if (point.allFinite())
+    for (const auto& point : points)
     {
-      sum += point.cast<double>();
-      ++count;
+      const double x = point.x(), y = point.y(), z = point.z();
+      if (std::isfinite(x + y + z))
+      {
+        visit(x, y, z);
+      }
     }
-  }
+  };
+  double count = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
+  forEachFinite(
+    [&](double x, double y, double z)
+    {
+      sx += x;
+      sy += y;
+      sz += z;
+      ++count;
+    });
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   if (count == 0.0)
   {
     return frame;
   }
-  const Eigen::Vector3d mean = sum / count;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto& point : points)
-  {
-    if (point.allFinite())
+  const Eigen::Vector3d mean = Eigen::Vector3d(sx, sy, sz) / count;
+  const double mx = mean.x(), my = mean.y(), mz = mean.z();
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  forEachFinite(
+    [&](double x, double y, double z)
     {
-      const Eigen::Vector3d d = point.cast<double>() - mean;
-      covariance += d * d.transpose();
-    }
-  }
+      x -= mx;
+      y -= my;
+      z -= mz;
+      xx += x * x;
+      xy += x * y;
+      xz += x * z;
+      yy += y * y;
+      yz += y * z;
+      zz += z * z;
+    });
+  Eigen::Matrix3d covariance;
+  covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance / count);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   if (!axes.allFinite())
   {
     return frame; // coordinates beyond all measure
   }
-  Eigen::Vector3d skewness = Eigen::Vector3d::Zero();
-  for (const auto& point : points)
-  {
-    if (point.allFinite())
+  const Eigen::Vector3d most = axes.col(0), second = axes.col(1);
+  double skewness[2] = {};
+  forEachFinite(
+    [&](double x, double y, double z)
     {
-      skewness += (axes.transpose() * (point.cast<double>() - mean)).array().cube().matrix();
-    }
-  }
+      const double a = most.x() * (x - mx) + most.y() * (y - my) + most.z() * (z - mz);
+      const double b = second.x() * (x - mx) + second.y() * (y - my) + second.z() * (z - mz);
+      skewness[0] += a * a * a;
+      skewness[1] += b * b * b;
+    });
   for (int axis = 0; axis < 2; ++axis)
   {
     if (skewness[axis] < 0.0)

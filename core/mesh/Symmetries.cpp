@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Symmetries.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meam
@@ -20,6 +21,15 @@ Eigen::Isometry3d turnedTowards(
   const double sine = a.x() * (M(1, 2) - M(2, 1)) + a.y() * (M(2, 0) - M(0, 2)) + a.z() * (M(0, 1) - M(1, 0));
   const double cosine = M.trace() - a.dot(M * a);
   return T_scene_model * turnAbout(a, std::atan2(sine, cosine), symmetry.point);
+}
+
+/// The axis of a turn, through the point of it that is nearest to the origin.
+ContinuousSymmetry axisOf(const Eigen::Isometry3d& turn)
+{
+  const Eigen::AngleAxisd rotation(Eigen::Matrix3d(turn.linear()));
+  const Eigen::Vector3d axis = rotation.axis();
+  const Eigen::Vector3d across = turn.translation() - axis.dot(turn.translation()) * axis;
+  return { axis, 0.5 * (across + axis.cross(across) / std::tan(0.5 * rotation.angle())) };
 }
 
 double traceBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
@@ -59,6 +69,35 @@ Eigen::Isometry3d nearestEqual(
     }
   }
   return best;
+}
+
+std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries)
+{
+  constexpr double halfTurn = 170.0 * M_PI / 180.0; // from here on
+  constexpr double sameAxis = 0.99;                 // cosine
+  std::vector<ContinuousSymmetry> axes;
+  for (const NearSymmetry& near : symmetries.near)
+  {
+    const ContinuousSymmetry found = axisOf(near.T);
+    const bool known = std::any_of(axes.begin(), axes.end(),
+      [&](const ContinuousSymmetry& axis) { return std::abs(axis.axis.dot(found.axis)) > sameAxis; });
+    if (!known && Eigen::AngleAxisd(Eigen::Matrix3d(near.T.linear())).angle() < halfTurn)
+    {
+      axes.push_back(found);
+    }
+  }
+  return axes;
+}
+
+Symmetries asIfRound(const Symmetries& symmetries)
+{
+  Symmetries result = symmetries;
+  const std::vector<ContinuousSymmetry> axes = nearlyRoundAxes(symmetries);
+  if (result.continuous.empty() && !axes.empty())
+  {
+    result.continuous.push_back(axes.front());
+  }
+  return result;
 }
 
 Symmetries withKnownExact(const Symmetries& found, const Symmetries& known)

@@ -40,6 +40,12 @@ Eigen::Isometry3d turnAbout(const Eigen::Vector3d& axis, double angle, const Eig
 Eigen::Isometry3d nearestEqual(
   const Eigen::Isometry3d& T_scene_model, const Eigen::Isometry3d& reference, const Symmetries& symmetries);
 
+/// The axes about which a part is nearly round: those of its near-symmetries other than half turns.
+std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries);
+
+/// The same as if a nearly round part were round: any turn about the first such axis is a symmetry, too.
+Symmetries asIfRound(const Symmetries& symmetries);
+
 /// The exact symmetries that are known of a part, and what was found of near ones besides them.
 Symmetries withKnownExact(const Symmetries& found, const Symmetries& known);
 

@@ -8,6 +8,7 @@ namespace meam
 namespace
 {
 constexpr float ParallelTangents = 0.85f; // cosine
+constexpr float NearlyParallel = 0.8f;    // five degrees more
 constexpr int Lanes = 8;                  // edge points looked at together
 constexpr int MostRanges = 64;
 
@@ -75,52 +76,6 @@ void search(const Columns& edges, const Range* ranges, int count, const Query& q
     nearest.distances[lane] = distances[lane];
     nearest.places[lane] = places[lane];
   }
-}
-
-/// Sums of each lane.
-struct Sums
-{
-  float weight[Lanes] = {};
-  float x[Lanes] = {};
-  float y[Lanes] = {};
-  float z[Lanes] = {};
-};
-
-MEAM_ALL_VECTORS
-void addOffsets(const Columns& edges, const Range* ranges, int count, const Query& query, float squaredAcross, Sums& sums)
-{
-  const float *ex = edges[0].data(), *ey = edges[1].data(), *ez = edges[2].data();
-  const float *tangentX = edges[3].data(), *tangentY = edges[4].data(), *tangentZ = edges[5].data();
-  const float px = query.point.x(), py = query.point.y(), pz = query.point.z();
-  const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
-  const float inverseRadius = 1.0f / query.squaredRadius, inverseAcross = 1.0f / squaredAcross;
-  constexpr float least = ParallelTangents * ParallelTangents;
-  Sums local = sums;
-  for (int r = 0; r < count; ++r)
-  {
-    const int end = ranges[r].end;
-    for (int begin = ranges[r].begin; begin < end; begin += Lanes)
-    {
-#pragma omp simd
-      for (int lane = 0; lane < Lanes; ++lane) // the last ones may be of the next range
-      {
-        const int k = begin + lane;
-        const float dx = px - ex[k], dy = py - ey[k], dz = pz - ez[k];
-        const float along = qx * dx + qy * dy + qz * dz;
-        const float cx = dx - along * qx, cy = dy - along * qy, cz = dz - along * qz;
-        const float cosine = tangentX[k] * qx + tangentY[k] * qy + tangentZ[k] * qz;
-        const float near = std::max(0.0f, 1.0f - (dx * dx + dy * dy + dz * dz) * inverseRadius);
-        const float close = std::max(0.0f, 1.0f - (cx * cx + cy * cy + cz * cz) * inverseAcross);
-        const float parallel = std::max(0.0f, (cosine * cosine - least) / (1.0f - least));
-        const float weight = k < end ? near * near * close * close * parallel : 0.0f;
-        local.weight[lane] += weight;
-        local.x[lane] += weight * cx;
-        local.y[lane] += weight * cy;
-        local.z[lane] += weight * cz;
-      }
-    }
-  }
-  sums = local;
 }
 }
 
@@ -191,19 +146,57 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
   return match;
 }
 
-EdgeLines::Mean EdgeLines::meanAround(
-  const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius, double across) const
+EdgeLines::Neighbours EdgeLines::neighbours(
+  const PointCloud& points, double radius, double across, double margin) const
 {
-  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius) };
-  const float squaredAcross = static_cast<float>(across) * static_cast<float>(across);
-  Sums sums;
-  this->forEachRanges(point, radius,
-    [&](const Range* ranges, int count) { addOffsets(this->Columns, ranges, count, query, squaredAcross, sums); });
-  Mean mean;
-  for (int lane = 0; lane < Lanes; ++lane)
+  const float squaredRadius = static_cast<float>((radius + margin) * (radius + margin));
+  const float squaredAcross = static_cast<float>((across + margin) * (across + margin));
+  const auto& [x, y, z, tangentX, tangentY, tangentZ] = this->Columns;
+  Neighbours result;
+  result.starts.push_back(0);
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    mean.weight += sums.weight[lane];
-    mean.offset += Eigen::Vector3f(sums.x[lane], sums.y[lane], sums.z[lane]);
+    const Eigen::Vector3f& tangent = points.tangents[i];
+    this->Grid.forEachRange(points.points[i], radius + margin,
+      [&](int begin, int end)
+      {
+        for (int k = begin; k < end; ++k)
+        {
+          const Line line{ { x[k], y[k], z[k] }, { tangentX[k], tangentY[k], tangentZ[k] } };
+          const Eigen::Vector3f d = points.points[i] - line.point;
+          const float squared = d.squaredNorm();
+          const float along = tangent.dot(d);
+          if (squared <= squaredRadius && squared - along * along <= squaredAcross &&
+            std::abs(tangent.dot(line.tangent)) > NearlyParallel)
+          {
+            result.lines.push_back(line);
+          }
+        }
+      });
+    result.starts.push_back(static_cast<int>(result.lines.size()));
+  }
+  return result;
+}
+
+EdgeLines::Mean EdgeLines::meanAround(const Neighbours& neighbours, std::size_t k, const Eigen::Vector3f& point,
+  const Eigen::Vector3f& tangent, double radius, double across)
+{
+  const float inverseRadius = 1.0f / (static_cast<float>(radius) * static_cast<float>(radius));
+  const float inverseAcross = 1.0f / (static_cast<float>(across) * static_cast<float>(across));
+  constexpr float least = ParallelTangents * ParallelTangents;
+  Mean mean;
+  for (int i = neighbours.starts[k]; i < neighbours.starts[k + 1]; ++i)
+  {
+    const Line& line = neighbours.lines[i];
+    const Eigen::Vector3f d = point - line.point;
+    const Eigen::Vector3f beside = d - tangent.dot(d) * tangent;
+    const float cosine = tangent.dot(line.tangent);
+    const float near = std::max(0.0f, 1.0f - d.squaredNorm() * inverseRadius);
+    const float close = std::max(0.0f, 1.0f - beside.squaredNorm() * inverseAcross);
+    const float parallel = std::max(0.0f, (cosine * cosine - least) / (1.0f - least));
+    const float weight = near * near * close * close * parallel;
+    mean.weight += weight;
+    mean.offset += weight * beside;
   }
   if (mean.weight > 0.0f)
   {

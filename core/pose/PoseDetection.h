@@ -9,7 +9,7 @@ namespace meam
 {
 struct PoseDetectionSettings
 {
-  double referenceShare = 0.03; ///< P_ref: share of the scene's edge points used as reference points, at least 100
+  double referenceShare = 0.02; ///< P_ref: share of the scene's edge points used as reference points, at least 100
   double referredShare = 1.0;   ///< P_referred: share of the scene's edge points used as referred points
   int peaksPerReference = 1;    ///< candidates of one reference point; more find more hidden parts, at a cost
   unsigned seed = 1;            ///< of the choice of both

@@ -24,8 +24,9 @@ constexpr int CoarseStride = 4;             // of the points in the steps before
 constexpr int FewestCorrespondences = 4;
 // Of a pose that settles, shares of the diameter.
 constexpr double WindowShare = 0.02;      // from a point of the part to edge points that count
+constexpr double MarginShare = 0.003;     // a point moves by before its edge points are looked up again
 constexpr double AcrossShare = 0.006;     // the same across its tangent, and along the normal of its surface
-constexpr double WidestFirst = 3.0;       // times that in the first step, half as much in the next
+constexpr double WidestFirst = 1.5;       // times that in the first step
 constexpr double LeastMotionShare = 3e-6; // less is none
 constexpr int MostSteps = 15;
 constexpr int StepsOfSight = 8;           // in the first ones what is in sight is told anew
@@ -77,9 +78,12 @@ public:
   {
     const double diameter = this->Index.model.diameter;
     PartView::Visible visible;
+    EdgeLines::Neighbours neighbours; // of the visible edges
+    double travelled = 0.0;           // since they were looked up, at most
     RigidFit::Result fit;
     Twist wanted, taken;      // in the step before
     bool isFollowing = false; // a step of the same kind
+    bool isKnown = false;     // what the neighbours are
     double wide = WidestFirst;
     double moved = 0.0;
     int steps = 0;
@@ -89,9 +93,17 @@ public:
       {
         const Eigen::Vector3f from = visible.from;
         this->see(pose, visible);
-        isFollowing = isFollowing && visible.from == from;
+        const bool isSame = visible.from == from;
+        isFollowing = isFollowing && isSame;
+        isKnown = isKnown && isSame;
       }
-      fit = this->means(pose.T_scene_model, visible, wide * AcrossShare * diameter);
+      const double limit = wide * AcrossShare * diameter;
+      if (!isKnown || travelled > MarginShare * diameter)
+      {
+        neighbours = this->neighbours(pose.T_scene_model, visible, limit);
+        travelled = 0.0;
+      }
+      fit = this->means(pose.T_scene_model, visible, neighbours, limit);
       Twist step = this->twistOf(pose, fit.motion);
       for (const ContinuousSymmetry& symmetry : this->Index.model.symmetries.continuous)
       {
@@ -112,10 +124,12 @@ public:
         }
       }
       moved = farther.head<3>().norm() + farther.tail<3>().norm();
+      travelled += 2.0 * farther.head<3>().norm() + farther.tail<3>().norm(); // a diameter from the middle
       wanted = step;
       taken = farther;
       isFollowing = wide == 1.0;
-      wide = std::max(1.0, 0.5 * wide);
+      isKnown = true;
+      wide = 1.0;
       pose.T_scene_model = this->motionOf(pose, farther) * pose.T_scene_model;
     }
     pose.fit = this->poseFit(fit, fit.remaining, pose.fit.iterations + steps);
@@ -235,20 +249,36 @@ private:
     return fit.result();
   }
 
+  /// What `means` looks at until a point has moved by a margin.
+  EdgeLines::Neighbours neighbours(const Eigen::Isometry3d& T, const PartView::Visible& visible, double limit) const
+  {
+    const TrainedModel& model = this->Index.model;
+    const Eigen::Isometry3f Tf = T.cast<float>();
+    PointCloud edges;
+    for (const int i : visible.edges)
+    {
+      edges.points.push_back(Tf * model.edges.points[i]);
+      edges.tangents.push_back(Tf.linear() * model.edges.tangents[i]);
+    }
+    return this->Index.lines.neighbours(edges, WindowShare * model.diameter, limit, MarginShare * model.diameter);
+  }
+
   /// Residuals of all visible points that change steadily with the pose, so that it comes to stay in one place: against
   /// the mean of the edge points about each, up to `limit` (mm), and against the surface, weighing the less the nearer to
   /// where its mean changes.
-  RigidFit::Result means(const Eigen::Isometry3d& T, const PartView::Visible& visible, double limit) const
+  RigidFit::Result means(const Eigen::Isometry3d& T, const PartView::Visible& visible,
+    const EdgeLines::Neighbours& neighbours, double limit) const
   {
     const TrainedModel& model = this->Index.model;
     const Eigen::Isometry3f Tf = T.cast<float>();
     const double window = WindowShare * model.diameter;
     RigidFit fit(T * this->Index.view.middle().cast<double>());
-    for (const int i : visible.edges)
+    for (std::size_t k = 0; k < visible.edges.size(); ++k)
     {
+      const int i = visible.edges[k];
       const Eigen::Vector3f point = Tf * model.edges.points[i];
       const Eigen::Vector3f tangent = Tf.linear() * model.edges.tangents[i];
-      const EdgeLines::Mean mean = this->Index.lines.meanAround(point, tangent, window, limit);
+      const EdgeLines::Mean mean = EdgeLines::meanAround(neighbours, k, point, tangent, window, limit);
       if (mean.weight > 0.0f)
       {
         const Eigen::Matrix3f frame = frameAround(tangent);

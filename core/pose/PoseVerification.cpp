@@ -100,10 +100,11 @@ void settleNearSymmetry(
   pose.certainty = 1.0 / odds;
 }
 
-/// Of poses that are nearly the same the one with most votes, of equals the first; in the order they come.
-Poses distinctPoses(const Poses& poses, const SceneIndex& index, double distance, double angle)
+/// Of poses that are nearly the same, up to the symmetries, the one with most votes, of equals the first; in the order they
+/// come.
+Poses distinctPoses(
+  const Poses& poses, const Eigen::Vector3d& middle, const Symmetries& symmetries, double distance, double angle)
 {
-  const Eigen::Vector3d middle = index.view.middle().cast<double>();
   std::vector<int> order(poses.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return poses[a].votes > poses[b].votes; });
@@ -116,7 +117,7 @@ Poses distinctPoses(const Poses& poses, const SceneIndex& index, double distance
       {
         const Eigen::Isometry3d& other = poses[k].T_scene_model;
         return translationError(T, other, middle) < distance &&
-          rotationError(nearestEqual(T, other, index.model.symmetries), other) < angle;
+          rotationError(nearestEqual(T, other, symmetries), other) < angle;
       });
     if (!known)
     {
@@ -159,11 +160,13 @@ Poses promisingPoses(const Poses& poses, const EvidenceCollector& collector, int
 class Clusters
 {
 public:
-  /// `comparison` may be null: then the better score decides.
-  Clusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const SceneIndex& index,
+  /// Poses up to the symmetries `same`, near ones among them, are the same. `comparison` may be null: then the better
+  /// score decides.
+  Clusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const Symmetries& same, const SceneIndex& index,
     const EvidenceCollector& collector, const PoseComparison* comparison, const PoseVerificationSettings& settings, double distance, double reach)
     : InPoses(poses)
     , Evidence(evidence)
+    , Same(same)
     , Index(index)
     , Collector(collector)
     , Comparison(comparison)
@@ -228,20 +231,15 @@ private:
     return apart < this->Reach && this->Collector.shared(this->Evidence[a], this->Evidence[b]) > SharedByOne;
   }
 
-  /// Degrees, up to the part's exact symmetries. Of several poses of an instance also up to its near-symmetries: which
-  /// of their turns is right is settled later, and each would take the place of another alternative.
+  /// Degrees, up to what is the same.
   double turnBetween(int a, int b) const
   {
-    const Symmetries& symmetries = this->Index.model.symmetries;
     const Eigen::Isometry3d& of = this->InPoses[a].T_scene_model;
     const Eigen::Isometry3d& T = this->InPoses[b].T_scene_model;
-    double least = rotationError(nearestEqual(of, T, symmetries), T);
-    if (this->Settings.posesPerInstance > 1 && this->Settings.method == VerificationMethod::VisibleEvidence)
+    double least = rotationError(nearestEqual(of, T, this->Same), T);
+    for (const NearSymmetry& symmetry : this->Same.near)
     {
-      for (const NearSymmetry& symmetry : symmetries.near)
-      {
-        least = std::min(least, rotationError(nearestEqual(of * symmetry.T, T, symmetries), T));
-      }
+      least = std::min(least, rotationError(nearestEqual(of * symmetry.T, T, this->Same), T));
     }
     return least;
   }
@@ -253,6 +251,7 @@ private:
 
   const Poses& InPoses;
   const std::vector<PoseEvidence>& Evidence;
+  const Symmetries& Same;
   const SceneIndex& Index;
   const EvidenceCollector& Collector;
   const PoseComparison* Comparison;
@@ -287,12 +286,19 @@ Poses verifyPoses(
   }
   const double clusterDistance =
     settings.clusterDistance > 0.0 ? settings.clusterDistance : ClusterShare * model.diameter;
-  Poses scored = byEvidence
-    ? distinctPoses(poses, index, SameShare * clusterDistance, SameShare * settings.clusterAngle)
-    : poses;
-  const bool someMustGo = settings.maximumPoses > 0 && static_cast<int>(scored.size()) > settings.maximumPoses;
-  // Candidates are judged again once they are refined.
-  const std::size_t stride = someMustGo && settings.posesPerInstance > 1 ? CandidateStride : 1;
+  // Several poses of an instance are candidates: they will be refined, turned to where they fit best, and judged again.
+  // Turns that this finds anyway would take the places of other alternatives.
+  const bool areCandidates = byEvidence && settings.posesPerInstance > 1;
+  Symmetries same = areCandidates ? asIfRound(model.symmetries) : model.symmetries;
+  if (!areCandidates)
+  {
+    same.near.clear();
+  }
+  Poses scored = byEvidence ? distinctPoses(poses, index.view.middle().cast<double>(), same, SameShare * clusterDistance,
+                                SameShare * settings.clusterAngle)
+                            : poses;
+  const bool someMustGo = settings.maximumPoses > 0 && static_cast<int>(poses.size()) > settings.maximumPoses;
+  const std::size_t stride = someMustGo && areCandidates ? CandidateStride : 1;
   if (byEvidence && someMustGo && !index.scene.surface.empty())
   {
     scored = promisingPoses(scored, collector, settings.threads);
@@ -320,11 +326,11 @@ Poses verifyPoses(
   std::stable_sort(order.begin(), order.end(), better);
 
   std::optional<PoseComparison> comparison;
-  if (byEvidence && settings.posesPerInstance == 1)
+  if (byEvidence && !areCandidates)
   {
     comparison.emplace(index);
   }
-  Clusters clusters(scored, evidence, index, collector, comparison ? &*comparison : nullptr, settings,
+  Clusters clusters(scored, evidence, same, index, collector, comparison ? &*comparison : nullptr, settings,
     clusterDistance, 0.5 * model.diameter);
   std::vector<int> ofView(TrainedModel::MaximumViews, 0);
   for (const int i : order)
@@ -358,7 +364,7 @@ Poses verifyPoses(
   std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), better);
   const auto middle = [&](int i) { return (scored[i].T_scene_model * index.view.middle().cast<double>()).eval(); };
   const double plausible =
-    byEvidence && !comparison && someMustGo && !clusters.Kept.empty() ? LeastPlausible * preference(scored[clusters.Kept[0]]) : 0.0;
+    areCandidates && someMustGo && !clusters.Kept.empty() ? LeastPlausible * preference(scored[clusters.Kept[0]]) : 0.0;
   std::vector<int> kept;
   for (const int i : clusters.Kept)
   {

@@ -16,33 +16,12 @@ constexpr std::size_t MostPoints = 200; // of the scene's edges that are looked 
 constexpr std::size_t RoughStride = 4;  // of these at first
 constexpr std::size_t MostMaxima = 10;  // that are looked at closely
 constexpr std::size_t MostTurns = 2;   // of an axis
-constexpr double HalfTurn = 170.0;     // degrees: a turn from here on is one
-constexpr double SameAxis = 0.99;      // cosine
-
-/// The axis of a turn, through the point of it that is nearest to the origin.
-ContinuousSymmetry axisOf(const Eigen::Isometry3d& turn)
-{
-  const Eigen::AngleAxisd rotation(Eigen::Matrix3d(turn.linear()));
-  const Eigen::Vector3d axis = rotation.axis();
-  const Eigen::Vector3d across = turn.translation() - axis.dot(turn.translation()) * axis;
-  return { axis, 0.5 * (across + axis.cross(across) / std::tan(0.5 * rotation.angle())) };
-}
 }
 
 TurnSearch::TurnSearch(const SceneIndex& index)
   : Index(index)
+  , Axes(nearlyRoundAxes(index.model.symmetries))
 {
-  for (const NearSymmetry& symmetry : index.model.symmetries.near)
-  {
-    const double angle = Eigen::AngleAxisd(Eigen::Matrix3d(symmetry.T.linear())).angle() * 180.0 / M_PI;
-    const ContinuousSymmetry found = axisOf(symmetry.T);
-    const bool known = std::any_of(this->Axes.begin(), this->Axes.end(),
-      [&](const ContinuousSymmetry& axis) { return std::abs(axis.axis.dot(found.axis)) > SameAxis; });
-    if (angle < HalfTurn && !known)
-    {
-      this->Axes.push_back(found);
-    }
-  }
 }
 
 std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_scene_model) const
