@@ -79,7 +79,7 @@ PointGrid::PointGrid(const Points& points, double cellSize)
     {
       const int place = next[cellAt[i]]++;
       this->Order[place] = static_cast<int>(i);
-      this->Sorted[place] = points[i];
+      this->Sorted.set(place, points[i]);
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Geometry.h"
+#include "PointColumns.h"
 
 #include <algorithm>
 
@@ -38,7 +38,7 @@ public:
   /// The finite points' indices cell by cell: the order that forEachRange counts in.
   const std::vector<int>& order() const { return this->Order; }
   /// The points in that order.
-  const Points& sorted() const { return this->Sorted; }
+  const PointColumns& sorted() const { return this->Sorted; }
 
   /// Calls visit(begin, end) with ranges of `order` that together hold all points within `radius`, and others.
   template <typename Visitor>
@@ -60,6 +60,20 @@ public:
         visit(this->Starts[row + low.x()], this->Starts[row + high.x() + 1]);
       }
     }
+  }
+
+  /// The same by visit(begin, count), with at most `Most` at a time.
+  template <int Most, typename Visitor>
+  void forEachBlock(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
+  {
+    this->forEachRange(centre, radius,
+      [&](int begin, int end)
+      {
+        for (; begin < end; begin += Most)
+        {
+          visit(begin, std::min(Most, end - begin));
+        }
+      });
   }
 
   /// The nearest point within `radius`, or -1.
@@ -95,7 +109,7 @@ private:
   Eigen::Vector3i Size = Eigen::Vector3i::Zero(); ///< cells along x, y and z
   std::vector<int> Starts;                        ///< of each cell's points in Order and Sorted
   std::vector<int> Order;
-  Points Sorted;
+  PointColumns Sorted;
 };
 
 /// Indices of one point for each occupied cube of side `leafSize` (mm): the point nearest to the

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/DistanceField.h"
 
+#include "AllVectors.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +11,42 @@ namespace meam
 namespace
 {
 constexpr double MostCells = 2.0e7; // larger cells are taken for more
+constexpr int Block = 256;          // points looked up together
+
+/// The cells of points, `outside` of those in none.
+MEAM_ALL_VECTORS
+void findCells(const Eigen::Matrix<float, 3, 4>& toCells, const Eigen::Array3i& size, const float* x, const float* y,
+  const float* z, int count, int outside, int* cells)
+{
+  const float ux = toCells(0, 0), uy = toCells(0, 1), uz = toCells(0, 2), u0 = toCells(0, 3);
+  const float vx = toCells(1, 0), vy = toCells(1, 1), vz = toCells(1, 2), v0 = toCells(1, 3);
+  const float wx = toCells(2, 0), wy = toCells(2, 1), wz = toCells(2, 2), w0 = toCells(2, 3);
+  const int columns = size.x(), rows = size.y();
+  const float width = size.x(), height = size.y(), depth = size.z();
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const float u = ux * x[k] + uy * y[k] + uz * z[k] + u0;
+    const float v = vx * x[k] + vy * y[k] + vz * z[k] + v0;
+    const float w = wx * x[k] + wy * y[k] + wz * z[k] + w0;
+    const bool inside = (u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f) & (u < width) & (v < height) & (w < depth);
+    const int column = static_cast<int>(inside ? u : 0.0f);
+    const int row = static_cast<int>(inside ? v : 0.0f);
+    const int layer = static_cast<int>(inside ? w : 0.0f);
+    cells[k] = inside ? (layer * rows + row) * columns + column : outside;
+  }
+}
 }
 
 template <typename Metric>
 DistanceField::DistanceField(const Points& points, double spacing, double reach, double cellSize, Metric&& metric)
   : Reach(static_cast<float>(reach))
-  , Step(static_cast<float>(reach) / Farthest)
 {
+  const float step = this->Reach / Farthest;
+  for (int stored = 0; stored <= Farthest; ++stored)
+  {
+    this->Told[stored] = stored == Farthest ? this->Reach : step * stored;
+  }
   const Eigen::AlignedBox3f box = bounds(points);
   if (box.isEmpty())
   {
@@ -32,7 +63,7 @@ DistanceField::DistanceField(const Points& points, double spacing, double reach,
   this->InverseCell = static_cast<float>(1.0 / cell);
   this->Size = (size / cell).floor().cast<int>() + 1;
   this->Extent = this->Size.cast<float>();
-  this->Distances.assign(static_cast<std::size_t>(this->Size.prod()), Farthest);
+  this->Distances.assign(static_cast<std::size_t>(this->Size.prod()) + 1, Farthest);
   const float around = static_cast<float>(reach + spacing);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -48,10 +79,28 @@ DistanceField::DistanceField(const Points& points, double spacing, double reach,
         {
           const Eigen::Vector3f centre(
             (x + 0.5f) * static_cast<float>(cell), (y + 0.5f) * static_cast<float>(cell), (z + 0.5f) * static_cast<float>(cell));
-          const float stored = metric(i, centre - place.matrix()) / this->Step;
+          const float stored = metric(i, centre - place.matrix()) / step;
           row[x] = stored < row[x] ? static_cast<std::uint8_t>(stored) : row[x];
         }
       }
+    }
+  }
+}
+
+void DistanceField::at(
+  const Eigen::Isometry3f& toPart, const float* x, const float* y, const float* z, int count, float* distances) const
+{
+  Eigen::Matrix<float, 3, 4> toCells = this->InverseCell * toPart.matrix().topRows<3>();
+  toCells.col(3) -= this->InverseCell * this->Origin;
+  const int outside = static_cast<int>(this->Distances.size()) - 1;
+  int cells[Block];
+  for (int begin = 0; begin < count; begin += Block)
+  {
+    const int size = std::min(Block, count - begin);
+    findCells(toCells, this->Size, x + begin, y + begin, z + begin, size, outside, cells);
+    for (int k = 0; k < size; ++k)
+    {
+      distances[begin + k] = this->Told[this->Distances[cells[k]]];
     }
   }
 }

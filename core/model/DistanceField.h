@@ -3,6 +3,7 @@
 
 #include "Geometry.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,9 +31,11 @@ public:
       return this->Reach;
     }
     const Eigen::Array3i index = cell.cast<int>();
-    const std::uint8_t stored = this->Distances[(static_cast<std::size_t>(index.z()) * this->Size.y() + index.y()) * this->Size.x() + index.x()];
-    return stored == Farthest ? this->Reach : this->Step * stored;
+    return this->Told[this->Distances[(index.z() * this->Size.y() + index.y()) * this->Size.x() + index.x()]];
   }
+
+  /// The same of `count` points that `toPart` takes to the part's frame, several at a time.
+  void at(const Eigen::Isometry3f& toPart, const float* x, const float* y, const float* z, int count, float* distances) const;
 
   /// A ball around all that the distances are from.
   const Eigen::Vector3f& middle() const { return this->Middle; }
@@ -51,7 +54,7 @@ private:
   Eigen::Vector3f Middle = Eigen::Vector3f::Zero();
   float Radius = 0.0f;
   float Reach = 0.0f;
-  float Step = 1.0f; ///< mm for each unit of what is stored
-  std::vector<std::uint8_t> Distances;
+  std::array<float, Farthest + 1> Told{};   ///< mm, for what is stored
+  std::vector<std::uint8_t> Distances{ Farthest }; ///< of the cells, and of all outside
 };
 }

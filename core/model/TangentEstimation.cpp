@@ -44,10 +44,10 @@ class Neighbours
 {
 public:
   int size() const { return this->Count; }
-  const float* x() const { return this->X.data(); }
-  const float* y() const { return this->Y.data(); }
-  const float* z() const { return this->Z.data(); }
-  Eigen::Vector3f at(int k) const { return { this->X[k], this->Y[k], this->Z[k] }; }
+  const float* x() const { return this->Offsets.x.data(); }
+  const float* y() const { return this->Offsets.y.data(); }
+  const float* z() const { return this->Offsets.z.data(); }
+  Eigen::Vector3f at(int k) const { return this->Offsets[k]; }
 
   void gather(const PointGrid& grid, const Eigen::Vector3f& centre, double radius)
   {
@@ -57,26 +57,22 @@ public:
       [&](int begin, int end)
       {
         const std::size_t most = static_cast<std::size_t>(this->Count) + end - begin;
-        if (this->X.size() < most)
+        if (this->Offsets.size() < most)
         {
-          this->X.resize(2 * most);
-          this->Y.resize(2 * most);
-          this->Z.resize(2 * most);
+          this->Offsets.resize(2 * most);
         }
         for (int k = begin; k < end; ++k)
         {
           // Without a branch: half of them would be predicted wrongly.
           const Eigen::Vector3f offset = grid.sorted()[k] - centre;
-          this->X[this->Count] = offset.x();
-          this->Y[this->Count] = offset.y();
-          this->Z[this->Count] = offset.z();
+          this->Offsets.set(this->Count, offset);
           this->Count += offset.squaredNorm() <= limit ? 1 : 0;
         }
       });
   }
 
 private:
-  std::vector<float> X, Y, Z;
+  PointColumns Offsets;
   int Count = 0;
 };
 

@@ -3,6 +3,8 @@
 
 #include "AllVectors.h"
 
+#include <cstring>
+
 namespace meam
 {
 namespace
@@ -129,20 +131,22 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
   std::fill_n(nearest.places, Lanes, -1);
   this->forEachRanges(point, radius,
     [&](const Range* ranges, int count) { search(this->Columns, ranges, count, query, nearest); });
-  Match match;
-  int place = -1;
+  // Without a branch: floats from 0 on are ordered as their bits are. What is not found is farther than all that is.
+  std::uint64_t least = ~std::uint64_t(0);
   for (int lane = 0; lane < Lanes; ++lane)
   {
-    const bool nearer = nearest.places[lane] >= 0 &&
-      (place < 0 || nearest.distances[lane] < match.squaredDistance ||
-        (nearest.distances[lane] == match.squaredDistance && nearest.places[lane] < place));
-    if (nearer)
-    {
-      place = nearest.places[lane];
-      match.squaredDistance = nearest.distances[lane];
-    }
+    std::uint32_t distance;
+    std::memcpy(&distance, &nearest.distances[lane], sizeof(distance));
+    least = std::min(least, std::uint64_t(distance) << 32 | static_cast<std::uint32_t>(nearest.places[lane]));
   }
-  match.edge = place < 0 ? -1 : this->Grid.order()[place];
+  const int place = static_cast<int>(least & 0xffffffffu);
+  Match match;
+  if (place >= 0)
+  {
+    const auto distance = static_cast<std::uint32_t>(least >> 32);
+    std::memcpy(&match.squaredDistance, &distance, sizeof(distance));
+    match.edge = this->Grid.order()[place];
+  }
   return match;
 }
 

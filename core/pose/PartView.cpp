@@ -117,13 +117,6 @@ Eigen::Vector3f rounded(const Eigen::Vector3f& direction)
 }
 }
 
-void PartView::Columns::add(const Eigen::Vector3f& point)
-{
-  this->x.push_back(point.x());
-  this->y.push_back(point.y());
-  this->z.push_back(point.z());
-}
-
 PartView::PartView(const TrainedModel& model)
   : Model(model)
   , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
@@ -173,7 +166,7 @@ void PartView::update(Visible& visible, const Eigen::Isometry3d& T_scene_model, 
   const float tolerance = static_cast<float>(ToleranceShare * this->Model.diameter);
   const float half = static_cast<float>(this->Model.diameter); // a point is never farther from the middle
   const View across{ frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
-  const auto projected = [&](const Columns& points, Projected& result)
+  const auto projected = [&](const PointColumns& points, Projected& result)
   {
     result.cells.resize(points.x.size());
     result.heights.resize(points.x.size());

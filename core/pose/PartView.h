@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "PointColumns.h"
 #include "model/TrainedModel.h"
 #include "scene/Sensor.h"
 
@@ -54,19 +55,13 @@ public:
   PointCloud viewEdges(int view) const;
 
 private:
-  /// Points relative to the middle, coordinate by coordinate.
-  struct Columns
-  {
-    std::vector<float> x, y, z;
-    void add(const Eigen::Vector3f& point);
-  };
-
   const TrainedModel& Model;
   Eigen::Vector3f Middle;
   std::vector<int> Judged; ///< surface points that evidence is taken from
-  Columns Surface;
-  Columns Edges;
-  Columns JudgedPoints;
-  Columns JudgedNormals;
+  // Relative to the middle:
+  PointColumns Surface;
+  PointColumns Edges;
+  PointColumns JudgedPoints;
+  PointColumns JudgedNormals;
 };
 }

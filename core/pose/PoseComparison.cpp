@@ -8,6 +8,7 @@ namespace meam
 {
 namespace
 {
+constexpr int Block = 256; // points whose distances are looked up together
 // Shares of the diameter.
 constexpr double FarShare = 0.02;        // a point this far from the part is not explained
 constexpr double NearShare = 0.01;       // an edge this near is
@@ -22,10 +23,19 @@ double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
   const float far = static_cast<float>(FarShare * this->Index.model.diameter);
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
-  const Points& measured = this->Index.depth.means();
+  const PointGrid& measured = this->Index.surface;
   double explained = 0.0;
-  this->Index.surface.forEachWithin(T * surface.middle(), surface.radius(),
-    [&](int k, float) { explained += std::max(0.0f, 1.0f - surface.at(toModel * measured[k]) / far); });
+  measured.forEachBlock<Block>(T * surface.middle(), surface.radius(),
+    [&](int begin, int count)
+    {
+      float distances[Block];
+      surface.at(toModel, &measured.sorted().x[begin], &measured.sorted().y[begin], &measured.sorted().z[begin], count,
+        distances);
+      for (int k = 0; k < count; ++k)
+      {
+        explained += std::max(0.0f, 1.0f - distances[k] / far);
+      }
+    });
   return explained;
 }
 
@@ -41,20 +51,32 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   const float far = static_cast<float>(FarShare * model.diameter);
   const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
   const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
+  std::vector<float> distances;
+  const auto distancesOf = [&](const std::vector<int>& indices, const Points& points, const DistanceField& field)
+  {
+    PointColumns columns;
+    columns.resize(indices.size());
+    for (std::size_t k = 0; k < indices.size(); ++k)
+    {
+      columns.set(k, points[indices[k]]);
+    }
+    distances.resize(indices.size());
+    field.at(toOther, columns.x.data(), columns.y.data(), columns.z.data(), static_cast<int>(indices.size()),
+      distances.data());
+  };
   double sum = 0.0;
-  for (const int i : one.visible.surface)
+  distancesOf(one.visible.surface, model.surface.points, model.surfaceDistance);
+  for (std::size_t k = 0; k < distances.size(); ++k)
   {
-    const Eigen::Vector3f& point = model.surface.points[i];
-    sum += model.surfaceDistance.at(toOther * point) >= far &&
-        this->Index.depth.relation(T * point, far) == DepthMap::Relation::InFront
-      ? PastWeight
-      : 0.0;
+    const Eigen::Vector3f& point = model.surface.points[one.visible.surface[k]];
+    sum += distances[k] >= far && this->Index.depth.relation(T * point, far) == DepthMap::Relation::InFront ? PastWeight
+                                                                                                            : 0.0;
   }
-  for (const int i : one.visible.edges)
+  distancesOf(one.visible.edges, model.edges.points, model.edgeDistance);
+  for (std::size_t k = 0; k < distances.size(); ++k)
   {
-    const Eigen::Vector3f& point = model.edges.points[i];
-    sum += model.edgeDistance.at(toOther * point) >= far &&
-        this->Index.depth.relation(T * point, far) == DepthMap::Relation::OnSurface &&
+    const Eigen::Vector3f& point = model.edges.points[one.visible.edges[k]];
+    sum += distances[k] >= far && this->Index.depth.relation(T * point, far) == DepthMap::Relation::OnSurface &&
         this->Index.edges.nearest(T * point, far) < 0
       ? MissingWeight
       : 0.0;
@@ -82,7 +104,6 @@ double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const C
 double PoseComparison::advantageAtMost(const Contender& one, const Contender& other) const
 {
   const TrainedModel& model = this->Index.model;
-  const Points& sceneEdges = this->Index.scene.edges.points;
   const float far = static_cast<float>(FarShare * model.diameter);
   const float near = static_cast<float>(NearShare * model.diameter);
   const Eigen::Isometry3d& a = one.T_scene_model;
@@ -92,33 +113,32 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
   const DistanceField& surface = model.surfaceDistance;
   const DistanceField& edges = model.edgeDistance;
   const DistanceField& whole = model.surface.empty() ? edges : surface;
+  // Every edge near one of the two.
   const Eigen::Vector3f middleA = a.cast<float>() * whole.middle();
   const Eigen::Vector3f middleB = b.cast<float>() * whole.middle();
-  // Every edge near one of the two, once.
-  const auto forEachNear = [&](auto&& visit)
-  {
-    this->Index.edges.forEachWithin(middleA, whole.radius(), [&](int k, float) { visit(k); });
-    this->Index.edges.forEachWithin(middleB, whole.radius(),
-      [&](int k, float)
-      {
-        if ((sceneEdges[k] - middleA).squaredNorm() > whole.radius() * whole.radius())
-        {
-          visit(k);
-        }
-      });
-  };
+  const Eigen::Vector3f between = 0.5f * (middleA + middleB);
+  const PointGrid& measured = this->Index.edges;
   double sum = one.explained - other.explained + this->contradicted(other, one);
-  forEachNear(
-    [&](int k)
+  measured.forEachBlock<Block>(between, whole.radius() + (middleA - between).norm(),
+    [&](int begin, int count)
     {
-      const Eigen::Vector3f inA = toA * sceneEdges[k];
-      const Eigen::Vector3f inB = toB * sceneEdges[k];
-      const float ofA = edges.at(inA);
-      const float ofB = edges.at(inB);
-      const double weight = ofA < near && ofB >= far ? EdgeWeight : ofB < near && ofA >= far ? -EdgeWeight : 0.0;
-      if (weight != 0.0 && (model.surface.empty() || surface.at(inA) < far || surface.at(inB) < far)) // else another object's
+      const PointColumns& points = measured.sorted();
+      float ofA[Block], ofB[Block];
+      edges.at(toA, &points.x[begin], &points.y[begin], &points.z[begin], count, ofA);
+      edges.at(toB, &points.x[begin], &points.y[begin], &points.z[begin], count, ofB);
+      for (int k = 0; k < count; ++k)
       {
-        sum += weight;
+        const double weight =
+          ofA[k] < near && ofB[k] >= far ? EdgeWeight : ofB[k] < near && ofA[k] >= far ? -EdgeWeight : 0.0;
+        if (weight == 0.0)
+        {
+          continue;
+        }
+        const Eigen::Vector3f point = points[begin + k];
+        if (model.surface.empty() || surface.at(toA * point) < far || surface.at(toB * point) < far) // else another object's
+        {
+          sum += weight;
+        }
       }
     });
   return sum;

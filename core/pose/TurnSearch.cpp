@@ -16,6 +16,16 @@ constexpr std::size_t MostPoints = 200; // of the scene's edges that are looked 
 constexpr std::size_t RoughStride = 4;  // of these at first
 constexpr std::size_t MostMaxima = 10;  // that are looked at closely
 constexpr std::size_t MostTurns = 2;   // of an axis
+
+PointColumns everyOf(const Points& points, std::size_t stride)
+{
+  PointColumns result;
+  for (std::size_t k = 0; k < points.size(); k += stride)
+  {
+    result.add(points[k]);
+  }
+  return result;
+}
 }
 
 TurnSearch::TurnSearch(const SceneIndex& index)
@@ -47,16 +57,20 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
       }
     });
   const std::size_t stride = (edges.size() + MostPoints - 1) / MostPoints;
+  const PointColumns some = everyOf(edges, stride);
+  const PointColumns few = everyOf(edges, RoughStride * stride);
   for (const ContinuousSymmetry& axis : this->Axes)
   {
     const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
-    const auto explained = [&](int step, std::size_t every)
+    const auto explained = [&](int step, const PointColumns& points)
     {
-      const Eigen::Isometry3f back = turn(-step).cast<float>();
+      float distances[MostPoints];
+      model.edgeDistance.at(turn(-step).cast<float>(), points.x.data(), points.y.data(), points.z.data(),
+        static_cast<int>(points.size()), distances);
       double sum = 0.0;
-      for (std::size_t k = 0; k < edges.size(); k += every)
+      for (std::size_t k = 0; k < points.size(); ++k)
       {
-        sum += std::max(0.0f, 1.0f - model.edgeDistance.at(back * edges[k]) / reach);
+        sum += std::max(0.0f, 1.0f - distances[k] / reach);
       }
       return sum;
     };
@@ -64,7 +78,7 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
     std::vector<double> roughly(Steps);
     for (int step = 0; step < Steps; ++step)
     {
-      roughly[step] = explained(step, RoughStride * stride);
+      roughly[step] = explained(step, few);
     }
     std::vector<int> maxima;
     for (int step = 2; step < Steps - 1; ++step)
@@ -76,7 +90,7 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
     }
     std::stable_sort(maxima.begin(), maxima.end(), [&](int a, int b) { return roughly[a] > roughly[b]; });
     maxima.resize(std::min(maxima.size(), MostMaxima));
-    const double asItIs = std::max({ explained(-1, stride), explained(0, stride), explained(1, stride) });
+    const double asItIs = std::max({ explained(-1, some), explained(0, some), explained(1, some) });
     const double least = asItIs + LeastGain + LeastGainShare * asItIs;
     std::vector<std::pair<double, int>> better;
     for (const int rough : maxima)
@@ -84,7 +98,7 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
       std::pair<double, int> best{ 0.0, rough };
       for (const int step : { rough - 1, rough, rough + 1 })
       {
-        best = std::max(best, { explained(step, stride), step });
+        best = std::max(best, { explained(step, some), step });
       }
       if (best.first > least)
       {
