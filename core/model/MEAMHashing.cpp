@@ -20,7 +20,6 @@ namespace
 constexpr std::size_t MostEdges = 65536;        // a reference point has 16 bits in a vote
 constexpr std::size_t MostEntries = 50000000;    // 2 GB while it is made
 constexpr double DefaultVoxelShare = 0.015;     // of the diameter
-constexpr double VotingLeafShare = 0.04;        // of the diameter
 constexpr double SurfaceLeafShare = 0.015;      // of the diameter, for verification
 constexpr float ParallelTangents = 0.94f;       // cosine of 20 degrees: the same edge in two views
 
@@ -169,9 +168,9 @@ struct Entry
 };
 
 /// Takes one edge point of each cube to the front; returns how many these are.
-int bringVotersForward(TrainedModel& model, double leafSize)
+int bringVotersForward(TrainedModel& model)
 {
-  std::vector<int> order = thinPoints(model.edges.points, leafSize);
+  std::vector<int> order = thinPoints(model.edges.points, model.votingLeaf());
   const int voters = static_cast<int>(order.size());
   std::vector<bool> votes(model.edges.size(), false);
   for (const int i : order)
@@ -368,9 +367,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     throw Error("The appearance models have no edges: the part shows no boundary from these viewpoints, or the "
                 "surface is sampled too coarsely.");
   }
-  const int voters = settings.merging == ViewMerging::Points
-    ? bringVotersForward(model, settings.leafSize > 0.0 ? settings.leafSize : VotingLeafShare * model.diameter)
-    : static_cast<int>(model.edges.size());
+  const int voters = bringVotersForward(model);
   const std::vector<std::uint32_t> surfaceBits =
     visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.1, 0.7));
   model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, 2.0 * voxelSize);

@@ -12,6 +12,7 @@ namespace
 constexpr double CellShare = 0.0075;
 constexpr double SurfaceSpacing = 0.018; // a little over that of the surface points
 constexpr double EdgeSpacing = 0.03;
+constexpr double VotingLeafShare = 0.04;
 
 void deriveVotes(const PointCloud& edges, PairTable& pairs)
 {
@@ -48,6 +49,15 @@ void deriveVotes(const PointCloud& edges, PairTable& pairs)
     pairs.voteStarts[2 * bucket + 2] = pairs.offsets[bucket + 1];
   }
 }
+}
+
+double TrainedModel::votingLeaf() const
+{
+  if (this->settings.merging != ViewMerging::Points)
+  {
+    return 0.0;
+  }
+  return this->settings.leafSize > 0.0 ? this->settings.leafSize : VotingLeafShare * this->diameter;
 }
 
 PairFeatureQuantizer TrainedModel::quantizer() const

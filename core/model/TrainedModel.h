@@ -23,8 +23,8 @@ struct MEAMHashingSettings
   double angleStep = 7.2;     ///< d_angle, degrees; also the step of the votes' turn about the tangent
   ViewMerging merging = ViewMerging::Points;
   double voxelSize = 0.0;     ///< L_voxel in mm; 0: 1.5 % of the diameter
-  /// ViewMerging::Points: of the edge points in a cube of this side (mm) one makes pairs, the others are there to
-  /// judge and refine poses; 0: 4 % of the diameter. Otherwise all make pairs.
+  /// ViewMerging::Points: of the edge points in a cube of this side (mm) one makes pairs, in the model as in a scene; the
+  /// others are there to judge and refine poses; 0: 4 % of the diameter. Otherwise all make pairs.
   double leafSize = 0.0;
   /// Directions from which two points must be visible together to make a pair; 0: only the views
   /// themselves (paper).
@@ -88,5 +88,7 @@ struct TrainedModel
 
   /// The quantizer of the table's keys.
   PairFeatureQuantizer quantizer() const;
+  /// Side of the cubes of which one edge point makes pairs, mm; 0: all do.
+  double votingLeaf() const;
 };
 }

@@ -163,8 +163,9 @@ Poses detectPoses(const PointCloud& sceneEdges, const TrainedModel& model, const
   const double cell = LotShare * model.diameter;
   const std::vector<int> references =
     chooseShare(edges.points, settings.referenceShare, LeastReferences, cell, settings.seed);
+  const PointCloud pairing = edges.subset(thinPoints(edges.points, model.votingLeaf()));
   const Voting voting(
-    model, edges.subset(chooseShare(edges.points, settings.referredShare, 1, cell, settings.seed + 1)));
+    model, pairing.subset(chooseShare(pairing.points, settings.referredShare, 1, cell, settings.seed + 1)));
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
   std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep));

@@ -9,8 +9,10 @@ namespace meam
 {
 struct PoseDetectionSettings
 {
-  double referenceShare = 0.02; ///< P_ref: share of the scene's edge points used as reference points, at least 100
-  double referredShare = 1.0;   ///< P_referred: share of the scene's edge points used as referred points
+  double referenceShare = 0.03; ///< P_ref: share of the scene's edge points used as reference points, at least 100
+  /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
+  /// (MEAMHashingSettings) one.
+  double referredShare = 1.0;
   int peaksPerReference = 1;    ///< candidates of one reference point; more find more hidden parts, at a cost
   unsigned seed = 1;            ///< of the choice of both
   int threads = 0;              ///< 0: one for each processor

@@ -303,12 +303,17 @@ Poses verifyPoses(
   {
     scored = promisingPoses(scored, collector, settings.threads);
   }
+  const TurnSearch search(index);
   std::vector<PoseEvidence> evidence(byEvidence ? scored.size() : 0);
   parallelFor(static_cast<int>(scored.size()), settings.threads, subProgress(progress, 0.0, 0.8),
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
+        if (areCandidates)
+        {
+          scored[i].T_scene_model = search.likeliest(scored[i].T_scene_model);
+        }
         if (byEvidence)
         {
           evidence[i] = collector.collect(scored[i].T_scene_model, stride);
@@ -343,7 +348,6 @@ Poses verifyPoses(
   }
   if (comparison)
   {
-    const TurnSearch search(index);
     parallelFor(static_cast<int>(clusters.Kept.size()), settings.threads, subProgress(progress, 0.8, 1.0),
       [&](int begin, int end, int)
       {

@@ -23,12 +23,12 @@ struct PoseVerificationSettings
   int posesPerView = 0;         ///< N_pv: best poses kept for each appearance model; 0: no limit
   double clusterDistance = 0.0; ///< poses nearer than this are of one instance; 0: 10 % of the diameter
   double clusterAngle = 15.0;   ///< and those turned less than this (degrees) are the same
-  /// Poses kept of one instance; of those that a near-symmetry or any turn of a nearly round part turns into each other
-  /// one is kept. With 1, as for the result, poses that share most of what they match are of one instance, too, alternatives are decided on the
-  /// points that tell them apart, a nearly round part is turned to where it fits best, and each pose settles
-  /// (settlePose).
-  /// With more, and more poses than may stay, every other point judges, for refined poses are judged again, and those
-  /// whose preference is a thousandth of the best's go, too.
+  /// Poses kept of one instance. With 1, as for the result, poses that share most of what they match are of one instance,
+  /// too, alternatives are decided on the points that tell them apart, a nearly round part is turned to where it fits
+  /// best, and each pose settles (settlePose).
+  /// With more, as for what will be refined, each pose is turned by the near-symmetry that the scene's edges speak for; of
+  /// those that a near-symmetry, or any turn of a nearly round part, turns into each other one is kept. When more poses
+  /// come than may stay, every other point judges, and those whose preference is a thousandth of the best's go, too.
   int posesPerInstance = 2;
   int maximumPoses = 100;       ///< 0: no limit
   int threads = 0;              ///< 0: one for each processor

@@ -17,7 +17,7 @@ constexpr std::size_t RoughStride = 4;  // of these at first
 constexpr std::size_t MostMaxima = 10;  // that are looked at closely
 constexpr std::size_t MostTurns = 2;   // of an axis
 
-PointColumns everyOf(const Points& points, std::size_t stride)
+PointColumns everyOf(const PointColumns& points, std::size_t stride)
 {
   PointColumns result;
   for (std::size_t k = 0; k < points.size(); k += stride)
@@ -34,6 +34,60 @@ TurnSearch::TurnSearch(const SceneIndex& index)
 {
 }
 
+PointColumns TurnSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
+{
+  const TrainedModel& model = this->Index.model;
+  const float reach = static_cast<float>(Reach * model.diameter);
+  const DistanceField& whole = model.surface.empty() ? model.edgeDistance : model.surfaceDistance;
+  const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
+  PointColumns edges;
+  this->Index.edges.forEachWithin(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
+    [&](int k, float)
+    {
+      const Eigen::Vector3f point = toModel * this->Index.scene.edges.points[k];
+      if (model.surface.empty() || whole.at(point) < reach)
+      {
+        edges.add(point);
+      }
+    });
+  return everyOf(edges, (edges.size() + MostPoints - 1) / MostPoints);
+}
+
+double TurnSearch::explained(const PointColumns& edges, const Eigen::Isometry3d& turn) const
+{
+  const float reach = static_cast<float>(Reach * this->Index.model.diameter);
+  float distances[MostPoints];
+  this->Index.model.edgeDistance.at(turn.inverse().cast<float>(), edges.x.data(), edges.y.data(), edges.z.data(),
+    static_cast<int>(edges.size()), distances);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < edges.size(); ++k)
+  {
+    sum += std::max(0.0f, 1.0f - distances[k] / reach);
+  }
+  return sum;
+}
+
+Eigen::Isometry3d TurnSearch::likeliest(const Eigen::Isometry3d& T_scene_model) const
+{
+  if (this->Index.model.symmetries.near.empty())
+  {
+    return T_scene_model;
+  }
+  const PointColumns edges = this->edgesOn(T_scene_model);
+  Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
+  double most = this->explained(edges, best);
+  for (const NearSymmetry& symmetry : this->Index.model.symmetries.near)
+  {
+    const double sum = this->explained(edges, symmetry.T);
+    if (sum > most)
+    {
+      most = sum;
+      best = symmetry.T;
+    }
+  }
+  return T_scene_model * best;
+}
+
 std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_scene_model) const
 {
   std::vector<Eigen::Isometry3d> found;
@@ -41,39 +95,12 @@ std::vector<Eigen::Isometry3d> TurnSearch::better(const Eigen::Isometry3d& T_sce
   {
     return found;
   }
-  const TrainedModel& model = this->Index.model;
-  const float reach = static_cast<float>(Reach * model.diameter);
-  const DistanceField& whole = model.surface.empty() ? model.edgeDistance : model.surfaceDistance;
-  // The scene's edges on the part, in its frame.
-  const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
-  Points edges;
-  this->Index.edges.forEachWithin(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
-    [&](int k, float)
-    {
-      const Eigen::Vector3f point = toModel * this->Index.scene.edges.points[k];
-      if (model.surface.empty() || whole.at(point) < reach)
-      {
-        edges.push_back(point);
-      }
-    });
-  const std::size_t stride = (edges.size() + MostPoints - 1) / MostPoints;
-  const PointColumns some = everyOf(edges, stride);
-  const PointColumns few = everyOf(edges, RoughStride * stride);
+  const PointColumns some = this->edgesOn(T_scene_model);
+  const PointColumns few = everyOf(some, RoughStride);
   for (const ContinuousSymmetry& axis : this->Axes)
   {
     const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
-    const auto explained = [&](int step, const PointColumns& points)
-    {
-      float distances[MostPoints];
-      model.edgeDistance.at(turn(-step).cast<float>(), points.x.data(), points.y.data(), points.z.data(),
-        static_cast<int>(points.size()), distances);
-      double sum = 0.0;
-      for (std::size_t k = 0; k < points.size(); ++k)
-      {
-        sum += std::max(0.0f, 1.0f - distances[k] / reach);
-      }
-      return sum;
-    };
+    const auto explained = [&](int step, const PointColumns& edges) { return this->explained(edges, turn(step)); };
     // Maxima by some of the points, which then all are asked about.
     std::vector<double> roughly(Steps);
     for (int step = 0; step < Steps; ++step)

@@ -5,9 +5,9 @@
 
 namespace meam
 {
-/// Looks for a better turn of a nearly round part. Its surface fits the scene at any turn about the axis of its
-/// near-symmetries, so refinement stays at the turn it came with; the scene's edges know better. Calls may run in
-/// parallel.
+/// Looks for a better turn of a part with near-symmetries. Its surface fits the scene at each of them, and that of a
+/// nearly round part at any turn about its axis, so refinement stays at the turn it came with; the scene's edges know
+/// better. Calls may run in parallel.
 class TurnSearch
 {
 public:
@@ -19,7 +19,15 @@ public:
   /// without near-symmetries other than half turns.
   std::vector<Eigen::Isometry3d> better(const Eigen::Isometry3d& T_scene_model) const;
 
+  /// The pose, or its turn by a near-symmetry if more of the scene's edges on the part are edges of the part then.
+  Eigen::Isometry3d likeliest(const Eigen::Isometry3d& T_scene_model) const;
+
 private:
+  /// Of the scene's edges on the part some, in its frame.
+  PointColumns edgesOn(const Eigen::Isometry3d& T_scene_model) const;
+  /// How many of these are edges of the part once it is turned, less for those beside.
+  double explained(const PointColumns& edges, const Eigen::Isometry3d& turn) const;
+
   const SceneIndex& Index;
   std::vector<ContinuousSymmetry> Axes;
 };
