@@ -103,44 +103,33 @@ void DepthMap::fillGaps(float layer)
       {
         continue;
       }
-      const auto forEachBeside = [&](auto&& visit)
+      const Cell* beside[8];
+      int found = 0;
+      const int left = std::max(0, column - 1), right = std::min(this->Width - 1, column + 1);
+      for (int v = std::max(0, row - 1); v <= std::min(this->Height - 1, row + 1); ++v)
       {
-        for (int v = std::max(0, row - 1); v <= std::min(this->Height - 1, row + 1); ++v)
+        for (int u = left; u <= right; ++u)
         {
-          for (int u = std::max(0, column - 1); u <= std::min(this->Width - 1, column + 1); ++u)
+          const Cell& other = seen[static_cast<std::size_t>(v) * this->Width + u];
+          if (other.nearest < NothingSeen)
           {
-            visit(seen[static_cast<std::size_t>(v) * this->Width + u]);
+            beside[found++] = &other;
+            cell.nearest = std::min(cell.nearest, other.nearest);
           }
         }
-      };
-      forEachBeside([&](const Cell& other) { cell.nearest = std::min(cell.nearest, other.nearest); });
+      }
       int count = 0;
-      forEachBeside(
-        [&](const Cell& other)
+      for (int k = 0; k < found; ++k)
+      {
+        const Cell& other = *beside[k];
+        if (other.nearest <= cell.nearest + layer)
         {
-          if (other.nearest < NothingSeen && other.nearest <= cell.nearest + layer)
-          {
-            cell.mean += (other.mean - cell.mean) / static_cast<float>(++count);
-            const bool isOneLayer = other.farthest <= cell.nearest + layer;
-            cell.farthest = std::max(cell.farthest, isOneLayer ? other.farthest : other.nearest);
-          }
-        });
+          cell.mean += (other.mean - cell.mean) / static_cast<float>(++count);
+          const bool isOneLayer = other.farthest <= cell.nearest + layer;
+          cell.farthest = std::max(cell.farthest, isOneLayer ? other.farthest : other.nearest);
+        }
+      }
     }
   }
-}
-
-DepthMap::Relation DepthMap::relation(const Eigen::Vector3f& point, float tolerance) const
-{
-  const Place place = this->placeOf(point);
-  const Cell* cell = this->cellOf(place);
-  if (!cell)
-  {
-    return Relation::NoSurface;
-  }
-  if (std::abs(place.depth - cell->nearest) <= tolerance || std::abs(place.depth - cell->farthest) <= tolerance)
-  {
-    return Relation::OnSurface;
-  }
-  return cell->nearest < place.depth ? Relation::Hidden : Relation::InFront;
 }
 }

@@ -30,7 +30,20 @@ public:
   double cellSize() const { return this->CellSize; }
 
   /// `tolerance` in mm along the line of sight.
-  Relation relation(const Eigen::Vector3f& point, float tolerance) const;
+  Relation relation(const Eigen::Vector3f& point, float tolerance) const
+  {
+    const Place place = this->placeOf(point);
+    const Cell* cell = this->cellOf(place);
+    if (!cell)
+    {
+      return Relation::NoSurface;
+    }
+    if (std::abs(place.depth - cell->nearest) <= tolerance || std::abs(place.depth - cell->farthest) <= tolerance)
+    {
+      return Relation::OnSurface;
+    }
+    return cell->nearest < place.depth ? Relation::Hidden : Relation::InFront;
+  }
 
   /// One point of the surface for each occupied cell: the mean of the nearest layer, which a sensor's noise moves less
   /// than single points.
