@@ -126,76 +126,60 @@ Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
 
 Eigen::Isometry3d principalFrame(const Points& points)
 {
-  // Scans have a million points: three passes of plain numbers.
-  const auto forEachFinite = [&points](auto&& visit)
-  {
-    for (const auto& point : points)
-    {
-      const double x = point.x(), y = point.y(), z = point.z();
-      if (std::isfinite(x + y + z))
-      {
-        visit(x, y, z);
-      }
-    }
-  };
-  double count = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
-  forEachFinite(
-    [&](double x, double y, double z)
-    {
-      sx += x;
-      sy += y;
-      sz += z;
-      ++count;
-    });
+  // Scans have a million points: one pass, of plain numbers. Moments are about one of the points, so they keep their
+  // precision far from the origin.
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  if (count == 0.0)
+  const auto first = std::find_if(points.begin(), points.end(), [](const auto& point) { return point.allFinite(); });
+  if (first == points.end())
   {
     return frame;
   }
-  const Eigen::Vector3d mean = Eigen::Vector3d(sx, sy, sz) / count;
-  const double mx = mean.x(), my = mean.y(), mz = mean.z();
+  const Eigen::Vector3d from = first->cast<double>();
+  const double fx = from.x(), fy = from.y(), fz = from.z();
+  double n = 0.0, x = 0.0, y = 0.0, z = 0.0;
   double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
-  forEachFinite(
-    [&](double x, double y, double z)
+  double xxx = 0.0, xxy = 0.0, xxz = 0.0, xyy = 0.0, xyz = 0.0, xzz = 0.0, yyy = 0.0, yyz = 0.0, yzz = 0.0, zzz = 0.0;
+  for (const auto& point : points)
+  {
+    const double u = point.x() - fx, v = point.y() - fy, w = point.z() - fz;
+    if (!std::isfinite(u + v + w))
     {
-      x -= mx;
-      y -= my;
-      z -= mz;
-      xx += x * x;
-      xy += x * y;
-      xz += x * z;
-      yy += y * y;
-      yz += y * z;
-      zz += z * z;
-    });
-  Eigen::Matrix3d covariance;
-  covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance / count);
+      continue;
+    }
+    const double uu = u * u, uv = u * v, uw = u * w, vv = v * v, vw = v * w, ww = w * w;
+    n += 1.0;
+    x += u, y += v, z += w;
+    xx += uu, xy += uv, xz += uw, yy += vv, yz += vw, zz += ww;
+    xxx += u * uu, xxy += v * uu, xxz += w * uu, xyy += u * vv, xyz += u * vw, xzz += u * ww;
+    yyy += v * vv, yyz += w * vv, yzz += v * ww, zzz += w * ww;
+  }
+  const Eigen::Vector3d mean = Eigen::Vector3d(x, y, z) / n;
+  Eigen::Matrix3d squares;
+  squares << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  squares /= n;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - mean * mean.transpose());
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   if (!axes.allFinite())
   {
     return frame; // coordinates beyond all measure
   }
-  const Eigen::Vector3d most = axes.col(0), second = axes.col(1);
-  double skewness[2] = {};
-  forEachFinite(
-    [&](double x, double y, double z)
-    {
-      const double a = most.x() * (x - mx) + most.y() * (y - my) + most.z() * (z - mz);
-      const double b = second.x() * (x - mx) + second.y() * (y - my) + second.z() * (z - mz);
-      skewness[0] += a * a * a;
-      skewness[1] += b * b * b;
-    });
   for (int axis = 0; axis < 2; ++axis)
   {
-    if (skewness[axis] < 0.0)
+    // The third moment along the axis, about the mean.
+    const double a = axes(0, axis), b = axes(1, axis), c = axes(2, axis);
+    const double cubes = a * a * a * xxx + b * b * b * yyy + c * c * c * zzz +
+      3.0 * (a * a * (b * xxy + c * xxz) + b * b * (a * xyy + c * yyz) + c * c * (a * xzz + b * yzz)) + 6.0 * a * b * c * xyz;
+    const double along = mean.dot(axes.col(axis));
+    const double skewness =
+      cubes / n - 3.0 * along * axes.col(axis).dot(squares * axes.col(axis)) + 2.0 * along * along * along;
+    if (skewness < 0.0)
     {
       axes.col(axis) *= -1.0;
     }
   }
   axes.col(2) = axes.col(0).cross(axes.col(1));
   frame.linear() = axes.transpose();
-  frame.translation() = -(axes.transpose() * mean);
+  frame.translation() = -(axes.transpose() * (from + mean));
   return frame;
 }
 

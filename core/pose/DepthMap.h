@@ -22,9 +22,10 @@ public:
   };
 
   /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the direction
-  /// `along`, as seen by the sensor: one that moves with the scene lets the cells move with it.
+  /// `along`, as seen by the sensor: one that moves with the scene lets the cells move with it. The same for any number
+  /// of threads.
   DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
-    const Eigen::Vector3f& along = Eigen::Vector3f::UnitX());
+    const Eigen::Vector3f& along = Eigen::Vector3f::UnitX(), int threads = 1);
 
   /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
   double cellSize() const { return this->CellSize; }
@@ -90,17 +91,17 @@ private:
     }
     return p;
   }
-  Place placeOf(const Eigen::Vector3f& point) const
+  Place placeOf(const Eigen::Vector3f& point) const { return this->placeOfProjected(this->project(point)); }
+  Place placeOfProjected(const Eigen::Vector3f& p) const
   {
-    const Eigen::Vector3f p = this->project(point);
     const Eigen::Array2f index = (p.head<2>() - this->Low) * this->InverseCell;
     const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
       !(this->Eye.perspective && p.z() <= 0.0f);
     return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z(),
       index };
   }
-  void average(const Points& surface, float layer);
-  void fillGaps(float layer);
+  void average(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer);
+  void fillGaps(float layer, int threads);
   /// Null outside the map and where nothing was seen.
   const Cell* cellOf(const Place& place) const
   {

@@ -89,7 +89,7 @@ Poses estimatePoses(const TrainedModel& model, const Scene& scene, const Detecti
   spent.tangents = watch.lap();
   Poses poses = detectPoses(withTangents.edges, model, settings.detection, subProgress(progress, 0.1, 0.5));
   spent.detection = watch.lap();
-  const SceneIndex index(model, withTangents);
+  const SceneIndex index(model, withTangents, settings.verification.threads);
   poses = verifyPoses(poses, index, settings.verification, subProgress(progress, 0.5, 0.7));
   spent.verification = watch.lap();
   poses = refinePoses(poses, index, settings.refinement, subProgress(progress, 0.7, 0.95));

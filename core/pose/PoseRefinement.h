@@ -40,6 +40,6 @@ Pose settlePose(const Pose& pose, const SceneIndex& index);
 inline Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& scene, const PoseRefinementSettings& settings = {},
   const Progress& progress = {})
 {
-  return refinePoses(poses, SceneIndex(model, scene), settings, progress);
+  return refinePoses(poses, SceneIndex(model, scene, settings.threads), settings, progress);
 }
 }

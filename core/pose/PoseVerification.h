@@ -46,6 +46,6 @@ Poses verifyPoses(const Poses& poses, const SceneIndex& index, const PoseVerific
 inline Poses verifyPoses(const Poses& poses, const TrainedModel& model, const Scene& scene, const PoseVerificationSettings& settings = {},
   const Progress& progress = {})
 {
-  return verifyPoses(poses, SceneIndex(model, scene), settings, progress);
+  return verifyPoses(poses, SceneIndex(model, scene, settings.threads), settings, progress);
 }
 }

@@ -29,13 +29,13 @@ Eigen::Vector3f firstAxis(const Points& points)
 }
 }
 
-SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen)
+SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen, int threads)
   : model(trained)
   , scene(withTangents(seen))
   , view(trained)
   , edges(seen.edges.points, EdgeCellShare * trained.diameter)
   , lines(seen.edges, this->edges)
-  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, firstAxis(seen.surface))
+  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, firstAxis(seen.surface), threads)
   , surface(this->depth.means(), SurfaceCellShare * trained.diameter)
 {
 }

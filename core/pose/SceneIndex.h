@@ -14,7 +14,8 @@ namespace meam
 struct SceneIndex
 {
   /// Throws Error when the scene has no edges, or edges without tangents.
-  SceneIndex(const TrainedModel& model, const Scene& scene);
+  /// `threads` 0: one for each processor.
+  SceneIndex(const TrainedModel& model, const Scene& scene, int threads = 0);
 
   const TrainedModel& model;
   const Scene& scene;

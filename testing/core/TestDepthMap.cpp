@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace
 {
 meam::Sensor fromAbove()
@@ -125,4 +127,31 @@ TEST(DepthMap, OfNothingTellsNothing)
   const meam::DepthMap map({}, fromAbove(), 1.0);
   EXPECT_EQ(map.relation({ 0, 0, 0 }, 1.0f), meam::DepthMap::Relation::NoSurface);
   EXPECT_EQ(map.meanAt({ 0, 0, 0 }), nullptr);
+}
+
+TEST(DepthMap, TheSameForAnyNumberOfThreads)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> across(-50.0f, 50.0f), height(0.0f, 20.0f);
+  meam::Points points;
+  for (int k = 0; k < 5000; ++k)
+  {
+    points.emplace_back(across(random), across(random), k % 50 == 0 ? NAN : height(random));
+  }
+  const Eigen::Vector3f along = Eigen::Vector3f(2, 1, 0).normalized();
+  const meam::DepthMap one(points, fromAbove(), 2.0, along, 1);
+  const meam::DepthMap three(points, fromAbove(), 2.0, along, 3);
+  ASSERT_EQ(one.means().size(), three.means().size());
+  for (std::size_t k = 0; k < one.means().size(); ++k)
+  {
+    EXPECT_EQ(one.means()[k], three.means()[k]);
+  }
+  for (int k = 0; k < 1000; ++k)
+  {
+    const Eigen::Vector3f asked(across(random), across(random), height(random));
+    EXPECT_EQ(one.relation(asked, 1.0f), three.relation(asked, 1.0f));
+    const Eigen::Vector3f *a = one.meanAt(asked), *b = three.meanAt(asked);
+    ASSERT_EQ(a == nullptr, b == nullptr);
+    EXPECT_TRUE(!a || *a == *b);
+  }
 }

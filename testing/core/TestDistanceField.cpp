@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/DistanceField.h"
 
+#include "PointColumns.h"
+
 #include <gtest/gtest.h>
+
+#include <random>
 
 namespace
 {
@@ -59,4 +63,37 @@ TEST(DistanceField, OfALineOfEdgePoints)
   EXPECT_NEAR(field.at({ 9.0f, 1.2f, -1.6f }), 2.0, Cell);
   EXPECT_LT((field.middle() - Eigen::Vector3f(10, 0, 0)).norm(), 1e-4f);
   EXPECT_NEAR(field.radius(), 10.0f, 1e-4);
+}
+
+TEST(DistanceField, ManyAtOnceAsOneByOne)
+{
+  const meam::DistanceField field = meam::DistanceField::ofSurface(square(), 1.0, 3.0, Cell);
+  Eigen::Isometry3f toPart = Eigen::Translation3f(3, -2, 1) * Eigen::Isometry3f::Identity();
+  toPart.rotate(Eigen::AngleAxisf(0.4f, Eigen::Vector3f(2, 1, 2) / 3.0f));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-6.0f, 26.0f);
+  meam::PointColumns points; // more than are looked up together, and not a multiple of any vector
+  for (int k = 0; k < 999; ++k)
+  {
+    points.add(toPart.inverse() * Eigen::Vector3f(place(random), place(random), 0.15f * place(random)));
+  }
+  points.add({ 1e30f, 0, 0 });
+  points.add(Eigen::Vector3f::Constant(NAN));
+  std::vector<float> distances(points.size());
+  field.at(toPart, points.x.data(), points.y.data(), points.z.data(), static_cast<int>(points.size()), distances.data());
+  int different = 0; // where rounding decides between cells
+  int near = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const float one = field.at(toPart * points[k]);
+    different += distances[k] != one ? 1 : 0;
+    near += one < 3.0f ? 1 : 0;
+    EXPECT_NEAR(distances[k], one, 2.0 * Cell);
+  }
+  EXPECT_LE(different, 3);
+  EXPECT_GT(near, 300);
+  float distance = -1.0f;
+  const float zero = 0.0f;
+  meam::DistanceField().at(toPart, &zero, &zero, &zero, 1, &distance);
+  EXPECT_EQ(distance, 0.0f) << "of nothing, with no reach";
 }

@@ -19,20 +19,53 @@ meam::PointCloud scattered(int count)
   }
   return edges;
 }
+
+struct Lines
+{
+  explicit Lines(const meam::PointCloud& seen, double cellSize = 3.0)
+    : edges(seen)
+    , grid(edges.points, cellSize)
+    , lines(edges, grid)
+  {
+  }
+
+  meam::EdgeLines::Mean meanAround(
+    const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius, double across) const
+  {
+    meam::PointCloud asked;
+    asked.points = { point };
+    asked.tangents = { tangent };
+    return meam::EdgeLines::meanAround(this->lines.neighbours(asked, radius, across, 0.0), 0, point, tangent, radius, across);
+  }
+
+  meam::PointCloud edges;
+  meam::PointGrid grid;
+  meam::EdgeLines lines;
+};
+
+/// Points to ask about, beside those of the lines.
+meam::PointCloud asked(int count)
+{
+  meam::PointCloud result = scattered(count);
+  for (auto& point : result.points)
+  {
+    point += Eigen::Vector3f(0.3f, -0.2f, 0.1f);
+  }
+  return result;
+}
 }
 
 TEST(EdgeLines, FindsWhatAskingEveryLineFinds)
 {
-  const meam::PointCloud edges = scattered(2000);
-  const meam::PointGrid grid(edges.points, 3.0);
-  const meam::EdgeLines lines(edges, grid);
-  const meam::PointCloud asked = scattered(200);
+  const Lines among(scattered(2000));
+  const meam::PointCloud& edges = among.edges;
+  const meam::PointCloud asked = ::asked(200);
   int found = 0;
   for (const double radius : { 0.5, 4.0, 15.0 }) // 15: more rows of cells than are looked at together
   {
     for (std::size_t k = 0; k < asked.size(); ++k)
     {
-      const Eigen::Vector3f point = asked.points[k] + Eigen::Vector3f(0.3f, -0.2f, 0.1f);
+      const Eigen::Vector3f& point = asked.points[k];
       int expected = -1;
       double least = radius * radius;
       for (std::size_t i = 0; i < edges.size(); ++i)
@@ -46,7 +79,7 @@ TEST(EdgeLines, FindsWhatAskingEveryLineFinds)
           expected = static_cast<int>(i);
         }
       }
-      const meam::EdgeLines::Match match = lines.nearest(point, asked.tangents[k], radius);
+      const meam::EdgeLines::Match match = among.lines.nearest(point, asked.tangents[k], radius);
       EXPECT_EQ(match.edge, expected) << k << " within " << radius;
       if (expected >= 0)
       {
@@ -63,30 +96,28 @@ TEST(EdgeLines, DistanceIsThatToTheLine)
   meam::PointCloud edges;
   edges.points = { { 0, 0, 0 }, { 0, 3, 0 } };
   edges.tangents = { { 0, 1, 0 }, { 1, 0, 0 } };
-  const meam::PointGrid grid(edges.points, 1.0);
-  const meam::EdgeLines lines(edges, grid);
+  const Lines among(edges, 1.0);
   // 2 along the first line and 0.5 beside it; the second is nearer, but runs across.
-  meam::EdgeLines::Match match = lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, -1, 0 }, 2.5);
+  meam::EdgeLines::Match match = among.lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, -1, 0 }, 2.5);
   EXPECT_EQ(match.edge, 0);
   EXPECT_FLOAT_EQ(match.squaredDistance, 0.25f);
-  EXPECT_EQ(lines.nearest({ 0.5f, 2.0f, 0.0f }, { 1, 0, 0 }, 2.5).edge, 1);
-  EXPECT_EQ(lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, 0, 1 }, 2.5).edge, -1);
-  EXPECT_EQ(lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, -1, 0 }, 1.0).edge, -1);
+  EXPECT_EQ(among.lines.nearest({ 0.5f, 2.0f, 0.0f }, { 1, 0, 0 }, 2.5).edge, 1);
+  EXPECT_EQ(among.lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, 0, 1 }, 2.5).edge, -1);
+  EXPECT_EQ(among.lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, -1, 0 }, 1.0).edge, -1);
 }
 
 TEST(EdgeLines, MeanIsThatOfAllEdgePointsAround)
 {
-  const meam::PointCloud edges = scattered(2000);
-  const meam::PointGrid grid(edges.points, 3.0);
-  const meam::EdgeLines lines(edges, grid);
-  const meam::PointCloud asked = scattered(100);
+  const Lines among(scattered(2000));
+  const meam::PointCloud& edges = among.edges;
+  const meam::PointCloud asked = ::asked(100);
   int found = 0;
   for (const double radius : { 2.0, 15.0 })
   {
     const double across = 0.5 * radius;
     for (std::size_t k = 0; k < asked.size(); ++k)
     {
-      const Eigen::Vector3f point = asked.points[k] + Eigen::Vector3f(0.3f, -0.2f, 0.1f);
+      const Eigen::Vector3f& point = asked.points[k];
       const Eigen::Vector3d tangent = asked.tangents[k].cast<double>();
       double weights = 0.0;
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -102,7 +133,7 @@ TEST(EdgeLines, MeanIsThatOfAllEdgePointsAround)
         weights += weight;
         sum += weight * beside;
       }
-      const meam::EdgeLines::Mean mean = lines.meanAround(point, asked.tangents[k], radius, across);
+      const meam::EdgeLines::Mean mean = among.meanAround(point, asked.tangents[k], radius, across);
       EXPECT_NEAR(mean.weight, weights, 1e-4 * weights + 1e-5);
       if (weights > 1e-3)
       {
@@ -119,22 +150,44 @@ TEST(EdgeLines, TheMeanByHand)
   meam::PointCloud edges;
   edges.points = { { 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0.5f } };
   edges.tangents = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 } }; // the last runs across
-  const meam::PointGrid grid(edges.points, 1.0);
-  const meam::EdgeLines lines(edges, grid);
+  const Lines among(edges, 1.0);
   // Half way between two lines; along them nothing counts.
-  meam::EdgeLines::Mean mean = lines.meanAround({ 0.6f, 0.5f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
+  meam::EdgeLines::Mean mean = among.meanAround({ 0.6f, 0.5f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
   EXPECT_TRUE(mean.offset.isZero(1e-6f));
   const double near = 1.0 - (0.36 + 0.25) / 4.0;
   EXPECT_NEAR(mean.weight, 2.0 * near * near * 0.75 * 0.75, 1e-5);
   // One of them out of reach.
-  mean = lines.meanAround({ 0.0f, -0.25f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
+  mean = among.meanAround({ 0.0f, -0.25f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
   EXPECT_TRUE(mean.offset.isApprox(Eigen::Vector3f(0, -0.25f, 0), 1e-5f));
-  EXPECT_EQ(lines.meanAround({ 0.0f, 9.0f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0).weight, 0.0f);
+  EXPECT_EQ(among.meanAround({ 0.0f, 9.0f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0).weight, 0.0f);
+}
+
+TEST(EdgeLines, NeighboursServeUntilAPointHasMovedByTheMargin)
+{
+  const Lines among(scattered(2000));
+  const meam::PointCloud points = asked(100);
+  constexpr double Radius = 6.0, Across = 2.0, Margin = 0.4;
+  const meam::EdgeLines::Neighbours once = among.lines.neighbours(points, Radius, Across, Margin);
+  ASSERT_EQ(once.starts.size(), points.size() + 1);
+  const Eigen::Vector3f step = 0.99f * Margin * Eigen::Vector3f(0.6f, 0.0f, -0.8f);
+  const Eigen::Matrix3f turn = Eigen::AngleAxisf(0.07f, Eigen::Vector3f(1, 2, 2) / 3.0f).toRotationMatrix(); // 4 degrees
+  int found = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const Eigen::Vector3f point = points.points[k] + step;
+    const Eigen::Vector3f tangent = turn * points.tangents[k];
+    const meam::EdgeLines::Mean mean = meam::EdgeLines::meanAround(once, k, point, tangent, Radius, Across);
+    const meam::EdgeLines::Mean afresh = among.meanAround(point, tangent, Radius, Across);
+    EXPECT_NEAR(mean.weight, afresh.weight, 1e-5f);
+    EXPECT_LT((mean.offset - afresh.offset).norm(), 1e-5f);
+    found += mean.weight > 0.0f ? 1 : 0;
+  }
+  EXPECT_GT(found, 50);
 }
 
 TEST(EdgeLines, NoEdgesNoMatch)
 {
-  const meam::PointGrid grid({}, 1.0);
-  EXPECT_EQ(meam::EdgeLines({}, grid).nearest({ 1, 2, 3 }, { 1, 0, 0 }, 5.0).edge, -1);
-  EXPECT_EQ(meam::EdgeLines({}, grid).meanAround({ 1, 2, 3 }, { 1, 0, 0 }, 5.0, 5.0).weight, 0.0f);
+  const Lines none({});
+  EXPECT_EQ(none.lines.nearest({ 1, 2, 3 }, { 1, 0, 0 }, 5.0).edge, -1);
+  EXPECT_EQ(none.meanAround({ 1, 2, 3 }, { 1, 0, 0 }, 5.0, 5.0).weight, 0.0f);
 }

@@ -91,6 +91,25 @@ TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
   EXPECT_FALSE(same(first, other));
 }
 
+TEST(PoseDetection, PointsOfOneCubeMakeOnePair)
+{
+  const auto mostVotes = [](const meam::PointCloud& edges)
+  {
+    meam::PoseDetectionSettings settings;
+    settings.referenceShare = 1.0;
+    const meam::Poses poses = meam::detectPoses(edges, scenes::bracket(), settings);
+    return std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.votes < b.votes; })->votes;
+  };
+  const meam::PointCloud once = ownEdges(Eigen::Isometry3d::Identity());
+  meam::PointCloud twice = once;
+  for (std::size_t i = 0; i < once.size(); ++i)
+  {
+    twice.points.push_back(once.points[i] + Eigen::Vector3f(0.01f, 0.01f, 0.01f));
+    twice.tangents.push_back(once.tangents[i]);
+  }
+  EXPECT_LT(mostVotes(twice), 1.2 * mostVotes(once));
+}
+
 TEST(PoseDetection, BadInput)
 {
   const meam::TrainedModel& model = scenes::bracket();

@@ -104,3 +104,35 @@ TEST(TurnSearch, SelectionTurnsAPoseThatNoNearSymmetryLeadsFrom)
   EXPECT_LT(meam::translationError(found[0].T_scene_model, turned(0)), 0.2);
   EXPECT_GT(found[0].fit.iterations, 0);
 }
+
+TEST(TurnSearch, TheLikeliestNearSymmetryIsTheTrueTurn)
+{
+  const meam::SceneIndex index(model(), scene());
+  const meam::TurnSearch search(index);
+  for (const double degrees : { 0.0, 36.0, 108.0, 252.0 })
+  {
+    EXPECT_LT(meam::rotationError(search.likeliest(turned(degrees)), turned(0)), 2.0) << degrees;
+  }
+  const meam::Scene brackets = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const meam::SceneIndex without(scenes::bracket(), brackets);
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  EXPECT_TRUE(meam::TurnSearch(without).likeliest(T).isApprox(T)) << "nothing to choose from";
+}
+
+TEST(TurnSearch, CandidatesThatATurnMakesTheSameTakeOnePlace)
+{
+  meam::Poses candidates;
+  for (const double degrees : { 0.0, 18.0, 36.0, 100.0 })
+  {
+    candidates.emplace_back();
+    candidates.back().T_scene_model = turned(degrees);
+  }
+  candidates.emplace_back(); // tilted
+  candidates.back().T_scene_model = turned(0) * Eigen::AngleAxisd(30 * Degree, Eigen::Vector3d::UnitX());
+  meam::PoseVerificationSettings settings; // two of an instance
+  const meam::Poses kept = meam::verifyPoses(candidates, model(), scene(), settings);
+  ASSERT_EQ(kept.size(), 2u);
+  const auto tilt = [&](int k) { return std::acos(std::abs(kept[k].T_scene_model.linear()(2, 2))) / Degree; };
+  EXPECT_NEAR(tilt(0), 0.0, 0.1);
+  EXPECT_NEAR(tilt(1), 30.0, 0.1) << "the other place is the tilted one's";
+}
