@@ -17,7 +17,7 @@ FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "re
            "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
            "mean_deg": "MeanRotationError"}
 STAGES = scripting.STAGES[2:-1]
-NOISE_HELP = ("normal noise of every coordinate of the scenes' points: mm, or % of the part's diameter, such as 0.3 or 1%% "
+NOISE_HELP = ("normal noise of every coordinate of the scenes' points: mm, or %% of the part's diameter, such as 0.3 or 1%% "
               "(default: %(default)s)")
 
 

@@ -19,6 +19,7 @@ from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseWriter, vtkMEAMSce
 from meamtest import box, check, connect, points, poses, run, tuples
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+SUBCOMMANDS = {"evaluate.py": ("tohoku", "bop")}
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
 
@@ -46,6 +47,15 @@ def refuses(word, name, *arguments):
     check(sorted(os.listdir()) == before, f"left files behind: {what}")
 
 
+def helps():
+    """Each script and each of its subcommands says what it takes."""
+    for name in sorted(os.listdir(EXAMPLES)):
+        if name.endswith(".py"):
+            for subcommand in ((), *((word,) for word in SUBCOMMANDS.get(name, ()))):
+                text = works(name, *subcommand, "--help")
+                check(text.startswith("usage:"), f"{name} {subcommand}: {text}")
+
+
 def write_pcd(path, columns, width, height, fields):
     """Binary, floats."""
     count = len(fields.split())
@@ -59,6 +69,8 @@ def read(path):
     with open(path) as file:
         return file.read()
 
+
+helps()
 
 W, H = 640, 480
 source = vtkMEAMBinSceneSource()
