@@ -41,7 +41,10 @@ public:
   ///@}
 
   ///@{
-  /** Share of the scene's edge points that are referred points, in (0, 1] (P_referred). Default: 1. The paper: 0.2. */
+  /**
+   * Share of the scene's edge points that are referred points, in (0, 1] (P_referred); of those in a cube of the model's
+   * LeafSize (vtkMEAMHashing) one. Default: 1. The paper: 0.2.
+   */
   vtkSetClampMacro(ReferredShare, double, 1e-6, 1.0);
   vtkGetMacro(ReferredShare, double);
   ///@}

@@ -86,8 +86,8 @@ public:
 
   ///@{
   /**
-   * Poses kept of one instance; of those that a near-symmetry turns into each other one is kept. With 1, as for the
-   * result, alternatives are decided on the points that tell them apart, a nearly round part is turned to where it
+   * Poses kept of one instance; of those that a near-symmetry, or any turn of a nearly round part, turns into each other
+   * one is kept. With 1, as for the result, alternatives are decided on the points that tell them apart, a nearly round part is turned to where it
    * fits best, and each pose settles where edges and surface fix it, the same whichever candidate led there; more keep
    * the alternatives for refinement. Default: 2. The paper: 1.
    */
@@ -97,8 +97,9 @@ public:
 
   ///@{
   /**
-   * Poses kept of all; 0: no limit. When more come and alternatives are kept, those that are a thousand times less likely
-   * than the best go, too. Default: 100.
+   * Poses kept of all; 0: no limit. When more come, as from detection, and alternatives are kept, each is first turned by
+   * the near-symmetry that the scene's edges speak for, and those that are a thousand times less likely than the best go,
+   * too. Default: 100.
    */
   vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfPoses, int);

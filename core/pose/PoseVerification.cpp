@@ -310,7 +310,7 @@ Poses verifyPoses(
     {
       for (int i = begin; i < end; ++i)
       {
-        if (areCandidates)
+        if (areCandidates && someMustGo)
         {
           scored[i].T_scene_model = search.likeliest(scored[i].T_scene_model);
         }

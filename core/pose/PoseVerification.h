@@ -26,9 +26,10 @@ struct PoseVerificationSettings
   /// Poses kept of one instance. With 1, as for the result, poses that share most of what they match are of one instance,
   /// too, alternatives are decided on the points that tell them apart, a nearly round part is turned to where it fits
   /// best, and each pose settles (settlePose).
-  /// With more, as for what will be refined, each pose is turned by the near-symmetry that the scene's edges speak for; of
-  /// those that a near-symmetry, or any turn of a nearly round part, turns into each other one is kept. When more poses
-  /// come than may stay, every other point judges, and those whose preference is a thousandth of the best's go, too.
+  /// With more, as for what will be refined, of those that a near-symmetry, or any turn of a nearly round part, turns into
+  /// each other one is kept. When more poses come than may stay, as from detection, each is turned by the near-symmetry
+  /// that the scene's edges speak for, every other point judges, and those whose preference is a thousandth of the best's
+  /// go, too.
   int posesPerInstance = 2;
   int maximumPoses = 100;       ///< 0: no limit
   int threads = 0;              ///< 0: one for each processor

@@ -136,3 +136,18 @@ TEST(TurnSearch, CandidatesThatATurnMakesTheSameTakeOnePlace)
   EXPECT_NEAR(tilt(0), 0.0, 0.1);
   EXPECT_NEAR(tilt(1), 30.0, 0.1) << "the other place is the tilted one's";
 }
+
+TEST(TurnSearch, CandidatesOfWhichSomeMustGoTakeTheLikeliestTurn)
+{
+  meam::Poses candidates(2);
+  candidates[0].T_scene_model = turned(108);
+  candidates[1].T_scene_model = Eigen::Translation3d(0, 30, 0) * turned(0); // between nothing
+  meam::PoseVerificationSettings settings;
+  const meam::Poses judged = meam::verifyPoses({ candidates[0] }, model(), scene(), settings);
+  ASSERT_EQ(judged.size(), 1u);
+  EXPECT_TRUE(judged[0].T_scene_model.isApprox(turned(108), 1e-9)) << "a pose that is only judged stays";
+  settings.maximumPoses = 1;
+  const meam::Poses kept = meam::verifyPoses(candidates, model(), scene(), settings);
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_LT(meam::rotationError(kept[0].T_scene_model, turned(0)), 1.0);
+}
