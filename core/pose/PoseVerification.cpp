@@ -100,14 +100,30 @@ void settleNearSymmetry(
   pose.certainty = 1.0 / odds;
 }
 
-/// Of poses that are nearly the same, up to the symmetries, the one with most votes, of equals the first; in the order they
-/// come.
-Poses distinctPoses(
-  const Poses& poses, const Eigen::Vector3d& middle, const Symmetries& symmetries, double distance, double angle)
+/// A first impression of each pose: how much of its surface is there.
+std::vector<double> glances(const Poses& poses, const EvidenceCollector& collector, int threads)
+{
+  std::vector<double> shares(poses.size());
+  parallelFor(static_cast<int>(poses.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        shares[i] = collector.glance(poses[i].T_scene_model);
+      }
+    });
+  return shares;
+}
+
+/// Of poses that are nearly the same, up to the symmetries, the one with most votes times the share of its surface that is
+/// there, of equals the first; none with less than `leastShare`. In the order they come.
+Poses distinctPoses(const Poses& poses, const std::vector<double>& shares, double leastShare,
+  const Eigen::Vector3d& middle, const Symmetries& symmetries, double distance, double angle)
 {
   std::vector<int> order(poses.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return poses[a].votes > poses[b].votes; });
+  std::stable_sort(order.begin(), order.end(),
+    [&](int a, int b) { return shares[a] * poses[a].votes > shares[b] * poses[b].votes; });
   std::vector<int> kept;
   for (const int i : order)
   {
@@ -119,7 +135,7 @@ Poses distinctPoses(
         return translationError(T, other, middle) < distance &&
           rotationError(nearestEqual(T, other, symmetries), other) < angle;
       });
-    if (!known)
+    if (!known && shares[i] >= leastShare)
     {
       kept.push_back(i);
     }
@@ -131,29 +147,6 @@ Poses distinctPoses(
     distinct.push_back(poses[i]);
   }
   return distinct;
-}
-
-/// Without the poses whose surface cannot be there at a glance, in the order they come.
-Poses promisingPoses(const Poses& poses, const EvidenceCollector& collector, int threads)
-{
-  std::vector<char> isPromising(poses.size());
-  parallelFor(static_cast<int>(poses.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        isPromising[i] = collector.glance(poses[i].T_scene_model) >= LeastAtAGlance;
-      }
-    });
-  Poses promising;
-  for (std::size_t i = 0; i < poses.size(); ++i)
-  {
-    if (isPromising[i])
-    {
-      promising.push_back(poses[i]);
-    }
-  }
-  return promising;
 }
 
 /// Indices of the poses that stay, best first.
@@ -294,15 +287,16 @@ Poses verifyPoses(
   {
     same.near.clear();
   }
-  Poses scored = byEvidence ? distinctPoses(poses, index.view.middle().cast<double>(), same, SameShare * clusterDistance,
-                                SameShare * settings.clusterAngle)
-                            : poses;
   const bool someMustGo = settings.maximumPoses > 0 && static_cast<int>(poses.size()) > settings.maximumPoses;
-  const std::size_t stride = someMustGo && areCandidates ? CandidateStride : 1;
-  if (byEvidence && someMustGo && !index.scene.surface.empty())
+  Poses scored = poses;
+  if (byEvidence)
   {
-    scored = promisingPoses(scored, collector, settings.threads);
+    const std::vector<double> shares = index.scene.surface.empty() ? std::vector<double>(poses.size(), 1.0)
+                                                                   : glances(poses, collector, settings.threads);
+    scored = distinctPoses(poses, shares, someMustGo ? LeastAtAGlance : 0.0, index.view.middle().cast<double>(), same,
+      SameShare * clusterDistance, SameShare * settings.clusterAngle);
   }
+  const std::size_t stride = someMustGo && areCandidates ? CandidateStride : 1;
   const TurnSearch search(index);
   std::vector<PoseEvidence> evidence(byEvidence ? scored.size() : 0);
   parallelFor(static_cast<int>(scored.size()), settings.threads, subProgress(progress, 0.0, 0.8),

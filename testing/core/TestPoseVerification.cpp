@@ -74,6 +74,18 @@ TEST(PoseVerification, WhatIsNotThereGoesAtAGlanceWhereSomeMustGo)
   EXPECT_EQ(meam::verifyPoses(poses, scenes::bracket(), scene(), settings).size(), 6u) << "all may stay";
 }
 
+TEST(PoseVerification, OfPosesNearlyTheSameMoreVotesDoNotMakeUpForSurfaceThatIsNotThere)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[1];
+  const double above = 0.035 * scenes::bracket().diameter; // more than fits, and less than tells two poses apart
+  meam::Poses poses{ at(Eigen::Translation3d(0, 0, above) * T), at(T) };
+  poses[0].votes = 120;
+  poses[1].votes = 100;
+  const meam::Poses kept = meam::verifyPoses(poses, scenes::bracket(), scene());
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_LT(meam::translationError(kept[0].T_scene_model, T), 1e-6);
+}
+
 TEST(PoseVerification, WithoutASurfaceEdgesDecide)
 {
   meam::Scene edgesOnly = scene();
