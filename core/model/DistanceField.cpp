@@ -88,19 +88,20 @@ DistanceField::DistanceField(const Points& points, double spacing, double reach,
 }
 
 void DistanceField::at(
-  const Eigen::Isometry3f& toPart, const float* x, const float* y, const float* z, int count, float* distances) const
+  const Eigen::Isometry3f& toPart, const PointColumns& points, int begin, int count, float* distances) const
 {
   Eigen::Matrix<float, 3, 4> toCells = this->InverseCell * toPart.matrix().topRows<3>();
   toCells.col(3) -= this->InverseCell * this->Origin;
   const int outside = static_cast<int>(this->Distances.size()) - 1;
   int cells[Block];
-  for (int begin = 0; begin < count; begin += Block)
+  const float *x = points.x.data() + begin, *y = points.y.data() + begin, *z = points.z.data() + begin;
+  for (int done = 0; done < count; done += Block)
   {
-    const int size = std::min(Block, count - begin);
-    findCells(toCells, this->Size, x + begin, y + begin, z + begin, size, outside, cells);
+    const int size = std::min(Block, count - done);
+    findCells(toCells, this->Size, x + done, y + done, z + done, size, outside, cells);
     for (int k = 0; k < size; ++k)
     {
-      distances[begin + k] = this->Told[this->Distances[cells[k]]];
+      distances[done + k] = this->Told[this->Distances[cells[k]]];
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Geometry.h"
+#include "PointColumns.h"
 
 #include <array>
 #include <cstdint>
@@ -34,8 +34,8 @@ public:
     return this->Told[this->Distances[(index.z() * this->Size.y() + index.y()) * this->Size.x() + index.x()]];
   }
 
-  /// The same of `count` points that `toPart` takes to the part's frame, several at a time.
-  void at(const Eigen::Isometry3f& toPart, const float* x, const float* y, const float* z, int count, float* distances) const;
+  /// The same of `count` points from `begin` on, which `toPart` takes to the part's frame, several at a time.
+  void at(const Eigen::Isometry3f& toPart, const PointColumns& points, int begin, int count, float* distances) const;
 
   /// A ball around all that the distances are from.
   const Eigen::Vector3f& middle() const { return this->Middle; }

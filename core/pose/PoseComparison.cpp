@@ -29,8 +29,7 @@ double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
     [&](int begin, int count)
     {
       float distances[Block];
-      surface.at(toModel, &measured.sorted().x[begin], &measured.sorted().y[begin], &measured.sorted().z[begin], count,
-        distances);
+      surface.at(toModel, measured.sorted(), begin, count, distances);
       for (int k = 0; k < count; ++k)
       {
         explained += std::max(0.0f, 1.0f - distances[k] / far);
@@ -61,8 +60,7 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
       columns.set(k, points[indices[k]]);
     }
     distances.resize(indices.size());
-    field.at(toOther, columns.x.data(), columns.y.data(), columns.z.data(), static_cast<int>(indices.size()),
-      distances.data());
+    field.at(toOther, columns, 0, static_cast<int>(indices.size()), distances.data());
   };
   double sum = 0.0;
   distancesOf(one.visible.surface, model.surface.points, model.surfaceDistance);
@@ -124,8 +122,8 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
     {
       const PointColumns& points = measured.sorted();
       float ofA[Block], ofB[Block];
-      edges.at(toA, &points.x[begin], &points.y[begin], &points.z[begin], count, ofA);
-      edges.at(toB, &points.x[begin], &points.y[begin], &points.z[begin], count, ofB);
+      edges.at(toA, points, begin, count, ofA);
+      edges.at(toB, points, begin, count, ofB);
       for (int k = 0; k < count; ++k)
       {
         const double weight =

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meam
 {
@@ -24,8 +25,8 @@ constexpr int CoarseStride = 4;             // of the points in the steps before
 constexpr int FewestCorrespondences = 4;
 // Of a pose that settles, shares of the diameter.
 constexpr double WindowShare = 0.02;      // from a point of the part to edge points that count
-constexpr double MarginShare = 0.003;     // a point moves by before its edge points are looked up again
 constexpr double AcrossShare = 0.006;     // the same across its tangent, and along the normal of its surface
+constexpr double MarginShare = 0.003;     // that a point moves by before its edge points are looked up again
 constexpr double WidestFirst = 1.5;       // times that in the first step
 constexpr double LeastMotionShare = 3e-6; // less is none
 constexpr int MostSteps = 15;
@@ -79,11 +80,10 @@ public:
     const double diameter = this->Index.model.diameter;
     PartView::Visible visible;
     EdgeLines::Neighbours neighbours; // of the visible edges
-    double travelled = 0.0;           // since they were looked up, at most
+    double travelled = std::numeric_limits<double>::infinity(); // since they were looked up, at most
     RigidFit::Result fit;
     Twist wanted, taken;      // in the step before
     bool isFollowing = false; // a step of the same kind
-    bool isKnown = false;     // what the neighbours are
     double wide = WidestFirst;
     double moved = 0.0;
     int steps = 0;
@@ -93,12 +93,14 @@ public:
       {
         const Eigen::Vector3f from = visible.from;
         this->see(pose, visible);
-        const bool isSame = visible.from == from;
-        isFollowing = isFollowing && isSame;
-        isKnown = isKnown && isSame;
+        if (visible.from != from)
+        {
+          isFollowing = false;
+          travelled = std::numeric_limits<double>::infinity();
+        }
       }
       const double limit = wide * AcrossShare * diameter;
-      if (!isKnown || travelled > MarginShare * diameter)
+      if (travelled > MarginShare * diameter)
       {
         neighbours = this->neighbours(pose.T_scene_model, visible, limit);
         travelled = 0.0;
@@ -128,7 +130,6 @@ public:
       wanted = step;
       taken = farther;
       isFollowing = wide == 1.0;
-      isKnown = true;
       wide = 1.0;
       pose.T_scene_model = this->motionOf(pose, farther) * pose.T_scene_model;
     }

@@ -57,8 +57,8 @@ double TurnSearch::explained(const PointColumns& edges, const Eigen::Isometry3d&
 {
   const float reach = static_cast<float>(Reach * this->Index.model.diameter);
   float distances[MostPoints];
-  this->Index.model.edgeDistance.at(turn.inverse().cast<float>(), edges.x.data(), edges.y.data(), edges.z.data(),
-    static_cast<int>(edges.size()), distances);
+  this->Index.model.edgeDistance.at(
+    turn.inverse().cast<float>(), edges, 0, static_cast<int>(edges.size()), distances);
   double sum = 0.0;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {

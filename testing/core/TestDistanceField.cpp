@@ -80,7 +80,8 @@ TEST(DistanceField, ManyAtOnceAsOneByOne)
   points.add({ 1e30f, 0, 0 });
   points.add(Eigen::Vector3f::Constant(NAN));
   std::vector<float> distances(points.size());
-  field.at(toPart, points.x.data(), points.y.data(), points.z.data(), static_cast<int>(points.size()), distances.data());
+  field.at(toPart, points, 0, 400, distances.data());
+  field.at(toPart, points, 400, static_cast<int>(points.size()) - 400, distances.data() + 400);
   int different = 0; // where rounding decides between cells
   int near = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -93,7 +94,6 @@ TEST(DistanceField, ManyAtOnceAsOneByOne)
   EXPECT_LE(different, 3);
   EXPECT_GT(near, 300);
   float distance = -1.0f;
-  const float zero = 0.0f;
-  meam::DistanceField().at(toPart, &zero, &zero, &zero, 1, &distance);
+  meam::DistanceField().at(toPart, points, 0, 1, &distance);
   EXPECT_EQ(distance, 0.0f) << "of nothing, with no reach";
 }
