@@ -31,4 +31,26 @@ struct PointColumns
   }
   Eigen::Vector3f operator[](std::size_t k) const { return { this->x[k], this->y[k], this->z[k] }; }
 };
+
+/// Points with a unit direction each: the normal of a surface, the tangent of an edge.
+struct OrientedColumns
+{
+  PointColumns points;
+  PointColumns directions;
+
+  std::size_t size() const { return this->points.size(); }
+  void set(std::size_t k, const Eigen::Vector3f& point, const Eigen::Vector3f& direction)
+  {
+    this->points.set(k, point);
+    this->directions.set(k, direction);
+  }
+  void resize(std::size_t size)
+  {
+    this->points.resize(size);
+    this->directions.resize(size);
+  }
+};
+
+/// The points after a motion, with their directions turned.
+OrientedColumns moved(const OrientedColumns& columns, const Eigen::Isometry3f& motion);
 }

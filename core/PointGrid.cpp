@@ -4,8 +4,8 @@
 #include "Error.h"
 
 #include <cmath>
+#include <cstdint>
 #include <numeric>
-#include <tuple>
 
 namespace meam
 {
@@ -14,20 +14,36 @@ namespace
 constexpr double MostCells = 4e6;
 constexpr double SameDistance = 1e-4; // of a cube's side
 constexpr double StrayShare = 0.001; // of the points, at each end of each axis
+constexpr double MostCubes = 1 << 21; // along an axis, so that 64 bits count all
 
-/// A cube of side leafSize, counted from the origin.
-struct Cube
+/// A point and the number of the cube it lies in.
+struct Member
 {
-  std::int64_t x, y, z;
-  bool operator==(const Cube& other) const { return this->x == other.x && this->y == other.y && this->z == other.z; }
+  std::uint64_t cube;
+  int point;
 };
 
-std::size_t hashOf(const Cube& cube)
+/// Sorts by cube numbers of so many bits; members of one cube stay in their order.
+void sortByCube(std::vector<Member>& members, int bits)
 {
-  const auto bits = [](std::int64_t index) { return static_cast<std::uint64_t>(index); }; // these may wrap
-  const std::uint64_t mixed =
-    (bits(cube.x) * 0x9E3779B97F4A7C15ull) ^ (bits(cube.y) * 0xC2B2AE3D27D4EB4Full) ^ (bits(cube.z) * 0x165667B19E3779F9ull);
-  return mixed ^ (mixed >> 32);
+  constexpr int digit = 11;
+  constexpr std::size_t values = std::size_t(1) << digit;
+  std::vector<Member> sorted(members.size());
+  std::vector<std::size_t> places(values);
+  for (int shift = 0; shift < bits; shift += digit)
+  {
+    std::fill(places.begin(), places.end(), 0);
+    for (const Member& member : members)
+    {
+      ++places[member.cube >> shift & (values - 1)];
+    }
+    std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t(0));
+    for (const Member& member : members)
+    {
+      sorted[places[member.cube >> shift & (values - 1)]++] = member;
+    }
+    members.swap(sorted);
+  }
 }
 }
 
@@ -92,82 +108,70 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
-  struct Cell
+  // Cubes are numbered along z, then y, then x, within a box of as many as 64 bits can count. It leaves out stray points
+  // beyond: they go to the cubes of the border.
+  double leaf = leafSize;
+  Eigen::AlignedBox3f box = bounds(points);
+  if (box.isEmpty())
   {
-    Cube cube;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    int count = 0;
-    int nearest = -1;
-    double distance = 0.0; // to the mean
-  };
-  constexpr double farthest = 9e18; // what 64 bits count
-  const auto cubeOf = [&](const Eigen::Vector3f& point)
-  {
-    const Eigen::Array3d cell = (point.cast<double>() / leafSize).array().floor().max(-farthest).min(farthest);
-    return Cube{ static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
-      static_cast<std::int64_t>(cell.z()) };
-  };
-  // An open hash table of cells: place of a cube in `cells`, or -1.
-  std::size_t size = 16;
-  while (size < 2 * points.size())
-  {
-    size *= 2;
+    return {};
   }
-  std::vector<int> cellAt(size, -1);
-  std::vector<Cell> cells;
-  std::vector<int> cellOf(points.size(), -1);
+  const auto cubeOf = [&](const Eigen::Vector3f& point) -> Eigen::Array3d
+  { return (point.cast<double>() / leaf).array().floor(); };
+  const auto isTooWide = [&]() { return (cubeOf(box.max()) - cubeOf(box.min())).maxCoeff() >= MostCubes; };
+  if (isTooWide())
+  {
+    box = innerBounds(points, StrayShare);
+  }
+  while (isTooWide())
+  {
+    leaf *= 2.0;
+  }
+  const Eigen::Array3d low = cubeOf(box.min());
+  const Eigen::Array3d most = cubeOf(box.max()) - low;
+  const auto bitsOf = [](double count) { return static_cast<int>(std::ceil(std::log2(count + 1.0))); };
+  const int bitsX = bitsOf(most.x()), bitsY = bitsOf(most.y()), bitsZ = bitsOf(most.z());
+  std::vector<Member> members;
+  members.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    if (!points[i].allFinite())
+    if (points[i].allFinite())
     {
-      continue;
-    }
-    const Cube cube = cubeOf(points[i]);
-    std::size_t slot = hashOf(cube) & (size - 1);
-    while (cellAt[slot] >= 0 && !(cells[cellAt[slot]].cube == cube))
-    {
-      slot = (slot + 1) & (size - 1);
-    }
-    if (cellAt[slot] < 0)
-    {
-      cellAt[slot] = static_cast<int>(cells.size());
-      cells.emplace_back();
-      cells.back().cube = cube;
-    }
-    cellOf[i] = cellAt[slot];
-    cells[cellOf[i]].sum += points[i].cast<double>();
-    ++cells[cellOf[i]].count;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (cellOf[i] < 0)
-    {
-      continue;
-    }
-    Cell& cell = cells[cellOf[i]];
-    const double distance = (points[i].cast<double>() - cell.sum / cell.count).norm() / leafSize;
-    const double nearer = cell.distance - distance;
-    // Of two points both are equally near to their mean: the one nearer to the cube's middle.
-    const auto offCentre = [&](int k)
-    {
-      const Eigen::Array3d middle(cell.cube.x + 0.5, cell.cube.y + 0.5, cell.cube.z + 0.5);
-      return (points[k].cast<double>().array() / leafSize - middle).matrix().squaredNorm();
-    };
-    if (cell.nearest < 0 || nearer > SameDistance ||
-      (nearer > -SameDistance && offCentre(static_cast<int>(i)) < offCentre(cell.nearest)))
-    {
-      cell.nearest = static_cast<int>(i);
-      cell.distance = distance;
+      const auto cube = (cubeOf(points[i]) - low).max(0.0).min(most).cast<std::int64_t>().eval();
+      const std::int64_t number = (cube.z() << bitsY | cube.y()) << bitsX | cube.x();
+      members.push_back({ static_cast<std::uint64_t>(number), static_cast<int>(i) });
     }
   }
-  std::sort(cells.begin(), cells.end(),
-    [](const Cell& a, const Cell& b)
-    { return std::tie(a.cube.z, a.cube.y, a.cube.x) < std::tie(b.cube.z, b.cube.y, b.cube.x); });
+  sortByCube(members, bitsX + bitsY + bitsZ);
+
   std::vector<int> kept;
-  kept.reserve(cells.size());
-  for (const Cell& cell : cells)
+  for (auto begin = members.begin(); begin != members.end();)
   {
-    kept.push_back(cell.nearest);
+    const auto end = std::find_if(begin, members.end(), [&](const Member& other) { return other.cube != begin->cube; });
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (auto member = begin; member != end; ++member)
+    {
+      sum += points[member->point].cast<double>();
+    }
+    const Eigen::Vector3d mean = sum / static_cast<double>(end - begin);
+    // Of two points both are equally near to their mean: the one nearer to the cube's middle.
+    const auto offCentre = [&](const Eigen::Vector3f& point)
+    { return (point.cast<double>().array() / leaf - cubeOf(point) - 0.5).matrix().squaredNorm(); };
+    int nearest = begin->point;
+    double distance = (points[nearest].cast<double>() - mean).norm() / leaf;
+    for (auto member = begin + 1; member < end; ++member)
+    {
+      const Eigen::Vector3f& point = points[member->point];
+      const double other = (point.cast<double>() - mean).norm() / leaf;
+      const double nearer = distance - other;
+      if (nearer > SameDistance || (nearer > -SameDistance && offCentre(point) < offCentre(points[nearest])))
+      {
+        nearest = member->point;
+        distance = other;
+      }
+    }
+    kept.push_back(nearest);
+    begin = end;
   }
   return kept;
 }

@@ -10,9 +10,31 @@ namespace meam
 {
 namespace
 {
+/// Several rows from `begin` on, as addProducts takes them.
+template <int Lanes>
+inline __attribute__((always_inline)) void widen(
+  const RigidFit::Rows& from, const double* centre, int begin, double (*rows)[Lanes])
+{
+#pragma omp simd
+  for (int k = 0; k < Lanes; ++k)
+  {
+    const int i = begin + k;
+    const double x = from.x[i] - centre[0], y = from.y[i] - centre[1], z = from.z[i] - centre[2];
+    const double u = from.directionX[i], v = from.directionY[i], w = from.directionZ[i];
+    rows[0][k] = y * w - z * v;
+    rows[1][k] = z * u - x * w;
+    rows[2][k] = x * v - y * u;
+    rows[3][k] = u;
+    rows[4][k] = v;
+    rows[5][k] = w;
+    rows[6][k] = from.residual[i];
+    rows[7][k] = from.weight[i];
+  }
+}
+
 /// rows: six of the Jacobian, residuals, weights.
 template <int Lanes>
-MEAM_ALL_VECTORS void addProducts(const double (*rows)[Lanes], double (*sums)[Lanes])
+inline __attribute__((always_inline)) void addProducts(const double (*rows)[Lanes], double (*sums)[Lanes])
 {
   const double* residuals = rows[6];
   const double* weights = rows[7];
@@ -46,11 +68,40 @@ MEAM_ALL_VECTORS void addProducts(const double (*rows)[Lanes], double (*sums)[La
     sums[1][k] += weights[k];
   }
 }
+
+template <int Lanes>
+MEAM_ALL_VECTORS void addRows(const double (*rows)[Lanes], double (*sums)[Lanes])
+{
+  addProducts<Lanes>(rows, sums);
+}
+
+/// Whole ones of `Lanes` rows.
+template <int Lanes>
+MEAM_ALL_VECTORS void addAll(const RigidFit::Rows& from, int count, const double* centre, double (*sums)[Lanes])
+{
+  double rows[8][Lanes];
+  for (int begin = 0; begin < count; begin += Lanes)
+  {
+    widen<Lanes>(from, centre, begin, rows);
+    addProducts<Lanes>(rows, sums);
+  }
+}
+}
+
+void RigidFit::add(const Rows& rows)
+{
+  const int whole = rows.count / Lanes * Lanes;
+  addAll<Lanes>(rows, whole, this->Centre.data(), this->Summed);
+  for (int k = whole; k < rows.count; ++k)
+  {
+    this->add(Eigen::Vector3d(rows.x[k], rows.y[k], rows.z[k]),
+      Eigen::Vector3d(rows.directionX[k], rows.directionY[k], rows.directionZ[k]), rows.residual[k], rows.weight[k]);
+  }
 }
 
 void RigidFit::sum()
 {
-  addProducts(this->Waiting, this->Summed);
+  addRows<Lanes>(this->Waiting, this->Summed);
   this->Filled = 0;
 }
 

@@ -32,6 +32,19 @@ public:
     }
   }
 
+  /// Points with their directions, residuals and weights, column by column; what is beyond `count` is room.
+  struct Rows
+  {
+    static constexpr int Most = 256;
+    int count = 0;
+    float x[Most], y[Most], z[Most];
+    float directionX[Most], directionY[Most], directionZ[Most];
+    float residual[Most];
+    float weight[Most];
+  };
+  /// As each of them.
+  void add(const Rows& rows);
+
   /// What the residuals say.
   struct Result
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/TrainedModel.h"
 
+#include "PointGrid.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,7 @@ constexpr double CellShare = 0.0075;
 constexpr double SurfaceSpacing = 0.018; // a little over that of the surface points
 constexpr double EdgeSpacing = 0.03;
 constexpr double VotingLeafShare = 0.04;
+constexpr double JudgedLeafShare = 0.03;
 
 void deriveVotes(const PointCloud& edges, PairTable& pairs)
 {
@@ -75,6 +78,7 @@ void TrainedModel::deriveFields()
     this->votingEdges = std::max(this->votingEdges, last == indices->end() ? 0 : static_cast<int>(*last) + 1);
   }
   deriveVotes(this->edges, this->table);
+  this->judged = thinPoints(this->surface.points, JudgedLeafShare * this->diameter);
   const double reach = DistanceReach * this->diameter;
   const double cell = CellShare * this->diameter;
   this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfaceSpacing * this->diameter, reach, cell);

@@ -79,6 +79,7 @@ struct TrainedModel
 
   // What deriveFields() makes of the above.
   int votingEdges = 0;           ///< so many of the edge points make pairs
+  std::vector<int> judged;       ///< surface points that evidence is taken from
   DistanceField surfaceDistance; ///< capped at DistanceReach of the diameter
   DistanceField edgeDistance;
   static constexpr double DistanceReach = 0.03;

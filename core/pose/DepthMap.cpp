@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/DepthMap.h"
 
+#include "AllVectors.h"
 #include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace meam
 {
@@ -14,7 +16,65 @@ constexpr float Empty = std::numeric_limits<float>::infinity();
 constexpr float LargestSide = 2048.0f; // cells; a wider scene gets coarser cells
 constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
+
+/// A map's lines of sight, for points that `toAxes` takes to its axes.
+struct Lines
+{
+  Eigen::Matrix<float, 3, 4> toAxes;
+  bool perspective;
+  Eigen::Vector2f low;
+  float inverseCell;
+  int width, height;
+};
+
+/// The cells of points, `outside` of those in none, their depths, and how far inside the cells they lie.
+MEAM_ALL_VECTORS
+void lookAlong(const Lines& lines, const float* x, const float* y, const float* z, int count, int* cells, float* depths,
+  float* insides)
+{
+  const Eigen::Matrix<float, 3, 4>& m = lines.toAxes;
+  const float ux = m(0, 0), uy = m(0, 1), uz = m(0, 2), u0 = m(0, 3);
+  const float vx = m(1, 0), vy = m(1, 1), vz = m(1, 2), v0 = m(1, 3);
+  const float wx = m(2, 0), wy = m(2, 1), wz = m(2, 2), w0 = m(2, 3);
+  const float lowU = lines.low.x(), lowV = lines.low.y(), scale = lines.inverseCell;
+  const float columns = lines.width, rows = lines.height;
+  const int width = lines.width, outside = lines.width * lines.height;
+  const float slope = lines.perspective ? 1.0f : 0.0f, parallel = 1.0f - slope;
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const float depth = wx * x[k] + wy * y[k] + wz * z[k] + w0;
+    const float ahead = slope * depth + parallel;
+    const float u = ((ux * x[k] + uy * y[k] + uz * z[k] + u0) / ahead - lowU) * scale;
+    const float v = ((vx * x[k] + vy * y[k] + vz * z[k] + v0) / ahead - lowV) * scale;
+    const bool isInside = (ahead > 0.0f) & (u >= 0.0f) & (v >= 0.0f) & (u < columns) & (v < rows);
+    const int column = static_cast<int>(std::min(std::max(0.0f, u), columns));
+    const int row = static_cast<int>(std::min(std::max(0.0f, v), rows));
+    const float offU = 2.0f * (u - column) - 1.0f, offV = 2.0f * (v - row) - 1.0f; // from the middle of the cell
+    cells[k] = isInside ? row * width + column : outside;
+    depths[k] = depth;
+    insides[k] = (1.0f - offU * offU) * (1.0f - offV * offV);
+  }
 }
+
+/// Which cells of a row are not seen, but one about them is. Rows have a border of one cell; `column` is room for one.
+void findGaps(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
+  std::uint8_t* column, std::uint8_t* isGap)
+{
+#pragma omp simd
+  for (int k = 0; k < width + 2; ++k)
+  {
+    column[k] = above[k] | row[k] | below[k];
+  }
+#pragma omp simd
+  for (int k = 0; k < width; ++k)
+  {
+    isGap[k] = (column[k] | column[k + 1] | column[k + 2]) & (row[k + 1] ^ 1);
+  }
+}
+}
+
+const DepthMap::Cell DepthMap::Nothing = { Empty, -Empty, Eigen::Vector3f::Zero() };
 
 DepthMap::DepthMap(
   const Points& surface, const Sensor& sensor, double cellSize, const Eigen::Vector3f& along, int threads)
@@ -65,7 +125,7 @@ DepthMap::DepthMap(
   this->Low = box.min().head<2>();
   this->Width = static_cast<int>(box.sizes().x() * this->InverseCell) + 1;
   this->Height = static_cast<int>(box.sizes().y() * this->InverseCell) + 1;
-  this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height, { Empty, -Empty, Eigen::Vector3f::Zero() });
+  this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, Nothing);
   std::vector<int> cellOf(surface.size());
   parallelFor(size, threads, {},
     [&](int begin, int end, int)
@@ -87,6 +147,50 @@ DepthMap::DepthMap(
   const float layer = static_cast<float>(LayerCells * cellSize);
   this->average(surface, projected, cellOf, layer);
   this->fillGaps(layer, threads);
+}
+
+void DepthMap::findPlaces(
+  const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const
+{
+  Eigen::Isometry3f fromEye = toScene;
+  if (this->Eye.perspective)
+  {
+    fromEye.translation() -= this->Eye.position;
+  }
+  const Lines lines{ this->Axes * fromEye.matrix().topRows<3>(), this->Eye.perspective, this->Low, this->InverseCell,
+    this->Width, this->Height };
+  lookAlong(lines, points.x.data() + begin, points.y.data() + begin, points.z.data() + begin, count, places.cells,
+    places.depths, places.insides);
+}
+
+void DepthMap::relations(const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count,
+  float tolerance, Relation* relations) const
+{
+  Places places;
+  for (int done = 0; done < count; done += Block)
+  {
+    const int size = std::min(Block, count - done);
+    this->findPlaces(toScene, points, begin + done, size, places);
+    for (int k = 0; k < size; ++k)
+    {
+      const Cell& cell = this->Cells[places.cells[k]];
+      relations[done + k] = relationTo(cell, places.depths[k], tolerance);
+    }
+  }
+}
+
+void DepthMap::meansAt(const PointColumns& points, int begin, int count, Seen& seen) const
+{
+  Places places;
+  this->findPlaces(Eigen::Isometry3f::Identity(), points, begin, count, places);
+  for (int k = 0; k < count; ++k)
+  {
+    const Cell& cell = this->Cells[places.cells[k]];
+    seen.x[k] = cell.mean.x();
+    seen.y[k] = cell.mean.y();
+    seen.z[k] = cell.mean.z();
+    seen.inside[k] = cell.nearest < NothingSeen ? places.insides[k] : 0.0f;
+  }
 }
 
 void DepthMap::average(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer)
@@ -122,47 +226,60 @@ void DepthMap::average(const Points& surface, const Points& projected, const std
 void DepthMap::fillGaps(float layer, int threads)
 {
   // Between the samples of a surface some cells stay empty: the nearest surface around speaks for them.
-  const std::vector<Cell> seen = this->Cells;
+  const std::size_t stride = static_cast<std::size_t>(this->Width) + 2; // with a border of cells that are not seen
+  std::vector<std::uint8_t> seen(stride * (this->Height + 2), 0);
+  for (int row = 0; row < this->Height; ++row)
+  {
+    for (int column = 0; column < this->Width; ++column)
+    {
+      seen[(row + 1) * stride + column + 1] = this->cellIn(row, column).nearest < NothingSeen ? 1 : 0;
+    }
+  }
   parallelFor(this->Height, threads, {},
     [&](int begin, int end, int)
     {
+      std::vector<std::uint8_t> column(stride), isGap(this->Width);
       for (int row = begin; row < end; ++row)
       {
-        for (int column = 0; column < this->Width; ++column)
+        const std::uint8_t* above = &seen[row * stride];
+        findGaps(above, above + stride, above + 2 * stride, this->Width, column.data(), isGap.data());
+        for (int k = 0; k < this->Width; ++k)
         {
-          Cell& cell = this->Cells[static_cast<std::size_t>(row) * this->Width + column];
-          if (cell.nearest < NothingSeen)
+          if (isGap[k])
           {
-            continue;
-          }
-          const Cell* beside[8];
-          int found = 0;
-          const int left = std::max(0, column - 1), right = std::min(this->Width - 1, column + 1);
-          for (int v = std::max(0, row - 1); v <= std::min(this->Height - 1, row + 1); ++v)
-          {
-            for (int u = left; u <= right; ++u)
-            {
-              const Cell& other = seen[static_cast<std::size_t>(v) * this->Width + u];
-              if (other.nearest < NothingSeen)
-              {
-                beside[found++] = &other;
-                cell.nearest = std::min(cell.nearest, other.nearest);
-              }
-            }
-          }
-          int count = 0;
-          for (int k = 0; k < found; ++k)
-          {
-            const Cell& other = *beside[k];
-            if (other.nearest <= cell.nearest + layer)
-            {
-              cell.mean += (other.mean - cell.mean) / static_cast<float>(++count);
-              const bool isOneLayer = other.farthest <= cell.nearest + layer;
-              cell.farthest = std::max(cell.farthest, isOneLayer ? other.farthest : other.nearest);
-            }
+            this->fillGap(row, k, above + k, stride, layer);
           }
         }
       }
     });
+}
+
+void DepthMap::fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer)
+{
+  Cell& cell = this->cellIn(row, column);
+  const Cell* beside[8];
+  int found = 0;
+  for (int v = 0; v < 3; ++v)
+  {
+    for (int u = 0; u < 3; ++u)
+    {
+      if (seen[v * stride + u])
+      {
+        beside[found++] = &this->cellIn(row + v - 1, column + u - 1);
+        cell.nearest = std::min(cell.nearest, beside[found - 1]->nearest);
+      }
+    }
+  }
+  int count = 0;
+  for (int k = 0; k < found; ++k)
+  {
+    const Cell& other = *beside[k];
+    if (other.nearest <= cell.nearest + layer)
+    {
+      cell.mean += (other.mean - cell.mean) / static_cast<float>(++count);
+      const bool isOneLayer = other.farthest <= cell.nearest + layer;
+      cell.farthest = std::max(cell.farthest, isOneLayer ? other.farthest : other.nearest);
+    }
+  }
 }
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "PointColumns.h"
 #include "scene/Sensor.h"
 
+#include <cstdint>
 #include <limits>
 
 namespace meam
@@ -34,17 +36,12 @@ public:
   Relation relation(const Eigen::Vector3f& point, float tolerance) const
   {
     const Place place = this->placeOf(point);
-    const Cell* cell = this->cellOf(place);
-    if (!cell)
-    {
-      return Relation::NoSurface;
-    }
-    if (std::abs(place.depth - cell->nearest) <= tolerance || std::abs(place.depth - cell->farthest) <= tolerance)
-    {
-      return Relation::OnSurface;
-    }
-    return cell->nearest < place.depth ? Relation::Hidden : Relation::InFront;
+    return relationTo(place.cell < 0 ? Nothing : this->Cells[place.cell], place.depth, tolerance);
   }
+
+  /// The same of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
+  void relations(const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, float tolerance,
+    Relation* relations) const;
 
   /// One point of the surface for each occupied cell: the mean of the nearest layer, which a sensor's noise moves less
   /// than single points.
@@ -69,6 +66,15 @@ public:
     return cell ? &cell->mean : nullptr;
   }
 
+  static constexpr int Block = 256; ///< points that are looked up together
+  struct Seen
+  {
+    float x[Block], y[Block], z[Block]; ///< of the means
+    float inside[Block];                ///< 0 where there is none
+  };
+  /// meanAt() of at most `Block` points from `begin` on.
+  void meansAt(const PointColumns& points, int begin, int count, Seen& seen) const;
+
 private:
   struct Cell
   {
@@ -76,6 +82,14 @@ private:
     float farthest;
     Eigen::Vector3f mean;
   };
+  static Relation relationTo(const Cell& cell, float depth, float tolerance)
+  {
+    const bool isOn = (std::abs(depth - cell.nearest) <= tolerance) | (std::abs(depth - cell.farthest) <= tolerance);
+    return isOn                           ? Relation::OnSurface
+      : !(cell.nearest < NothingSeen)     ? Relation::NoSurface
+      : cell.nearest < depth              ? Relation::Hidden
+                                          : Relation::InFront;
+  }
   struct Place
   {
     int cell;             ///< -1: outside the map
@@ -100,8 +114,19 @@ private:
     return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z(),
       index };
   }
+  struct Places
+  {
+    int cells[Block]; ///< the last one: outside the map
+    float depths[Block];
+    float insides[Block];
+  };
+  void findPlaces(
+    const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const;
   void average(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer);
   void fillGaps(float layer, int threads);
+  /// `seen` tells of the nine cells about one, `stride` from row to row.
+  void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);
+  Cell& cellIn(int row, int column) { return this->Cells[static_cast<std::size_t>(row) * this->Width + column]; }
   /// Null outside the map and where nothing was seen.
   const Cell* cellOf(const Place& place) const
   {
@@ -109,6 +134,7 @@ private:
     return seen ? &this->Cells[place.cell] : nullptr;
   }
   static constexpr float NothingSeen = std::numeric_limits<float>::max();
+  static const Cell Nothing;
 
   Sensor Eye;
   Eigen::Matrix3f Axes; ///< rows: right, down, depth
@@ -117,7 +143,7 @@ private:
   Eigen::Vector2f Low = Eigen::Vector2f::Zero();
   int Width = 0;
   int Height = 0;
-  std::vector<Cell> Cells;
+  std::vector<Cell> Cells{ Nothing }; ///< and at the end one where there is nothing
   Points Means;
 };
 }

@@ -20,8 +20,6 @@ struct Query
   float squaredRadius;
 };
 
-using Columns = std::array<std::vector<float>, 6>;
-
 struct Range
 {
   int begin, end;
@@ -35,10 +33,11 @@ struct Nearest
 };
 
 MEAM_ALL_VECTORS
-void search(const Columns& edges, const Range* ranges, int count, const Query& query, Nearest& nearest)
+void search(const OrientedColumns& edges, const Range* ranges, int count, const Query& query, Nearest& nearest)
 {
-  const float *ex = edges[0].data(), *ey = edges[1].data(), *ez = edges[2].data();
-  const float *tangentX = edges[3].data(), *tangentY = edges[4].data(), *tangentZ = edges[5].data();
+  const float *ex = edges.points.x.data(), *ey = edges.points.y.data(), *ez = edges.points.z.data();
+  const float *tangentX = edges.directions.x.data(), *tangentY = edges.directions.y.data(),
+              *tangentZ = edges.directions.z.data();
   const float px = query.point.x(), py = query.point.y(), pz = query.point.z();
   const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
   const float squaredRadius = query.squaredRadius;
@@ -79,23 +78,122 @@ void search(const Columns& edges, const Range* ranges, int count, const Query& q
     nearest.places[lane] = places[lane];
   }
 }
+
+/// Writes which of the edges in the ranges lie within the query's radius and, across its tangent, within `across`, and
+/// are nearly parallel. Returns their number.
+MEAM_ALL_VECTORS
+int select(const OrientedColumns& edges, const Range* ranges, int count, const Query& query, float across, int* selected)
+{
+  const float *ex = edges.points.x.data(), *ey = edges.points.y.data(), *ez = edges.points.z.data();
+  const float *tangentX = edges.directions.x.data(), *tangentY = edges.directions.y.data(),
+              *tangentZ = edges.directions.z.data();
+  const float px = query.point.x(), py = query.point.y(), pz = query.point.z();
+  const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
+  const float squaredRadius = query.squaredRadius, squaredAcross = across * across;
+  int passes[Lanes];
+  int found = 0;
+  for (int r = 0; r < count; ++r)
+  {
+    const int end = ranges[r].end;
+    for (int begin = ranges[r].begin; begin < end; begin += Lanes)
+    {
+#pragma omp simd
+      for (int lane = 0; lane < Lanes; ++lane)
+      {
+        const int k = begin + lane;
+        const float dx = px - ex[k], dy = py - ey[k], dz = pz - ez[k];
+        const float squared = dx * dx + dy * dy + dz * dz;
+        const float along = qx * dx + qy * dy + qz * dz;
+        const float cosine = std::abs(tangentX[k] * qx + tangentY[k] * qy + tangentZ[k] * qz);
+        const bool isNear = (k < end) & (squared <= squaredRadius) & (squared - along * along <= squaredAcross) &
+          (cosine > NearlyParallel);
+        passes[lane] = isNear ? 1 : 0;
+      }
+      for (int lane = 0; lane < Lanes; ++lane)
+      {
+        selected[found] = begin + lane;
+        found += passes[lane];
+      }
+    }
+  }
+  return found;
+}
+
+/// Sums of what has been added up in lanes, in a fixed order.
+inline __attribute__((always_inline)) float sumOf(const float* lanes)
+{
+  static_assert(Lanes == 8, "four pairs");
+  return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
+}
+
+struct MeanWeights
+{
+  float inverseRadius, inverseAcross; ///< squared
+};
+
+MEAM_ALL_VECTORS
+void average(const EdgeLines::Neighbours& neighbours, const OrientedColumns& edges, const MeanWeights& weights,
+  EdgeLines::Means& means)
+{
+  const OrientedColumns& lines = neighbours.lines;
+  const float *ex = lines.points.x.data(), *ey = lines.points.y.data(), *ez = lines.points.z.data();
+  const float *lx = lines.directions.x.data(), *ly = lines.directions.y.data(), *lz = lines.directions.z.data();
+  const float inverseRadius = weights.inverseRadius, inverseAcross = weights.inverseAcross;
+  constexpr float least = ParallelTangents * ParallelTangents;
+  constexpr float inverseRest = 1.0f / (1.0f - least);
+  const int count = static_cast<int>(edges.size());
+  for (int i = 0; i < count; ++i)
+  {
+    const float px = edges.points.x[i], py = edges.points.y[i], pz = edges.points.z[i];
+    const float tx = edges.directions.x[i], ty = edges.directions.y[i], tz = edges.directions.z[i];
+    const int end = neighbours.starts[i + 1];
+    float sums[Lanes] = {}, x[Lanes] = {}, y[Lanes] = {}, z[Lanes] = {};
+    for (int begin = neighbours.starts[i]; begin < end; begin += Lanes)
+    {
+#pragma omp simd
+      for (int lane = 0; lane < Lanes; ++lane)
+      {
+        const int k = begin + lane;
+        const float dx = px - ex[k], dy = py - ey[k], dz = pz - ez[k];
+        const float along = tx * dx + ty * dy + tz * dz;
+        const float besideX = dx - along * tx, besideY = dy - along * ty, besideZ = dz - along * tz;
+        const float cosine = tx * lx[k] + ty * ly[k] + tz * lz[k];
+        const float near = std::max(0.0f, 1.0f - (dx * dx + dy * dy + dz * dz) * inverseRadius);
+        const float close =
+          std::max(0.0f, 1.0f - (besideX * besideX + besideY * besideY + besideZ * besideZ) * inverseAcross);
+        const float parallel = std::max(0.0f, (cosine * cosine - least) * inverseRest);
+        const float weight = k < end ? near * near * close * close * parallel : 0.0f;
+        sums[lane] += weight;
+        x[lane] += weight * besideX;
+        y[lane] += weight * besideY;
+        z[lane] += weight * besideZ;
+      }
+    }
+    const float sum = sumOf(sums);
+    const float share = sum > 0.0f ? 1.0f / sum : 0.0f;
+    means.weights[i] = sum;
+    means.offsets.x[i] = sumOf(x) * share;
+    means.offsets.y[i] = sumOf(y) * share;
+    means.offsets.z[i] = sumOf(z) * share;
+  }
+}
+
+void gather(const std::vector<float>& from, const std::vector<int>& places, int count, std::vector<float>& to)
+{
+  for (int k = 0; k < count; ++k)
+  {
+    to[k] = from[places[k]];
+  }
+}
 }
 
 EdgeLines::EdgeLines(const PointCloud& edges, const PointGrid& grid)
   : Grid(grid)
 {
-  for (std::vector<float>& column : this->Columns)
-  {
-    column.assign(grid.order().size() + Lanes, 0.0f);
-  }
+  this->Lines.resize(grid.order().size() + Lanes);
   for (std::size_t k = 0; k < grid.order().size(); ++k)
   {
-    const int i = grid.order()[k];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Columns[axis][k] = edges.points[i][axis];
-      this->Columns[3 + axis][k] = edges.tangents[i][axis];
-    }
+    this->Lines.set(k, edges.points[grid.order()[k]], edges.tangents[grid.order()[k]]);
   }
 }
 
@@ -130,7 +228,7 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
   std::fill_n(nearest.distances, Lanes, query.squaredRadius);
   std::fill_n(nearest.places, Lanes, -1);
   this->forEachRanges(point, radius,
-    [&](const Range* ranges, int count) { search(this->Columns, ranges, count, query, nearest); });
+    [&](const Range* ranges, int count) { search(this->Lines, ranges, count, query, nearest); });
   // Without a branch: floats from 0 on are ordered as their bits are. What is not found is farther than all that is.
   std::uint64_t least = ~std::uint64_t(0);
   for (int lane = 0; lane < Lanes; ++lane)
@@ -151,61 +249,52 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
 }
 
 EdgeLines::Neighbours EdgeLines::neighbours(
-  const PointCloud& points, double radius, double across, double margin) const
+  const OrientedColumns& edges, double radius, double across, double margin) const
 {
-  const float squaredRadius = static_cast<float>((radius + margin) * (radius + margin));
-  const float squaredAcross = static_cast<float>((across + margin) * (across + margin));
-  const auto& [x, y, z, tangentX, tangentY, tangentZ] = this->Columns;
+  const double reach = radius + margin;
+  std::vector<int> selected;
+  int found = 0;
   Neighbours result;
   result.starts.push_back(0);
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < edges.size(); ++i)
   {
-    const Eigen::Vector3f& tangent = points.tangents[i];
-    this->Grid.forEachRange(points.points[i], radius + margin,
-      [&](int begin, int end)
+    const Query query{ edges.points[i], edges.directions[i], static_cast<float>(reach * reach) };
+    this->forEachRanges(query.point, reach,
+      [&](const Range* ranges, int count)
       {
-        for (int k = begin; k < end; ++k)
+        std::size_t most = found + Lanes;
+        for (int r = 0; r < count; ++r)
         {
-          const Line line{ { x[k], y[k], z[k] }, { tangentX[k], tangentY[k], tangentZ[k] } };
-          const Eigen::Vector3f d = points.points[i] - line.point;
-          const float squared = d.squaredNorm();
-          const float along = tangent.dot(d);
-          if (squared <= squaredRadius && squared - along * along <= squaredAcross &&
-            std::abs(tangent.dot(line.tangent)) > NearlyParallel)
-          {
-            result.lines.push_back(line);
-          }
+          most += ranges[r].end - ranges[r].begin;
         }
+        if (selected.size() < most)
+        {
+          selected.resize(2 * most);
+        }
+        found += select(this->Lines, ranges, count, query, static_cast<float>(across + margin), &selected[found]);
       });
-    result.starts.push_back(static_cast<int>(result.lines.size()));
+    result.starts.push_back(found);
   }
+  result.lines.resize(found + Lanes);
+  const auto gathered = [&](const PointColumns& from, PointColumns& to)
+  {
+    gather(from.x, selected, found, to.x);
+    gather(from.y, selected, found, to.y);
+    gather(from.z, selected, found, to.z);
+  };
+  gathered(this->Lines.points, result.lines.points);
+  gathered(this->Lines.directions, result.lines.directions);
   return result;
 }
 
-EdgeLines::Mean EdgeLines::meanAround(const Neighbours& neighbours, std::size_t k, const Eigen::Vector3f& point,
-  const Eigen::Vector3f& tangent, double radius, double across)
+EdgeLines::Means EdgeLines::meansAround(
+  const Neighbours& neighbours, const OrientedColumns& edges, double radius, double across)
 {
-  const float inverseRadius = 1.0f / (static_cast<float>(radius) * static_cast<float>(radius));
-  const float inverseAcross = 1.0f / (static_cast<float>(across) * static_cast<float>(across));
-  constexpr float least = ParallelTangents * ParallelTangents;
-  Mean mean;
-  for (int i = neighbours.starts[k]; i < neighbours.starts[k + 1]; ++i)
-  {
-    const Line& line = neighbours.lines[i];
-    const Eigen::Vector3f d = point - line.point;
-    const Eigen::Vector3f beside = d - tangent.dot(d) * tangent;
-    const float cosine = tangent.dot(line.tangent);
-    const float near = std::max(0.0f, 1.0f - d.squaredNorm() * inverseRadius);
-    const float close = std::max(0.0f, 1.0f - beside.squaredNorm() * inverseAcross);
-    const float parallel = std::max(0.0f, (cosine * cosine - least) / (1.0f - least));
-    const float weight = near * near * close * close * parallel;
-    mean.weight += weight;
-    mean.offset += weight * beside;
-  }
-  if (mean.weight > 0.0f)
-  {
-    mean.offset /= mean.weight;
-  }
-  return mean;
+  Means means;
+  means.weights.resize(edges.size());
+  means.offsets.resize(edges.size());
+  average(neighbours, edges,
+    { static_cast<float>(1.0 / (radius * radius)), static_cast<float>(1.0 / (across * across)) }, means);
+  return means;
 }
 }

@@ -3,8 +3,6 @@
 
 #include "PointGrid.h"
 
-#include <array>
-
 namespace meam
 {
 /// Tangent lines of a scene's edge points, for look-ups of the one that an edge of a part may lie on: several at a time
@@ -24,32 +22,26 @@ public:
   /// line is nearest to the point.
   Match nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const;
 
-  struct Line
-  {
-    Eigen::Vector3f point;
-    Eigen::Vector3f tangent;
-  };
   /// For each of several points the lines of the edge points about it.
   struct Neighbours
   {
     std::vector<int> starts; ///< of each point's lines, and the end of the last one's
-    std::vector<Line> lines;
+    OrientedColumns lines;   ///< and room at the end for as many as are looked at together
   };
-  /// Those that `meanAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by 5
+  /// Those that `meansAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by 5
   /// degrees. `radius` and `across` as there.
-  Neighbours neighbours(const PointCloud& points, double radius, double across, double margin) const;
+  Neighbours neighbours(const OrientedColumns& edges, double radius, double across, double margin) const;
 
-  struct Mean
+  struct Means
   {
-    Eigen::Vector3f offset = Eigen::Vector3f::Zero(); ///< mm, at right angles to the tangent
-    float weight = 0.0f;                              ///< 1 for each point at the same place; 0: there is none
+    PointColumns offsets;       ///< mm, at right angles to the tangents
+    std::vector<float> weights; ///< 1 for each edge point at the same place; 0: there is none
   };
-  /// How far a point with a unit tangent, the `k`-th of those with neighbours, is from the edge points about it, on
-  /// average, across the tangent. Their weights fall to 0 at `radius` (mm) from the point, at `across` (mm) across the
-  /// tangent and where the tangents are 32 degrees apart, so that the mean changes steadily with point and tangent: no
-  /// edge point comes in or goes out at once.
-  static Mean meanAround(const Neighbours& neighbours, std::size_t k, const Eigen::Vector3f& point,
-    const Eigen::Vector3f& tangent, double radius, double across);
+  /// How far points with unit tangents, those with these neighbours, are from the edge points about them, on average,
+  /// across the tangents. Their weights fall to 0 at `radius` (mm) from the point, at `across` (mm) across the tangent
+  /// and where the tangents are 32 degrees apart, so that the mean changes steadily with point and tangent: no edge
+  /// point comes in or goes out at once.
+  static Means meansAround(const Neighbours& neighbours, const OrientedColumns& edges, double radius, double across);
 
 private:
   /// Calls visit(ranges, count) with ranges of the columns, several at once, that hold all within `radius` of the point.
@@ -57,6 +49,6 @@ private:
   void forEachRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const;
 
   const PointGrid& Grid;
-  std::array<std::vector<float>, 6> Columns; ///< x, y, z of the points and of their tangents, in the order of the grid
+  OrientedColumns Lines; ///< the points and their tangents, in the order of the grid, and room at the end
 };
 }

@@ -2,7 +2,6 @@
 #include "pose/PartView.h"
 
 #include "AllVectors.h"
-#include "PointGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +11,11 @@ namespace meam
 {
 namespace
 {
-constexpr double JudgedLeafShare = 0.03;   // of the diameter: distance of the surface points judged
 constexpr double CellShare = 0.025;        // of the diameter: cells of the depth buffer
 constexpr double ToleranceShare = 0.01;    // of the diameter: depth a point may lie behind the nearest
 constexpr float GrazingCosine = 0.15f;     // a surface seen at a flatter angle is not judged
-constexpr float DirectionSteps = 64.0f;    // of each coordinate of the direction to the sensor, from 0 to 1
+constexpr int DirectionSteps = 64;         // of each coordinate of the direction to the sensor, from 0 to 1
+constexpr std::size_t MostKnown = 1000;    // directions that are kept
 constexpr float EdgeSlope = 1.5f;          // slope allowed for at an edge, whose surface is not known
 
 Eigen::Vector3f meanOf(const Points& points)
@@ -109,18 +108,11 @@ Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_sce
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   return T.linear().transpose() * sensor.towards(T * middle);
 }
-
-/// The direction to within 0.8 degrees.
-Eigen::Vector3f rounded(const Eigen::Vector3f& direction)
-{
-  return (direction * DirectionSteps).array().round().matrix().normalized();
-}
 }
 
 PartView::PartView(const TrainedModel& model)
   : Model(model)
   , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
-  , Judged(thinPoints(model.surface.points, JudgedLeafShare * model.diameter))
 {
   for (const auto& point : model.surface.points)
   {
@@ -130,7 +122,7 @@ PartView::PartView(const TrainedModel& model)
   {
     this->Edges.add(point - this->Middle);
   }
-  for (const int i : this->Judged)
+  for (const int i : model.judged)
   {
     this->JudgedPoints.add(model.surface.points[i] - this->Middle);
     this->JudgedNormals.add(model.surface.normals[i]);
@@ -145,23 +137,35 @@ int PartView::view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor)
   return static_cast<int>(std::max_element(views.begin(), views.end(), nearer) - views.begin());
 }
 
-PartView::Visible PartView::visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
-{
-  Visible visible;
-  this->update(visible, T_scene_model, sensor);
-  return visible;
-}
-
-void PartView::update(Visible& visible, const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
+std::shared_ptr<const PartView::Visible> PartView::visible(
+  const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
 {
   // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged on
   // the same points.
-  const Eigen::Vector3f towards = rounded(directionTo(sensor, T_scene_model, this->Middle));
-  if (towards == visible.from)
+  const Eigen::Vector3f direction = directionTo(sensor, T_scene_model, this->Middle) * static_cast<float>(DirectionSteps);
+  const Eigen::Vector3i steps = direction.array().round().cast<int>();
+  constexpr int range = 2 * DirectionSteps + 1;
+  const int name = (steps.z() * range + steps.y()) * range + steps.x();
   {
-    return;
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto known = this->Known.find(name);
+    if (known != this->Known.end())
+    {
+      return known->second;
+    }
   }
-  visible.from = towards;
+  auto visible = std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized()));
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  if (this->Known.size() >= MostKnown)
+  {
+    this->Known.clear();
+  }
+  return this->Known.emplace(name, std::move(visible)).first->second;
+}
+
+PartView::Visible PartView::visibleFrom(const Eigen::Vector3f& towards) const
+{
+  Visible visible{ towards, {}, {} };
   const float cell = static_cast<float>(CellShare * this->Model.diameter);
   const float tolerance = static_cast<float>(ToleranceShare * this->Model.diameter);
   const float half = static_cast<float>(this->Model.diameter); // a point is never farther from the middle
@@ -182,8 +186,9 @@ void PartView::update(Visible& visible, const Eigen::Isometry3d& T_scene_model, 
   keepInSight(others, nearest, tolerance + EdgeSlope * cell, nullptr, visible.edges);
   projected(this->JudgedPoints, others);
   allowForSlope(towards, this->JudgedNormals.x.data(), this->JudgedNormals.y.data(), this->JudgedNormals.z.data(),
-    static_cast<int>(this->Judged.size()), cell, others.heights.data());
-  keepInSight(others, nearest, tolerance, this->Judged.data(), visible.surface);
+    static_cast<int>(this->JudgedPoints.size()), cell, others.heights.data());
+  keepInSight(others, nearest, tolerance, this->Model.judged.data(), visible.surface);
+  return visible;
 }
 
 PointCloud PartView::viewEdges(int view) const

@@ -5,7 +5,9 @@
 #include "model/TrainedModel.h"
 #include "scene/Sensor.h"
 
-#include <limits>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
 
 namespace meam
 {
@@ -22,46 +24,32 @@ public:
   /// The appearance model whose viewpoint is nearest to the sensor at a pose.
   int view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
-  /// Indices of edge points and of thinned surface points that face the sensor and are not behind
-  /// other points of the part. The direction to the sensor is taken to within 0.8 degrees.
+  /// Indices of edge points and of judged surface points that face the sensor and are not behind other points of the
+  /// part. The direction to the sensor is taken to within 0.8 degrees.
   struct Visible
   {
-    /// That direction, in the model's frame; not a number before any was asked about.
-    Eigen::Vector3f from = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+    Eigen::Vector3f from; ///< that direction, in the model's frame
     std::vector<int> edges;
     std::vector<int> surface;
   };
-  Visible visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
-  /// Makes `visible`, of this very part, what it is at that pose; at once when it is seen from the same direction.
-  void update(Visible& visible, const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
-
-  /// Calls visit(index) for every `stride`-th of the surface points that are judged and face the sensor, also for those
-  /// behind other points of the part.
-  template <typename Visitor>
-  void forEachFacing(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, int stride, Visitor&& visit) const
-  {
-    const Eigen::Isometry3f T = T_scene_model.cast<float>();
-    const Eigen::Vector3f towards = T.linear().transpose() * sensor.towards(T * this->Middle);
-    for (std::size_t k = 0; k < this->Judged.size(); k += stride)
-    {
-      if (this->Model.surface.normals[this->Judged[k]].dot(towards) > 0.0f)
-      {
-        visit(this->Judged[k]);
-      }
-    }
-  }
+  /// Found once for a direction: the same one for all poses that are seen from there.
+  std::shared_ptr<const Visible> visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
   /// The edge appearance model of a view.
   PointCloud viewEdges(int view) const;
 
 private:
+  Visible visibleFrom(const Eigen::Vector3f& towards) const;
+
   const TrainedModel& Model;
   Eigen::Vector3f Middle;
-  std::vector<int> Judged; ///< surface points that evidence is taken from
   // Relative to the middle:
   PointColumns Surface;
   PointColumns Edges;
   PointColumns JudgedPoints;
   PointColumns JudgedNormals;
+
+  mutable std::mutex Mutex;
+  mutable std::unordered_map<int, std::shared_ptr<const Visible>> Known; ///< by direction
 };
 }

@@ -50,34 +50,33 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   const float far = static_cast<float>(FarShare * model.diameter);
   const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
   const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
-  std::vector<float> distances;
-  const auto distancesOf = [&](const std::vector<int>& indices, const Points& points, const DistanceField& field)
+  PointColumns points;
+  std::vector<float> distances;                // to what the other predicts
+  std::vector<DepthMap::Relation> relations; // to what the sensor saw
+  const auto lookUp = [&](const std::vector<int>& indices, const Points& from, const DistanceField& field)
   {
-    PointColumns columns;
-    columns.resize(indices.size());
-    for (std::size_t k = 0; k < indices.size(); ++k)
+    const int count = static_cast<int>(indices.size());
+    points.resize(indices.size());
+    for (int k = 0; k < count; ++k)
     {
-      columns.set(k, points[indices[k]]);
+      points.set(k, from[indices[k]]);
     }
     distances.resize(indices.size());
-    field.at(toOther, columns, 0, static_cast<int>(indices.size()), distances.data());
+    relations.resize(indices.size());
+    field.at(toOther, points, 0, count, distances.data());
+    this->Index.depth.relations(T, points, 0, count, far, relations.data());
   };
   double sum = 0.0;
-  distancesOf(one.visible.surface, model.surface.points, model.surfaceDistance);
-  for (std::size_t k = 0; k < distances.size(); ++k)
+  lookUp(one.visible->surface, model.surface.points, model.surfaceDistance);
+  for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const Eigen::Vector3f& point = model.surface.points[one.visible.surface[k]];
-    sum += distances[k] >= far && this->Index.depth.relation(T * point, far) == DepthMap::Relation::InFront ? PastWeight
-                                                                                                            : 0.0;
+    sum += (distances[k] >= far) & (relations[k] == DepthMap::Relation::InFront) ? PastWeight : 0.0;
   }
-  distancesOf(one.visible.edges, model.edges.points, model.edgeDistance);
-  for (std::size_t k = 0; k < distances.size(); ++k)
+  lookUp(one.visible->edges, model.edges.points, model.edgeDistance);
+  for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const Eigen::Vector3f& point = model.edges.points[one.visible.edges[k]];
-    sum += distances[k] >= far && this->Index.depth.relation(T * point, far) == DepthMap::Relation::OnSurface &&
-        this->Index.edges.nearest(T * point, far) < 0
-      ? MissingWeight
-      : 0.0;
+    const bool isAlone = (distances[k] >= far) & (relations[k] == DepthMap::Relation::OnSurface);
+    sum += isAlone && this->Index.edges.nearest(T * points[k], far) < 0 ? MissingWeight : 0.0;
   }
   return sum;
 }
@@ -95,7 +94,7 @@ double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const C
   {
     return most;
   }
-  this->Index.view.update(one.visible, T_scene_model, this->Index.scene.sensor);
+  one.visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
   return most - this->contradicted(one, other);
 }
 

@@ -23,7 +23,7 @@ public:
   {
     Eigen::Isometry3d T_scene_model;
     double explained;
-    PartView::Visible visible;
+    std::shared_ptr<const PartView::Visible> visible;
   };
   Contender contender(const Eigen::Isometry3d& T_scene_model) const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meam
 {
@@ -13,6 +14,7 @@ constexpr float OnSurface = 0.7f;          // tolerances within which a scene ed
 
 constexpr std::size_t EdgeStride = 2; // of the visible edge points: neighbours tell the same
 constexpr int GlanceStride = 3; // of the judged points
+constexpr int Block = 256;      // scene edges whose distances are looked up together
 
 // What each kind of evidence counts in the score.
 constexpr double EdgeWeight = 0.4;
@@ -54,20 +56,25 @@ EvidenceCollector::EvidenceCollector(const SceneIndex& index, double tolerance)
   : Index(index)
   , Tolerance(tolerance)
 {
+  const std::vector<int>& judged = index.model.judged;
+  for (std::size_t k = 0; k < judged.size(); k += GlanceStride)
+  {
+    this->Glanced.add(index.model.surface.points[judged[k]]);
+    this->GlancedNormals.add(index.model.surface.normals[judged[k]]);
+  }
 }
 
 PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const TrainedModel& model = this->Index.model;
-  const PointCloud& sceneEdges = this->Index.scene.edges;
   const DepthMap& depth = this->Index.depth;
-  const PartView::Visible visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
+  const auto visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
   const float tolerance = static_cast<float>(this->Tolerance);
   PoseEvidence evidence;
-  for (std::size_t k = 0; k < visible.edges.size(); k += stride * EdgeStride)
+  for (std::size_t k = 0; k < visible->edges.size(); k += stride * EdgeStride)
   {
-    const int i = visible.edges[k];
+    const int i = visible->edges[k];
     const Eigen::Vector3f point = T * model.edges.points[i];
     const Eigen::Vector3f tangent = T.linear() * model.edges.tangents[i];
     const bool matched = this->Index.lines.nearest(point, tangent, tolerance).edge >= 0;
@@ -81,24 +88,40 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   {
     return evidence;
   }
-  for (std::size_t k = 0; k < visible.surface.size(); k += stride)
+  PointColumns surface;
+  surface.resize((visible->surface.size() + stride - 1) / stride);
+  evidence.surface.reserve(surface.size());
+  evidence.surfaceStates.reserve(surface.size());
+  for (std::size_t k = 0; k < surface.size(); ++k)
   {
-    const Eigen::Vector3f point = T * model.surface.points[visible.surface[k]];
-    const DepthMap::Relation relation = depth.relation(point, tolerance);
-    evidence.surface.push_back(point);
-    evidence.surfaceStates.push_back(relation == DepthMap::Relation::OnSurface ? PointState::Matched
-        : relation == DepthMap::Relation::Hidden                               ? PointState::Hidden
-                                                                               : PointState::Violated);
+    const Eigen::Vector3f& point = model.surface.points[visible->surface[k * stride]];
+    surface.set(k, point);
+    evidence.surface.push_back(T * point);
   }
+  std::vector<DepthMap::Relation> relations(surface.size());
+  depth.relations(T, surface, 0, static_cast<int>(surface.size()), tolerance, relations.data());
+  std::transform(relations.begin(), relations.end(), std::back_inserter(evidence.surfaceStates),
+    [](DepthMap::Relation relation)
+    {
+      return relation == DepthMap::Relation::OnSurface ? PointState::Matched
+        : relation == DepthMap::Relation::Hidden       ? PointState::Hidden
+                                                       : PointState::Violated;
+    });
   // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
   const Eigen::Isometry3f toModel = T.inverse();
-  this->Index.edges.forEachWithin(T * model.surfaceDistance.middle(), model.surfaceDistance.radius(),
-    [&](int k, float)
+  const PointGrid& sceneEdges = this->Index.edges;
+  sceneEdges.forEachBlock<Block>(T * model.surfaceDistance.middle(), model.surfaceDistance.radius(),
+    [&](int begin, int count)
     {
-      const Eigen::Vector3f point = toModel * sceneEdges.points[k];
-      if (model.surfaceDistance.at(point) < OnSurface * tolerance)
+      float fromSurface[Block], fromEdges[Block];
+      model.surfaceDistance.at(toModel, sceneEdges.sorted(), begin, count, fromSurface);
+      model.edgeDistance.at(toModel, sceneEdges.sorted(), begin, count, fromEdges);
+      for (int k = 0; k < count; ++k)
       {
-        ++(model.edgeDistance.at(point) < tolerance ? evidence.explained : evidence.unexplained);
+        const bool isOnSurface = fromSurface[k] < OnSurface * tolerance;
+        const bool isOnEdge = fromEdges[k] < tolerance;
+        evidence.explained += isOnSurface & isOnEdge;
+        evidence.unexplained += isOnSurface & !isOnEdge;
       }
     });
   return evidence;
@@ -107,16 +130,27 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
 double EvidenceCollector::glance(const Eigen::Isometry3d& T_scene_model) const
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const float tolerance = static_cast<float>(this->Tolerance);
+  const Eigen::Vector3f towards =
+    T.linear().transpose() * this->Index.scene.sensor.towards(T * this->Index.view.middle());
+  const auto& [x, y, z] = this->GlancedNormals;
+  const int size = static_cast<int>(this->Glanced.size());
+  DepthMap::Relation relations[DepthMap::Block];
   int matched = 0;
   int violated = 0;
-  this->Index.view.forEachFacing(T_scene_model, this->Index.scene.sensor, GlanceStride,
-    [&](int i)
+  for (int begin = 0; begin < size; begin += DepthMap::Block)
+  {
+    const int count = std::min(DepthMap::Block, size - begin);
+    this->Index.depth.relations(
+      T, this->Glanced, begin, count, static_cast<float>(this->Tolerance), relations);
+    for (int k = 0; k < count; ++k)
     {
-      const DepthMap::Relation relation = this->Index.depth.relation(T * this->Index.model.surface.points[i], tolerance);
-      matched += relation == DepthMap::Relation::OnSurface ? 1 : 0;
-      violated += relation == DepthMap::Relation::InFront || relation == DepthMap::Relation::NoSurface ? 1 : 0;
-    });
+      const bool isFacing =
+        x[begin + k] * towards.x() + y[begin + k] * towards.y() + z[begin + k] * towards.z() > 0.0f;
+      const DepthMap::Relation relation = relations[k];
+      matched += isFacing & (relation == DepthMap::Relation::OnSurface);
+      violated += isFacing & ((relation == DepthMap::Relation::InFront) | (relation == DepthMap::Relation::NoSurface));
+    }
+  }
   return matched > 0 ? static_cast<double>(matched) / (matched + violated) : 0.0;
 }
 

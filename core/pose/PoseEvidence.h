@@ -37,7 +37,7 @@ public:
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points. What is
   /// collected with a stride is no use to `shared`.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
-  /// A first impression, at a tenth of the cost: of the surface points that face the sensor and that nothing hides the
+  /// A first impression, at a fraction of the cost: of the surface points that face the sensor and that nothing hides the
   /// share that is there, [0, 1].
   double glance(const Eigen::Isometry3d& T_scene_model) const;
   /// Share of what `a` matched that `b` matched, too, [0, 1]: poses of one instance share most of it.
@@ -48,5 +48,7 @@ public:
 private:
   const SceneIndex& Index;
   double Tolerance;
+  PointColumns Glanced; ///< surface points for a first impression
+  PointColumns GlancedNormals;
 };
 }

@@ -3,7 +3,7 @@
 
 #include "PCLConversion.h"
 #include "Parallel.h"
-#include "RigidFit.h"
+#include "pose/PoseResiduals.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -56,19 +56,18 @@ public:
   /// `distance` (mm) between corresponding points at the start.
   void refine(Pose& pose, double distance, int iterations) const
   {
-    PartView::Visible visible;
-    this->see(pose, visible);
+    Sight sight;
     RigidFit::Result fit;
     for (int iteration = 0; iteration < iterations; ++iteration)
     {
       const double share = iterations > 1 ? static_cast<double>(iteration) / (iterations - 1) : 1.0;
       const double limit = distance * std::pow(LastDistanceShare, share);
-      if (iteration > 0 && iteration + FullSteps == iterations)
+      const bool isFull = iteration + FullSteps >= iterations;
+      if (iteration == 0 || isFull) // nearly there, what is in sight can be told better
       {
-        this->see(pose, visible); // nearly there: what is in sight can be told better now
+        sight = this->sight(pose, isFull ? 1 : CoarseStride);
       }
-      const int stride = iteration + FullSteps < iterations ? CoarseStride : 1;
-      fit = this->correspondences(pose.T_scene_model, visible, stride, limit);
+      fit = this->correspondences(pose.T_scene_model, sight, limit);
       pose.T_scene_model = fit.motion * pose.T_scene_model;
     }
     pose.fit = this->poseFit(fit, fit.remaining, iterations);
@@ -78,34 +77,33 @@ public:
   void settle(Pose& pose) const
   {
     const double diameter = this->Index.model.diameter;
-    PartView::Visible visible;
-    EdgeLines::Neighbours neighbours; // of the visible edges
+    const double window = WindowShare * diameter;
+    Sight sight;
+    EdgeLines::Neighbours neighbours; // of its edges
     double travelled = std::numeric_limits<double>::infinity(); // since they were looked up, at most
     RigidFit::Result fit;
     Twist wanted, taken;      // in the step before
     bool isFollowing = false; // a step of the same kind
     double wide = WidestFirst;
-    double moved = 0.0;
+    double motion = 0.0;
     int steps = 0;
-    for (; steps < MostSteps && !(isFollowing && moved <= LeastMotionShare * diameter); ++steps)
+    for (; steps < MostSteps && !(isFollowing && motion <= LeastMotionShare * diameter); ++steps)
     {
-      if (steps < StepsOfSight)
+      if (steps < StepsOfSight && this->update(sight, pose, 1))
       {
-        const Eigen::Vector3f from = visible.from;
-        this->see(pose, visible);
-        if (visible.from != from)
-        {
-          isFollowing = false;
-          travelled = std::numeric_limits<double>::infinity();
-        }
+        isFollowing = false;
+        travelled = std::numeric_limits<double>::infinity();
       }
       const double limit = wide * AcrossShare * diameter;
+      const Eigen::Isometry3d& T = pose.T_scene_model;
+      const Eigen::Isometry3f Tf = T.cast<float>();
+      const OrientedColumns edges = moved(sight.edges, Tf);
       if (travelled > MarginShare * diameter)
       {
-        neighbours = this->neighbours(pose.T_scene_model, visible, limit);
+        neighbours = this->Index.lines.neighbours(edges, window, limit, MarginShare * diameter);
         travelled = 0.0;
       }
-      fit = this->means(pose.T_scene_model, visible, neighbours, limit);
+      fit = this->steadily(T, edges, EdgeLines::meansAround(neighbours, edges, window, limit), moved(sight.surface, Tf), limit);
       Twist step = this->twistOf(pose, fit.motion);
       for (const ContinuousSymmetry& symmetry : this->Index.model.symmetries.continuous)
       {
@@ -125,13 +123,13 @@ public:
           farther = foreseen * (std::min(times, MostTimes) / times);
         }
       }
-      moved = farther.head<3>().norm() + farther.tail<3>().norm();
+      motion = farther.head<3>().norm() + farther.tail<3>().norm();
       travelled += 2.0 * farther.head<3>().norm() + farther.tail<3>().norm(); // a diameter from the middle
       wanted = step;
       taken = farther;
       isFollowing = wide == 1.0;
       wide = 1.0;
-      pose.T_scene_model = this->motionOf(pose, farther) * pose.T_scene_model;
+      pose.T_scene_model = this->motionOf(pose, farther) * T;
     }
     pose.fit = this->poseFit(fit, fit.remaining, pose.fit.iterations + steps);
   }
@@ -139,10 +137,8 @@ public:
   /// How well the scene fixes a pose that came from elsewhere.
   PoseFit fitAt(const Pose& pose, double distance) const
   {
-    PartView::Visible visible;
-    this->see(pose, visible);
     const RigidFit::Result fit =
-      this->correspondences(pose.T_scene_model, visible, 1, distance * LastDistanceShare);
+      this->correspondences(pose.T_scene_model, this->sight(pose, 1), distance * LastDistanceShare);
     return this->poseFit(fit, fit.squares, pose.fit.iterations);
   }
 
@@ -171,9 +167,43 @@ private:
     return result;
   }
 
-  void see(const Pose& pose, PartView::Visible& visible) const
+  /// What of the part the sensor should see, in its frame.
+  struct Sight
   {
-    this->Index.view.update(visible, pose.T_scene_model, this->Index.scene.sensor);
+    std::shared_ptr<const PartView::Visible> visible;
+    OrientedColumns edges;
+    OrientedColumns surface;
+  };
+  /// Every `stride`-th point of each.
+  Sight sight(const Pose& pose, int stride) const
+  {
+    Sight sight;
+    this->update(sight, pose, stride);
+    return sight;
+  }
+  /// Whether it changes.
+  bool update(Sight& sight, const Pose& pose, int stride) const
+  {
+    const auto visible = this->Index.view.visible(pose.T_scene_model, this->Index.scene.sensor);
+    if (visible == sight.visible)
+    {
+      return false;
+    }
+    sight.visible = visible;
+    const TrainedModel& model = this->Index.model;
+    const auto take = [stride](const std::vector<int>& indices, const Points& points, const Points& directions)
+    {
+      OrientedColumns columns;
+      columns.resize((indices.size() + stride - 1) / stride);
+      for (std::size_t k = 0; k < columns.size(); ++k)
+      {
+        columns.set(k, points[indices[k * stride]], directions[indices[k * stride]]);
+      }
+      return columns;
+    };
+    sight.edges = take(visible->edges, model.edges.points, model.edges.tangents);
+    sight.surface = take(visible->surface, model.surface.points, model.surface.normals);
+    return true;
   }
 
   /// A small motion of a pose about its middle: the rotation vector, as what it moves half a diameter from there, and the
@@ -181,7 +211,7 @@ private:
   using Twist = Eigen::Matrix<double, 6, 1>;
   Twist twistOf(const Pose& pose, const Eigen::Isometry3d& motion) const
   {
-    const Eigen::Vector3d middle = this->middle(pose);
+    const Eigen::Vector3d middle = this->middle(pose.T_scene_model);
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(motion.linear()));
     Twist twist;
     twist << 0.5 * this->Index.model.diameter * turn.angle() * turn.axis(), motion * middle - middle;
@@ -189,7 +219,7 @@ private:
   }
   Eigen::Isometry3d motionOf(const Pose& pose, const Twist& twist) const
   {
-    const Eigen::Vector3d middle = this->middle(pose);
+    const Eigen::Vector3d middle = this->middle(pose.T_scene_model);
     const Eigen::Vector3d rotation = twist.head<3>() / (0.5 * this->Index.model.diameter);
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
     if (rotation.norm() > 0.0)
@@ -199,108 +229,56 @@ private:
     motion.translation() = middle + twist.tail<3>() - motion.linear() * middle;
     return motion;
   }
-  Eigen::Vector3d middle(const Pose& pose) const
+  Eigen::Vector3d middle(const Eigen::Isometry3d& T_scene_model) const
   {
-    return pose.T_scene_model * this->Index.view.middle().cast<double>();
+    return T_scene_model * this->Index.view.middle().cast<double>();
   }
 
-  /// Residuals of every `stride`-th visible point that something in the scene within `limit` (mm) corresponds to.
-  RigidFit::Result correspondences(
-    const Eigen::Isometry3d& T, const PartView::Visible& visible, int stride, double limit) const
+  /// Residuals of all that something in the scene within `limit` (mm) corresponds to.
+  RigidFit::Result correspondences(const Eigen::Isometry3d& T, const Sight& sight, double limit) const
   {
-    const TrainedModel& model = this->Index.model;
     const PointCloud& scene = this->Index.scene.edges;
     const Eigen::Isometry3f Tf = T.cast<float>();
-    RigidFit fit(T * this->Index.view.middle().cast<double>());
-    const double gap = this->Index.depth.cellSize();
-    for (std::size_t k = 0; k < visible.edges.size(); k += stride)
+    const OrientedColumns edges = moved(sight.edges, Tf);
+    OrientedColumns lines;
+    PointColumns offsets;
+    std::vector<float> weights;
+    lines.resize(edges.size());
+    offsets.resize(edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k)
     {
-      const int i = visible.edges[k];
-      const Eigen::Vector3f point = Tf * model.edges.points[i];
-      const Eigen::Vector3f tangent = Tf.linear() * model.edges.tangents[i];
       // Distance to the scene's tangent line, which counts, not to the point on it.
-      const EdgeLines::Match match = this->Index.lines.nearest(point, tangent, limit);
-      if (match.edge < 0)
+      const Eigen::Vector3f point = edges.points[k];
+      const EdgeLines::Match match = this->Index.lines.nearest(point, edges.directions[k], limit);
+      if (match.edge >= 0)
       {
-        continue;
-      }
-      const Eigen::Vector3d line = scene.tangents[match.edge].cast<double>();
-      const Eigen::Vector3d offset = (point - scene.points[match.edge]).cast<double>();
-      const Eigen::Matrix3f frame = frameAround(line.cast<float>());
-      const double weight = tukey(match.squaredDistance, limit);
-      for (int axis = 1; axis < 3; ++axis)
-      {
-        const Eigen::Vector3d across = frame.col(axis).cast<double>();
-        fit.add(point.cast<double>(), across, across.dot(offset), weight);
+        lines.set(weights.size(), point, scene.tangents[match.edge]);
+        offsets.set(weights.size(), point - scene.points[match.edge]);
+        weights.push_back(static_cast<float>(tukey(match.squaredDistance, limit)));
       }
     }
-    for (std::size_t k = 0; k < visible.surface.size(); k += stride)
-    {
-      const int i = visible.surface[k];
-      const Eigen::Vector3f point = Tf * model.surface.points[i];
-      const Eigen::Vector3f normal = Tf.linear() * model.surface.normals[i];
-      const Eigen::Vector3f* seen = this->Index.depth.meanAt(point);
-      if (!seen || (point - *seen).squaredNorm() > limit * limit + gap * gap)
-      {
-        continue;
-      }
-      const double residual = normal.dot(point - *seen);
-      fit.add(point.cast<double>(), normal.cast<double>(), residual, tukey(residual * residual, limit));
-    }
+    lines.resize(weights.size());
+    RigidFit fit(this->middle(T));
+    addLineResiduals(fit, lines, offsets, weights);
+    const float farthest = static_cast<float>(std::hypot(limit, this->Index.depth.cellSize()));
+    addSurfaceResiduals(
+      fit, this->Index.depth, moved(sight.surface, Tf), { static_cast<float>(limit), farthest, false });
     return fit.result();
   }
 
-  /// What `means` looks at until a point has moved by a margin.
-  EdgeLines::Neighbours neighbours(const Eigen::Isometry3d& T, const PartView::Visible& visible, double limit) const
+  /// Residuals that change steadily with the pose, so that it comes to stay in one place: against the mean of the edge
+  /// points about each edge, and against the surface up to `limit` (mm).
+  RigidFit::Result steadily(const Eigen::Isometry3d& T, const OrientedColumns& edges, EdgeLines::Means means,
+    const OrientedColumns& surface, double limit) const
   {
-    const TrainedModel& model = this->Index.model;
-    const Eigen::Isometry3f Tf = T.cast<float>();
-    PointCloud edges;
-    for (const int i : visible.edges)
+    for (float& weight : means.weights)
     {
-      edges.points.push_back(Tf * model.edges.points[i]);
-      edges.tangents.push_back(Tf.linear() * model.edges.tangents[i]);
+      weight = std::min(weight, 1.0f);
     }
-    return this->Index.lines.neighbours(edges, WindowShare * model.diameter, limit, MarginShare * model.diameter);
-  }
-
-  /// Residuals of all visible points that change steadily with the pose, so that it comes to stay in one place: against
-  /// the mean of the edge points about each, up to `limit` (mm), and against the surface, weighing the less the nearer to
-  /// where its mean changes.
-  RigidFit::Result means(const Eigen::Isometry3d& T, const PartView::Visible& visible,
-    const EdgeLines::Neighbours& neighbours, double limit) const
-  {
-    const TrainedModel& model = this->Index.model;
-    const Eigen::Isometry3f Tf = T.cast<float>();
-    const double window = WindowShare * model.diameter;
-    RigidFit fit(T * this->Index.view.middle().cast<double>());
-    for (std::size_t k = 0; k < visible.edges.size(); ++k)
-    {
-      const int i = visible.edges[k];
-      const Eigen::Vector3f point = Tf * model.edges.points[i];
-      const Eigen::Vector3f tangent = Tf.linear() * model.edges.tangents[i];
-      const EdgeLines::Mean mean = EdgeLines::meanAround(neighbours, k, point, tangent, window, limit);
-      if (mean.weight > 0.0f)
-      {
-        const Eigen::Matrix3f frame = frameAround(tangent);
-        for (int axis = 1; axis < 3; ++axis)
-        {
-          const Eigen::Vector3f across = frame.col(axis);
-          fit.add(point.cast<double>(), across.cast<double>(), across.dot(mean.offset), std::min(mean.weight, 1.0f));
-        }
-      }
-    }
-    for (const int i : visible.surface)
-    {
-      const Eigen::Vector3f point = Tf * model.surface.points[i];
-      const Eigen::Vector3f normal = Tf.linear() * model.surface.normals[i];
-      float inside;
-      if (const Eigen::Vector3f* seen = this->Index.depth.meanAt(point, inside))
-      {
-        const double residual = normal.dot(point - *seen);
-        fit.add(point.cast<double>(), normal.cast<double>(), residual, inside * tukey(residual * residual, limit));
-      }
-    }
+    RigidFit fit(this->middle(T));
+    addLineResiduals(fit, edges, means.offsets, means.weights);
+    constexpr float anyDistance = std::numeric_limits<float>::infinity();
+    addSurfaceResiduals(fit, this->Index.depth, surface, { static_cast<float>(limit), anyDistance, true });
     return fit.result();
   }
 

@@ -16,6 +16,7 @@ constexpr std::size_t MostPoints = 200; // of the scene's edges that are looked 
 constexpr std::size_t RoughStride = 4;  // of these at first
 constexpr std::size_t MostMaxima = 10;  // that are looked at closely
 constexpr std::size_t MostTurns = 2;   // of an axis
+constexpr int Block = 256;             // points whose distances are looked up together
 
 PointColumns everyOf(const PointColumns& points, std::size_t stride)
 {
@@ -40,14 +41,19 @@ PointColumns TurnSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
   const float reach = static_cast<float>(Reach * model.diameter);
   const DistanceField& whole = model.surface.empty() ? model.edgeDistance : model.surfaceDistance;
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
+  const PointGrid& measured = this->Index.edges;
   PointColumns edges;
-  this->Index.edges.forEachWithin(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
-    [&](int k, float)
+  measured.forEachBlock<Block>(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
+    [&](int begin, int count)
     {
-      const Eigen::Vector3f point = toModel * this->Index.scene.edges.points[k];
-      if (model.surface.empty() || whole.at(point) < reach)
+      float distances[Block];
+      whole.at(toModel, measured.sorted(), begin, count, distances);
+      for (int k = 0; k < count; ++k)
       {
-        edges.add(point);
+        if (model.surface.empty() || distances[k] < reach)
+        {
+          edges.add(toModel * measured.sorted()[begin + k]);
+        }
       }
     });
   return everyOf(edges, (edges.size() + MostPoints - 1) / MostPoints);

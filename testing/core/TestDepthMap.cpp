@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 namespace
@@ -154,4 +155,74 @@ TEST(DepthMap, TheSameForAnyNumberOfThreads)
     ASSERT_EQ(a == nullptr, b == nullptr);
     EXPECT_TRUE(!a || *a == *b);
   }
+}
+
+TEST(DepthMap, ManyAtOnceAsOneByOne)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  for (const bool isPerspective : { false, true })
+  {
+    meam::Sensor sensor = fromAbove();
+    sensor.perspective = isPerspective;
+    sensor.position = { 10, 10, 60 };
+    const meam::DepthMap map(step(), sensor, 1.5);
+    Eigen::Isometry3f toScene(Eigen::Translation3f(-4, 3, 2));
+    toScene.rotate(Eigen::AngleAxisf(0.4f, Eigen::Vector3f(1, 2, -2) / 3.0f));
+    meam::PointColumns points, inScene;
+    for (int k = 0; k < 600; ++k)
+    {
+      points.add({ 40.0f * unit(random) - 10.0f, 40.0f * unit(random) - 10.0f, 20.0f * unit(random) - 8.0f });
+    }
+    points.add({ 1e30f, 0, 0 });
+    points.add(Eigen::Vector3f::Constant(NAN));
+    points.add({ 10, 10, 90 }); // behind the sensor
+    std::map<meam::DepthMap::Relation, int> counts;
+    std::vector<meam::DepthMap::Relation> relations(points.size());
+    map.relations(toScene, points, 0, 400, 1.0f, relations.data());
+    map.relations(toScene, points, 400, static_cast<int>(points.size()) - 400, 1.0f, relations.data() + 400);
+    int different = 0; // where rounding decides between cells
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      inScene.add(toScene * points[k]);
+      different += relations[k] != map.relation(inScene[k], 1.0f);
+      ++counts[relations[k]];
+    }
+    EXPECT_LE(different, 3);
+    EXPECT_EQ(relations[600], meam::DepthMap::Relation::NoSurface);
+    EXPECT_EQ(relations[601], meam::DepthMap::Relation::NoSurface);
+    for (const auto& [relation, count] : counts)
+    {
+      EXPECT_GT(count, 20);
+    }
+    EXPECT_EQ(counts.size(), 4u);
+
+    meam::DepthMap::Seen seen;
+    int found = 0;
+    for (int begin = 0; begin < 603; begin += 201)
+    {
+      map.meansAt(inScene, begin, 201, seen);
+      for (int k = 0; k < 201; ++k)
+      {
+        float inside = 0.0f;
+        const Eigen::Vector3f* mean = map.meanAt(inScene[begin + k], inside);
+        if (mean && inside > 1e-3f)
+        {
+          EXPECT_EQ(Eigen::Vector3f(seen.x[k], seen.y[k], seen.z[k]), *mean) << begin + k;
+          EXPECT_NEAR(seen.inside[k], inside, 1e-4f);
+          ++found;
+        }
+        else if (!mean)
+        {
+          EXPECT_LE(seen.inside[k], 1e-3f);
+        }
+      }
+    }
+    EXPECT_GT(found, 100);
+  }
+  meam::PointColumns origin;
+  origin.add(Eigen::Vector3f::Zero());
+  meam::DepthMap::Relation relation;
+  meam::DepthMap({}, fromAbove(), 1.0).relations(Eigen::Isometry3f::Identity(), origin, 0, 1, 1.0f, &relation);
+  EXPECT_EQ(relation, meam::DepthMap::Relation::NoSurface) << "nothing was seen at all";
 }

@@ -20,6 +20,12 @@ meam::PointCloud scattered(int count)
   return edges;
 }
 
+struct Mean
+{
+  Eigen::Vector3f offset;
+  float weight;
+};
+
 struct Lines
 {
   explicit Lines(const meam::PointCloud& seen, double cellSize = 3.0)
@@ -29,13 +35,14 @@ struct Lines
   {
   }
 
-  meam::EdgeLines::Mean meanAround(
-    const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius, double across) const
+  Mean meanAround(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius, double across) const
   {
-    meam::PointCloud asked;
-    asked.points = { point };
-    asked.tangents = { tangent };
-    return meam::EdgeLines::meanAround(this->lines.neighbours(asked, radius, across, 0.0), 0, point, tangent, radius, across);
+    meam::OrientedColumns asked;
+    asked.resize(1);
+    asked.set(0, point, tangent);
+    const meam::EdgeLines::Neighbours neighbours = this->lines.neighbours(asked, radius, across, 0.0);
+    const meam::EdgeLines::Means means = meam::EdgeLines::meansAround(neighbours, asked, radius, across);
+    return { means.offsets[0], means.weights[0] };
   }
 
   meam::PointCloud edges;
@@ -133,7 +140,7 @@ TEST(EdgeLines, MeanIsThatOfAllEdgePointsAround)
         weights += weight;
         sum += weight * beside;
       }
-      const meam::EdgeLines::Mean mean = among.meanAround(point, asked.tangents[k], radius, across);
+      const Mean mean = among.meanAround(point, asked.tangents[k], radius, across);
       EXPECT_NEAR(mean.weight, weights, 1e-4 * weights + 1e-5);
       if (weights > 1e-3)
       {
@@ -152,7 +159,7 @@ TEST(EdgeLines, TheMeanByHand)
   edges.tangents = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 } }; // the last runs across
   const Lines among(edges, 1.0);
   // Half way between two lines; along them nothing counts.
-  meam::EdgeLines::Mean mean = among.meanAround({ 0.6f, 0.5f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
+  Mean mean = among.meanAround({ 0.6f, 0.5f, 0.0f }, { 1, 0, 0 }, 2.0, 1.0);
   EXPECT_TRUE(mean.offset.isZero(1e-6f));
   const double near = 1.0 - (0.36 + 0.25) / 4.0;
   EXPECT_NEAR(mean.weight, 2.0 * near * near * 0.75 * 0.75, 1e-5);
@@ -167,20 +174,26 @@ TEST(EdgeLines, NeighboursServeUntilAPointHasMovedByTheMargin)
   const Lines among(scattered(2000));
   const meam::PointCloud points = asked(100);
   constexpr double Radius = 6.0, Across = 2.0, Margin = 0.4;
-  const meam::EdgeLines::Neighbours once = among.lines.neighbours(points, Radius, Across, Margin);
-  ASSERT_EQ(once.starts.size(), points.size() + 1);
   const Eigen::Vector3f step = 0.99f * Margin * Eigen::Vector3f(0.6f, 0.0f, -0.8f);
   const Eigen::Matrix3f turn = Eigen::AngleAxisf(0.07f, Eigen::Vector3f(1, 2, 2) / 3.0f).toRotationMatrix(); // 4 degrees
+  meam::OrientedColumns before, after;
+  before.resize(points.size());
+  after.resize(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    before.set(k, points.points[k], points.tangents[k]);
+    after.set(k, points.points[k] + step, turn * points.tangents[k]);
+  }
+  const meam::EdgeLines::Neighbours once = among.lines.neighbours(before, Radius, Across, Margin);
+  ASSERT_EQ(once.starts.size(), points.size() + 1);
+  const meam::EdgeLines::Means means = meam::EdgeLines::meansAround(once, after, Radius, Across);
   int found = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const Eigen::Vector3f point = points.points[k] + step;
-    const Eigen::Vector3f tangent = turn * points.tangents[k];
-    const meam::EdgeLines::Mean mean = meam::EdgeLines::meanAround(once, k, point, tangent, Radius, Across);
-    const meam::EdgeLines::Mean afresh = among.meanAround(point, tangent, Radius, Across);
-    EXPECT_NEAR(mean.weight, afresh.weight, 1e-5f);
-    EXPECT_LT((mean.offset - afresh.offset).norm(), 1e-5f);
-    found += mean.weight > 0.0f ? 1 : 0;
+    const Mean afresh = among.meanAround(after.points[k], after.directions[k], Radius, Across);
+    EXPECT_NEAR(means.weights[k], afresh.weight, 1e-5f);
+    EXPECT_LT((means.offsets[k] - afresh.offset).norm(), 1e-5f);
+    found += means.weights[k] > 0.0f ? 1 : 0;
   }
   EXPECT_GT(found, 50);
 }

@@ -52,6 +52,38 @@ TEST(RigidFit, SumsAreThoseOfAllResiduals)
   }
 }
 
+TEST(RigidFit, RowsAreTheSameAsOneByOne)
+{
+  for (const int count : { 0, 1, 8, 61, meam::RigidFit::Rows::Most })
+  {
+    const Eigen::Vector3d centre(4, -2, 9);
+    meam::RigidFit one(centre), rowwise(centre);
+    meam::RigidFit::Rows rows;
+    rows.count = count;
+    const std::vector<Residual> all = residuals(count, Eigen::Isometry3d(Eigen::Translation3d(0.1, 0.2, 0.3)));
+    for (int k = 0; k < count; ++k)
+    {
+      const Residual& r = all[k];
+      rows.x[k] = static_cast<float>(r.point.x());
+      rows.y[k] = static_cast<float>(r.point.y());
+      rows.z[k] = static_cast<float>(r.point.z());
+      rows.directionX[k] = static_cast<float>(r.direction.x());
+      rows.directionY[k] = static_cast<float>(r.direction.y());
+      rows.directionZ[k] = static_cast<float>(r.direction.z());
+      rows.residual[k] = static_cast<float>(r.value);
+      rows.weight[k] = static_cast<float>(r.weight);
+      one.add(Eigen::Vector3d(rows.x[k], rows.y[k], rows.z[k]),
+        Eigen::Vector3d(rows.directionX[k], rows.directionY[k], rows.directionZ[k]), rows.residual[k], rows.weight[k]);
+    }
+    rowwise.add(rows);
+    const meam::RigidFit::Result expected = one.result(), result = rowwise.result();
+    EXPECT_EQ(result.information, expected.information) << count;
+    EXPECT_EQ(result.weights, expected.weights);
+    EXPECT_EQ(result.squares, expected.squares);
+    EXPECT_TRUE(result.motion.isApprox(expected.motion, 0.0));
+  }
+}
+
 TEST(RigidFit, FindsASmallMotion)
 {
   Eigen::Isometry3d motion(Eigen::Translation3d(0.02, -0.01, 0.03));
