@@ -133,7 +133,7 @@ def main():
     parser.add_argument("--only", type=lambda text: text.split(","), default=list(DECISIONS), metavar="NAMES",
                         help=f"rows, such as none,near (default: all: {', '.join(DECISIONS)})")
     parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
-    parser.add_argument("--noise", default="0", help=evaluation.NOISE_HELP)
+    parser.add_argument("--noise", type=evaluation.noise, default="0", help=evaluation.NOISE_HELP)
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     options = parser.parse_args()
     unknown = [name for name in options.only if name not in DECISIONS]
@@ -144,7 +144,8 @@ def main():
     for part in options.parts:
         mesh = evaluation.tohoku_mesh(options.folder, part)
         plain = scripting.train(mesh)
-        scenes = [evaluation.tohoku_scene(options.folder, part, scene, plain, options.noise) for scene in options.scenes]
+        deviation = options.noise(scripting.field(plain, "Diameter"))
+        scenes = [evaluation.tohoku_scene(options.folder, part, scene, plain, deviation) for scene in options.scenes]
         print(f"### Part {part}; scenes: {len(scenes)}\n\n{HEAD}", flush=True)
         for decision in options.only:
             try:

@@ -33,6 +33,7 @@ def run_part(part, options):
     """Trains, runs every scene and returns the row of the table, and how many scenes failed."""
     model = scripting.train(evaluation.tohoku_mesh(options.folder, part), options.preset)
     run = evaluation.Evaluation(model, options.preset, options.poses, options.threads)
+    deviation = options.noise(scripting.field(model, "Diameter"))
     failed = 0
     if options.out:
         os.makedirs(os.path.join(options.out, f"Part_{part}"), exist_ok=True)
@@ -44,7 +45,7 @@ def run_part(part, options):
         try:
             truth = evaluation.tohoku_truth(options.folder, part, scene)
             surface, edges = evaluation.tohoku_clouds(options.folder, part, scene)
-            poses = run.find(*evaluation.with_noise((surface, edges), options.noise, scripting.field(model, "Diameter"), scene))
+            poses = run.find(*evaluation.with_noise((surface, edges), deviation, scene))
             truth = evaluation.with_visibility(truth, model, edges, surface)
             if out:
                 scripting.write_poses(poses, out, "Matrices", MaximumNumberOfPoses=options.poses)
@@ -151,7 +152,7 @@ def main():
     one.add_argument("--parts", type=evaluation.numbers, default=[1, 2, 3], help="such as 1,3 (default: 1,2,3)")
     one.add_argument("--scenes", type=evaluation.numbers, default=list(range(20)), help="such as 0-4,7 (default: 0-19)")
     one.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
-    one.add_argument("--noise", default="0", help=evaluation.NOISE_HELP)
+    one.add_argument("--noise", type=evaluation.noise, default="0", help=evaluation.NOISE_HELP)
     one.add_argument("--out", metavar="OUTDIR",
                      help="write OUTDIR/Part_P/transI.txt, 4x4 matrices best first, and OUTDIR/tohoku.csv")
 

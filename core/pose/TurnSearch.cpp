@@ -52,7 +52,11 @@ PointColumns TurnSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
       {
         if (model.surface.empty() || distances[k] < reach)
         {
-          edges.add(toModel * measured.sorted()[begin + k]);
+          const Eigen::Vector3f point = toModel * measured.sorted()[begin + k];
+          if ((point - whole.middle()).norm() <= whole.radius()) // of what lies around the part most is not its own
+          {
+            edges.add(point);
+          }
         }
       }
     });

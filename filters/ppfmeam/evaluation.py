@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts that measure share: scenes with their true poses, and the figures over them."""
+import argparse
+import math
 import os
 import statistics
 
@@ -28,6 +30,17 @@ def numbers(text):
         first, _, last = item.partition("-")
         result += range(int(first), int(last or first) + 1)
     return result
+
+
+def noise(text):
+    """0.3 (mm) or 1% (of a part's diameter): a function of the diameter in mm that returns the deviation in mm."""
+    try:
+        amount = float(text.removesuffix("%"))
+    except ValueError:
+        amount = -1
+    if not 0 <= amount < math.inf:
+        raise argparse.ArgumentTypeError(f"noise is a number of mm or a percentage, 0 or more, not {text}")
+    return lambda diameter: amount / 100 * diameter if text.endswith("%") else amount
 
 
 def tohoku_mesh(folder, part):
@@ -60,12 +73,8 @@ def with_visibility(truth, model, edges, surface):
     return scripting.update(verification).GetOutput()
 
 
-def with_noise(clouds, noise, diameter, seed):
-    """The clouds with noise as NOISE_HELP has it."""
-    try:
-        deviation = float(noise[:-1]) / 100 * diameter if noise.endswith("%") else float(noise)
-    except ValueError:
-        raise scripting.Failure(f"noise is a number of mm or a percentage, not {noise}") from None
+def with_noise(clouds, deviation, seed):
+    """The clouds with normal noise of every coordinate, of `deviation` (mm)."""
     random, noisy = numpy.random.default_rng(seed), []
     for cloud in clouds:
         places = vtk_to_numpy(cloud.GetPoints().GetData())
@@ -77,11 +86,11 @@ def with_noise(clouds, noise, diameter, seed):
     return noisy
 
 
-def tohoku_scene(folder, part, scene, model, noise="0"):
-    """Of a scene the surface and the edge points, with noise, and the true poses with their visibility."""
+def tohoku_scene(folder, part, scene, model, deviation=0):
+    """Of a scene the surface and the edge points, with noise of that deviation (mm), and the true poses with their visibility."""
     surface, edges = tohoku_clouds(folder, part, scene)
     truth = with_visibility(tohoku_truth(folder, part, scene), model, edges, surface)
-    return *with_noise((surface, edges), noise, scripting.field(model, "Diameter"), scene), truth
+    return *with_noise((surface, edges), deviation, scene), truth
 
 
 class Evaluation:
