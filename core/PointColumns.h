@@ -5,6 +5,8 @@
 
 namespace meam
 {
+constexpr int ColumnBlock = 256; ///< points that loops look at together, so that what they hold stays in the cache
+
 /// Points coordinate by coordinate, for loops over many at a time.
 struct PointColumns
 {
@@ -39,6 +41,11 @@ struct OrientedColumns
   PointColumns directions;
 
   std::size_t size() const { return this->points.size(); }
+  void add(const Eigen::Vector3f& point, const Eigen::Vector3f& direction)
+  {
+    this->points.add(point);
+    this->directions.add(direction);
+  }
   void set(std::size_t k, const Eigen::Vector3f& point, const Eigen::Vector3f& direction)
   {
     this->points.set(k, point);

@@ -14,7 +14,8 @@ namespace
 constexpr double MostCells = 4e6;
 constexpr double SameDistance = 1e-4; // of a cube's side
 constexpr double StrayShare = 0.001; // of the points, at each end of each axis
-constexpr double MostCubes = 1 << 21; // along an axis, so that 64 bits count all
+constexpr double MostCubes = 1 << 21;  // along an axis, so that 64 bits number all
+constexpr double MiddleShare = 0.49;   // as that leaves next to the medians
 
 /// A point and the number of the cube it lies in.
 struct Member
@@ -102,33 +103,29 @@ PointGrid::PointGrid(const Points& points, double cellSize)
 
 std::vector<int> thinPoints(const Points& points, double leafSize)
 {
-  if (leafSize <= 0.0)
+  if (!(leafSize > 0.0))
   {
     std::vector<int> all(points.size());
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
-  // Cubes are numbered along z, then y, then x, within a box of as many as 64 bits can count. It leaves out stray points
-  // beyond: they go to the cubes of the border.
-  double leaf = leafSize;
+  constexpr double farthest = 9e18; // what 64 bits count
+  const auto cubeOf = [&](const Eigen::Vector3f& point) -> Eigen::Array3d
+  { return (point.cast<double>() / leafSize).array().floor().max(-farthest).min(farthest); };
   Eigen::AlignedBox3f box = bounds(points);
   if (box.isEmpty())
   {
     return {};
   }
-  const auto cubeOf = [&](const Eigen::Vector3f& point) -> Eigen::Array3d
-  { return (point.cast<double>() / leaf).array().floor(); };
-  const auto isTooWide = [&]() { return (cubeOf(box.max()) - cubeOf(box.min())).maxCoeff() >= MostCubes; };
-  if (isTooWide())
+  // Cubes are numbered along z, then y, then x. Stray points far away go to the border of what 64 bits can number about
+  // most of the points.
+  Eigen::Array3d low = cubeOf(box.min());
+  Eigen::Array3d most = cubeOf(box.max()) - low;
+  if (most.maxCoeff() >= MostCubes)
   {
-    box = innerBounds(points, StrayShare);
+    low = low.max(cubeOf(innerBounds(points, MiddleShare).center()) - 0.5 * MostCubes);
+    most = most.min(MostCubes - 1.0);
   }
-  while (isTooWide())
-  {
-    leaf *= 2.0;
-  }
-  const Eigen::Array3d low = cubeOf(box.min());
-  const Eigen::Array3d most = cubeOf(box.max()) - low;
   const auto bitsOf = [](double count) { return static_cast<int>(std::ceil(std::log2(count + 1.0))); };
   const int bitsX = bitsOf(most.x()), bitsY = bitsOf(most.y()), bitsZ = bitsOf(most.z());
   std::vector<Member> members;
@@ -156,13 +153,13 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
     const Eigen::Vector3d mean = sum / static_cast<double>(end - begin);
     // Of two points both are equally near to their mean: the one nearer to the cube's middle.
     const auto offCentre = [&](const Eigen::Vector3f& point)
-    { return (point.cast<double>().array() / leaf - cubeOf(point) - 0.5).matrix().squaredNorm(); };
+    { return (point.cast<double>().array() / leafSize - cubeOf(point) - 0.5).matrix().squaredNorm(); };
     int nearest = begin->point;
-    double distance = (points[nearest].cast<double>() - mean).norm() / leaf;
+    double distance = (points[nearest].cast<double>() - mean).norm() / leafSize;
     for (auto member = begin + 1; member < end; ++member)
     {
       const Eigen::Vector3f& point = points[member->point];
-      const double other = (point.cast<double>() - mean).norm() / leaf;
+      const double other = (point.cast<double>() - mean).norm() / leafSize;
       const double nearer = distance - other;
       if (nearer > SameDistance || (nearer > -SameDistance && offCentre(point) < offCentre(points[nearest])))
       {

@@ -62,16 +62,16 @@ public:
     }
   }
 
-  /// The same by visit(begin, count), with at most `Most` at a time.
-  template <int Most, typename Visitor>
+  /// The same by visit(begin, count), with at most ColumnBlock at a time.
+  template <typename Visitor>
   void forEachBlock(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
   {
     this->forEachRange(centre, radius,
       [&](int begin, int end)
       {
-        for (; begin < end; begin += Most)
+        for (; begin < end; begin += ColumnBlock)
         {
-          visit(begin, std::min(Most, end - begin));
+          visit(begin, std::min(ColumnBlock, end - begin));
         }
       });
   }
@@ -114,7 +114,8 @@ private:
 
 /// Indices of one point for each occupied cube of side `leafSize` (mm): the point nearest to the
 /// mean of the cube's points. Cubes are counted from the origin of the coordinates, so views of one
-/// part share them; points that are not finite are left out. Ordered by cube: along z, then y, then x. A
+/// part share them; points that are not finite are left out, and of points more than a million cubes from most of the
+/// others one or a few stay. Ordered by cube: along z, then y, then x. A
 /// leaf of 0 or less keeps every point.
 std::vector<int> thinPoints(const Points& points, double leafSize);
 }

@@ -75,7 +75,7 @@ MEAM_ALL_VECTORS void addRows(const double (*rows)[Lanes], double (*sums)[Lanes]
   addProducts<Lanes>(rows, sums);
 }
 
-/// Whole ones of `Lanes` rows.
+/// `count` is a multiple of `Lanes`.
 template <int Lanes>
 MEAM_ALL_VECTORS void addAll(const RigidFit::Rows& from, int count, const double* centre, double (*sums)[Lanes])
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "PointColumns.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -35,14 +37,14 @@ public:
   /// Points with their directions, residuals and weights, column by column; what is beyond `count` is room.
   struct Rows
   {
-    static constexpr int Most = 256;
+    static constexpr int Most = ColumnBlock;
     int count = 0;
     float x[Most], y[Most], z[Most];
     float directionX[Most], directionY[Most], directionZ[Most];
     float residual[Most];
     float weight[Most];
   };
-  /// As each of them.
+  /// The same as adding one by one.
   void add(const Rows& rows);
 
   /// What the residuals say.

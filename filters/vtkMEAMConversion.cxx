@@ -614,6 +614,10 @@ meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor&
     throw Error("The scene's edge points have no point array 'Tangent': use TangentEstimation first.");
   }
   scene.edges = meam::finitePoints(cloud);
+  for (Eigen::Vector3f& tangent : scene.edges.tangents)
+  {
+    tangent = tangent.stableNormalized(); // of a cloud that comes from elsewhere
+  }
   if (auto* points = vtkPointSet::SafeDownCast(surface))
   {
     auto* grid = vtkStructuredGrid::SafeDownCast(surface);

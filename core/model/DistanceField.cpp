@@ -11,7 +11,6 @@ namespace meam
 namespace
 {
 constexpr double MostCells = 2.0e7; // larger cells are taken for more
-constexpr int Block = 256;          // points looked up together
 
 /// The cells of points, `outside` of those in none.
 MEAM_ALL_VECTORS
@@ -93,11 +92,11 @@ void DistanceField::at(
   Eigen::Matrix<float, 3, 4> toCells = this->InverseCell * toPart.matrix().topRows<3>();
   toCells.col(3) -= this->InverseCell * this->Origin;
   const int outside = static_cast<int>(this->Distances.size()) - 1;
-  int cells[Block];
+  int cells[ColumnBlock];
   const float *x = points.x.data() + begin, *y = points.y.data() + begin, *z = points.z.data() + begin;
-  for (int done = 0; done < count; done += Block)
+  for (int done = 0; done < count; done += ColumnBlock)
   {
-    const int size = std::min(Block, count - done);
+    const int size = std::min(ColumnBlock, count - done);
     findCells(toCells, this->Size, x + done, y + done, z + done, size, outside, cells);
     for (int k = 0; k < size; ++k)
     {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace meam
 {
@@ -34,12 +35,14 @@ constexpr std::size_t MeasuredPoints = 400; // around which noise and spacing ar
 constexpr int FewestForNoise = 12;
 constexpr int FewestInliers = 4;         // a line through three points of a band of edge points is chance
 
+constexpr int Lanes = 8; // offsets that are looked at together
+
 float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f& direction)
 {
   return offset.cross(direction).squaredNorm();
 }
 
-/// Neighbours of a point, relative to it, coordinate by coordinate.
+/// Neighbours of a point, relative to it, coordinate by coordinate, with room for `Lanes` more.
 class Neighbours
 {
 public:
@@ -56,7 +59,7 @@ public:
     grid.forEachRange(centre, radius,
       [&](int begin, int end)
       {
-        const std::size_t most = static_cast<std::size_t>(this->Count) + end - begin;
+        const std::size_t most = static_cast<std::size_t>(this->Count) + end - begin + Lanes;
         if (this->Offsets.size() < most)
         {
           this->Offsets.resize(2 * most);
@@ -91,26 +94,65 @@ int lineSupport(const float* x, const float* y, const float* z, int count, const
   return support;
 }
 
+constexpr int Moments = 10; // their number, sums of x, y and z, of xx, xy, xz, yy, yz and zz
+
+/// Adds up those of the offsets within sqrt(limit) of the line through the origin.
+MEAM_ALL_VECTORS
+void addMoments(const float* x, const float* y, const float* z, int count, const Eigen::Vector3f& line, float limit,
+  double (*moments)[Lanes])
+{
+  const float lx = line.x(), ly = line.y(), lz = line.z();
+  double sums[Moments][Lanes] = {};
+  float shares[Lanes];
+  for (int begin = 0; begin < count; begin += Lanes)
+  {
+#pragma omp simd
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      const int k = begin + lane;
+      const float cx = y[k] * lz - z[k] * ly, cy = z[k] * lx - x[k] * lz, cz = x[k] * ly - y[k] * lx;
+      shares[lane] = (k < count) & (cx * cx + cy * cy + cz * cz <= limit) ? 1.0f : 0.0f;
+    }
+#pragma omp simd
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      const int k = begin + lane;
+      const double share = shares[lane];
+      const double dx = share * x[k], dy = share * y[k], dz = share * z[k];
+      sums[0][lane] += share;
+      sums[1][lane] += dx;
+      sums[2][lane] += dy;
+      sums[3][lane] += dz;
+      sums[4][lane] += dx * dx;
+      sums[5][lane] += dx * dy;
+      sums[6][lane] += dx * dz;
+      sums[7][lane] += dy * dy;
+      sums[8][lane] += dy * dz;
+      sums[9][lane] += dz * dz;
+    }
+  }
+  for (int i = 0; i < Moments; ++i)
+  {
+    std::copy_n(sums[i], Lanes, moments[i]);
+  }
+}
+
 /// Principal axis of the offsets near a line, zero when they have no extent.
 Eigen::Vector3f principalAxis(const Neighbours& offsets, const Eigen::Vector3f& line, float limit)
 {
-  // Offsets are small, so sums about the origin lose nothing.
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  int count = 0;
-  for (int k = 0; k < offsets.size(); ++k)
+  double lanes[Moments][Lanes];
+  addMoments(offsets.x(), offsets.y(), offsets.z(), offsets.size(), line, limit, lanes);
+  double m[Moments];
+  for (int i = 0; i < Moments; ++i)
   {
-    const Eigen::Vector3f offset = offsets.at(k);
-    if (squaredDistanceToLine(offset, line) <= limit)
-    {
-      const Eigen::Vector3d d = offset.cast<double>();
-      sum += d;
-      products += d * d.transpose();
-      ++count;
-    }
+    m[i] = std::accumulate(lanes[i], lanes[i] + Lanes, 0.0);
   }
+  // Offsets are small, so sums about the origin lose nothing.
+  const Eigen::Vector3d sum(m[1], m[2], m[3]);
+  Eigen::Matrix3d products;
+  products << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(products - sum * sum.transpose() / count);
+  solver.computeDirect(products - sum * sum.transpose() / m[0]);
   return solver.eigenvalues()[2] > 0.0 ? solver.eigenvectors().col(2).cast<float>().eval() : Eigen::Vector3f::Zero();
 }
 

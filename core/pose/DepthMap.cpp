@@ -5,6 +5,7 @@
 #include "Parallel.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -12,7 +13,6 @@ namespace meam
 {
 namespace
 {
-constexpr float Empty = std::numeric_limits<float>::infinity();
 constexpr float LargestSide = 2048.0f; // cells; a wider scene gets coarser cells
 constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
@@ -57,7 +57,8 @@ void lookAlong(const Lines& lines, const float* x, const float* y, const float* 
   }
 }
 
-/// Which cells of a row are not seen, but one about them is. Rows have a border of one cell; `column` is room for one.
+/// Which cells of a row are not seen, but one about them is. Rows have a border of one cell; `column` is
+/// room for what its cells have in each column.
 void findGaps(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
   std::uint8_t* column, std::uint8_t* isGap)
 {
@@ -73,8 +74,6 @@ void findGaps(const std::uint8_t* above, const std::uint8_t* row, const std::uin
   }
 }
 }
-
-const DepthMap::Cell DepthMap::Nothing = { Empty, -Empty, Eigen::Vector3f::Zero() };
 
 DepthMap::DepthMap(
   const Points& surface, const Sensor& sensor, double cellSize, const Eigen::Vector3f& along, int threads)
@@ -125,7 +124,7 @@ DepthMap::DepthMap(
   this->Low = box.min().head<2>();
   this->Width = static_cast<int>(box.sizes().x() * this->InverseCell) + 1;
   this->Height = static_cast<int>(box.sizes().y() * this->InverseCell) + 1;
-  this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, Nothing);
+  this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, nothing());
   std::vector<int> cellOf(surface.size());
   parallelFor(size, threads, {},
     [&](int begin, int end, int)
@@ -167,9 +166,9 @@ void DepthMap::relations(const Eigen::Isometry3f& toScene, const PointColumns& p
   float tolerance, Relation* relations) const
 {
   Places places;
-  for (int done = 0; done < count; done += Block)
+  for (int done = 0; done < count; done += ColumnBlock)
   {
-    const int size = std::min(Block, count - done);
+    const int size = std::min(ColumnBlock, count - done);
     this->findPlaces(toScene, points, begin + done, size, places);
     for (int k = 0; k < size; ++k)
     {
@@ -181,15 +180,17 @@ void DepthMap::relations(const Eigen::Isometry3f& toScene, const PointColumns& p
 
 void DepthMap::meansAt(const PointColumns& points, int begin, int count, Seen& seen) const
 {
+  assert(count <= ColumnBlock);
   Places places;
   this->findPlaces(Eigen::Isometry3f::Identity(), points, begin, count, places);
+  constexpr float leastInside = std::numeric_limits<float>::min();
   for (int k = 0; k < count; ++k)
   {
     const Cell& cell = this->Cells[places.cells[k]];
     seen.x[k] = cell.mean.x();
     seen.y[k] = cell.mean.y();
     seen.z[k] = cell.mean.z();
-    seen.inside[k] = cell.nearest < NothingSeen ? places.insides[k] : 0.0f;
+    seen.inside[k] = cell.nearest < NothingSeen ? std::max(places.insides[k], leastInside) : 0.0f;
   }
 }
 

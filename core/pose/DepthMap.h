@@ -36,7 +36,7 @@ public:
   Relation relation(const Eigen::Vector3f& point, float tolerance) const
   {
     const Place place = this->placeOf(point);
-    return relationTo(place.cell < 0 ? Nothing : this->Cells[place.cell], place.depth, tolerance);
+    return relationTo(place.cell < 0 ? nothing() : this->Cells[place.cell], place.depth, tolerance);
   }
 
   /// The same of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
@@ -47,32 +47,16 @@ public:
   /// than single points.
   const Points& means() const { return this->Means; }
 
-  /// The mean along the line of sight through a point; where the sensor has a gap of one cell, that of the nearest
-  /// layer beside it. Null when there is none.
-  const Eigen::Vector3f* meanAt(const Eigen::Vector3f& point) const
-  {
-    const Cell* cell = this->cellOf(this->placeOf(point));
-    return cell ? &cell->mean : nullptr;
-  }
-
-  /// The same; `inside` tells how far inside its cell the point lies: 1 in the middle, 0 at the border, where the mean
-  /// changes. It means nothing where there is none.
-  const Eigen::Vector3f* meanAt(const Eigen::Vector3f& point, float& inside) const
-  {
-    const Place place = this->placeOf(point);
-    const Eigen::Array2f off = 2.0f * (place.index - place.index.floor()) - 1.0f; // from the middle
-    inside = (1.0f - off.square()).prod();
-    const Cell* cell = this->cellOf(place);
-    return cell ? &cell->mean : nullptr;
-  }
-
-  static constexpr int Block = 256; ///< points that are looked up together
+  /// The means along the lines of sight through points; where the sensor has a gap of one cell, that of the nearest layer
+  /// beside it.
   struct Seen
   {
-    float x[Block], y[Block], z[Block]; ///< of the means
-    float inside[Block];                ///< 0 where there is none
+    float x[ColumnBlock], y[ColumnBlock], z[ColumnBlock];
+    /// How far inside its cell a point lies: 1 in the middle, next to 0 at the border, where the mean changes; 0 where
+    /// there is none.
+    float inside[ColumnBlock];
   };
-  /// meanAt() of at most `Block` points from `begin` on.
+  /// For at most ColumnBlock points from `begin` on.
   void meansAt(const PointColumns& points, int begin, int count, Seen& seen) const;
 
 private:
@@ -84,17 +68,18 @@ private:
   };
   static Relation relationTo(const Cell& cell, float depth, float tolerance)
   {
-    const bool isOn = (std::abs(depth - cell.nearest) <= tolerance) | (std::abs(depth - cell.farthest) <= tolerance);
-    return isOn                           ? Relation::OnSurface
-      : !(cell.nearest < NothingSeen)     ? Relation::NoSurface
-      : cell.nearest < depth              ? Relation::Hidden
-                                          : Relation::InFront;
+    const bool isSeen = cell.nearest < NothingSeen;
+    const bool isOn =
+      isSeen & ((std::abs(depth - cell.nearest) <= tolerance) | (std::abs(depth - cell.farthest) <= tolerance));
+    return isOn                ? Relation::OnSurface
+      : !isSeen                ? Relation::NoSurface
+      : cell.nearest < depth   ? Relation::Hidden
+                               : Relation::InFront;
   }
   struct Place
   {
-    int cell;             ///< -1: outside the map
-    float depth;          ///< mm, along the line of sight
-    Eigen::Array2f index; ///< across it, cells
+    int cell;    ///< -1: outside the map
+    float depth; ///< mm, along the line of sight
   };
   Eigen::Vector3f project(const Eigen::Vector3f& point) const
   {
@@ -111,14 +96,13 @@ private:
     const Eigen::Array2f index = (p.head<2>() - this->Low) * this->InverseCell;
     const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
       !(this->Eye.perspective && p.z() <= 0.0f);
-    return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z(),
-      index };
+    return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };
   }
   struct Places
   {
-    int cells[Block]; ///< the last one: outside the map
-    float depths[Block];
-    float insides[Block];
+    int cells[ColumnBlock]; ///< the last one: outside the map
+    float depths[ColumnBlock];
+    float insides[ColumnBlock];
   };
   void findPlaces(
     const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const;
@@ -127,14 +111,12 @@ private:
   /// `seen` tells of the nine cells about one, `stride` from row to row.
   void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);
   Cell& cellIn(int row, int column) { return this->Cells[static_cast<std::size_t>(row) * this->Width + column]; }
-  /// Null outside the map and where nothing was seen.
-  const Cell* cellOf(const Place& place) const
-  {
-    const bool seen = place.cell >= 0 && this->Cells[place.cell].nearest < NothingSeen;
-    return seen ? &this->Cells[place.cell] : nullptr;
-  }
   static constexpr float NothingSeen = std::numeric_limits<float>::max();
-  static const Cell Nothing;
+  static Cell nothing()
+  {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return { infinity, -infinity, Eigen::Vector3f::Zero() };
+  }
 
   Sensor Eye;
   Eigen::Matrix3f Axes; ///< rows: right, down, depth
@@ -143,7 +125,7 @@ private:
   Eigen::Vector2f Low = Eigen::Vector2f::Zero();
   int Width = 0;
   int Height = 0;
-  std::vector<Cell> Cells{ Nothing }; ///< and at the end one where there is nothing
+  std::vector<Cell> Cells{ nothing() }; ///< and at the end one where there is nothing
   Points Means;
 };
 }

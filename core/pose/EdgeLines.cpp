@@ -132,7 +132,7 @@ struct MeanWeights
 };
 
 MEAM_ALL_VECTORS
-void average(const EdgeLines::Neighbours& neighbours, const OrientedColumns& edges, const MeanWeights& weights,
+void average(const EdgeLines::Neighbours& neighbours, const OrientedColumns& points, const MeanWeights& weights,
   EdgeLines::Means& means)
 {
   const OrientedColumns& lines = neighbours.lines;
@@ -141,11 +141,11 @@ void average(const EdgeLines::Neighbours& neighbours, const OrientedColumns& edg
   const float inverseRadius = weights.inverseRadius, inverseAcross = weights.inverseAcross;
   constexpr float least = ParallelTangents * ParallelTangents;
   constexpr float inverseRest = 1.0f / (1.0f - least);
-  const int count = static_cast<int>(edges.size());
+  const int count = static_cast<int>(points.size());
   for (int i = 0; i < count; ++i)
   {
-    const float px = edges.points.x[i], py = edges.points.y[i], pz = edges.points.z[i];
-    const float tx = edges.directions.x[i], ty = edges.directions.y[i], tz = edges.directions.z[i];
+    const float px = points.points.x[i], py = points.points.y[i], pz = points.points.z[i];
+    const float tx = points.directions.x[i], ty = points.directions.y[i], tz = points.directions.z[i];
     const int end = neighbours.starts[i + 1];
     float sums[Lanes] = {}, x[Lanes] = {}, y[Lanes] = {}, z[Lanes] = {};
     for (int begin = neighbours.starts[i]; begin < end; begin += Lanes)
@@ -198,7 +198,7 @@ EdgeLines::EdgeLines(const PointCloud& edges, const PointGrid& grid)
 }
 
 template <typename Visitor>
-void EdgeLines::forEachRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const
+void EdgeLines::forEachGroupOfRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const
 {
   Range ranges[MostRanges];
   int count = 0;
@@ -227,7 +227,7 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
   Nearest nearest;
   std::fill_n(nearest.distances, Lanes, query.squaredRadius);
   std::fill_n(nearest.places, Lanes, -1);
-  this->forEachRanges(point, radius,
+  this->forEachGroupOfRanges(point, radius,
     [&](const Range* ranges, int count) { search(this->Lines, ranges, count, query, nearest); });
   // Without a branch: floats from 0 on are ordered as their bits are. What is not found is farther than all that is.
   std::uint64_t least = ~std::uint64_t(0);
@@ -249,17 +249,17 @@ EdgeLines::Match EdgeLines::nearest(const Eigen::Vector3f& point, const Eigen::V
 }
 
 EdgeLines::Neighbours EdgeLines::neighbours(
-  const OrientedColumns& edges, double radius, double across, double margin) const
+  const OrientedColumns& points, double radius, double across, double margin) const
 {
   const double reach = radius + margin;
   std::vector<int> selected;
   int found = 0;
   Neighbours result;
   result.starts.push_back(0);
-  for (std::size_t i = 0; i < edges.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Query query{ edges.points[i], edges.directions[i], static_cast<float>(reach * reach) };
-    this->forEachRanges(query.point, reach,
+    const Query query{ points.points[i], points.directions[i], static_cast<float>(reach * reach) };
+    this->forEachGroupOfRanges(query.point, reach,
       [&](const Range* ranges, int count)
       {
         std::size_t most = found + Lanes;
@@ -288,12 +288,12 @@ EdgeLines::Neighbours EdgeLines::neighbours(
 }
 
 EdgeLines::Means EdgeLines::meansAround(
-  const Neighbours& neighbours, const OrientedColumns& edges, double radius, double across)
+  const Neighbours& neighbours, const OrientedColumns& points, double radius, double across)
 {
   Means means;
-  means.weights.resize(edges.size());
-  means.offsets.resize(edges.size());
-  average(neighbours, edges,
+  means.weights.resize(points.size());
+  means.offsets.resize(points.size());
+  average(neighbours, points,
     { static_cast<float>(1.0 / (radius * radius)), static_cast<float>(1.0 / (across * across)) }, means);
   return means;
 }

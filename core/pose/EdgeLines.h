@@ -30,7 +30,7 @@ public:
   };
   /// Those that `meansAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by 5
   /// degrees. `radius` and `across` as there.
-  Neighbours neighbours(const OrientedColumns& edges, double radius, double across, double margin) const;
+  Neighbours neighbours(const OrientedColumns& points, double radius, double across, double margin) const;
 
   struct Means
   {
@@ -41,12 +41,12 @@ public:
   /// across the tangents. Their weights fall to 0 at `radius` (mm) from the point, at `across` (mm) across the tangent
   /// and where the tangents are 32 degrees apart, so that the mean changes steadily with point and tangent: no edge
   /// point comes in or goes out at once.
-  static Means meansAround(const Neighbours& neighbours, const OrientedColumns& edges, double radius, double across);
+  static Means meansAround(const Neighbours& neighbours, const OrientedColumns& points, double radius, double across);
 
 private:
   /// Calls visit(ranges, count) with ranges of the columns, several at once, that hold all within `radius` of the point.
   template <typename Visitor>
-  void forEachRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const;
+  void forEachGroupOfRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const;
 
   const PointGrid& Grid;
   OrientedColumns Lines; ///< the points and their tangents, in the order of the grid, and room at the end

@@ -102,12 +102,6 @@ void keepInSight(const Projected& points, const std::vector<float>& buffer, floa
   }
   inSight.resize(found);
 }
-
-Eigen::Vector3f directionTo(const Sensor& sensor, const Eigen::Isometry3d& T_scene_model, const Eigen::Vector3f& middle)
-{
-  const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  return T.linear().transpose() * sensor.towards(T * middle);
-}
 }
 
 PartView::PartView(const TrainedModel& model)
@@ -124,14 +118,19 @@ PartView::PartView(const TrainedModel& model)
   }
   for (const int i : model.judged)
   {
-    this->JudgedPoints.add(model.surface.points[i] - this->Middle);
-    this->JudgedNormals.add(model.surface.normals[i]);
+    this->Judged.add(model.surface.points[i] - this->Middle, model.surface.normals[i]);
   }
+}
+
+Eigen::Vector3f PartView::towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
+{
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  return T.linear().transpose() * sensor.towards(T * this->Middle);
 }
 
 int PartView::view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
 {
-  const Eigen::Vector3f towards = directionTo(sensor, T_scene_model, this->Middle);
+  const Eigen::Vector3f towards = this->towards(T_scene_model, sensor);
   const Points& views = this->Model.viewDirections;
   const auto nearer = [&](const auto& a, const auto& b) { return a.dot(towards) < b.dot(towards); };
   return static_cast<int>(std::max_element(views.begin(), views.end(), nearer) - views.begin());
@@ -142,13 +141,17 @@ std::shared_ptr<const PartView::Visible> PartView::visible(
 {
   // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged on
   // the same points.
-  const Eigen::Vector3f direction = directionTo(sensor, T_scene_model, this->Middle) * static_cast<float>(DirectionSteps);
-  const Eigen::Vector3i steps = direction.array().round().cast<int>();
+  const Eigen::Vector3f direction = this->towards(T_scene_model, sensor);
+  Eigen::Vector3i steps = Eigen::Vector3i::Zero(); // of poses beyond all measure, too
+  if (direction.allFinite())
+  {
+    steps = (static_cast<float>(DirectionSteps) * direction).array().round().cast<int>();
+  }
   constexpr int range = 2 * DirectionSteps + 1;
-  const int name = (steps.z() * range + steps.y()) * range + steps.x();
+  const int key = (steps.z() * range + steps.y()) * range + steps.x();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    const auto known = this->Known.find(name);
+    const auto known = this->Known.find(key);
     if (known != this->Known.end())
     {
       return known->second;
@@ -160,7 +163,7 @@ std::shared_ptr<const PartView::Visible> PartView::visible(
   {
     this->Known.clear();
   }
-  return this->Known.emplace(name, std::move(visible)).first->second;
+  return this->Known.emplace(key, std::move(visible)).first->second;
 }
 
 PartView::Visible PartView::visibleFrom(const Eigen::Vector3f& towards) const
@@ -184,9 +187,10 @@ PartView::Visible PartView::visibleFrom(const Eigen::Vector3f& towards) const
   raise(surface, nearest);
   projected(this->Edges, others);
   keepInSight(others, nearest, tolerance + EdgeSlope * cell, nullptr, visible.edges);
-  projected(this->JudgedPoints, others);
-  allowForSlope(towards, this->JudgedNormals.x.data(), this->JudgedNormals.y.data(), this->JudgedNormals.z.data(),
-    static_cast<int>(this->JudgedPoints.size()), cell, others.heights.data());
+  projected(this->Judged.points, others);
+  const PointColumns& normals = this->Judged.directions;
+  allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
+    others.heights.data());
   keepInSight(others, nearest, tolerance, this->Model.judged.data(), visible.surface);
   return visible;
 }

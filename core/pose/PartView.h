@@ -24,6 +24,9 @@ public:
   /// The appearance model whose viewpoint is nearest to the sensor at a pose.
   int view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
+  /// Unit vector towards the sensor from the middle of a part at a pose, in the model's frame.
+  Eigen::Vector3f towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+
   /// Indices of edge points and of judged surface points that face the sensor and are not behind other points of the
   /// part. The direction to the sensor is taken to within 0.8 degrees.
   struct Visible
@@ -32,7 +35,7 @@ public:
     std::vector<int> edges;
     std::vector<int> surface;
   };
-  /// Found once for a direction: the same one for all poses that are seen from there.
+  /// Found once for a direction, as long as it is remembered.
   std::shared_ptr<const Visible> visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
   /// The edge appearance model of a view.
@@ -46,8 +49,7 @@ private:
   // Relative to the middle:
   PointColumns Surface;
   PointColumns Edges;
-  PointColumns JudgedPoints;
-  PointColumns JudgedNormals;
+  OrientedColumns Judged;
 
   mutable std::mutex Mutex;
   mutable std::unordered_map<int, std::shared_ptr<const Visible>> Known; ///< by direction

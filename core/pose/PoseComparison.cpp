@@ -8,7 +8,6 @@ namespace meam
 {
 namespace
 {
-constexpr int Block = 256; // points whose distances are looked up together
 // Shares of the diameter.
 constexpr double FarShare = 0.02;        // a point this far from the part is not explained
 constexpr double NearShare = 0.01;       // an edge this near is
@@ -25,10 +24,10 @@ double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
   const PointGrid& measured = this->Index.surface;
   double explained = 0.0;
-  measured.forEachBlock<Block>(T * surface.middle(), surface.radius(),
+  measured.forEachBlock(T * surface.middle(), surface.radius() + far,
     [&](int begin, int count)
     {
-      float distances[Block];
+      float distances[ColumnBlock];
       surface.at(toModel, measured.sorted(), begin, count, distances);
       for (int k = 0; k < count; ++k)
       {
@@ -51,7 +50,7 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
   const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
   PointColumns points;
-  std::vector<float> distances;                // to what the other predicts
+  std::vector<float> distances;              // to what the other predicts
   std::vector<DepthMap::Relation> relations; // to what the sensor saw
   const auto lookUp = [&](const std::vector<int>& indices, const Points& from, const DistanceField& field)
   {
@@ -116,11 +115,11 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
   const Eigen::Vector3f between = 0.5f * (middleA + middleB);
   const PointGrid& measured = this->Index.edges;
   double sum = one.explained - other.explained + this->contradicted(other, one);
-  measured.forEachBlock<Block>(between, whole.radius() + (middleA - between).norm(),
+  measured.forEachBlock(between, whole.radius() + near + (middleA - between).norm(),
     [&](int begin, int count)
     {
       const PointColumns& points = measured.sorted();
-      float ofA[Block], ofB[Block];
+      float ofA[ColumnBlock], ofB[ColumnBlock];
       edges.at(toA, points, begin, count, ofA);
       edges.at(toB, points, begin, count, ofB);
       for (int k = 0; k < count; ++k)

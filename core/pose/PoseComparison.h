@@ -3,6 +3,8 @@
 
 #include "pose/SceneIndex.h"
 
+#include <memory>
+
 namespace meam
 {
 /// Decides between poses of one instance by what the sensor saw: every measured point and every scene edge near the

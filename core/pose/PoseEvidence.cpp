@@ -14,7 +14,6 @@ constexpr float OnSurface = 0.7f;          // tolerances within which a scene ed
 
 constexpr std::size_t EdgeStride = 2; // of the visible edge points: neighbours tell the same
 constexpr int GlanceStride = 3; // of the judged points
-constexpr int Block = 256;      // scene edges whose distances are looked up together
 
 // What each kind of evidence counts in the score.
 constexpr double EdgeWeight = 0.4;
@@ -59,8 +58,7 @@ EvidenceCollector::EvidenceCollector(const SceneIndex& index, double tolerance)
   const std::vector<int>& judged = index.model.judged;
   for (std::size_t k = 0; k < judged.size(); k += GlanceStride)
   {
-    this->Glanced.add(index.model.surface.points[judged[k]]);
-    this->GlancedNormals.add(index.model.surface.normals[judged[k]]);
+    this->Glanced.add(index.model.surface.points[judged[k]], index.model.surface.normals[judged[k]]);
   }
 }
 
@@ -110,18 +108,23 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
   const Eigen::Isometry3f toModel = T.inverse();
   const PointGrid& sceneEdges = this->Index.edges;
-  sceneEdges.forEachBlock<Block>(T * model.surfaceDistance.middle(), model.surfaceDistance.radius(),
+  const Eigen::Vector3f middle = T * model.surfaceDistance.middle();
+  const float radius = model.surfaceDistance.radius();
+  const float reach = static_cast<float>(TrainedModel::DistanceReach * model.diameter); // distances beyond are not told
+  const float onSurface = std::min(OnSurface * tolerance, reach), onEdge = std::min(tolerance, reach);
+  sceneEdges.forEachBlock(middle, radius,
     [&](int begin, int count)
     {
-      float fromSurface[Block], fromEdges[Block];
+      float fromSurface[ColumnBlock], fromEdges[ColumnBlock];
       model.surfaceDistance.at(toModel, sceneEdges.sorted(), begin, count, fromSurface);
       model.edgeDistance.at(toModel, sceneEdges.sorted(), begin, count, fromEdges);
       for (int k = 0; k < count; ++k)
       {
-        const bool isOnSurface = fromSurface[k] < OnSurface * tolerance;
-        const bool isOnEdge = fromEdges[k] < tolerance;
-        evidence.explained += isOnSurface & isOnEdge;
-        evidence.unexplained += isOnSurface & !isOnEdge;
+        // Blocks reach beyond the ball about the part.
+        if (fromSurface[k] < onSurface && (sceneEdges.sorted()[begin + k] - middle).norm() <= radius)
+        {
+          ++(fromEdges[k] < onEdge ? evidence.explained : evidence.unexplained);
+        }
       }
     });
   return evidence;
@@ -130,18 +133,17 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
 double EvidenceCollector::glance(const Eigen::Isometry3d& T_scene_model) const
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const Eigen::Vector3f towards =
-    T.linear().transpose() * this->Index.scene.sensor.towards(T * this->Index.view.middle());
-  const auto& [x, y, z] = this->GlancedNormals;
+  const Eigen::Vector3f towards = this->Index.view.towards(T_scene_model, this->Index.scene.sensor);
+  const auto& [x, y, z] = this->Glanced.directions;
   const int size = static_cast<int>(this->Glanced.size());
-  DepthMap::Relation relations[DepthMap::Block];
+  DepthMap::Relation relations[ColumnBlock];
   int matched = 0;
   int violated = 0;
-  for (int begin = 0; begin < size; begin += DepthMap::Block)
+  for (int begin = 0; begin < size; begin += ColumnBlock)
   {
-    const int count = std::min(DepthMap::Block, size - begin);
+    const int count = std::min(ColumnBlock, size - begin);
     this->Index.depth.relations(
-      T, this->Glanced, begin, count, static_cast<float>(this->Tolerance), relations);
+      T, this->Glanced.points, begin, count, static_cast<float>(this->Tolerance), relations);
     for (int k = 0; k < count; ++k)
     {
       const bool isFacing =

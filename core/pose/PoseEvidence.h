@@ -48,7 +48,6 @@ public:
 private:
   const SceneIndex& Index;
   double Tolerance;
-  PointColumns Glanced; ///< surface points for a first impression
-  PointColumns GlancedNormals;
+  OrientedColumns Glanced; ///< surface points for a first impression
 };
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace meam
 {
@@ -85,9 +86,9 @@ public:
     Twist wanted, taken;      // in the step before
     bool isFollowing = false; // a step of the same kind
     double wide = WidestFirst;
-    double motion = 0.0;
+    double stepLength = 0.0;
     int steps = 0;
-    for (; steps < MostSteps && !(isFollowing && motion <= LeastMotionShare * diameter); ++steps)
+    for (; steps < MostSteps && !(isFollowing && stepLength <= LeastMotionShare * diameter); ++steps)
     {
       if (steps < StepsOfSight && this->update(sight, pose, 1))
       {
@@ -95,7 +96,7 @@ public:
         travelled = std::numeric_limits<double>::infinity();
       }
       const double limit = wide * AcrossShare * diameter;
-      const Eigen::Isometry3d& T = pose.T_scene_model;
+      const Eigen::Isometry3d T = pose.T_scene_model;
       const Eigen::Isometry3f Tf = T.cast<float>();
       const OrientedColumns edges = moved(sight.edges, Tf);
       if (travelled > MarginShare * diameter)
@@ -103,7 +104,8 @@ public:
         neighbours = this->Index.lines.neighbours(edges, window, limit, MarginShare * diameter);
         travelled = 0.0;
       }
-      fit = this->steadily(T, edges, EdgeLines::meansAround(neighbours, edges, window, limit), moved(sight.surface, Tf), limit);
+      const EdgeLines::Means means = EdgeLines::meansAround(neighbours, edges, window, limit);
+      fit = this->steadyFit(T, edges, means, moved(sight.surface, Tf), limit);
       Twist step = this->twistOf(pose, fit.motion);
       for (const ContinuousSymmetry& symmetry : this->Index.model.symmetries.continuous)
       {
@@ -123,7 +125,7 @@ public:
           farther = foreseen * (std::min(times, MostTimes) / times);
         }
       }
-      motion = farther.head<3>().norm() + farther.tail<3>().norm();
+      stepLength = farther.head<3>().norm() + farther.tail<3>().norm();
       travelled += 2.0 * farther.head<3>().norm() + farther.tail<3>().norm(); // a diameter from the middle
       wanted = step;
       taken = farther;
@@ -167,7 +169,7 @@ private:
     return result;
   }
 
-  /// What of the part the sensor should see, in its frame.
+  /// What of the part the sensor should see, in the part's frame.
   struct Sight
   {
     std::shared_ptr<const PartView::Visible> visible;
@@ -181,11 +183,11 @@ private:
     this->update(sight, pose, stride);
     return sight;
   }
-  /// Whether it changes.
+  /// Looks again from the pose; false when the direction is the same.
   bool update(Sight& sight, const Pose& pose, int stride) const
   {
     const auto visible = this->Index.view.visible(pose.T_scene_model, this->Index.scene.sensor);
-    if (visible == sight.visible)
+    if (sight.visible && visible->from == sight.visible->from)
     {
       return false;
     }
@@ -268,7 +270,7 @@ private:
 
   /// Residuals that change steadily with the pose, so that it comes to stay in one place: against the mean of the edge
   /// points about each edge, and against the surface up to `limit` (mm).
-  RigidFit::Result steadily(const Eigen::Isometry3d& T, const OrientedColumns& edges, EdgeLines::Means means,
+  RigidFit::Result steadyFit(const Eigen::Isometry3d& T, const OrientedColumns& edges, EdgeLines::Means means,
     const OrientedColumns& surface, double limit) const
   {
     for (float& weight : means.weights)

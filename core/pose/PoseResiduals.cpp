@@ -4,14 +4,12 @@
 #include "AllVectors.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace meam
 {
 namespace
 {
 constexpr int Most = RigidFit::Rows::Most;
-static_assert(Most <= DepthMap::Block, "the map looks as many up at once");
 
 MEAM_ALL_VECTORS
 void againstSurface(const OrientedColumns& surface, int first, const DepthMap::Seen& seen, const SurfaceWeights& weights,
@@ -21,7 +19,7 @@ void againstSurface(const OrientedColumns& surface, int first, const DepthMap::S
   const float *u = &surface.directions.x[first], *v = &surface.directions.y[first], *w = &surface.directions.z[first];
   const float inverseLimit = 1.0f / (weights.limit * weights.limit);
   const float farthest = weights.farthest * weights.farthest;
-  const float least = weights.steadily ? 0.0f : 1.0f;
+  const float least = weights.fadesAtBorders ? 0.0f : 1.0f;
   const int count = rows.count;
 #pragma omp simd
   for (int k = 0; k < count; ++k)

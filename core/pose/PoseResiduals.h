@@ -11,7 +11,8 @@ struct SurfaceWeights
 {
   float limit;    ///< mm along the normal, where Tukey's weight comes to 0
   float farthest; ///< mm from a point to the mean at its line of sight; those farther weigh nothing
-  bool steadily;  ///< the less the nearer a point is to where its mean changes, so that sums change steadily with the pose
+  /// The less the nearer a point is to where its mean changes, so that sums change steadily with the pose.
+  bool fadesAtBorders;
 };
 
 /// Adds to `fit` what points of a part's surface, in the scene, are off the measured one along their normals.

@@ -16,7 +16,6 @@ constexpr std::size_t MostPoints = 200; // of the scene's edges that are looked 
 constexpr std::size_t RoughStride = 4;  // of these at first
 constexpr std::size_t MostMaxima = 10;  // that are looked at closely
 constexpr std::size_t MostTurns = 2;   // of an axis
-constexpr int Block = 256;             // points whose distances are looked up together
 
 PointColumns everyOf(const PointColumns& points, std::size_t stride)
 {
@@ -43,17 +42,17 @@ PointColumns TurnSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
   const PointGrid& measured = this->Index.edges;
   PointColumns edges;
-  measured.forEachBlock<Block>(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
+  measured.forEachBlock(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
     [&](int begin, int count)
     {
-      float distances[Block];
+      float distances[ColumnBlock];
       whole.at(toModel, measured.sorted(), begin, count, distances);
       for (int k = 0; k < count; ++k)
       {
         if (model.surface.empty() || distances[k] < reach)
         {
           const Eigen::Vector3f point = toModel * measured.sorted()[begin + k];
-          if ((point - whole.middle()).norm() <= whole.radius()) // of what lies around the part most is not its own
+          if ((point - whole.middle()).norm() <= whole.radius()) // blocks reach beyond the ball about the part
           {
             edges.add(point);
           }

@@ -41,7 +41,8 @@ TEST(PartView, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
   const auto first = one.visible(turned(10.0), fromAbove());
   for (int k = 0; k < 1500; ++k)
   {
-    const Eigen::Isometry3d T(Eigen::AngleAxisd(0.07 * k, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(2.4 * k, Eigen::Vector3d::UnitZ()));
+    const Eigen::Isometry3d T(
+      Eigen::AngleAxisd(0.07 * k, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(2.4 * k, Eigen::Vector3d::UnitZ()));
     const auto visible = one.visible(T, fromAbove());
     if (k % 100 == 0)
     {
@@ -51,4 +52,11 @@ TEST(PartView, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
   }
   EXPECT_EQ(one.visible(turned(10.0), fromAbove())->edges, first->edges);
   EXPECT_EQ(one.visible(turned(10.0), fromAbove())->surface, first->surface);
+}
+
+TEST(PartView, APoseBeyondAllMeasureSeesSomething)
+{
+  const meam::PartView view(scenes::bracket());
+  meam::Sensor sensor;
+  EXPECT_NO_THROW(view.visible(Eigen::Isometry3d(Eigen::Translation3d(1e39, 0, 0)), sensor));
 }

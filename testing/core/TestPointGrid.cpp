@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace
@@ -89,4 +92,71 @@ TEST(PointGrid, OnePointStaysPerOccupiedCube)
   EXPECT_EQ(meam::thinPoints(points, 0.0).size(), 5u);
   EXPECT_EQ(meam::thinPoints({ { NAN, 0, 0 }, { 1, 0, 0 }, { 0, INFINITY, 0 } }, 2.0), std::vector<int>({ 1 }));
   EXPECT_EQ(meam::thinPoints({ { 3e38f, 0, 0 }, { 1, 0, 0 } }, 1e-3).size(), 2u);
+}
+
+TEST(PointGrid, ThinningLooksAtEveryCube)
+{
+  // Cubes on both sides of the origin, more along an axis than one digit of the sort counts.
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> x(-4000.0f, 5000.0f), y(-5.0f, 3.0f);
+  meam::Points points;
+  for (int k = 0; k < 20000; ++k)
+  {
+    points.push_back({ x(random), y(random), y(random) });
+  }
+  constexpr double Leaf = 2.5;
+  std::map<std::array<int, 3>, std::vector<int>> cubes; // by z, y, x
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Eigen::Array3i cube = (points[i].cast<double>() / Leaf).array().floor().cast<int>();
+    cubes[{ cube.z(), cube.y(), cube.x() }].push_back(static_cast<int>(i));
+  }
+  std::vector<int> expected;
+  int several = 0;
+  for (const auto& [cube, members] : cubes)
+  {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const int i : members)
+    {
+      mean += points[i].cast<double>() / members.size();
+    }
+    const auto distance = [&](int k) { return (points[k].cast<double>() - mean).norm(); };
+    std::vector<int> byDistance = members;
+    std::sort(byDistance.begin(), byDistance.end(), [&](int a, int b) { return distance(a) < distance(b); });
+    // Of two that are equally near, as two points always are, another rule decides.
+    const bool isClear = members.size() == 1 || distance(byDistance[1]) - distance(byDistance[0]) > 2e-4 * Leaf;
+    expected.push_back(isClear ? byDistance[0] : -1);
+    several += members.size() > 2 ? 1 : 0;
+  }
+  const std::vector<int> kept = meam::thinPoints(points, Leaf);
+  ASSERT_EQ(kept.size(), expected.size());
+  EXPECT_GT(several, 100);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    EXPECT_TRUE(expected[k] < 0 || kept[k] == expected[k]) << k;
+  }
+}
+
+TEST(PointGrid, AStrayPointDoesNotChangeHowTheOthersAreThinned)
+{
+  meam::Points points;
+  for (int k = 0; k < 100; ++k)
+  {
+    points.push_back({ 0.5f + k, 0.5f, 0.5f });
+  }
+  std::vector<int> alone = meam::thinPoints(points, 2.0);
+  EXPECT_EQ(alone.size(), 50u);
+  for (const float far : { 3e38f, -3e38f })
+  {
+    points.push_back({ 1.0f, far, 0.5f });
+    const std::vector<int> kept = meam::thinPoints(points, 2.0);
+    EXPECT_EQ(kept.size(), 51u);
+    for (const int i : alone)
+    {
+      EXPECT_EQ(std::count(kept.begin(), kept.end(), i), 1) << i;
+    }
+    points.pop_back();
+  }
+  EXPECT_EQ(meam::thinPoints(points, NAN).size(), 100u) << "no leaf";
+  EXPECT_GE(meam::thinPoints(points, 1e-307).size(), 1u) << "beyond what can be counted";
 }

@@ -55,6 +55,17 @@ TEST(PoseResiduals, OfASurfaceAreAlongItsNormals)
   EXPECT_NEAR(result.information(5, 5), 1.0 + weight, 1e-6) << "the normals are along z";
   EXPECT_EQ(result.information(3, 3), 0.0);
 
+  // More than are looked at together: all the same.
+  meam::OrientedColumns many;
+  for (int k = 0; k < 700; ++k)
+  {
+    many.add({ 2.0f + 0.02f * k, 5.0f, 2.0f }, up);
+  }
+  meam::RigidFit of700(Eigen::Vector3d::Zero());
+  meam::addSurfaceResiduals(of700, plane(), many, { 2.0f, AnyDistance, false });
+  EXPECT_NEAR(of700.result().weights, 700 * weight, 1e-3);
+  EXPECT_NEAR(of700.result().squares, 700 * weight, 1e-3);
+
   // Of two points that are as far above the plane one is too far from the mean at its line of sight.
   meam::RigidFit near(Eigen::Vector3d::Zero());
   meam::addSurfaceResiduals(near, plane(), surface, { 2.0f, 0.9f, false });

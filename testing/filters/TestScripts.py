@@ -192,7 +192,7 @@ noisy = [works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0",
                "--out", "noisy") and read("noisy/Part_1/trans0.txt") for noise in ("0.2", "0.2", "0.1%")]
 check(noisy[0] == noisy[1] != noisy[2], "the noise is not what was asked for")
 check(noisy[0] != read("result/Part_1/trans0.txt"), "there is no noise")
-for noise in ("loud", "-1", "nan", "%"):
+for noise in ("loud", "-1", "nan", "inf", "%"):
     for name in (("evaluate.py", "tohoku"), ("ablation.py",)):
         result = script(*name, "data", "--noise", noise)
         check(result.returncode == 2 and result.stderr.rstrip().endswith(f"0 or more, not {noise}"), result.stderr)
