@@ -32,6 +32,8 @@ namespace vtkMEAMConversion
 {
 namespace
 {
+constexpr float NearlyUnit = 1e-4f; // a length this near to 1 is 1 but for rounding
+
 using meam::Error;
 
 std::string quoted(const char* name) { return std::string("'") + name + "'"; }
@@ -616,7 +618,12 @@ meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor&
   scene.edges = meam::finitePoints(cloud);
   for (Eigen::Vector3f& tangent : scene.edges.tangents)
   {
-    tangent = tangent.stableNormalized(); // of a cloud that comes from elsewhere
+    // Of a cloud that comes from elsewhere; our own stay what they are to the last bit.
+    const float length = tangent.norm();
+    if (std::abs(length - 1.0f) > NearlyUnit && length > 0.0f)
+    {
+      tangent /= length;
+    }
   }
   if (auto* points = vtkPointSet::SafeDownCast(surface))
   {

@@ -54,6 +54,16 @@ for method, surface, mm, degrees in ((0, None, 0.4, 1.0), (1, None, 0.3, 0.6), (
         again = run(refinement(start, surface, Method=method, NumberOfThreads=threads))
         check(tuples(again, "Transform") == tuples(refined, "Transform"), f"{threads} threads")
 
+# Tangents of any length are directions.
+longer = edges.NewInstance()
+longer.DeepCopy(edges)
+lengths = longer.GetPointData().GetArray("Tangent")
+for k in range(lengths.GetNumberOfTuples()):
+    lengths.SetTuple(k, [8 * value for value in lengths.GetTuple(k)])
+errors = [pose_error(a, b) for a, b in zip(tuples(run(refinement(start, scene.surface)), "Transform"),
+                                           tuples(run(refinement(start, scene.surface, edges=longer)), "Transform"))]
+check(len(errors) == 3 and all(mm < 1e-3 and degrees < 1e-2 for mm, degrees in errors), f"long tangents: {errors}")
+
 # Too far for any correspondence: the pose stays.
 far = near(0, 500, 500, 500)
 for method in (0, 1):
