@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry.h"
 
+#include "AllVectors.h"
 #include "Error.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
+#include <numeric>
 
 namespace meam
 {
@@ -17,6 +20,97 @@ std::string number(double value)
   char text[32];
   std::snprintf(text, sizeof(text), "%.4g", value);
   return text;
+}
+
+// Scans have a million points: bounds and moments look at several at a time, in lanes, so that the width of vectors has
+// no part in the result.
+constexpr int Lanes = 8;
+
+static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "points are plain coordinates");
+
+/// Calls work(coordinates, count) with all points and a count that is a multiple of Lanes: the last ones are filled up
+/// with points that are no numbers.
+template <typename Work>
+void inLanes(const Points& points, Work&& work)
+{
+  const std::size_t whole = points.size() / Lanes * Lanes;
+  if (whole > 0)
+  {
+    work(points.front().data(), whole);
+  }
+  if (whole < points.size())
+  {
+    float rest[3 * Lanes];
+    std::fill_n(rest, 3 * Lanes, std::numeric_limits<float>::quiet_NaN());
+    std::copy_n(points[whole].data(), 3 * (points.size() - whole), rest);
+    work(rest, Lanes);
+  }
+}
+
+/// Extends the bounds of each lane by the finite points.
+MEAM_ALL_VECTORS
+void extend(const float* xyz, std::size_t count, float (*low)[Lanes], float (*high)[Lanes])
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (std::size_t begin = 0; begin < count; begin += Lanes)
+  {
+    const float* from = xyz + 3 * begin;
+#pragma omp simd
+    for (int k = 0; k < Lanes; ++k)
+    {
+      const float x = from[3 * k], y = from[3 * k + 1], z = from[3 * k + 2];
+      const bool isFinite = (std::abs(x) < infinity) & (std::abs(y) < infinity) & (std::abs(z) < infinity);
+      low[0][k] = std::min(low[0][k], isFinite ? x : infinity);
+      low[1][k] = std::min(low[1][k], isFinite ? y : infinity);
+      low[2][k] = std::min(low[2][k], isFinite ? z : infinity);
+      high[0][k] = std::max(high[0][k], isFinite ? x : -infinity);
+      high[1][k] = std::max(high[1][k], isFinite ? y : -infinity);
+      high[2][k] = std::max(high[2][k], isFinite ? z : -infinity);
+    }
+  }
+}
+
+/// Sums over points: their number, x, y, z, xx, xy, xz, yy, yz, zz, and xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz.
+constexpr int Moments = 20;
+
+/// Adds those of the finite points, as seen from `from`.
+MEAM_ALL_VECTORS
+void addMoments(const float* xyz, std::size_t count, const double* from, double (*sums)[Lanes])
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const double fromX = from[0], fromY = from[1], fromZ = from[2];
+  for (std::size_t begin = 0; begin < count; begin += Lanes)
+  {
+    const float* at = xyz + 3 * begin;
+#pragma omp simd
+    for (int k = 0; k < Lanes; ++k)
+    {
+      const double u = at[3 * k] - fromX, v = at[3 * k + 1] - fromY, w = at[3 * k + 2] - fromZ;
+      const double one = std::abs(u + v + w) < infinity ? 1.0 : 0.0;
+      const double x = one > 0.0 ? u : 0.0, y = one > 0.0 ? v : 0.0, z = one > 0.0 ? w : 0.0;
+      const double xx = x * x, xy = x * y, xz = x * z, yy = y * y, yz = y * z, zz = z * z;
+      sums[0][k] += one;
+      sums[1][k] += x;
+      sums[2][k] += y;
+      sums[3][k] += z;
+      sums[4][k] += xx;
+      sums[5][k] += xy;
+      sums[6][k] += xz;
+      sums[7][k] += yy;
+      sums[8][k] += yz;
+      sums[9][k] += zz;
+      sums[10][k] += x * xx;
+      sums[11][k] += y * xx;
+      sums[12][k] += z * xx;
+      sums[13][k] += x * yy;
+      sums[14][k] += x * yz;
+      sums[15][k] += x * zz;
+      sums[16][k] += y * yy;
+      sums[17][k] += z * yy;
+      sums[18][k] += y * zz;
+      sums[19][k] += z * zz;
+    }
+  }
 }
 }
 
@@ -71,12 +165,19 @@ PointCloud finitePoints(const PointCloud& cloud)
 
 Eigen::AlignedBox3f bounds(const Points& points)
 {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  float low[3][Lanes], high[3][Lanes];
+  std::fill_n(low[0], 3 * Lanes, infinity);
+  std::fill_n(high[0], 3 * Lanes, -infinity);
+  inLanes(points, [&](const float* xyz, std::size_t count) { extend(xyz, count, low, high); });
   Eigen::AlignedBox3f box;
-  for (const auto& point : points)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    if (point.allFinite())
+    const float least = *std::min_element(low[axis], low[axis] + Lanes);
+    if (least < infinity)
     {
-      box.extend(point);
+      box.min()[axis] = least;
+      box.max()[axis] = *std::max_element(high[axis], high[axis] + Lanes);
     }
   }
   return box;
@@ -126,8 +227,7 @@ Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
 
 Eigen::Isometry3d principalFrame(const Points& points)
 {
-  // Scans have a million points: one pass, of plain numbers. Moments are about one of the points, so they keep their
-  // precision far from the origin.
+  // Moments are about one of the points, so they keep their precision far from the origin.
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   const auto first = std::find_if(points.begin(), points.end(), [](const auto& point) { return point.allFinite(); });
   if (first == points.end())
@@ -135,27 +235,17 @@ Eigen::Isometry3d principalFrame(const Points& points)
     return frame;
   }
   const Eigen::Vector3d from = first->cast<double>();
-  const double fx = from.x(), fy = from.y(), fz = from.z();
-  double n = 0.0, x = 0.0, y = 0.0, z = 0.0;
-  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
-  double xxx = 0.0, xxy = 0.0, xxz = 0.0, xyy = 0.0, xyz = 0.0, xzz = 0.0, yyy = 0.0, yyz = 0.0, yzz = 0.0, zzz = 0.0;
-  for (const auto& point : points)
+  double lanes[Moments][Lanes] = {};
+  inLanes(points, [&](const float* xyz, std::size_t count) { addMoments(xyz, count, from.data(), lanes); });
+  double m[Moments];
+  for (int i = 0; i < Moments; ++i)
   {
-    const double u = point.x() - fx, v = point.y() - fy, w = point.z() - fz;
-    if (!std::isfinite(u + v + w))
-    {
-      continue;
-    }
-    const double uu = u * u, uv = u * v, uw = u * w, vv = v * v, vw = v * w, ww = w * w;
-    n += 1.0;
-    x += u, y += v, z += w;
-    xx += uu, xy += uv, xz += uw, yy += vv, yz += vw, zz += ww;
-    xxx += u * uu, xxy += v * uu, xxz += w * uu, xyy += u * vv, xyz += u * vw, xzz += u * ww;
-    yyy += v * vv, yyz += w * vv, yzz += v * ww, zzz += w * ww;
+    m[i] = std::accumulate(lanes[i], lanes[i] + Lanes, 0.0);
   }
-  const Eigen::Vector3d mean = Eigen::Vector3d(x, y, z) / n;
+  const double n = m[0];
+  const Eigen::Vector3d mean = Eigen::Vector3d(m[1], m[2], m[3]) / n;
   Eigen::Matrix3d squares;
-  squares << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  squares << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
   squares /= n;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - mean * mean.transpose());
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
@@ -167,8 +257,9 @@ Eigen::Isometry3d principalFrame(const Points& points)
   {
     // The third moment along the axis, about the mean.
     const double a = axes(0, axis), b = axes(1, axis), c = axes(2, axis);
-    const double cubes = a * a * a * xxx + b * b * b * yyy + c * c * c * zzz +
-      3.0 * (a * a * (b * xxy + c * xxz) + b * b * (a * xyy + c * yyz) + c * c * (a * xzz + b * yzz)) + 6.0 * a * b * c * xyz;
+    const double cubes = a * a * a * m[10] + b * b * b * m[16] + c * c * c * m[19] +
+      3.0 * (a * a * (b * m[11] + c * m[12]) + b * b * (a * m[13] + c * m[17]) + c * c * (a * m[15] + b * m[18])) +
+      6.0 * a * b * c * m[14];
     const double along = mean.dot(axes.col(axis));
     const double skewness =
       cubes / n - 3.0 * along * axes.col(axis).dot(squares * axes.col(axis)) + 2.0 * along * along * along;

@@ -59,4 +59,16 @@ void parallelFor(int count, int threads, const Progress& progress, const std::fu
     std::rethrow_exception(failure);
   }
 }
+
+void inParallel(int threads, const std::vector<std::function<void()>>& works)
+{
+  parallelFor(static_cast<int>(works.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (; begin < end; ++begin)
+      {
+        works[begin]();
+      }
+    });
+}
 }

@@ -3,6 +3,8 @@
 
 #include "Error.h"
 
+#include <vector>
+
 namespace meam
 {
 /// The number of threads to use for a setting of `requested`; 0 or less: one for each processor.
@@ -12,4 +14,7 @@ int numberOfThreads(int requested);
 /// progress from the calling thread. Exceptions thrown by the work and a wish to stop end the loop and
 /// come out on the calling thread.
 void parallelFor(int count, int threads, const Progress& progress, const std::function<void(int, int, int)>& work);
+
+/// Does what does not depend on each other on `threads` threads; the rest as above.
+void inParallel(int threads, const std::vector<std::function<void()>>& works);
 }

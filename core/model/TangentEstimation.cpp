@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace meam
 {
@@ -206,49 +207,60 @@ double quantile(std::vector<double>& values, double share)
 
 /// Lines that meet mostly lie in a plane: the points' distances from it are noise. Where they are curved or there are
 /// several planes these are larger, so a low quantile counts.
-PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius)
+PointStatistics statisticsOf(
+  const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius, int threads)
 {
-  std::vector<double> deviations, distances;
-  Neighbours offsets;
-  for (std::size_t k = 0; k < kept.size(); k += kept.size() / MeasuredPoints + 1)
-  {
-    offsets.gather(grid, edges[kept[k]], radius);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < offsets.size(); ++i)
+  const int stride = static_cast<int>(kept.size() / MeasuredPoints) + 1;
+  const int count = (static_cast<int>(kept.size()) + stride - 1) / stride;
+  constexpr double unknown = -1.0;
+  std::vector<double> deviations(count, unknown), distances(count, unknown);
+  parallelFor(count, threads, {},
+    [&](int begin, int end, int)
     {
-      const Eigen::Vector3d d = offsets.at(i).cast<double>();
-      sum += d;
-      products += d * d.transpose();
-      nearest = d.isZero() ? nearest : std::min(nearest, d.norm());
-    }
-    const double count = offsets.size();
-    if (std::isfinite(nearest))
-    {
-      distances.push_back(nearest);
-    }
-    if (count >= FewestForNoise)
-    {
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-      solver.computeDirect(products - sum * sum.transpose() / count, Eigen::EigenvaluesOnly);
-      deviations.push_back(std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / (count - 3.0)));
-    }
-  }
+      Neighbours offsets;
+      for (int k = begin; k < end; ++k)
+      {
+        offsets.gather(grid, edges[kept[k * stride]], radius);
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+        double nearest = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < offsets.size(); ++i)
+        {
+          const Eigen::Vector3d d = offsets.at(i).cast<double>();
+          sum += d;
+          products += d * d.transpose();
+          nearest = d.isZero() ? nearest : std::min(nearest, d.norm());
+        }
+        if (std::isfinite(nearest))
+        {
+          distances[k] = nearest;
+        }
+        const double size = offsets.size();
+        if (size >= FewestForNoise)
+        {
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+          solver.computeDirect(products - sum * sum.transpose() / size, Eigen::EigenvaluesOnly);
+          deviations[k] = std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / (size - 3.0));
+        }
+      }
+    });
+  const auto known = [&](std::vector<double>& values)
+  { values.erase(std::remove(values.begin(), values.end(), unknown), values.end()); };
+  known(deviations);
+  known(distances);
   return { quantile(deviations, 0.25), quantile(distances, 0.5) };
 }
 
-/// Tangents at the points `kept`, by lines through the points `sparse`. Lengths of the settings that are 0 follow the part
-/// and the points.
+/// Tangents at the points `kept`, by lines through the points `sparse`. `grid` is of all points, with cells of `radius`, that
+/// of the settings or the part. Lengths of the settings that are 0 follow the points, too.
 Points robustTangents(const Points& edges, const std::vector<int>& kept, const std::vector<int>& sparse,
-  double partDiameter, const TangentEstimationSettings& settings, const Progress& progress)
+  const PointGrid& grid, double radius, double partDiameter, const TangentEstimationSettings& settings,
+  const Progress& progress)
 {
-  double radius = settings.radius > 0.0 ? settings.radius : RadiusShare * partDiameter;
   double inlierDistance = settings.inlierDistance;
-  const PointGrid grid(edges, radius);
   if (settings.radius <= 0.0 || settings.inlierDistance <= 0.0)
   {
-    const PointStatistics statistics = statisticsOf(edges, kept, grid, radius);
+    const PointStatistics statistics = statisticsOf(edges, kept, grid, radius, settings.threads);
     if (settings.inlierDistance <= 0.0)
     {
       inlierDistance = std::clamp(InlierNoise * statistics.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
@@ -370,28 +382,25 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
   };
   const Points points = moved(cloud.points, cubes);
   const double leaf = length(settings.leafSize, leafShare);
-  const double candidateLeaf = robust ? CandidateShare * length(settings.radius, RadiusShare) : 0.0;
+  double radius = 0.0;
+  std::vector<int> kept, candidates;
+  std::optional<PointGrid> grid;
+  std::vector<std::function<void()>> works{ [&] { kept = thinPoints(points, leaf); } };
   if (robust)
   {
+    radius = length(std::max(0.0, settings.radius), RadiusShare);
     length(settings.inlierDistance, InlierShare);
+    works.push_back([&] { candidates = thinPoints(points, CandidateShare * radius); });
+    works.push_back([&] { grid.emplace(points, radius); });
   }
-  std::vector<int> thinned[2];
-  parallelFor(robust ? 2 : 1, settings.threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        thinned[i] = thinPoints(points, i == 0 ? leaf : candidateLeaf);
-      }
-    });
-  const std::vector<int>& kept = thinned[0];
+  inParallel(settings.threads, works);
   Eigen::Isometry3d turnBack = Eigen::Isometry3d::Identity();
   turnBack.linear() = cubes.linear().transpose();
   PointCloud result = cloud.subset(kept);
   if (result.tangents.empty())
   {
     result.tangents = robust
-      ? moved(robustTangents(points, kept, thinned[1], partDiameter, settings, progress), turnBack)
+      ? moved(robustTangents(points, kept, candidates, *grid, radius, partDiameter, settings, progress), turnBack)
       : tileTangents(result.points, viewDirection, settings, progress);
   }
   std::vector<int> found;

@@ -134,17 +134,20 @@ DepthMap::DepthMap(
         cellOf[i] = this->placeOfProjected(projected[i]).cell;
       }
     });
-  for (int i = 0; i < size; ++i)
+  const float layer = static_cast<float>(LayerCells * cellSize);
+  // Each thread has cells of its own, and sums up their points in order.
+  const std::int64_t shares = numberOfThreads(threads);
+  const auto firstOf = [&](int share) { return static_cast<int>(share * this->Cells.size() / shares); };
+  parallelFor(static_cast<int>(shares), threads, {},
+    [&](int begin, int end, int)
+    { this->fillCells(surface, projected, cellOf, layer, firstOf(begin), firstOf(end)); });
+  for (const Cell& seen : this->Cells)
   {
-    if (cellOf[i] >= 0)
+    if (seen.nearest < NothingSeen)
     {
-      Cell& seen = this->Cells[cellOf[i]];
-      seen.nearest = std::min(seen.nearest, projected[i].z());
-      seen.farthest = std::max(seen.farthest, projected[i].z());
+      this->Means.push_back(seen.mean);
     }
   }
-  const float layer = static_cast<float>(LayerCells * cellSize);
-  this->average(surface, projected, cellOf, layer);
   this->fillGaps(layer, threads);
 }
 
@@ -194,32 +197,44 @@ void DepthMap::meansAt(const PointColumns& points, int begin, int count, Seen& s
   }
 }
 
-void DepthMap::average(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer)
+void DepthMap::fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
+  int firstCell, int lastCell)
 {
-  // Sums are of what is beyond the first point: they keep their precision far from the origin.
-  std::vector<int> counts(this->Cells.size(), 0);
-  std::vector<int> first(this->Cells.size());
-  for (std::size_t i = 0; i < surface.size(); ++i)
+  const int size = static_cast<int>(surface.size());
+  const auto isHere = [&](int i) { return cellOf[i] >= firstCell && cellOf[i] < lastCell; };
+  for (int i = 0; i < size; ++i)
   {
-    const int k = cellOf[i];
-    if (k >= 0 && projected[i].z() <= this->Cells[k].nearest + layer)
+    if (isHere(i))
     {
+      Cell& seen = this->Cells[cellOf[i]];
+      seen.nearest = std::min(seen.nearest, projected[i].z());
+      seen.farthest = std::max(seen.farthest, projected[i].z());
+    }
+  }
+  // Sums are of what is beyond the first point: they keep their precision far from the origin.
+  std::vector<int> counts(lastCell - firstCell, 0);
+  std::vector<int> first(lastCell - firstCell);
+  for (int i = 0; i < size; ++i)
+  {
+    if (isHere(i) && projected[i].z() <= this->Cells[cellOf[i]].nearest + layer)
+    {
+      const int k = cellOf[i] - firstCell;
       if (counts[k]++ == 0)
       {
-        first[k] = static_cast<int>(i);
+        first[k] = i;
       }
       else
       {
-        this->Cells[k].mean += surface[i] - surface[first[k]];
+        this->Cells[cellOf[i]].mean += surface[i] - surface[first[k]];
       }
     }
   }
-  for (std::size_t i = 0; i < this->Cells.size(); ++i)
+  for (int k = 0; k < lastCell - firstCell; ++k)
   {
-    if (counts[i] > 0)
+    if (counts[k] > 0)
     {
-      this->Cells[i].mean = surface[first[i]] + this->Cells[i].mean / static_cast<float>(counts[i]);
-      this->Means.push_back(this->Cells[i].mean);
+      Eigen::Vector3f& mean = this->Cells[firstCell + k].mean;
+      mean = surface[first[k]] + mean / static_cast<float>(counts[k]);
     }
   }
 }

@@ -106,7 +106,9 @@ private:
   };
   void findPlaces(
     const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const;
-  void average(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer);
+  /// Depths and means of the cells from `firstCell` to before `lastCell`.
+  void fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
+    int firstCell, int lastCell);
   void fillGaps(float layer, int threads);
   /// `seen` tells of the nine cells about one, `stride` from row to row.
   void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);

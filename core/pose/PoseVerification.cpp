@@ -149,7 +149,7 @@ Poses distinctPoses(const Poses& poses, const std::vector<double>& shares, doubl
   return distinct;
 }
 
-/// Indices of the poses that stay, best first.
+/// Decides which poses of one instance stay.
 class Clusters
 {
 public:
@@ -170,33 +170,68 @@ public:
   {
   }
 
-  void add(int candidate)
+  /// Of the poses `ranked`, indices with the best first, those that stay.
+  std::vector<int> select(const std::vector<int>& ranked)
   {
-    const auto isOfInstance = [&](int kept) { return this->sameInstance(candidate, kept); };
-    std::vector<int> alternatives;
-    std::copy_if(this->Kept.begin(), this->Kept.end(), std::back_inserter(alternatives), isOfInstance);
-    for (const int kept : alternatives)
-    {
-      if (this->turnBetween(candidate, kept) < this->Settings.clusterAngle)
+    const int count = static_cast<int>(ranked.size());
+    std::vector<std::vector<int>> before(count); // places of those of the same instance that come before each
+    parallelFor(count, this->Settings.threads, {},
+      [&](int begin, int end, int)
       {
-        return;
-      }
-    }
-    if (static_cast<int>(alternatives.size()) >= this->Settings.posesPerInstance)
-    {
-      const bool best = this->Comparison &&
-        std::all_of(alternatives.begin(), alternatives.end(),
-          [&](int kept)
+        for (int k = begin; k < end; ++k)
+        {
+          for (int other = 0; other < k; ++other)
           {
-            return this->Comparison->advantage(this->contender(candidate), this->contender(kept)) > 0.0;
-          });
-      if (!best)
+            if (this->sameInstance(ranked[k], ranked[other]))
+            {
+              before[k].push_back(other);
+            }
+          }
+        }
+      });
+    // Poses of different instances have nothing to do with each other.
+    std::vector<int> group(count);
+    std::vector<std::vector<int>> groups(count);
+    for (int k = 0; k < count; ++k)
+    {
+      group[k] = k;
+      groups[k] = { k };
+      for (const int other : before[k])
       {
-        return;
+        const int joined = group[other];
+        if (joined != k)
+        {
+          for (const int member : groups[joined])
+          {
+            group[member] = k;
+          }
+          groups[k].insert(groups[k].end(), groups[joined].begin(), groups[joined].end());
+          groups[joined].clear();
+        }
       }
-      this->Kept.erase(std::remove_if(this->Kept.begin(), this->Kept.end(), isOfInstance), this->Kept.end());
     }
-    this->Kept.push_back(candidate);
+    std::vector<char> stays(count, 0);
+    parallelFor(count, this->Settings.threads, {},
+      [&](int begin, int end, int)
+      {
+        for (int g = begin; g < end; ++g)
+        {
+          std::sort(groups[g].begin(), groups[g].end());
+          for (const int k : groups[g])
+          {
+            this->choose(k, before[k], ranked, stays);
+          }
+        }
+      });
+    std::vector<int> selected;
+    for (int k = 0; k < count; ++k)
+    {
+      if (stays[k])
+      {
+        selected.push_back(ranked[k]);
+      }
+    }
+    return selected;
   }
 
   /// Different ones may be asked for in parallel.
@@ -210,9 +245,36 @@ public:
     return *known;
   }
 
-  std::vector<int> Kept;
-
 private:
+  /// Whether the one at place `k` stays, and whether those of its instance, `before` it, still do.
+  void choose(int k, const std::vector<int>& before, const std::vector<int>& ranked, std::vector<char>& stays)
+  {
+    std::vector<int> alternatives;
+    std::copy_if(before.begin(), before.end(), std::back_inserter(alternatives), [&](int other) { return stays[other]; });
+    const bool isKnown = std::any_of(alternatives.begin(), alternatives.end(),
+      [&](int other) { return this->turnBetween(ranked[k], ranked[other]) < this->Settings.clusterAngle; });
+    if (isKnown)
+    {
+      return;
+    }
+    if (static_cast<int>(alternatives.size()) >= this->Settings.posesPerInstance)
+    {
+      const bool isBest = this->Comparison &&
+        std::all_of(alternatives.begin(), alternatives.end(),
+          [&](int other)
+          { return this->Comparison->advantage(this->contender(ranked[k]), this->contender(ranked[other])) > 0.0; });
+      if (!isBest)
+      {
+        return;
+      }
+      for (const int other : alternatives)
+      {
+        stays[other] = 0;
+      }
+    }
+    stays[k] = 1;
+  }
+
   bool sameInstance(int a, int b) const
   {
     const double apart = (this->middle(a) - this->middle(b)).norm();
@@ -332,22 +394,24 @@ Poses verifyPoses(
   Clusters clusters(scored, evidence, same, index, collector, comparison ? &*comparison : nullptr, settings,
     clusterDistance, 0.5 * model.diameter);
   std::vector<int> ofView(TrainedModel::MaximumViews, 0);
+  std::vector<int> ranked;
   for (const int i : order)
   {
     if (scored[i].score >= settings.minimumScore &&
       (settings.posesPerView == 0 || ++ofView[scored[i].viewId] <= settings.posesPerView))
     {
-      clusters.add(i);
+      ranked.push_back(i);
     }
   }
+  std::vector<int> selected = clusters.select(ranked);
   if (comparison)
   {
-    parallelFor(static_cast<int>(clusters.Kept.size()), settings.threads, subProgress(progress, 0.8, 1.0),
+    parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.8, 1.0),
       [&](int begin, int end, int)
       {
         for (int k = begin; k < end; ++k)
         {
-          const int i = clusters.Kept[k];
+          const int i = selected[k];
           if (!model.symmetries.near.empty())
           {
             PoseComparison::Contender asItIs = clusters.contender(i);
@@ -359,12 +423,12 @@ Poses verifyPoses(
         }
       });
   }
-  std::stable_sort(clusters.Kept.begin(), clusters.Kept.end(), better);
+  std::stable_sort(selected.begin(), selected.end(), better);
   const auto middle = [&](int i) { return (scored[i].T_scene_model * index.view.middle().cast<double>()).eval(); };
   const double plausible =
-    areCandidates && someMustGo && !clusters.Kept.empty() ? LeastPlausible * preference(scored[clusters.Kept[0]]) : 0.0;
+    areCandidates && someMustGo && !selected.empty() ? LeastPlausible * preference(scored[selected[0]]) : 0.0;
   std::vector<int> kept;
-  for (const int i : clusters.Kept)
+  for (const int i : selected)
   {
     // Poses that were settled may have come to the same place.
     const bool known = comparison &&

@@ -45,6 +45,29 @@ TEST(Geometry, InvalidPointsAreLeftOut)
   EXPECT_EQ(box.max(), Eigen::Vector3f(1, 5, 3));
 }
 
+TEST(Geometry, BoundsOfAnyNumberOfPointsSomeOfWhichAreInvalid)
+{
+  EXPECT_TRUE(meam::bounds({}).isEmpty());
+  EXPECT_TRUE(meam::bounds({ { NaN, 0, 0 }, { 0, 0, INFINITY } }).isEmpty());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> coordinate(-9.0f, 9.0f);
+  for (int count = 1; count < 40; ++count)
+  {
+    meam::Points points;
+    Eigen::AlignedBox3f expected;
+    for (int i = 0; i < count; ++i)
+    {
+      const Eigen::Vector3f point(coordinate(random), coordinate(random), coordinate(random));
+      points.push_back(point);
+      expected.extend(point);
+      points.push_back({ i % 2 ? NaN : 1e9f, i % 3 ? 1e9f : INFINITY, i % 2 ? 1e9f : -INFINITY });
+    }
+    const Eigen::AlignedBox3f box = meam::bounds(points);
+    EXPECT_EQ(box.min(), expected.min()) << count;
+    EXPECT_EQ(box.max(), expected.max()) << count;
+  }
+}
+
 TEST(Geometry, FrameIsRightHandedWithTheAxisFirst)
 {
   for (const Eigen::Vector3f& axis : { Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 0, -1),
@@ -74,6 +97,15 @@ TEST(Geometry, AnUnlikelyExtentIsAWarningThatNamesTheFactor)
   EXPECT_NE(meam::unitsWarning(spanning(0.3f), 60.0).find("factor is 1000. Scale the scene"), std::string::npos);
   EXPECT_NE(meam::unitsWarning(spanning(600), 2.0).find("factor is 10. Scale the part"), std::string::npos);
   EXPECT_NE(meam::unitsWarning(spanning(3000), 2.0).find("factor is 1000. Scale the part"), std::string::npos);
+}
+
+TEST(Geometry, ThePrincipalFrameOfPointsOnALine)
+{
+  // Their mean is (3, 0, 2); along x they are skewed towards greater values.
+  const Eigen::Isometry3d frame =
+    meam::principalFrame({ { 0, 0, 2 }, { NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
+  EXPECT_TRUE((frame * Eigen::Vector3d(3, 0, 2)).isZero(1e-9));
+  EXPECT_TRUE((frame * Eigen::Vector3d(8, 0, 2)).isApprox(Eigen::Vector3d(5, 0, 0), 1e-9));
 }
 
 TEST(Geometry, ThePrincipalFrameMovesWithThePoints)
