@@ -133,6 +133,7 @@ PointCloud PointCloud::subset(const std::vector<int>& indices) const
   take(this->tangents, result.tangents);
   take(this->pointIds, result.pointIds);
   take(this->edgeTypes, result.edgeTypes);
+  take(this->weights, result.weights);
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 namespace meam
@@ -15,6 +16,7 @@ constexpr double MostCells = 4e6;
 constexpr double SameDistance = 1e-4; // of a cube's side
 constexpr double StrayShare = 0.001; // of the points, at each end of each axis
 constexpr double MostCubes = 1 << 21;  // along an axis, so that 64 bits number all
+constexpr double BorderShare = 0.15;   // of a cube's side, next to its border: points there count less
 constexpr double MiddleShare = 0.49;   // as that leaves next to the medians
 
 /// A point and the number of the cube it lies in.
@@ -22,6 +24,7 @@ struct Member
 {
   std::uint64_t cube;
   int point;
+  float weight; ///< less next to the cube's border
 };
 
 /// Sorts by cube numbers of so many bits; members of one cube stay in their order.
@@ -103,11 +106,18 @@ PointGrid::PointGrid(const Points& points, double cellSize)
 
 std::vector<int> thinPoints(const Points& points, double leafSize)
 {
+  return thinWithWeights(points, leafSize).indices;
+}
+
+ThinnedPoints thinWithWeights(const Points& points, double leafSize)
+{
+  ThinnedPoints kept;
   if (!(leafSize > 0.0))
   {
-    std::vector<int> all(points.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
+    kept.indices.resize(points.size());
+    std::iota(kept.indices.begin(), kept.indices.end(), 0);
+    kept.weights.assign(points.size(), 1.0f);
+    return kept;
   }
   constexpr double farthest = 9e18; // what 64 bits count
   const auto cubeOf = [&](const Eigen::Vector3f& point) -> Eigen::Array3d
@@ -115,7 +125,7 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
   Eigen::AlignedBox3f box = bounds(points);
   if (box.isEmpty())
   {
-    return {};
+    return kept;
   }
   // Cubes are numbered along z, then y, then x. Stray points far away go to the border of what 64 bits can number about
   // most of the points.
@@ -134,23 +144,27 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
   {
     if (points[i].allFinite())
     {
-      const auto cube = (cubeOf(points[i]) - low).max(0.0).min(most).cast<std::int64_t>().eval();
+      const Eigen::Array3d place = points[i].cast<double>() / leafSize;
+      const Eigen::Array3d within = (0.5 - (place - place.floor() - 0.5).abs()) / BorderShare;
+      const double weight = std::max<double>(std::numeric_limits<float>::min(), within.min(1.0).prod());
+      const auto cube = (place.floor() - low).max(0.0).min(most).cast<std::int64_t>().eval();
       const std::int64_t number = (cube.z() << bitsY | cube.y()) << bitsX | cube.x();
-      members.push_back({ static_cast<std::uint64_t>(number), static_cast<int>(i) });
+      members.push_back({ static_cast<std::uint64_t>(number), static_cast<int>(i), static_cast<float>(weight) });
     }
   }
   sortByCube(members, bitsX + bitsY + bitsZ);
 
-  std::vector<int> kept;
   for (auto begin = members.begin(); begin != members.end();)
   {
     const auto end = std::find_if(begin, members.end(), [&](const Member& other) { return other.cube != begin->cube; });
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weights = 0.0;
     for (auto member = begin; member != end; ++member)
     {
-      sum += points[member->point].cast<double>();
+      sum += static_cast<double>(member->weight) * points[member->point].cast<double>();
+      weights += member->weight;
     }
-    const Eigen::Vector3d mean = sum / static_cast<double>(end - begin);
+    const Eigen::Vector3d mean = sum / weights;
     // Of two points both are equally near to their mean: the one nearer to the cube's middle.
     const auto offCentre = [&](const Eigen::Vector3f& point)
     { return (point.cast<double>().array() / leafSize - cubeOf(point) - 0.5).matrix().squaredNorm(); };
@@ -167,7 +181,8 @@ std::vector<int> thinPoints(const Points& points, double leafSize)
         distance = other;
       }
     }
-    kept.push_back(nearest);
+    kept.indices.push_back(nearest);
+    kept.weights.push_back(static_cast<float>(std::min(1.0, weights)));
     begin = end;
   }
   return kept;

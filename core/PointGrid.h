@@ -118,4 +118,14 @@ private:
 /// others one or a few stay. Ordered by cube: along z, then y, then x. A
 /// leaf of 0 or less keeps every point.
 std::vector<int> thinPoints(const Points& points, double leafSize);
+
+struct ThinnedPoints
+{
+  std::vector<int> indices;
+  std::vector<float> weights; ///< of each
+};
+/// The same with weights, [0, 1]: 1 of what stands for a point well inside a cube, and less the nearer to their cubes'
+/// borders all points are that it stands for. Sums with these weights change steadily as points move, though one that
+/// comes over a border is kept or left out at once.
+ThinnedPoints thinWithWeights(const Points& points, double leafSize);
 }

@@ -383,9 +383,10 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
   const Points points = moved(cloud.points, cubes);
   const double leaf = length(settings.leafSize, leafShare);
   double radius = 0.0;
-  std::vector<int> kept, candidates;
+  ThinnedPoints kept;
+  std::vector<int> candidates;
   std::optional<PointGrid> grid;
-  std::vector<std::function<void()>> works{ [&] { kept = thinPoints(points, leaf); } };
+  std::vector<std::function<void()>> works{ [&] { kept = thinWithWeights(points, leaf); } };
   if (robust)
   {
     radius = length(std::max(0.0, settings.radius), RadiusShare);
@@ -396,11 +397,12 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
   inParallel(settings.threads, works);
   Eigen::Isometry3d turnBack = Eigen::Isometry3d::Identity();
   turnBack.linear() = cubes.linear().transpose();
-  PointCloud result = cloud.subset(kept);
+  PointCloud result = cloud.subset(kept.indices);
+  result.weights = kept.weights;
   if (result.tangents.empty())
   {
     result.tangents = robust
-      ? moved(robustTangents(points, kept, candidates, *grid, radius, partDiameter, settings, progress), turnBack)
+      ? moved(robustTangents(points, kept.indices, candidates, *grid, radius, partDiameter, settings, progress), turnBack)
       : tileTangents(result.points, viewDirection, settings, progress);
   }
   std::vector<int> found;

@@ -15,6 +15,7 @@ namespace
 {
 constexpr float LargestSide = 2048.0f; // cells; a wider scene gets coarser cells
 constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
+constexpr float BorderShare = 0.15f;   // of a cell, next to its border: points there count less in its mean
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
 
 /// A map's lines of sight, for points that `toAxes` takes to its axes.
@@ -193,8 +194,16 @@ void DepthMap::meansAt(const PointColumns& points, int begin, int count, Seen& s
     seen.x[k] = cell.mean.x();
     seen.y[k] = cell.mean.y();
     seen.z[k] = cell.mean.z();
-    seen.inside[k] = cell.nearest < NothingSeen ? std::max(places.insides[k], leastInside) : 0.0f;
+    seen.inside[k] = cell.nearest < NothingSeen ? std::max(places.insides[k] * cell.weight, leastInside) : 0.0f;
   }
+}
+
+/// How far from its cell's border a point lies.
+float DepthMap::weightInCell(const Eigen::Vector3f& projected) const
+{
+  const Eigen::Array2f index = (projected.head<2>() - this->Low) * this->InverseCell;
+  const Eigen::Array2f inside = 0.5f - (index - index.floor() - 0.5f).abs();
+  return std::max(std::numeric_limits<float>::min(), (inside / BorderShare).min(1.0f).prod());
 }
 
 void DepthMap::fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
@@ -212,29 +221,26 @@ void DepthMap::fillCells(const Points& surface, const Points& projected, const s
     }
   }
   // Sums are of what is beyond the first point: they keep their precision far from the origin.
-  std::vector<int> counts(lastCell - firstCell, 0);
+  std::vector<float> weights(lastCell - firstCell, 0.0f);
   std::vector<int> first(lastCell - firstCell);
   for (int i = 0; i < size; ++i)
   {
     if (isHere(i) && projected[i].z() <= this->Cells[cellOf[i]].nearest + layer)
     {
       const int k = cellOf[i] - firstCell;
-      if (counts[k]++ == 0)
-      {
-        first[k] = i;
-      }
-      else
-      {
-        this->Cells[cellOf[i]].mean += surface[i] - surface[first[k]];
-      }
+      const float weight = this->weightInCell(projected[i]);
+      first[k] = weights[k] > 0.0f ? first[k] : i;
+      weights[k] += weight;
+      this->Cells[cellOf[i]].mean += weight * (surface[i] - surface[first[k]]);
     }
   }
   for (int k = 0; k < lastCell - firstCell; ++k)
   {
-    if (counts[k] > 0)
+    if (weights[k] > 0.0f)
     {
-      Eigen::Vector3f& mean = this->Cells[firstCell + k].mean;
-      mean = surface[first[k]] + mean / static_cast<float>(counts[k]);
+      Cell& cell = this->Cells[firstCell + k];
+      cell.mean = surface[first[k]] + cell.mean / weights[k];
+      cell.weight = std::min(1.0f, weights[k]);
     }
   }
 }
@@ -286,16 +292,18 @@ void DepthMap::fillGap(int row, int column, const std::uint8_t* seen, std::size_
       }
     }
   }
-  int count = 0;
+  float weights = 0.0f;
   for (int k = 0; k < found; ++k)
   {
     const Cell& other = *beside[k];
     if (other.nearest <= cell.nearest + layer)
     {
-      cell.mean += (other.mean - cell.mean) / static_cast<float>(++count);
+      weights += other.weight;
+      cell.mean += other.weight / weights * (other.mean - cell.mean);
       const bool isOneLayer = other.farthest <= cell.nearest + layer;
       cell.farthest = std::max(cell.farthest, isOneLayer ? other.farthest : other.nearest);
     }
   }
+  cell.weight = std::min(1.0f, weights);
 }
 }

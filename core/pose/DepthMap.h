@@ -52,8 +52,8 @@ public:
   struct Seen
   {
     float x[ColumnBlock], y[ColumnBlock], z[ColumnBlock];
-    /// How far inside its cell a point lies: 1 in the middle, next to 0 at the border, where the mean changes; 0 where
-    /// there is none.
+    /// How far inside its cell a point lies, times the mean's weight: 1 in the middle, next to 0 at the border, where the
+    /// mean changes; 0 where there is none.
     float inside[ColumnBlock];
   };
   /// For at most ColumnBlock points from `begin` on.
@@ -65,6 +65,7 @@ private:
     float nearest;
     float farthest;
     Eigen::Vector3f mean;
+    float weight; ///< of the mean: [0, 1], less where all its points lie at the cell's border
   };
   static Relation relationTo(const Cell& cell, float depth, float tolerance)
   {
@@ -106,6 +107,7 @@ private:
   };
   void findPlaces(
     const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const;
+  float weightInCell(const Eigen::Vector3f& projected) const;
   /// Depths and means of the cells from `firstCell` to before `lastCell`.
   void fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
     int firstCell, int lastCell);
@@ -117,7 +119,7 @@ private:
   static Cell nothing()
   {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    return { infinity, -infinity, Eigen::Vector3f::Zero() };
+    return { infinity, -infinity, Eigen::Vector3f::Zero(), 0.0f };
   }
 
   Sensor Eye;

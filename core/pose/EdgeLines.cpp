@@ -138,6 +138,7 @@ void average(const EdgeLines::Neighbours& neighbours, const OrientedColumns& poi
   const OrientedColumns& lines = neighbours.lines;
   const float *ex = lines.points.x.data(), *ey = lines.points.y.data(), *ez = lines.points.z.data();
   const float *lx = lines.directions.x.data(), *ly = lines.directions.y.data(), *lz = lines.directions.z.data();
+  const float* shares = neighbours.weights.data();
   const float inverseRadius = weights.inverseRadius, inverseAcross = weights.inverseAcross;
   constexpr float least = ParallelTangents * ParallelTangents;
   constexpr float inverseRest = 1.0f / (1.0f - least);
@@ -162,7 +163,7 @@ void average(const EdgeLines::Neighbours& neighbours, const OrientedColumns& poi
         const float close =
           std::max(0.0f, 1.0f - (besideX * besideX + besideY * besideY + besideZ * besideZ) * inverseAcross);
         const float parallel = std::max(0.0f, (cosine * cosine - least) * inverseRest);
-        const float weight = k < end ? near * near * close * close * parallel : 0.0f;
+        const float weight = k < end ? shares[k] * near * near * close * close * parallel : 0.0f;
         sums[lane] += weight;
         x[lane] += weight * besideX;
         y[lane] += weight * besideY;
@@ -191,9 +192,11 @@ EdgeLines::EdgeLines(const PointCloud& edges, const PointGrid& grid)
   : Grid(grid)
 {
   this->Lines.resize(grid.order().size() + Lanes);
+  this->Weights.assign(this->Lines.size(), 1.0f);
   for (std::size_t k = 0; k < grid.order().size(); ++k)
   {
     this->Lines.set(k, edges.points[grid.order()[k]], edges.tangents[grid.order()[k]]);
+    this->Weights[k] = edges.weights.empty() ? 1.0f : edges.weights[grid.order()[k]];
   }
 }
 
@@ -284,6 +287,8 @@ EdgeLines::Neighbours EdgeLines::neighbours(
   };
   gathered(this->Lines.points, result.lines.points);
   gathered(this->Lines.directions, result.lines.directions);
+  result.weights.resize(result.lines.size());
+  gather(this->Weights, selected, found, result.weights);
   return result;
 }
 

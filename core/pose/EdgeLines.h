@@ -27,6 +27,7 @@ public:
   {
     std::vector<int> starts; ///< of each point's lines, and the end of the last one's
     OrientedColumns lines;   ///< and room at the end for as many as are looked at together
+    std::vector<float> weights; ///< of these
   };
   /// Those that `meansAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by 5
   /// degrees. `radius` and `across` as there.
@@ -50,5 +51,6 @@ private:
 
   const PointGrid& Grid;
   OrientedColumns Lines; ///< the points and their tangents, in the order of the grid, and room at the end
+  std::vector<float> Weights; ///< of these
 };
 }
