@@ -16,7 +16,7 @@ constexpr double MostCells = 4e6;
 constexpr double SameDistance = 1e-4; // of a cube's side
 constexpr double StrayShare = 0.001; // of the points, at each end of each axis
 constexpr double MostCubes = 1 << 21;  // along an axis, so that 64 bits number all
-constexpr double BorderShare = 0.15;   // of a cube's side, next to its border: points there count less
+constexpr double BorderShare = 0.15;   // of a cube's side, next to its border, over which points fade
 constexpr double MiddleShare = 0.49;   // as that leaves next to the medians
 
 /// A point and the number of the cube it lies in.
@@ -104,13 +104,13 @@ PointGrid::PointGrid(const Points& points, double cellSize)
   }
 }
 
-std::vector<int> thinPoints(const Points& points, double leafSize)
+namespace
 {
-  return thinWithWeights(points, leafSize).indices;
-}
-
-ThinnedPoints thinWithWeights(const Points& points, double leafSize)
+/// Points count less next to the borders of their cubes when they fade there, and the origin is the middle of a cube, not
+/// a corner.
+ThinnedPoints thin(const Points& points, double leafSize, bool fade)
 {
+  const double corner = fade ? 0.5 : 0.0;
   ThinnedPoints kept;
   if (!(leafSize > 0.0))
   {
@@ -120,8 +120,10 @@ ThinnedPoints thinWithWeights(const Points& points, double leafSize)
     return kept;
   }
   constexpr double farthest = 9e18; // what 64 bits count
+  const auto placeOf = [&](const Eigen::Vector3f& point) -> Eigen::Array3d
+  { return point.cast<double>().array() / leafSize - corner; };
   const auto cubeOf = [&](const Eigen::Vector3f& point) -> Eigen::Array3d
-  { return (point.cast<double>() / leafSize).array().floor().max(-farthest).min(farthest); };
+  { return placeOf(point).floor().max(-farthest).min(farthest); };
   Eigen::AlignedBox3f box = bounds(points);
   if (box.isEmpty())
   {
@@ -144,9 +146,9 @@ ThinnedPoints thinWithWeights(const Points& points, double leafSize)
   {
     if (points[i].allFinite())
     {
-      const Eigen::Array3d place = points[i].cast<double>() / leafSize;
-      const Eigen::Array3d within = (0.5 - (place - place.floor() - 0.5).abs()) / BorderShare;
-      const double weight = std::max<double>(std::numeric_limits<float>::min(), within.min(1.0).prod());
+      const Eigen::Array3d place = placeOf(points[i]);
+      const Eigen::Array3d inside = (0.5 - (place - place.floor() - 0.5).abs()) / BorderShare;
+      const double weight = fade ? std::max<double>(std::numeric_limits<float>::min(), inside.min(1.0).prod()) : 1.0;
       const auto cube = (place.floor() - low).max(0.0).min(most).cast<std::int64_t>().eval();
       const std::int64_t number = (cube.z() << bitsY | cube.y()) << bitsX | cube.x();
       members.push_back({ static_cast<std::uint64_t>(number), static_cast<int>(i), static_cast<float>(weight) });
@@ -167,7 +169,7 @@ ThinnedPoints thinWithWeights(const Points& points, double leafSize)
     const Eigen::Vector3d mean = sum / weights;
     // Of two points both are equally near to their mean: the one nearer to the cube's middle.
     const auto offCentre = [&](const Eigen::Vector3f& point)
-    { return (point.cast<double>().array() / leafSize - cubeOf(point) - 0.5).matrix().squaredNorm(); };
+    { return (placeOf(point) - cubeOf(point) - 0.5).matrix().squaredNorm(); };
     int nearest = begin->point;
     double distance = (points[nearest].cast<double>() - mean).norm() / leafSize;
     for (auto member = begin + 1; member < end; ++member)
@@ -186,5 +188,16 @@ ThinnedPoints thinWithWeights(const Points& points, double leafSize)
     begin = end;
   }
   return kept;
+}
+}
+
+std::vector<int> thinPoints(const Points& points, double leafSize)
+{
+  return thin(points, leafSize, false).indices;
+}
+
+ThinnedPoints thinWithWeights(const Points& points, double leafSize)
+{
+  return thin(points, leafSize, true);
 }
 }

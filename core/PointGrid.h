@@ -124,8 +124,9 @@ struct ThinnedPoints
   std::vector<int> indices;
   std::vector<float> weights; ///< of each
 };
-/// The same with weights, [0, 1]: 1 of what stands for a point well inside a cube, and less the nearer to their cubes'
-/// borders all points are that it stands for. Sums with these weights change steadily as points move, though one that
-/// comes over a border is kept or left out at once.
+/// A like choice with weights, [0, 1]: 1 of what stands for a point well inside a cube, and less the nearer to their
+/// cube's border all points are that it stands for. In the means they count so, too. Sums with these weights change
+/// steadily as points move, though a point that comes over a border is kept or left out at once. The origin of the
+/// coordinates is the middle of a cube, so points in a plane through it are well inside.
 ThinnedPoints thinWithWeights(const Points& points, double leafSize);
 }

@@ -261,6 +261,14 @@ meam::PointCloud toCloud(vtkPointSet* input)
       cloud.edgeTypes.push_back(static_cast<meam::EdgeType>(static_cast<int>(type)));
     }
   }
+  if (vtkDataArray* weights = pointArray(input, "Weight", 1))
+  {
+    cloud.weights.reserve(cloud.size());
+    for (vtkIdType i = 0; i < weights->GetNumberOfTuples(); ++i)
+    {
+      cloud.weights.push_back(static_cast<float>(weights->GetComponent(i, 0)));
+    }
+  }
   return cloud;
 }
 
@@ -292,6 +300,14 @@ void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output)
     std::transform(cloud.edgeTypes.begin(), cloud.edgeTypes.end(), types->GetPointer(0),
       [](meam::EdgeType type) { return static_cast<unsigned char>(type); });
     output->GetPointData()->SetScalars(types); // what a view colours by
+  }
+  if (!cloud.weights.empty())
+  {
+    vtkNew<vtkFloatArray> weights;
+    weights->SetName("Weight");
+    weights->SetNumberOfTuples(static_cast<vtkIdType>(cloud.weights.size()));
+    std::copy(cloud.weights.begin(), cloud.weights.end(), weights->GetPointer(0));
+    output->GetPointData()->AddArray(weights);
   }
 }
 
@@ -614,6 +630,13 @@ meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor&
   if (cloud.tangents.empty())
   {
     throw Error("The scene's edge points have no point array 'Tangent': use TangentEstimation first.");
+  }
+  const auto isWeight = [](float weight) { return weight >= 0.0f && weight <= 1.0f; };
+  const auto wrong = std::find_if_not(cloud.weights.begin(), cloud.weights.end(), isWeight);
+  if (wrong != cloud.weights.end())
+  {
+    throw Error("The point array 'Weight' of the scene's edge points has the value " + std::to_string(*wrong) +
+      ": weights go from 0 to 1. Rename it, when it is something else.");
   }
   scene.edges = meam::finitePoints(cloud);
   for (Eigen::Vector3f& tangent : scene.edges.tangents)

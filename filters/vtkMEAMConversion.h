@@ -44,7 +44,8 @@ namespace vtkMEAMConversion
 meam::TriangleMesh toMesh(vtkPolyData* input);
 void fromMesh(const meam::TriangleMesh& mesh, vtkPolyData* output);
 
-/// Points with the arrays `Normals`, `Tangent` (3 components each), `PointId` and `EdgeType`, where they are there.
+/// Points with the arrays `Normals`, `Tangent` (3 components each), `PointId`, `EdgeType` and `Weight`, where they are
+/// there.
 meam::PointCloud toCloud(vtkPointSet* input);
 /// The same arrays, and a vertex cell for each point.
 void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output);
@@ -118,7 +119,8 @@ enum Projection
 /// Where the scene is seen from; `surface` may be null. Throws Error for a view direction of zero.
 meam::Sensor sensorOf(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
-/// Edge points with `Tangent`, and the measured surface, which may be null.
+/// Edge points with `Tangent`, and `Weight` where it is there, and the measured surface, which may be null. Throws Error
+/// without tangents and for weights beyond [0, 1].
 meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor);
 
 /// Progress and abort of a filter as the core asks for them.

@@ -437,6 +437,7 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
     // In the part's own frame, so that views share the cubes.
     models[v].cloud = estimate(models[v].cloud, partDiameter, ModelLeafShare, Eigen::Isometry3d::Identity(),
       models[v].direction, exact, subProgress(progress, share * v, share * (v + 1)));
+    models[v].cloud.weights.clear(); // a view that sees a point, sees it
   }
   return models;
 }

@@ -37,8 +37,9 @@ TangentEstimationSettings paperTangentSettings();
 
 /// Thins the edge points and gives each a tangent direction; points without a supported line are
 /// left out (Algorithm 2). Points that carry tangents, as edges of a mesh do, keep them and are only
-/// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across
-/// `viewDirection`. Throws Error for an empty cloud, or when a length is 0 and the diameter is too.
+/// thinned. The points that stay have the weights of thinWithWeights(). `partDiameter` (mm) sets lengths
+/// that are 0. Tiles are cut on the plane across `viewDirection`. Throws Error for an empty cloud, or when
+/// a length is 0 and the diameter is too.
 PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
   const TangentEstimationSettings& settings = {}, const Progress& progress = {});
 

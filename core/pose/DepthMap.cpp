@@ -122,9 +122,10 @@ DepthMap::DepthMap(
   }
   cell = std::max(cell, box.sizes().head<2>().maxCoeff() / LargestSide);
   this->InverseCell = 1.0f / cell;
-  this->Low = box.min().head<2>();
-  this->Width = static_cast<int>(box.sizes().x() * this->InverseCell) + 1;
-  this->Height = static_cast<int>(box.sizes().y() * this->InverseCell) + 1;
+  // The first points are well inside their cells: those of a regular scan do not all lie at borders.
+  this->Low = box.min().head<2>().array() - 0.5f * cell;
+  this->Width = static_cast<int>(box.sizes().x() * this->InverseCell + 0.5f) + 1;
+  this->Height = static_cast<int>(box.sizes().y() * this->InverseCell + 0.5f) + 1;
   this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, nothing());
   std::vector<int> cellOf(surface.size());
   parallelFor(size, threads, {},

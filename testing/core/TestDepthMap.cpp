@@ -108,16 +108,43 @@ TEST(DepthMap, AGapIsNotFilledWithWhatLiesBehind)
 
 TEST(DepthMap, TellsHowFarInsideItsCellAPointLies)
 {
-  const meam::DepthMap map({ { 0, 0, 0 }, { 2, 2, 0 } }, fromAbove(), 1.0, Eigen::Vector3f::UnitX()); // cells from 0 or 2
+  const meam::DepthMap map({ { 0, 0, 0 }, { 2, 2, 0 } }, fromAbove(), 1.0, Eigen::Vector3f::UnitX()); // in the middle of cells
   float inside = -1.0f;
-  ASSERT_TRUE(meanAt(map, { 0.5f, 0.5f, 3.0f }, &inside));
+  ASSERT_TRUE(meanAt(map, { 0.0f, 0.0f, 3.0f }, &inside));
   EXPECT_NEAR(inside, 1.0f, 1e-5f);
-  meanAt(map, { 0.25f, 0.5f, 3.0f }, &inside);
+  meanAt(map, { -0.25f, 0.0f, 3.0f }, &inside);
   EXPECT_NEAR(inside, 0.75f, 1e-5f);
-  meanAt(map, { 0.25f, 0.75f, 3.0f }, &inside);
+  meanAt(map, { -0.25f, 0.25f, 3.0f }, &inside);
   EXPECT_NEAR(inside, 0.5625f, 1e-5f);
-  meanAt(map, { 0.0001f, 0.5f, 3.0f }, &inside);
+  meanAt(map, { -0.4999f, 0.0f, 3.0f }, &inside);
   EXPECT_NEAR(inside, 0.0f, 1e-3f);
+}
+
+TEST(DepthMap, APointThatComesOverABorderComesSlowly)
+{
+  // Cells of 1 mm with their middles at whole numbers; the third point lies a little inside or outside the second cell.
+  const auto at = [](float x, float y, float* inside)
+  {
+    const meam::DepthMap map({ { 0, 0, 0 }, { 1, 0, 0 }, { x, y, 6 }, { 9, 0, 0 } }, fromAbove(), 1.0);
+    return *meanAt(map, { std::round(x), std::round(y), 3 }, inside);
+  };
+  float inside;
+  EXPECT_TRUE(at(1.35f, 0, nullptr).isApprox(Eigen::Vector3f(1.35f, 0, 6), 1e-5f)) << "the nearest layer alone";
+  at(4.0f, 0, &inside);
+  EXPECT_FLOAT_EQ(inside, 1.0f);
+  at(4.425f, 0, &inside);
+  EXPECT_NEAR(inside, 0.5f, 1e-5f) << "half way across the strip next to the border";
+  at(4.4999f, 0, &inside);
+  EXPECT_NEAR(inside, 0.0f, 1e-3f);
+  const auto meanOfTwo = [&](float x)
+  {
+    const meam::DepthMap map({ { 0, 0, 0 }, { 4, 0, 0 }, { x, 0, 1 } }, fromAbove(), 1.0);
+    return meanAt(map, { 4, 0, 0 }, &inside)->z();
+  };
+  EXPECT_NEAR(meanOfTwo(4.2f), 0.5f, 1e-5f);
+  EXPECT_NEAR(meanOfTwo(4.425f), 1.0f / 3.0f, 1e-5f);
+  EXPECT_NEAR(meanOfTwo(4.4999f), 0.0f, 1e-3f);
+  EXPECT_FLOAT_EQ(inside, 1.0f);
 }
 
 TEST(DepthMap, FollowsLinesOfSightOfAPerspectiveSensor)
@@ -192,13 +219,13 @@ TEST(DepthMap, ManyAtOnceAsOneByOne)
     points.add({ 10, 10, 90 }); // behind the sensor
     std::map<meam::DepthMap::Relation, int> counts;
     std::vector<meam::DepthMap::Relation> relations(points.size());
-    map.relations(toScene, points, 0, 400, 1.0f, relations.data());
-    map.relations(toScene, points, 400, static_cast<int>(points.size()) - 400, 1.0f, relations.data() + 400);
+    map.relations(toScene, points, 0, 400, 1.5f, relations.data());
+    map.relations(toScene, points, 400, static_cast<int>(points.size()) - 400, 1.5f, relations.data() + 400);
     int different = 0; // where rounding decides between cells
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       inScene.add(toScene * points[k]);
-      different += relations[k] != map.relation(inScene[k], 1.0f);
+      different += relations[k] != map.relation(inScene[k], 1.5f);
       ++counts[relations[k]];
     }
     EXPECT_LE(different, 3);

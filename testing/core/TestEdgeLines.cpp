@@ -113,6 +113,21 @@ TEST(EdgeLines, DistanceIsThatToTheLine)
   EXPECT_EQ(among.lines.nearest({ 0.5f, 2.0f, 0.0f }, { 0, -1, 0 }, 1.0).edge, -1);
 }
 
+TEST(EdgeLines, MeansTakeEdgePointsByTheirWeights)
+{
+  meam::PointCloud edges;
+  edges.points = { { 0, 1, 0 }, { 0, -1, 0 } };
+  edges.tangents.assign(2, Eigen::Vector3f::UnitX());
+  const auto mean = [&] { return Lines(edges).meanAround({ 0, 0, 0 }, Eigen::Vector3f::UnitX(), 4.0, 3.0); };
+  EXPECT_NEAR(mean().offset.y(), 0.0f, 1e-6f);
+  const float whole = mean().weight;
+  edges.weights = { 0.25f, 0.75f };
+  EXPECT_NEAR(mean().offset.y(), 0.5f, 1e-6f) << "the point lies 1 below the first and 1 above the second";
+  EXPECT_NEAR(mean().weight, 0.5f * whole, 1e-6f);
+  edges.weights = { 1.0f, 0.0f };
+  EXPECT_NEAR(mean().offset.y(), -1.0f, 1e-6f);
+}
+
 TEST(EdgeLines, MeanIsThatOfAllEdgePointsAround)
 {
   const Lines among(scattered(2000));

@@ -137,6 +137,54 @@ TEST(PointGrid, ThinningLooksAtEveryCube)
   }
 }
 
+TEST(PointGrid, WeightsFadeAtTheBorders)
+{
+  // Cubes of 10 mm with one's middle at the origin. Over 1.5 mm next to a border points fade.
+  const auto alone = [](const Eigen::Vector3f& point) { return meam::thinWithWeights({ point }, 10.0).weights.at(0); };
+  EXPECT_FLOAT_EQ(alone({ 0, 0, 0 }), 1.0f);
+  EXPECT_FLOAT_EQ(alone({ 3.4f, -13.4f, 0 }), 1.0f);
+  EXPECT_NEAR(alone({ 4.25f, 0, 0 }), 0.5f, 1e-5f);
+  EXPECT_NEAR(alone({ -4.25f, 0, 14.625f }), 0.125f, 1e-5f);
+  EXPECT_NEAR(alone({ 0, 4.9999f, 0 }), 0.0f, 1e-4f);
+
+  // By weights of 1, 1, 1 and 0.1 the mean is at 3.985 / 3.1 = 1.29; without them it would be at 2.09, where 3 is nearer.
+  const meam::Points points = { { 0, 0, 0 }, { 0.5f, 0, 0 }, { 3, 0, 0 }, { 4.85f, 0, 0 }, { 40, 0, 0 } };
+  const meam::ThinnedPoints kept = meam::thinWithWeights(points, 10.0);
+  EXPECT_EQ(kept.indices, std::vector<int>({ 1, 4 }));
+  EXPECT_EQ(kept.weights, std::vector<float>({ 1.0f, 1.0f }));
+  const meam::ThinnedPoints two = meam::thinWithWeights({ { 4.7f, 0, 0 }, { 4.85f, 0, 0 } }, 10.0);
+  EXPECT_NEAR(two.weights.at(0), 0.3f, 1e-4f) << "0.2 + 0.1";
+  EXPECT_TRUE(meam::thinWithWeights({}, 1.0).indices.empty());
+  EXPECT_EQ(meam::thinWithWeights({ { 1, 2, 3 } }, 0.0).weights, std::vector<float>({ 1.0f })) << "no leaf";
+}
+
+TEST(PointGrid, SumsByWeightsChangeSteadily)
+{
+  // A row of points moves by a cube's side in small steps: the sum of what is kept hardly changes from one to the next.
+  double before = -1.0, most = 0.0;
+  int changes = 0, keptBefore = -1;
+  for (int step = 0; step <= 1000; ++step)
+  {
+    meam::Points row;
+    for (int k = 0; k < 7; ++k)
+    {
+      row.push_back({ 3.7f * k + 0.01f * step, 0, 0 });
+    }
+    const meam::ThinnedPoints kept = meam::thinWithWeights(row, 10.0);
+    double sum = 0.0;
+    for (const float weight : kept.weights)
+    {
+      sum += weight;
+    }
+    most = std::max(most, before < 0.0 ? 0.0 : std::abs(sum - before));
+    before = sum;
+    changes += keptBefore >= 0 && keptBefore != static_cast<int>(kept.indices.size()) ? 1 : 0;
+    keptBefore = static_cast<int>(kept.indices.size());
+  }
+  EXPECT_GT(changes, 0) << "the number of cubes changes";
+  EXPECT_LT(most, 0.01);
+}
+
 TEST(PointGrid, AStrayPointDoesNotChangeHowTheOthersAreThinned)
 {
   meam::Points points;

@@ -45,7 +45,7 @@ TEST(PoseResiduals, OfASurfaceAreAlongItsNormals)
   const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
   // On the plane, half the limit above it, beyond the limit, and beside what was seen.
   const meam::OrientedColumns surface =
-    columns({ { { 5, 5, 1 }, up }, { { 7, 5, 2 }, up }, { { 9, 5, 3.5f }, up }, { { 90, 5, 1 }, up } });
+    columns({ { { 6, 5, 1 }, up }, { { 8, 5, 2 }, up }, { { 10, 5, 3.5f }, up }, { { 90, 5, 1 }, up } });
   meam::RigidFit fit(Eigen::Vector3d::Zero());
   meam::addSurfaceResiduals(fit, plane(), surface, { 2.0f, AnyDistance, false });
   const double weight = 0.75 * 0.75; // Tukey's at half the limit
@@ -78,12 +78,12 @@ TEST(PoseResiduals, OfASurfaceWeighLessNearTheBorderOfACell)
   {
     meam::RigidFit fit(Eigen::Vector3d::Zero());
     meam::addSurfaceResiduals(
-      fit, plane(), columns({ { { x, 4.5f, 1 }, Eigen::Vector3f::UnitZ() } }), { 2.0f, AnyDistance, true });
+      fit, plane(), columns({ { { x, 5.5f, 1 }, Eigen::Vector3f::UnitZ() } }), { 2.0f, AnyDistance, true });
     return fit.result().weights;
   };
-  EXPECT_NEAR(weightAt(5.0f), 1.0, 1e-6) << "in the middle";
-  EXPECT_NEAR(weightAt(5.5f), 0.75, 1e-6) << "half way";
-  EXPECT_NEAR(weightAt(5.999f), 0.0, 1e-2) << "at the border";
+  EXPECT_NEAR(weightAt(6.0f), 1.0, 1e-6) << "in the middle";
+  EXPECT_NEAR(weightAt(6.5f), 0.75, 1e-6) << "half way";
+  EXPECT_NEAR(weightAt(6.999f), 0.0, 1e-2) << "at the border";
 }
 
 TEST(PoseResiduals, OfLinesAreAcrossThem)

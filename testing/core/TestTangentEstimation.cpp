@@ -175,14 +175,15 @@ TEST(TangentEstimation, PointsThatCarryTangentsAreOnlyThinned)
   meam::PointCloud cloud = line({ 1, 0, 0 }, 40, 0.5f);
   cloud.tangents.assign(cloud.size(), Eigen::Vector3f::UnitY()); // not what the points would say
   cloud.edgeTypes.assign(cloud.size(), meam::EdgeType::Crease);
-  cloud.edgeTypes[0] = meam::EdgeType::HoleBorder;
+  cloud.edgeTypes[1] = meam::EdgeType::HoleBorder;
   for (const auto method : { meam::TangentMethod::RobustLine, meam::TangentMethod::Tiles })
   {
     settings.method = method;
     const meam::PointCloud edges = meam::estimateTangents(cloud, 50.0, Down, settings);
-    ASSERT_EQ(edges.size(), 10u);
-    EXPECT_EQ(edges.tangents, meam::Points(10, Eigen::Vector3f::UnitY()));
-    EXPECT_EQ(edges.edgeTypes, std::vector<meam::EdgeType>(10, meam::EdgeType::Crease));
+    ASSERT_EQ(edges.size(), 11u) << "the middle of the line is that of a cube";
+    EXPECT_EQ(edges.tangents, meam::Points(11, Eigen::Vector3f::UnitY()));
+    EXPECT_EQ(edges.edgeTypes, std::vector<meam::EdgeType>(11, meam::EdgeType::Crease));
+    EXPECT_EQ(edges.weights, std::vector<float>(11, 1.0f));
     EXPECT_EQ(meam::estimateTangents(edges, 50.0, Down, settings).points, edges.points);
   }
   // Nothing else has to be known of the part.
