@@ -2,7 +2,6 @@
 #include "pose/PoseEvidence.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace meam

@@ -6,7 +6,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseRefinement, vtkMEAMTangentEstimation
 from meamtest import (MovedView, Trained, bracket, check, cloud, connect, fails, field, image, is_empty,
-                      pose_error, poses, prints, run, tuples)
+                      points, pose_error, poses, prints, run, tuples)
 
 trained = Trained(bracket())
 model = run(trained.model)
@@ -75,6 +75,9 @@ fails(refinement(poses(tuple(2 * c for c in scene.transform))), "pose 0", "rotat
 fails(refinement(cloud([(0, 0, 0)])), "Transform")
 fails(refinement(start, edges=vtkPolyData()), "no points")
 fails(refinement(start, edges=scene.edges), "Tangent")
+for weight in (-0.1, 1.5, math.nan):
+    weighted = cloud(points(edges), Tangent=tuples(edges, "Tangent"), Weight=[weight] * edges.GetNumberOfPoints())
+    fails(refinement(start, edges=weighted), "Weight", "0 to 1")
 fails(refinement(start, cloud([(math.nan, 0, 0)] * 4)), "surface", "NaN")
 fails(refinement(start, model=run(trained.tangents)), "not a trained model")
 fails(refinement(start, ViewDirection=(0, 0, 0)), "view direction is zero")

@@ -58,6 +58,12 @@ check(follow(run(tangents(scene(), LeafSize=-1, Radius=3, InlierDistance=0.3))) 
 check(follow(run(tangents(scene(), LeafSize=2.0, Radius=3, InlierDistance=0.3))) < 60, "one point for each cube")
 check(run(tangents(scene(), model(50.0))).IsA("vtkPolyData"), "a scene stays a scene")
 
+weights = [weight for weight, in tuples(run(tangents(scene(), model(50.0))), "Weight")]
+check(all(0 <= weight <= 1 for weight in weights) and max(weights) == 1 and len(set(weights)) > 2,
+      "points at the border of a cube count less")
+check({weight for weight, in tuples(run(tangents(scene(), model(50.0), LeafSize=-1)), "Weight")} == {1},
+      "all points count alike where all are kept")
+
 for threads in (1, 2):
     again = run(tangents(scene(), model(50.0), NumberOfThreads=threads))
     check(tuples(again, "Tangent") == tuples(run(tangents(scene(), model(50.0))), "Tangent"), f"{threads} threads")
@@ -83,6 +89,7 @@ for method in (0, 1):
     for (_, edges), direction in zip(partitions(output), ((0, 0, 1), (1, 0, 0))):
         follow(edges)
         check(field(edges, "ViewDirection") == [direction], "the view is kept")
+        check(not edges.GetPointData().HasArray("Weight"), "a view's points count alike")
 
 # Points that carry tangents keep them, and their types; they are only thinned.
 n = len(LINES)
