@@ -37,6 +37,7 @@ constexpr double FarthestShare = 0.02;    // a pose that settles farther from wh
 constexpr double MostTurned = 3.0;        // or turned by more degrees
 // Shares of what corresponds that have to speak for a motion.
 constexpr double ConstrainedShare = 0.01; // so that it counts as fixed
+constexpr double FreeShare = 0.001;       // up to which it is a freedom, in which a pose would drift as it settles
 constexpr double LeastShare = 1e-6;       // taken for the variance of one that nothing fixes
 
 /// Tukey's weight: 1 at 0, 0 from the limit on.
@@ -74,8 +75,9 @@ public:
     pose.fit = this->poseFit(fit, fit.remaining, iterations);
   }
 
-  /// Steps with all points until the pose stays.
-  void settle(Pose& pose) const
+  /// Steps with all points until the pose stays. False where the scene leaves it a freedom that is none of the part's
+  /// symmetries.
+  bool settle(Pose& pose) const
   {
     const double diameter = this->Index.model.diameter;
     const double window = WindowShare * diameter;
@@ -134,6 +136,9 @@ public:
       pose.T_scene_model = this->motionOf(pose, farther) * T;
     }
     pose.fit = this->poseFit(fit, fit.remaining, pose.fit.iterations + steps);
+    const std::ptrdiff_t axes = this->Index.model.symmetries.continuous.size(); // turns about them are free, and equal
+    return fit.weights >= FewestCorrespondences &&
+      (this->modes(fit).eigenvalues().array() > FreeShare).count() >= 6 - axes;
   }
 
   /// How well the scene fixes a pose that came from elsewhere.
@@ -145,6 +150,21 @@ public:
   }
 
 private:
+  /// Rotations count as what they move half a diameter from the middle, so all six are lengths.
+  Eigen::Matrix<double, 6, 1> scale() const
+  {
+    Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Ones();
+    scale.head<3>().setConstant(2.0 / this->Index.model.diameter);
+    return scale;
+  }
+  /// Independent motions, and the share of what corresponds that speaks for each.
+  using Modes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>;
+  Modes modes(const RigidFit::Result& fit) const
+  {
+    const Eigen::Matrix<double, 6, 1> scale = this->scale();
+    return Modes(scale.asDiagonal() * fit.information * scale.asDiagonal() / fit.weights);
+  }
+
   /// `squares` are those of the fit's residuals at the pose.
   PoseFit poseFit(const RigidFit::Result& fit, double squares, int iterations) const
   {
@@ -155,17 +175,14 @@ private:
       return result;
     }
     result.residual = std::sqrt(squares / fit.weights);
-    // Rotations count as what they move half a diameter from the middle, so all six are lengths.
-    Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Ones();
-    scale.head<3>().setConstant(2.0 / this->Index.model.diameter);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
-      scale.asDiagonal() * fit.information * scale.asDiagonal() / fit.weights);
-    const auto& values = solver.eigenvalues();
+    const Eigen::Matrix<double, 6, 1> scale = this->scale();
+    const Modes modes = this->modes(fit);
+    const auto& values = modes.eigenvalues();
     result.constrained = static_cast<int>((values.array() > ConstrainedShare).count());
     const Eigen::Matrix<double, 6, 1> variances = result.residual * result.residual / fit.weights *
       values.array().max(LeastShare).inverse();
-    result.covariance = scale.asDiagonal() * solver.eigenvectors() * variances.asDiagonal() *
-      solver.eigenvectors().transpose() * scale.asDiagonal();
+    result.covariance = scale.asDiagonal() * modes.eigenvectors() * variances.asDiagonal() *
+      modes.eigenvectors().transpose() * scale.asDiagonal();
     return result;
   }
 
@@ -341,10 +358,7 @@ PoseRefinementSettings paperRefinementSettings()
 Pose settlePose(const Pose& pose, const SceneIndex& index)
 {
   Pose settled = pose;
-  Refiner(index).settle(settled);
-  const Symmetries& symmetries = index.model.symmetries;
-  const std::size_t axes = symmetries.continuous.size(); // turns about them are free, and equal
-  const bool isFixed = settled.fit.constrained >= 6 - static_cast<int>(axes);
+  const bool isFixed = Refiner(index).settle(settled);
   const bool isNear = rotationError(settled.T_scene_model, pose.T_scene_model) < MostTurned &&
     translationError(settled.T_scene_model, pose.T_scene_model, index.view.middle().cast<double>()) <
       FarthestShare * index.model.diameter;
