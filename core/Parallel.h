@@ -15,6 +15,6 @@ int numberOfThreads(int requested);
 /// come out on the calling thread.
 void parallelFor(int count, int threads, const Progress& progress, const std::function<void(int, int, int)>& work);
 
-/// Does what does not depend on each other on `threads` threads; the rest as above.
+/// Calls works that do not depend on each other on `threads` threads; exceptions as above.
 void inParallel(int threads, const std::vector<std::function<void()>>& works);
 }

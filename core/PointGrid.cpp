@@ -14,9 +14,8 @@ namespace
 {
 constexpr double MostCells = 4e6;
 constexpr double SameDistance = 1e-4; // of a cube's side
-constexpr double StrayShare = 0.001; // of the points, at each end of each axis
 constexpr double MostCubes = 1 << 21;  // along an axis, so that 64 bits number all
-constexpr double BorderShare = 0.15;   // of a cube's side, next to its border, over which points fade
+constexpr double StrayShare = 0.001; // of the points, at each end of each axis
 constexpr double MiddleShare = 0.49;   // as that leaves next to the medians
 
 /// A point and the number of the cube it lies in.
@@ -147,8 +146,7 @@ ThinnedPoints thin(const Points& points, double leafSize, bool fade)
     if (points[i].allFinite())
     {
       const Eigen::Array3d place = placeOf(points[i]);
-      const Eigen::Array3d inside = (0.5 - (place - place.floor() - 0.5).abs()) / BorderShare;
-      const double weight = fade ? std::max<double>(std::numeric_limits<float>::min(), inside.min(1.0).prod()) : 1.0;
+      const double weight = fade ? weightInCell(place) : 1.0;
       const auto cube = (place.floor() - low).max(0.0).min(most).cast<std::int64_t>().eval();
       const std::int64_t number = (cube.z() << bitsY | cube.y()) << bitsX | cube.x();
       members.push_back({ static_cast<std::uint64_t>(number), static_cast<int>(i), static_cast<float>(weight) });

@@ -4,6 +4,7 @@
 #include "PointColumns.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace meam
 {
@@ -112,6 +113,17 @@ private:
   PointColumns Sorted;
 };
 
+/// What a point counts in its cell, (0, 1]: 1, and next to the border of the cell less. `place` is in sides of a cell from
+/// any cell's corner. So points come into sums slowly as they come over a border.
+template <typename Array>
+typename Array::Scalar weightInCell(const Array& place)
+{
+  using Scalar = typename Array::Scalar;
+  constexpr Scalar strip = Scalar(0.15); // next to the border
+  const Array inside = Scalar(0.5) - (place - place.floor() - Scalar(0.5)).abs();
+  return std::max<Scalar>(std::numeric_limits<float>::min(), (inside / strip).min(Scalar(1)).prod());
+}
+
 /// Indices of one point for each occupied cube of side `leafSize` (mm): the point nearest to the
 /// mean of the cube's points. Cubes are counted from the origin of the coordinates, so views of one
 /// part share them; points that are not finite are left out, and of points more than a million cubes from most of the
@@ -125,8 +137,8 @@ struct ThinnedPoints
   std::vector<float> weights; ///< of each
 };
 /// A like choice with weights, [0, 1]: 1 of what stands for a point well inside a cube, and less the nearer to their
-/// cube's border all points are that it stands for. In the means they count so, too. Sums with these weights change
-/// steadily as points move, though a point that comes over a border is kept or left out at once. The origin of the
-/// coordinates is the middle of a cube, so points in a plane through it are well inside.
+/// cube's border all points are that it stands for. In the means they count so, too. As points move, one that comes over
+/// a border is kept or left out at once, but its weight is next to 0 then. The origin of the coordinates is the middle
+/// of a cube, so points in a plane through it are well inside.
 ThinnedPoints thinWithWeights(const Points& points, double leafSize);
 }

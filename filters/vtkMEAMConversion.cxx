@@ -261,14 +261,6 @@ meam::PointCloud toCloud(vtkPointSet* input)
       cloud.edgeTypes.push_back(static_cast<meam::EdgeType>(static_cast<int>(type)));
     }
   }
-  if (vtkDataArray* weights = pointArray(input, "Weight", 1))
-  {
-    cloud.weights.reserve(cloud.size());
-    for (vtkIdType i = 0; i < weights->GetNumberOfTuples(); ++i)
-    {
-      cloud.weights.push_back(static_cast<float>(weights->GetComponent(i, 0)));
-    }
-  }
   return cloud;
 }
 
@@ -625,18 +617,18 @@ meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor&
 {
   meam::Scene scene;
   scene.sensor = sensor;
-  const meam::PointCloud cloud = toCloud(edges);
+  meam::PointCloud cloud = toCloud(edges);
   meam::requirePoints(cloud.points, "The scene's edge cloud");
   if (cloud.tangents.empty())
   {
     throw Error("The scene's edge points have no point array 'Tangent': use TangentEstimation first.");
   }
-  const auto isWeight = [](float weight) { return weight >= 0.0f && weight <= 1.0f; };
-  const auto wrong = std::find_if_not(cloud.weights.begin(), cloud.weights.end(), isWeight);
-  if (wrong != cloud.weights.end())
+  if (vtkDataArray* weights = pointArray(edges, "Weight", 1))
   {
-    throw Error("The point array 'Weight' of the scene's edge points has the value " + std::to_string(*wrong) +
-      ": weights go from 0 to 1. Rename it, when it is something else.");
+    for (vtkIdType i = 0; i < weights->GetNumberOfTuples(); ++i)
+    {
+      cloud.weights.push_back(static_cast<float>(weights->GetComponent(i, 0)));
+    }
   }
   scene.edges = meam::finitePoints(cloud);
   for (Eigen::Vector3f& tangent : scene.edges.tangents)

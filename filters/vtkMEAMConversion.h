@@ -44,10 +44,9 @@ namespace vtkMEAMConversion
 meam::TriangleMesh toMesh(vtkPolyData* input);
 void fromMesh(const meam::TriangleMesh& mesh, vtkPolyData* output);
 
-/// Points with the arrays `Normals`, `Tangent` (3 components each), `PointId`, `EdgeType` and `Weight`, where they are
-/// there.
+/// Points with the arrays `Normals`, `Tangent` (3 components each), `PointId` and `EdgeType`, where they are there.
 meam::PointCloud toCloud(vtkPointSet* input);
-/// The same arrays, and a vertex cell for each point.
+/// The same arrays, `Weight` where it is known, and a vertex cell for each point.
 void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output);
 
 /// W x H x 1; blanked points become NaN. Throws for a grid that is not a single layer.
@@ -120,7 +119,7 @@ enum Projection
 meam::Sensor sensorOf(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
 /// Edge points with `Tangent`, and `Weight` where it is there, and the measured surface, which may be null. Throws Error
-/// without tangents and for weights beyond [0, 1].
+/// without tangents.
 meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor);
 
 /// Progress and abort of a filter as the core asks for them.

@@ -402,7 +402,8 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
   if (result.tangents.empty())
   {
     result.tangents = robust
-      ? moved(robustTangents(points, kept.indices, candidates, *grid, radius, partDiameter, settings, progress), turnBack)
+      ? moved(
+          robustTangents(points, kept.indices, candidates, *grid, radius, partDiameter, settings, progress), turnBack)
       : tileTangents(result.points, viewDirection, settings, progress);
   }
   std::vector<int> found;

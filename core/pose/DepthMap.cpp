@@ -3,6 +3,7 @@
 
 #include "AllVectors.h"
 #include "Parallel.h"
+#include "PointGrid.h"
 
 #include <algorithm>
 #include <cassert>
@@ -15,7 +16,6 @@ namespace
 {
 constexpr float LargestSide = 2048.0f; // cells; a wider scene gets coarser cells
 constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
-constexpr float BorderShare = 0.15f;   // of a cell, next to its border: points there count less in its mean
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
 
 /// A map's lines of sight, for points that `toAxes` takes to its axes.
@@ -124,8 +124,9 @@ DepthMap::DepthMap(
   this->InverseCell = 1.0f / cell;
   // The first points are well inside their cells: those of a regular scan do not all lie at borders.
   this->Low = box.min().head<2>().array() - 0.5f * cell;
-  this->Width = static_cast<int>(box.sizes().x() * this->InverseCell + 0.5f) + 1;
-  this->Height = static_cast<int>(box.sizes().y() * this->InverseCell + 0.5f) + 1;
+  const Eigen::Array2f last = (box.max().head<2>() - this->Low) * this->InverseCell; // as placeOfProjected() has it
+  this->Width = static_cast<int>(last.x()) + 1;
+  this->Height = static_cast<int>(last.y()) + 1;
   this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, nothing());
   std::vector<int> cellOf(surface.size());
   parallelFor(size, threads, {},
@@ -137,8 +138,9 @@ DepthMap::DepthMap(
       }
     });
   const float layer = static_cast<float>(LayerCells * cellSize);
-  // Each thread has cells of its own, and sums up their points in order.
-  const std::int64_t shares = numberOfThreads(threads);
+  // Each thread has cells of its own, and sums up their points in order. It looks at all points: more threads than
+  // processors would only look more often.
+  const std::int64_t shares = std::min(numberOfThreads(threads), numberOfThreads(0));
   const auto firstOf = [&](int share) { return static_cast<int>(share * this->Cells.size() / shares); };
   parallelFor(static_cast<int>(shares), threads, {},
     [&](int begin, int end, int)
@@ -199,14 +201,6 @@ void DepthMap::meansAt(const PointColumns& points, int begin, int count, Seen& s
   }
 }
 
-/// How far from its cell's border a point lies.
-float DepthMap::weightInCell(const Eigen::Vector3f& projected) const
-{
-  const Eigen::Array2f index = (projected.head<2>() - this->Low) * this->InverseCell;
-  const Eigen::Array2f inside = 0.5f - (index - index.floor() - 0.5f).abs();
-  return std::max(std::numeric_limits<float>::min(), (inside / BorderShare).min(1.0f).prod());
-}
-
 void DepthMap::fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
   int firstCell, int lastCell)
 {
@@ -229,7 +223,8 @@ void DepthMap::fillCells(const Points& surface, const Points& projected, const s
     if (isHere(i) && projected[i].z() <= this->Cells[cellOf[i]].nearest + layer)
     {
       const int k = cellOf[i] - firstCell;
-      const float weight = this->weightInCell(projected[i]);
+      const Eigen::Array2f index = (projected[i].head<2>() - this->Low) * this->InverseCell;
+      const float weight = weightInCell(index);
       first[k] = weights[k] > 0.0f ? first[k] : i;
       weights[k] += weight;
       this->Cells[cellOf[i]].mean += weight * (surface[i] - surface[first[k]]);

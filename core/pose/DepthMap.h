@@ -52,8 +52,8 @@ public:
   struct Seen
   {
     float x[ColumnBlock], y[ColumnBlock], z[ColumnBlock];
-    /// How far inside its cell a point lies, times the mean's weight: 1 in the middle, next to 0 at the border, where the
-    /// mean changes; 0 where there is none.
+    /// How far inside its cell a point lies, 1 in the middle and next to 0 at the border, where the mean changes, times
+    /// the mean's weight; 0 where there is none.
     float inside[ColumnBlock];
   };
   /// For at most ColumnBlock points from `begin` on.
@@ -107,7 +107,6 @@ private:
   };
   void findPlaces(
     const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const;
-  float weightInCell(const Eigen::Vector3f& projected) const;
   /// Depths and means of the cells from `firstCell` to before `lastCell`.
   void fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
     int firstCell, int lastCell);

@@ -36,7 +36,7 @@ public:
   struct Means
   {
     PointColumns offsets;       ///< mm, at right angles to the tangents
-    std::vector<float> weights; ///< 1 for each edge point at the same place; 0: there is none
+    std::vector<float> weights; ///< its own for each edge point at the same place; 0: there is none that counts
   };
   /// How far points with unit tangents, those with these neighbours, are from the edge points about them, on average,
   /// across the tangents. Their weights fall to 0 at `radius` (mm) from the point, at `across` (mm) across the tangent

@@ -23,6 +23,7 @@ constexpr double SameShare = 0.4;       // of cluster distance and angle: poses 
 constexpr double LeastAtAGlance = 0.4;  // share of the surface; a pose with less is not looked at closely
 constexpr std::size_t CandidateStride = 2; // of the points that judge more candidates than can stay
 constexpr double LeastPlausible = 0.001; // of the best candidate's preference: those with less are not worth refining
+constexpr int MostCompared = 300;       // poses that are all compared with each other to find those of one instance
 constexpr double SharedByOne = 0.5;     // share of the matched surface from which on two poses are of one instance
 constexpr int TurnIterations = 6;       // of the refinement of another turn, which is nearly right
 constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
@@ -160,7 +161,6 @@ public:
     : InPoses(poses)
     , Evidence(evidence)
     , Same(same)
-    , Index(index)
     , Collector(collector)
     , Comparison(comparison)
     , Settings(settings)
@@ -168,61 +168,49 @@ public:
     , Reach(reach)
     , Contenders(poses.size())
   {
+    for (const Pose& pose : poses)
+    {
+      this->Middles.push_back(pose.T_scene_model * index.view.middle().cast<double>());
+    }
   }
 
   /// Of the poses `ranked`, indices with the best first, those that stay.
-  std::vector<int> select(const std::vector<int>& ranked)
+  std::vector<int> select(const std::vector<int>& ranked, const Progress& progress)
   {
     const int count = static_cast<int>(ranked.size());
-    std::vector<std::vector<int>> before(count); // places of those of the same instance that come before each
-    parallelFor(count, this->Settings.threads, {},
-      [&](int begin, int end, int)
-      {
-        for (int k = begin; k < end; ++k)
+    std::vector<char> stays(count, 0);
+    if (count <= MostCompared)
+    {
+      const std::vector<std::vector<int>> before = this->instancesBefore(ranked);
+      const std::vector<std::vector<int>> groups = joined(before);
+      parallelFor(count, this->Settings.threads, progress,
+        [&](int begin, int end, int)
         {
-          for (int other = 0; other < k; ++other)
+          for (int g = begin; g < end; ++g)
           {
-            if (this->sameInstance(ranked[k], ranked[other]))
+            for (const int k : groups[g])
             {
-              before[k].push_back(other);
+              this->choose(k, before[k], ranked, stays);
             }
           }
-        }
-      });
-    // Poses of different instances have nothing to do with each other.
-    std::vector<int> group(count);
-    std::vector<std::vector<int>> groups(count);
-    for (int k = 0; k < count; ++k)
+        });
+    }
+    else // all against all would take too long
     {
-      group[k] = k;
-      groups[k] = { k };
-      for (const int other : before[k])
+      for (int k = 0; k < count; ++k)
       {
-        const int joined = group[other];
-        if (joined != k)
+        report(progress, static_cast<double>(k) / count);
+        std::vector<int> before;
+        for (int other = 0; other < k; ++other)
         {
-          for (const int member : groups[joined])
+          if (stays[other] && this->sameInstance(ranked[k], ranked[other]))
           {
-            group[member] = k;
+            before.push_back(other);
           }
-          groups[k].insert(groups[k].end(), groups[joined].begin(), groups[joined].end());
-          groups[joined].clear();
         }
+        this->choose(k, before, ranked, stays);
       }
     }
-    std::vector<char> stays(count, 0);
-    parallelFor(count, this->Settings.threads, {},
-      [&](int begin, int end, int)
-      {
-        for (int g = begin; g < end; ++g)
-        {
-          std::sort(groups[g].begin(), groups[g].end());
-          for (const int k : groups[g])
-          {
-            this->choose(k, before[k], ranked, stays);
-          }
-        }
-      });
     std::vector<int> selected;
     for (int k = 0; k < count; ++k)
     {
@@ -246,6 +234,51 @@ public:
   }
 
 private:
+  /// For each place those of the same instance that come before it.
+  std::vector<std::vector<int>> instancesBefore(const std::vector<int>& ranked) const
+  {
+    const int count = static_cast<int>(ranked.size());
+    std::vector<std::vector<int>> before(count);
+    parallelFor(count, this->Settings.threads, {},
+      [&](int begin, int end, int)
+      {
+        for (int k = begin; k < end; ++k)
+        {
+          for (int other = 0; other < k; ++other)
+          {
+            if (this->sameInstance(ranked[k], ranked[other]))
+            {
+              before[k].push_back(other);
+            }
+          }
+        }
+      });
+    return before;
+  }
+
+  /// Places that are of one instance, directly or by others between them, ascending: different groups have nothing to do
+  /// with each other.
+  static std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before)
+  {
+    const int count = static_cast<int>(before.size());
+    std::vector<int> groupOf(count);
+    std::vector<std::vector<int>> groups(count);
+    for (int k = 0; k < count; ++k)
+    {
+      groupOf[k] = k;
+      for (const int other : before[k])
+      {
+        const int group = groupOf[other];
+        std::replace(groupOf.begin(), groupOf.begin() + k, group, k);
+      }
+    }
+    for (int k = 0; k < count; ++k)
+    {
+      groups[groupOf[k]].push_back(k);
+    }
+    return groups;
+  }
+
   /// Whether the one at place `k` stays, and whether those of its instance, `before` it, still do.
   void choose(int k, const std::vector<int>& before, const std::vector<int>& ranked, std::vector<char>& stays)
   {
@@ -277,7 +310,7 @@ private:
 
   bool sameInstance(int a, int b) const
   {
-    const double apart = (this->middle(a) - this->middle(b)).norm();
+    const double apart = (this->Middles[a] - this->Middles[b]).norm();
     if (apart < this->Distance || !this->Comparison)
     {
       return apart < this->Distance;
@@ -299,20 +332,15 @@ private:
     return least;
   }
 
-  Eigen::Vector3d middle(int index) const
-  {
-    return this->InPoses[index].T_scene_model * this->Index.view.middle().cast<double>();
-  }
-
   const Poses& InPoses;
   const std::vector<PoseEvidence>& Evidence;
   const Symmetries& Same;
-  const SceneIndex& Index;
   const EvidenceCollector& Collector;
   const PoseComparison* Comparison;
   const PoseVerificationSettings& Settings;
   double Distance;
   double Reach; ///< middles farther apart are of two instances
+  std::vector<Eigen::Vector3d> Middles; ///< of the part, scene frame
   std::vector<std::optional<PoseComparison::Contender>> Contenders; ///< of the poses, as far as they were asked for
 };
 }
@@ -334,8 +362,8 @@ Poses verifyPoses(
   const bool byEvidence = settings.method == VerificationMethod::VisibleEvidence;
   const EvidenceCollector collector(
     index, settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * model.diameter);
-  std::vector<Points> viewEdges;
-  for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
+  std::vector<Points> viewEdges; // asked for by coverage alone
+  for (std::size_t v = 0; !byEvidence && v < model.viewDirections.size(); ++v)
   {
     viewEdges.push_back(index.view.viewEdges(static_cast<int>(v)).points);
   }
@@ -361,7 +389,7 @@ Poses verifyPoses(
   const std::size_t stride = someMustGo && areCandidates ? CandidateStride : 1;
   const TurnSearch search(index);
   std::vector<PoseEvidence> evidence(byEvidence ? scored.size() : 0);
-  parallelFor(static_cast<int>(scored.size()), settings.threads, subProgress(progress, 0.0, 0.8),
+  parallelFor(static_cast<int>(scored.size()), settings.threads, subProgress(progress, 0.0, 0.75),
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
@@ -403,7 +431,7 @@ Poses verifyPoses(
       ranked.push_back(i);
     }
   }
-  std::vector<int> selected = clusters.select(ranked);
+  std::vector<int> selected = clusters.select(ranked, subProgress(progress, 0.75, 0.8));
   if (comparison)
   {
     parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.8, 1.0),

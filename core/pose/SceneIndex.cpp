@@ -3,6 +3,8 @@
 
 #include "Error.h"
 
+#include <algorithm>
+
 namespace meam
 {
 namespace
@@ -18,6 +20,19 @@ const Scene& withTangents(const Scene& scene)
   if (scene.edges.tangents.size() != scene.edges.size())
   {
     throw Error("The scene's edge points have no tangents: estimate them before poses are judged.");
+  }
+  const std::vector<float>& weights = scene.edges.weights;
+  if (!weights.empty() && weights.size() != scene.edges.size())
+  {
+    throw Error("The scene has " + std::to_string(scene.edges.size()) + " edge points, but " +
+      std::to_string(weights.size()) + " weights of edge points.");
+  }
+  const auto isWeight = [](float weight) { return weight >= 0.0f && weight <= 1.0f; };
+  const auto wrong = std::find_if_not(weights.begin(), weights.end(), isWeight);
+  if (wrong != weights.end())
+  {
+    throw Error("An edge point of the scene has the Weight " + std::to_string(*wrong) +
+      ": weights go from 0 to 1. Rename the array, when it is something else.");
   }
   return scene;
 }

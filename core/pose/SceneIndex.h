@@ -13,7 +13,7 @@ namespace meam
 /// to both; calls may run in parallel.
 struct SceneIndex
 {
-  /// Throws Error when the scene has no edges, or edges without tangents.
+  /// Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1].
   /// `threads` 0: one for each processor.
   SceneIndex(const TrainedModel& model, const Scene& scene, int threads = 0);
 

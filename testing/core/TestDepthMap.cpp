@@ -122,20 +122,17 @@ TEST(DepthMap, TellsHowFarInsideItsCellAPointLies)
 
 TEST(DepthMap, APointThatComesOverABorderComesSlowly)
 {
-  // Cells of 1 mm with their middles at whole numbers; the third point lies a little inside or outside the second cell.
-  const auto at = [](float x, float y, float* inside)
-  {
-    const meam::DepthMap map({ { 0, 0, 0 }, { 1, 0, 0 }, { x, y, 6 }, { 9, 0, 0 } }, fromAbove(), 1.0);
-    return *meanAt(map, { std::round(x), std::round(y), 3 }, inside);
-  };
+  // Cells of 1 mm with their middles at whole numbers; the weight is asked for in the middle.
   float inside;
-  EXPECT_TRUE(at(1.35f, 0, nullptr).isApprox(Eigen::Vector3f(1.35f, 0, 6), 1e-5f)) << "the nearest layer alone";
-  at(4.0f, 0, &inside);
-  EXPECT_FLOAT_EQ(inside, 1.0f);
-  at(4.425f, 0, &inside);
-  EXPECT_NEAR(inside, 0.5f, 1e-5f) << "half way across the strip next to the border";
-  at(4.4999f, 0, &inside);
-  EXPECT_NEAR(inside, 0.0f, 1e-3f);
+  const auto insideOf = [&](float x)
+  {
+    const meam::DepthMap map({ { 0, 0, 0 }, { x, 0, 6 }, { 9, 0, 0 } }, fromAbove(), 1.0);
+    meanAt(map, { std::round(x), 0, 3 }, &inside);
+    return inside;
+  };
+  EXPECT_FLOAT_EQ(insideOf(4.0f), 1.0f);
+  EXPECT_NEAR(insideOf(4.425f), 0.5f, 1e-5f) << "half way across the strip next to the border";
+  EXPECT_NEAR(insideOf(4.4999f), 0.0f, 1e-3f);
   const auto meanOfTwo = [&](float x)
   {
     const meam::DepthMap map({ { 0, 0, 0 }, { 4, 0, 0 }, { x, 0, 1 } }, fromAbove(), 1.0);
@@ -165,6 +162,24 @@ TEST(DepthMap, FollowsLinesOfSightOfAPerspectiveSensor)
   EXPECT_EQ(map.relation({ 90, 0, -503 }, 5.0f), meam::DepthMap::Relation::NoSurface) << "behind the sensor";
 }
 
+TEST(DepthMap, TheLastRowOfARegularScanIsSeen)
+{
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> side(0.1f, 3.0f), shift(-300.0f, 300.0f);
+  for (int run = 0; run < 500; ++run)
+  {
+    const float cell = side(random), from = shift(random);
+    meam::Points points;
+    for (int k = 0; k < 2 + run % 40; ++k) // two of each cell, so that the last may lie on a border
+    {
+      points.push_back({ from + 0.5f * cell * k, from, 0 });
+    }
+    const meam::DepthMap map(points, fromAbove(), cell);
+    EXPECT_EQ(map.relation(points.front(), 0.1f), meam::DepthMap::Relation::OnSurface) << run;
+    EXPECT_EQ(map.relation(points.back(), 0.1f), meam::DepthMap::Relation::OnSurface) << run;
+  }
+}
+
 TEST(DepthMap, OfNothingTellsNothing)
 {
   const meam::DepthMap map({}, fromAbove(), 1.0);
@@ -192,9 +207,13 @@ TEST(DepthMap, TheSameForAnyNumberOfThreads)
   for (int k = 0; k < 1000; ++k)
   {
     const Eigen::Vector3f asked(across(random), across(random), height(random));
+    float ofOne, ofThree;
     EXPECT_EQ(one.relation(asked, 1.0f), three.relation(asked, 1.0f));
-    EXPECT_EQ(meanAt(one, asked), meanAt(three, asked));
+    EXPECT_EQ(meanAt(one, asked, &ofOne), meanAt(three, asked, &ofThree));
+    EXPECT_EQ(ofOne, ofThree);
   }
+  const meam::DepthMap small({ { 0, 0, 3 }, { 1, 0, 5 } }, fromAbove(), 1.0, Eigen::Vector3f::UnitX(), 1000);
+  EXPECT_EQ(small.means(), meam::Points({ { 0, 0, 3 }, { 1, 0, 5 } })) << "more threads than cells";
 }
 
 TEST(DepthMap, ManyAtOnceAsOneByOne)

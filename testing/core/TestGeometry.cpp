@@ -65,6 +65,9 @@ TEST(Geometry, BoundsOfAnyNumberOfPointsSomeOfWhichAreInvalid)
     const Eigen::AlignedBox3f box = meam::bounds(points);
     EXPECT_EQ(box.min(), expected.min()) << count;
     EXPECT_EQ(box.max(), expected.max()) << count;
+    points.pop_back();
+    EXPECT_EQ(meam::bounds(points).min(), expected.min()) << "an odd number, a valid one last";
+    EXPECT_EQ(meam::bounds(points).max(), expected.max());
   }
 }
 

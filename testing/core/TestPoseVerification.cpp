@@ -149,10 +149,44 @@ TEST(PoseVerification, OneInstanceIsReturnedOnce)
     EXPECT_GE(best[i - 1].probability * std::sqrt(best[i - 1].visibleFraction),
       best[i].probability * std::sqrt(best[i].visibleFraction));
   }
+  for (const int threads : { 1, 3 })
+  {
+    settings.threads = threads;
+    const meam::Poses again = meam::verifyPoses(candidates, scenes::bracket(), scene(), settings);
+    ASSERT_EQ(again.size(), 3u);
+    for (std::size_t i = 0; i < best.size(); ++i)
+    {
+      EXPECT_EQ(again[i].T_scene_model.matrix(), best[i].T_scene_model.matrix());
+    }
+  }
   settings.maximumPoses = 2;
   EXPECT_EQ(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).size(), 2u);
   settings.minimumScore = 1.1;
   EXPECT_TRUE(meam::verifyPoses(candidates, scenes::bracket(), scene(), settings).empty());
+}
+
+TEST(PoseVerification, OfVeryManyPosesAnInstanceIsReturnedOnce)
+{
+  // Turns in steps that are not the same pose yet; the right ones among them. More than are all compared.
+  meam::Poses candidates;
+  for (const auto& T : scenes::threeCopies())
+  {
+    for (int k = 0; k < 250; ++k)
+    {
+      candidates.push_back(displaced(T, 3.5 * (k % 16), 13.0 * (k / 16)));
+    }
+  }
+  meam::PoseVerificationSettings settings;
+  settings.posesPerInstance = 1;
+  settings.minimumProbability = 0.5;
+  const meam::Poses best = meam::verifyPoses(candidates, scenes::bracket(), scene(), settings);
+  ASSERT_EQ(best.size(), 3u);
+  for (const meam::Pose& pose : best)
+  {
+    const auto& truth = scenes::threeCopies();
+    EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
+      [&](const Eigen::Isometry3d& T) { return meam::translationError(pose.T_scene_model, T) < 0.15; }));
+  }
 }
 
 TEST(PoseVerification, RightPosesAreLikelyAndWrongOnesAreNot)

@@ -131,6 +131,8 @@ TEST(TangentEstimation, TheNumberOfThreadsDoesNotMatter)
   const meam::PointCloud four = meam::estimateTangents(circle(20.0f, 2000), 50.0, Down, settings);
   EXPECT_EQ(one.points, four.points);
   EXPECT_EQ(one.tangents, four.tangents);
+  EXPECT_EQ(one.weights, four.weights);
+  EXPECT_EQ(one.weights.size(), one.size());
 }
 
 TEST(TangentEstimation, TilesFollowAlgorithms1And2)
