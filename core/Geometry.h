@@ -36,7 +36,7 @@ struct PointCloud
   Points tangents;           ///< unit direction of the edge; the sign carries no meaning
   std::vector<int> pointIds; ///< index of the surface sample: the point's identity across views
   std::vector<EdgeType> edgeTypes{};
-  std::vector<float> weights{}; ///< of what a point stands for, [0, 1]: how much it counts
+  std::vector<float> weights{}; ///< how much each counts, [0, 1]
 
   std::size_t size() const { return this->points.size(); }
   bool empty() const { return this->points.empty(); }

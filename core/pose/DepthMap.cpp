@@ -124,7 +124,7 @@ DepthMap::DepthMap(
   this->InverseCell = 1.0f / cell;
   // The first points are well inside their cells: those of a regular scan do not all lie at borders.
   this->Low = box.min().head<2>().array() - 0.5f * cell;
-  const Eigen::Array2f last = (box.max().head<2>() - this->Low) * this->InverseCell; // as placeOfProjected() has it
+  const Eigen::Array2f last = this->indexOf(box.max());
   this->Width = static_cast<int>(last.x()) + 1;
   this->Height = static_cast<int>(last.y()) + 1;
   this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, nothing());
@@ -223,8 +223,7 @@ void DepthMap::fillCells(const Points& surface, const Points& projected, const s
     if (isHere(i) && projected[i].z() <= this->Cells[cellOf[i]].nearest + layer)
     {
       const int k = cellOf[i] - firstCell;
-      const Eigen::Array2f index = (projected[i].head<2>() - this->Low) * this->InverseCell;
-      const float weight = weightInCell(index);
+      const float weight = weightInCell(this->indexOf(projected[i]));
       first[k] = weights[k] > 0.0f ? first[k] : i;
       weights[k] += weight;
       this->Cells[cellOf[i]].mean += weight * (surface[i] - surface[first[k]]);

@@ -91,10 +91,15 @@ private:
     }
     return p;
   }
+  /// In cells from the map's corner.
+  Eigen::Array2f indexOf(const Eigen::Vector3f& projected) const
+  {
+    return (projected.head<2>() - this->Low) * this->InverseCell;
+  }
   Place placeOf(const Eigen::Vector3f& point) const { return this->placeOfProjected(this->project(point)); }
   Place placeOfProjected(const Eigen::Vector3f& p) const
   {
-    const Eigen::Array2f index = (p.head<2>() - this->Low) * this->InverseCell;
+    const Eigen::Array2f index = this->indexOf(p);
     const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
       !(this->Eye.perspective && p.z() <= 0.0f);
     return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };

@@ -14,7 +14,8 @@ constexpr double EdgeCellShare = 0.08;
 constexpr double DepthCellShare = 0.02;
 constexpr double SurfaceCellShare = 0.05;
 
-const Scene& withTangents(const Scene& scene)
+/// The scene, when its edges can be looked up.
+const Scene& checked(const Scene& scene)
 {
   requirePoints(scene.edges.points, "The scene's edge cloud");
   if (scene.edges.tangents.size() != scene.edges.size())
@@ -46,7 +47,7 @@ Eigen::Vector3f firstAxis(const Points& points)
 
 SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen, int threads)
   : model(trained)
-  , scene(withTangents(seen))
+  , scene(checked(seen))
   , view(trained)
   , edges(seen.edges.points, EdgeCellShare * trained.diameter)
   , lines(seen.edges, this->edges)
