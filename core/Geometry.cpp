@@ -27,22 +27,23 @@ std::string number(double value)
 constexpr int Lanes = 8;
 
 static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "points are plain coordinates");
+static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points are plain coordinates");
 
 /// Calls work(coordinates, count) with all points and a count that is a multiple of Lanes: the last ones are filled up
 /// with points that are no numbers.
-template <typename Work>
-void inLanes(const Points& points, Work&& work)
+template <typename Scalar, typename Work>
+void inLanes(const Scalar* xyz, std::size_t count, Work&& work)
 {
-  const std::size_t whole = points.size() / Lanes * Lanes;
+  const std::size_t whole = count / Lanes * Lanes;
   if (whole > 0)
   {
-    work(points.front().data(), whole);
+    work(xyz, whole);
   }
-  if (whole < points.size())
+  if (whole < count)
   {
-    float rest[3 * Lanes];
-    std::fill_n(rest, 3 * Lanes, std::numeric_limits<float>::quiet_NaN());
-    std::copy_n(points[whole].data(), 3 * (points.size() - whole), rest);
+    Scalar rest[3 * Lanes];
+    std::fill_n(rest, 3 * Lanes, std::numeric_limits<Scalar>::quiet_NaN());
+    std::copy_n(xyz + 3 * whole, 3 * (count - whole), rest);
     work(rest, Lanes);
   }
 }
@@ -74,14 +75,15 @@ void extend(const float* xyz, std::size_t count, float (*low)[Lanes], float (*hi
 constexpr int Moments = 20;
 
 /// Adds those of the finite points, as seen from `from`.
-MEAM_ALL_VECTORS
-void addMoments(const float* xyz, std::size_t count, const double* from, double (*sums)[Lanes])
+template <typename Scalar>
+inline __attribute__((always_inline)) void addEachMoment(
+  const Scalar* xyz, std::size_t count, const double* from, double (*sums)[Lanes])
 {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double fromX = from[0], fromY = from[1], fromZ = from[2];
   for (std::size_t begin = 0; begin < count; begin += Lanes)
   {
-    const float* at = xyz + 3 * begin;
+    const Scalar* at = xyz + 3 * begin;
 #pragma omp simd
     for (int k = 0; k < Lanes; ++k)
     {
@@ -112,6 +114,73 @@ void addMoments(const float* xyz, std::size_t count, const double* from, double 
     }
   }
 }
+
+MEAM_ALL_VECTORS
+void addMoments(const float* xyz, std::size_t count, const double* from, double (*sums)[Lanes])
+{
+  addEachMoment(xyz, count, from, sums);
+}
+
+MEAM_ALL_VECTORS
+void addMoments(const double* xyz, std::size_t count, const double* from, double (*sums)[Lanes])
+{
+  addEachMoment(xyz, count, from, sums);
+}
+
+template <typename Scalar>
+Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
+{
+  // Moments are about one of the points, so they keep their precision far from the origin.
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  const auto at = [xyz](std::size_t i) { return Eigen::Matrix<Scalar, 3, 1>(xyz + 3 * i).template cast<double>().eval(); };
+  std::size_t first = 0;
+  while (first < count && !at(first).allFinite())
+  {
+    ++first;
+  }
+  if (first == count)
+  {
+    return frame;
+  }
+  const Eigen::Vector3d from = at(first);
+  double lanes[Moments][Lanes] = {};
+  inLanes(xyz, count, [&](const Scalar* some, std::size_t size) { addMoments(some, size, from.data(), lanes); });
+  double m[Moments];
+  for (int i = 0; i < Moments; ++i)
+  {
+    m[i] = std::accumulate(lanes[i], lanes[i] + Lanes, 0.0);
+  }
+  const double n = m[0];
+  const Eigen::Vector3d mean = Eigen::Vector3d(m[1], m[2], m[3]) / n;
+  Eigen::Matrix3d squares;
+  squares << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
+  squares /= n;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - mean * mean.transpose());
+  Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
+  if (!axes.allFinite())
+  {
+    return frame; // coordinates beyond all measure
+  }
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    // The third moment along the axis, about the mean.
+    const double a = axes(0, axis), b = axes(1, axis), c = axes(2, axis);
+    const double cubes = a * a * a * m[10] + b * b * b * m[16] + c * c * c * m[19] +
+      3.0 * (a * a * (b * m[11] + c * m[12]) + b * b * (a * m[13] + c * m[17]) + c * c * (a * m[15] + b * m[18])) +
+      6.0 * a * b * c * m[14];
+    const double along = mean.dot(axes.col(axis));
+    const double skewness =
+      cubes / n - 3.0 * along * axes.col(axis).dot(squares * axes.col(axis)) + 2.0 * along * along * along;
+    if (skewness < 0.0)
+    {
+      axes.col(axis) *= -1.0;
+    }
+  }
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  frame.linear() = axes.transpose();
+  frame.translation() = -(axes.transpose() * (from + mean));
+  return frame;
+}
 }
 
 PointCloud PointCloud::subset(const std::vector<int>& indices) const
@@ -137,17 +206,23 @@ PointCloud PointCloud::subset(const std::vector<int>& indices) const
   return result;
 }
 
-void requirePoints(const Points& points, const std::string& what)
+void requirePoints(std::size_t count, std::size_t finite, const std::string& what)
 {
-  if (points.empty())
+  if (count == 0)
   {
     throw Error(what + " has no points: check the file and the step before this one.");
   }
-  if (std::none_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }))
+  if (finite == 0)
   {
     throw Error(what + " has only invalid points (NaN): the sensor returned no depth, or the file's fields are not "
                        "x, y and z.");
   }
+}
+
+void requirePoints(const Points& points, const std::string& what)
+{
+  const bool isAnyFinite = std::any_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
+  requirePoints(points.size(), isAnyFinite ? 1 : 0, what);
 }
 
 PointCloud finitePoints(const PointCloud& cloud)
@@ -170,7 +245,11 @@ Eigen::AlignedBox3f bounds(const Points& points)
   float low[3][Lanes], high[3][Lanes];
   std::fill_n(low[0], 3 * Lanes, infinity);
   std::fill_n(high[0], 3 * Lanes, -infinity);
-  inLanes(points, [&](const float* xyz, std::size_t count) { extend(xyz, count, low, high); });
+  if (!points.empty())
+  {
+    inLanes(points.front().data(), points.size(),
+      [&](const float* xyz, std::size_t count) { extend(xyz, count, low, high); });
+  }
   Eigen::AlignedBox3f box;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -226,54 +305,8 @@ Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
   return frame;
 }
 
-Eigen::Isometry3d principalFrame(const Points& points)
-{
-  // Moments are about one of the points, so they keep their precision far from the origin.
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  const auto first = std::find_if(points.begin(), points.end(), [](const auto& point) { return point.allFinite(); });
-  if (first == points.end())
-  {
-    return frame;
-  }
-  const Eigen::Vector3d from = first->cast<double>();
-  double lanes[Moments][Lanes] = {};
-  inLanes(points, [&](const float* xyz, std::size_t count) { addMoments(xyz, count, from.data(), lanes); });
-  double m[Moments];
-  for (int i = 0; i < Moments; ++i)
-  {
-    m[i] = std::accumulate(lanes[i], lanes[i] + Lanes, 0.0);
-  }
-  const double n = m[0];
-  const Eigen::Vector3d mean = Eigen::Vector3d(m[1], m[2], m[3]) / n;
-  Eigen::Matrix3d squares;
-  squares << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
-  squares /= n;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - mean * mean.transpose());
-  Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
-  if (!axes.allFinite())
-  {
-    return frame; // coordinates beyond all measure
-  }
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    // The third moment along the axis, about the mean.
-    const double a = axes(0, axis), b = axes(1, axis), c = axes(2, axis);
-    const double cubes = a * a * a * m[10] + b * b * b * m[16] + c * c * c * m[19] +
-      3.0 * (a * a * (b * m[11] + c * m[12]) + b * b * (a * m[13] + c * m[17]) + c * c * (a * m[15] + b * m[18])) +
-      6.0 * a * b * c * m[14];
-    const double along = mean.dot(axes.col(axis));
-    const double skewness =
-      cubes / n - 3.0 * along * axes.col(axis).dot(squares * axes.col(axis)) + 2.0 * along * along * along;
-    if (skewness < 0.0)
-    {
-      axes.col(axis) *= -1.0;
-    }
-  }
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  frame.linear() = axes.transpose();
-  frame.translation() = -(axes.transpose() * (from + mean));
-  return frame;
-}
+Eigen::Isometry3d principalFrame(const float* xyz, std::size_t count) { return frameOf(xyz, count); }
+Eigen::Isometry3d principalFrame(const double* xyz, std::size_t count) { return frameOf(xyz, count); }
 
 Points moved(const Points& points, const Eigen::Isometry3d& motion)
 {

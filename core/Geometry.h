@@ -12,6 +12,7 @@
 namespace meam
 {
 using Points = std::vector<Eigen::Vector3f>;
+using PrecisePoints = std::vector<Eigen::Vector3d>;
 
 /// A part's surface: vertices in mm, triangles counter-clockwise seen from outside.
 struct TriangleMesh
@@ -57,6 +58,7 @@ struct AppearanceModel
 
 /// Throws Error, naming `what`, when there is no point or when no point is finite.
 void requirePoints(const Points& points, const std::string& what);
+void requirePoints(std::size_t count, std::size_t finite, const std::string& what);
 
 /// The cloud without points that have a coordinate that is not finite.
 PointCloud finitePoints(const PointCloud& cloud);
@@ -71,8 +73,15 @@ Eigen::AlignedBox3f innerBounds(const Points& points, double share);
 Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis);
 
 /// Takes points to their own principal frame (mean, axes of most and second most extent, signs by their skewness):
-/// what is cut into cells and steps there does not depend on how the scene lies in its coordinates.
-Eigen::Isometry3d principalFrame(const Points& points);
+/// what is cut into cells and steps there does not depend on how the scene lies in its coordinates. Of `count` points, x y
+/// z each, those that are finite.
+Eigen::Isometry3d principalFrame(const float* xyz, std::size_t count);
+Eigen::Isometry3d principalFrame(const double* xyz, std::size_t count);
+template <typename Scalar>
+Eigen::Isometry3d principalFrame(const std::vector<Eigen::Matrix<Scalar, 3, 1>>& points)
+{
+  return principalFrame(points.empty() ? nullptr : points.front().data(), points.size());
+}
 
 /// The points after a motion.
 Points moved(const Points& points, const Eigen::Isometry3d& motion);

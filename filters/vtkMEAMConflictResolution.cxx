@@ -25,9 +25,10 @@ namespace
 /// One type of part as the core has it; it refers to itself, so it stays where it was made.
 struct Part
 {
-  Part(vtkPartitionedDataSetCollection* trained, vtkPolyData* found, const meam::Scene& scene, int threads)
+  Part(vtkPartitionedDataSetCollection* trained, vtkPolyData* found, const meam::Scene& scene,
+    const meam::Sensor& sensor, int threads)
     : Model(vtkMEAMConversion::toTrainedModel(trained))
-    , Found(vtkMEAMConversion::toPoses(found, Model, scene.sensor))
+    , Found(vtkMEAMConversion::toPoses(found, Model, sensor))
     , Index(Model, scene, threads)
   {
     meam::requireSameUnits(scene.edges.points, this->Model.diameter);
@@ -103,14 +104,14 @@ int vtkMEAMConflictResolution::RequestData(
         throw meam::Error("There are poses of " + std::to_string(count) + " parts and models of " +
           std::to_string(models) + ": connect both of each part, in the same order.");
       }
-      const meam::Scene scene = sceneOf(
-        edges, surface, sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface));
+      const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
+      const meam::Scene scene = sceneOf(edges, surface, sensor, this->NumberOfThreads);
       std::deque<Part> parts;
       std::vector<meam::PartDetections> detections;
       for (int i = 0; i < count; ++i)
       {
         const Part& part = parts.emplace_back(vtkPartitionedDataSetCollection::GetData(inputVector[1], i),
-          vtkPolyData::GetData(inputVector[0], i), scene, this->NumberOfThreads);
+          vtkPolyData::GetData(inputVector[0], i), scene, sensor, this->NumberOfThreads);
         detections.push_back({ part.Index, part.Found });
       }
       meam::ConflictResolutionSettings settings;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMConversion.h"
 
+#include "model/TangentEstimation.h"
 #include "pose/PartView.h"
 
 #include "vtkCellArray.h"
@@ -32,26 +33,31 @@ namespace vtkMEAMConversion
 {
 namespace
 {
-constexpr float NearlyUnit = 1e-4f; // a length this near to 1 is 1 but for rounding
+constexpr double ExactRotation = 1e-9; // of a file with few decimals it is not
+constexpr double NearlyUnit = 1e-4; // a length this near to 1 is 1 but for rounding
 
 using meam::Error;
 
 std::string quoted(const char* name) { return std::string("'") + name + "'"; }
 
+template <typename Scalar>
+using Vectors = std::vector<Eigen::Matrix<Scalar, 3, 1>>;
+
 /// Three components of each tuple; VTK's own accessors are too slow for a scan.
-template <typename T>
-void copyTuples(const T* values, meam::Points& points)
+template <typename T, typename Scalar>
+void copyTuples(const T* values, Vectors<Scalar>& points)
 {
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    points[i] = Eigen::Vector3f(
-      static_cast<float>(values[3 * i]), static_cast<float>(values[3 * i + 1]), static_cast<float>(values[3 * i + 2]));
+    points[i] = { static_cast<Scalar>(values[3 * i]), static_cast<Scalar>(values[3 * i + 1]),
+      static_cast<Scalar>(values[3 * i + 2]) };
   }
 }
 
-meam::Points toVectors(vtkDataArray* array)
+template <typename Scalar>
+Vectors<Scalar> toVectors(vtkDataArray* array)
 {
-  meam::Points points(array->GetNumberOfTuples());
+  Vectors<Scalar> points(array->GetNumberOfTuples());
   if (auto* floats = vtkFloatArray::FastDownCast(array))
   {
     copyTuples(floats->GetPointer(0), points);
@@ -66,7 +72,7 @@ meam::Points toVectors(vtkDataArray* array)
     {
       double tuple[3];
       array->GetTuple(static_cast<vtkIdType>(i), tuple);
-      points[i] = Eigen::Vector3d(tuple[0], tuple[1], tuple[2]).cast<float>();
+      points[i] = Eigen::Vector3d(tuple[0], tuple[1], tuple[2]).cast<Scalar>();
     }
   }
   return points;
@@ -104,6 +110,52 @@ vtkDataArray* pointArray(vtkDataSet* input, const char* name, int components)
                 " components for each point: it was not made by the step before this one.");
   }
   return array;
+}
+
+/// Which points of a data set are blanked; null when none is.
+vtkUnsignedCharArray* ghostsOf(vtkDataSet* input)
+{
+  return vtkUnsignedCharArray::SafeDownCast(input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+}
+
+bool isHidden(vtkUnsignedCharArray* ghosts, std::size_t i)
+{
+  const auto id = static_cast<vtkIdType>(i);
+  return id < ghosts->GetNumberOfTuples() && (*ghosts->GetPointer(id) & vtkDataSetAttributes::HIDDENPOINT);
+}
+
+/// Throws Error for a grid that is not a single layer.
+void requireLayer(vtkStructuredGrid* grid)
+{
+  int size[3];
+  grid->GetDimensions(size);
+  const vtkIdType count = grid->GetNumberOfPoints();
+  if (count > 0 && (size[2] != 1 || static_cast<vtkIdType>(size[0]) * size[1] != count))
+  {
+    throw Error("The scene is a grid of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
+                std::to_string(size[2]) + " points: an organized cloud is width x height x 1.");
+  }
+}
+
+/// The points that are finite and not hidden; `ghosts` may be null.
+template <typename Scalar>
+meam::FramedPoints seenPoints(const Scalar* xyz, std::size_t count, vtkUnsignedCharArray* ghosts, int threads)
+{
+  bool isAnyHidden = false; // of those that have coordinates
+  for (std::size_t i = 0; ghosts && !isAnyHidden && i < count; ++i)
+  {
+    isAnyHidden = isHidden(ghosts, i) && std::isfinite(xyz[3 * i]);
+  }
+  if (!isAnyHidden)
+  {
+    return meam::inOwnFrame(xyz, count, threads);
+  }
+  std::vector<Scalar> seen(xyz, xyz + 3 * count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    seen[3 * i] = isHidden(ghosts, i) ? std::numeric_limits<Scalar>::quiet_NaN() : seen[3 * i];
+  }
+  return meam::inOwnFrame(seen.data(), count, threads);
 }
 
 void addVertices(vtkPolyData* output)
@@ -183,7 +235,7 @@ meam::TriangleMesh toMesh(vtkPolyData* input)
   const vtkIdType count = input->GetNumberOfPoints();
   if (count > 0)
   {
-    mesh.vertices = toVectors(input->GetPoints()->GetData());
+    mesh.vertices = toVectors<float>(input->GetPoints()->GetData());
   }
   if (input->GetNumberOfStrips() == 0 && appendTriangles(input->GetPolys(), count, mesh.triangles))
   {
@@ -202,7 +254,7 @@ meam::TriangleMesh toMesh(vtkPolyData* input)
   vtkNew<vtkTriangleFilter> triangulate;
   triangulate->SetInputData(faces);
   triangulate->Update();
-  mesh.vertices = toVectors(triangulate->GetOutput()->GetPoints()->GetData());
+  mesh.vertices = toVectors<float>(triangulate->GetOutput()->GetPoints()->GetData());
   mesh.triangles.clear();
   appendTriangles(triangulate->GetOutput()->GetPolys(), triangulate->GetOutput()->GetNumberOfPoints(), mesh.triangles);
   return mesh;
@@ -229,14 +281,14 @@ meam::PointCloud toCloud(vtkPointSet* input)
   {
     return cloud;
   }
-  cloud.points = toVectors(input->GetPoints()->GetData());
+  cloud.points = toVectors<float>(input->GetPoints()->GetData());
   if (vtkDataArray* normals = pointArray(input, "Normals", 3))
   {
-    cloud.normals = toVectors(normals);
+    cloud.normals = toVectors<float>(normals);
   }
   if (vtkDataArray* tangents = pointArray(input, "Tangent", 3))
   {
-    cloud.tangents = toVectors(tangents);
+    cloud.tangents = toVectors<float>(tangents);
   }
   if (vtkDataArray* ids = pointArray(input, "PointId", 1))
   {
@@ -303,30 +355,82 @@ void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output)
   }
 }
 
+meam::PreciseCloud toPreciseCloud(vtkPointSet* input)
+{
+  meam::PreciseCloud cloud;
+  if (input->GetNumberOfPoints() == 0)
+  {
+    return cloud;
+  }
+  cloud.points = toVectors<double>(input->GetPoints()->GetData());
+  if (vtkDataArray* tangents = pointArray(input, "Tangent", 3))
+  {
+    cloud.tangents = toVectors<double>(tangents);
+    for (Eigen::Vector3d& tangent : cloud.tangents)
+    {
+      // Of a cloud that comes from elsewhere; our own stay what they are to the last bit.
+      const double length = tangent.norm();
+      if (std::abs(length - 1.0) > NearlyUnit && length > 0.0)
+      {
+        tangent /= length;
+      }
+    }
+  }
+  if (vtkDataArray* weights = pointArray(input, "Weight", 1))
+  {
+    for (vtkIdType i = 0; i < weights->GetNumberOfTuples(); ++i)
+    {
+      cloud.weights.push_back(static_cast<float>(weights->GetComponent(i, 0)));
+    }
+  }
+  return cloud;
+}
+
+void fromEdgeTangents(const meam::EdgeTangents& edges, vtkPointSet* input, vtkPolyData* output)
+{
+  meam::PointCloud cloud = toCloud(input).subset(edges.points);
+  cloud.tangents.clear();
+  cloud.weights = edges.weights;
+  fromCloud(cloud, output);
+  const auto count = static_cast<vtkIdType>(edges.points.size());
+  vtkNew<vtkDoubleArray> tangents;
+  tangents->SetName("Tangent");
+  tangents->SetNumberOfComponents(3);
+  tangents->SetNumberOfTuples(count);
+  vtkDataArray* from = input->GetPoints()->GetData();
+  const auto to = vtk::TakeSmartPointer(from->NewInstance());
+  to->SetNumberOfComponents(3);
+  to->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    tangents->SetTuple(i, edges.tangents[i].data());
+    to->SetTuple(i, edges.points[i], from);
+  }
+  output->GetPointData()->SetVectors(tangents);
+  vtkNew<vtkPoints> points;
+  points->SetData(to);
+  output->SetPoints(points);
+}
+
 meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input)
 {
   meam::OrganizedCloud cloud;
+  requireLayer(input);
   int size[3];
   input->GetDimensions(size);
   const vtkIdType count = input->GetNumberOfPoints();
-  if (count > 0 && (size[2] != 1 || static_cast<vtkIdType>(size[0]) * size[1] != count))
-  {
-    throw Error("The scene is a grid of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
-                std::to_string(size[2]) + " points: an organized cloud is width x height x 1.");
-  }
   if (count == 0 || !input->GetPoints() || input->GetPoints()->GetNumberOfPoints() != count)
   {
     return cloud;
   }
   cloud.width = size[0];
   cloud.height = size[1];
-  cloud.points = toVectors(input->GetPoints()->GetData());
-  if (auto* ghosts =
-        vtkUnsignedCharArray::SafeDownCast(input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName())))
+  cloud.points = toVectors<float>(input->GetPoints()->GetData());
+  if (vtkUnsignedCharArray* ghosts = ghostsOf(input))
   {
-    for (vtkIdType i = 0; i < count && i < ghosts->GetNumberOfTuples(); ++i)
+    for (std::size_t i = 0; i < cloud.size(); ++i)
     {
-      if (*ghosts->GetPointer(i) & vtkDataSetAttributes::HIDDENPOINT)
+      if (isHidden(ghosts, i))
       {
         cloud.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
       }
@@ -467,6 +571,10 @@ meam::Poses toPoses(vtkPolyData* input)
     }
     meam::Pose pose;
     pose.T_scene_model.matrix() = matrix;
+    if (!(rotation.transpose() * rotation).isIdentity(ExactRotation))
+    {
+      pose.T_scene_model.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+    }
     pose.score = scores ? scores->GetComponent(i, 0) : 0.0;
     pose.votes = votes ? static_cast<int>(votes->GetComponent(i, 0)) : 0;
     pose.viewId = views ? static_cast<int>(views->GetComponent(i, 0)) : -1;
@@ -608,47 +716,71 @@ meam::Sensor sensorOf(
     throw Error("The view direction is zero: give the way the sensor looks, in the scene's coordinates.");
   }
   sensor.perspective = projection == PerspectiveProjection;
-  sensor.direction = direction.normalized().cast<float>();
-  sensor.position = Eigen::Vector3d(sensorPosition[0], sensorPosition[1], sensorPosition[2]).cast<float>();
+  sensor.direction = direction.normalized();
+  sensor.position = Eigen::Vector3d(sensorPosition[0], sensorPosition[1], sensorPosition[2]);
   return sensor;
 }
 
-meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor)
+meam::PreciseCloud edgesOf(vtkPointSet* input)
 {
-  meam::Scene scene;
-  scene.sensor = sensor;
-  meam::PointCloud cloud = toCloud(edges);
-  meam::requirePoints(cloud.points, "The scene's edge cloud");
-  if (cloud.tangents.empty())
+  const meam::PreciseCloud all = toPreciseCloud(input);
+  meam::PreciseCloud finite;
+  for (std::size_t i = 0; i < all.points.size(); ++i)
+  {
+    if (!all.points[i].allFinite())
+    {
+      continue;
+    }
+    finite.points.push_back(all.points[i]);
+    if (!all.tangents.empty())
+    {
+      finite.tangents.push_back(all.tangents[i]);
+    }
+    if (!all.weights.empty())
+    {
+      finite.weights.push_back(all.weights[i]);
+    }
+  }
+  meam::requirePoints(all.points.size(), finite.points.size(), "The scene's edge cloud");
+  if (finite.tangents.empty())
   {
     throw Error("The scene's edge points have no point array 'Tangent': use TangentEstimation first.");
   }
-  if (vtkDataArray* weights = pointArray(edges, "Weight", 1))
+  return finite;
+}
+
+meam::FramedPoints surfaceOf(vtkDataSet* input, const char* what, int threads)
+{
+  auto* measured = vtkPointSet::SafeDownCast(input);
+  if (!measured)
   {
-    for (vtkIdType i = 0; i < weights->GetNumberOfTuples(); ++i)
-    {
-      cloud.weights.push_back(static_cast<float>(weights->GetComponent(i, 0)));
-    }
+    return {};
   }
-  scene.edges = meam::finitePoints(cloud);
-  for (Eigen::Vector3f& tangent : scene.edges.tangents)
+  auto* grid = vtkStructuredGrid::SafeDownCast(measured);
+  if (grid)
   {
-    // Of a cloud that comes from elsewhere; our own stay what they are to the last bit.
-    const float length = tangent.norm();
-    if (std::abs(length - 1.0f) > NearlyUnit && length > 0.0f)
-    {
-      tangent /= length;
-    }
+    requireLayer(grid);
   }
-  if (auto* points = vtkPointSet::SafeDownCast(surface))
+  vtkDataArray* array = measured->GetNumberOfPoints() > 0 ? measured->GetPoints()->GetData() : nullptr;
+  const std::size_t count = array ? array->GetNumberOfTuples() : 0;
+  vtkUnsignedCharArray* ghosts = grid ? ghostsOf(grid) : nullptr;
+  meam::FramedPoints surface;
+  if (auto* floats = vtkFloatArray::FastDownCast(array))
   {
-    auto* grid = vtkStructuredGrid::SafeDownCast(surface);
-    meam::PointCloud measured;
-    measured.points = grid ? toOrganizedCloud(grid).points : toCloud(points).points;
-    meam::requirePoints(measured.points, "The scene's surface");
-    scene.surface = meam::finitePoints(measured).points;
+    surface = seenPoints(floats->GetPointer(0), count, ghosts, threads);
   }
-  return scene;
+  else if (count > 0)
+  {
+    const meam::PrecisePoints points = toVectors<double>(array);
+    surface = seenPoints(points.front().data(), count, ghosts, threads);
+  }
+  meam::requirePoints(count, surface.points.size(), what);
+  return surface;
+}
+
+meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor, int threads)
+{
+  return meam::sceneInOwnFrame(edgesOf(edges), surfaceOf(surface, "The scene's surface", threads), sensor);
 }
 
 meam::Progress progressOf(vtkAlgorithm* filter)

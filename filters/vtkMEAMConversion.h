@@ -26,6 +26,7 @@
 namespace meam
 {
 struct CameraFile;
+struct EdgeTangents;
 struct MeasuredCloud;
 struct SceneEdges;
 }
@@ -48,6 +49,11 @@ void fromMesh(const meam::TriangleMesh& mesh, vtkPolyData* output);
 meam::PointCloud toCloud(vtkPointSet* input);
 /// The same arrays, `Weight` where it is known, and a vertex cell for each point.
 void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output);
+/// Edge points with the arrays `Tangent`, made unit, and `Weight`, where they are there.
+meam::PreciseCloud toPreciseCloud(vtkPointSet* input);
+/// Of `input` the points that stay, in the precision they have there, with the arrays of toCloud(), `Tangent` in double
+/// precision and `Weight`.
+void fromEdgeTangents(const meam::EdgeTangents& edges, vtkPointSet* input, vtkPolyData* output);
 
 /// W x H x 1; blanked points become NaN. Throws for a grid that is not a single layer.
 meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input);
@@ -118,9 +124,13 @@ enum Projection
 /// Where the scene is seen from; `surface` may be null. Throws Error for a view direction of zero.
 meam::Sensor sensorOf(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
-/// Edge points with `Tangent`, and `Weight` where it is there, and the measured surface, which may be null. Throws Error
-/// without tangents.
-meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor);
+/// Finite edge points with `Tangent`, and `Weight` where it is there. Throws Error without points or tangents.
+meam::PreciseCloud edgesOf(vtkPointSet* input);
+/// The points that a sensor measured, but for blanked ones; none for null. Throws Error, naming `what`, without points and
+/// for a grid that is not a single layer.
+meam::FramedPoints surfaceOf(vtkDataSet* input, const char* what, int threads);
+/// Both, for the filters that judge poses.
+meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor, int threads);
 
 /// Progress and abort of a filter as the core asks for them.
 meam::Progress progressOf(vtkAlgorithm* filter);

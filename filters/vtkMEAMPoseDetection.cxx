@@ -53,10 +53,10 @@ int vtkMEAMPoseDetection::RequestData(
     settings.seed = static_cast<unsigned>(this->Seed);
     settings.threads = this->NumberOfThreads;
     const meam::TrainedModel model = toTrainedModel(trained);
-    const meam::Scene scene = sceneOf(edges, nullptr, {});
-    fromPoses(meam::detectPoses(scene.edges, model, settings, progressOf(this)), output);
+    const meam::PreciseCloud scene = edgesOf(edges);
+    fromPoses(meam::detectPoses(scene, model, settings, progressOf(this)), output);
     setDiameter(output, model.diameter);
-    const std::string warning = meam::unitsWarning(scene.edges.points, model.diameter);
+    const std::string warning = meam::unitsWarning(toCloud(edges).points, model.diameter);
     if (!warning.empty())
     {
       vtkWarningMacro(<< warning);

@@ -137,34 +137,33 @@ int vtkMEAMPoseEstimation::RequestData(
       const double start = vtkTimerLog::GetUniversalTime();
 
       // What is wrong with the scene is told before any time goes into training.
-      meam::OrganizedCloud cloud;
+      meam::FramedPoints surface = surfaceOf(sceneInput, "The scene", this->NumberOfThreads);
+      int size[3] = { 0, 0, 0 };
       if (organized)
       {
-        cloud = toOrganizedCloud(organized);
+        organized->GetDimensions(size);
       }
-      else
-      {
-        cloud.points = toCloud(sceneInput).points;
-      }
-      meam::requirePoints(cloud.points, "The scene");
-      if (!boundary && cloud.height <= 1)
+      if (!boundary && size[1] <= 1)
       {
         throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
                           "points as the boundary, or an organized scan (a grid of width x height points).");
       }
 
       const double loaded = vtkTimerLog::GetUniversalTime();
-      meam::Scene scene;
+      const meam::Sensor sensor =
+        sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
       meam::SceneEdges found;
-      scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+      meam::PreciseCloud sceneEdges;
       if (boundary)
       {
-        scene.edges = toCloud(boundary);
-        meam::requirePoints(scene.edges.points, "The scene's boundary cloud");
-        scene.edges = meam::finitePoints(scene.edges);
+        found.cloud = toCloud(boundary);
+        meam::requirePoints(found.cloud.points, "The scene's boundary cloud");
+        found.cloud = meam::finitePoints(found.cloud);
+        sceneEdges = toPreciseCloud(boundary);
       }
       else
       {
+        const meam::OrganizedCloud cloud = toOrganizedCloud(organized);
         meam::SceneEdgeExtractionSettings extraction;
         extraction.imageEdges = this->ImageEdges;
         extraction.depthEdges = this->DepthEdges;
@@ -178,9 +177,9 @@ int vtkMEAMPoseEstimation::RequestData(
           extraction.camera = cameraOf(this->CameraFile, image, cloud);
         }
         found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
-        scene.edges = found.cloud;
+        sceneEdges = found.cloud;
       }
-      scene.surface = meam::finitePoints({ std::move(cloud.points), {}, {}, {} }).points;
+      const std::size_t measured = surface.points.size();
       const double extracted = vtkTimerLog::GetUniversalTime();
 
       const meam::TrainedModel& model = this->Trained->modelOf(part,
@@ -193,9 +192,9 @@ int vtkMEAMPoseEstimation::RequestData(
         this->MinimumProbability);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
       meam::StageTimes times;
-      const meam::Poses poses =
-        meam::estimatePoses(model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
-      const std::string warning = meam::unitsWarning(scene.edges.points, model.diameter);
+      const meam::Poses poses = meam::estimatePoses(model, sceneEdges, std::move(surface), sensor, settings, &times,
+        meam::subProgress(progress, AfterTraining, 1.0));
+      const std::string warning = meam::unitsWarning(found.cloud.points, model.diameter);
       if (!warning.empty())
       {
         vtkWarningMacro(<< warning);
@@ -203,7 +202,7 @@ int vtkMEAMPoseEstimation::RequestData(
 
       if (boundary)
       {
-        fromCloud(scene.edges, edges);
+        fromCloud(found.cloud, edges);
       }
       else
       {
@@ -218,8 +217,8 @@ int vtkMEAMPoseEstimation::RequestData(
       setFieldValue(output, "SecondsVerification", times.verification);
       setFieldValue(output, "SecondsRefinement", times.refinement);
       setFieldValue(output, "SecondsSelection", times.selection);
-      setFieldValue(output, "ScenePoints", static_cast<double>(scene.surface.size()));
-      setFieldValue(output, "SceneEdgePoints", static_cast<double>(scene.edges.size()));
+      setFieldValue(output, "ScenePoints", static_cast<double>(measured));
+      setFieldValue(output, "SceneEdgePoints", static_cast<double>(found.cloud.size()));
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
       setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
     },

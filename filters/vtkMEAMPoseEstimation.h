@@ -8,6 +8,9 @@
  * the parameters of the preset. The steps are those of the single filters, which have all the
  * parameters. The trained model is kept until the CAD or a setting that it depends on changes.
  *
+ * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the poses
+ * and changes nothing else.
+ *
  * Input port 0: the part, a vtkPolyData with the CAD's faces, or the trained model that vtkMEAMHashing
  * returns, a vtkPartitionedDataSetCollection.
  * Input port 1: the scene in mm, a vtkStructuredGrid of W x H x 1 points in the sensor's frame, or a

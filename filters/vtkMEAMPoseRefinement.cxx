@@ -59,7 +59,7 @@ int vtkMEAMPoseRefinement::RequestData(
     settings.threads = this->NumberOfThreads;
     const meam::TrainedModel model = toTrainedModel(trained);
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
-    const meam::Scene scene = sceneOf(edges, surface, sensor);
+    const meam::Scene scene = sceneOf(edges, surface, sensor, this->NumberOfThreads);
     meam::requireSameUnits(scene.edges.points, model.diameter);
     const meam::Poses poses = toPoses(candidates, model, sensor);
     fromPoses(meam::refinePoses(poses, model, scene, settings, progressOf(this)), output);

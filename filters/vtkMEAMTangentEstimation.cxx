@@ -77,16 +77,17 @@ int vtkMEAMTangentEstimation::RequestData(
     const meam::Progress progress = progressOf(this);
     if (auto* scene = vtkPolyData::SafeDownCast(input))
     {
-      const meam::PointCloud edges = toCloud(scene);
-      meam::requirePoints(edges.points, "The edge cloud");
+      const meam::Points points = toCloud(scene).points;
+      meam::requirePoints(points, "The edge cloud");
       if (model)
       {
-        meam::requireSameUnits(edges.points, diameter);
+        meam::requireSameUnits(points, diameter);
         setDiameter(output, diameter);
       }
       const meam::Sensor sensor = sensorOf(OrthographicProjection, this->ViewDirection, this->ViewDirection, nullptr);
-      fromCloud(meam::estimateTangents(edges, diameter, sensor.direction, settings, progress),
-        vtkPolyData::SafeDownCast(output));
+      const meam::EdgeTangents edges =
+        meam::estimateTangents(toPreciseCloud(scene), diameter, sensor.direction, settings, progress);
+      fromEdgeTangents(edges, scene, vtkPolyData::SafeDownCast(output));
       return;
     }
     const auto views = toAppearanceModels(vtkPartitionedDataSetCollection::SafeDownCast(input));

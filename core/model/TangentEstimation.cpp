@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -294,12 +295,12 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const s
 }
 
 /// Algorithms 1 and 2 of the paper, on the points that are kept.
-Points tileTangents(const Points& points, const Eigen::Vector3f& viewDirection, const TangentEstimationSettings& settings,
+Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection, const TangentEstimationSettings& settings,
   const Progress& progress)
 {
   // The projection plane: that of x and y for a view along z, as in the paper.
-  const bool alongZ = std::abs(viewDirection.z()) > 0.999f;
-  const Eigen::Matrix3f frame = frameAround(viewDirection);
+  const bool alongZ = std::abs(viewDirection.z()) > 0.999;
+  const Eigen::Matrix3f frame = frameAround(viewDirection.cast<float>());
   const Eigen::Vector3f right = alongZ ? Eigen::Vector3f::UnitX().eval() : frame.col(1).eval();
   const Eigen::Vector3f down = alongZ ? Eigen::Vector3f::UnitY().eval() : frame.col(2).eval();
   const double tile = settings.tilePixels * settings.pixelSize;
@@ -360,13 +361,20 @@ TangentEstimationSettings paperTangentSettings()
 
 namespace
 {
-/// `cubes` takes the points to the frame in which they are thinned.
-PointCloud estimate(const PointCloud& edges, double partDiameter, double leafShare, const Eigen::Isometry3d& cubes,
-  const Eigen::Vector3f& viewDirection, const TangentEstimationSettings& settings, const Progress& progress)
+/// What stays of the points `local`, in the frame in which they are thinned and all of them finite: indices, tangents in that
+/// frame, weights. `given` are tangents that they have already, or none. `tiles` gives the tangents at points by
+/// Algorithms 1 and 2.
+struct LocalTangents
 {
-  requirePoints(edges.points, "The edge cloud");
-  const PointCloud cloud = finitePoints(edges);
-  const bool robust = settings.method == TangentMethod::RobustLine && cloud.tangents.empty();
+  std::vector<int> points;
+  Points tangents;
+  std::vector<float> weights;
+};
+LocalTangents estimate(const Points& local, const Points& given, double partDiameter, double leafShare,
+  const std::function<Points(const std::vector<int>&)>& tiles, const TangentEstimationSettings& settings,
+  const Progress& progress)
+{
+  const bool robust = settings.method == TangentMethod::RobustLine && given.empty();
   const auto length = [&](double value, double share)
   {
     if (value != 0.0)
@@ -380,49 +388,100 @@ PointCloud estimate(const PointCloud& edges, double partDiameter, double leafSha
     }
     return share * partDiameter;
   };
-  const Points points = moved(cloud.points, cubes);
   const double leaf = length(settings.leafSize, leafShare);
   double radius = 0.0;
   ThinnedPoints kept;
   std::vector<int> candidates;
   std::optional<PointGrid> grid;
-  std::vector<std::function<void()>> works{ [&] { kept = thinWithWeights(points, leaf); } };
+  std::vector<std::function<void()>> works{ [&] { kept = thinWithWeights(local, leaf); } };
   if (robust)
   {
     radius = length(std::max(0.0, settings.radius), RadiusShare);
     length(settings.inlierDistance, InlierShare);
-    works.push_back([&] { candidates = thinPoints(points, CandidateShare * radius); });
-    works.push_back([&] { grid.emplace(points, radius); });
+    works.push_back([&] { candidates = thinPoints(local, CandidateShare * radius); });
+    works.push_back([&] { grid.emplace(local, radius); });
   }
   inParallel(settings.threads, works);
-  Eigen::Isometry3d turnBack = Eigen::Isometry3d::Identity();
-  turnBack.linear() = cubes.linear().transpose();
-  PointCloud result = cloud.subset(kept.indices);
-  result.weights = kept.weights;
-  if (result.tangents.empty())
+  Points tangents;
+  if (robust)
   {
-    result.tangents = robust
-      ? moved(
-          robustTangents(points, kept.indices, candidates, *grid, radius, partDiameter, settings, progress), turnBack)
-      : tileTangents(result.points, viewDirection, settings, progress);
+    tangents = robustTangents(local, kept.indices, candidates, *grid, radius, partDiameter, settings, progress);
   }
-  std::vector<int> found;
-  for (std::size_t i = 0; i < result.size(); ++i)
+  else if (given.empty())
   {
-    if (!result.tangents[i].isZero())
+    tangents = tiles(kept.indices);
+  }
+  else
+  {
+    for (const int i : kept.indices)
     {
-      found.push_back(static_cast<int>(i));
+      tangents.push_back(given[i]);
+    }
+  }
+  LocalTangents found;
+  for (std::size_t k = 0; k < tangents.size(); ++k)
+  {
+    if (!tangents[k].isZero())
+    {
+      found.points.push_back(kept.indices[k]);
+      found.tangents.push_back(tangents[k]);
+      found.weights.push_back(kept.weights[k]);
     }
   }
   report(progress, 1.0);
-  return result.subset(found);
+  return found;
 }
 }
 
-PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
+PreciseCloud EdgeTangents::of(const PreciseCloud& edges) const
+{
+  PreciseCloud cloud;
+  for (const int i : this->points)
+  {
+    cloud.points.push_back(edges.points[i]);
+  }
+  cloud.tangents = this->tangents;
+  cloud.weights = this->weights;
+  return cloud;
+}
+
+EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
-  return estimate(edges, partDiameter, SceneLeafShare, principalFrame(edges.points), viewDirection, settings, progress);
+  const auto [frame, framed] = inOwnFrame(edges);
+  requirePoints(framed.points, "The edge cloud");
+  std::vector<int> finite;
+  for (std::size_t i = 0; i < framed.size(); ++i)
+  {
+    if (framed.points[i].allFinite())
+    {
+      finite.push_back(static_cast<int>(i));
+    }
+  }
+  const PointCloud local = finite.size() == framed.size() ? framed : framed.subset(finite);
+  const auto tiles = [&](const std::vector<int>& kept)
+  {
+    Points points;
+    for (const int k : kept)
+    {
+      points.push_back(edges.points[finite[k]].cast<float>());
+    }
+    Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+    turn.linear() = frame.linear();
+    return moved(tileTangents(points, viewDirection, settings, progress), turn);
+  };
+  LocalTangents found = estimate(local.points, local.tangents, partDiameter, SceneLeafShare, tiles, settings, progress);
+  EdgeTangents result;
+  for (std::size_t k = 0; k < found.points.size(); ++k)
+  {
+    const int i = finite[found.points[k]];
+    result.points.push_back(i);
+    result.tangents.push_back(edges.tangents.empty()
+        ? (frame.linear().transpose() * found.tangents[k].cast<double>()).normalized()
+        : edges.tangents[i]);
+  }
+  result.weights = std::move(found.weights);
+  return result;
 }
 
 std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> models, double partDiameter,
@@ -435,10 +494,15 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
   exact.inlierDistance = settings.inlierDistance > 0.0 ? settings.inlierDistance : InlierShare * partDiameter;
   for (std::size_t v = 0; v < models.size(); ++v)
   {
+    requirePoints(models[v].cloud.points, "The edge cloud");
+    const Progress ofView = subProgress(progress, share * v, share * (v + 1));
+    PointCloud cloud = finitePoints(models[v].cloud);
+    const auto tiles = [&](const std::vector<int>& kept)
+    { return tileTangents(cloud.subset(kept).points, models[v].direction.cast<double>(), exact, ofView); };
     // In the part's own frame, so that views share the cubes.
-    models[v].cloud = estimate(models[v].cloud, partDiameter, ModelLeafShare, Eigen::Isometry3d::Identity(),
-      models[v].direction, exact, subProgress(progress, share * v, share * (v + 1)));
-    models[v].cloud.weights.clear(); // a view that sees a point, sees it
+    LocalTangents found = estimate(cloud.points, cloud.tangents, partDiameter, ModelLeafShare, tiles, exact, ofView);
+    models[v].cloud = cloud.subset(found.points); // without weights: a view that sees a point, sees it
+    models[v].cloud.tangents = std::move(found.tangents);
   }
   return models;
 }

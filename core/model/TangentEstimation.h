@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Error.h"
-#include "Geometry.h"
+#include "OwnFrame.h"
 
 namespace meam
 {
@@ -35,12 +35,22 @@ struct TangentEstimationSettings
 /// The paper's settings (Section 6) in place of the recommended ones.
 TangentEstimationSettings paperTangentSettings();
 
+/// Edge points that stay when they are thinned.
+struct EdgeTangents
+{
+  std::vector<int> points;   ///< indices into those that were given
+  PrecisePoints tangents;    ///< unit; of each
+  std::vector<float> weights; ///< of each, as thinWithWeights() has them
+
+  PreciseCloud of(const PreciseCloud& edges) const;
+};
+
 /// Thins the edge points and gives each a tangent direction; points without a supported line are
 /// left out (Algorithm 2). Points that carry tangents, as edges of a mesh do, keep them and are only
-/// thinned. The points that stay have the weights of thinWithWeights(). `partDiameter` (mm) sets lengths
-/// that are 0. Tiles are cut on the plane across `viewDirection`. Throws Error for an empty cloud, or when
-/// a length is 0 and the diameter is too.
-PointCloud estimateTangents(const PointCloud& edges, double partDiameter, const Eigen::Vector3f& viewDirection,
+/// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across `viewDirection`. A motion of the
+/// points in double precision turns the tangents and changes nothing else, but for tiles. Throws Error for an empty cloud,
+/// or when a length is 0 and the diameter is too.
+EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings = {}, const Progress& progress = {});
 
 /// The same for each edge appearance model, seen from its viewpoint.

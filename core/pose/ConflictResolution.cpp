@@ -73,7 +73,8 @@ double soundShare(const std::vector<PointState>& states)
 
 Claim claimOf(const PartPose& pose, const SceneIndex& index, const Measured& measured, double tolerance)
 {
-  const Eigen::Isometry3d& T = pose.pose.T_scene_model;
+  const Eigen::Isometry3d T =
+    inFrameOf(index.scene, { pose.pose }, index.model.symmetries).front().T_scene_model;
   const EvidenceCollector collector(index, VerifiedShare * index.model.diameter);
   const PoseEvidence evidence = collector.collect(T);
   Claim claim{ pose, explainedPoints(measured, index.model, T, tolerance) };

@@ -76,17 +76,18 @@ void findGaps(const std::uint8_t* above, const std::uint8_t* row, const std::uin
 }
 }
 
-DepthMap::DepthMap(
-  const Points& surface, const Sensor& sensor, double cellSize, const Eigen::Vector3f& along, int threads)
-  : Eye(sensor)
+DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads)
+  : IsPerspective(sensor.perspective)
+  , Eye(sensor.perspective ? sensor.position.cast<float>().eval() : Eigen::Vector3f::Zero().eval())
   , CellSize(cellSize)
 {
-  const Eigen::Vector3f across = along - along.dot(sensor.direction) * sensor.direction;
-  const Eigen::Matrix3f frame = frameAround(sensor.direction);
+  const Eigen::Vector3f direction = sensor.direction.cast<float>();
+  const Eigen::Vector3f across = Eigen::Vector3f::UnitX() - direction.x() * direction;
+  const Eigen::Matrix3f frame = frameAround(direction);
   const Eigen::Vector3f right = across.norm() > 1e-3f ? across.normalized() : Eigen::Vector3f(frame.col(1));
   this->Axes.row(0) = right;
-  this->Axes.row(1) = sensor.direction.cross(right);
-  this->Axes.row(2) = sensor.direction;
+  this->Axes.row(1) = direction.cross(right);
+  this->Axes.row(2) = direction;
   const int size = static_cast<int>(surface.size());
   Points projected(surface.size()); // not numbers where the sensor cannot have seen anything
   parallelFor(size, threads, {},
@@ -159,11 +160,8 @@ void DepthMap::findPlaces(
   const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const
 {
   Eigen::Isometry3f fromEye = toScene;
-  if (this->Eye.perspective)
-  {
-    fromEye.translation() -= this->Eye.position;
-  }
-  const Lines lines{ this->Axes * fromEye.matrix().topRows<3>(), this->Eye.perspective, this->Low, this->InverseCell,
+  fromEye.translation() -= this->Eye;
+  const Lines lines{ this->Axes * fromEye.matrix().topRows<3>(), this->IsPerspective, this->Low, this->InverseCell,
     this->Width, this->Height };
   lookAlong(lines, points.x.data() + begin, points.y.data() + begin, points.z.data() + begin, count, places.cells,
     places.depths, places.insides);

@@ -23,11 +23,9 @@ public:
     NoSurface ///< the sensor saw nothing there
   };
 
-  /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the direction
-  /// `along`, as seen by the sensor: one that moves with the scene lets the cells move with it. The same for any number
-  /// of threads.
-  DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
-    const Eigen::Vector3f& along = Eigen::Vector3f::UnitX(), int threads = 1);
+  /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the first axis, as
+  /// seen by the sensor. The same for any number of threads.
+  DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads = 1);
 
   /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
   double cellSize() const { return this->CellSize; }
@@ -84,8 +82,8 @@ private:
   };
   Eigen::Vector3f project(const Eigen::Vector3f& point) const
   {
-    Eigen::Vector3f p = this->Axes * (this->Eye.perspective ? (point - this->Eye.position).eval() : point);
-    if (this->Eye.perspective)
+    Eigen::Vector3f p = this->Axes * (point - this->Eye);
+    if (this->IsPerspective)
     {
       p.head<2>() /= p.z();
     }
@@ -101,7 +99,7 @@ private:
   {
     const Eigen::Array2f index = this->indexOf(p);
     const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
-      !(this->Eye.perspective && p.z() <= 0.0f);
+      !(this->IsPerspective && p.z() <= 0.0f);
     return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };
   }
   struct Places
@@ -126,7 +124,8 @@ private:
     return { infinity, -infinity, Eigen::Vector3f::Zero(), 0.0f };
   }
 
-  Sensor Eye;
+  bool IsPerspective;
+  Eigen::Vector3f Eye; ///< the sensor's position, or anywhere
   Eigen::Matrix3f Axes; ///< rows: right, down, depth
   double CellSize;
   float InverseCell = 1.0f;

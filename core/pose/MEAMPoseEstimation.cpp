@@ -76,20 +76,22 @@ TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settin
   return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
 }
 
-Poses estimatePoses(const TrainedModel& model, const Scene& scene, const DetectionSettings& settings,
-  StageTimes* times, const Progress& progress)
+Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor,
+  const DetectionSettings& settings, StageTimes* times, const Progress& progress)
 {
   StageTimes spent;
   Stopwatch watch;
-  requirePoints(scene.edges.points, "The scene's edge cloud");
-  requireSameUnits(scene.edges.points, model.diameter);
-  Scene withTangents = scene;
-  withTangents.edges = estimateTangents(
-    scene.edges, model.diameter, scene.sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1));
+  const Points points = inFrame(edges, Eigen::Isometry3d::Identity()).points;
+  requirePoints(points, "The scene's edge cloud");
+  requireSameUnits(points, model.diameter);
+  const EdgeTangents found =
+    estimateTangents(edges, model.diameter, sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1));
+  const PreciseCloud withTangents = found.of(edges);
   spent.tangents = watch.lap();
-  Poses poses = detectPoses(withTangents.edges, model, settings.detection, subProgress(progress, 0.1, 0.5));
+  Poses poses = detectPoses(withTangents, model, settings.detection, subProgress(progress, 0.1, 0.5));
   spent.detection = watch.lap();
-  const SceneIndex index(model, withTangents, settings.verification.threads);
+  const Scene scene = sceneInOwnFrame(withTangents, std::move(surface), sensor);
+  const SceneIndex index(model, scene, settings.verification.threads);
   poses = verifyPoses(poses, index, settings.verification, subProgress(progress, 0.5, 0.7));
   spent.verification = watch.lap();
   poses = refinePoses(poses, index, settings.refinement, subProgress(progress, 0.7, 0.95));

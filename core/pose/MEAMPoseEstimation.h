@@ -59,8 +59,8 @@ struct StageTimes
   double selection = 0.0;
 };
 
-/// The online phase, from edge points without tangents to ranked poses. `scene.edges` are the points
-/// as extracted; `times` may be null.
-Poses estimatePoses(const TrainedModel& model, const Scene& scene, const DetectionSettings& settings,
-  StageTimes* times = nullptr, const Progress& progress = {});
+/// The online phase, from edge points without tangents, as extracted, to ranked poses. The surface may be empty; all
+/// poses, `edges` and `sensor` are in the scene's coordinates (mm). `times` may be null.
+Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor,
+  const DetectionSettings& settings, StageTimes* times = nullptr, const Progress& progress = {});
 }

@@ -124,8 +124,8 @@ PartView::PartView(const TrainedModel& model)
 
 Eigen::Vector3f PartView::towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
 {
-  const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  return T.linear().transpose() * sensor.towards(T * this->Middle);
+  const Eigen::Vector3d towards = sensor.towards(T_scene_model * this->Middle.cast<double>());
+  return (T_scene_model.linear().transpose() * towards).cast<float>();
 }
 
 int PartView::view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const

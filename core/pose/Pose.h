@@ -33,6 +33,9 @@ struct Pose
 
 using Poses = std::vector<Pose>;
 
+/// The pose after a motion of the scene.
+Pose moved(const Pose& pose, const Eigen::Isometry3d& motion);
+
 /// What poses of different scenes are compared by: the probability, or the score where none is known.
 inline double confidence(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
 

@@ -55,20 +55,6 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
   return indices;
 }
 
-/// The points in their principal frame, each tangent with the sign that lets it run along the first axis.
-PointCloud inOwnFrame(const PointCloud& edges, const Eigen::Isometry3d& frame)
-{
-  PointCloud result;
-  result.points = moved(edges.points, frame);
-  const Eigen::Matrix3f turn = frame.linear().cast<float>();
-  for (const auto& tangent : edges.tangents)
-  {
-    const Eigen::Vector3f turned = turn * tangent;
-    result.tangents.push_back(turned.x() < 0.0f ? Eigen::Vector3f(-turned) : turned);
-  }
-  return result;
-}
-
 /// Votes of the scene's pairs, reference by reference.
 class Voting
 {
@@ -139,15 +125,16 @@ PoseDetectionSettings paperDetectionSettings()
   return settings;
 }
 
-Poses detectPoses(const PointCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
+Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
   const Progress& progress)
 {
-  requirePoints(sceneEdges.points, "The scene's edge cloud");
-  if (sceneEdges.tangents.size() != sceneEdges.size())
+  auto [frame, edges] = inOwnFrame(sceneEdges);
+  requirePoints(edges.points, "The scene's edge cloud");
+  if (edges.tangents.size() != edges.size())
   {
     throw Error("The scene's edge points have no tangents: estimate them before detection.");
   }
-  requireSameUnits(sceneEdges.points, model.diameter);
+  requireSameUnits(edges.points, model.diameter);
   if (!(settings.referenceShare > 0.0 && settings.referenceShare <= 1.0) ||
     !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
   {
@@ -158,8 +145,10 @@ Poses detectPoses(const PointCloud& sceneEdges, const TrainedModel& model, const
     throw Error("At least one peak of each reference point is needed.");
   }
   const double angleStep = model.settings.angleStep * M_PI / 180.0;
-  const Eigen::Isometry3d frame = principalFrame(sceneEdges.points);
-  const PointCloud edges = inOwnFrame(sceneEdges, frame);
+  for (Eigen::Vector3f& tangent : edges.tangents)
+  {
+    tangent = tangent.x() < 0.0f ? Eigen::Vector3f(-tangent) : tangent; // the sign is that of the first axis
+  }
   const double cell = LotShare * model.diameter;
   const std::vector<int> references =
     chooseShare(edges.points, settings.referenceShare, LeastReferences, cell, settings.seed);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Error.h"
+#include "OwnFrame.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
 
@@ -22,9 +23,10 @@ struct PoseDetectionSettings
 PoseDetectionSettings paperDetectionSettings();
 
 /// Raw pose candidates by voting (paper, Section 5.1): one or more for each reference point that found pairs,
-/// in the order of the reference points. `edges` are the scene's edge points with tangents, mm.
+/// in the order of the reference points. `edges` are the scene's edge points with tangents, mm; a motion of them in double
+/// precision moves the candidates and changes nothing else.
 /// The same for any number of threads. Throws Error when the scene is empty, has no tangents, or is
 /// in another unit than the model.
-Poses detectPoses(const PointCloud& edges, const TrainedModel& model, const PoseDetectionSettings& settings = {},
+Poses detectPoses(const PreciseCloud& edges, const TrainedModel& model, const PoseDetectionSettings& settings = {},
   const Progress& progress = {});
 }

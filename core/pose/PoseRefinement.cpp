@@ -365,7 +365,7 @@ Pose settlePose(const Pose& pose, const SceneIndex& index)
   return isFixed && isNear ? settled : pose;
 }
 
-Poses refinePoses(
+Poses refineInFrame(
   const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings, const Progress& progress)
 {
   if (settings.iterations < 1)
@@ -409,6 +409,20 @@ Poses refinePoses(
       }
     });
   report(progress, 1.0);
+  return refined;
+}
+
+Poses refinePoses(
+  const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings, const Progress& progress)
+{
+  const Symmetries& symmetries = index.model.symmetries;
+  Poses refined = refineInFrame(inFrameOf(index.scene, poses, symmetries), index, settings, progress);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    refined[i] = moved(refined[i], index.scene.frame.inverse());
+    Eigen::Isometry3d& T = refined[i].T_scene_model;
+    T = nearestEqual(T, poses[i].T_scene_model, symmetries);
+  }
   return refined;
 }
 }

@@ -26,14 +26,19 @@ struct PoseRefinementSettings
 PoseRefinementSettings paperRefinementSettings();
 
 /// Iterative closest point for each pose (paper, Section 5.3), in the order they come; scores stay.
-/// Without a surface only edges count. Throws Error for less than one iteration.
+/// Without a surface only edges count. Of poses that the part's symmetries make equal the nearest to what came comes out.
+/// Throws Error for less than one iteration.
 Poses refinePoses(const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings = {},
   const Progress& progress = {});
 
-/// The pose refined once more by edges and surface, by residuals that change steadily and until it stays: from anywhere
-/// within 2 % of the diameter the same place, however the scene lies in its coordinates. As it came where the scene leaves
-/// it a freedom that is none of the part's symmetries, or leads it farther away. The residual is that of means over edge
-/// points, less than that of the points.
+/// The same of poses in the frame of the scene's points.
+Poses refineInFrame(const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings = {},
+  const Progress& progress = {});
+
+/// The pose, in the frame of the scene's points, refined once more by edges and surface, by residuals that change steadily
+/// and until it stays: from anywhere within 2 % of the diameter the same place. As it came where the scene leaves it a
+/// freedom that is none of the part's symmetries, or leads it farther away. The residual is that of means over edge points,
+/// less than that of the points.
 Pose settlePose(const Pose& pose, const SceneIndex& index);
 
 /// refinePoses in a scene that nothing else is asked about. Throws Error when the scene has no edges.

@@ -65,7 +65,7 @@ void settleTurn(Pose& pose, PoseComparison::Contender& asItIs, const PoseCompari
   {
     Pose turned = pose;
     turned.T_scene_model = T;
-    turned = refinePoses({ turned }, index, refinement)[0];
+    turned = refineInFrame({ turned }, index, refinement)[0];
     if (comparison.advantage(turned.T_scene_model, asItIs, 0.0) > 0.0)
     {
       pose = turned;
@@ -158,9 +158,10 @@ PoseVerificationSettings paperVerificationSettings()
 }
 
 Poses verifyPoses(
-  const Poses& poses, const SceneIndex& index, const PoseVerificationSettings& settings, const Progress& progress)
+  const Poses& candidates, const SceneIndex& index, const PoseVerificationSettings& settings, const Progress& progress)
 {
   const TrainedModel& model = index.model;
+  const Poses poses = inFrameOf(index.scene, candidates, model.symmetries);
   const bool byEvidence = settings.method == VerificationMethod::VisibleEvidence;
   const EvidenceCollector collector(
     index, settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * model.diameter);
@@ -272,8 +273,9 @@ Poses verifyPoses(
   Poses best;
   for (const int i : kept)
   {
-    best.push_back(scored[i]);
-    best.back().T_scene_model = nearestEqual(scored[i].T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
+    best.push_back(moved(scored[i], index.scene.frame.inverse()));
+    Eigen::Isometry3d& T = best.back().T_scene_model;
+    T = nearestEqual(T, Eigen::Isometry3d::Identity(), model.symmetries);
   }
   report(progress, 1.0);
   return best;

@@ -38,8 +38,8 @@ struct PoseVerificationSettings
 /// The paper's settings (Section 6) in place of the recommended ones.
 PoseVerificationSettings paperVerificationSettings();
 
-/// Scores every pose against the scene, keeps the best of each cluster and returns them best first.
-/// Without a surface only edges count.
+/// Scores every pose against the scene, keeps the best of each cluster and returns them best first, each turned least of
+/// those that the part's symmetries make equal. Without a surface only edges count.
 Poses verifyPoses(const Poses& poses, const SceneIndex& index, const PoseVerificationSettings& settings = {},
   const Progress& progress = {});
 

@@ -37,12 +37,6 @@ const Scene& checked(const Scene& scene)
   }
   return scene;
 }
-
-/// A direction that moves with the points.
-Eigen::Vector3f firstAxis(const Points& points)
-{
-  return principalFrame(points).linear().row(0).transpose().cast<float>();
-}
 }
 
 SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen, int threads)
@@ -51,7 +45,7 @@ SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen, int threa
   , view(trained)
   , edges(seen.edges.points, EdgeCellShare * trained.diameter)
   , lines(seen.edges, this->edges)
-  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, firstAxis(seen.surface), threads)
+  , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, threads)
   , surface(this->depth.means(), SurfaceCellShare * trained.diameter)
 {
 }

@@ -9,13 +9,13 @@ namespace meam
 struct Sensor
 {
   bool perspective = true;
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();   ///< of the sensor, perspective only
-  Eigen::Vector3f direction = Eigen::Vector3f::UnitZ(); ///< unit, the way it looks
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< of the sensor, perspective only
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ(); ///< unit, the way it looks
 
   /// Unit vector from `point` towards the sensor.
-  Eigen::Vector3f towards(const Eigen::Vector3f& point) const
+  Eigen::Vector3d towards(const Eigen::Vector3d& point) const
   {
-    return this->perspective ? (this->position - point).normalized() : Eigen::Vector3f(-this->direction);
+    return this->perspective ? (this->position - point).normalized() : Eigen::Vector3d(-this->direction);
   }
 };
 }

@@ -18,7 +18,7 @@ void Decision(benchmark::State& state, void (*change)(Settings&))
   change(settings);
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(meam::estimatePoses(search->model, search->scan, settings));
+    benchmark::DoNotOptimize(scenes::estimatePoses(*search, settings));
   }
 }
 

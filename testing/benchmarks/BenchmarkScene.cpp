@@ -11,7 +11,7 @@ void estimate(benchmark::State& state, const scenes::Search& search, int threads
   std::size_t poses = 0;
   for (auto _ : state)
   {
-    poses = meam::estimatePoses(search.model, search.scan, settings).size();
+    poses = scenes::estimatePoses(search, settings).size();
   }
   state.counters["poses"] = static_cast<double>(poses);
 }

@@ -16,6 +16,15 @@ struct Search
   const meam::Scene& scan;  ///< before they had
 };
 
+/// The whole online phase, from the scan as a filter has it.
+inline meam::Poses estimatePoses(const Search& search, const meam::DetectionSettings& settings)
+{
+  const meam::Scene& scan = search.scan;
+  const int threads = settings.tangents.threads;
+  return meam::estimatePoses(
+    search.model, scan.edges, meam::inOwnFrame(scan.surface, threads), scan.sensor, settings);
+}
+
 /// Copies of the bracket on a table, far enough from each other that no pair of points joins two; the bracket as it is
 /// trained by default.
 Search searchOfCopies(int copies);

@@ -32,13 +32,13 @@ const meam::BinScene& bin(int tenths, double baseline = 0.0)
   return bins[{ tenths, baseline }] = meam::simulateBin(meam::makeSamplePart(), settings);
 }
 
-meam::PointCloud edgesOf(const meam::BinScene& scene, const meam::SceneEdgeExtractionSettings& settings)
+meam::EdgeTangents edgesOf(const meam::BinScene& scene, const meam::SceneEdgeExtractionSettings& settings)
 {
   static const double diameter = meam::diameter(meam::makeSamplePart().vertices);
   meam::TangentEstimationSettings tangents;
   tangents.threads = settings.threads;
   return meam::estimateTangents(meam::extractSceneEdges(scene.cloud, scene.image, settings).cloud, diameter,
-    Eigen::Vector3f::UnitZ(), tangents);
+    Eigen::Vector3d::UnitZ(), tangents);
 }
 
 void run(benchmark::State& state, meam::SceneEdgeExtractionSettings settings, double baseline = 0.0)
@@ -48,7 +48,7 @@ void run(benchmark::State& state, meam::SceneEdgeExtractionSettings settings, do
   std::size_t points = 0;
   for (auto _ : state)
   {
-    points = edgesOf(scene, settings).size();
+    points = edgesOf(scene, settings).points.size();
   }
   state.counters["points"] = static_cast<double>(points);
 }

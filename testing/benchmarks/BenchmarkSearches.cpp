@@ -110,10 +110,10 @@ const Search* tohokuSearch()
     result->scan.surface = meam::readPCD(folder + "Scenes/Scene0.pcd").cloud.points;
     result->scan.edges.points = meam::readPCD(folder + "Scenes/Scene_boundary0.pcd").cloud.points;
     result->scan.sensor.perspective = false;
-    result->scan.sensor.direction = -Eigen::Vector3f::UnitZ();
+    result->scan.sensor.direction = -Eigen::Vector3d::UnitZ();
     result->scene = result->scan;
     result->scene.edges =
-      meam::estimateTangents(result->scan.edges, result->model.diameter, result->scan.sensor.direction);
+      parts::withTangents(result->scan.edges, result->model.diameter, result->scan.sensor.direction);
     return result;
   }();
   return kept ? &kept->search : nullptr;

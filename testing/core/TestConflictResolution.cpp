@@ -38,7 +38,7 @@ Eigen::Isometry3d place(double x, double y, double z)
 
 meam::Scene withTangents(meam::Scene scene)
 {
-  scene.edges = meam::estimateTangents(scene.edges, trained<plate>().diameter, scene.sensor.direction);
+  scene.edges = parts::withTangents(scene.edges, trained<plate>().diameter, scene.sensor.direction);
   return scene;
 }
 
@@ -73,8 +73,8 @@ TEST(ConflictResolution, PartsSideBySideAreFoundOnceEach)
   const meam::DetectionSettings all = meam::detectionSettings(meam::Preset::Recommended, 0);
   const meam::TrainedModel& bracket = scenes::bracket();
   const meam::TrainedModel& window = trained<parts::windowPlate>();
-  const meam::Poses brackets = meam::estimatePoses(bracket, raw, all);
-  const meam::Poses windows = meam::estimatePoses(window, raw, all);
+  const meam::Poses brackets = scenes::estimatePoses(bracket, raw, all);
+  const meam::Poses windows = scenes::estimatePoses(window, raw, all);
   const meam::SceneIndex bracketIndex(bracket, scene), windowIndex(window, scene);
   const auto found = meam::resolveConflicts({ { bracketIndex, brackets }, { windowIndex, windows } });
   ASSERT_GE(found.size(), copies.size());
@@ -121,8 +121,8 @@ TEST(ConflictResolution, ThePlateWithItsWindowAndWithout)
   for (const auto* scene : { &open, &closed })
   {
     const meam::DetectionSettings one = meam::detectionSettings(meam::Preset::Recommended, 1);
-    const meam::Pose asWindow = meam::estimatePoses(window, *scene, one).at(0);
-    const meam::Pose asWhole = meam::estimatePoses(whole, *scene, one).at(0);
+    const meam::Pose asWindow = scenes::estimatePoses(window, *scene, one).at(0);
+    const meam::Pose asWhole = scenes::estimatePoses(whole, *scene, one).at(0);
     EXPECT_EQ(typesLeft(*scene, window, asWindow, whole, asWhole), Types{ scene == &open ? 0 : 1 });
   }
 }

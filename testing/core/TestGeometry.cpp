@@ -106,7 +106,7 @@ TEST(Geometry, ThePrincipalFrameOfPointsOnALine)
 {
   // Their mean is (3, 0, 2); along x they are skewed towards greater values.
   const Eigen::Isometry3d frame =
-    meam::principalFrame({ { 0, 0, 2 }, { NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
+    meam::principalFrame(meam::Points{ { 0, 0, 2 }, { NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
   EXPECT_TRUE((frame * Eigen::Vector3d(3, 0, 2)).isZero(1e-9));
   EXPECT_TRUE((frame * Eigen::Vector3d(8, 0, 2)).isApprox(Eigen::Vector3d(5, 0, 0), 1e-9));
 }
@@ -132,5 +132,5 @@ TEST(Geometry, ThePrincipalFrameMovesWithThePoints)
   {
     EXPECT_LT((inFrame[i] - again[i]).norm(), 1e-3f);
   }
-  EXPECT_TRUE(meam::principalFrame({}).isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(meam::principalFrame(meam::Points{}).isApprox(Eigen::Isometry3d::Identity()));
 }

@@ -31,7 +31,7 @@ TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
   meam::StageTimes times;
   const meam::Poses poses =
-    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3), &times);
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3), &times);
   ASSERT_EQ(poses.size(), 3u);
   EXPECT_EQ(instancesFound(poses, 0.2, 0.3), 3);
   EXPECT_GT(times.detection, 0.0);
@@ -46,8 +46,8 @@ TEST(MEAMPoseEstimation, TheOrderOfPointsDoesNotMatter)
   random.shuffle(shuffled.edges.points);
   random.shuffle(shuffled.surface);
   const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  const meam::Poses one = meam::estimatePoses(scenes::bracket(), scene, settings);
-  const meam::Poses other = meam::estimatePoses(scenes::bracket(), shuffled, settings);
+  const meam::Poses one = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses other = scenes::estimatePoses(scenes::bracket(), shuffled, settings);
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t i = 0; i < one.size(); ++i)
   {
@@ -56,11 +56,40 @@ TEST(MEAMPoseEstimation, TheOrderOfPointsDoesNotMatter)
   }
 }
 
+TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses before = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  meam::PreciseCloud surface;
+  for (const auto& point : scene.surface)
+  {
+    surface.points.push_back(point.cast<double>());
+  }
+  std::mt19937 random(8);
+  for (const double distance : { 200.0, 1e6 })
+  {
+    const Eigen::Isometry3d T = parts::motion(random, distance);
+    const meam::PrecisePoints measured = parts::moved(surface.points, T);
+    const meam::Sensor sensor{ false, T * scene.sensor.position, T.linear() * scene.sensor.direction };
+    const meam::Poses after = meam::estimatePoses(scenes::bracket(), parts::moved(meam::PreciseCloud(scene.edges), T),
+      meam::inOwnFrame(measured.front().data(), measured.size()), sensor, settings);
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+    {
+      EXPECT_LT(meam::translationError(T * before[i].T_scene_model, after[i].T_scene_model), 1e-3) << i;
+      EXPECT_LT(meam::rotationError(T * before[i].T_scene_model, after[i].T_scene_model), 1e-3) << i;
+      EXPECT_NEAR(after[i].probability, before[i].probability, 1e-4) << i;
+      EXPECT_TRUE(meam::moved(before[i], T).fit.covariance.isApprox(after[i].fit.covariance, 1e-3)) << i;
+    }
+  }
+}
+
 TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
 {
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
   const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  const meam::Poses before = meam::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses before = scenes::estimatePoses(scenes::bracket(), scene, settings);
   std::mt19937 random(8);
   for (int trial = 0; trial < 3; ++trial)
   {
@@ -68,12 +97,12 @@ TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
     meam::Scene turned = scene;
     turned.edges.points = meam::moved(scene.edges.points, T);
     turned.surface = meam::moved(scene.surface, T);
-    turned.sensor.direction = T.linear().cast<float>() * scene.sensor.direction;
-    const meam::Poses after = meam::estimatePoses(scenes::bracket(), turned, settings);
+    turned.sensor.direction = T.linear() * scene.sensor.direction;
+    const meam::Poses after = scenes::estimatePoses(scenes::bracket(), turned, settings);
     ASSERT_EQ(after.size(), before.size());
     for (const meam::Pose& pose : before)
     {
-      // Rounding moves a point over the border of its cube now and then; nothing more may change.
+      // Rounding to single precision moves a point over the border of its cube now and then; nothing more may change.
       EXPECT_TRUE(std::any_of(after.begin(), after.end(),
         [&](const meam::Pose& other)
         {
@@ -89,7 +118,7 @@ TEST(MEAMPoseEstimation, ThePaperPresetFindsThemToo)
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
   meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Paper, 3);
   settings.detection.referenceShare = 0.2; // the paper's own range is 5 to 20 %
-  const meam::Poses poses = meam::estimatePoses(scenes::bracket(meam::Preset::Paper), scene, settings);
+  const meam::Poses poses = scenes::estimatePoses(scenes::bracket(meam::Preset::Paper), scene, settings);
   ASSERT_LE(poses.size(), 3u);
   EXPECT_GE(instancesFound(poses, 7.5, 5.0), 2); // its weaker tangents and scores miss some
 }
@@ -101,7 +130,7 @@ TEST(MEAMPoseEstimation, AModelOfTheMeshesEdgesFindsThemToo)
   training.boundary.method = meam::BoundaryMethod::MeshEdges;
   const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
-  const meam::Poses poses = meam::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
   EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
 }
 
@@ -114,7 +143,7 @@ TEST(MEAMPoseEstimation, AModelOfTheWholePartWithoutVisibilityFindsThemToo)
   // Every pair that the table reaches is there: also of points that are never seen together.
   EXPECT_EQ(static_cast<int>(model.table.size()), model.votingEdges * (model.votingEdges - 1));
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
-  const meam::Poses poses = meam::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
   EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
 }
 
@@ -123,7 +152,7 @@ TEST(MEAMPoseEstimation, AnEdgeCloudAloneIsEnough)
   meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
   scene.surface.clear();
   const meam::Poses poses =
-    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3));
   EXPECT_EQ(instancesFound(poses, 2.0, 3.0), 3);
 }
 
@@ -135,9 +164,9 @@ TEST(MEAMPoseEstimation, AnyMotionOfTheSceneMovesThePoses)
   meam::Scene turned = scene;
   turned.surface = parts::moved(scene.surface, T);
   turned.edges = parts::moved(scene.edges, T);
-  turned.sensor.direction = (T.linear() * scene.sensor.direction.cast<double>()).cast<float>();
+  turned.sensor.direction = T.linear() * scene.sensor.direction;
   const meam::Poses poses =
-    meam::estimatePoses(scenes::bracket(), turned, meam::detectionSettings(meam::Preset::Recommended, 3));
+    scenes::estimatePoses(scenes::bracket(), turned, meam::detectionSettings(meam::Preset::Recommended, 3));
   meam::Poses back = poses;
   for (auto& pose : back)
   {
@@ -150,9 +179,9 @@ TEST(MEAMPoseEstimation, ThreadsDoNotMatter)
 {
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
   const meam::Poses one =
-    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 1));
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 1));
   const meam::Poses three =
-    meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 3));
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 3));
   ASSERT_EQ(one.size(), three.size());
   for (std::size_t i = 0; i < one.size(); ++i)
   {
@@ -165,7 +194,7 @@ TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
 {
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
   double last = 0.0;
-  meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
+  scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
     [&](double share)
     {
       EXPECT_GE(share, last - 1e-9);
@@ -174,7 +203,7 @@ TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
       return true;
     });
   EXPECT_DOUBLE_EQ(last, 1.0);
-  EXPECT_THROW(meam::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
+  EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
                  [](double share) { return share < 0.4; }),
     meam::Aborted);
   EXPECT_THROW(meam::trainModel(parts::lBracket(), {}, [](double share) { return share < 0.3; }), meam::Aborted);
@@ -183,5 +212,5 @@ TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
 TEST(MEAMPoseEstimation, BadInput)
 {
   EXPECT_THROW(meam::trainModel({}, {}), meam::Error);
-  EXPECT_THROW(meam::estimatePoses(scenes::bracket(), {}, {}), meam::Error);
+  EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), {}, {}), meam::Error);
 }

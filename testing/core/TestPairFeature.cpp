@@ -127,6 +127,7 @@ TEST(PairFeature, FramesAndAnglesGiveThePoseBack)
     const Eigen::Isometry3d found = meam::alignFrames(model, scene, flip, alpha);
     EXPECT_LT(meam::rotationError(found, T), 0.05);
     EXPECT_LT((found * mi.cast<double>() - T * mi.cast<double>()).norm(), 0.02);
-    EXPECT_NEAR(found.linear().determinant(), 1.0, 1e-5);
+    EXPECT_NEAR(found.linear().determinant(), 1.0, 1e-12);
+    EXPECT_TRUE((found.linear().transpose() * found.linear()).isIdentity(1e-12));
   }
 }

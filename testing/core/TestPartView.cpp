@@ -17,7 +17,7 @@ meam::Sensor fromAbove()
 {
   meam::Sensor sensor;
   sensor.perspective = false;
-  sensor.direction = -Eigen::Vector3f::UnitZ();
+  sensor.direction = -Eigen::Vector3d::UnitZ();
   return sensor;
 }
 }

@@ -2,7 +2,7 @@
 // Parts made in code, and motions, for the tests.
 #pragma once
 
-#include "Geometry.h"
+#include "model/TangentEstimation.h"
 
 #include <cmath>
 #include <random>
@@ -115,6 +115,42 @@ inline meam::PointCloud moved(const meam::PointCloud& cloud, const Eigen::Isomet
   result.points = moved(cloud.points, T);
   result.normals = moved(cloud.normals, R);
   result.tangents = moved(cloud.tangents, R);
+  return result;
+}
+
+inline meam::PrecisePoints moved(const meam::PrecisePoints& points, const Eigen::Isometry3d& T)
+{
+  meam::PrecisePoints result;
+  for (const auto& point : points)
+  {
+    result.push_back(T * point);
+  }
+  return result;
+}
+
+/// In double precision.
+inline meam::PreciseCloud moved(const meam::PreciseCloud& cloud, const Eigen::Isometry3d& T)
+{
+  Eigen::Isometry3d R = Eigen::Isometry3d::Identity();
+  R.linear() = T.linear();
+  meam::PreciseCloud result = cloud;
+  result.points = moved(cloud.points, T);
+  result.tangents = moved(cloud.tangents, R);
+  return result;
+}
+
+/// Of the edge points those that stay, with tangents and weights.
+inline meam::PointCloud withTangents(const meam::PointCloud& edges, double partDiameter,
+  const Eigen::Vector3d& viewDirection, const meam::TangentEstimationSettings& settings = {})
+{
+  const meam::EdgeTangents found = meam::estimateTangents(edges, partDiameter, viewDirection, settings);
+  meam::PointCloud result = edges.subset(found.points);
+  result.tangents.clear();
+  for (const auto& tangent : found.tangents)
+  {
+    result.tangents.push_back(tangent.cast<float>());
+  }
+  result.weights = found.weights;
   return result;
 }
 }

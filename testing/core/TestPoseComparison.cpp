@@ -39,8 +39,8 @@ meam::Scene lyingPlate(bool hidden)
   drop(scene.surface);
   drop(scene.edges.points);
   scene.sensor.perspective = false;
-  scene.sensor.direction = -Eigen::Vector3f::UnitZ();
-  scene.edges = meam::estimateTangents(scene.edges, plate().diameter, scene.sensor.direction);
+  scene.sensor.direction = -Eigen::Vector3d::UnitZ();
+  scene.edges = parts::withTangents(scene.edges, plate().diameter, scene.sensor.direction);
   return scene;
 }
 

@@ -24,7 +24,7 @@ meam::DepthMap plane()
   }
   meam::Sensor sensor;
   sensor.perspective = false;
-  sensor.direction = -Eigen::Vector3f::UnitZ();
+  sensor.direction = -Eigen::Vector3d::UnitZ();
   return meam::DepthMap(points, sensor, 2.0);
 }
 

@@ -45,7 +45,7 @@ inline meam::Scene seenFromAbove(const std::vector<Copy>& copies)
   scene.surface = view.cloud.points;
   scene.edges.points = meam::extractBoundary({ view })[0].cloud.points;
   scene.sensor.perspective = false;
-  scene.sensor.direction = -Eigen::Vector3f::UnitZ();
+  scene.sensor.direction = -Eigen::Vector3d::UnitZ();
   return scene;
 }
 
@@ -62,8 +62,16 @@ inline meam::Scene seenFromAbove(const std::vector<Eigen::Isometry3d>& poses)
 
 inline meam::Scene withTangents(meam::Scene scene)
 {
-  scene.edges = meam::estimateTangents(scene.edges, bracket().diameter, scene.sensor.direction);
+  scene.edges = parts::withTangents(scene.edges, bracket().diameter, scene.sensor.direction);
   return scene;
+}
+
+/// The whole online phase with a scene in its own coordinates.
+inline meam::Poses estimatePoses(const meam::TrainedModel& model, const meam::Scene& scene,
+  const meam::DetectionSettings& settings, meam::StageTimes* times = nullptr, const meam::Progress& progress = {})
+{
+  return meam::estimatePoses(
+    model, scene.edges, meam::inOwnFrame(scene.surface), scene.sensor, settings, times, progress);
 }
 
 /// Flat on the table, turned by `degrees` about z; `up` false lies on its other face.

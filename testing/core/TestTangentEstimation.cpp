@@ -29,7 +29,7 @@ meam::PointCloud circle(float radius, int points)
   return cloud;
 }
 
-const Eigen::Vector3f Down(0, 0, -1);
+const Eigen::Vector3d Down(0, 0, -1);
 }
 
 TEST(TangentEstimation, OnALineItIsTheLine)
@@ -37,7 +37,7 @@ TEST(TangentEstimation, OnALineItIsTheLine)
   meam::TangentEstimationSettings settings;
   settings.leafSize = -1.0;
   const Eigen::Vector3f direction = Eigen::Vector3f(1, 2, 3).normalized();
-  const meam::PointCloud edges = meam::estimateTangents(line(direction, 41, 0.5f), 50.0, Down, settings);
+  const meam::PointCloud edges = parts::withTangents(line(direction, 41, 0.5f), 50.0, Down, settings);
   ASSERT_EQ(edges.size(), 41u);
   for (const auto& tangent : edges.tangents)
   {
@@ -50,7 +50,7 @@ TEST(TangentEstimation, OnACircleItIsAcrossTheRadius)
 {
   meam::TangentEstimationSettings settings;
   settings.leafSize = 1.0;
-  const meam::PointCloud edges = meam::estimateTangents(circle(20.0f, 500), 50.0, Down, settings);
+  const meam::PointCloud edges = parts::withTangents(circle(20.0f, 500), 50.0, Down, settings);
   EXPECT_GT(edges.size(), 80u);
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
@@ -72,7 +72,7 @@ TEST(TangentEstimation, LengthsFollowTheNoiseOfThePoints)
   }
   const auto typicalError = [&](const meam::TangentEstimationSettings& settings)
   {
-    const meam::PointCloud found = meam::estimateTangents(edges, 50.0, Down, settings);
+    const meam::PointCloud found = parts::withTangents(edges, 50.0, Down, settings);
     std::vector<double> errors;
     for (const auto& tangent : found.tangents)
     {
@@ -93,8 +93,8 @@ TEST(TangentEstimation, TheRadiusFollowsTheirSpacing)
   const meam::PointCloud sparse = line({ 0, 1, 0 }, 60, 1.9f);
   meam::TangentEstimationSettings fixed;
   fixed.radius = 3.0;
-  EXPECT_TRUE(meam::estimateTangents(sparse, 50.0, Down, fixed).empty());
-  const meam::PointCloud edges = meam::estimateTangents(sparse, 50.0, Down);
+  EXPECT_TRUE(parts::withTangents(sparse, 50.0, Down, fixed).empty());
+  const meam::PointCloud edges = parts::withTangents(sparse, 50.0, Down);
   EXPECT_GT(edges.size(), 50u);
   for (const auto& tangent : edges.tangents)
   {
@@ -108,11 +108,11 @@ TEST(TangentEstimation, ItMovesWithThePoints)
   settings.leafSize = -1.0;
   std::mt19937 random(3);
   const meam::PointCloud flat = circle(20.0f, 200);
-  const meam::PointCloud expected = meam::estimateTangents(flat, 50.0, Down, settings);
+  const meam::PointCloud expected = parts::withTangents(flat, 50.0, Down, settings);
   for (int trial = 0; trial < 5; ++trial)
   {
     const Eigen::Isometry3d T = parts::motion(random, 100.0);
-    const meam::PointCloud found = meam::estimateTangents(parts::moved(flat, T), 50.0, Down, settings);
+    const meam::PointCloud found = parts::withTangents(parts::moved(flat, T), 50.0, Down, settings);
     ASSERT_EQ(found.size(), expected.size());
     const meam::PointCloud turned = parts::moved(expected, T);
     for (std::size_t i = 0; i < found.size(); ++i)
@@ -126,9 +126,9 @@ TEST(TangentEstimation, TheNumberOfThreadsDoesNotMatter)
 {
   meam::TangentEstimationSettings settings;
   settings.threads = 1;
-  const meam::PointCloud one = meam::estimateTangents(circle(20.0f, 2000), 50.0, Down, settings);
+  const meam::PointCloud one = parts::withTangents(circle(20.0f, 2000), 50.0, Down, settings);
   settings.threads = 4;
-  const meam::PointCloud four = meam::estimateTangents(circle(20.0f, 2000), 50.0, Down, settings);
+  const meam::PointCloud four = parts::withTangents(circle(20.0f, 2000), 50.0, Down, settings);
   EXPECT_EQ(one.points, four.points);
   EXPECT_EQ(one.tangents, four.tangents);
   EXPECT_EQ(one.weights, four.weights);
@@ -149,7 +149,7 @@ TEST(TangentEstimation, TilesFollowAlgorithms1And2)
     cloud.points.emplace_back(0.25f + 0.5f * i, 1.0f, 2.0f);
   }
   cloud.points.emplace_back(7.3f, 4.4f, 2.0f);
-  const meam::PointCloud edges = meam::estimateTangents(cloud, 0.0, Down, settings);
+  const meam::PointCloud edges = parts::withTangents(cloud, 0.0, Down, settings);
   ASSERT_EQ(edges.size(), 20u); // 2 of 11 points lie on a line through the lone one: too few
   for (const auto& tangent : edges.tangents)
   {
@@ -162,7 +162,7 @@ TEST(TangentEstimation, PointsWithoutALineAreLeftOut)
   meam::PointCloud cloud = line({ 1, 0, 0 }, 30, 0.5f);
   cloud.points.emplace_back(0, 40, 0);
   cloud.pointIds.push_back(7);
-  const meam::PointCloud edges = meam::estimateTangents(cloud, 50.0, Down);
+  const meam::PointCloud edges = parts::withTangents(cloud, 50.0, Down);
   for (const int id : edges.pointIds)
   {
     EXPECT_NE(id, 7);
@@ -181,27 +181,27 @@ TEST(TangentEstimation, PointsThatCarryTangentsAreOnlyThinned)
   for (const auto method : { meam::TangentMethod::RobustLine, meam::TangentMethod::Tiles })
   {
     settings.method = method;
-    const meam::PointCloud edges = meam::estimateTangents(cloud, 50.0, Down, settings);
+    const meam::PointCloud edges = parts::withTangents(cloud, 50.0, Down, settings);
     ASSERT_EQ(edges.size(), 11u) << "the middle of the line is that of a cube";
     EXPECT_EQ(edges.tangents, meam::Points(11, Eigen::Vector3f::UnitY()));
     EXPECT_EQ(edges.edgeTypes, std::vector<meam::EdgeType>(11, meam::EdgeType::Crease));
     EXPECT_EQ(edges.weights, std::vector<float>(11, 1.0f));
-    EXPECT_EQ(meam::estimateTangents(edges, 50.0, Down, settings).points, edges.points);
+    EXPECT_EQ(parts::withTangents(edges, 50.0, Down, settings).points, edges.points);
   }
   // Nothing else has to be known of the part.
   meam::TangentEstimationSettings given;
   given.leafSize = 1.0;
-  EXPECT_NO_THROW(meam::estimateTangents(meam::estimateTangents(line({ 1, 0, 0 }, 41, 0.5f), 50.0, Down), 0.0, Down, given));
+  EXPECT_NO_THROW(parts::withTangents(parts::withTangents(line({ 1, 0, 0 }, 41, 0.5f), 50.0, Down), 0.0, Down, given));
 }
 
 TEST(TangentEstimation, BadInput)
 {
-  EXPECT_THROW(meam::estimateTangents({}, 50.0, Down), meam::Error);
+  EXPECT_THROW(parts::withTangents({}, 50.0, Down), meam::Error);
   meam::PointCloud invalid;
   invalid.points.assign(5, Eigen::Vector3f::Constant(NAN));
-  EXPECT_THROW(meam::estimateTangents(invalid, 50.0, Down), meam::Error);
-  EXPECT_THROW(meam::estimateTangents(line({ 1, 0, 0 }, 10, 1.0f), 0.0, Down), meam::Error); // no length known
+  EXPECT_THROW(parts::withTangents(invalid, 50.0, Down), meam::Error);
+  EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 10, 1.0f), 0.0, Down), meam::Error); // no length known
   meam::PointCloud some = line({ 1, 0, 0 }, 30, 0.5f);
   some.points[3].x() = NAN;
-  EXPECT_NO_THROW(meam::estimateTangents(some, 50.0, Down));
+  EXPECT_NO_THROW(parts::withTangents(some, 50.0, Down));
 }

@@ -56,7 +56,7 @@ const meam::Scene& scene()
   static const meam::Scene seen = []
   {
     meam::Scene scene = scenes::seenFromAbove({ scenes::Copy{ gear(), turned(0) } });
-    scene.edges = meam::estimateTangents(scene.edges, model().diameter, scene.sensor.direction);
+    scene.edges = parts::withTangents(scene.edges, model().diameter, scene.sensor.direction);
     return scene;
   }();
   return seen;

@@ -7,7 +7,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 
 from ppfmeam.filters import vtkMEAMPoseVerification, vtkMEAMTangentEstimation
 from meamtest import (MovedView, Trained, bracket, check, cloud, connect, fails, field, image, is_empty,
-                      points, pose_error, poses, prints, run, tuples)
+                      is_rotation, points, pose_error, poses, prints, run, tuples)
 
 trained = Trained(bracket())
 model = run(trained.model)
@@ -110,6 +110,10 @@ check(visible(cloud(sheet), ViewDirection=(0, 0, -1)) > 0.9,
       "automatic: any other cloud is seen along the view direction")
 check(visible(cloud(sheet), Projection=2, ViewDirection=(0, 0, -1), SensorPosition=(100, 0, 1000)) > 0.9,
       "from 1 m above")
+
+# A file's rotation of few decimals comes out as a rotation.
+rounded = run(verification(poses(tuple(round(c, 4) for c in scene.transform))))
+check(is_rotation(tuples(rounded, "Transform")[0]), "the rotation of few decimals")
 
 fails(verification(poses(tuple(2 * c for c in scene.transform))), "pose 0", "rotation")
 fails(verification(poses(shifted(math.nan))), "pose 0")

@@ -290,5 +290,11 @@ def pose_error(a, b):
     return math.dist((a[3], a[7], a[11]), (b[3], b[7], b[11])), angle
 
 
+def is_rotation(transform):
+    """Whether the rows of a row-major 4 x 4 transform are at right angles and unit to 1e-9."""
+    rows = [transform[4 * i:4 * i + 3] for i in range(3)]
+    return all(abs(sum(x * y for x, y in zip(rows[i], rows[k])) - (i == k)) < 1e-9 for i in range(3) for k in range(3))
+
+
 def close(a, b, tolerance=1e-5):
     return len(a) == len(b) and all(abs(x - y) <= tolerance for x, y in zip(a, b))
