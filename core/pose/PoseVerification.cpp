@@ -18,7 +18,7 @@ namespace
 constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
-constexpr double LeastAtAGlance = 0.4;  // share of the surface; a pose with less is not looked at closely
+constexpr double LeastAtAGlance = 0.5;  // share of the surface; a pose with less is not looked at closely
 constexpr std::size_t CandidateStride = 2; // of the points that judge more candidates than can stay
 constexpr double LeastPlausible = 0.001; // of the best candidate's preference: those with less are not worth refining
 constexpr int TurnIterations = 6;       // of the refinement of another turn, which is nearly right
