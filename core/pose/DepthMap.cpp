@@ -213,27 +213,24 @@ void DepthMap::fillCells(const Points& surface, const Points& projected, const s
       seen.farthest = std::max(seen.farthest, projected[i].z());
     }
   }
-  // Sums are of what is beyond the first point: they keep their precision far from the origin.
-  std::vector<float> weights(lastCell - firstCell, 0.0f);
-  std::vector<int> first(lastCell - firstCell);
+  // In double precision the order of the points has no part in what a sum is rounded to.
+  std::vector<Eigen::Vector4d> sums(lastCell - firstCell, Eigen::Vector4d::Zero()); // of weighted points, and weights
   for (int i = 0; i < size; ++i)
   {
     if (isHere(i) && projected[i].z() <= this->Cells[cellOf[i]].nearest + layer)
     {
-      const int k = cellOf[i] - firstCell;
-      const float weight = weightInCell(this->indexOf(projected[i]));
-      first[k] = weights[k] > 0.0f ? first[k] : i;
-      weights[k] += weight;
-      this->Cells[cellOf[i]].mean += weight * (surface[i] - surface[first[k]]);
+      const double weight = weightInCell(this->indexOf(projected[i]));
+      sums[cellOf[i] - firstCell] += weight * surface[i].homogeneous().cast<double>();
     }
   }
   for (int k = 0; k < lastCell - firstCell; ++k)
   {
-    if (weights[k] > 0.0f)
+    const double weight = sums[k].w();
+    if (weight > 0.0)
     {
       Cell& cell = this->Cells[firstCell + k];
-      cell.mean = surface[first[k]] + cell.mean / weights[k];
-      cell.weight = std::min(1.0f, weights[k]);
+      cell.mean = (sums[k].head<3>() / weight).cast<float>();
+      cell.weight = static_cast<float>(std::min(1.0, weight));
     }
   }
 }
