@@ -37,10 +37,41 @@ double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
   return explained;
 }
 
+PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_scene_model) const
+{
+  const TrainedModel& model = this->Index.model;
+  const float far = static_cast<float>(FarShare * model.diameter);
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const auto visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
+  PointColumns points;
+  std::vector<DepthMap::Relation> relations;
+  const auto those = [&](const std::vector<int>& indices, const Points& of, DepthMap::Relation wanted)
+  {
+    const int count = static_cast<int>(indices.size());
+    points.resize(indices.size());
+    for (int k = 0; k < count; ++k)
+    {
+      points.set(k, of[indices[k]]);
+    }
+    relations.resize(indices.size());
+    this->Index.depth.relations(T, points, 0, count, far, relations.data());
+    PointColumns found;
+    for (int k = 0; k < count; ++k)
+    {
+      if (relations[k] == wanted)
+      {
+        found.add(points[k]);
+      }
+    }
+    return found;
+  };
+  return { those(visible->surface, model.surface.points, DepthMap::Relation::InFront),
+    those(visible->edges, model.edges.points, DepthMap::Relation::OnSurface) };
+}
+
 PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const
 {
-  return { T_scene_model, this->explained(T_scene_model),
-    this->Index.view.visible(T_scene_model, this->Index.scene.sensor) };
+  return { T_scene_model, this->explained(T_scene_model), this->predicted(T_scene_model) };
 }
 
 double PoseComparison::contradicted(const Contender& one, const Contender& other) const
@@ -49,33 +80,23 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   const float far = static_cast<float>(FarShare * model.diameter);
   const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
   const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
-  PointColumns points;
-  std::vector<float> distances;              // to what the other predicts
-  std::vector<DepthMap::Relation> relations; // to what the sensor saw
-  const auto lookUp = [&](const std::vector<int>& indices, const Points& from, const DistanceField& field)
+  std::vector<float> distances; // to what the other predicts
+  const auto lookUp = [&](const PointColumns& points, const DistanceField& field)
   {
-    const int count = static_cast<int>(indices.size());
-    points.resize(indices.size());
-    for (int k = 0; k < count; ++k)
-    {
-      points.set(k, from[indices[k]]);
-    }
-    distances.resize(indices.size());
-    relations.resize(indices.size());
-    field.at(toOther, points, 0, count, distances.data());
-    this->Index.depth.relations(T, points, 0, count, far, relations.data());
+    distances.resize(points.size());
+    field.at(toOther, points, 0, static_cast<int>(points.size()), distances.data());
   };
   double sum = 0.0;
-  lookUp(one.visible->surface, model.surface.points, model.surfaceDistance);
-  for (std::size_t k = 0; k < points.size(); ++k)
+  lookUp(one.predicted.passed, model.surfaceDistance);
+  for (const float distance : distances)
   {
-    sum += (distances[k] >= far) & (relations[k] == DepthMap::Relation::InFront) ? PastWeight : 0.0;
+    sum += distance >= far ? PastWeight : 0.0;
   }
-  lookUp(one.visible->edges, model.edges.points, model.edgeDistance);
-  for (std::size_t k = 0; k < points.size(); ++k)
+  const PointColumns& edges = one.predicted.edges;
+  lookUp(edges, model.edgeDistance);
+  for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    const bool isAlone = (distances[k] >= far) & (relations[k] == DepthMap::Relation::OnSurface);
-    sum += isAlone && this->Index.edges.nearest(T * points[k], far) < 0 ? MissingWeight : 0.0;
+    sum += distances[k] >= far && this->Index.edges.nearest(T * edges[k], far) < 0 ? MissingWeight : 0.0;
   }
   return sum;
 }
@@ -93,7 +114,7 @@ double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const C
   {
     return most;
   }
-  one.visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
+  one.predicted = this->predicted(T_scene_model);
   return most - this->contradicted(one, other);
 }
 

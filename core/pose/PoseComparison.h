@@ -3,8 +3,6 @@
 
 #include "pose/SceneIndex.h"
 
-#include <memory>
-
 namespace meam
 {
 /// Decides between poses of one instance by what the sensor saw: every measured point and every scene edge near the
@@ -19,13 +17,19 @@ public:
   {
   }
 
-  /// A pose, what of the part the sensor should see at it, and how many points of the measured surface it explains:
-  /// one for each that lies on the part, less for those beside it.
+  /// What of the part the sensor should see at a pose and may not be there, in the part's frame.
+  struct Prediction
+  {
+    PointColumns passed; ///< points of its surface that the sensor looked past
+    PointColumns edges;  ///< edge points on a surface that it saw
+  };
+  /// A pose, how many points of the measured surface it explains (one for each that lies on the part, less for those
+  /// beside it), and what it predicts.
   struct Contender
   {
     Eigen::Isometry3d T_scene_model;
     double explained;
-    std::shared_ptr<const PartView::Visible> visible;
+    Prediction predicted;
   };
   Contender contender(const Eigen::Isometry3d& T_scene_model) const;
 
@@ -38,10 +42,10 @@ public:
 
 private:
   double explained(const Eigen::Isometry3d& T_scene_model) const;
-  /// Without what contradicts `one`, which need not know what is visible of it.
+  Prediction predicted(const Eigen::Isometry3d& T_scene_model) const;
+  /// Without what contradicts `one`, which need not know what it predicts.
   double advantageAtMost(const Contender& one, const Contender& other) const;
-  /// What `one` predicts and the other does not: surface that the sensor looked past, and edges on surface it saw where
-  /// the scene has none.
+  /// What `one` predicts and the other does not, and is not there: surface, and edges on surface.
   double contradicted(const Contender& one, const Contender& other) const;
 
   const SceneIndex& Index;
