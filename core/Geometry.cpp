@@ -214,8 +214,8 @@ void requirePoints(std::size_t count, std::size_t finite, const std::string& wha
   }
   if (finite == 0)
   {
-    throw Error(what + " has only invalid points (NaN): the sensor returned no depth, or the file's fields are not "
-                       "x, y and z.");
+    throw Error(what + " has only invalid points (NaN, infinite or beyond single precision): the sensor returned no "
+                       "depth, or the file's fields are not x, y and z.");
   }
 }
 
@@ -225,7 +225,7 @@ void requirePoints(const Points& points, const std::string& what)
   requirePoints(points.size(), isAnyFinite ? 1 : 0, what);
 }
 
-PointCloud finitePoints(const PointCloud& cloud)
+PointCloud finitePoints(PointCloud cloud)
 {
   std::vector<int> finite;
   finite.reserve(cloud.size());

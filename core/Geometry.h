@@ -61,7 +61,7 @@ void requirePoints(const Points& points, const std::string& what);
 void requirePoints(std::size_t count, std::size_t finite, const std::string& what);
 
 /// The cloud without points that have a coordinate that is not finite.
-PointCloud finitePoints(const PointCloud& cloud);
+PointCloud finitePoints(PointCloud cloud);
 
 /// Axis-aligned bounds of the finite points.
 Eigen::AlignedBox3f bounds(const Points& points);

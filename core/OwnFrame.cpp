@@ -9,21 +9,30 @@ namespace meam
 {
 namespace
 {
-template <typename Scalar>
-FramedPoints finiteInOwnFrame(const Scalar* xyz, std::size_t count, int threads)
+/// Rounds what at(i) gives, in double precision, of each of `count` points.
+template <typename At>
+Points rounded(std::size_t count, int threads, At&& at)
 {
-  FramedPoints result;
-  result.frame = principalFrame(xyz, count);
-  result.points.resize(count);
+  Points points(count);
   parallelFor(static_cast<int>(count), threads, {},
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        const Eigen::Matrix<Scalar, 3, 1> point(xyz + 3 * static_cast<std::ptrdiff_t>(i));
-        result.points[i] = (result.frame * point.template cast<double>()).template cast<float>();
+        points[i] = at(static_cast<std::size_t>(i)).template cast<float>();
       }
     });
+  return points;
+}
+
+template <typename Scalar>
+FramedPoints finiteInOwnFrame(const Scalar* xyz, std::size_t count, int threads)
+{
+  FramedPoints result;
+  result.frame = principalFrame(xyz, count);
+  result.points = rounded(count, threads,
+    [&](std::size_t i) -> Eigen::Vector3d
+    { return result.frame * Eigen::Matrix<Scalar, 3, 1>(xyz + 3 * i).template cast<double>(); });
   const auto isNone = [](const Eigen::Vector3f& point) { return !point.allFinite(); };
   result.points.erase(std::remove_if(result.points.begin(), result.points.end(), isNone), result.points.end());
   return result;
@@ -48,27 +57,21 @@ PreciseCloud::PreciseCloud(const PointCloud& cloud)
 {
 }
 
-PointCloud inFrame(const PreciseCloud& cloud, const Eigen::Isometry3d& frame)
+PointCloud inFrame(const PreciseCloud& cloud, const Eigen::Isometry3d& frame, int threads)
 {
   PointCloud result;
-  result.points.reserve(cloud.points.size());
-  for (const Eigen::Vector3d& point : cloud.points)
-  {
-    result.points.push_back((frame * point).cast<float>());
-  }
-  result.tangents.reserve(cloud.tangents.size());
-  for (const Eigen::Vector3d& tangent : cloud.tangents)
-  {
-    result.tangents.push_back((frame.linear() * tangent).cast<float>());
-  }
+  result.points = rounded(cloud.points.size(), threads,
+    [&](std::size_t i) -> Eigen::Vector3d { return frame * cloud.points[i]; });
+  result.tangents = rounded(cloud.tangents.size(), threads,
+    [&](std::size_t i) -> Eigen::Vector3d { return frame.linear() * cloud.tangents[i]; });
   result.weights = cloud.weights;
   return result;
 }
 
-FramedCloud inOwnFrame(const PreciseCloud& cloud)
+FramedCloud inOwnFrame(const PreciseCloud& cloud, int threads)
 {
   const Eigen::Isometry3d frame = principalFrame(cloud.points);
-  return { frame, inFrame(cloud, frame) };
+  return { frame, inFrame(cloud, frame, threads) };
 }
 
 FramedPoints inOwnFrame(const float* xyz, std::size_t count, int threads)

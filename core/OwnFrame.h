@@ -34,10 +34,10 @@ struct FramedCloud
 };
 
 /// The cloud in a frame; points that are not finite stay so.
-PointCloud inFrame(const PreciseCloud& cloud, const Eigen::Isometry3d& frame);
+PointCloud inFrame(const PreciseCloud& cloud, const Eigen::Isometry3d& frame, int threads = 1);
 
 /// The cloud in its principal frame.
-FramedCloud inOwnFrame(const PreciseCloud& cloud);
+FramedCloud inOwnFrame(const PreciseCloud& cloud, int threads = 1);
 
 /// Those of `count` points, x y z each, that are finite, in their principal frame. The same for any number of threads.
 FramedPoints inOwnFrame(const float* xyz, std::size_t count, int threads = 1);

@@ -78,6 +78,8 @@ PointGrid::PointGrid(const Points& points, double cellSize)
   this->InverseCell = static_cast<float>(1.0 / cell);
   this->Size = cells().cast<int>();
   std::vector<int> cellAt(points.size(), -1);
+  // There are many more cells than points. Starts count each cell's points first, then are where they end, and at last
+  // where they begin.
   this->Starts.assign(static_cast<std::size_t>(this->Size.x()) * this->Size.y() * this->Size.z() + 1, 0);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -85,18 +87,17 @@ PointGrid::PointGrid(const Points& points, double cellSize)
     {
       const Eigen::Vector3i at = this->cellOf(points[i]);
       cellAt[i] = (at.z() * this->Size.y() + at.y()) * this->Size.x() + at.x();
-      ++this->Starts[cellAt[i] + 1];
+      ++this->Starts[cellAt[i]];
     }
   }
   std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-  std::vector<int> next(this->Starts.begin(), this->Starts.end() - 1);
   this->Order.resize(this->Starts.back());
   this->Sorted.resize(this->Starts.back());
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = points.size(); i-- > 0;)
   {
     if (cellAt[i] >= 0)
     {
-      const int place = next[cellAt[i]]++;
+      const int place = --this->Starts[cellAt[i]];
       this->Order[place] = static_cast<int>(i);
       this->Sorted.set(place, points[i]);
     }
@@ -145,15 +146,16 @@ ThinnedPoints thin(const Points& points, double leafSize, bool fade)
   {
     if (points[i].allFinite())
     {
-      const Eigen::Array3d place = placeOf(points[i]);
-      const double weight = fade ? weightInCell(place) : 1.0;
-      const auto cube = (place.floor() - low).max(0.0).min(most).cast<std::int64_t>().eval();
+      const Eigen::Array3d place = (placeOf(points[i]) - low).max(0.0).min(most + 1.0);
+      const Eigen::Array<std::int64_t, 3, 1> cube = place.min(most).cast<std::int64_t>();
       const std::int64_t number = (cube.z() << bitsY | cube.y()) << bitsX | cube.x();
+      const double weight = fade ? weightInCell<Eigen::Array3d>(place - cube.cast<double>()) : 1.0;
       members.push_back({ static_cast<std::uint64_t>(number), static_cast<int>(i), static_cast<float>(weight) });
     }
   }
   sortByCube(members, bitsX + bitsY + bitsZ);
 
+  const double same = SameDistance * leafSize;
   for (auto begin = members.begin(); begin != members.end();)
   {
     const auto end = std::find_if(begin, members.end(), [&](const Member& other) { return other.cube != begin->cube; });
@@ -169,13 +171,13 @@ ThinnedPoints thin(const Points& points, double leafSize, bool fade)
     const auto offCentre = [&](const Eigen::Vector3f& point)
     { return (placeOf(point) - cubeOf(point) - 0.5).matrix().squaredNorm(); };
     int nearest = begin->point;
-    double distance = (points[nearest].cast<double>() - mean).norm() / leafSize;
+    double distance = (points[nearest].cast<double>() - mean).norm();
     for (auto member = begin + 1; member < end; ++member)
     {
       const Eigen::Vector3f& point = points[member->point];
-      const double other = (point.cast<double>() - mean).norm() / leafSize;
+      const double other = (point.cast<double>() - mean).norm();
       const double nearer = distance - other;
-      if (nearer > SameDistance || (nearer > -SameDistance && offCentre(point) < offCentre(points[nearest])))
+      if (nearer > same || (nearer > -same && offCentre(point) < offCentre(points[nearest])))
       {
         nearest = member->point;
         distance = other;

@@ -12,6 +12,8 @@ namespace meam
 class PointGrid
 {
 public:
+  /// No points.
+  PointGrid() = default;
   /// `cellSize` in mm; queries are fastest at radii near it. Points that are not finite are left out.
   /// Throws Error when the cell size is not positive or the points' extent is beyond all measure.
   PointGrid(const Points& points, double cellSize);
@@ -113,14 +115,14 @@ private:
   PointColumns Sorted;
 };
 
-/// What a point counts in its cell, (0, 1]: 1, and next to the border of the cell less. `place` is in sides of a cell from
-/// any cell's corner. So points come into sums slowly as they come over a border.
+/// What a point counts in its cell, (0, 1]: 1, and next to the border of the cell less. `place` is in sides of the cell from
+/// its corner. So points come into sums slowly as they come over a border.
 template <typename Array>
 typename Array::Scalar weightInCell(const Array& place)
 {
   using Scalar = typename Array::Scalar;
   constexpr Scalar strip = Scalar(0.15); // next to the border
-  const Array inside = Scalar(0.5) - (place - place.floor() - Scalar(0.5)).abs();
+  const Array inside = Scalar(0.5) - (place - Scalar(0.5)).abs();
   return std::max<Scalar>(std::numeric_limits<float>::min(), (inside / strip).min(Scalar(1)).prod());
 }
 

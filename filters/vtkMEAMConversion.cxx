@@ -9,6 +9,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkIntArray.h"
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace vtkMEAMConversion
@@ -160,13 +162,16 @@ meam::FramedPoints seenPoints(const Scalar* xyz, std::size_t count, vtkUnsignedC
 
 void addVertices(vtkPolyData* output)
 {
-  vtkNew<vtkCellArray> vertices;
   const vtkIdType count = output->GetNumberOfPoints();
-  vertices->AllocateExact(count, count);
-  for (vtkIdType i = 0; i < count; ++i)
+  const auto numbers = [](vtkIdType last)
   {
-    vertices->InsertNextCell(1, &i);
-  }
+    auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+    ids->SetNumberOfTuples(last);
+    std::iota(ids->GetPointer(0), ids->GetPointer(0) + last, 0);
+    return ids;
+  };
+  vtkNew<vtkCellArray> vertices;
+  vertices->SetData(numbers(count + 1), numbers(count));
   output->SetVerts(vertices);
 }
 

@@ -158,7 +158,7 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         found.cloud = toCloud(boundary);
         meam::requirePoints(found.cloud.points, "The scene's boundary cloud");
-        found.cloud = meam::finitePoints(found.cloud);
+        found.cloud = meam::finitePoints(std::move(found.cloud));
         sceneEdges = toPreciseCloud(boundary);
       }
       else

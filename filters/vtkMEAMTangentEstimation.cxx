@@ -77,11 +77,8 @@ int vtkMEAMTangentEstimation::RequestData(
     const meam::Progress progress = progressOf(this);
     if (auto* scene = vtkPolyData::SafeDownCast(input))
     {
-      const meam::Points points = toCloud(scene).points;
-      meam::requirePoints(points, "The edge cloud");
       if (model)
       {
-        meam::requireSameUnits(points, diameter);
         setDiameter(output, diameter);
       }
       const meam::Sensor sensor = sensorOf(OrthographicProjection, this->ViewDirection, this->ViewDirection, nullptr);

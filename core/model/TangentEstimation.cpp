@@ -13,7 +13,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 
 namespace meam
 {
@@ -252,11 +251,10 @@ PointStatistics statisticsOf(
   return { quantile(deviations, 0.25), quantile(distances, 0.5) };
 }
 
-/// Tangents at the points `kept`, by lines through the points `sparse`. `grid` is of all points, with cells of `radius`, that
-/// of the settings or the part. Lengths of the settings that are 0 follow the points, too.
-Points robustTangents(const Points& edges, const std::vector<int>& kept, const std::vector<int>& sparse,
-  const PointGrid& grid, double radius, double partDiameter, const TangentEstimationSettings& settings,
-  const Progress& progress)
+/// Tangents at the points `kept`, by lines through points of `ends`. `grid` is of all points; cells of both are of `radius`,
+/// that of the settings or the part. Lengths of the settings that are 0 follow the points, too.
+Points robustTangents(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, const PointGrid& ends,
+  double radius, double partDiameter, const TangentEstimationSettings& settings, const Progress& progress)
 {
   double inlierDistance = settings.inlierDistance;
   if (settings.radius <= 0.0 || settings.inlierDistance <= 0.0)
@@ -272,12 +270,6 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const s
         MostRadiusShare * partDiameter);
     }
   }
-  Points ends;
-  for (const int i : sparse)
-  {
-    ends.push_back(edges[i]);
-  }
-  const PointGrid sparseGrid(ends, radius);
   Points tangents(kept.size());
   parallelFor(static_cast<int>(kept.size()), settings.threads, progress,
     [&](int begin, int end, int)
@@ -287,7 +279,7 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const s
       {
         const Eigen::Vector3f& centre = edges[kept[i]];
         offsets.gather(grid, centre, radius);
-        candidates.gather(sparseGrid, centre, radius);
+        candidates.gather(ends, centre, radius);
         tangents[i] = robustLine(offsets, candidates, inlierDistance);
       }
     });
@@ -391,21 +383,29 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
   const double leaf = length(settings.leafSize, leafShare);
   double radius = 0.0;
   ThinnedPoints kept;
-  std::vector<int> candidates;
-  std::optional<PointGrid> grid;
+  PointGrid grid, ends; // of all points, and of those that lines are tried through
   std::vector<std::function<void()>> works{ [&] { kept = thinWithWeights(local, leaf); } };
   if (robust)
   {
     radius = length(std::max(0.0, settings.radius), RadiusShare);
     length(settings.inlierDistance, InlierShare);
-    works.push_back([&] { candidates = thinPoints(local, CandidateShare * radius); });
-    works.push_back([&] { grid.emplace(local, radius); });
+    works.push_back(
+      [&]
+      {
+        Points sparse;
+        for (const int i : thinPoints(local, CandidateShare * radius))
+        {
+          sparse.push_back(local[i]);
+        }
+        ends = PointGrid(sparse, radius);
+      });
+    works.push_back([&] { grid = PointGrid(local, radius); });
   }
   inParallel(settings.threads, works);
   Points tangents;
   if (robust)
   {
-    tangents = robustTangents(local, kept.indices, candidates, *grid, radius, partDiameter, settings, progress);
+    tangents = robustTangents(local, kept.indices, grid, ends, radius, partDiameter, settings, progress);
   }
   else if (given.empty())
   {
@@ -436,6 +436,7 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
 PreciseCloud EdgeTangents::of(const PreciseCloud& edges) const
 {
   PreciseCloud cloud;
+  cloud.points.reserve(this->points.size());
   for (const int i : this->points)
   {
     cloud.points.push_back(edges.points[i]);
@@ -448,17 +449,25 @@ PreciseCloud EdgeTangents::of(const PreciseCloud& edges) const
 EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
-  const auto [frame, framed] = inOwnFrame(edges);
-  requirePoints(framed.points, "The edge cloud");
-  std::vector<int> finite;
-  for (std::size_t i = 0; i < framed.size(); ++i)
+  auto [frame, local] = inOwnFrame(edges, settings.threads);
+  requirePoints(local.points, "The scene's edge cloud");
+  if (partDiameter > 0.0)
   {
-    if (framed.points[i].allFinite())
+    requireSameUnits(local.points, partDiameter);
+  }
+  std::vector<int> finite;
+  finite.reserve(local.size());
+  for (std::size_t i = 0; i < local.size(); ++i)
+  {
+    if (local.points[i].allFinite())
     {
       finite.push_back(static_cast<int>(i));
     }
   }
-  const PointCloud local = finite.size() == framed.size() ? framed : framed.subset(finite);
+  if (finite.size() < local.size())
+  {
+    local = local.subset(finite);
+  }
   const auto tiles = [&](const std::vector<int>& kept)
   {
     Points points;
@@ -472,14 +481,20 @@ EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, co
   };
   LocalTangents found = estimate(local.points, local.tangents, partDiameter, SceneLeafShare, tiles, settings, progress);
   EdgeTangents result;
-  for (std::size_t k = 0; k < found.points.size(); ++k)
-  {
-    const int i = finite[found.points[k]];
-    result.points.push_back(i);
-    result.tangents.push_back(edges.tangents.empty()
-        ? (frame.linear().transpose() * found.tangents[k].cast<double>()).normalized()
-        : edges.tangents[i]);
-  }
+  result.points.resize(found.points.size());
+  result.tangents.resize(found.points.size());
+  const Eigen::Matrix3d back = frame.linear().transpose();
+  parallelFor(static_cast<int>(found.points.size()), settings.threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int k = begin; k < end; ++k)
+      {
+        const int i = finite[found.points[k]];
+        result.points[k] = i;
+        result.tangents[k] =
+          edges.tangents.empty() ? (back * found.tangents[k].cast<double>()).normalized() : edges.tangents[i];
+      }
+    });
   result.weights = std::move(found.weights);
   return result;
 }
@@ -496,7 +511,7 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
   {
     requirePoints(models[v].cloud.points, "The edge cloud");
     const Progress ofView = subProgress(progress, share * v, share * (v + 1));
-    PointCloud cloud = finitePoints(models[v].cloud);
+    const PointCloud cloud = finitePoints(std::move(models[v].cloud));
     const auto tiles = [&](const std::vector<int>& kept)
     { return tileTangents(cloud.subset(kept).points, models[v].direction.cast<double>(), exact, ofView); };
     // In the part's own frame, so that views share the cubes.

@@ -143,15 +143,13 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
   // processors would only look more often.
   const std::int64_t shares = std::min(numberOfThreads(threads), numberOfThreads(0));
   const auto firstOf = [&](int share) { return static_cast<int>(share * this->Cells.size() / shares); };
+  std::vector<Points> means(shares);
   parallelFor(static_cast<int>(shares), threads, {},
     [&](int begin, int end, int)
-    { this->fillCells(surface, projected, cellOf, layer, firstOf(begin), firstOf(end)); });
-  for (const Cell& seen : this->Cells)
+    { means[begin] = this->fillCells(surface, projected, cellOf, layer, firstOf(begin), firstOf(end)); });
+  for (const Points& some : means)
   {
-    if (seen.nearest < NothingSeen)
-    {
-      this->Means.push_back(seen.mean);
-    }
+    this->Means.insert(this->Means.end(), some.begin(), some.end());
   }
   this->fillGaps(layer, threads);
 }
@@ -199,7 +197,7 @@ void DepthMap::meansAt(const PointColumns& points, int begin, int count, Seen& s
   }
 }
 
-void DepthMap::fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
+Points DepthMap::fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
   int firstCell, int lastCell)
 {
   const int size = static_cast<int>(surface.size());
@@ -219,10 +217,13 @@ void DepthMap::fillCells(const Points& surface, const Points& projected, const s
   {
     if (isHere(i) && projected[i].z() <= this->Cells[cellOf[i]].nearest + layer)
     {
-      const double weight = weightInCell(this->indexOf(projected[i]));
+      const Eigen::Array2f index = this->indexOf(projected[i]);
+      const double weight = weightInCell<Eigen::Array2f>(index - index.cast<int>().cast<float>());
       sums[cellOf[i] - firstCell] += weight * surface[i].homogeneous().cast<double>();
     }
   }
+  Points means;
+  means.reserve(lastCell - firstCell);
   for (int k = 0; k < lastCell - firstCell; ++k)
   {
     const double weight = sums[k].w();
@@ -231,8 +232,10 @@ void DepthMap::fillCells(const Points& surface, const Points& projected, const s
       Cell& cell = this->Cells[firstCell + k];
       cell.mean = (sums[k].head<3>() / weight).cast<float>();
       cell.weight = static_cast<float>(std::min(1.0, weight));
+      means.push_back(cell.mean);
     }
   }
+  return means;
 }
 
 void DepthMap::fillGaps(float layer, int threads)
@@ -240,13 +243,17 @@ void DepthMap::fillGaps(float layer, int threads)
   // Between the samples of a surface some cells stay empty: the nearest surface around speaks for them.
   const std::size_t stride = static_cast<std::size_t>(this->Width) + 2; // with a border of cells that are not seen
   std::vector<std::uint8_t> seen(stride * (this->Height + 2), 0);
-  for (int row = 0; row < this->Height; ++row)
-  {
-    for (int column = 0; column < this->Width; ++column)
+  parallelFor(this->Height, threads, {},
+    [&](int begin, int end, int)
     {
-      seen[(row + 1) * stride + column + 1] = this->cellIn(row, column).nearest < NothingSeen ? 1 : 0;
-    }
-  }
+      for (int row = begin; row < end; ++row)
+      {
+        for (int column = 0; column < this->Width; ++column)
+        {
+          seen[(row + 1) * stride + column + 1] = this->cellIn(row, column).nearest < NothingSeen ? 1 : 0;
+        }
+      }
+    });
   parallelFor(this->Height, threads, {},
     [&](int begin, int end, int)
     {

@@ -110,8 +110,8 @@ private:
   };
   void findPlaces(
     const Eigen::Isometry3f& toScene, const PointColumns& points, int begin, int count, Places& places) const;
-  /// Depths and means of the cells from `firstCell` to before `lastCell`.
-  void fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
+  /// Sets depths and means of the cells from `firstCell` to before `lastCell`. Returns the means.
+  Points fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
     int firstCell, int lastCell);
   void fillGaps(float layer, int threads);
   /// `seen` tells of the nine cells about one, `stride` from row to row.

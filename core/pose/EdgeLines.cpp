@@ -188,15 +188,16 @@ void gather(const std::vector<float>& from, const std::vector<int>& places, int 
 }
 }
 
-EdgeLines::EdgeLines(const PointCloud& edges, const PointGrid& grid)
-  : Grid(grid)
+EdgeLines::EdgeLines(const PointCloud& edges, double cellSize)
+  : Grid(edges.points, cellSize)
 {
-  this->Lines.resize(grid.order().size() + Lanes);
+  const std::vector<int>& order = this->Grid.order();
+  this->Lines.resize(order.size() + Lanes);
   this->Weights.assign(this->Lines.size(), 1.0f);
-  for (std::size_t k = 0; k < grid.order().size(); ++k)
+  for (std::size_t k = 0; k < order.size(); ++k)
   {
-    this->Lines.set(k, edges.points[grid.order()[k]], edges.tangents[grid.order()[k]]);
-    this->Weights[k] = edges.weights.empty() ? 1.0f : edges.weights[grid.order()[k]];
+    this->Lines.set(k, edges.points[order[k]], edges.tangents[order[k]]);
+    this->Weights[k] = edges.weights.empty() ? 1.0f : edges.weights[order[k]];
   }
 }
 

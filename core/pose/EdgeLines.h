@@ -10,8 +10,13 @@ namespace meam
 class EdgeLines
 {
 public:
-  /// `grid` is of the edges' points.
-  EdgeLines(const PointCloud& edges, const PointGrid& grid);
+  /// No edges.
+  EdgeLines() = default;
+  /// `cellSize` in mm, that of the grid of the edges' points.
+  EdgeLines(const PointCloud& edges, double cellSize);
+
+  /// Of the edges' points.
+  const PointGrid& grid() const { return this->Grid; }
 
   struct Match
   {
@@ -49,7 +54,7 @@ private:
   template <typename Visitor>
   void forEachGroupOfRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const;
 
-  const PointGrid& Grid;
+  PointGrid Grid;
   OrientedColumns Lines; ///< the points and their tangents, in the order of the grid, and room at the end
   std::vector<float> Weights; ///< of these
 };

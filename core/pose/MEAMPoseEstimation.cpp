@@ -81,16 +81,13 @@ Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, Framed
 {
   StageTimes spent;
   Stopwatch watch;
-  const Points points = inFrame(edges, Eigen::Isometry3d::Identity()).points;
-  requirePoints(points, "The scene's edge cloud");
-  requireSameUnits(points, model.diameter);
   const EdgeTangents found =
     estimateTangents(edges, model.diameter, sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1));
   const PreciseCloud withTangents = found.of(edges);
   spent.tangents = watch.lap();
   Poses poses = detectPoses(withTangents, model, settings.detection, subProgress(progress, 0.1, 0.5));
   spent.detection = watch.lap();
-  const Scene scene = sceneInOwnFrame(withTangents, std::move(surface), sensor);
+  const Scene scene = sceneInOwnFrame(withTangents, std::move(surface), sensor, settings.verification.threads);
   const SceneIndex index(model, scene, settings.verification.threads);
   poses = verifyPoses(poses, index, settings.verification, subProgress(progress, 0.5, 0.7));
   spent.verification = watch.lap();

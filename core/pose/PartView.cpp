@@ -108,14 +108,18 @@ PartView::PartView(const TrainedModel& model)
   : Model(model)
   , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
 {
-  for (const auto& point : model.surface.points)
+  const auto relative = [&](const Points& points)
   {
-    this->Surface.add(point - this->Middle);
-  }
-  for (const auto& point : model.edges.points)
-  {
-    this->Edges.add(point - this->Middle);
-  }
+    PointColumns columns;
+    columns.resize(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      columns.set(k, points[k] - this->Middle);
+    }
+    return columns;
+  };
+  this->Surface = relative(model.surface.points);
+  this->Edges = relative(model.edges.points);
   for (const int i : model.judged)
   {
     this->Judged.add(model.surface.points[i] - this->Middle, model.surface.normals[i]);

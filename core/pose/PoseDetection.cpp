@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace meam
 {
@@ -43,6 +44,7 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
   if (wanted < count)
   {
     std::vector<std::uint64_t> lots;
+    lots.reserve(points.size());
     for (const auto& point : points)
     {
       lots.push_back(lot(point, cell, seed));
@@ -128,7 +130,7 @@ PoseDetectionSettings paperDetectionSettings()
 Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
   const Progress& progress)
 {
-  auto [frame, edges] = inOwnFrame(sceneEdges);
+  auto [frame, edges] = inOwnFrame(sceneEdges, settings.threads);
   requirePoints(edges.points, "The scene's edge cloud");
   if (edges.tangents.size() != edges.size())
   {
@@ -150,11 +152,16 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
     tangent = tangent.x() < 0.0f ? Eigen::Vector3f(-tangent) : tangent; // the sign is that of the first axis
   }
   const double cell = LotShare * model.diameter;
-  const std::vector<int> references =
-    chooseShare(edges.points, settings.referenceShare, LeastReferences, cell, settings.seed);
-  const PointCloud pairing = edges.subset(thinPoints(edges.points, model.votingLeaf()));
-  const Voting voting(
-    model, pairing.subset(chooseShare(pairing.points, settings.referredShare, 1, cell, settings.seed + 1)));
+  std::vector<int> references;
+  std::optional<Voting> voting;
+  inParallel(settings.threads,
+    { [&] { references = chooseShare(edges.points, settings.referenceShare, LeastReferences, cell, settings.seed); },
+      [&]
+      {
+        const PointCloud pairing = edges.subset(thinPoints(edges.points, model.votingLeaf()));
+        voting.emplace(
+          model, pairing.subset(chooseShare(pairing.points, settings.referredShare, 1, cell, settings.seed + 1)));
+      } });
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
   std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep));
@@ -166,7 +173,7 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
       for (int r = begin; r < end; ++r)
       {
         accumulator.clear();
-        voting.vote(TangentFrame(edges.points[references[r]], edges.tangents[references[r]]), accumulator);
+        voting->vote(TangentFrame(edges.points[references[r]], edges.tangents[references[r]]), accumulator);
         peaks[r] = accumulator.peaks(settings.peaksPerReference);
       }
     });

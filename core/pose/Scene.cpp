@@ -3,11 +3,11 @@
 
 namespace meam
 {
-Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor)
+Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor, int threads)
 {
   Scene scene;
   scene.frame = surface.points.empty() ? principalFrame(edges.points) : surface.frame;
-  scene.edges = inFrame(edges, scene.frame);
+  scene.edges = inFrame(edges, scene.frame, threads);
   scene.surface = std::move(surface.points);
   scene.sensor = { sensor.perspective, scene.frame * sensor.position, scene.frame.linear() * sensor.direction };
   return scene;

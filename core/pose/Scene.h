@@ -20,7 +20,7 @@ struct Scene
 
 /// The scene in the frame of its surface, or without one that of its edges: a scene that is moved is the same scene there.
 /// `edges` and `sensor` are in the scene's coordinates.
-Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor);
+Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor, int threads = 1);
 
 /// Poses, in the scene's own coordinates, in those of its points. Of poses that are equal for a part with these symmetries
 /// the one that is turned least there, whatever the scene's coordinates are.

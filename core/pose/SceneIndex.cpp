@@ -2,6 +2,7 @@
 #include "pose/SceneIndex.h"
 
 #include "Error.h"
+#include "Parallel.h"
 
 #include <algorithm>
 
@@ -43,10 +44,11 @@ SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen, int threa
   : model(trained)
   , scene(checked(seen))
   , view(trained)
-  , edges(seen.edges.points, EdgeCellShare * trained.diameter)
-  , lines(seen.edges, this->edges)
+  , edges(this->lines.grid())
   , depth(seen.surface, seen.sensor, DepthCellShare * trained.diameter, threads)
-  , surface(this->depth.means(), SurfaceCellShare * trained.diameter)
 {
+  inParallel(threads,
+    { [&] { this->surface = PointGrid(this->depth.means(), SurfaceCellShare * trained.diameter); },
+      [&] { this->lines = EdgeLines(seen.edges, EdgeCellShare * trained.diameter); } });
 }
 }

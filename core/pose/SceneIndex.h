@@ -20,12 +20,12 @@ struct SceneIndex
   const TrainedModel& model;
   const Scene& scene;
   PartView view;
-  PointGrid edges;   ///< of the scene's edge points
-  EdgeLines lines;   ///< of these
-  DepthMap depth;    ///< of its surface
-  PointGrid surface; ///< of depth.means()
+  EdgeLines lines;        ///< of the scene's edge points
+  const PointGrid& edges; ///< of these
+  DepthMap depth;         ///< of its surface
+  PointGrid surface;      ///< of depth.means()
 
-  SceneIndex(const SceneIndex&) = delete; // lines refers to edges
+  SceneIndex(const SceneIndex&) = delete; // edges are those of lines
   void operator=(const SceneIndex&) = delete;
 };
 }

@@ -30,8 +30,7 @@ struct Lines
 {
   explicit Lines(const meam::PointCloud& seen, double cellSize = 3.0)
     : edges(seen)
-    , grid(edges.points, cellSize)
-    , lines(edges, grid)
+    , lines(edges, cellSize)
   {
   }
 
@@ -46,7 +45,6 @@ struct Lines
   }
 
   meam::PointCloud edges;
-  meam::PointGrid grid;
   meam::EdgeLines lines;
 };
 

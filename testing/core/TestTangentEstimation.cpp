@@ -201,6 +201,10 @@ TEST(TangentEstimation, BadInput)
   invalid.points.assign(5, Eigen::Vector3f::Constant(NAN));
   EXPECT_THROW(parts::withTangents(invalid, 50.0, Down), meam::Error);
   EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 10, 1.0f), 0.0, Down), meam::Error); // no length known
+  EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 30, 0.0005f), 50.0, Down), meam::Error); // in metres
+  meam::PreciseCloud far;
+  far.points.assign(5, Eigen::Vector3d(1e300, 0.0, 0.0));
+  EXPECT_THROW(meam::estimateTangents(far, 50.0, -Eigen::Vector3d::UnitZ(), {}), meam::Error);
   meam::PointCloud some = line({ 1, 0, 0 }, 30, 0.5f);
   some.points[3].x() = NAN;
   EXPECT_NO_THROW(parts::withTangents(some, 50.0, Down));
