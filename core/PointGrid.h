@@ -4,6 +4,7 @@
 #include "PointColumns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meam
@@ -65,6 +66,41 @@ public:
     }
   }
 
+  /// The same with fewer others: what the sphere does not reach of its box is left out. Faster at radii of several cells.
+  template <typename Visitor>
+  void forEachRangeInSphere(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
+  {
+    if (this->Order.empty())
+    {
+      return;
+    }
+    const float r = static_cast<float>(radius);
+    const Eigen::Vector3i low = this->cellOf(centre.array() - r);
+    const Eigen::Vector3i high = this->cellOf(centre.array() + r);
+    const Eigen::Vector3f at = (centre - this->Origin) * this->InverseCell;
+    const float reach = r * this->InverseCell + this->Slack;
+    const float first = static_cast<float>(low.x()), last = static_cast<float>(high.x());
+    for (int z = low.z(); z <= high.z(); ++z)
+    {
+      const float beside = this->distanceTo(z, 2, at);
+      const float slice = reach * reach - beside * beside;
+      for (int y = low.y(); y <= high.y(); ++y)
+      {
+        const float below = this->distanceTo(y, 1, at);
+        const float rest = slice - below * below;
+        if (rest < 0.0f)
+        {
+          continue;
+        }
+        const float half = std::sqrt(rest);
+        const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
+        const int begin = static_cast<int>(std::max(first, std::min(at.x() - half, last)));
+        const int end = static_cast<int>(std::max(first, std::min(at.x() + half, last)));
+        visit(this->Starts[row + begin], this->Starts[row + end + 1]);
+      }
+    }
+  }
+
   /// The same by visit(begin, count), with at most ColumnBlock at a time.
   template <typename Visitor>
   void forEachBlock(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
@@ -107,8 +143,17 @@ private:
       .cast<int>();
   }
 
+  /// From a place, in cells, to the cells with a number along an axis; those of the border go on for ever.
+  float distanceTo(int cell, int axis, const Eigen::Vector3f& place) const
+  {
+    const float before = cell > 0 ? static_cast<float>(cell) - place[axis] : 0.0f;
+    const float behind = cell + 1 < this->Size[axis] ? place[axis] - static_cast<float>(cell + 1) : 0.0f;
+    return std::max(0.0f, std::max(before, behind));
+  }
+
   Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
   float InverseCell = 1.0f;
+  float Slack = 0.0f; ///< cells: what rounding may move a place by
   Eigen::Vector3i Size = Eigen::Vector3i::Zero(); ///< cells along x, y and z
   std::vector<int> Starts;                        ///< of each cell's points in Order and Sorted
   std::vector<int> Order;

@@ -34,6 +34,9 @@ struct Reference
   Eigen::Vector3f point, tangent, second, third;
 };
 
+constexpr int Lanes = 16; // pairs looked at together
+
+/// With room for `Lanes` more at the end.
 struct Columns
 {
   const float *x, *y, *z, *tangentX, *tangentY, *tangentZ;
@@ -49,28 +52,43 @@ void computeKeys(const Reference& reference, const Columns& referred, int count,
   const float vx = reference.third.x(), vy = reference.third.y(), vz = reference.third.z();
   const bool oriented = quantizer.kind() == PairFeatureKind::Oriented;
   const PairFeatureQuantizer cut = quantizer;
-#pragma omp simd
-  for (int k = 0; k < count; ++k)
+  int someKeys[Lanes];
+  PairTurn someTurns[Lanes];
+  for (int begin = 0; begin < count; begin += Lanes)
   {
-    const float dx = referred.x[k] - px, dy = referred.y[k] - py, dz = referred.z[k] - pz;
-    const float tx = referred.tangentX[k], ty = referred.tangentY[k], tz = referred.tangentZ[k];
-    const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
-    const float inverse = 1.0f / std::max(length, 1e-30f);
-    const float alongReference = rx * dx + ry * dy + rz * dz;
-    const float alongReferred = tx * dx + ty * dy + tz * dz;
-    const float between = rx * tx + ry * ty + rz * tz;
-    PairFeature feature;
-    feature.distance = length;
-    feature.referenceAngle = acuteAngle(std::min(std::abs(alongReference) * inverse, 1.0f));
-    feature.referredAngle = acuteAngle(std::min(std::abs(alongReferred) * inverse, 1.0f));
-    const float sign = (alongReference < 0.0f) != (alongReferred < 0.0f) ? -1.0f : 1.0f;
-    const float cosine = oriented ? sign * between : std::abs(between);
-    feature.tangentAngle = fullAngle(std::min(std::max(cosine, -1.0f), 1.0f));
-    const float determinant = (ry * tz - rz * ty) * dx + (rz * tx - rx * tz) * dy + (rx * ty - ry * tx) * dz;
-    feature.rightHanded = sign * determinant > 0.0f;
-    keys[k] = length > 0.0f ? cut.key(feature) : -1;
-    const PairTurn against = alongReference < 0.0f ? 1u << TurnBits : 0u;
-    turns[k] = turnOf(vx * dx + vy * dy + vz * dz, ux * dx + uy * dy + uz * dz) | against;
+    // Looks beyond the last pair rather than at the last ones one by one.
+    const int size = std::min(count - begin, Lanes);
+    int* toKeys = size == Lanes ? keys + begin : someKeys;
+    PairTurn* toTurns = size == Lanes ? turns + begin : someTurns;
+#pragma omp simd
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      const int k = begin + lane;
+      const float dx = referred.x[k] - px, dy = referred.y[k] - py, dz = referred.z[k] - pz;
+      const float tx = referred.tangentX[k], ty = referred.tangentY[k], tz = referred.tangentZ[k];
+      const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
+      const float inverse = 1.0f / std::max(length, 1e-30f);
+      const float alongReference = rx * dx + ry * dy + rz * dz;
+      const float alongReferred = tx * dx + ty * dy + tz * dz;
+      const float between = rx * tx + ry * ty + rz * tz;
+      PairFeature feature;
+      feature.distance = length;
+      feature.referenceAngle = acuteAngle(std::min(std::abs(alongReference) * inverse, 1.0f));
+      feature.referredAngle = acuteAngle(std::min(std::abs(alongReferred) * inverse, 1.0f));
+      const float sign = (alongReference < 0.0f) != (alongReferred < 0.0f) ? -1.0f : 1.0f;
+      const float cosine = oriented ? sign * between : std::abs(between);
+      feature.tangentAngle = fullAngle(std::min(std::max(cosine, -1.0f), 1.0f));
+      const float determinant = (ry * tz - rz * ty) * dx + (rz * tx - rx * tz) * dy + (rx * ty - ry * tx) * dz;
+      feature.rightHanded = sign * determinant > 0.0f;
+      toKeys[lane] = length > 0.0f ? cut.key(feature) : -1;
+      const PairTurn against = alongReference < 0.0f ? 1u << TurnBits : 0u;
+      toTurns[lane] = turnOf(vx * dx + vy * dy + vz * dz, ux * dx + uy * dy + uz * dz) | against;
+    }
+    if (size < Lanes)
+    {
+      std::copy_n(someKeys, size, keys + begin);
+      std::copy_n(someTurns, size, turns + begin);
+    }
   }
 }
 }
@@ -86,6 +104,10 @@ PairKeys::PairKeys(const PointCloud& referred, const PairFeatureQuantizer& quant
     this->TangentX.push_back(referred.tangents[i].x());
     this->TangentY.push_back(referred.tangents[i].y());
     this->TangentZ.push_back(referred.tangents[i].z());
+  }
+  for (std::vector<float>* column : { &this->X, &this->Y, &this->Z, &this->TangentX, &this->TangentY, &this->TangentZ })
+  {
+    column->resize(referred.size() + Lanes, 0.0f);
   }
 }
 

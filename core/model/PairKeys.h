@@ -27,14 +27,12 @@ public:
   /// Points with tangents; `quantizer` cuts their features.
   PairKeys(const PointCloud& referred, const PairFeatureQuantizer& quantizer);
 
-  std::size_t size() const { return this->X.size(); }
-
-  /// For the referred points [begin, end): `keys[k]` of the pair with point begin + k, -1 for a pair longer than d_max
+    /// For the referred points [begin, end): `keys[k]` of the pair with point begin + k, -1 for a pair longer than d_max
   /// or without length; `turns[k]` likewise.
   void compute(const TangentFrame& reference, int begin, int end, int* keys, PairTurn* turns) const;
 
 private:
   PairFeatureQuantizer Quantizer;
-  std::vector<float> X, Y, Z, TangentX, TangentY, TangentZ;
+  std::vector<float> X, Y, Z, TangentX, TangentY, TangentZ; ///< and room at the end
 };
 }

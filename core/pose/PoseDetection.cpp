@@ -71,7 +71,7 @@ public:
   /// All pairs of one reference point vote.
   void vote(const TangentFrame& reference, VoteAccumulator& accumulator) const
   {
-    this->Grid.forEachRange(reference.Origin, this->Model.diameter,
+    this->Grid.forEachRangeInSphere(reference.Origin, this->Model.diameter,
       [&](int begin, int end)
       {
         for (; begin < end; begin += BlockSize)

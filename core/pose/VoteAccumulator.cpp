@@ -109,6 +109,19 @@ void findMaxima(const std::uint16_t* counts, std::size_t sheets, int turns, std:
     maxima[sheet] = most;
   }
 }
+
+/// Their largest, 0 of none.
+MEAM_ALL_VECTORS
+std::uint16_t largest(const std::uint16_t* values, std::size_t count)
+{
+  std::uint16_t most = 0;
+#pragma omp simd reduction(max : most)
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    most = std::max(most, values[k]);
+  }
+  return most;
+}
 }
 
 VoteAccumulator::VoteAccumulator(int modelPoints, double angleStep)
@@ -143,11 +156,12 @@ std::vector<VotePeak> VoteAccumulator::peaks(int count)
   std::vector<VotePeak> found;
   for (int k = 0; k < count; ++k)
   {
-    const auto best = std::max_element(this->Maxima.begin(), this->Maxima.end());
-    if (best == this->Maxima.end() || *best == 0)
+    const std::uint16_t most = largest(this->Maxima.data(), this->Maxima.size());
+    if (most == 0)
     {
       break;
     }
+    const auto best = std::find(this->Maxima.begin(), this->Maxima.end(), most);
     const std::size_t sheet = best - this->Maxima.begin();
     const std::uint16_t* row = this->Counts.data() + sheet * this->Stride;
     VotePeak peak;
