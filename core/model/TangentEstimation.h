@@ -49,7 +49,7 @@ struct EdgeTangents
 /// left out (Algorithm 2). Points that carry tangents, as edges of a mesh do, keep them and are only
 /// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across `viewDirection`. A motion of the
 /// points in double precision turns the tangents and changes nothing else, but for tiles. Throws Error for an empty cloud,
-/// or when a length is 0 and the diameter is too.
+/// for one that cannot be in the diameter's unit, or when a length is 0 and the diameter is too.
 EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings = {}, const Progress& progress = {});
 
