@@ -48,57 +48,30 @@ public:
   template <typename Visitor>
   void forEachRange(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
   {
-    if (this->Order.empty())
-    {
-      return;
-    }
-    const float r = static_cast<float>(radius);
-    const Eigen::Vector3i low = this->cellOf(centre.array() - r);
-    const Eigen::Vector3i high = this->cellOf(centre.array() + r);
-    for (int z = low.z(); z <= high.z(); ++z)
-    {
-      for (int y = low.y(); y <= high.y(); ++y)
-      {
-        // Cells along x are neighbours in memory.
-        const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
-        visit(this->Starts[row + low.x()], this->Starts[row + high.x() + 1]);
-      }
-    }
+    this->forEachRow(centre, radius,
+      [&](int, int, std::size_t row, int first, int last) { visit(this->Starts[row + first], this->Starts[row + last + 1]); });
   }
 
   /// The same with fewer others: what the sphere does not reach of its box is left out. Faster at radii of several cells.
   template <typename Visitor>
   void forEachRangeInSphere(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
   {
-    if (this->Order.empty())
-    {
-      return;
-    }
-    const float r = static_cast<float>(radius);
-    const Eigen::Vector3i low = this->cellOf(centre.array() - r);
-    const Eigen::Vector3i high = this->cellOf(centre.array() + r);
     const Eigen::Vector3f at = (centre - this->Origin) * this->InverseCell;
-    const float reach = r * this->InverseCell + this->Slack;
-    const float first = static_cast<float>(low.x()), last = static_cast<float>(high.x());
-    for (int z = low.z(); z <= high.z(); ++z)
-    {
-      const float beside = this->distanceTo(z, 2, at);
-      const float slice = reach * reach - beside * beside;
-      for (int y = low.y(); y <= high.y(); ++y)
+    const float reach = static_cast<float>(radius) * this->InverseCell + this->Slack;
+    this->forEachRow(centre, radius,
+      [&](int y, int z, std::size_t row, int first, int last)
       {
+        const float beside = this->distanceTo(z, 2, at);
         const float below = this->distanceTo(y, 1, at);
-        const float rest = slice - below * below;
-        if (rest < 0.0f)
+        const float rest = reach * reach - beside * beside - below * below;
+        if (rest >= 0.0f)
         {
-          continue;
+          const float half = std::sqrt(rest);
+          const int begin = static_cast<int>(std::clamp<float>(at.x() - half, first, last));
+          const int end = static_cast<int>(std::clamp<float>(at.x() + half, first, last));
+          visit(this->Starts[row + begin], this->Starts[row + end + 1]);
         }
-        const float half = std::sqrt(rest);
-        const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
-        const int begin = static_cast<int>(std::max(first, std::min(at.x() - half, last)));
-        const int end = static_cast<int>(std::max(first, std::min(at.x() + half, last)));
-        visit(this->Starts[row + begin], this->Starts[row + end + 1]);
-      }
-    }
+      });
   }
 
   /// The same by visit(begin, count), with at most ColumnBlock at a time.
@@ -133,6 +106,28 @@ public:
   }
 
 private:
+  /// Calls visit(y, z, number of its first cell, first x, last x) for every row of cells in the box about a sphere.
+  template <typename Visitor>
+  void forEachRow(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
+  {
+    if (this->Order.empty())
+    {
+      return;
+    }
+    const float r = static_cast<float>(radius);
+    const Eigen::Vector3i low = this->cellOf(centre.array() - r);
+    const Eigen::Vector3i high = this->cellOf(centre.array() + r);
+    for (int z = low.z(); z <= high.z(); ++z)
+    {
+      for (int y = low.y(); y <= high.y(); ++y)
+      {
+        // Cells along x are neighbours in memory.
+        const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
+        visit(y, z, row, low.x(), high.x());
+      }
+    }
+  }
+
   Eigen::Vector3i cellOf(const Eigen::Vector3f& point) const
   {
     // What lies outside belongs to the cells of the border; clamped before the cast.

@@ -4,8 +4,8 @@
 #include "AllVectors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 
 namespace meam
 {
@@ -13,6 +13,7 @@ namespace
 {
 constexpr int MostVotes = 21845; // of a bin: three fit into 16 bits
 constexpr int Chunk = 512;       // bins that wait until they are counted
+constexpr int Together = 16;     // sheets that are searched at once
 
 /// One after the other, so that votes for one bin add up.
 void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::uint16_t* counts)
@@ -32,10 +33,9 @@ void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::uint16_t
 }
 
 MEAM_ALL_VECTORS
-void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pairs, std::uint32_t turns, bool mayOverflow,
-  std::uint16_t* counts)
+void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pairs, std::uint32_t turns, std::uint32_t stride,
+  bool mayOverflow, std::uint16_t* counts)
 {
-  const std::uint32_t stride = turns + 2;
   std::uint32_t bins[Chunk + VoteBlock];
   int waiting = 0;
   for (int pair = 0; pair < pairs; ++pair)
@@ -66,59 +66,15 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
   count(bins, waiting, mayOverflow, counts);
 }
 
-constexpr int Lanes = 16;
-using Bins = std::uint16_t __attribute__((vector_size(Lanes * sizeof(std::uint16_t))));
-
-[[gnu::always_inline]] inline Bins load(const std::uint16_t* bins)
-{
-  Bins result;
-  std::memcpy(&result, bins, sizeof(result));
-  return result;
-}
-
-[[gnu::always_inline]] inline Bins larger(const Bins& a, const Bins& b) { return a > b ? a : b; }
-
-/// Of each row of bins, which starts and ends with a copy of the last and the first, the largest sum of three neighbours.
+/// Of three neighbours, the first of which is one of `count` bins.
 MEAM_ALL_VECTORS
-void findMaxima(const std::uint16_t* counts, std::size_t sheets, int turns, std::uint16_t* maxima)
-{
-  for (std::size_t sheet = 0; sheet < sheets; ++sheet)
-  {
-    const std::uint16_t* row = counts + sheet * (turns + 2);
-    std::uint16_t most = 0;
-    if (turns < Lanes)
-    {
-      for (int bin = 0; bin < turns; ++bin)
-      {
-        most = std::max(most, static_cast<std::uint16_t>(row[bin] + row[bin + 1] + row[bin + 2]));
-      }
-    }
-    else
-    {
-      Bins sums = {};
-      for (int begin = 0; begin < turns; begin += Lanes)
-      {
-        const std::uint16_t* bins = row + std::min(begin, turns - Lanes); // the last block overlaps the one before
-        sums = larger(sums, load(bins) + load(bins + 1) + load(bins + 2));
-      }
-      sums = larger(sums, __builtin_shufflevector(sums, sums, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
-      sums = larger(sums, __builtin_shufflevector(sums, sums, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3));
-      sums = larger(sums, __builtin_shufflevector(sums, sums, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1));
-      most = std::max(sums[0], sums[1]);
-    }
-    maxima[sheet] = most;
-  }
-}
-
-/// Their largest, 0 of none.
-MEAM_ALL_VECTORS
-std::uint16_t largest(const std::uint16_t* values, std::size_t count)
+std::uint16_t largestSum(const std::uint16_t* bins, int count)
 {
   std::uint16_t most = 0;
 #pragma omp simd reduction(max : most)
-  for (std::size_t k = 0; k < count; ++k)
+  for (int k = 0; k < count; ++k)
   {
-    most = std::max(most, values[k]);
+    most = std::max(most, static_cast<std::uint16_t>(bins[k] + bins[k + 1] + bins[k + 2]));
   }
   return most;
 }
@@ -126,9 +82,9 @@ std::uint16_t largest(const std::uint16_t* values, std::size_t count)
 
 VoteAccumulator::VoteAccumulator(int modelPoints, double angleStep)
   : Turns(std::max(1u, static_cast<std::uint32_t>(std::lround(2.0 * M_PI / angleStep))))
-  , Stride(this->Turns + 2)
-  , Counts(static_cast<std::size_t>(modelPoints) * 2 * this->Stride, 0)
-  , Maxima(static_cast<std::size_t>(modelPoints) * 2)
+  , Stride(this->Turns + 4)
+  , Maxima((2 * modelPoints + Together - 1) / Together)
+  , Counts(this->Maxima.size() * Together * this->Stride, 0)
 {
 }
 
@@ -141,42 +97,54 @@ void VoteAccumulator::clear()
 void VoteAccumulator::vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne)
 {
   this->Cast += static_cast<std::int64_t>(count) * mostOfOne;
-  castVotes(entries, buckets, count, this->Turns, this->Cast > MostVotes, this->Counts.data());
+  castVotes(entries, buckets, count, this->Turns, this->Stride, this->Cast > MostVotes, this->Counts.data());
 }
 
 std::vector<VotePeak> VoteAccumulator::peaks(int count)
 {
-  for (std::size_t begin = 0; begin < this->Counts.size(); begin += this->Stride)
+  const int turns = static_cast<int>(this->Turns), stride = static_cast<int>(this->Stride);
+  for (std::size_t group = 0; group < this->Maxima.size(); ++group)
   {
-    std::uint16_t* row = this->Counts.data() + begin;
-    row[0] = row[this->Turns];
-    row[this->Turns + 1] = row[1];
+    std::uint16_t* rows = this->Counts.data() + group * Together * stride;
+    for (std::uint16_t* row = rows; row < rows + Together * stride; row += stride)
+    {
+      row[0] = row[turns];
+      row[turns + 1] = row[1];
+    }
+    this->Maxima[group] = largestSum(rows, (Together - 1) * stride + turns);
   }
-  findMaxima(this->Counts.data(), this->Maxima.size(), static_cast<int>(this->Turns), this->Maxima.data());
   std::vector<VotePeak> found;
-  for (int k = 0; k < count; ++k)
+  while (static_cast<int>(found.size()) < count)
   {
-    const std::uint16_t most = largest(this->Maxima.data(), this->Maxima.size());
-    if (most == 0)
+    const auto best = std::max_element(this->Maxima.begin(), this->Maxima.end());
+    if (best == this->Maxima.end() || *best == 0)
     {
       break;
     }
-    const auto best = std::find(this->Maxima.begin(), this->Maxima.end(), most);
-    const std::size_t sheet = best - this->Maxima.begin();
-    const std::uint16_t* row = this->Counts.data() + sheet * this->Stride;
-    VotePeak peak;
-    for (std::uint32_t bin = 0; bin < this->Turns && peak.votes == 0; ++bin)
+    const int first = static_cast<int>(best - this->Maxima.begin()) * Together;
+    const std::uint16_t* rows = this->Counts.data() + static_cast<std::size_t>(first) * stride;
+    std::array<std::uint16_t, Together> each;
+    for (int sheet = 0; sheet < Together; ++sheet)
     {
-      if (row[bin] + row[bin + 1] + row[bin + 2] == *best)
-      {
-        peak.votes = *best;
-        peak.modelPoint = static_cast<int>(sheet / 2);
-        peak.flip = sheet % 2 == 1;
-        peak.alpha = (bin + 0.5 + (row[bin + 2] - row[bin]) / static_cast<double>(peak.votes)) * 2.0 * M_PI / this->Turns;
-      }
+      const bool taken = std::any_of(found.begin(), found.end(),
+        [&](const VotePeak& other) { return 2 * other.modelPoint + (other.flip ? 1 : 0) == first + sheet; });
+      each[sheet] = taken ? 0 : largestSum(rows + sheet * stride, turns);
     }
+    const int sheet = static_cast<int>(std::find(each.begin(), each.end(), *best) - each.begin());
+    const std::uint16_t* row = rows + sheet * stride;
+    int bin = 0;
+    while (row[bin] + row[bin + 1] + row[bin + 2] != *best)
+    {
+      ++bin;
+    }
+    VotePeak peak;
+    peak.votes = *best;
+    peak.modelPoint = (first + sheet) / 2;
+    peak.flip = sheet % 2 == 1;
+    peak.alpha = (bin + 0.5 + (row[bin + 2] - row[bin]) / static_cast<double>(peak.votes)) * 2.0 * M_PI / turns;
     found.push_back(peak);
-    *best = 0;
+    each[sheet] = 0;
+    *best = *std::max_element(each.begin(), each.end());
   }
   return found;
 }

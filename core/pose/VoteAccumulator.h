@@ -47,9 +47,11 @@ public:
 
 private:
   std::uint32_t Turns;
+  /// From one sheet of the accumulator, of a model point and flip, to the next: a copy of the last bin, the bins, a copy of
+  /// the first and two zeros, so sums over the border of two sheets are no larger than those within them.
+  std::uint32_t Stride;
   std::int64_t Cast = 0; ///< no bin has more votes
-  std::uint32_t Stride; ///< the bins of a sheet between copies of the last and the first
+  std::vector<std::uint16_t> Maxima; ///< of some sheets each
   std::vector<std::uint16_t> Counts;
-  std::vector<std::uint16_t> Maxima; ///< of each sheet
 };
 }

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace
@@ -143,5 +145,34 @@ TEST(VoteAccumulator, LongBucketsCountEveryEntry)
       most = std::max(most, slow[peak.modelPoint][bin] + slow[peak.modelPoint][(bin + 1) % 50] + slow[peak.modelPoint][(bin + 49) % 50]);
     }
     EXPECT_EQ(peak.votes, most) << peak.modelPoint;
+  }
+}
+
+TEST(VoteAccumulator, EveryPointAndFlipHasItsOwnPeak)
+{
+  // Many votes in the first and the last bin of each, which are neighbours of each other and of no other sheet's.
+  constexpr int modelPoints = 41;
+  meam::VoteAccumulator votes(modelPoints, Step);
+  std::mt19937 random(1);
+  std::vector<int> expected;
+  for (int sheet = 0; sheet < 2 * modelPoints; ++sheet)
+  {
+    const Entry one = entry(sheet / 2, sheet % 2 == 1, 0.0);
+    const int first = random() % 20, last = random() % 20, far = random() % 40;
+    vote(votes, one, sceneTurn(false, 3.6), first);
+    vote(votes, one, sceneTurn(false, 356.4), last);
+    vote(votes, one, sceneTurn(false, 180.0), far);
+    expected.push_back(std::max(first + last, far));
+  }
+  const auto peaks = votes.peaks(1000);
+  ASSERT_EQ(peaks.size(), expected.size() - std::count(expected.begin(), expected.end(), 0));
+  int before = 1000, sheetBefore = -1;
+  for (const meam::VotePeak& peak : peaks)
+  {
+    const int sheet = 2 * peak.modelPoint + (peak.flip ? 1 : 0);
+    EXPECT_EQ(peak.votes, expected.at(sheet)) << sheet;
+    EXPECT_TRUE(peak.votes < before || (peak.votes == before && sheet > sheetBefore)) << "best first, of equals the first";
+    before = peak.votes;
+    sheetBefore = sheet;
   }
 }
