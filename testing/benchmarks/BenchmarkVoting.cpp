@@ -4,6 +4,7 @@
 // included; CastVotes and Peaks are what they name.
 #include "BenchmarkScene.h"
 
+#include "OwnFrame.h"
 #include "PointGrid.h"
 #include "pose/VoteAccumulator.h"
 
@@ -23,14 +24,19 @@ class Pairs
 public:
   explicit Pairs(const scenes::Search& search)
     : Searched(search)
-    , Grid(search.scene.edges.points, 0.25 * search.model.diameter)
-    , Keys(search.scene.edges.subset(this->Grid.order()), search.model.quantizer())
+    , References(meam::inOwnFrame(search.scene.edges).cloud)
+    , Referred(this->References.subset(meam::thinPoints(this->References.points, search.model.votingLeaf())))
+    , Grid(this->Referred.points, 0.25 * search.model.diameter)
+    , Keys(this->Referred.subset(this->Grid.order()), search.model.quantizer())
   {
   }
 
+  const meam::PointCloud& references() const { return this->References; }
+  const meam::PointCloud& referred() const { return this->Referred; }
+
   meam::TangentFrame reference(std::size_t r) const
   {
-    return { this->Searched.scene.edges.points[r], this->Searched.scene.edges.tangents[r] };
+    return { this->References.points[r], this->References.tangents[r] };
   }
 
   template <typename Visitor>
@@ -71,6 +77,8 @@ public:
 
 private:
   const scenes::Search& Searched;
+  meam::PointCloud References;
+  meam::PointCloud Referred;
   meam::PointGrid Grid;
   meam::PairKeys Keys;
 };
@@ -92,7 +100,7 @@ Cast castBy(const scenes::Search& search)
 {
   const Pairs pairs(search);
   Cast cast;
-  for (std::size_t r = 0; r < search.scene.edges.size(); ++r)
+  for (std::size_t r = 0; r < pairs.references().size(); ++r)
   {
     const Votes votes = pairs.of(pairs.reference(r));
     cast.votes += numberOf(votes);
@@ -147,7 +155,7 @@ void VotingByModelPoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
   detect(state, search, 1);
-  state.SetComplexityN(static_cast<std::int64_t>(search.model.edges.size()));
+  state.SetComplexityN(search.model.votingEdges);
 }
 BENCHMARK(VotingByModelPoints)
   ->ArgsProduct({ scenes::Leaves })
@@ -181,29 +189,30 @@ void VotingByHashMap(benchmark::State& state, SearchOf searchOf)
       table[key].push_back({ r, model.table.angles[k], model.edges.tangents[r].dot(d) < 0.0f });
     }
   }
-  const auto& edges = search->scene.edges;
   const Pairs pairs(*search);
+  const meam::PointCloud& references = pairs.references();
+  const meam::PointCloud& referred = pairs.referred();
   const int turns = static_cast<int>(std::lround(2.0 * M_PI / angleStep(*search)));
   std::vector<int> counts;
   std::size_t votes = 0;
   for (auto _ : state)
   {
-    for (std::size_t r = 0; r < edges.size(); ++r)
+    for (std::size_t r = 0; r < references.size(); ++r)
     {
-      counts.assign(model.edges.size() * 2 * turns, 0);
+      counts.assign(model.votingEdges * 2 * turns, 0);
       const meam::TangentFrame frame = pairs.reference(r);
       pairs.forEach(frame,
         [&](int i)
         {
           const int key = quantizer.key(meam::pairFeature(
-            quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]));
+            quantizer.kind(), references.points[r], references.tangents[r], referred.points[i], referred.tangents[i]));
           const auto bucket = table.find(key);
-          if (bucket == table.end() || i == static_cast<int>(r))
+          if (bucket == table.end() || referred.points[i] == references.points[r])
           {
             return;
           }
-          const float angle = frame.angleOf(edges.points[i]);
-          const bool against = frame.against(edges.points[i]);
+          const float angle = frame.angleOf(referred.points[i]);
+          const bool against = frame.against(referred.points[i]);
           for (const Pair& pair : bucket->second)
           {
             const bool flip = pair.against != against;
@@ -234,11 +243,11 @@ void CastVotes(benchmark::State& state, SearchOf searchOf)
   double cast = 0.0;
   for (int k = 0; k < references; ++k)
   {
-    votes.push_back(pairs.of(pairs.reference(k * search->scene.edges.size() / references)));
+    votes.push_back(pairs.of(pairs.reference(k * pairs.references().size() / references)));
     cast += numberOf(votes.back());
   }
   const meam::PairTable& table = search->model.table;
-  meam::VoteAccumulator accumulator(static_cast<int>(search->model.edges.size()), angleStep(*search));
+  meam::VoteAccumulator accumulator(search->model.votingEdges, angleStep(*search));
   for (auto _ : state)
   {
     for (const Votes& ofOne : votes)
@@ -263,13 +272,13 @@ void Peaks(benchmark::State& state, SearchOf searchOf)
   const Pairs pairs(*search);
   const Votes votes = pairs.of(pairs.reference(0));
   const meam::PairTable& table = search->model.table;
-  meam::VoteAccumulator accumulator(static_cast<int>(search->model.edges.size()), angleStep(*search));
+  meam::VoteAccumulator accumulator(search->model.votingEdges, angleStep(*search));
   accumulator.vote(table.votes.data(), votes.data(), static_cast<int>(votes.size()), table.mostOfOne);
   for (auto _ : state)
   {
     benchmark::DoNotOptimize(accumulator.peaks(static_cast<int>(state.range(0))));
   }
-  const double bins = search->model.edges.size() * 2.0 * 2.0 * M_PI / angleStep(*search);
+  const double bins = search->model.votingEdges * 2.0 * 2.0 * M_PI / angleStep(*search);
   state.counters["bins/s"] = benchmark::Counter(bins, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK_CAPTURE(Peaks, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->Unit(benchmark::kMicrosecond);
