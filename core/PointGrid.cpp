@@ -77,7 +77,6 @@ PointGrid::PointGrid(const Points& points, double cellSize)
   this->Origin = box.min();
   this->InverseCell = static_cast<float>(1.0 / cell);
   this->Size = cells().cast<int>();
-  this->Slack = 1e-6f * static_cast<float>(this->Size.maxCoeff()) + 1e-4f;
   std::vector<int> cellAt(points.size(), -1);
   // There are many more cells than points. Starts count each cell's points first, then are where they end, and at last
   // where they begin.

@@ -48,30 +48,22 @@ public:
   template <typename Visitor>
   void forEachRange(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
   {
-    this->forEachRow(centre, radius,
-      [&](int, int, std::size_t row, int first, int last) { visit(this->Starts[row + first], this->Starts[row + last + 1]); });
-  }
-
-  /// The same with fewer others: what the sphere does not reach of its box is left out. Faster at radii of several cells.
-  template <typename Visitor>
-  void forEachRangeInSphere(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
-  {
-    const Eigen::Vector3f at = (centre - this->Origin) * this->InverseCell;
-    const float reach = static_cast<float>(radius) * this->InverseCell + this->Slack;
-    this->forEachRow(centre, radius,
-      [&](int y, int z, std::size_t row, int first, int last)
+    if (this->Order.empty())
+    {
+      return;
+    }
+    const float r = static_cast<float>(radius);
+    const Eigen::Vector3i low = this->cellOf(centre.array() - r);
+    const Eigen::Vector3i high = this->cellOf(centre.array() + r);
+    for (int z = low.z(); z <= high.z(); ++z)
+    {
+      for (int y = low.y(); y <= high.y(); ++y)
       {
-        const float beside = this->distanceTo(z, 2, at);
-        const float below = this->distanceTo(y, 1, at);
-        const float rest = reach * reach - beside * beside - below * below;
-        if (rest >= 0.0f)
-        {
-          const float half = std::sqrt(rest);
-          const int begin = static_cast<int>(std::clamp<float>(at.x() - half, first, last));
-          const int end = static_cast<int>(std::clamp<float>(at.x() + half, first, last));
-          visit(this->Starts[row + begin], this->Starts[row + end + 1]);
-        }
-      });
+        // Cells along x are neighbours in memory.
+        const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
+        visit(this->Starts[row + low.x()], this->Starts[row + high.x() + 1]);
+      }
+    }
   }
 
   /// The same by visit(begin, count), with at most ColumnBlock at a time.
@@ -106,28 +98,6 @@ public:
   }
 
 private:
-  /// Calls visit(y, z, number of its first cell, first x, last x) for every row of cells in the box about a sphere.
-  template <typename Visitor>
-  void forEachRow(const Eigen::Vector3f& centre, double radius, Visitor&& visit) const
-  {
-    if (this->Order.empty())
-    {
-      return;
-    }
-    const float r = static_cast<float>(radius);
-    const Eigen::Vector3i low = this->cellOf(centre.array() - r);
-    const Eigen::Vector3i high = this->cellOf(centre.array() + r);
-    for (int z = low.z(); z <= high.z(); ++z)
-    {
-      for (int y = low.y(); y <= high.y(); ++y)
-      {
-        // Cells along x are neighbours in memory.
-        const std::size_t row = (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x();
-        visit(y, z, row, low.x(), high.x());
-      }
-    }
-  }
-
   Eigen::Vector3i cellOf(const Eigen::Vector3f& point) const
   {
     // What lies outside belongs to the cells of the border; clamped before the cast.
@@ -138,17 +108,8 @@ private:
       .cast<int>();
   }
 
-  /// From a place, in cells, to the cells with a number along an axis; those of the border go on for ever.
-  float distanceTo(int cell, int axis, const Eigen::Vector3f& place) const
-  {
-    const float before = cell > 0 ? static_cast<float>(cell) - place[axis] : 0.0f;
-    const float behind = cell + 1 < this->Size[axis] ? place[axis] - static_cast<float>(cell + 1) : 0.0f;
-    return std::max(0.0f, std::max(before, behind));
-  }
-
   Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
   float InverseCell = 1.0f;
-  float Slack = 0.0f; ///< cells: what rounding may move a place by
   Eigen::Vector3i Size = Eigen::Vector3i::Zero(); ///< cells along x, y and z
   std::vector<int> Starts;                        ///< of each cell's points in Order and Sorted
   std::vector<int> Order;

@@ -104,10 +104,9 @@ public:
     { return std::min(static_cast<int>(angle * this->InverseAngle), bins - 1); };
     const int distance =
       static_cast<int>(std::min(feature.distance * this->InverseDistance, static_cast<float>(this->Distances)));
-    int key = distance;
-    key = key * this->Acute + bin(feature.referenceAngle, this->Acute);
-    key = key * this->Acute + bin(feature.referredAngle, this->Acute);
-    key = key * this->Between + bin(feature.tangentAngle, this->Between);
+    // The sums do not wait for each other.
+    const int acute = bin(feature.referenceAngle, this->Acute) * this->Acute + bin(feature.referredAngle, this->Acute);
+    int key = (distance * this->Acute * this->Acute + acute) * this->Between + bin(feature.tangentAngle, this->Between);
     const int oriented = 2 * key + (feature.rightHanded ? 1 : 0);
     key = this->Kind == PairFeatureKind::Oriented ? oriented : key;
     return distance < this->Distances ? key : -1;

@@ -25,7 +25,8 @@ inline PairTurn turnOf(float sine, float cosine)
   angle = s > c ? static_cast<float>(M_PI_2) - angle : angle;
   angle = cosine < 0.0f ? static_cast<float>(M_PI) - angle : angle;
   angle = sine < 0.0f ? static_cast<float>(2.0 * M_PI) - angle : angle;
-  return static_cast<PairTurn>(static_cast<int>(angle * static_cast<float>((1 << TurnBits) / (2.0 * M_PI)) + 0.5f)) & TurnMask;
+  return static_cast<PairTurn>(static_cast<int>(angle * static_cast<float>((1 << TurnBits) / (2.0 * M_PI)) + 0.5f)) &
+         TurnMask;
 }
 
 /// What one reference is to all of its pairs.
@@ -34,38 +35,32 @@ struct Reference
   Eigen::Vector3f point, tangent, second, third;
 };
 
-constexpr int Lanes = 16; // pairs looked at together
-
-/// With room for `Lanes` more at the end.
-struct Columns
-{
-  const float *x, *y, *z, *tangentX, *tangentY, *tangentZ;
-};
+constexpr int Lanes = PointBlocks::Size;
+constexpr float FarAway = 1e15f; // its square is finite
 
 MEAM_ALL_VECTORS
-void computeKeys(const Reference& reference, const Columns& referred, int count, const PairFeatureQuantizer& quantizer,
-  int* keys, PairTurn* turns)
+void computeKeys(const Reference& reference, const PointColumns& referred, const PointColumns& tangents,
+  const int* blocks, int count, const PairFeatureQuantizer& quantizer, int* keys, PairTurn* turns)
 {
   const float px = reference.point.x(), py = reference.point.y(), pz = reference.point.z();
   const float rx = reference.tangent.x(), ry = reference.tangent.y(), rz = reference.tangent.z();
   const float ux = reference.second.x(), uy = reference.second.y(), uz = reference.second.z();
   const float vx = reference.third.x(), vy = reference.third.y(), vz = reference.third.z();
+  const float *x = referred.x.data(), *y = referred.y.data(), *z = referred.z.data();
+  const float *tangentX = tangents.x.data(), *tangentY = tangents.y.data(), *tangentZ = tangents.z.data();
   const bool oriented = quantizer.kind() == PairFeatureKind::Oriented;
   const PairFeatureQuantizer cut = quantizer;
-  int someKeys[Lanes];
-  PairTurn someTurns[Lanes];
-  for (int begin = 0; begin < count; begin += Lanes)
+  for (int block = 0; block < count; ++block)
   {
-    // Looks beyond the last pair rather than at the last ones one by one.
-    const int size = std::min(count - begin, Lanes);
-    int* toKeys = size == Lanes ? keys + begin : someKeys;
-    PairTurn* toTurns = size == Lanes ? turns + begin : someTurns;
+    const int begin = blocks[block] * Lanes;
+    int* toKeys = keys + block * Lanes;
+    PairTurn* toTurns = turns + block * Lanes;
 #pragma omp simd
     for (int lane = 0; lane < Lanes; ++lane)
     {
       const int k = begin + lane;
-      const float dx = referred.x[k] - px, dy = referred.y[k] - py, dz = referred.z[k] - pz;
-      const float tx = referred.tangentX[k], ty = referred.tangentY[k], tz = referred.tangentZ[k];
+      const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
+      const float tx = tangentX[k], ty = tangentY[k], tz = tangentZ[k];
       const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
       const float inverse = 1.0f / std::max(length, 1e-30f);
       const float alongReference = rx * dx + ry * dy + rz * dz;
@@ -84,11 +79,6 @@ void computeKeys(const Reference& reference, const Columns& referred, int count,
       const PairTurn against = alongReference < 0.0f ? 1u << TurnBits : 0u;
       toTurns[lane] = turnOf(vx * dx + vy * dy + vz * dz, ux * dx + uy * dy + uz * dz) | against;
     }
-    if (size < Lanes)
-    {
-      std::copy_n(someKeys, size, keys + begin);
-      std::copy_n(someTurns, size, turns + begin);
-    }
   }
 }
 }
@@ -98,24 +88,19 @@ PairKeys::PairKeys(const PointCloud& referred, const PairFeatureQuantizer& quant
 {
   for (std::size_t i = 0; i < referred.size(); ++i)
   {
-    this->X.push_back(referred.points[i].x());
-    this->Y.push_back(referred.points[i].y());
-    this->Z.push_back(referred.points[i].z());
-    this->TangentX.push_back(referred.tangents[i].x());
-    this->TangentY.push_back(referred.tangents[i].y());
-    this->TangentZ.push_back(referred.tangents[i].z());
+    this->Referred.add(referred.points[i]);
+    this->Tangents.add(referred.tangents[i]);
   }
-  for (std::vector<float>* column : { &this->X, &this->Y, &this->Z, &this->TangentX, &this->TangentY, &this->TangentZ })
+  while (this->Referred.size() % Lanes != 0)
   {
-    column->resize(referred.size() + Lanes, 0.0f);
+    this->Referred.add(Eigen::Vector3f::Constant(FarAway));
+    this->Tangents.add(Eigen::Vector3f::UnitX());
   }
 }
 
-void PairKeys::compute(const TangentFrame& reference, int begin, int end, int* keys, PairTurn* turns) const
+void PairKeys::compute(const TangentFrame& reference, const int* blocks, int count, int* keys, PairTurn* turns) const
 {
-  computeKeys({ reference.Origin, reference.Axes.col(0), reference.Axes.col(1), reference.Axes.col(2) },
-    { this->X.data() + begin, this->Y.data() + begin, this->Z.data() + begin, this->TangentX.data() + begin,
-      this->TangentY.data() + begin, this->TangentZ.data() + begin },
-    end - begin, this->Quantizer, keys, turns);
+  computeKeys({ reference.Origin, reference.Axes.col(0), reference.Axes.col(1), reference.Axes.col(2) }, this->Referred,
+    this->Tangents, blocks, count, this->Quantizer, keys, turns);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "PointBlocks.h"
 #include "model/PairFeature.h"
 
 #include <cstdint>
@@ -19,20 +20,30 @@ using PairTurn = std::uint32_t;
 /// Votes that are computed at once.
 constexpr int VoteBlock = 16;
 
+/// An entry of the table as voting reads it. In its upper TurnBits bits the turn which, added to that of a scene pair
+/// along its tangent, gives alpha; below them the sheet of votes: 2 * reference, and one more when d runs against the
+/// reference's tangent. `turn`: of the model's pair, only its angle.
+constexpr int SheetBits = 32 - TurnBits;
+constexpr std::uint32_t voteEntry(std::uint32_t reference, bool against, PairTurn turn)
+{
+  return ((against ? turn : 0u - turn) << SheetBits) | (2 * reference + (against ? 1u : 0u));
+}
+
 /// Keys and turns of one reference point with many referred points, computed for several points at a time with the
 /// widest vectors the processor has; the result is the same with all of them.
 class PairKeys
 {
 public:
-  /// Points with tangents; `quantizer` cuts their features.
+  /// Points with tangents, in blocks of PointBlocks::Size; `quantizer` cuts their features.
   PairKeys(const PointCloud& referred, const PairFeatureQuantizer& quantizer);
 
-    /// For the referred points [begin, end): `keys[k]` of the pair with point begin + k, -1 for a pair longer than d_max
-  /// or without length; `turns[k]` likewise.
-  void compute(const TangentFrame& reference, int begin, int end, int* keys, PairTurn* turns) const;
+  /// For the referred points of `count` blocks, PointBlocks::Size of each: the keys, -1 for a pair longer than d_max or
+  /// without length and where the last block has no point; and the turns.
+  void compute(const TangentFrame& reference, const int* blocks, int count, int* keys, PairTurn* turns) const;
 
 private:
   PairFeatureQuantizer Quantizer;
-  std::vector<float> X, Y, Z, TangentX, TangentY, TangentZ; ///< and room at the end
+  PointColumns Referred;
+  PointColumns Tangents;
 };
 }

@@ -20,36 +20,21 @@ constexpr double JudgedLeafShare = 0.03;
 void deriveVotes(const PointCloud& edges, PairTable& pairs)
 {
   pairs.votes.assign(pairs.size() + VoteBlock, 0);
-  pairs.voteStarts.assign(2 * (pairs.offsets.size() - 1) + 1, 0);
   pairs.mostOfOne = 1;
-  std::vector<std::uint32_t> against;
   for (std::size_t bucket = 0; bucket + 1 < pairs.offsets.size(); ++bucket)
   {
-    std::uint32_t place = pairs.offsets[bucket];
     std::uint32_t last = UINT32_MAX;
     int ofOne = 0;
-    against.clear();
     for (std::uint32_t k = pairs.offsets[bucket]; k < pairs.offsets[bucket + 1]; ++k)
     {
       const std::uint32_t reference = pairs.references[k];
       const Eigen::Vector3f d = edges.points[pairs.referreds[k]] - edges.points[reference];
-      const auto turn = static_cast<PairTurn>(std::lround(pairs.angles[k] * (1 << TurnBits) / (2.0 * M_PI))) & TurnMask;
-      const std::uint32_t vote = (reference << (TurnBits + 1)) | turn;
-      if (edges.tangents[reference].dot(d) < 0.0f)
-      {
-        against.push_back(vote);
-      }
-      else
-      {
-        pairs.votes[place++] = vote;
-      }
+      const auto turn = static_cast<PairTurn>(std::lround(pairs.angles[k] * (1 << TurnBits) / (2.0 * M_PI)));
+      pairs.votes[k] = voteEntry(reference, edges.tangents[reference].dot(d) < 0.0f, turn);
       ofOne = reference == last ? ofOne + 1 : 1; // entries are sorted by reference
       last = reference;
       pairs.mostOfOne = std::max(pairs.mostOfOne, ofOne);
     }
-    pairs.voteStarts[2 * bucket + 1] = place;
-    std::copy(against.begin(), against.end(), pairs.votes.begin() + place);
-    pairs.voteStarts[2 * bucket + 2] = pairs.offsets[bucket + 1];
   }
 }
 }

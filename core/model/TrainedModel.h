@@ -45,11 +45,7 @@ struct PairTable
   std::vector<std::uint32_t> viewBits;   ///< bit v: both points are on the edge seen in view v
 
   // As voting reads it, made by deriveFields():
-  /// Reference point in the upper 16 bits, below it the angle as a PairTurn without its sense. In each bucket the entries
-  /// that run along their reference's tangent come before those that run against it. VoteBlock zeros follow the last.
-  std::vector<std::uint32_t> votes;
-  /// Of bucket k: votes [voteStarts[2k], voteStarts[2k + 1]) run along, [voteStarts[2k + 1], voteStarts[2k + 2]) against.
-  std::vector<std::uint32_t> voteStarts;
+  std::vector<std::uint32_t> votes; ///< voteEntry of each; VoteBlock zeros follow the last
   int mostOfOne = 1; ///< entries of one reference point in a bucket
 
   std::size_t size() const { return this->references.size(); }

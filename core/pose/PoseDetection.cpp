@@ -2,6 +2,7 @@
 #include "pose/PoseDetection.h"
 
 #include "Parallel.h"
+#include "PointBlocks.h"
 #include "PointGrid.h"
 #include "pose/VoteAccumulator.h"
 
@@ -14,10 +15,9 @@ namespace meam
 {
 namespace
 {
-constexpr int LeastReferences = 100;    // that a few copies are found by in a small scene
-constexpr int BlockSize = 512;          // pairs whose keys are computed at once
-constexpr double CellShare = 0.25;       // of the diameter
-constexpr double LotShare = 0.01;        // of the diameter: points nearer than this share a lot
+constexpr int LeastReferences = 100; // that a few copies are found by in a small scene
+constexpr int MostPairs = 512;       // whose keys are computed at once
+constexpr double LotShare = 0.01;    // of the diameter: points nearer than this share a lot
 
 /// A number that looks random, from a place and a seed (finalizer of MurmurHash3).
 std::uint64_t lot(const Eigen::Vector3f& point, double cell, unsigned seed)
@@ -33,8 +33,8 @@ std::uint64_t lot(const Eigen::Vector3f& point, double cell, unsigned seed)
   return hash;
 }
 
-/// Indices of `share` of the points, at least `least` where there are so many, ascending. The lot falls on places, so the
-/// order of the points has no part in it.
+/// Indices of `share` of the points, at least `least` where there are so many, ascending. The lot falls on places, so
+/// the order of the points has no part in it.
 std::vector<int> chooseShare(const Points& points, double share, int least, double cell, unsigned seed)
 {
   const int count = static_cast<int>(points.size());
@@ -63,50 +63,46 @@ class Voting
 public:
   Voting(const TrainedModel& model, const PointCloud& referred)
     : Model(model)
-    , Grid(referred.points, CellShare * model.diameter)
-    , Pairs(referred.subset(this->Grid.order()), model.quantizer())
+    , Blocks(referred.points)
+    , Pairs(referred.subset(this->Blocks.order()), model.quantizer())
   {
   }
 
   /// All pairs of one reference point vote.
   void vote(const TangentFrame& reference, VoteAccumulator& accumulator) const
   {
-    this->Grid.forEachRangeInSphere(reference.Origin, this->Model.diameter,
-      [&](int begin, int end)
-      {
-        for (; begin < end; begin += BlockSize)
-        {
-          this->voteBlock(reference, begin, std::min(end, begin + BlockSize), accumulator);
-        }
-      });
+    int keys[MostPairs];
+    PairTurn turns[MostPairs];
+    const std::vector<int> blocks = this->Blocks.within(reference.Origin, this->Model.diameter);
+    const int most = MostPairs / PointBlocks::Size;
+    for (int begin = 0; begin < static_cast<int>(blocks.size()); begin += most)
+    {
+      const int count = std::min(most, static_cast<int>(blocks.size()) - begin);
+      this->Pairs.compute(reference, blocks.data() + begin, count, keys, turns);
+      this->cast(keys, turns, count * PointBlocks::Size, accumulator);
+    }
   }
 
 private:
-  void voteBlock(const TangentFrame& reference, int begin, int end, VoteAccumulator& accumulator) const
+  /// Votes of `count` pairs. Leaves in `keys` and `turns` what it pleases.
+  void cast(int* keys, PairTurn* turns, int count, VoteAccumulator& accumulator) const
   {
-    // Three passes, so that what the next one reads is on its way: keys, where their buckets are, votes.
-    int keys[BlockSize];
-    PairTurn turns[BlockSize];
-    this->Pairs.compute(reference, begin, end, keys, turns);
+    // Passes, so that what the next one reads is on its way: where buckets are, votes.
     const PairTable& table = this->Model.table;
-    const std::uint32_t* starts = table.voteStarts.data();
+    const std::uint32_t* offsets = table.offsets.data();
     int pairs = 0;
-    for (int k = 0; k < end - begin; ++k)
+    for (int k = 0; k < count; ++k)
     {
+      __builtin_prefetch(offsets + std::max(keys[k], 0));
       keys[pairs] = keys[k];
       turns[pairs] = turns[k];
       pairs += keys[k] >= 0 ? 1 : 0;
     }
-    for (int k = 0; k < pairs; ++k)
-    {
-      __builtin_prefetch(starts + 2 * keys[k]);
-    }
-    VoteBucket buckets[BlockSize];
+    VoteBucket buckets[MostPairs];
     int filled = 0;
     for (int k = 0; k < pairs; ++k)
     {
-      const std::uint32_t* bucket = starts + 2 * keys[k];
-      buckets[filled] = { bucket[0], bucket[1], bucket[2], turns[k] };
+      buckets[filled] = { offsets[keys[k]], offsets[keys[k] + 1], turns[k] };
       __builtin_prefetch(table.votes.data() + buckets[filled].begin);
       filled += buckets[filled].begin < buckets[filled].end ? 1 : 0;
     }
@@ -114,7 +110,7 @@ private:
   }
 
   const TrainedModel& Model;
-  PointGrid Grid;
+  PointBlocks Blocks;
   PairKeys Pairs;
 };
 }
@@ -138,7 +134,7 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
   }
   requireSameUnits(edges.points, model.diameter);
   if (!(settings.referenceShare > 0.0 && settings.referenceShare <= 1.0) ||
-    !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
+      !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
   {
     throw Error("The shares of reference and referred points must be in (0, 1].");
   }
@@ -179,6 +175,7 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
     });
 
   Poses poses;
+  poses.reserve(peaks.size());
   for (std::size_t r = 0; r < peaks.size(); ++r)
   {
     const TangentFrame scene(edges.points[references[r]], edges.tangents[references[r]]);

@@ -4,7 +4,6 @@
 #include "AllVectors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace meam
@@ -13,7 +12,6 @@ namespace
 {
 constexpr int MostVotes = 21845; // of a bin: three fit into 16 bits
 constexpr int Chunk = 512;       // bins that wait until they are counted
-constexpr int Together = 16;     // sheets that are searched at once
 
 /// One after the other, so that votes for one bin add up.
 void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::uint16_t* counts)
@@ -33,16 +31,20 @@ void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::uint16_t
 }
 
 MEAM_ALL_VECTORS
-void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pairs, std::uint32_t turns, std::uint32_t stride,
+void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pairs, std::uint32_t turns,
   bool mayOverflow, std::uint16_t* counts)
 {
+  constexpr std::uint32_t sheetMask = (1u << SheetBits) - 1;
+  constexpr std::uint32_t laneMask = SheetGroup::Sheets - 1;
   std::uint32_t bins[Chunk + VoteBlock];
   int waiting = 0;
   for (int pair = 0; pair < pairs; ++pair)
   {
     const VoteBucket& bucket = buckets[pair];
-    const std::uint32_t turn = bucket.turn & TurnMask;
-    const std::uint32_t sceneAgainst = bucket.turn >> TurnBits;
+    // Of a scene pair that runs against its tangent the other flip and -alpha, which is ~(-alpha - 1).
+    const bool against = bucket.turn >> TurnBits != 0;
+    const std::uint32_t turn = (against ? 0u - bucket.turn - 1u : bucket.turn) << SheetBits;
+    const std::uint32_t turned = against ? ~sheetMask | 1u : 0u;
     for (std::uint32_t begin = bucket.begin; begin < bucket.end; begin += VoteBlock)
     {
       const std::uint32_t* entry = entries + begin;
@@ -50,10 +52,9 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
 #pragma omp simd
       for (int k = 0; k < VoteBlock; ++k) // also of entries after the bucket's end, which are not counted
       {
-        const std::uint32_t flip = (begin + k >= bucket.against ? 1u : 0u) ^ sceneAgainst;
-        const std::uint32_t sign = flip - 1; // all ones for a difference
-        const std::uint32_t sum = (turn + ((entry[k] ^ sign) - sign)) & TurnMask;
-        bin[k] = (entry[k] >> (TurnBits + 1)) * 2 * stride + flip * stride + 1 + ((sum * turns) >> TurnBits);
+        const std::uint32_t sum = (entry[k] + turn) ^ turned;
+        const std::uint32_t row = ((sum >> SheetBits) * turns) >> TurnBits;
+        bin[k] = (sum & sheetMask & ~laneMask) * turns + row * SheetGroup::Sheets + (sum & laneMask);
       }
       waiting += static_cast<int>(std::min<std::uint32_t>(VoteBlock, bucket.end - begin));
       if (waiting >= Chunk)
@@ -66,85 +67,98 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
   count(bins, waiting, mayOverflow, counts);
 }
 
-/// Of three neighbours, the first of which is one of `count` bins.
+inline void raise(SheetGroup& most, const SheetGroup& before, const SheetGroup& here, const SheetGroup& after)
+{
+#pragma omp simd
+  for (int k = 0; k < SheetGroup::Sheets; ++k)
+  {
+    const auto sum = static_cast<std::uint16_t>(before.of[k] + here.of[k] + after.of[k]);
+    most.of[k] = sum > most.of[k] ? sum : most.of[k];
+  }
+}
+
+/// The largest sums of three neighbouring bins, the first of which follows the last, of the sheets of a group.
 MEAM_ALL_VECTORS
-std::uint16_t largestSum(const std::uint16_t* bins, int count)
+void largestSums(const SheetGroup* bins, int turns, SheetGroup& result)
+{
+  SheetGroup most{};
+  raise(most, bins[turns - 1], bins[0], bins[1 % turns]);
+  for (int bin = 1; bin + 1 < turns; ++bin)
+  {
+    raise(most, bins[bin - 1], bins[bin], bins[bin + 1]);
+  }
+  raise(most, bins[(turns + turns - 2) % turns], bins[turns - 1], bins[0]);
+  std::copy_n(most.of, SheetGroup::Sheets, result.of);
+}
+
+MEAM_ALL_VECTORS
+std::uint16_t largest(const std::uint16_t* values, std::size_t count)
 {
   std::uint16_t most = 0;
 #pragma omp simd reduction(max : most)
-  for (int k = 0; k < count; ++k)
+  for (std::size_t k = 0; k < count; ++k)
   {
-    most = std::max(most, static_cast<std::uint16_t>(bins[k] + bins[k + 1] + bins[k + 2]));
+    most = values[k] > most ? values[k] : most;
   }
   return most;
 }
 }
 
 VoteAccumulator::VoteAccumulator(int modelPoints, double angleStep)
-  : Turns(std::max(1u, static_cast<std::uint32_t>(std::lround(2.0 * M_PI / angleStep))))
-  , Stride(this->Turns + 4)
-  , Maxima((2 * modelPoints + Together - 1) / Together)
-  , Counts(this->Maxima.size() * Together * this->Stride, 0)
+  : Turns(std::max(1, static_cast<int>(std::lround(2.0 * M_PI / angleStep))))
+  , Largest(2 * modelPoints / SheetGroup::Sheets + 1)
+  , Counts(this->Largest.size() * this->Turns)
 {
 }
 
 void VoteAccumulator::clear()
 {
-  std::fill(this->Counts.begin(), this->Counts.end(), 0);
+  std::fill_n(this->Counts.data()->of, this->Counts.size() * SheetGroup::Sheets, std::uint16_t{ 0 });
   this->Cast = 0;
 }
 
 void VoteAccumulator::vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne)
 {
   this->Cast += static_cast<std::int64_t>(count) * mostOfOne;
-  castVotes(entries, buckets, count, this->Turns, this->Stride, this->Cast > MostVotes, this->Counts.data());
+  castVotes(entries, buckets, count, this->Turns, this->Cast > MostVotes, this->Counts.data()->of);
 }
 
 std::vector<VotePeak> VoteAccumulator::peaks(int count)
 {
-  const int turns = static_cast<int>(this->Turns), stride = static_cast<int>(this->Stride);
-  for (std::size_t group = 0; group < this->Maxima.size(); ++group)
+  for (std::size_t group = 0; group < this->Largest.size(); ++group)
   {
-    std::uint16_t* rows = this->Counts.data() + group * Together * stride;
-    for (std::uint16_t* row = rows; row < rows + Together * stride; row += stride)
-    {
-      row[0] = row[turns];
-      row[turns + 1] = row[1];
-    }
-    this->Maxima[group] = largestSum(rows, (Together - 1) * stride + turns);
+    largestSums(this->Counts.data() + group * this->Turns, this->Turns, this->Largest[group]);
   }
+  std::uint16_t* sums = this->Largest.data()->of;
+  const std::size_t sheets = this->Largest.size() * SheetGroup::Sheets;
   std::vector<VotePeak> found;
   while (static_cast<int>(found.size()) < count)
   {
-    const auto best = std::max_element(this->Maxima.begin(), this->Maxima.end());
-    if (best == this->Maxima.end() || *best == 0)
+    const std::uint16_t most = largest(sums, sheets);
+    if (most == 0)
     {
       break;
     }
-    const int first = static_cast<int>(best - this->Maxima.begin()) * Together;
-    const std::uint16_t* rows = this->Counts.data() + static_cast<std::size_t>(first) * stride;
-    std::array<std::uint16_t, Together> each;
-    for (int sheet = 0; sheet < Together; ++sheet)
+    const int sheet = static_cast<int>(std::find(sums, sums + sheets, most) - sums);
+    const SheetGroup* bins = this->Counts.data() + sheet / SheetGroup::Sheets * this->Turns;
+    const auto votes = [&](int bin)
     {
-      const bool taken = std::any_of(found.begin(), found.end(),
-        [&](const VotePeak& other) { return 2 * other.modelPoint + (other.flip ? 1 : 0) == first + sheet; });
-      each[sheet] = taken ? 0 : largestSum(rows + sheet * stride, turns);
-    }
-    const int sheet = static_cast<int>(std::find(each.begin(), each.end(), *best) - each.begin());
-    const std::uint16_t* row = rows + sheet * stride;
+      bin = bin < 0 ? this->Turns - 1 : bin;
+      return int{ bins[bin == this->Turns ? 0 : bin].of[sheet % SheetGroup::Sheets] };
+    };
     int bin = 0;
-    while (row[bin] + row[bin + 1] + row[bin + 2] != *best)
+    while (votes(bin - 1) + votes(bin) + votes(bin + 1) != most)
     {
       ++bin;
     }
     VotePeak peak;
-    peak.votes = *best;
-    peak.modelPoint = (first + sheet) / 2;
+    peak.votes = most;
+    peak.modelPoint = sheet / 2;
     peak.flip = sheet % 2 == 1;
-    peak.alpha = (bin + 0.5 + (row[bin + 2] - row[bin]) / static_cast<double>(peak.votes)) * 2.0 * M_PI / turns;
+    peak.alpha =
+      (bin + 0.5 + (votes(bin + 1) - votes(bin - 1)) / static_cast<double>(peak.votes)) * 2.0 * M_PI / this->Turns;
     found.push_back(peak);
-    each[sheet] = 0;
-    *best = *std::max_element(each.begin(), each.end());
+    sums[sheet] = 0;
   }
   return found;
 }

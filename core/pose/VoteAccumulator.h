@@ -17,14 +17,19 @@ struct VotePeak
   double alpha = 0.0; ///< radians
 };
 
-/// What one scene pair votes for: the entries [begin, against) of PairTable::votes, which run along their reference's
-/// tangent, and [against, end), which run against it.
+/// What one scene pair votes for: the entries [begin, end) of PairTable::votes.
 struct VoteBucket
 {
   std::uint32_t begin;
-  std::uint32_t against;
   std::uint32_t end;
   PairTurn turn; ///< of the scene pair
+};
+
+/// A number for each of some sheets of the accumulator; a model point has two sheets, one for each flip.
+struct alignas(32) SheetGroup
+{
+  static constexpr int Sheets = 16;
+  std::uint16_t of[Sheets] = {};
 };
 
 /// Votes of one reference point in the space (m_r, flip, alpha), paper Section 5.1. A tangent has no sign; the sign of
@@ -46,12 +51,9 @@ public:
   std::vector<VotePeak> peaks(int count);
 
 private:
-  std::uint32_t Turns;
-  /// From one sheet of the accumulator, of a model point and flip, to the next: a copy of the last bin, the bins, a copy of
-  /// the first and two zeros, so sums over the border of two sheets are no larger than those within them.
-  std::uint32_t Stride;
-  std::int64_t Cast = 0; ///< no bin has more votes
-  std::vector<std::uint16_t> Maxima; ///< of some sheets each
-  std::vector<std::uint16_t> Counts;
+  int Turns;                       ///< bins of a sheet
+  std::int64_t Cast = 0;           ///< no bin has more votes
+  std::vector<SheetGroup> Largest; ///< sums of neighbouring bins, for each sheet
+  std::vector<SheetGroup> Counts;  ///< group by group, and in each group bin by bin
 };
 }

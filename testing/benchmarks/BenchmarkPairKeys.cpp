@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace
 {
@@ -42,9 +43,14 @@ void PairKeys(benchmark::State& state)
 {
   const scenes::Search& search = *scenes::bracketSearch();
   const meam::PairKeys pairs(search.scene.edges, search.model.quantizer());
+  std::vector<int> blocks((search.scene.edges.size() + meam::PointBlocks::Size - 1) / meam::PointBlocks::Size);
+  std::iota(blocks.begin(), blocks.end(), 0);
   run(state, search.scene.edges,
     [&](const meam::TangentFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)
-    { pairs.compute(frame, begin, end, keys, turns); });
+    {
+      constexpr int size = meam::PointBlocks::Size;
+      pairs.compute(frame, blocks.data() + begin / size, (end - begin + size - 1) / size, keys, turns);
+    });
 }
 BENCHMARK(PairKeys)->Unit(benchmark::kMillisecond);
 

@@ -27,7 +27,8 @@ public:
     , References(meam::inOwnFrame(search.scene.edges).cloud)
     , Referred(this->References.subset(meam::thinPoints(this->References.points, search.model.votingLeaf())))
     , Grid(this->Referred.points, 0.25 * search.model.diameter)
-    , Keys(this->Referred.subset(this->Grid.order()), search.model.quantizer())
+    , Blocks(this->Referred.points)
+    , Keys(this->Referred.subset(this->Blocks.order()), search.model.quantizer())
   {
   }
 
@@ -55,23 +56,18 @@ public:
   Votes of(const meam::TangentFrame& reference) const
   {
     Votes votes;
-    std::vector<int> keys;
-    std::vector<meam::PairTurn> turns;
-    const std::vector<std::uint32_t>& starts = this->Searched.model.table.voteStarts;
-    this->Grid.forEachRange(reference.Origin, this->Searched.model.diameter,
-      [&](int begin, int end)
+    const std::vector<int> blocks = this->Blocks.within(reference.Origin, this->Searched.model.diameter);
+    std::vector<int> keys(blocks.size() * meam::PointBlocks::Size);
+    std::vector<meam::PairTurn> turns(keys.size());
+    this->Keys.compute(reference, blocks.data(), static_cast<int>(blocks.size()), keys.data(), turns.data());
+    const std::vector<std::uint32_t>& offsets = this->Searched.model.table.offsets;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+    {
+      if (keys[k] >= 0 && offsets[keys[k]] < offsets[keys[k] + 1])
       {
-        keys.resize(end - begin);
-        turns.resize(end - begin);
-        this->Keys.compute(reference, begin, end, keys.data(), turns.data());
-        for (int k = 0; k < end - begin; ++k)
-        {
-          if (keys[k] >= 0 && starts[2 * keys[k]] < starts[2 * keys[k] + 2])
-          {
-            votes.push_back({ starts[2 * keys[k]], starts[2 * keys[k] + 1], starts[2 * keys[k] + 2], turns[k] });
-          }
-        }
-      });
+        votes.push_back({ offsets[keys[k]], offsets[keys[k] + 1], turns[k] });
+      }
+    }
     return votes;
   }
 
@@ -80,6 +76,7 @@ private:
   meam::PointCloud References;
   meam::PointCloud Referred;
   meam::PointGrid Grid;
+  meam::PointBlocks Blocks;
   meam::PairKeys Keys;
 };
 

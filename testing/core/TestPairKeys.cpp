@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace
 {
 meam::PointCloud cloud(int count)
@@ -39,14 +42,16 @@ TEST(PairKeys, AreThoseOfTheFeatures)
   {
     const meam::PairFeatureQuantizer quantizer(kind, 7.0, 7.2 * M_PI / 180.0, 100.0);
     const meam::PairKeys pairs(points, quantizer);
-    std::vector<int> keys(points.size());
-    std::vector<meam::PairTurn> turns(points.size());
+    std::vector<int> blocks(32);
+    std::iota(blocks.begin(), blocks.end(), 0);
+    std::vector<int> keys(512);
+    std::vector<meam::PairTurn> turns(512);
     int differ = 0;
     int tooLong = 0;
     for (int r = 0; r < 100; ++r)
     {
       const meam::TangentFrame frame(points.points[r], points.tangents[r]);
-      pairs.compute(frame, 0, static_cast<int>(points.size()), keys.data(), turns.data());
+      pairs.compute(frame, blocks.data(), 32, keys.data(), turns.data());
       for (int i = 0; i < static_cast<int>(points.size()); ++i)
       {
         if (i == r)
@@ -63,25 +68,29 @@ TEST(PairKeys, AreThoseOfTheFeatures)
         const int apart = static_cast<int>((turns[i] - std::lround(exact) + 1) & meam::TurnMask);
         EXPECT_LE(apart, 2) << "a turn of " << exact;
       }
+      EXPECT_EQ(std::count(keys.begin() + 501, keys.end(), -1), 11) << "what fills the last block is no point";
     }
     EXPECT_LT(differ, 5);
     EXPECT_GT(tooLong, 100);
   }
 }
 
-TEST(PairKeys, ARangeIsAPartOfTheWhole)
+TEST(PairKeys, BlocksAreComputedInAnyOrder)
 {
   const meam::PointCloud points = cloud(97);
   const meam::PairFeatureQuantizer quantizer(meam::PairFeatureKind::Oriented, 7.0, 0.1, 200.0);
   const meam::PairKeys pairs(points, quantizer);
   const meam::TangentFrame frame(points.points[5], points.tangents[5]);
-  std::vector<int> all(97), some(13);
-  std::vector<meam::PairTurn> allTurns(97), someTurns(13);
-  pairs.compute(frame, 0, 97, all.data(), allTurns.data());
-  pairs.compute(frame, 31, 44, some.data(), someTurns.data());
-  for (int k = 0; k < 13; ++k)
+  constexpr int size = meam::PointBlocks::Size;
+  const int all[] = { 0, 1, 2, 3, 4, 5, 6 };
+  const int some[] = { 6, 2, 3 };
+  std::vector<int> keys(7 * size), someKeys(3 * size);
+  std::vector<meam::PairTurn> turns(7 * size), someTurns(3 * size);
+  pairs.compute(frame, all, 7, keys.data(), turns.data());
+  pairs.compute(frame, some, 3, someKeys.data(), someTurns.data());
+  for (int k = 0; k < 3 * size; ++k)
   {
-    EXPECT_EQ(some[k], all[31 + k]);
-    EXPECT_EQ(someTurns[k], allTurns[31 + k]);
+    EXPECT_EQ(someKeys[k], keys[some[k / size] * size + k % size]);
+    EXPECT_EQ(someTurns[k], turns[some[k / size] * size + k % size]);
   }
 }

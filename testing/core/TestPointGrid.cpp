@@ -49,10 +49,6 @@ void expectSameAsBruteForce(const meam::Points& points, double cellSize, double 
       }
     }
     EXPECT_EQ(within(grid, points[k], radius), expected);
-    std::set<int> reached;
-    grid.forEachRangeInSphere(points[k], radius,
-      [&](int begin, int end) { reached.insert(grid.order().begin() + begin, grid.order().begin() + end); });
-    EXPECT_TRUE(std::includes(reached.begin(), reached.end(), expected.begin(), expected.end()));
     EXPECT_EQ((points[grid.nearest(points[k], radius)] - points[nearest]).norm(), 0.0f);
   }
 }
@@ -75,17 +71,6 @@ TEST(PointGrid, StrayPointsAreFoundToo)
   const meam::PointGrid grid(points, 0.5);
   EXPECT_EQ(within(grid, { 5e4f, 5e4f, -5e4f }, 2.0), std::set<int>({ 3000, 3001 }));
   EXPECT_TRUE(within(grid, { -9e5f, 0, 0 }, 2.0).empty());
-}
-
-TEST(PointGrid, ASphereReachesLessThanItsBox)
-{
-  const meam::PointGrid grid(scattered(5000, 20.0), 1.0);
-  const auto count = [](int& sum) { return [&sum](int begin, int end) { sum += end - begin; }; };
-  int inBox = 0, inSphere = 0;
-  grid.forEachRange({ 0, 0, 0 }, 12.0, count(inBox));
-  grid.forEachRangeInSphere({ 0, 0, 0 }, 12.0, count(inSphere));
-  EXPECT_LT(inSphere, 0.8 * inBox);
-  EXPECT_GT(inSphere, 0);
 }
 
 TEST(PointGrid, WhatCannotBeSortedIsAnError)

@@ -17,16 +17,9 @@ std::uint32_t turnOf(double degrees)
   return static_cast<std::uint32_t>(std::lround(degrees / 360.0 * (1 << meam::TurnBits))) & meam::TurnMask;
 }
 
-/// An entry of the table, and whether it runs against its reference's tangent.
-struct Entry
+std::uint32_t entry(std::uint32_t modelPoint, bool against, double degrees)
 {
-  std::uint32_t word;
-  bool against;
-};
-
-Entry entry(std::uint32_t modelPoint, bool against, double degrees)
-{
-  return { (modelPoint << (meam::TurnBits + 1)) | turnOf(degrees), against };
+  return meam::voteEntry(modelPoint, against, turnOf(degrees));
 }
 
 meam::PairTurn sceneTurn(bool against, double degrees)
@@ -34,10 +27,10 @@ meam::PairTurn sceneTurn(bool against, double degrees)
   return ((against ? 1u : 0u) << meam::TurnBits) | turnOf(degrees);
 }
 
-void vote(meam::VoteAccumulator& votes, Entry one, meam::PairTurn scene, int times = 1)
+void vote(meam::VoteAccumulator& votes, std::uint32_t one, meam::PairTurn scene, int times = 1)
 {
-  const meam::VoteBucket bucket{ 0, one.against ? 0u : 1u, 1, scene };
-  const std::uint32_t entries[1 + meam::VoteBlock] = { one.word };
+  const meam::VoteBucket bucket{ 0, 1, scene };
+  const std::uint32_t entries[1 + meam::VoteBlock] = { one };
   for (int i = 0; i < times; ++i)
   {
     votes.vote(entries, &bucket, 1);
@@ -69,9 +62,9 @@ TEST(VoteAccumulator, TheTurnIsTheDifferenceOrTheSum)
 TEST(VoteAccumulator, NeighbouringBinsAddUpAndPullThePeak)
 {
   meam::VoteAccumulator votes(1, Step);
-  vote(votes, entry(0, false, 0.0), sceneTurn(false, 3.6), 6);    // bin 0
-  vote(votes, entry(0, false, 0.0), sceneTurn(false, 356.4), 2);  // bin 49, its neighbour over the turn's end
-  vote(votes, entry(0, false, 0.0), sceneTurn(false, 10.8), 4);   // bin 1
+  vote(votes, entry(0, false, 0.0), sceneTurn(false, 3.6), 6);   // bin 0
+  vote(votes, entry(0, false, 0.0), sceneTurn(false, 356.4), 2); // bin 49, its neighbour over the turn's end
+  vote(votes, entry(0, false, 0.0), sceneTurn(false, 10.8), 4);  // bin 1
   const meam::VotePeak peak = votes.peaks(1).at(0);
   EXPECT_EQ(peak.votes, 12);
   EXPECT_NEAR(peak.alpha, (0.5 + (4.0 - 2.0) / 12.0) * Step, 1e-9);
@@ -102,12 +95,12 @@ TEST(VoteAccumulator, VeryManyVotesDoNotWrap)
   EXPECT_GT(votes.peaks(1).at(0).votes, 20000);
 }
 
-TEST(VoteAccumulator, HalvesOfABucketAreCountedApart)
+TEST(VoteAccumulator, FlipsOfABucketAreCountedApart)
 {
   // Two entries along, one against, of three model points; the scene pair runs against its tangent.
-  const std::uint32_t entries[4 + meam::VoteBlock] = { entry(9, false, 0.0).word, entry(0, false, 30.0).word, entry(1, false, 30.0).word,
-    entry(2, true, 30.0).word };
-  const meam::VoteBucket bucket{ 1, 3, 4, sceneTurn(true, 100.0) };
+  const std::uint32_t entries[4 + meam::VoteBlock] = { entry(9, false, 0.0), entry(0, false, 30.0),
+    entry(1, false, 30.0), entry(2, true, 30.0) };
+  const meam::VoteBucket bucket{ 1, 4, sceneTurn(true, 100.0) };
   meam::VoteAccumulator votes(10, Step);
   votes.vote(entries, &bucket, 1);
   const auto peaks = votes.peaks(10);
@@ -124,17 +117,17 @@ TEST(VoteAccumulator, LongBucketsCountEveryEntry)
   std::vector<std::uint32_t> entries;
   for (int k = 0; k < 1000; ++k)
   {
-    entries.push_back(entry(k % 7, false, 0.36 * k).word);
+    entries.push_back(entry(k % 7, false, 0.36 * k));
   }
   entries.resize(1000 + meam::VoteBlock);
-  const meam::VoteBucket bucket{ 0, 1000, 1000, sceneTurn(false, 0.0) };
+  const meam::VoteBucket bucket{ 0, 1000, sceneTurn(false, 0.0) };
   meam::VoteAccumulator votes(7, Step);
   votes.vote(entries.data(), &bucket, 1, 1000);
   votes.vote(entries.data(), &bucket, 1, 100000); // from here on bins might run over
   int slow[7][50] = {};
   for (int k = 0; k < 1000; ++k)
   {
-    const std::uint32_t turn = (0u - (entries[k] & meam::TurnMask)) & meam::TurnMask;
+    const std::uint32_t turn = (0u - turnOf(0.36 * k)) & meam::TurnMask;
     slow[k % 7][(turn * 50) >> meam::TurnBits] += 2;
   }
   for (const meam::VotePeak& peak : votes.peaks(14))
@@ -142,7 +135,8 @@ TEST(VoteAccumulator, LongBucketsCountEveryEntry)
     int most = 0;
     for (int bin = 0; bin < 50; ++bin)
     {
-      most = std::max(most, slow[peak.modelPoint][bin] + slow[peak.modelPoint][(bin + 1) % 50] + slow[peak.modelPoint][(bin + 49) % 50]);
+      most = std::max(most,
+        slow[peak.modelPoint][bin] + slow[peak.modelPoint][(bin + 1) % 50] + slow[peak.modelPoint][(bin + 49) % 50]);
     }
     EXPECT_EQ(peak.votes, most) << peak.modelPoint;
   }
@@ -157,7 +151,7 @@ TEST(VoteAccumulator, EveryPointAndFlipHasItsOwnPeak)
   std::vector<int> expected;
   for (int sheet = 0; sheet < 2 * modelPoints; ++sheet)
   {
-    const Entry one = entry(sheet / 2, sheet % 2 == 1, 0.0);
+    const std::uint32_t one = entry(sheet / 2, sheet % 2 == 1, 0.0);
     const int first = random() % 20, last = random() % 20, far = random() % 40;
     vote(votes, one, sceneTurn(false, 3.6), first);
     vote(votes, one, sceneTurn(false, 356.4), last);
@@ -171,7 +165,8 @@ TEST(VoteAccumulator, EveryPointAndFlipHasItsOwnPeak)
   {
     const int sheet = 2 * peak.modelPoint + (peak.flip ? 1 : 0);
     EXPECT_EQ(peak.votes, expected.at(sheet)) << sheet;
-    EXPECT_TRUE(peak.votes < before || (peak.votes == before && sheet > sheetBefore)) << "best first, of equals the first";
+    EXPECT_TRUE(peak.votes < before || (peak.votes == before && sheet > sheetBefore))
+      << "best first, of equals the first";
     before = peak.votes;
     sheetBefore = sheet;
   }
