@@ -4,7 +4,6 @@
 #include "AllVectors.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace meam
 {

@@ -4,7 +4,6 @@
 #include "PointColumns.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace meam

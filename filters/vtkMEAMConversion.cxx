@@ -732,7 +732,8 @@ meam::PreciseCloud edgesOf(vtkPointSet* input)
   meam::PreciseCloud finite;
   for (std::size_t i = 0; i < all.points.size(); ++i)
   {
-    if (!all.points[i].allFinite())
+    const bool directed = all.tangents.empty() || (all.tangents[i].allFinite() && !all.tangents[i].isZero());
+    if (!all.points[i].allFinite() || !directed)
     {
       continue;
     }

@@ -323,6 +323,10 @@ private:
     {
       refuse("has no edge points with tangents.");
     }
+    if (model.edges.size() > meam::TrainedModel::MostEdges)
+    {
+      refuse("is damaged: it has " + std::to_string(model.edges.size()) + " edge points.");
+    }
     requireFinite(model.edges.points, "edge points");
     requireFinite(model.edges.tangents, "tangents");
     model.edgeViews = this->values<std::uint32_t>(edges, "ViewBits");
@@ -399,12 +403,18 @@ private:
       table.viewBits = this->values<std::uint32_t>(data, "ViewBits");
     }
     const auto inRange = [&](std::uint32_t index) { return index < model.edges.size(); };
-    const bool sound =
+    bool sound =
       table.offsets.front() == 0 && table.offsets.back() == table.size() &&
       std::is_sorted(table.offsets.begin(), table.offsets.end()) &&
       std::all_of(table.references.begin(), table.references.end(), inRange) &&
       std::all_of(table.referreds.begin(), table.referreds.end(), inRange) &&
       std::all_of(table.angles.begin(), table.angles.end(), [](float angle) { return std::abs(angle) < 3.15f; });
+    const auto sortedWithin = [&](std::uint32_t begin, std::uint32_t end)
+    { return std::is_sorted(table.references.begin() + begin, table.references.begin() + end); };
+    for (std::size_t key = 0; sound && key + 1 < table.offsets.size(); ++key)
+    {
+      sound = sortedWithin(table.offsets[key], table.offsets[key + 1]);
+    }
     if (!sound)
     {
       refuse("is damaged: its pair table does not fit its edge points.");

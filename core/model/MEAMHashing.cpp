@@ -17,11 +17,10 @@ namespace meam
 {
 namespace
 {
-constexpr std::size_t MostEdges = 65536;        // a reference point has 16 bits in a vote
-constexpr std::size_t MostEntries = 50000000;    // 2 GB while it is made
-constexpr double DefaultVoxelShare = 0.015;     // of the diameter
-constexpr double SurfaceLeafShare = 0.015;      // of the diameter, for verification
-constexpr float ParallelTangents = 0.94f;       // cosine of 20 degrees: the same edge in two views
+constexpr std::size_t MostEntries = 50000000; // 2 GB while it is made
+constexpr double DefaultVoxelShare = 0.015;   // of the diameter
+constexpr double SurfaceLeafShare = 0.015;    // of the diameter, for verification
+constexpr float ParallelTangents = 0.94f;     // cosine of 20 degrees: the same edge in two views
 
 /// Collects the edge points of all views.
 void collectEdges(
@@ -35,7 +34,7 @@ void collectEdges(
     const PointCloud& cloud = edgeModels[view].cloud;
     const std::uint32_t bit = 1u << view;
     const std::size_t known = edges.size(); // points of one view never merge with each other
-    if (known + cloud.size() > MostEdges)
+    if (known + cloud.size() > TrainedModel::MostEdges)
     {
       throw Error("The appearance models have more than 65536 edge points: thin them with a larger leaf size.");
     }

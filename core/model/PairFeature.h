@@ -82,6 +82,7 @@ public:
     : Kind(kind)
     , InverseDistance(static_cast<float>(1.0 / distanceStep))
     , InverseAngle(static_cast<float>(1.0 / angleStep))
+    , Longest(static_cast<float>(maximumDistance * (1.0 + Rounding)))
     , Distances(static_cast<int>(std::min(1e9, std::floor(maximumDistance / distanceStep))) + 1)
     , Acute(static_cast<int>(std::ceil(M_PI_2 / angleStep - 1e-6)))
     , Between(kind == PairFeatureKind::Paper ? this->Acute
@@ -103,19 +104,22 @@ public:
     const auto bin = [this](float angle, int bins)
     { return std::min(static_cast<int>(angle * this->InverseAngle), bins - 1); };
     const int distance =
-      static_cast<int>(std::min(feature.distance * this->InverseDistance, static_cast<float>(this->Distances)));
+      static_cast<int>(std::min(feature.distance * this->InverseDistance, static_cast<float>(this->Distances - 1)));
     // The sums do not wait for each other.
     const int acute = bin(feature.referenceAngle, this->Acute) * this->Acute + bin(feature.referredAngle, this->Acute);
     int key = (distance * this->Acute * this->Acute + acute) * this->Between + bin(feature.tangentAngle, this->Between);
     const int oriented = 2 * key + (feature.rightHanded ? 1 : 0);
     key = this->Kind == PairFeatureKind::Oriented ? oriented : key;
-    return distance < this->Distances ? key : -1;
+    return feature.distance <= this->Longest ? key : -1;
   }
 
 private:
+  static constexpr double Rounding = 1e-5; // by which the part's longest pair may be longer than d_max
+
   PairFeatureKind Kind = PairFeatureKind::Oriented;
   float InverseDistance = 1.0f;
   float InverseAngle = 1.0f;
+  float Longest = 0.0f;
   int Distances = 1;
   int Acute = 1;
   int Between = 1;

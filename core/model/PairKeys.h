@@ -5,7 +5,6 @@
 #include "model/PairFeature.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace meam
 {

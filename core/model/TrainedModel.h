@@ -58,6 +58,7 @@ struct TrainedModel
   static constexpr int FormatVersion = 3;
   static constexpr int MaximumViews = 32; ///< views and directions are bits of a word
   static constexpr std::int64_t MostKeys = 50000000;
+  static constexpr std::size_t MostEdges = std::size_t{ 1 } << (SheetBits - 1); ///< edge points; two sheets of votes each
 
   double diameter = 0.0; ///< d_max, mm
   std::string digest;    ///< of the surface, the edges and the settings

@@ -41,7 +41,8 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
   for (int pair = 0; pair < pairs; ++pair)
   {
     const VoteBucket& bucket = buckets[pair];
-    // Of a scene pair that runs against its tangent the other flip and -alpha, which is ~(-alpha - 1).
+    // Of a scene pair that runs against its tangent it is the other flip, and its turn the other way round makes
+    // -alpha: alpha is ~(-alpha - 1).
     const bool against = bucket.turn >> TurnBits != 0;
     const std::uint32_t turn = (against ? 0u - bucket.turn - 1u : bucket.turn) << SheetBits;
     const std::uint32_t turned = against ? ~sheetMask | 1u : 0u;
@@ -147,7 +148,7 @@ std::vector<VotePeak> VoteAccumulator::peaks(int count)
       return int{ bins[bin == this->Turns ? 0 : bin].of[sheet % SheetGroup::Sheets] };
     };
     int bin = 0;
-    while (votes(bin - 1) + votes(bin) + votes(bin + 1) != most)
+    while (bin + 1 < this->Turns && votes(bin - 1) + votes(bin) + votes(bin + 1) != most)
     {
       ++bin;
     }

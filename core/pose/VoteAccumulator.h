@@ -31,6 +31,8 @@ struct alignas(32) SheetGroup
   static constexpr int Sheets = 16;
   std::uint16_t of[Sheets] = {};
 };
+static_assert(
+  sizeof(SheetGroup) == SheetGroup::Sheets * sizeof(std::uint16_t), "groups follow each other without gaps");
 
 /// Votes of one reference point in the space (m_r, flip, alpha), paper Section 5.1. A tangent has no sign; the sign of
 /// d along it decides whether the stored tangents agree (alpha = beta_s - beta_m) or not (alpha = beta_s + beta_m).

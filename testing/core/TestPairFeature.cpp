@@ -96,7 +96,9 @@ TEST(PairFeature, QuantizerCutsAtTheSteps)
   EXPECT_EQ(paper.key({ 20.0f, angle(25), angle(35), angle(85), false }), ((2 * 9 + 2) * 9 + 3) * 9 + 8);
   // The right angle belongs to the last step; beyond d_max there is no key.
   EXPECT_EQ(paper.key({ 20.0f, angle(90), angle(90), angle(90), false }), ((2 * 9 + 8) * 9 + 8) * 9 + 8);
-  EXPECT_EQ(paper.key({ 106.0f, 0.0f, 0.0f, 0.0f, false }), -1);
+  EXPECT_EQ(paper.key({ 100.0f, 0.0f, 0.0f, 0.0f, false }), 14 * 9 * 9 * 9);
+  EXPECT_EQ(paper.key({ 100.1f, 0.0f, 0.0f, 0.0f, false }), -1);
+  EXPECT_EQ(paper.key({ 1e9f, 0.0f, 0.0f, 0.0f, false }), -1);
 
   const meam::PairFeatureQuantizer oriented(PairFeatureKind::Oriented, 7.0, 10 * Degree, 100.0);
   EXPECT_EQ(oriented.numberOfKeys(), 15 * 9 * 9 * 18 * 2);

@@ -58,8 +58,7 @@ TEST(PointBlocks, MissNoPointWithinTheRadius)
   {
     for (std::size_t k = 0; k < points.size(); k += 97)
     {
-      const std::vector<int> order = within(blocks, points[k], radius);
-      std::vector<int> found = order;
+      std::vector<int> found = within(blocks, points[k], radius);
       std::sort(found.begin(), found.end());
       EXPECT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end());
       for (std::size_t i = 0; i < points.size(); ++i)

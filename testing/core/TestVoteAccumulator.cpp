@@ -59,6 +59,44 @@ TEST(VoteAccumulator, TheTurnIsTheDifferenceOrTheSum)
   EXPECT_FALSE(votes.peaks(1).at(0).flip);
 }
 
+TEST(VoteAccumulator, EverySenseHasItsExactBin)
+{
+  constexpr int fullTurn = 1 << meam::TurnBits;
+  for (const int scene : { 0, 1, 655, 656, 5000, 16384, 32767 })
+  {
+    for (const int model : { 0, 1, 655, 656, 5000, 16384, 32767 })
+    {
+      for (const bool sceneAgainst : { false, true })
+      {
+        for (const bool modelAgainst : { false, true })
+        {
+          meam::VoteAccumulator votes(1, Step);
+          const bool flip = sceneAgainst != modelAgainst;
+          vote(votes, meam::voteEntry(0, modelAgainst, model), (sceneAgainst ? fullTurn : 0) | scene);
+          const int alpha = (flip ? scene + model : scene - model + fullTurn) % fullTurn;
+          const auto peaks = votes.peaks(3);
+          ASSERT_EQ(peaks.size(), 1u);
+          EXPECT_EQ(peaks[0].flip, flip);
+          const double bins = peaks[0].alpha / Step + 50.0; // may come out below 0
+          EXPECT_NEAR(std::fmod(bins, 50.0), alpha * 50 / fullTurn + 0.5, 1e-9) << scene << " " << model;
+        }
+      }
+    }
+  }
+}
+
+TEST(VoteAccumulator, TheLastOfTheMostModelPointsVotesToo)
+{
+  meam::VoteAccumulator votes(65536, M_PI_2);
+  vote(votes, meam::voteEntry(65535, true, 0), sceneTurn(false, 100.0), 2);
+  vote(votes, meam::voteEntry(65534, false, 0), sceneTurn(false, 100.0));
+  const auto peaks = votes.peaks(9);
+  ASSERT_EQ(peaks.size(), 2u);
+  EXPECT_EQ(peaks[0].modelPoint, 65535);
+  EXPECT_TRUE(peaks[0].flip);
+  EXPECT_EQ(peaks[1].modelPoint, 65534);
+}
+
 TEST(VoteAccumulator, NeighbouringBinsAddUpAndPullThePeak)
 {
   meam::VoteAccumulator votes(1, Step);
@@ -92,7 +130,10 @@ TEST(VoteAccumulator, VeryManyVotesDoNotWrap)
   vote(votes, entry(1, false, 0.0), sceneTurn(false, 50.0), 200000);
   vote(votes, entry(0, false, 0.0), sceneTurn(false, 50.0), 100);
   EXPECT_EQ(votes.peaks(1).at(0).modelPoint, 1);
-  EXPECT_GT(votes.peaks(1).at(0).votes, 20000);
+  EXPECT_EQ(votes.peaks(1).at(0).votes, 21845);
+  vote(votes, entry(1, false, 0.0), sceneTurn(false, 42.0), 30000);
+  vote(votes, entry(1, false, 0.0), sceneTurn(false, 57.0), 30000);
+  EXPECT_EQ(votes.peaks(1).at(0).votes, 65535) << "three bins that are full";
 }
 
 TEST(VoteAccumulator, FlipsOfABucketAreCountedApart)
@@ -130,7 +171,9 @@ TEST(VoteAccumulator, LongBucketsCountEveryEntry)
     const std::uint32_t turn = (0u - turnOf(0.36 * k)) & meam::TurnMask;
     slow[k % 7][(turn * 50) >> meam::TurnBits] += 2;
   }
-  for (const meam::VotePeak& peak : votes.peaks(14))
+  const auto peaks = votes.peaks(14);
+  ASSERT_EQ(peaks.size(), 7u);
+  for (const meam::VotePeak& peak : peaks)
   {
     int most = 0;
     for (int bin = 0; bin < 50; ++bin)

@@ -51,6 +51,10 @@ check(run(detection(ReferenceShare=0.1)).GetNumberOfPoints() <= 100, "no more th
 # Single invalid points do not matter.
 holes = cloud(points(edges) + [(math.nan, 0, 0)], Tangent=tuples(edges, "Tangent") + [(1, 0, 0)])
 check(not is_empty(run(detection(holes))), "a point of NaN")
+whole = cloud(points(edges), Tangent=tuples(edges, "Tangent"))
+undirected = cloud(points(edges) + points(edges)[:2], Tangent=tuples(edges, "Tangent") + [(math.nan, 0, 0), (0, 0, 0)])
+check(tuples(run(detection(undirected)), "Transform") == tuples(run(detection(whole)), "Transform"),
+      "points without a direction do not count")
 
 metres = cloud([tuple(1e-3 * c for c in p) for p in points(edges)], Tangent=tuples(edges, "Tangent"))
 fails(detection(metres), "units differ", "1000")
