@@ -11,7 +11,7 @@ namespace
 {
 using Iterator = std::vector<int>::iterator;
 
-constexpr float Wider = 1.00001f; // what rounding may take from a radius
+constexpr float Wider = 1.0001f; // more than rounding may take from a radius
 
 /// Halves the points across their longest side until a block has them all. All blocks are full but the last.
 void split(const Points& points, Iterator begin, Iterator end)

@@ -19,10 +19,12 @@ using PairTurn = std::uint32_t;
 /// Votes that are computed at once.
 constexpr int VoteBlock = 16;
 
+/// Bits of an entry of the table that name the sheet of votes.
+constexpr int SheetBits = 32 - TurnBits;
+
 /// An entry of the table as voting reads it. In its upper TurnBits bits the turn which, added to that of a scene pair
 /// along its tangent, gives alpha; below them the sheet of votes: 2 * reference, and one more when d runs against the
 /// reference's tangent. `turn`: of the model's pair, only its angle.
-constexpr int SheetBits = 32 - TurnBits;
 constexpr std::uint32_t voteEntry(std::uint32_t reference, bool against, PairTurn turn)
 {
   return ((against ? turn : 0u - turn) << SheetBits) | (2 * reference + (against ? 1u : 0u));
