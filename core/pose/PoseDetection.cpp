@@ -113,6 +113,18 @@ private:
   PointBlocks Blocks;
   PairKeys Pairs;
 };
+
+/// The pose that lays the frame of the peak's model point on `scene`, a frame of the cloud in its own frame.
+Pose poseOf(const VotePeak& peak, const TrainedModel& model, const TangentFrame& scene, const Eigen::Isometry3d& own)
+{
+  const TangentFrame part(model.edges.points[peak.modelPoint], model.edges.tangents[peak.modelPoint]);
+  Pose pose;
+  pose.T_scene_model = own.inverse() * alignFrames(part, scene, peak.flip, peak.alpha);
+  pose.T_scene_model = nearestEqual(pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
+  pose.votes = peak.votes;
+  pose.viewId = __builtin_ctz(model.edgeViews[peak.modelPoint]);
+  return pose;
+}
 }
 
 PoseDetectionSettings paperDetectionSettings()
@@ -161,36 +173,28 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
   std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep));
-  std::vector<std::vector<VotePeak>> peaks(references.size());
+  std::vector<Poses> found(references.size());
   parallelFor(static_cast<int>(references.size()), threads, progress,
     [&](int begin, int end, int thread)
     {
       VoteAccumulator& accumulator = accumulators[thread];
       for (int r = begin; r < end; ++r)
       {
+        const TangentFrame scene(edges.points[references[r]], edges.tangents[references[r]]);
         accumulator.clear();
-        voting->vote(TangentFrame(edges.points[references[r]], edges.tangents[references[r]]), accumulator);
-        peaks[r] = accumulator.peaks(settings.peaksPerReference);
+        voting->vote(scene, accumulator);
+        for (const VotePeak& peak : accumulator.peaks(settings.peaksPerReference))
+        {
+          found[r].push_back(poseOf(peak, model, scene, frame));
+        }
       }
     });
 
   Poses poses;
-  poses.reserve(peaks.size());
-  for (std::size_t r = 0; r < peaks.size(); ++r)
+  poses.reserve(found.size());
+  for (const Poses& ofOne : found)
   {
-    const TangentFrame scene(edges.points[references[r]], edges.tangents[references[r]]);
-    for (const VotePeak& peak : peaks[r])
-    {
-      Pose pose;
-      pose.T_scene_model =
-        alignFrames(TangentFrame(model.edges.points[peak.modelPoint], model.edges.tangents[peak.modelPoint]), scene,
-          peak.flip, peak.alpha);
-      pose.T_scene_model = frame.inverse() * pose.T_scene_model;
-      pose.T_scene_model = nearestEqual(pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
-      pose.votes = peak.votes;
-      pose.viewId = __builtin_ctz(model.edgeViews[peak.modelPoint]);
-      poses.push_back(pose);
-    }
+    poses.insert(poses.end(), ofOne.begin(), ofOne.end());
   }
   report(progress, 1.0);
   return poses;
