@@ -2,6 +2,7 @@
 #include "PointBlocks.h"
 
 #include "AllVectors.h"
+#include "Parallel.h"
 
 #include <algorithm>
 
@@ -13,14 +14,9 @@ using Iterator = std::vector<int>::iterator;
 
 constexpr float Wider = 1.0001f; // more than rounding may take from a radius
 
-/// Halves the points across their longest side until a block has them all. All blocks are full but the last.
-void split(const Points& points, Iterator begin, Iterator end)
+/// Halves points across their longest side; full blocks come first.
+Iterator halve(const Points& points, Iterator begin, Iterator end)
 {
-  const auto count = end - begin;
-  if (count <= PointBlocks::Size)
-  {
-    return;
-  }
   Eigen::AlignedBox3f box;
   for (Iterator i = begin; i != end; ++i)
   {
@@ -28,11 +24,21 @@ void split(const Points& points, Iterator begin, Iterator end)
   }
   int axis = 0;
   box.sizes().maxCoeff(&axis);
-  const Iterator middle = begin + (count / 2 + PointBlocks::Size - 1) / PointBlocks::Size * PointBlocks::Size;
+  const Iterator middle = begin + ((end - begin) / 2 + PointBlocks::Size - 1) / PointBlocks::Size * PointBlocks::Size;
   std::nth_element(begin, middle, end,
     [&](int a, int b) { return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b; });
-  split(points, begin, middle);
-  split(points, middle, end);
+  return middle;
+}
+
+/// Halves points until a block has them all. All blocks are full but the last.
+void split(const Points& points, Iterator begin, Iterator end)
+{
+  if (end - begin > PointBlocks::Size)
+  {
+    const Iterator middle = halve(points, begin, end);
+    split(points, begin, middle);
+    split(points, middle, end);
+  }
 }
 
 /// Squared distances from a place to `count` boxes.
@@ -54,7 +60,7 @@ void squaredDistances(
 }
 }
 
-PointBlocks::PointBlocks(const Points& points)
+PointBlocks::PointBlocks(const Points& points, int threads)
 {
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -63,7 +69,12 @@ PointBlocks::PointBlocks(const Points& points)
       this->Order.push_back(static_cast<int>(i));
     }
   }
-  split(points, this->Order.begin(), this->Order.end());
+  const Iterator first = this->Order.begin(), end = this->Order.end();
+  if (end - first > Size)
+  {
+    const Iterator middle = halve(points, first, end);
+    inParallel(threads, { [&] { split(points, first, middle); }, [&] { split(points, middle, end); } });
+  }
   for (std::size_t begin = 0; begin < this->Order.size(); begin += Size)
   {
     Eigen::AlignedBox3f box;

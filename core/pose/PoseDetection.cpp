@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 namespace meam
 {
@@ -61,9 +60,9 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
 class Voting
 {
 public:
-  Voting(const TrainedModel& model, const PointCloud& referred)
+  Voting(const TrainedModel& model, const PointCloud& referred, int threads)
     : Model(model)
-    , Blocks(referred.points)
+    , Blocks(referred.points, threads)
     , Pairs(referred.subset(this->Blocks.order()), model.quantizer())
   {
   }
@@ -161,15 +160,15 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
   }
   const double cell = LotShare * model.diameter;
   std::vector<int> references;
-  std::optional<Voting> voting;
+  PointCloud referred;
   inParallel(settings.threads,
     { [&] { references = chooseShare(edges.points, settings.referenceShare, LeastReferences, cell, settings.seed); },
       [&]
       {
-        const PointCloud pairing = edges.subset(thinPoints(edges.points, model.votingLeaf()));
-        voting.emplace(
-          model, pairing.subset(chooseShare(pairing.points, settings.referredShare, 1, cell, settings.seed + 1)));
+        referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
+        referred = referred.subset(chooseShare(referred.points, settings.referredShare, 1, cell, settings.seed + 1));
       } });
+  const Voting voting(model, referred, settings.threads);
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
   std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep));
@@ -182,7 +181,7 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
       {
         const TangentFrame scene(edges.points[references[r]], edges.tangents[references[r]]);
         accumulator.clear();
-        voting->vote(scene, accumulator);
+        voting.vote(scene, accumulator);
         for (const VotePeak& peak : accumulator.peaks(settings.peaksPerReference))
         {
           found[r].push_back(poseOf(peak, model, scene, frame));

@@ -50,6 +50,12 @@ TEST(PointBlocks, HaveEveryPointOnce)
   }
 }
 
+TEST(PointBlocks, AreTheSameForAnyNumberOfThreads)
+{
+  const meam::Points points = scattered(4097);
+  EXPECT_EQ(meam::PointBlocks(points, 4).order(), meam::PointBlocks(points).order());
+}
+
 TEST(PointBlocks, MissNoPointWithinTheRadius)
 {
   const meam::Points points = scattered(6000); // more blocks than are looked at together
