@@ -11,7 +11,7 @@ class PointBlocks
 public:
   static constexpr int Size = 16; ///< points of a block; the last has what is left
 
-  /// Points that are not finite are left out. The same for any number of threads.
+  /// Points that are not finite are left out. The same for any number of threads, of which two at most help.
   explicit PointBlocks(const Points& points, int threads = 1);
 
   /// The finite points' indices block by block; block b begins at b * Size.

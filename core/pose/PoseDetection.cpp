@@ -113,7 +113,7 @@ private:
   PairKeys Pairs;
 };
 
-/// The pose that lays the frame of the peak's model point on `scene`, a frame of the cloud in its own frame.
+/// The pose that lays the frame of the peak's model point on `scene`. `own` takes the scene to the frame it votes in.
 Pose poseOf(const VotePeak& peak, const TrainedModel& model, const TangentFrame& scene, const Eigen::Isometry3d& own)
 {
   const TangentFrame part(model.edges.points[peak.modelPoint], model.edges.tangents[peak.modelPoint]);
