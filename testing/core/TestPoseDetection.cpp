@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PoseDetection.h"
 
+#include "PointGrid.h"
 #include "TestScene.h"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace
 {
@@ -16,7 +19,7 @@ int right(const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& truth,
         [&](const auto& T)
         {
           return meam::translationError(pose.T_scene_model, T) < millimetres &&
-            meam::rotationError(pose.T_scene_model, T) < degrees;
+                 meam::rotationError(pose.T_scene_model, T) < degrees;
         });
     }));
 }
@@ -30,6 +33,65 @@ meam::PointCloud ownEdges(const Eigen::Isometry3d& T, float sign = 1.0f)
     tangent *= sign;
   }
   return edges;
+}
+
+/// The best supported turn of one reference point, every vote of every pair counted on its own.
+struct SlowPeak
+{
+  int votes = 0; ///< of three neighbouring bins
+  int lead = 0;  ///< before all others
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+};
+
+SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& referred, const meam::TangentFrame& scene,
+  const Eigen::Vector3f& tangent)
+{
+  constexpr int bins = 50; // of 7.2 degrees
+  const auto framed = [&](std::uint32_t point)
+  { return meam::TangentFrame(model.edges.points[point], model.edges.tangents[point]); };
+  const meam::PairFeatureQuantizer quantizer = model.quantizer();
+  std::vector<std::array<int, bins>> counts(2 * model.votingEdges, std::array<int, bins>{});
+  for (std::size_t i = 0; i < referred.size(); ++i)
+  {
+    const meam::PairFeature feature =
+      meam::pairFeature(quantizer.kind(), scene.Origin, tangent, referred.points[i], referred.tangents[i]);
+    const int key = quantizer.key(feature);
+    if (key < 0 || feature.distance == 0.0f)
+    {
+      continue;
+    }
+    for (std::uint32_t k = model.table.offsets[key]; k < model.table.offsets[key + 1]; ++k)
+    {
+      const std::uint32_t point = model.table.references[k];
+      const Eigen::Vector3f& other = model.edges.points[model.table.referreds[k]];
+      const meam::TangentFrame part = framed(point);
+      const bool flip = part.against(other) != scene.against(referred.points[i]);
+      const double angle = scene.angleOf(referred.points[i]);
+      const double turns = (flip ? angle + part.angleOf(other) : angle - part.angleOf(other)) / (2.0 * M_PI) + 2.0;
+      ++counts[2 * point + (flip ? 1 : 0)][static_cast<int>(std::floor(turns * bins)) % bins];
+    }
+  }
+  SlowPeak best;
+  for (std::size_t sheet = 0; sheet < counts.size(); ++sheet)
+  {
+    for (int bin = 0; bin < bins; ++bin)
+    {
+      const int before = counts[sheet][(bin + bins - 1) % bins], after = counts[sheet][(bin + 1) % bins];
+      const int sum = before + counts[sheet][bin] + after;
+      if (sum > best.votes)
+      {
+        best.lead = sum - best.votes;
+        best.votes = sum;
+        const double alpha = (bin + 0.5 + static_cast<double>(after - before) / sum) * 2.0 * M_PI / bins;
+        best.pose = meam::alignFrames(framed(sheet / 2), scene, sheet % 2 == 1, alpha);
+      }
+      else
+      {
+        best.lead = std::min(best.lead, best.votes - sum);
+      }
+    }
+  }
+  return best;
 }
 }
 
@@ -91,6 +153,39 @@ TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
   EXPECT_FALSE(same(first, other));
 }
 
+TEST(PoseDetection, CountsTheVotesOfAllPairs)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::PoseDetectionSettings settings;
+  settings.referenceShare = 1.0;
+  const meam::Poses poses = meam::detectPoses(scene.edges, model, settings);
+  const meam::FramedCloud own = meam::inOwnFrame(scene.edges);
+  const meam::PointCloud referred = own.cloud.subset(meam::thinPoints(own.cloud.points, model.votingLeaf()));
+  ASSERT_EQ(poses.size(), own.cloud.size()) << "every reference point finds pairs";
+  int exact = 0;
+  int sure = 0;
+  for (std::size_t r = 0; r < poses.size(); ++r)
+  {
+    const Eigen::Vector3f& stored = own.cloud.tangents[r];
+    const Eigen::Vector3f tangent = stored.x() < 0.0f ? Eigen::Vector3f(-stored) : stored;
+    const SlowPeak peak = slowPeak(model, referred, meam::TangentFrame(own.cloud.points[r], tangent), tangent);
+    // Rounding may carry a vote over the border of its bin, which turns a pose of 30 votes by up to half a degree.
+    EXPECT_NEAR(poses[r].votes, peak.votes, 2) << r;
+    exact += poses[r].votes == peak.votes ? 1 : 0;
+    if (poses[r].votes == peak.votes && peak.lead > 3)
+    {
+      ++sure;
+      const Eigen::Isometry3d slow =
+        meam::nearestEqual(own.frame.inverse() * peak.pose, poses[r].T_scene_model, model.symmetries);
+      EXPECT_LT(meam::translationError(poses[r].T_scene_model, slow), 0.5) << r;
+      EXPECT_LT(meam::rotationError(poses[r].T_scene_model, slow), 0.5) << r;
+    }
+  }
+  EXPECT_GT(exact, 0.98 * poses.size());
+  EXPECT_GT(sure, 20);
+}
+
 TEST(PoseDetection, PointsOfOneCubeMakeOnePair)
 {
   const auto mostVotes = [](const meam::PointCloud& edges)
@@ -98,7 +193,8 @@ TEST(PoseDetection, PointsOfOneCubeMakeOnePair)
     meam::PoseDetectionSettings settings;
     settings.referenceShare = 1.0;
     const meam::Poses poses = meam::detectPoses(edges, scenes::bracket(), settings);
-    return std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.votes < b.votes; })->votes;
+    return std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.votes < b.votes; })
+      ->votes;
   };
   const meam::PointCloud once = ownEdges(Eigen::Isometry3d::Identity());
   meam::PointCloud twice = once;
@@ -134,6 +230,6 @@ TEST(PoseDetection, BadInput)
   meam::PoseDetectionSettings none;
   none.referenceShare = 0.0;
   EXPECT_THROW(meam::detectPoses(ownEdges(Eigen::Isometry3d::Identity()), model, none), meam::Error);
-  EXPECT_THROW(meam::detectPoses(ownEdges(Eigen::Isometry3d::Identity()), model, {}, [](double) { return false; }),
-    meam::Aborted);
+  EXPECT_THROW(
+    meam::detectPoses(ownEdges(Eigen::Isometry3d::Identity()), model, {}, [](double) { return false; }), meam::Aborted);
 }
