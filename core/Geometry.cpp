@@ -127,6 +127,30 @@ void addMoments(const double* xyz, std::size_t count, const double* from, double
   addEachMoment(xyz, count, from, sums);
 }
 
+constexpr double Spread = 1e4;     // mm, root mean square from the mean, of no bin: looked at for stray points
+constexpr double StrayDistance = 1e3; // of the extent of the middle half of the points
+
+/// The points that are not far beyond all measure from the middle half of them.
+template <typename Scalar>
+std::vector<Scalar> withoutStrays(const Scalar* xyz, std::size_t count)
+{
+  Points points(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    points[i] = Eigen::Matrix<Scalar, 3, 1>(xyz + 3 * i).template cast<float>();
+  }
+  const Eigen::AlignedBox3d middle = innerBounds(points, 0.25).cast<double>();
+  std::vector<Scalar> stay;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if ((points[i].cast<double>() - middle.center()).norm() <= StrayDistance * middle.diagonal().norm())
+    {
+      stay.insert(stay.end(), xyz + 3 * i, xyz + 3 * i + 3);
+    }
+  }
+  return stay;
+}
+
 template <typename Scalar>
 Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
 {
@@ -155,6 +179,14 @@ Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
   Eigen::Matrix3d squares;
   squares << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
   squares /= n;
+  if (squares.trace() - mean.squaredNorm() > Spread * Spread)
+  {
+    const std::vector<Scalar> stay = withoutStrays(xyz, count);
+    if (!stay.empty() && stay.size() < 3 * static_cast<std::size_t>(n))
+    {
+      return frameOf(stay.data(), stay.size() / 3);
+    }
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - mean * mean.transpose());
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   if (!axes.allFinite())
@@ -231,7 +263,7 @@ PointCloud finitePoints(PointCloud cloud)
   finite.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
-    if (cloud.points[i].allFinite())
+    if (cloud.points[i].allFinite() && (cloud.tangents.empty() || cloud.tangents[i].allFinite()))
     {
       finite.push_back(static_cast<int>(i));
     }
@@ -335,7 +367,12 @@ std::string unitsWarning(const Points& scene, double partDiameter)
 
 void requireSameUnits(const Points& scene, double partDiameter)
 {
-  const double extent = bounds(scene).diagonal().norm();
+  constexpr double StrayShare = 0.02; // of the points, at each end of each axis
+  double extent = bounds(scene).diagonal().norm();
+  if (extent > 1000.0 * partDiameter)
+  {
+    extent = innerBounds(scene, StrayShare).diagonal().norm(); // stray points are no other unit
+  }
   if (extent < 0.2 * partDiameter)
   {
     throw Error("The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +

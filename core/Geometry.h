@@ -60,7 +60,7 @@ struct AppearanceModel
 void requirePoints(const Points& points, const std::string& what);
 void requirePoints(std::size_t count, std::size_t finite, const std::string& what);
 
-/// The cloud without points that have a coordinate that is not finite.
+/// The cloud without points that have a coordinate, or a tangent, that is not finite.
 PointCloud finitePoints(PointCloud cloud);
 
 /// Axis-aligned bounds of the finite points.
@@ -74,7 +74,7 @@ Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis);
 
 /// Takes points to their own principal frame (mean, axes of most and second most extent, signs by their skewness):
 /// what is cut into cells and steps there does not depend on how the scene lies in its coordinates. Of `count` points, x y
-/// z each, those that are finite.
+/// z each, those that are finite and no strays far beyond all measure.
 Eigen::Isometry3d principalFrame(const float* xyz, std::size_t count);
 Eigen::Isometry3d principalFrame(const double* xyz, std::size_t count);
 template <typename Scalar>

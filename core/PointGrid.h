@@ -99,10 +99,10 @@ public:
 private:
   Eigen::Vector3i cellOf(const Eigen::Vector3f& point) const
   {
-    // What lies outside belongs to the cells of the border; clamped before the cast.
-    return ((point - this->Origin) * this->InverseCell)
-      .array()
-      .max(0.0f)
+    // What lies outside belongs to the cells of the border; clamped before the cast. Of a number and none the maximum is
+    // its first operand.
+    return Eigen::Array3f::Zero()
+      .max(((point - this->Origin) * this->InverseCell).array())
       .min(this->Size.cast<float>().array() - 1.0f)
       .cast<int>();
   }

@@ -31,7 +31,9 @@ def options_of_user():
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
     parser.add_argument("--poses", type=scripting.count, default=5,
-                        help="poses wanted; 0: all that are more likely right than wrong (default: %(default)s)")
+                        help="poses wanted, the best ones; 0: all of --probability (default: %(default)s)")
+    parser.add_argument("--probability", type=scripting.share, metavar="P",
+                        help="poses less likely to be right are left out (default: 0, and 0.5 with --poses 0)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
@@ -45,6 +47,8 @@ def options_of_user():
         parser.error("give the part: --cad, or --model of train.py")
     if options.cad and options.model and len(options.cad) != len(options.model):
         parser.error("give a --cad for each --model, in the same order, or none")
+    if options.probability is None:
+        options.probability = 0 if options.poses else 0.5
     if options.depth and not options.camera:
         parser.error("a depth image needs its --camera")
     return options
@@ -62,7 +66,7 @@ def estimate(options, part, scene, poses):
         estimation.SetCameraFile(options.image_camera)
     scripting.set_choice(estimation, "Preset", options.preset)
     estimation.SetMaximumNumberOfPoses(poses)
-    estimation.SetMinimumProbability(0 if options.poses else 0.5)
+    estimation.SetMinimumProbability(options.probability)
     estimation.SetNumberOfThreads(options.threads)
     return scripting.update(estimation)
 

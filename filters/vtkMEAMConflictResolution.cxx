@@ -25,10 +25,9 @@ namespace
 /// One type of part as the core has it; it refers to itself, so it stays where it was made.
 struct Part
 {
-  Part(vtkPartitionedDataSetCollection* trained, vtkPolyData* found, const meam::Scene& scene,
-    const meam::Sensor& sensor, int threads)
+  Part(vtkPartitionedDataSetCollection* trained, vtkPolyData* found, const meam::Scene& scene, int threads)
     : Model(vtkMEAMConversion::toTrainedModel(trained))
-    , Found(vtkMEAMConversion::toPoses(found, Model, sensor))
+    , Found(vtkMEAMConversion::toPoses(found))
     , Index(Model, scene, threads)
   {
     meam::requireSameUnits(scene.edges.points, this->Model.diameter);
@@ -111,7 +110,7 @@ int vtkMEAMConflictResolution::RequestData(
       for (int i = 0; i < count; ++i)
       {
         const Part& part = parts.emplace_back(vtkPartitionedDataSetCollection::GetData(inputVector[1], i),
-          vtkPolyData::GetData(inputVector[0], i), scene, sensor, this->NumberOfThreads);
+          vtkPolyData::GetData(inputVector[0], i), scene, this->NumberOfThreads);
         detections.push_back({ part.Index, part.Found });
       }
       meam::ConflictResolutionSettings settings;

@@ -2,7 +2,6 @@
 #include "vtkMEAMConversion.h"
 
 #include "model/TangentEstimation.h"
-#include "pose/PartView.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataSetAttributes.h"
@@ -562,6 +561,7 @@ meam::Poses toPoses(vtkPolyData* input)
   vtkDataArray* iterations = pointArray(input, "Iterations", 1);
   vtkDataArray* covariances = pointArray(input, "Covariance", 36);
   vtkDataArray* constrained = pointArray(input, "ConstrainedDegreesOfFreedom", 1);
+  vtkDataArray* axes = pointArray(input, "ConstrainedAxes", 6);
   for (vtkIdType i = 0; i < count; ++i)
   {
     Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix;
@@ -586,28 +586,15 @@ meam::Poses toPoses(vtkPolyData* input)
     pose.visibleFraction = fractions ? fractions->GetComponent(i, 0) : 0.0;
     pose.certainty = certainties ? certainties->GetComponent(i, 0) : 1.0;
     pose.probability = probabilities ? probabilities->GetComponent(i, 0) : 0.0;
-    if (residuals && iterations && covariances && constrained)
+    if (residuals && iterations && covariances && constrained && axes)
     {
       pose.fit.residual = residuals->GetComponent(i, 0);
       pose.fit.iterations = static_cast<int>(iterations->GetComponent(i, 0));
       covariances->GetTuple(i, pose.fit.covariance.data());
       pose.fit.constrained = static_cast<int>(constrained->GetComponent(i, 0));
+      axes->GetTuple(i, pose.fit.constrainedAxes.data());
     }
     poses.push_back(pose);
-  }
-  return poses;
-}
-
-meam::Poses toPoses(vtkPolyData* input, const meam::TrainedModel& model, const meam::Sensor& sensor)
-{
-  meam::Poses poses = toPoses(input);
-  const meam::PartView view(model);
-  for (meam::Pose& pose : poses)
-  {
-    if (pose.viewId < 0 || pose.viewId >= static_cast<int>(model.viewDirections.size()))
-    {
-      pose.viewId = view.view(pose.T_scene_model, sensor);
-    }
   }
   return poses;
 }
@@ -670,6 +657,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
     int* iterations = integers("Iterations");
     double* covariance = doubles("Covariance", 36);
     int* constrained = integers("ConstrainedDegreesOfFreedom");
+    double* axes = doubles("ConstrainedAxes", 6);
     for (vtkIdType i = 0; i < count; ++i)
     {
       const meam::PoseFit& fit = poses[i].fit;
@@ -677,6 +665,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
       iterations[i] = fit.iterations;
       Eigen::Map<Eigen::Matrix<double, 6, 6>>(covariance + 36 * i) = fit.covariance; // symmetric
       constrained[i] = fit.constrained;
+      Eigen::Map<Eigen::Matrix<double, 6, 1>>(axes + 6 * i) = fit.constrainedAxes;
     }
   }
   output->SetPoints(points);

@@ -92,10 +92,8 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
 
 /// One vertex for each pose, best first: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w),
 /// `Score`, `Probability`, `Votes`, `ViewId`, `VisibleFraction`, `Certainty`, `Rank` (from 1); of refined poses `Residual`,
-/// `Iterations`, `Covariance` (36) and `ConstrainedDegreesOfFreedom`.
+/// `Iterations`, `Covariance` (36), `ConstrainedDegreesOfFreedom` and `ConstrainedAxes` (6).
 meam::Poses toPoses(vtkPolyData* input);
-/// The same, with the appearance model nearest to the sensor for poses that do not name one, as from a file.
-meam::Poses toPoses(vtkPolyData* input, const meam::TrainedModel& model, const meam::Sensor& sensor);
 void fromPoses(const meam::Poses& poses, vtkPolyData* output);
 
 /// d_max in mm travels with the part from step to step as the field data `Diameter`; 0 when it is not there.

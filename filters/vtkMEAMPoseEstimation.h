@@ -21,8 +21,8 @@
  * camera that took it is known as vtkMEAMSceneEdgeExtraction has it.
  *
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
- * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score` in [0, 1], `Votes`,
- * `ViewId`, `VisibleFraction` and `Rank`; field data: `Diameter` (mm), `SecondsTraining`,
+ * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
+ * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, and those that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `SecondsTraining`,
  * `SecondsSceneEdges`, `SecondsTangents`, `SecondsDetection`, `SecondsVerification`,
  * `SecondsRefinement`, `SecondsSelection`, `SecondsTotal`, and the counts `ScenePoints`,
  * `SceneEdgePoints` and `ModelEdgePoints`.

@@ -61,7 +61,7 @@ int vtkMEAMPoseRefinement::RequestData(
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
     const meam::Scene scene = sceneOf(edges, surface, sensor, this->NumberOfThreads);
     meam::requireSameUnits(scene.edges.points, model.diameter);
-    const meam::Poses poses = toPoses(candidates, model, sensor);
+    const meam::Poses poses = toPoses(candidates);
     fromPoses(meam::refinePoses(poses, model, scene, settings, progressOf(this)), output);
     setDiameter(output, model.diameter);
   };

@@ -73,7 +73,7 @@ int vtkMEAMPoseVerification::RequestData(
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
     const meam::Scene scene = sceneOf(edges, surface, sensor, this->NumberOfThreads);
     meam::requireSameUnits(scene.edges.points, model.diameter);
-    const meam::Poses poses = toPoses(candidates, model, sensor);
+    const meam::Poses poses = toPoses(candidates);
     fromPoses(meam::verifyPoses(poses, model, scene, settings, progressOf(this)), output);
     setDiameter(output, model.diameter);
   };

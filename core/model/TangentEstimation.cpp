@@ -421,7 +421,7 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
   LocalTangents found;
   for (std::size_t k = 0; k < tangents.size(); ++k)
   {
-    if (!tangents[k].isZero())
+    if (tangents[k].allFinite() && !tangents[k].isZero())
     {
       found.points.push_back(kept.indices[k]);
       found.tangents.push_back(tangents[k]);

@@ -47,7 +47,8 @@ struct Claim
 std::vector<int> explainedPoints(
   const Measured& measured, const TrainedModel& model, const Eigen::Isometry3d& T_scene_model, double tolerance)
 {
-  const DistanceField& distance = measured.bySurface ? model.surfaceDistance : model.edgeDistance;
+  const bool bySurface = measured.bySurface && !model.surface.empty();
+  const DistanceField& distance = bySurface ? model.surfaceDistance : model.edgeDistance;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Isometry3f toModel = T.inverse();
   std::vector<int> explained;
@@ -73,14 +74,15 @@ double soundShare(const std::vector<PointState>& states)
 
 Claim claimOf(const PartPose& pose, const SceneIndex& index, const Measured& measured, double tolerance)
 {
-  const Eigen::Isometry3d T =
-    inFrameOf(index.scene, { pose.pose }, index.model.symmetries).front().T_scene_model;
+  const Pose inFrame = inFrameOf(index.scene, { pose.pose }, index.model.symmetries).front();
+  const Eigen::Isometry3d& T = inFrame.T_scene_model;
   const EvidenceCollector collector(index, VerifiedShare * index.model.diameter);
   const PoseEvidence evidence = collector.collect(T);
   Claim claim{ pose, explainedPoints(measured, index.model, T, tolerance) };
+  claim.pose.pose.viewId = index.viewOf(inFrame);
   const double probability = std::min(confidence(pose.pose), MostProbable);
   claim.support = probability / (1.0 - probability) * claim.points.size() *
-    soundShare(measured.bySurface ? evidence.surfaceStates : evidence.edgeStates);
+    soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
   return claim;
 }
 

@@ -16,6 +16,8 @@ namespace
 {
 constexpr float LargestSide = 2048.0f; // cells; a wider scene gets coarser cells
 constexpr double StrayShare = 0.001;   // of the points, at each end of each axis
+constexpr double MiddleShare = 0.49;   // as that leaves next to the medians
+constexpr double FarDepths = 1.9;      // times the mean depth: farther than any point of a bin
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
 
 /// A map's lines of sight, for points that `toAxes` takes to its axes.
@@ -114,9 +116,13 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
   {
     return;
   }
+  Eigen::AlignedBox3f box = bounds(projected);
+  if (sensor.perspective && box.max().z() > FarDepths * depthSum / count)
+  {
+    depthSum = count * innerBounds(projected, MiddleShare).center().z(); // stray points do not tell where the scene is
+  }
   // A perspective map lies at depth 1.
   float cell = static_cast<float>(sensor.perspective ? cellSize * count / depthSum : cellSize);
-  Eigen::AlignedBox3f box = bounds(projected);
   if (!(box.sizes().head<2>().maxCoeff() < LargestSide * cell))
   {
     box = innerBounds(projected, StrayShare); // stray points are left out

@@ -3,12 +3,15 @@
 
 #include "mesh/ConvexHull.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace meam
 {
 namespace
 {
+constexpr int RawOfOne = 3; // raw candidates, at most, of each that is refined: a large bin has many instances
+
 /// Seconds since the last call.
 class Stopwatch
 {
@@ -89,7 +92,12 @@ Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, Framed
   spent.detection = watch.lap();
   const Scene scene = sceneInOwnFrame(withTangents, std::move(surface), sensor, settings.verification.threads);
   const SceneIndex index(model, scene, settings.verification.threads);
-  poses = verifyPoses(poses, index, settings.verification, subProgress(progress, 0.5, 0.7));
+  PoseVerificationSettings verification = settings.verification;
+  if (verification.maximumPoses > 0)
+  {
+    verification.maximumPoses = std::max(verification.maximumPoses, static_cast<int>(poses.size()) / RawOfOne);
+  }
+  poses = verifyPoses(poses, index, verification, subProgress(progress, 0.5, 0.7));
   spent.verification = watch.lap();
   poses = refinePoses(poses, index, settings.refinement, subProgress(progress, 0.7, 0.95));
   spent.refinement = watch.lap();

@@ -60,7 +60,8 @@ struct StageTimes
 };
 
 /// The online phase, from edge points without tangents, as extracted, to ranked poses. The surface may be empty; all
-/// poses, `edges` and `sensor` are in the scene's coordinates (mm). `times` may be null.
+/// poses, `edges` and `sensor` are in the scene's coordinates (mm). Of many raw candidates a third may be refined, also when
+/// these are more than settings.verification.maximumPoses. `times` may be null.
 Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor,
   const DetectionSettings& settings, StageTimes* times = nullptr, const Progress& progress = {});
 }

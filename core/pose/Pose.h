@@ -11,9 +11,13 @@ struct PoseFit
   int iterations = 0;   ///< 0: the pose has not been refined
   double residual = 0.0; ///< mm, root mean square over what corresponds, weighted
   /// Of a small motion about the middle of the part's surface, scene axes: rotation vector (radians), then translation
-  /// (mm). Errors of the measured points are taken as independent.
+  /// (mm). Errors of the measured points are taken as independent. Where nothing corresponds to anything: half the
+  /// part's diameter in every direction.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int constrained = 0; ///< degrees of freedom, of six, that the scene's points fix
+  /// Which: the share that they fix, [0, 1], of turns about the part's x, y and z axis through that middle and of shifts
+  /// along them.
+  Eigen::Matrix<double, 6, 1> constrainedAxes = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
 /// A copy of the part in the scene: where it is and what speaks for it.

@@ -143,6 +143,7 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
   {
     throw Error("The scene's edge points have no tangents: estimate them before detection.");
   }
+  edges = finitePoints(std::move(edges));
   requireSameUnits(edges.points, model.diameter);
   if (!(settings.referenceShare > 0.0 && settings.referenceShare <= 1.0) ||
       !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))

@@ -81,7 +81,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     evidence.edges.push_back(point);
     evidence.edgeStates.push_back(state);
   }
-  if (this->Index.scene.surface.empty())
+  if (!this->Index.hasSurfaces())
   {
     return evidence;
   }

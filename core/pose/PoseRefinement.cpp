@@ -72,7 +72,7 @@ public:
       fit = this->correspondences(pose.T_scene_model, sight, limit);
       pose.T_scene_model = fit.motion * pose.T_scene_model;
     }
-    pose.fit = this->poseFit(fit, fit.remaining, iterations);
+    pose.fit = this->poseFit(pose, fit, fit.remaining, iterations);
   }
 
   /// Steps with all points until the pose stays. False where the scene leaves it a freedom that is none of the part's
@@ -135,7 +135,7 @@ public:
       wide = 1.0;
       pose.T_scene_model = this->motionOf(pose, farther) * T;
     }
-    pose.fit = this->poseFit(fit, fit.remaining, pose.fit.iterations + steps);
+    pose.fit = this->poseFit(pose, fit, fit.remaining, pose.fit.iterations + steps);
     const std::ptrdiff_t axes = this->Index.model.symmetries.continuous.size(); // turns about them are free, and equal
     return fit.weights >= FewestCorrespondences &&
       (this->modes(fit).eigenvalues().array() > FreeShare).count() >= 6 - axes;
@@ -146,7 +146,7 @@ public:
   {
     const RigidFit::Result fit =
       this->correspondences(pose.T_scene_model, this->sight(pose, 1), distance * LastDistanceShare);
-    return this->poseFit(fit, fit.squares, pose.fit.iterations);
+    return this->poseFit(pose, fit, fit.squares, pose.fit.iterations);
   }
 
 private:
@@ -165,20 +165,31 @@ private:
     return Modes(scale.asDiagonal() * fit.information * scale.asDiagonal() / fit.weights);
   }
 
-  /// `squares` are those of the fit's residuals at the pose.
-  PoseFit poseFit(const RigidFit::Result& fit, double squares, int iterations) const
+  /// `squares` are those of the fit's residuals at the pose, which the fit's step led to.
+  PoseFit poseFit(const Pose& pose, const RigidFit::Result& fit, double squares, int iterations) const
   {
     PoseFit result;
     result.iterations = iterations;
+    const Eigen::Matrix<double, 6, 1> scale = this->scale();
     if (fit.weights < FewestCorrespondences)
     {
+      result.covariance.diagonal() = (0.5 * this->Index.model.diameter * scale).array().square();
       return result;
     }
     result.residual = std::sqrt(squares / fit.weights);
-    const Eigen::Matrix<double, 6, 1> scale = this->scale();
     const Modes modes = this->modes(fit);
     const auto& values = modes.eigenvalues();
-    result.constrained = static_cast<int>((values.array() > ConstrainedShare).count());
+    const Eigen::Matrix3d axes = pose.T_scene_model.linear();
+    for (int k = 0; k < 6; ++k)
+    {
+      if (values[k] > ConstrainedShare)
+      {
+        const Eigen::Matrix<double, 6, 1> mode = modes.eigenvectors().col(k);
+        result.constrainedAxes.head<3>() += (axes.transpose() * mode.head<3>()).cwiseAbs2();
+        result.constrainedAxes.tail<3>() += (axes.transpose() * mode.tail<3>()).cwiseAbs2();
+        ++result.constrained;
+      }
+    }
     const Eigen::Matrix<double, 6, 1> variances = result.residual * result.residual / fit.weights *
       values.array().max(LeastShare).inverse();
     result.covariance = scale.asDiagonal() * modes.eigenvectors() * variances.asDiagonal() *
@@ -362,7 +373,13 @@ Pose settlePose(const Pose& pose, const SceneIndex& index)
   const bool isNear = rotationError(settled.T_scene_model, pose.T_scene_model) < MostTurned &&
     translationError(settled.T_scene_model, pose.T_scene_model, index.view.middle().cast<double>()) <
       FarthestShare * index.model.diameter;
-  return isFixed && isNear ? settled : pose;
+  if (isFixed && isNear)
+  {
+    return settled;
+  }
+  Pose same = pose;
+  same.fit = Refiner(index).fitAt(pose, DistanceShare * index.model.diameter);
+  return same;
 }
 
 Poses refineInFrame(
@@ -376,6 +393,10 @@ Poses refineInFrame(
   const double share = settings.method == RefinementMethod::PointToPoint ? PointDistanceShare : DistanceShare;
   const double distance = settings.maximumDistance > 0.0 ? settings.maximumDistance : share * model.diameter;
   Poses refined = poses;
+  for (Pose& pose : refined)
+  {
+    pose.viewId = index.viewOf(pose);
+  }
   const int count = static_cast<int>(refined.size());
   const Refiner refiner(index);
   if (settings.method == RefinementMethod::EdgesAndSurface)
@@ -404,7 +425,7 @@ Poses refineInFrame(
     {
       for (int i = begin; i < end; ++i)
       {
-        refinePointToPoint(refined[i], views.at(refined[i].viewId), target, tree, distance, settings.iterations);
+        refinePointToPoint(refined[i], views[refined[i].viewId], target, tree, distance, settings.iterations);
         refined[i].fit = refiner.fitAt(refined[i], distance);
       }
     });

@@ -47,7 +47,7 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
   pose.viewId = index.view.view(pose.T_scene_model, index.scene.sensor);
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.support();
-  const auto& weights = index.scene.surface.empty() ? EdgesAlone : WithSurface;
+  const auto& weights = index.hasSurfaces() ? WithSurface : EdgesAlone;
   pose.probability =
     1.0 / (1.0 + std::exp(-weights[0] - weights[1] * pose.score) * std::pow(pose.certainty, -CertaintyWeight));
 }
@@ -115,7 +115,7 @@ std::vector<double> glances(const Poses& poses, const EvidenceCollector& collect
 /// Of poses that are nearly the same, up to the symmetries, the one with most votes times the share of its surface that is
 /// there, of equals the first; none with less than `leastShare`. In the order they come.
 Poses distinctPoses(const Poses& poses, const std::vector<double>& shares, double leastShare,
-  const Eigen::Vector3d& middle, const Symmetries& symmetries, double distance, double angle)
+  const Eigen::Vector3d& middle, const Symmetries& symmetries, double distance, double angle, const Progress& progress)
 {
   std::vector<int> order(poses.size());
   std::iota(order.begin(), order.end(), 0);
@@ -124,6 +124,7 @@ Poses distinctPoses(const Poses& poses, const std::vector<double>& shares, doubl
   std::vector<int> kept;
   for (const int i : order)
   {
+    report(progress, 0.0); // very many poses take long
     const Eigen::Isometry3d& T = poses[i].T_scene_model;
     const bool known = std::any_of(kept.begin(), kept.end(),
       [&](int k)
@@ -184,10 +185,10 @@ Poses verifyPoses(
   Poses scored = poses;
   if (byEvidence)
   {
-    const std::vector<double> shares = index.scene.surface.empty() ? std::vector<double>(poses.size(), 1.0)
-                                                                   : glances(poses, collector, settings.threads);
+    const std::vector<double> shares = index.hasSurfaces() ? glances(poses, collector, settings.threads)
+                                                           : std::vector<double>(poses.size(), 1.0);
     scored = distinctPoses(poses, shares, someMustGo ? LeastAtAGlance : 0.0, index.view.middle().cast<double>(), same,
-      SameShare * clusterDistance, SameShare * settings.clusterAngle);
+      SameShare * clusterDistance, SameShare * settings.clusterAngle, progress);
   }
   const std::size_t stride = someMustGo && areCandidates ? CandidateStride : 1;
   const TurnSearch search(index);
@@ -208,7 +209,8 @@ Poses verifyPoses(
         }
         else
         {
-          scoreCoverage(scored[i], viewEdges.at(scored[i].viewId), collector);
+          scored[i].viewId = index.viewOf(scored[i]);
+          scoreCoverage(scored[i], viewEdges[scored[i].viewId], collector);
         }
       }
     });

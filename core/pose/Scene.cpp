@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/Scene.h"
 
+#include "Error.h"
+
 namespace meam
 {
 Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor, int threads)
@@ -18,6 +20,10 @@ Poses inFrameOf(const Scene& scene, const Poses& poses, const Symmetries& symmet
   Poses result;
   for (const Pose& pose : poses)
   {
+    if (!pose.T_scene_model.matrix().allFinite())
+    {
+      throw Error("Pose " + std::to_string(result.size()) + " has numbers that are not finite.");
+    }
     result.push_back(moved(pose, scene.frame));
     Eigen::Isometry3d& T = result.back().T_scene_model;
     T = nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);

@@ -23,6 +23,6 @@ struct Scene
 Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor, int threads = 1);
 
 /// Poses, in the scene's own coordinates, in those of its points. Of poses that are equal for a part with these symmetries
-/// the one that is turned least there, whatever the scene's coordinates are.
+/// the one that is turned least there, whatever the scene's coordinates are. Throws Error for a pose that is not finite.
 Poses inFrameOf(const Scene& scene, const Poses& poses, const Symmetries& symmetries);
 }

@@ -50,5 +50,17 @@ SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen, int threa
   inParallel(threads,
     { [&] { this->surface = PointGrid(this->depth.means(), SurfaceCellShare * trained.diameter); },
       [&] { this->lines = EdgeLines(seen.edges, EdgeCellShare * trained.diameter); } });
+  if (!seen.surface.empty() && this->depth.means().empty())
+  {
+    throw Error("The scene has " + std::to_string(seen.surface.size()) +
+      " surface points, but the sensor looks away from all of them: turn the view direction round, or move the sensor "
+      "position (a perspective sensor sees what lies before it).");
+  }
+}
+
+int SceneIndex::viewOf(const Pose& pose) const
+{
+  const bool isNamed = pose.viewId >= 0 && pose.viewId < static_cast<int>(this->model.viewDirections.size());
+  return isNamed ? pose.viewId : this->view.view(pose.T_scene_model, this->scene.sensor);
 }
 }

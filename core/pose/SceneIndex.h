@@ -13,9 +13,15 @@ namespace meam
 /// to both; calls may run in parallel.
 struct SceneIndex
 {
-  /// Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1].
-  /// `threads` 0: one for each processor.
+  /// Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], and when no point of the
+  /// surface lies before the sensor. `threads` 0: one for each processor.
   SceneIndex(const TrainedModel& model, const Scene& scene, int threads = 0);
+
+  /// Whether the scene and the model have surfaces, so that poses are judged by them; otherwise by edges alone.
+  bool hasSurfaces() const { return !this->scene.surface.empty() && !this->model.surface.empty(); }
+  /// The appearance model of a pose in the frame of the scene's points: its own, when it names one, otherwise the nearest
+  /// to the sensor.
+  int viewOf(const Pose& pose) const;
 
   const TrainedModel& model;
   const Scene& scene;

@@ -71,6 +71,14 @@ def count(text):
     return number
 
 
+def share(text):
+    """A number from 0 to 1, as argparse wants it."""
+    number = float(text)
+    if not 0 <= number <= 1:
+        raise ValueError
+    return number
+
+
 def add_bin_arguments(parser, scenes):
     """What a script that simulates bins asks for: the part, and how many bins of how many copies; `scenes` by default."""
     parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys and turns of pairs, as voting computes them, and one after the other with the functions of the library.
+// Keys and turns of pairs, as voting computes them, and one after the other with the functions of the library. Of
+// Threads each computes all of them.
 #include "BenchmarkScene.h"
 
 #include "model/PairKeys.h"
@@ -39,9 +40,8 @@ void run(benchmark::State& state, const meam::PointCloud& edges, Compute&& compu
   state.counters["pairs/s"] = benchmark::Counter(static_cast<double>(pairs), benchmark::Counter::kIsRate);
 }
 
-void PairKeys(benchmark::State& state)
+void computeKeys(benchmark::State& state, const scenes::Search& search)
 {
-  const scenes::Search& search = *scenes::bracketSearch();
   const meam::PairKeys pairs(search.scene.edges, search.model.quantizer());
   std::vector<int> blocks((search.scene.edges.size() + meam::PointBlocks::Size - 1) / meam::PointBlocks::Size);
   std::iota(blocks.begin(), blocks.end(), 0);
@@ -52,7 +52,17 @@ void PairKeys(benchmark::State& state)
       pairs.compute(frame, blocks.data() + begin / size, (end - begin + size - 1) / size, keys, turns);
     });
 }
-BENCHMARK(PairKeys)->Unit(benchmark::kMillisecond);
+
+void PairKeys(benchmark::State& state) { computeKeys(state, *scenes::bracketSearch()); }
+BENCHMARK(PairKeys)->Threads(1)->Threads(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void PairKeysByScenePoints(benchmark::State& state)
+{
+  const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
+  computeKeys(state, search);
+  scenes::growsWith(state, search.scene.edges.size());
+}
+BENCHMARK(PairKeysByScenePoints)->ArgsProduct({ scenes::Copies })->Unit(benchmark::kMillisecond);
 
 void PairKeysOneByOne(benchmark::State& state)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole online phase, from edge points to poses. The first argument of Scene is the number of threads, that of the
-// others what grows: copies in the scene, or how finely the model is thinned. Complexity is told in its points.
+// others what grows: copies in the scene, or how finely the model is thinned.
 #include "BenchmarkScene.h"
 
 namespace
@@ -34,23 +34,15 @@ void SceneByScenePoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
   estimate(state, search, 1);
-  state.SetComplexityN(static_cast<std::int64_t>(search.scan.edges.size()));
+  scenes::growsWith(state, search.scan.edges.size());
 }
-BENCHMARK(SceneByScenePoints)
-  ->ArgsProduct({ scenes::Copies })
-  ->Complexity()
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
+BENCHMARK(SceneByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void SceneByModelPoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
   estimate(state, search, 1);
-  state.SetComplexityN(static_cast<std::int64_t>(search.model.edges.size()));
+  scenes::growsWith(state, search.model.edges.size());
 }
-BENCHMARK(SceneByModelPoints)
-  ->ArgsProduct({ scenes::Leaves })
-  ->Complexity()
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
+BENCHMARK(SceneByModelPoints)->ArgsProduct({ scenes::Leaves })->UseRealTime()->Unit(benchmark::kMillisecond);
 }

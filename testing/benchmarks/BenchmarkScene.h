@@ -21,8 +21,7 @@ inline meam::Poses estimatePoses(const Search& search, const meam::DetectionSett
 {
   const meam::Scene& scan = search.scan;
   const int threads = settings.tangents.threads;
-  return meam::estimatePoses(
-    search.model, scan.edges, meam::inOwnFrame(scan.surface, threads), scan.sensor, settings);
+  return meam::estimatePoses(search.model, scan.edges, meam::inOwnFrame(scan.surface, threads), scan.sensor, settings);
 }
 
 /// Copies of the bracket on a table, far enough from each other that no pair of points joins two; the bracket as it is
@@ -37,6 +36,12 @@ const Search* bracketSearch();
 
 /// Part 1 and scene 0 of the dataset in $PPFMEAM_DATA/tohoku; null without it.
 const Search* tohokuSearch();
+
+/// Tells what a benchmark's time grows with, for slopes.py.
+inline void growsWith(benchmark::State& state, std::size_t points)
+{
+  state.counters["points"] = static_cast<double>(points);
+}
 
 /// Skips a benchmark for want of data.
 inline void skip(benchmark::State& state) { state.SkipWithError("no Tohoku dataset: set PPFMEAM_DATA"); }

@@ -24,17 +24,21 @@ void Verification(benchmark::State& state)
 }
 BENCHMARK(Verification)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
+void VerificationByScenePoints(benchmark::State& state)
+{
+  const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
+  verify(state, search, 1);
+  scenes::growsWith(state, search.scene.edges.size());
+}
+BENCHMARK(VerificationByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
+
 void VerificationByModelPoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
   verify(state, search, 1);
-  state.SetComplexityN(static_cast<std::int64_t>(search.model.edges.size()));
+  scenes::growsWith(state, search.model.edges.size());
 }
-BENCHMARK(VerificationByModelPoints)
-  ->ArgsProduct({ scenes::Leaves })
-  ->Complexity()
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
+BENCHMARK(VerificationByModelPoints)->ArgsProduct({ scenes::Leaves })->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void SceneIndexByScenePoints(benchmark::State& state)
 {
@@ -44,7 +48,7 @@ void SceneIndexByScenePoints(benchmark::State& state)
     const meam::SceneIndex index(search.model, search.scene);
     benchmark::DoNotOptimize(&index);
   }
-  state.SetComplexityN(static_cast<std::int64_t>(search.scene.surface.size()));
+  scenes::growsWith(state, search.scene.surface.size());
 }
-BENCHMARK(SceneIndexByScenePoints)->ArgsProduct({ scenes::Copies })->Complexity()->Unit(benchmark::kMillisecond);
+BENCHMARK(SceneIndexByScenePoints)->ArgsProduct({ scenes::Copies })->Unit(benchmark::kMillisecond);
 }

@@ -140,25 +140,17 @@ void VotingByScenePoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
   detect(state, search, 1);
-  state.SetComplexityN(static_cast<std::int64_t>(search.scene.edges.size()));
+  scenes::growsWith(state, search.scene.edges.size());
 }
-BENCHMARK(VotingByScenePoints)
-  ->ArgsProduct({ scenes::Copies })
-  ->Complexity()
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
+BENCHMARK(VotingByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void VotingByModelPoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
   detect(state, search, 1);
-  state.SetComplexityN(search.model.votingEdges);
+  scenes::growsWith(state, search.model.votingEdges);
 }
-BENCHMARK(VotingByModelPoints)
-  ->ArgsProduct({ scenes::Leaves })
-  ->Complexity()
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
+BENCHMARK(VotingByModelPoints)->ArgsProduct({ scenes::Leaves })->UseRealTime()->Unit(benchmark::kMillisecond);
 
 /// The peer: a hash map from the key to a list of pairs, an angle computed for each vote.
 void VotingByHashMap(benchmark::State& state, SearchOf searchOf)
@@ -259,25 +251,53 @@ void CastVotes(benchmark::State& state, SearchOf searchOf)
 BENCHMARK_CAPTURE(CastVotes, bracket, scenes::bracketSearch)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(CastVotes, tohoku, scenes::tohokuSearch)->Unit(benchmark::kMillisecond);
 
-void Peaks(benchmark::State& state, SearchOf searchOf)
+void findPeaks(benchmark::State& state, const scenes::Search& search, int peaks)
 {
-  const scenes::Search* search = searchOf();
-  if (!search)
-  {
-    return scenes::skip(state);
-  }
-  const Pairs pairs(*search);
+  const Pairs pairs(search);
   const Votes votes = pairs.of(pairs.reference(0));
-  const meam::PairTable& table = search->model.table;
-  meam::VoteAccumulator accumulator(search->model.votingEdges, angleStep(*search));
+  const meam::PairTable& table = search.model.table;
+  meam::VoteAccumulator accumulator(search.model.votingEdges, angleStep(search));
   accumulator.vote(table.votes.data(), votes.data(), static_cast<int>(votes.size()), table.mostOfOne);
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(accumulator.peaks(static_cast<int>(state.range(0))));
+    benchmark::DoNotOptimize(accumulator.peaks(peaks));
   }
-  const double bins = search->model.votingEdges * 2.0 * 2.0 * M_PI / angleStep(*search);
+  const double bins = search.model.votingEdges * 2.0 * 2.0 * M_PI / angleStep(search);
   state.counters["bins/s"] = benchmark::Counter(bins, benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK_CAPTURE(Peaks, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(Peaks, tohoku, scenes::tohokuSearch)->Arg(1)->Arg(2)->Unit(benchmark::kMicrosecond);
+
+/// The argument is how many peaks; of Threads each finds all of them.
+void Peaks(benchmark::State& state, SearchOf searchOf)
+{
+  if (const scenes::Search* search = searchOf())
+  {
+    findPeaks(state, *search, static_cast<int>(state.range(0)));
+  }
+  else
+  {
+    scenes::skip(state);
+  }
+}
+BENCHMARK_CAPTURE(Peaks, bracket, scenes::bracketSearch)
+  ->Arg(1)
+  ->Arg(2)
+  ->Threads(1)
+  ->Threads(2)
+  ->UseRealTime()
+  ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Peaks, tohoku, scenes::tohokuSearch)
+  ->Arg(1)
+  ->Arg(2)
+  ->Threads(1)
+  ->Threads(2)
+  ->UseRealTime()
+  ->Unit(benchmark::kMicrosecond);
+
+void PeaksByModelPoints(benchmark::State& state)
+{
+  const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
+  findPeaks(state, search, 1);
+  scenes::growsWith(state, search.model.votingEdges);
+}
+BENCHMARK(PeaksByModelPoints)->ArgsProduct({ scenes::Leaves })->Unit(benchmark::kMicrosecond);
 }

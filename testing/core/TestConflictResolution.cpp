@@ -16,8 +16,7 @@ meam::TriangleMesh block() { return parts::box({ 0, 0, 0 }, { 20, 12, 10 }); }
 template <meam::TriangleMesh (*Part)()>
 const meam::TrainedModel& trained()
 {
-  static const meam::TrainedModel model =
-    meam::trainModel(Part(), meam::trainingSettings(meam::Preset::Recommended));
+  static const meam::TrainedModel model = meam::trainModel(Part(), meam::trainingSettings(meam::Preset::Recommended));
   return model;
 }
 
@@ -31,10 +30,7 @@ meam::Pose at(const Eigen::Isometry3d& T, double probability)
   return pose;
 }
 
-Eigen::Isometry3d place(double x, double y, double z)
-{
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
+Eigen::Isometry3d place(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
 
 meam::Scene withTangents(meam::Scene scene)
 {
@@ -81,7 +77,7 @@ TEST(ConflictResolution, PartsSideBySideAreFoundOnceEach)
   const auto isAt = [](const meam::PartPose& pose, const Eigen::Isometry3d& T)
   {
     return meam::translationError(pose.pose.T_scene_model, T) < 0.5 &&
-      meam::rotationError(pose.pose.T_scene_model, T) < 1.0;
+           meam::rotationError(pose.pose.T_scene_model, T) < 1.0;
   };
   // The four best are the four true ones, each of its own type.
   for (std::size_t i = 0; i < copies.size(); ++i)
@@ -161,6 +157,16 @@ TEST(ConflictResolution, WithoutASurfaceEdgesDecide)
   const meam::SceneIndex with(window, open), without(whole, edgesOnly);
   const meam::Poses poses{ at(T, 0.9) };
   EXPECT_THROW(meam::resolveConflicts({ { with, poses }, { without, poses } }), meam::Error);
+}
+
+TEST(ConflictResolution, ModelsWithoutASurfaceClaimWhatIsNearTheirEdges)
+{
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  meam::TrainedModel bare = trained<plate>();
+  bare.surface = {};
+  bare.deriveFields();
+  EXPECT_EQ(typesLeft(scene, bare, at(place(0, 0, 0), 0.9), bare, at(place(0, 0, 0), 0.9)), Types{ 0 });
+  EXPECT_EQ(typesLeft(scene, bare, at(place(0, 0, 0), 0.9), bare, at(place(500, 0, 0), 0.9)), (Types{ 0, 1 }));
 }
 
 TEST(ConflictResolution, EqualSupportIsDecidedInTurn)

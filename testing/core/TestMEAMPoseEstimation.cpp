@@ -8,21 +8,27 @@
 
 namespace
 {
-int instancesFound(const meam::Poses& poses, double millimetres, double degrees)
+int instancesFound(
+  const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& copies, double millimetres, double degrees)
 {
   int found = 0;
-  for (const auto& T : scenes::threeCopies())
+  for (const auto& T : copies)
   {
     found += std::any_of(poses.begin(), poses.end(),
                [&](const meam::Pose& pose)
                {
                  return meam::translationError(pose.T_scene_model, T) < millimetres &&
-                   meam::rotationError(pose.T_scene_model, T) < degrees;
+                        meam::rotationError(pose.T_scene_model, T) < degrees;
                })
-      ? 1
-      : 0;
+               ? 1
+               : 0;
   }
   return found;
+}
+
+int instancesFound(const meam::Poses& poses, double millimetres, double degrees)
+{
+  return instancesFound(poses, scenes::threeCopies(), millimetres, degrees);
 }
 }
 
@@ -107,8 +113,9 @@ TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
         [&](const meam::Pose& other)
         {
           return meam::translationError(T * pose.T_scene_model, other.T_scene_model) < 0.02 &&
-            meam::rotationError(T * pose.T_scene_model, other.T_scene_model) < 0.05;
-        })) << trial;
+                 meam::rotationError(T * pose.T_scene_model, other.T_scene_model) < 0.05;
+        }))
+        << trial;
     }
   }
 }
@@ -175,6 +182,78 @@ TEST(MEAMPoseEstimation, AnyMotionOfTheSceneMovesThePoses)
   EXPECT_EQ(instancesFound(back, 0.3, 0.4), 3);
 }
 
+TEST(MEAMPoseEstimation, TheSignsOfTangentsDoNotMatter)
+{
+  meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::Scene turned = scene;
+  std::mt19937 random(6);
+  for (Eigen::Vector3f& tangent : turned.edges.tangents)
+  {
+    tangent *= random() % 2 == 0 ? 1.0f : -1.0f;
+  }
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses one = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses other = scenes::estimatePoses(scenes::bracket(), turned, settings);
+  EXPECT_EQ(instancesFound(one, 0.3, 0.4), 3);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_EQ(one[i].votes, other[i].votes);
+    EXPECT_LT(meam::translationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+    EXPECT_LT(meam::rotationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+  }
+}
+
+TEST(MEAMPoseEstimation, TangentsThatAreNoneAreLeftOut)
+{
+  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::Scene broken = scene;
+  broken.edges.tangents[7].y() = NAN;
+  broken.edges.tangents[20].x() = INFINITY;
+  broken.edges.tangents[33].setZero();
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), broken, settings), 0.3, 0.4), 3);
+  for (const meam::Pose& pose : meam::detectPoses(broken.edges, scenes::bracket()))
+  {
+    EXPECT_TRUE(pose.T_scene_model.matrix().allFinite());
+  }
+}
+
+TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  meam::Scene one = scene;
+  one.surface.push_back({ 1e12f, 0.0f, 0.0f });
+  one.edges.points.push_back({ 0.0f, 1e9f, 0.0f });
+  EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), one, settings), 0.3, 0.4), 3);
+  meam::Scene many = scene;
+  for (std::size_t i = 0; i < scene.surface.size() / 9; ++i)
+  {
+    many.surface.push_back({ 1e10f, 1e10f, -1e10f }); // what some sensors write where they measured nothing
+  }
+  for (const bool perspective : { false, true })
+  {
+    many.sensor.perspective = perspective;
+    many.sensor.position = { 40.0, 40.0, 2000.0 };
+    EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), many, settings), 0.5, 0.6), 3) << perspective;
+  }
+}
+
+TEST(MEAMPoseEstimation, MoreThanAHundredCopiesComeOut)
+{
+  std::vector<Eigen::Isometry3d> copies;
+  for (int k = 0; k < 121; ++k)
+  {
+    copies.push_back(scenes::lying(160.0 * (k % 11), 160.0 * (k / 11), 37.0 * k, k % 3 != 0));
+  }
+  const meam::Scene scene = scenes::seenFromAbove(copies);
+  const meam::Poses poses =
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5));
+  EXPECT_GT(instancesFound(poses, copies, 1.0, 1.0), 110);
+  EXPECT_LE(poses.size(), copies.size());
+}
+
 TEST(MEAMPoseEstimation, ThreadsDoNotMatter)
 {
   const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
@@ -203,8 +282,8 @@ TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
       return true;
     });
   EXPECT_DOUBLE_EQ(last, 1.0);
-  EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
-                 [](double share) { return share < 0.4; }),
+  EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended),
+                 nullptr, [](double share) { return share < 0.4; }),
     meam::Aborted);
   EXPECT_THROW(meam::trainModel(parts::lBracket(), {}, [](double share) { return share < 0.3; }), meam::Aborted);
 }

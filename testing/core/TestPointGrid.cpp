@@ -73,6 +73,14 @@ TEST(PointGrid, StrayPointsAreFoundToo)
   EXPECT_TRUE(within(grid, { -9e5f, 0, 0 }, 2.0).empty());
 }
 
+TEST(PointGrid, NothingIsNearAPlaceThatIsNotFinite)
+{
+  const meam::PointGrid grid({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 5 } }, 0.5);
+  EXPECT_EQ(grid.nearest({ NAN, 0, 0 }, 1.0), -1);
+  EXPECT_EQ(grid.nearest({ 0, INFINITY, 0 }, 1.0), -1);
+  EXPECT_EQ(grid.nearest({ -INFINITY, NAN, 3 }, 1.0), -1);
+}
+
 TEST(PointGrid, WhatCannotBeSortedIsAnError)
 {
   EXPECT_THROW(meam::PointGrid(scattered(5, 1.0), 0.0), meam::Error);
@@ -147,7 +155,8 @@ TEST(PointGrid, WeightsFadeAtTheBorders)
   EXPECT_NEAR(alone({ -4.25f, 0, 14.625f }), 0.125f, 1e-5f);
   EXPECT_NEAR(alone({ 0, 4.9999f, 0 }), 0.0f, 1e-4f);
 
-  // By weights of 1, 1, 1 and 0.1 the mean is at 3.985 / 3.1 = 1.29; without them it would be at 2.09, where 3 is nearer.
+  // By weights of 1, 1, 1 and 0.1 the mean is at 3.985 / 3.1 = 1.29; without them it would be at 2.09, where 3 is
+  // nearer.
   const meam::Points points = { { 0, 0, 0 }, { 0.5f, 0, 0 }, { 3, 0, 0 }, { 4.85f, 0, 0 }, { 40, 0, 0 } };
   const meam::ThinnedPoints kept = meam::thinWithWeights(points, 10.0);
   EXPECT_EQ(kept.indices, std::vector<int>({ 1, 4 }));

@@ -66,7 +66,8 @@ TEST(PoseRefinement, EdgesAlone)
 
 TEST(PoseRefinement, PointToPointOfThePaper)
 {
-  expectNear(meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene(), meam::paperRefinementSettings()), 0.8, 1.5);
+  expectNear(
+    meam::refinePoses(disturbed(1.5, 2.0), scenes::bracket(), scene(), meam::paperRefinementSettings()), 0.8, 1.5);
 }
 
 TEST(PoseRefinement, ScoresAndOrderStayAndThreadsDoNotMatter)
@@ -97,6 +98,8 @@ TEST(PoseRefinement, FarFromAnythingThePoseStaysFinite)
     for (std::size_t i = 0; i < far.size(); ++i)
     {
       EXPECT_LT(meam::translationError(refined[i].T_scene_model, far[i].T_scene_model), 1e-6);
+      EXPECT_EQ(refined[i].fit.constrained, 0);
+      EXPECT_NEAR(std::sqrt(refined[i].fit.covariance(5, 5)), 0.5 * scenes::bracket().diameter, 1e-6) << "not known";
     }
   }
 }
@@ -106,6 +109,7 @@ TEST(PoseRefinement, TellsHowWellTheSceneFixesThePose)
   for (const meam::Pose& pose : meam::refinePoses(disturbed(1.0, 1.5), scenes::bracket(), scene()))
   {
     EXPECT_EQ(pose.fit.constrained, 6);
+    EXPECT_TRUE(pose.fit.constrainedAxes.isOnes(1e-9));
     EXPECT_EQ(pose.fit.iterations, meam::PoseRefinementSettings().iterations);
     EXPECT_GT(pose.fit.residual, 0.0);
     EXPECT_LT(pose.fit.residual, 0.01 * scenes::bracket().diameter);
@@ -137,8 +141,7 @@ TEST(PoseRefinement, APoseSettlesInOnePlaceWhereverItComesFrom)
 TEST(PoseRefinement, APoseSettlesInTheSamePlaceOfASceneThatIsMoved)
 {
   std::mt19937 random(8);
-  const meam::Scene still =
-    meam::sceneInOwnFrame(scene().edges, meam::inOwnFrame(scene().surface), scene().sensor);
+  const meam::Scene still = meam::sceneInOwnFrame(scene().edges, meam::inOwnFrame(scene().surface), scene().sensor);
   const meam::SceneIndex index(scenes::bracket(), still);
   const meam::Poses near = disturbed(0.05, 0.1);
   for (int k = 0; k < 5; ++k)
@@ -192,8 +195,14 @@ TEST(PoseRefinement, WhereTheSceneLeavesAFreedomAPoseIsNotSettled)
   const meam::Scene face = upperFaces({ 0 });
   const meam::SceneIndex index(scenes::bracket(), face);
   const meam::Pose pose = disturbed(0.3, 0.5)[0];
-  EXPECT_LT(meam::refinePoses({ pose }, index)[0].fit.constrained, 6);
-  EXPECT_TRUE(meam::settlePose(pose, index).T_scene_model.isApprox(pose.T_scene_model, 1e-12));
+  const meam::PoseFit fit = meam::refinePoses({ pose }, index)[0].fit;
+  EXPECT_EQ(fit.constrained, 3);
+  Eigen::Matrix<double, 6, 1> across;
+  across << 1, 1, 0, 0, 0, 1; // the part lies flat: it may turn about z and slide along x and y
+  EXPECT_LT((fit.constrainedAxes - across).cwiseAbs().maxCoeff(), 0.02) << fit.constrainedAxes.transpose();
+  const meam::Pose stays = meam::settlePose(pose, index);
+  EXPECT_TRUE(stays.T_scene_model.isApprox(pose.T_scene_model, 1e-12));
+  EXPECT_EQ(stays.fit.constrained, 3) << "how well the scene fixes the pose is told all the same";
 }
 
 TEST(PoseRefinement, WhereTheSceneFixesAPoseWeaklyItIsSettled)
@@ -254,5 +263,27 @@ TEST(PoseRefinement, BadInput)
   {
     weighted.edges.weights.back() = weight;
     EXPECT_THROW(meam::refinePoses(disturbed(0, 0), scenes::bracket(), weighted), meam::Error) << weight;
+  }
+  meam::Poses notFinite = disturbed(0, 0);
+  notFinite[1].T_scene_model.translation().y() = NAN;
+  EXPECT_THROW(meam::refinePoses(notFinite, scenes::bracket(), scene()), meam::Error);
+}
+
+TEST(PoseRefinement, APoseThatNamesNoViewTakesTheNearestToTheSensor)
+{
+  meam::Poses nameless = disturbed(0.3, 0.5);
+  meam::Poses named = nameless;
+  for (std::size_t i = 0; i < named.size(); ++i)
+  {
+    nameless[i].viewId = i % 2 == 0 ? -1 : 99;
+    named[i].viewId = meam::PartView(scenes::bracket()).view(named[i].T_scene_model, scene().sensor);
+  }
+  const meam::PoseRefinementSettings settings = meam::paperRefinementSettings();
+  const meam::Poses one = meam::refinePoses(nameless, scenes::bracket(), scene(), settings);
+  const meam::Poses other = meam::refinePoses(named, scenes::bracket(), scene(), settings);
+  for (std::size_t i = 0; i < named.size(); ++i)
+  {
+    EXPECT_EQ(one[i].viewId, named[i].viewId);
+    EXPECT_TRUE(one[i].T_scene_model.matrix() == other[i].T_scene_model.matrix());
   }
 }

@@ -102,7 +102,8 @@ TEST(PoseVerification, APartUnderAPlateIsHiddenNotWrong)
   const double before = meam::verifyPoses({ at(T) }, scenes::bracket(), covered)[0].visibleFraction;
   // A plate 30 mm above half of the part; it hides the points below it.
   meam::Points visible;
-  const auto under = [&](const Eigen::Vector3f& p) { return p.x() < 25.0f && p.x() > -60.0f && std::abs(p.y()) < 70.0f; };
+  const auto under = [&](const Eigen::Vector3f& p)
+  { return p.x() < 25.0f && p.x() > -60.0f && std::abs(p.y()) < 70.0f; };
   std::copy_if(covered.surface.begin(), covered.surface.end(), std::back_inserter(visible),
     [&](const auto& p) { return !under(p); });
   for (float x = -60.0f; x < 25.0f; x += 0.7f)
@@ -199,7 +200,10 @@ TEST(PoseVerification, RightPosesAreLikelyAndWrongOnesAreNot)
   EXPECT_EQ(meam::confidence(right), right.probability);
   meam::PoseVerificationSettings settings;
   settings.minimumProbability = 0.5;
-  EXPECT_EQ(meam::verifyPoses({ at(T), displaced(scenes::threeCopies()[1], 9.0, 20.0) }, scenes::bracket(), scene(), settings).size(), 1u);
+  EXPECT_EQ(
+    meam::verifyPoses({ at(T), displaced(scenes::threeCopies()[1], 9.0, 20.0) }, scenes::bracket(), scene(), settings)
+      .size(),
+    1u);
 }
 
 TEST(PoseVerification, PosesThatMatchTheSameSurfaceAreOfOneInstance)
@@ -213,7 +217,8 @@ TEST(PoseVerification, PosesThatMatchTheSameSurfaceAreOfOneInstance)
   const meam::Poses best = meam::verifyPoses(row, scenes::bracket(), scene(), settings);
   ASSERT_EQ(best.size(), 1u);
   const meam::Pose settled = meam::settlePose(at(T), meam::SceneIndex(scenes::bracket(), scene()));
-  EXPECT_LT(meam::translationError(best[0].T_scene_model, settled.T_scene_model), 1e-9); // not where the other came from
+  EXPECT_LT(
+    meam::translationError(best[0].T_scene_model, settled.T_scene_model), 1e-9); // not where the other came from
   EXPECT_LT(meam::translationError(best[0].T_scene_model, T), 0.15);
 }
 
@@ -292,11 +297,54 @@ TEST(PoseVerification, CoverageFollowsThePaper)
   }
   own.edges = model.edges.subset(half);
   settings.tolerance = 1e-4;
-  EXPECT_DOUBLE_EQ(scoreOf(at(Eigen::Isometry3d::Identity()), own, settings), static_cast<double>(half.size()) / inView);
+  EXPECT_DOUBLE_EQ(
+    scoreOf(at(Eigen::Isometry3d::Identity()), own, settings), static_cast<double>(half.size()) / inView);
 }
 
 TEST(PoseVerification, BadInput)
 {
   EXPECT_THROW(meam::verifyPoses({ at(Eigen::Isometry3d::Identity()) }, scenes::bracket(), {}), meam::Error);
   EXPECT_TRUE(meam::verifyPoses({}, scenes::bracket(), scene()).empty());
+  meam::Pose notFinite = at(scenes::threeCopies()[0]);
+  notFinite.T_scene_model.linear()(0, 0) = NAN;
+  EXPECT_THROW(meam::verifyPoses({ notFinite }, scenes::bracket(), scene()), meam::Error);
+  meam::Scene away = scene();
+  away.sensor.perspective = true;
+  away.sensor.position = { 0, 0, 1000 };
+  EXPECT_NO_THROW(meam::verifyPoses({}, scenes::bracket(), away));
+  away.sensor.direction = Eigen::Vector3d::UnitZ();
+  EXPECT_THROW(meam::verifyPoses({}, scenes::bracket(), away), meam::Error) << "it sees nothing of the scene";
+}
+
+TEST(PoseVerification, APoseThatNamesNoViewTakesTheNearestToTheSensor)
+{
+  const meam::PoseVerificationSettings paper = meam::paperVerificationSettings();
+  meam::Pose pose = at(scenes::threeCopies()[0]);
+  pose.viewId = -1;
+  const meam::Pose verified = meam::verifyPoses({ pose }, scenes::bracket(), scene(), paper).at(0);
+  EXPECT_EQ(verified.viewId, meam::PartView(scenes::bracket()).view(pose.T_scene_model, scene().sensor));
+  EXPECT_GT(verified.score, 0.5);
+}
+
+TEST(PoseVerification, AModelWithoutASurfaceIsJudgedByItsEdges)
+{
+  meam::TrainedModel model = scenes::bracket();
+  model.surface = {};
+  model.deriveFields();
+  meam::Scene edgesOnly = scene();
+  edgesOnly.surface.clear();
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  meam::Poses poses;
+  for (int k = 0; k < 8; ++k)
+  {
+    poses.push_back(displaced(T, 12.0 * k, 0.0));
+  }
+  meam::PoseVerificationSettings settings;
+  settings.maximumPoses = 5; // fewer than there are
+  const meam::Poses kept = meam::verifyPoses(poses, model, scene(), settings);
+  const meam::Poses alone = meam::verifyPoses(poses, model, edgesOnly, settings);
+  ASSERT_EQ(kept.size(), alone.size());
+  ASSERT_FALSE(kept.empty());
+  EXPECT_LT(meam::translationError(kept[0].T_scene_model, T), 1e-6);
+  EXPECT_GT(kept[0].probability, 0.9);
 }
