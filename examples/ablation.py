@@ -15,40 +15,7 @@ import sys
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam import evaluation, filters, scripting
-
-
-class Chain(evaluation.Evaluation):
-    """Finds the poses of a scene step by step, with parameters that vtkMEAMPoseEstimation does not have."""
-
-    def __init__(self, model, choose, poses_asked_for, threads):
-        super().__init__(model, poses_asked_for=poses_asked_for, threads=threads)
-        self.tangents = filters.vtkMEAMTangentEstimation()
-        self.detection = filters.vtkMEAMPoseDetection()
-        self.verification = filters.vtkMEAMPoseVerification()
-        self.refinement = filters.vtkMEAMPoseRefinement()
-        self.selection = filters.vtkMEAMPoseVerification()
-        self.selection.SetPosesPerInstance(1)
-        self.selection.SetMaximumNumberOfPoses(0)
-        self.steps = [self.tangents, self.detection, self.verification, self.refinement, self.selection]
-        self.with_surface = True
-        choose(self)
-        for before, step in zip(self.steps, self.steps[1:]):
-            step.SetInputConnection(before.GetOutputPort())
-        for step in self.steps:
-            step.SetInputDataObject(1, model)
-            step.SetNumberOfThreads(threads)
-        for step in self.steps[2:]:
-            step.SetInputConnection(2, self.tangents.GetOutputPort())
-
-    def find(self, surface, edges):
-        self.tangents.SetInputDataObject(edges)
-        if self.with_surface:
-            for step in self.steps[2:]:
-                step.SetInputDataObject(3, surface)
-        poses = vtkPolyData()
-        poses.ShallowCopy(scripting.update(self.selection).GetOutput())
-        return poses
+from ppfmeam import evaluation, scripting
 
 
 def length(training, share):
@@ -123,7 +90,7 @@ def measure(mesh, scenes, decision, plain, options):
         training = scripting.Training(mesh)
         train(training)
         model = training.model()
-    run = Chain(model, choose, options.poses, options.threads) if choose else evaluation.Evaluation(
+    run = evaluation.Chain(model, choose, options.poses, options.threads) if choose else evaluation.Evaluation(
         model, poses_asked_for=options.poses, threads=options.threads)
     for surface, edges, truth in scenes:
         run.add(run.find(surface, edges), truth)

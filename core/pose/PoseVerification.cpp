@@ -26,10 +26,15 @@ constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
 constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
 constexpr double Negligible = 9.0;      // times that: a turn so unlikely is one in ten thousand
 
-// Logistic regression of whether a pose is right, over poses in scenes with true ones.
-constexpr double WithSurface[] = { -18.9, 26.4 }; // constant, score
-constexpr double EdgesAlone[] = { -0.8, 9.2 };
-constexpr double CertaintyWeight = 5.8; // of its logarithm
+/// Logistic regression of whether a pose is right, over poses in scenes with true ones (examples/calibration.py).
+struct Calibration
+{
+  double constant;
+  double score;
+  double certainty; ///< of its logarithm
+};
+constexpr Calibration WithSurface{ -18.9, 26.4, 5.8 };
+constexpr Calibration EdgesAlone{ -4.1, 15.0, 1.7 };
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
 void scoreCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)
@@ -47,9 +52,9 @@ void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& i
   pose.viewId = index.view.view(pose.T_scene_model, index.scene.sensor);
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.support();
-  const auto& weights = index.hasSurfaces() ? WithSurface : EdgesAlone;
+  const Calibration& known = index.hasSurfaces() ? WithSurface : EdgesAlone;
   pose.probability =
-    1.0 / (1.0 + std::exp(-weights[0] - weights[1] * pose.score) * std::pow(pose.certainty, -CertaintyWeight));
+    1.0 / (1.0 + std::exp(-known.constant - known.score * pose.score) * std::pow(pose.certainty, -known.certainty));
 }
 
 /// Turns the pose about the axis of a nearly round part where another turn fits better. `asItIs` is the

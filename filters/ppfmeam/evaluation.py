@@ -125,6 +125,10 @@ class Evaluation:
         self.judge.AddInputDataObject(0, poses)
         self.judge.AddInputDataObject(1, truth)
 
+    def right(self):
+        """Whether each pose is right, 1 or 0, scene by scene."""
+        return vtk_to_numpy(scripting.update(self.judge).GetOutput().GetColumnByName("Right"))
+
     def figures(self):
         """Over all scenes: how many poses were judged, FIGURES, and the median ms of a scene and its stages."""
         def median(of):
@@ -136,3 +140,36 @@ class Evaluation:
         row["ms"] = median(lambda times: times["Total"] - times["Training"])
         row.update((f"{stage}_ms", median(lambda times: times[stage])) for stage in STAGES)
         return row
+
+
+class Chain(Evaluation):
+    """Finds the poses of a scene step by step, with parameters that vtkMEAMPoseEstimation does not have."""
+
+    def __init__(self, model, choose, poses_asked_for, threads):
+        super().__init__(model, poses_asked_for=poses_asked_for, threads=threads)
+        self.tangents = filters.vtkMEAMTangentEstimation()
+        self.detection = filters.vtkMEAMPoseDetection()
+        self.verification = filters.vtkMEAMPoseVerification()
+        self.refinement = filters.vtkMEAMPoseRefinement()
+        self.selection = filters.vtkMEAMPoseVerification()
+        self.selection.SetPosesPerInstance(1)
+        self.selection.SetMaximumNumberOfPoses(0)
+        self.steps = [self.tangents, self.detection, self.verification, self.refinement, self.selection]
+        self.with_surface = True
+        choose(self)
+        for before, step in zip(self.steps, self.steps[1:]):
+            step.SetInputConnection(before.GetOutputPort())
+        for step in self.steps:
+            step.SetInputDataObject(1, model)
+            step.SetNumberOfThreads(threads)
+        for step in self.steps[2:]:
+            step.SetInputConnection(2, self.tangents.GetOutputPort())
+
+    def find(self, surface, edges):
+        self.tangents.SetInputDataObject(edges)
+        if self.with_surface:
+            for step in self.steps[2:]:
+                step.SetInputDataObject(3, surface)
+        poses = vtkPolyData()
+        poses.ShallowCopy(scripting.update(self.selection).GetOutput())
+        return poses

@@ -211,6 +211,14 @@ check([row[0] for row in rows] == ["nothing", "no near-symmetries", "edges alone
 check(all(float(row[1].rstrip(" %")) >= 50 for row in rows) and [row[5] == "-" for row in rows] == [False, False, True, True],
       text)
 
+# calibration.py: every pose is in one row; by edges and surface right poses are likely.
+text = works("calibration.py", "data", "--parts", "1", "--scenes", "0", "--noise", "0")
+tables = [[[cell.strip(" %") for cell in line.strip("|").split("|")] for line in table.splitlines()[4:] if line.startswith("|")]
+          for table in text.split("### ")[1:]]
+totals = [int(table.split("poses: ")[1].split()[0]) for table in text.split("### ")[1:]]
+check([sum(int(row[1]) for row in table) for table in tables] == totals and len(totals) == 2 and totals[0] > 0, text)
+check(float(tables[0][-1][2]) >= 50 and text.count("log(Certainty)") == 2, text)
+
 # Bad input.
 for name in ("empty.stl", "empty.ply", "empty.obj", "empty.pcd"):
     open(name, "w").close()
