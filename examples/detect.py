@@ -31,9 +31,9 @@ def options_of_user():
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
     parser.add_argument("--poses", type=scripting.count, default=5,
-                        help="poses wanted, the best ones; 0: all of --probability (default: %(default)s)")
+                        help="poses wanted, the best ones; 0: all that reach --probability (default: %(default)s)")
     parser.add_argument("--probability", type=scripting.share, metavar="P",
-                        help="poses less likely to be right are left out (default: 0, and 0.5 with --poses 0)")
+                        help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with --poses 0)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",

@@ -17,9 +17,8 @@
  * (vtkStructuredGrid, invalid points NaN or blanked) or any cloud. Without it only edges count.
  *
  * Output port 0: vtkPolyData, the poses that stay, best first, with `Score` (share of what should be visible that is
- * there), `Probability` (that the pose is right), `Certainty` (that no near-symmetry turns it) and `VisibleFraction`, all
- * in [0, 1],
- * `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection. Field data `Diameter` (mm, of the part).
+ * there), `Probability` (that the pose is right), `Certainty` (that no near-symmetry turns it) and `VisibleFraction`
+ * (without a surface 1: nothing tells what hides), all in [0, 1], `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection. Field data `Diameter` (mm, of the part).
  */
 #ifndef vtkMEAMPoseVerification_h
 #define vtkMEAMPoseVerification_h

@@ -24,13 +24,11 @@ constexpr double MostProbable = 0.99;      // no pose is surer: 99 to 1
 struct Measured
 {
   explicit Measured(const SceneIndex& ofSmallest)
-    : bySurface(!ofSmallest.scene.surface.empty())
-    , points(bySurface ? ofSmallest.depth.means() : ofSmallest.scene.edges.points)
-    , grid(bySurface ? ofSmallest.surface : ofSmallest.edges)
+    : points(ofSmallest.scene.surface.empty() ? ofSmallest.scene.edges.points : ofSmallest.depth.means())
+    , grid(ofSmallest.scene.surface.empty() ? ofSmallest.edges : ofSmallest.surface)
   {
   }
 
-  bool bySurface;
   const Points& points;
   const PointGrid& grid;
 };
@@ -45,10 +43,9 @@ struct Claim
 
 /// The measured points within `tolerance` (mm) of the part.
 std::vector<int> explainedPoints(
-  const Measured& measured, const TrainedModel& model, const Eigen::Isometry3d& T_scene_model, double tolerance)
+  const Measured& measured, const SceneIndex& index, const Eigen::Isometry3d& T_scene_model, double tolerance)
 {
-  const bool bySurface = measured.bySurface && !model.surface.empty();
-  const DistanceField& distance = bySurface ? model.surfaceDistance : model.edgeDistance;
+  const DistanceField& distance = index.hasSurfaces() ? index.model.surfaceDistance : index.model.edgeDistance;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Isometry3f toModel = T.inverse();
   std::vector<int> explained;
@@ -78,7 +75,7 @@ Claim claimOf(const PartPose& pose, const SceneIndex& index, const Measured& mea
   const Eigen::Isometry3d& T = inFrame.T_scene_model;
   const EvidenceCollector collector(index, VerifiedShare * index.model.diameter);
   const PoseEvidence evidence = collector.collect(T);
-  Claim claim{ pose, explainedPoints(measured, index.model, T, tolerance) };
+  Claim claim{ pose, explainedPoints(measured, index, T, tolerance) };
   claim.pose.pose.viewId = index.viewOf(inFrame);
   const double probability = std::min(confidence(pose.pose), MostProbable);
   claim.support = probability / (1.0 - probability) * claim.points.size() *

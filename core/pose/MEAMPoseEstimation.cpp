@@ -10,7 +10,7 @@ namespace meam
 {
 namespace
 {
-constexpr int RawOfOne = 3; // raw candidates, at most, of each that is refined: a large bin has many instances
+constexpr int RawPerRefined = 3; // of so many raw candidates one may be refined: a large bin has many instances
 
 /// Seconds since the last call.
 class Stopwatch
@@ -95,7 +95,7 @@ Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, Framed
   PoseVerificationSettings verification = settings.verification;
   if (verification.maximumPoses > 0)
   {
-    verification.maximumPoses = std::max(verification.maximumPoses, static_cast<int>(poses.size()) / RawOfOne);
+    verification.maximumPoses = std::max(verification.maximumPoses, static_cast<int>(poses.size()) / RawPerRefined);
   }
   poses = verifyPoses(poses, index, verification, subProgress(progress, 0.5, 0.7));
   spent.verification = watch.lap();

@@ -18,6 +18,7 @@ namespace
 constexpr double ToleranceShare = 0.03; // of the diameter
 constexpr double ClusterShare = 0.1;    // of the diameter
 constexpr double SameShare = 0.4;       // of cluster distance and angle: poses this near are judged once
+constexpr std::size_t PosesPerReport = 256; // between looks whether work is to stop
 constexpr double LeastAtAGlance = 0.5;  // share of the surface; a pose with less is not looked at closely
 constexpr std::size_t CandidateStride = 2; // of the points that judge more candidates than can stay
 constexpr double LeastPlausible = 0.001; // of the best candidate's preference: those with less are not worth refining
@@ -129,7 +130,6 @@ Poses distinctPoses(const Poses& poses, const std::vector<double>& shares, doubl
   std::vector<int> kept;
   for (const int i : order)
   {
-    report(progress, 0.0); // very many poses take long
     const Eigen::Isometry3d& T = poses[i].T_scene_model;
     const bool known = std::any_of(kept.begin(), kept.end(),
       [&](int k)
@@ -141,6 +141,10 @@ Poses distinctPoses(const Poses& poses, const std::vector<double>& shares, doubl
     if (!known && shares[i] >= leastShare)
     {
       kept.push_back(i);
+      if (kept.size() % PosesPerReport == 0)
+      {
+        report(progress, 0.0); // each pose is compared with all that are kept: very many take long
+      }
     }
   }
   std::sort(kept.begin(), kept.end());

@@ -16,16 +16,10 @@ void estimate(benchmark::State& state, const scenes::Search& search, int threads
   state.counters["poses"] = static_cast<double>(poses);
 }
 
-void Scene(benchmark::State& state, const scenes::Search* (*searchOf)())
+void Scene(benchmark::State& state, scenes::SearchOf searchOf)
 {
-  if (const scenes::Search* search = searchOf())
-  {
-    estimate(state, *search, static_cast<int>(state.range(0)));
-  }
-  else
-  {
-    scenes::skip(state);
-  }
+  scenes::withSearch(state, searchOf,
+    [&](const scenes::Search& search) { estimate(state, search, static_cast<int>(state.range(0))); });
 }
 BENCHMARK_CAPTURE(Scene, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Scene, tohoku, scenes::tohokuSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);

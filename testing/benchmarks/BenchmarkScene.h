@@ -46,6 +46,22 @@ inline void growsWith(benchmark::State& state, std::size_t points)
 /// Skips a benchmark for want of data.
 inline void skip(benchmark::State& state) { state.SkipWithError("no Tohoku dataset: set PPFMEAM_DATA"); }
 
+using SearchOf = const Search* (*)();
+
+/// Calls work(search), or skips the benchmark for want of data.
+template <typename Work>
+void withSearch(benchmark::State& state, SearchOf searchOf, Work&& work)
+{
+  if (const Search* search = searchOf())
+  {
+    work(*search);
+  }
+  else
+  {
+    skip(state);
+  }
+}
+
 /// Copies in a scene, for what grows with the scene.
 inline const std::vector<std::int64_t> Copies{ 3, 6, 12, 24, 48 };
 

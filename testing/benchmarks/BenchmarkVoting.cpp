@@ -16,7 +16,7 @@
 namespace
 {
 using Votes = std::vector<meam::VoteBucket>;
-using SearchOf = const scenes::Search* (*)();
+using scenes::SearchOf;
 
 /// What the pairs of a reference point vote for, looked up among the points that detectPoses looks at.
 class Pairs
@@ -124,14 +124,8 @@ void detect(benchmark::State& state, const scenes::Search& search, int threads)
 
 void Voting(benchmark::State& state, SearchOf searchOf)
 {
-  if (const scenes::Search* search = searchOf())
-  {
-    detect(state, *search, static_cast<int>(state.range(0)));
-  }
-  else
-  {
-    scenes::skip(state);
-  }
+  scenes::withSearch(state, searchOf,
+    [&](const scenes::Search& search) { detect(state, search, static_cast<int>(state.range(0))); });
 }
 BENCHMARK_CAPTURE(Voting, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Voting, tohoku, scenes::tohokuSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
@@ -269,29 +263,15 @@ void findPeaks(benchmark::State& state, const scenes::Search& search, int peaks)
 /// The argument is how many peaks; of Threads each finds all of them.
 void Peaks(benchmark::State& state, SearchOf searchOf)
 {
-  if (const scenes::Search* search = searchOf())
-  {
-    findPeaks(state, *search, static_cast<int>(state.range(0)));
-  }
-  else
-  {
-    scenes::skip(state);
-  }
+  scenes::withSearch(state, searchOf,
+    [&](const scenes::Search& search) { findPeaks(state, search, static_cast<int>(state.range(0))); });
 }
-BENCHMARK_CAPTURE(Peaks, bracket, scenes::bracketSearch)
-  ->Arg(1)
-  ->Arg(2)
-  ->Threads(1)
-  ->Threads(2)
-  ->UseRealTime()
-  ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(Peaks, tohoku, scenes::tohokuSearch)
-  ->Arg(1)
-  ->Arg(2)
-  ->Threads(1)
-  ->Threads(2)
-  ->UseRealTime()
-  ->Unit(benchmark::kMicrosecond);
+void oneAndTwo(benchmark::internal::Benchmark* peaks)
+{
+  peaks->Arg(1)->Arg(2)->Threads(1)->Threads(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
+}
+BENCHMARK_CAPTURE(Peaks, bracket, scenes::bracketSearch)->Apply(oneAndTwo);
+BENCHMARK_CAPTURE(Peaks, tohoku, scenes::tohokuSearch)->Apply(oneAndTwo);
 
 void PeaksByModelPoints(benchmark::State& state)
 {
