@@ -257,7 +257,8 @@ void findPeaks(benchmark::State& state, const scenes::Search& search, int peaks)
     benchmark::DoNotOptimize(accumulator.peaks(peaks));
   }
   const double bins = search.model.votingEdges * 2.0 * 2.0 * M_PI / angleStep(search);
-  state.counters["bins/s"] = benchmark::Counter(bins, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["bins/s"] =
+    benchmark::Counter(bins * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 /// The argument is how many peaks; of Threads each finds all of them.
