@@ -40,8 +40,21 @@ def no_refinement(chain):
     chain.steps.remove(chain.refinement)
 
 
+def edges_refine(chain):
+    chain.on_surface.remove(chain.refinement)
+
+
 def no_surface(chain):
-    chain.with_surface = False
+    chain.on_surface.clear()
+
+
+def judged(**values):
+    """Sets these properties of both verifications."""
+    def choose(chain):
+        for step in (chain.verification, chain.selection):
+            for name, value in values.items():
+                getattr(step, "Set" + name)(value)
+    return choose
 
 
 # Name: what is told, what is changed in training and what in the online phase.
@@ -54,6 +67,8 @@ DECISIONS = {
     "gamma-10000": ("hidden points by a sphere of 10000", lambda training: training.views.SetRadiusFactor(1e4), None),
     "mesh-visibility": ("hidden points by the mesh", lambda training: training.views.SetMethodToMeshVisibility(), None),
     "paper-key": ("the paper's key, three acute angles", lambda training: training.hashing.SetFeatureToPaper(), None),
+    "signs": ("signs of tangents not looked at", None, lambda chain: chain.detection.SignedTangentsOff()),
+    "one-turn": ("peaks of one turn, not of three", None, lambda chain: chain.detection.SmoothPeaksOff()),
     "angle-3.6": ("steps of 3.6 degrees", lambda training: training.hashing.SetAngleStep(3.6), None),
     "angle-12": ("steps of 12 degrees", lambda training: training.hashing.SetAngleStep(12), None),
     "distance-5": ("steps of 5 % of d_max", lambda training: training.hashing.SetDistanceStep(0.05), None),
@@ -66,6 +81,11 @@ DECISIONS = {
     "sparse-edges": ("only points that vote judge, too",
                      lambda training: training.tangents.SetLeafSize(length(training, 0.04)), None),
     "near": ("no near-symmetries", no_near_symmetries, None),
+    "own-visibility": ("competing turns each judged on all they predict", None, judged(SameVisibility=False)),
+    "edges-score": ("score of edges alone", None, judged(EvidenceWeights=(1, 0, 0))),
+    "surface-score": ("score of the surface alone", None, judged(EvidenceWeights=(0, 1, 0))),
+    "no-unexplained": ("unexplained scene edges do not count", None, judged(EvidenceWeights=(0.4, 0.4, 0))),
+    "no-free-space": ("what the sensor looked past does not count", None, judged(FreeSpace=False)),
     "p-ref-5": ("P_ref 5 %", None, lambda chain: chain.detection.SetReferenceShare(0.05)),
     "p-ref-2": ("P_ref 2 %", None, lambda chain: chain.detection.SetReferenceShare(0.02)),
     "p-ref-1": ("P_ref 1 %", None, lambda chain: chain.detection.SetReferenceShare(0.01)),
@@ -76,6 +96,7 @@ DECISIONS = {
     "coverage": ("verification by edge coverage", None, edge_coverage),
     "no-refinement": ("no refinement", None, no_refinement),
     "point-to-point": ("point-to-point refinement", None, lambda chain: chain.refinement.SetParametersToPaper()),
+    "edges-refine": ("refinement by edges alone", None, edges_refine),
     "edges": ("edges alone, no surface", None, no_surface),
 }
 HEAD = "| changed | strict | recall | mm | deg | ms |\n|---|---|---|---|---|---|"

@@ -22,7 +22,8 @@ def judged(folder, part, scenes, noises, with_surface, threads):
     model = scripting.train(evaluation.tohoku_mesh(folder, part))
 
     def choose(chain):
-        chain.with_surface = with_surface
+        if not with_surface:
+            chain.on_surface.clear()
 
     run = evaluation.Chain(model, choose, 0, threads)
     rows = []

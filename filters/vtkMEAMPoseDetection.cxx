@@ -27,6 +27,8 @@ void vtkMEAMPoseDetection::SetParameters(const meam::PoseDetectionSettings& sett
   this->ReferenceShare = settings.referenceShare;
   this->ReferredShare = settings.referredShare;
   this->PeaksPerReference = settings.peaksPerReference;
+  this->SignedTangents = settings.signedTangents;
+  this->SmoothPeaks = settings.smoothPeaks;
   this->Seed = static_cast<int>(settings.seed);
   this->Modified();
 }
@@ -50,6 +52,8 @@ int vtkMEAMPoseDetection::RequestData(
     settings.referenceShare = this->ReferenceShare;
     settings.referredShare = this->ReferredShare;
     settings.peaksPerReference = this->PeaksPerReference;
+    settings.signedTangents = this->SignedTangents;
+    settings.smoothPeaks = this->SmoothPeaks;
     settings.seed = static_cast<unsigned>(this->Seed);
     settings.threads = this->NumberOfThreads;
     const meam::TrainedModel model = toTrainedModel(trained);
@@ -71,6 +75,8 @@ void vtkMEAMPoseDetection::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
   os << indent << "ReferredShare: " << this->ReferredShare << "\n";
   os << indent << "PeaksPerReference: " << this->PeaksPerReference << "\n";
+  os << indent << "SignedTangents: " << this->SignedTangents << "\n";
+  os << indent << "SmoothPeaks: " << this->SmoothPeaks << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }

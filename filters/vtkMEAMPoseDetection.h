@@ -56,6 +56,23 @@ public:
   ///@}
 
   ///@{
+  /**
+   * The sense in which a pair runs along its tangents tells which way round these lie; false: they are taken as they come,
+   * as in the paper, and for half of the reference points wrongly. Default: true.
+   */
+  vtkSetMacro(SignedTangents, bool);
+  vtkGetMacro(SignedTangents, bool);
+  vtkBooleanMacro(SignedTangents, bool);
+  ///@}
+
+  ///@{
+  /** The peak of the votes is that of three neighbouring turns together; false: of single ones. Default: true. */
+  vtkSetMacro(SmoothPeaks, bool);
+  vtkGetMacro(SmoothPeaks, bool);
+  vtkBooleanMacro(SmoothPeaks, bool);
+  ///@}
+
+  ///@{
   /** Seed of the choice of both: the same seed gives the same poses. Default: 1. */
   vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
@@ -87,6 +104,8 @@ private:
   double ReferenceShare;
   double ReferredShare;
   int PeaksPerReference;
+  bool SignedTangents;
+  bool SmoothPeaks;
   int Seed;
   int NumberOfThreads = 0;
 };

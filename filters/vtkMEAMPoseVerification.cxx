@@ -26,6 +26,11 @@ void vtkMEAMPoseVerification::SetParameters(const meam::PoseVerificationSettings
 {
   this->Method = static_cast<int>(settings.method);
   this->Tolerance = settings.tolerance;
+  this->EvidenceWeights[0] = settings.evidence.edgeWeight;
+  this->EvidenceWeights[1] = settings.evidence.surfaceWeight;
+  this->EvidenceWeights[2] = settings.evidence.explainedWeight;
+  this->FreeSpace = settings.evidence.freeSpace;
+  this->SameVisibility = settings.evidence.sameVisibility;
   this->MinimumScore = settings.minimumScore;
   this->PosesPerView = settings.posesPerView;
   this->ClusterDistance = settings.clusterDistance;
@@ -61,6 +66,8 @@ int vtkMEAMPoseVerification::RequestData(
     meam::PoseVerificationSettings settings;
     settings.method = static_cast<meam::VerificationMethod>(this->Method);
     settings.tolerance = this->Tolerance;
+    settings.evidence = { this->EvidenceWeights[0], this->EvidenceWeights[1], this->EvidenceWeights[2], this->FreeSpace,
+      this->SameVisibility };
     settings.minimumScore = this->MinimumScore;
     settings.posesPerView = this->PosesPerView;
     settings.clusterDistance = this->ClusterDistance;
@@ -85,6 +92,10 @@ void vtkMEAMPoseVerification::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << (this->Method == EdgeCoverage ? "EdgeCoverage" : "VisibleEvidence") << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "EvidenceWeights: " << this->EvidenceWeights[0] << " " << this->EvidenceWeights[1] << " "
+     << this->EvidenceWeights[2] << "\n";
+  os << indent << "FreeSpace: " << this->FreeSpace << "\n";
+  os << indent << "SameVisibility: " << this->SameVisibility << "\n";
   os << indent << "MinimumScore: " << this->MinimumScore << "\n";
   os << indent << "PosesPerView: " << this->PosesPerView << "\n";
   os << indent << "ClusterDistance: " << this->ClusterDistance << "\n";

@@ -61,6 +61,33 @@ public:
   ///@}
 
   ///@{
+  /**
+   * What edges, surface, and that scene edges on the part are explained count in the score of VisibleEvidence: three numbers
+   * of 0 or more. Where a part is printed on, edges are there that its model does not explain: then the third is better 0.
+   * `Probability` is calibrated for the defaults. Default: 0.4, 0.4, 0.2.
+   */
+  vtkSetVector3Macro(EvidenceWeights, double);
+  vtkGetVector3Macro(EvidenceWeights, double);
+  ///@}
+
+  ///@{
+  /** Surface of a pose that the sensor looked past speaks against it; false: it says nothing. Default: true. */
+  vtkSetMacro(FreeSpace, bool);
+  vtkGetMacro(FreeSpace, bool);
+  vtkBooleanMacro(FreeSpace, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Turns that compete for an instance are judged on what one of them alone predicts; false: each on all that it predicts,
+   * so that what it happens to be seen from decides, too. Default: true.
+   */
+  vtkSetMacro(SameVisibility, bool);
+  vtkGetMacro(SameVisibility, bool);
+  vtkBooleanMacro(SameVisibility, bool);
+  ///@}
+
+  ///@{
   /** Poses with a lower score, in [0, 1], are dropped. Default: 0. */
   vtkSetClampMacro(MinimumScore, double, 0.0, 1.0);
   vtkGetMacro(MinimumScore, double);
@@ -130,6 +157,9 @@ private:
 
   int Method;
   double Tolerance;
+  double EvidenceWeights[3];
+  bool FreeSpace;
+  bool SameVisibility;
   double MinimumScore;
   int PosesPerView;
   double ClusterDistance;

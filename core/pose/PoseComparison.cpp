@@ -65,7 +65,8 @@ PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_
     }
     return found;
   };
-  return { those(visible->surface, model.surface.points, DepthMap::Relation::InFront),
+  return { this->Settings.freeSpace ? those(visible->surface, model.surface.points, DepthMap::Relation::InFront)
+                                    : PointColumns{},
     those(visible->edges, model.edges.points, DepthMap::Relation::OnSurface) };
 }
 
@@ -78,6 +79,7 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
 {
   const TrainedModel& model = this->Index.model;
   const float far = static_cast<float>(FarShare * model.diameter);
+  const float alone = this->Settings.sameVisibility ? far : 0.0f; // so far from what the other predicts
   const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
   const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
   std::vector<float> distances; // to what the other predicts
@@ -90,13 +92,13 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   lookUp(one.predicted.passed, model.surfaceDistance);
   for (const float distance : distances)
   {
-    sum += distance >= far ? PastWeight : 0.0;
+    sum += distance >= alone ? PastWeight : 0.0;
   }
   const PointColumns& edges = one.predicted.edges;
   lookUp(edges, model.edgeDistance);
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    sum += distances[k] >= far && this->Index.edges.nearest(T * edges[k], far) < 0 ? MissingWeight : 0.0;
+    sum += distances[k] >= alone && this->Index.edges.nearest(T * edges[k], far) < 0 ? MissingWeight : 0.0;
   }
   return sum;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pose/SceneIndex.h"
+#include "pose/PoseEvidence.h"
 
 namespace meam
 {
@@ -11,9 +11,10 @@ namespace meam
 class PoseComparison
 {
 public:
-  /// Keeps a reference to the index.
-  explicit PoseComparison(const SceneIndex& index)
+  /// Keeps a reference to the index. Of `settings` the weights have no part in it.
+  explicit PoseComparison(const SceneIndex& index, const EvidenceSettings& settings = {})
     : Index(index)
+    , Settings(settings)
   {
   }
 
@@ -49,5 +50,6 @@ private:
   double contradicted(const Contender& one, const Contender& other) const;
 
   const SceneIndex& Index;
+  EvidenceSettings Settings;
 };
 }

@@ -56,15 +56,32 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
   return indices;
 }
 
+/// The entries of a table as if d ran along every tangent.
+std::vector<std::uint32_t> withoutSenses(std::vector<std::uint32_t> votes)
+{
+  constexpr std::uint32_t sheetMask = (1u << SheetBits) - 1;
+  for (std::uint32_t& entry : votes)
+  {
+    const std::uint32_t sheet = entry & sheetMask, turn = entry >> SheetBits;
+    entry = voteEntry(sheet / 2, false, sheet % 2 == 1 ? turn : 0u - turn);
+  }
+  return votes;
+}
+
 /// Votes of the scene's pairs, reference by reference.
 class Voting
 {
 public:
-  Voting(const TrainedModel& model, const PointCloud& referred, int threads)
+  Voting(const TrainedModel& model, const PointCloud& referred, const PoseDetectionSettings& settings)
     : Model(model)
-    , Blocks(referred.points, threads)
+    , Blocks(referred.points, settings.threads)
     , Pairs(referred.subset(this->Blocks.order()), model.quantizer())
+    , TurnsUsed(settings.signedTangents ? ~PairTurn{ 0 } : PairTurn{ TurnMask })
   {
+    if (!settings.signedTangents)
+    {
+      this->OwnVotes = withoutSenses(model.table.votes);
+    }
   }
 
   /// All pairs of one reference point vote.
@@ -89,6 +106,7 @@ private:
     // Passes, so that what the next one reads is on its way: where buckets are, votes.
     const PairTable& table = this->Model.table;
     const std::uint32_t* offsets = table.offsets.data();
+    const std::uint32_t* votes = this->OwnVotes.empty() ? table.votes.data() : this->OwnVotes.data();
     int pairs = 0;
     for (int k = 0; k < count; ++k)
     {
@@ -101,16 +119,18 @@ private:
     int filled = 0;
     for (int k = 0; k < pairs; ++k)
     {
-      buckets[filled] = { offsets[keys[k]], offsets[keys[k] + 1], turns[k] };
-      __builtin_prefetch(table.votes.data() + buckets[filled].begin);
+      buckets[filled] = { offsets[keys[k]], offsets[keys[k] + 1], turns[k] & this->TurnsUsed };
+      __builtin_prefetch(votes + buckets[filled].begin);
       filled += buckets[filled].begin < buckets[filled].end ? 1 : 0;
     }
-    accumulator.vote(table.votes.data(), buckets, filled, table.mostOfOne);
+    accumulator.vote(votes, buckets, filled, table.mostOfOne);
   }
 
   const TrainedModel& Model;
   PointBlocks Blocks;
   PairKeys Pairs;
+  PairTurn TurnsUsed; ///< bits of a scene pair's turn
+  std::vector<std::uint32_t> OwnVotes; ///< in place of the table's, when senses are ignored
 };
 
 /// The pose that lays the frame of the peak's model point on `scene`. `own` takes the scene to the frame it votes in.
@@ -169,10 +189,10 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
         referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
         referred = referred.subset(chooseShare(referred.points, settings.referredShare, 1, cell, settings.seed + 1));
       } });
-  const Voting voting(model, referred, settings.threads);
+  const Voting voting(model, referred, settings);
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
-  std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep));
+  std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep, settings.smoothPeaks));
   std::vector<Poses> found(references.size());
   parallelFor(static_cast<int>(references.size()), threads, progress,
     [&](int begin, int end, int thread)

@@ -15,6 +15,9 @@ struct PoseDetectionSettings
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;
   int peaksPerReference = 1;    ///< candidates of one reference point; more find more hidden parts, at a cost
+  /// The sense of d along a tangent tells which way round it lies; else all are taken as they come, as in the paper.
+  bool signedTangents = true;
+  bool smoothPeaks = true;      ///< peaks are of sums of three neighbouring turns
   unsigned seed = 1;            ///< of the choice of both
   int threads = 0;              ///< 0: one for each processor
 };

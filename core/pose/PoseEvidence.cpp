@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PoseEvidence.h"
 
+#include "Error.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -13,11 +15,6 @@ constexpr float OnSurface = 0.7f;          // tolerances within which a scene ed
 
 constexpr std::size_t EdgeStride = 2; // of the visible edge points: neighbours tell the same
 constexpr int GlanceStride = 3; // of the judged points
-
-// What each kind of evidence counts in the score.
-constexpr double EdgeWeight = 0.4;
-constexpr double SurfaceWeight = 0.4;
-constexpr double ExplainedWeight = 0.2;
 
 int count(const std::vector<PointState>& states, PointState state)
 {
@@ -33,7 +30,16 @@ double share(const std::vector<PointState>& states)
 }
 }
 
-double PoseEvidence::support() const
+void requireWeights(const EvidenceSettings& settings)
+{
+  const Eigen::Array3d weights(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight);
+  if (!(weights.allFinite() && weights.minCoeff() >= 0.0 && weights.sum() > 0.0))
+  {
+    throw Error("The weights of edges, surface and explained scene edges must be 0 or more, and one of them more than 0.");
+  }
+}
+
+double PoseEvidence::support(const EvidenceSettings& settings) const
 {
   const int near = this->explained + this->unexplained;
   const double clean = near > 0 ? static_cast<double>(this->explained) / near : 0.0;
@@ -41,7 +47,9 @@ double PoseEvidence::support() const
   {
     return share(this->edgeStates);
   }
-  return EdgeWeight * share(this->edgeStates) + SurfaceWeight * share(this->surfaceStates) + ExplainedWeight * clean;
+  return (settings.edgeWeight * share(this->edgeStates) + settings.surfaceWeight * share(this->surfaceStates) +
+           settings.explainedWeight * clean) /
+    (settings.edgeWeight + settings.surfaceWeight + settings.explainedWeight);
 }
 
 double PoseEvidence::visibleFraction() const
@@ -50,9 +58,10 @@ double PoseEvidence::visibleFraction() const
   return states.empty() ? 0.0 : 1.0 - static_cast<double>(count(states, PointState::Hidden)) / states.size();
 }
 
-EvidenceCollector::EvidenceCollector(const SceneIndex& index, double tolerance)
+EvidenceCollector::EvidenceCollector(const SceneIndex& index, double tolerance, const EvidenceSettings& settings)
   : Index(index)
   , Tolerance(tolerance)
+  , FreeSpace(settings.freeSpace)
 {
   const std::vector<int>& judged = index.model.judged;
   for (std::size_t k = 0; k < judged.size(); k += GlanceStride)
@@ -98,11 +107,11 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   std::vector<DepthMap::Relation> relations(surface.size());
   depth.relations(T, surface, 0, static_cast<int>(surface.size()), tolerance, relations.data());
   std::transform(relations.begin(), relations.end(), std::back_inserter(evidence.surfaceStates),
-    [](DepthMap::Relation relation)
+    [this](DepthMap::Relation relation)
     {
-      return relation == DepthMap::Relation::OnSurface ? PointState::Matched
-        : relation == DepthMap::Relation::Hidden       ? PointState::Hidden
-                                                       : PointState::Violated;
+      return relation == DepthMap::Relation::OnSurface              ? PointState::Matched
+        : relation == DepthMap::Relation::Hidden || !this->FreeSpace ? PointState::Hidden
+                                                                    : PointState::Violated;
     });
   // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
   const Eigen::Isometry3f toModel = T.inverse();
@@ -152,6 +161,7 @@ double EvidenceCollector::glance(const Eigen::Isometry3d& T_scene_model) const
       violated += isFacing & ((relation == DepthMap::Relation::InFront) | (relation == DepthMap::Relation::NoSurface));
     }
   }
+  violated = this->FreeSpace ? violated : 0;
   return matched > 0 ? static_cast<double>(matched) / (matched + violated) : 0.0;
 }
 

@@ -13,6 +13,22 @@ enum class PointState : unsigned char
   Violated ///< the sensor looked past it: speaks against the pose
 };
 
+/// What counts when poses are judged.
+struct EvidenceSettings
+{
+  /// What each kind of evidence counts in the score, 0 or more, not all 0: edges, surface, and that scene edges on the part
+  /// are explained. Without a surface edges alone count.
+  double edgeWeight = 0.4;
+  double surfaceWeight = 0.4;
+  double explainedWeight = 0.2;
+  bool freeSpace = true; ///< surface that the sensor looked past speaks against a pose; else it says nothing
+  /// Poses that compete are judged on what one of them alone predicts; else each on all that it predicts.
+  bool sameVisibility = true;
+};
+
+/// Throws Error when the weights make no score.
+void requireWeights(const EvidenceSettings& settings);
+
 /// Of the points a pose predicts to be visible those that are judged, scene frame (mm), and what became of each.
 struct PoseEvidence
 {
@@ -24,7 +40,7 @@ struct PoseEvidence
   int unexplained = 0; ///< those that are not
 
   /// Share of what should be visible that is there: edges, surface and explained scene edges, [0, 1].
-  double support() const;
+  double support(const EvidenceSettings& settings = {}) const;
   /// Share of the predicted points that nothing hides, [0, 1].
   double visibleFraction() const;
 };
@@ -33,7 +49,7 @@ struct PoseEvidence
 class EvidenceCollector
 {
 public:
-  EvidenceCollector(const SceneIndex& index, double tolerance);
+  EvidenceCollector(const SceneIndex& index, double tolerance, const EvidenceSettings& settings = {});
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points. What is
   /// collected with a stride is no use to `shared`.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
@@ -48,6 +64,7 @@ public:
 private:
   const SceneIndex& Index;
   double Tolerance;
+  bool FreeSpace;
   OrientedColumns Glanced; ///< surface points for a first impression
 };
 }

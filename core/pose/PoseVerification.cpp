@@ -48,11 +48,12 @@ void scoreCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector&
   pose.visibleFraction = pose.score;
 }
 
-void scoreEvidence(Pose& pose, const PoseEvidence& evidence, const SceneIndex& index)
+void scoreEvidence(
+  Pose& pose, const PoseEvidence& evidence, const EvidenceSettings& settings, const SceneIndex& index)
 {
   pose.viewId = index.view.view(pose.T_scene_model, index.scene.sensor);
   pose.visibleFraction = evidence.visibleFraction();
-  pose.score = evidence.support();
+  pose.score = evidence.support(settings);
   const Calibration& known = index.hasSurfaces() ? WithSurface : EdgesAlone;
   pose.probability =
     1.0 / (1.0 + std::exp(-known.constant - known.score * pose.score) * std::pow(pose.certainty, -known.certainty));
@@ -170,11 +171,12 @@ PoseVerificationSettings paperVerificationSettings()
 Poses verifyPoses(
   const Poses& candidates, const SceneIndex& index, const PoseVerificationSettings& settings, const Progress& progress)
 {
+  requireWeights(settings.evidence);
   const TrainedModel& model = index.model;
   const Poses poses = inFrameOf(index.scene, candidates, model.symmetries);
   const bool byEvidence = settings.method == VerificationMethod::VisibleEvidence;
   const EvidenceCollector collector(
-    index, settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * model.diameter);
+    index, settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * model.diameter, settings.evidence);
   std::vector<Points> viewEdges; // asked for by coverage alone
   for (std::size_t v = 0; !byEvidence && v < model.viewDirections.size(); ++v)
   {
@@ -214,7 +216,7 @@ Poses verifyPoses(
         if (byEvidence)
         {
           evidence[i] = collector.collect(scored[i].T_scene_model, stride);
-          scoreEvidence(scored[i], evidence[i], index);
+          scoreEvidence(scored[i], evidence[i], settings.evidence, index);
         }
         else
         {
@@ -231,7 +233,7 @@ Poses verifyPoses(
   std::optional<PoseComparison> comparison;
   if (byEvidence && !areCandidates)
   {
-    comparison.emplace(index);
+    comparison.emplace(index, settings.evidence);
   }
   PoseClusters clusters(scored, evidence, same, index, collector, comparison ? &*comparison : nullptr, settings,
     clusterDistance, 0.5 * model.diameter);
@@ -261,7 +263,7 @@ Poses verifyPoses(
             settleNearSymmetry(scored[i], asItIs, *comparison, model.symmetries);
           }
           scored[i] = settlePose(scored[i], index);
-          scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), index);
+          scoreEvidence(scored[i], collector.collect(scored[i].T_scene_model), settings.evidence, index);
         }
       });
   }

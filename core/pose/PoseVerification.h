@@ -3,7 +3,7 @@
 
 #include "Error.h"
 #include "pose/Pose.h"
-#include "pose/SceneIndex.h"
+#include "pose/PoseEvidence.h"
 
 namespace meam
 {
@@ -17,6 +17,7 @@ enum class VerificationMethod
 struct PoseVerificationSettings
 {
   VerificationMethod method = VerificationMethod::VisibleEvidence;
+  EvidenceSettings evidence;    ///< of VisibleEvidence
   double tolerance = 0.0;       ///< a model point this near to the scene fits; 0: 3 % of the diameter
   double minimumScore = 0.0;    ///< poses below are dropped
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped

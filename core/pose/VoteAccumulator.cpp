@@ -103,6 +103,17 @@ void largestSums(const SheetGroup* bins, int turns, SheetGroup& result)
   std::copy_n(most.of, SheetGroup::Sheets, result.of);
 }
 
+/// The largest bins of the sheets of a group.
+void largestBins(const SheetGroup* bins, int turns, SheetGroup& result)
+{
+  const SheetGroup none{};
+  result = none;
+  for (int bin = 0; bin < turns; ++bin)
+  {
+    raise(result, none, bins[bin], none);
+  }
+}
+
 MEAM_ALL_VECTORS
 std::uint16_t largest(const std::uint16_t* values, std::size_t count)
 {
@@ -116,8 +127,9 @@ std::uint16_t largest(const std::uint16_t* values, std::size_t count)
 }
 }
 
-VoteAccumulator::VoteAccumulator(int modelPoints, double angleStep)
+VoteAccumulator::VoteAccumulator(int modelPoints, double angleStep, bool smooth)
   : Turns(std::max(1, static_cast<int>(std::lround(2.0 * M_PI / angleStep))))
+  , Smooth(smooth)
   , Largest(2 * modelPoints / SheetGroup::Sheets + 1)
   , Counts(this->Largest.size() * this->Turns)
 {
@@ -139,7 +151,8 @@ std::vector<VotePeak> VoteAccumulator::peaks(int count)
 {
   for (std::size_t group = 0; group < this->Largest.size(); ++group)
   {
-    largestSums(this->Counts.data() + group * this->Turns, this->Turns, this->Largest[group]);
+    (this->Smooth ? largestSums : largestBins)(
+      this->Counts.data() + group * this->Turns, this->Turns, this->Largest[group]);
   }
   std::uint16_t* sums = this->Largest.data()->of;
   const std::size_t sheets = this->Largest.size() * SheetGroup::Sheets;
@@ -158,8 +171,9 @@ std::vector<VotePeak> VoteAccumulator::peaks(int count)
       bin = bin < 0 ? this->Turns - 1 : bin;
       return int{ bins[bin == this->Turns ? 0 : bin].of[sheet % SheetGroup::Sheets] };
     };
+    const auto beside = [&](int bin) { return this->Smooth ? votes(bin) : 0; };
     int bin = 0;
-    while (bin + 1 < this->Turns && votes(bin - 1) + votes(bin) + votes(bin + 1) != most)
+    while (bin + 1 < this->Turns && beside(bin - 1) + votes(bin) + beside(bin + 1) != most)
     {
       ++bin;
     }
@@ -168,7 +182,7 @@ std::vector<VotePeak> VoteAccumulator::peaks(int count)
     peak.modelPoint = sheet / 2;
     peak.flip = sheet % 2 == 1;
     peak.alpha =
-      (bin + 0.5 + (votes(bin + 1) - votes(bin - 1)) / static_cast<double>(peak.votes)) * 2.0 * M_PI / this->Turns;
+      (bin + 0.5 + (beside(bin + 1) - beside(bin - 1)) / static_cast<double>(peak.votes)) * 2.0 * M_PI / this->Turns;
     found.push_back(peak);
     sums[sheet] = 0;
   }

@@ -11,7 +11,7 @@ namespace meam
 /// A peak among the votes of one scene reference point.
 struct VotePeak
 {
-  int votes = 0; ///< of the bin and its two neighbours
+  int votes = 0; ///< of the bin, and of its two neighbours where they count
   int modelPoint = -1;
   bool flip = false;  ///< the stored tangents run against each other
   double alpha = 0.0; ///< radians
@@ -39,8 +39,8 @@ static_assert(
 class VoteAccumulator
 {
 public:
-  /// `angleStep`: of alpha, radians.
-  VoteAccumulator(int modelPoints, double angleStep);
+  /// `angleStep`: of alpha, radians. `smooth`: peaks are of sums of three neighbouring bins, else of single ones.
+  VoteAccumulator(int modelPoints, double angleStep, bool smooth = true);
 
   void clear();
 
@@ -48,14 +48,14 @@ public:
   /// VoteBlock words after the last entry are read.
   void vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne = 1);
 
-  /// The best supported turns, summed over three neighbouring bins, each at another model point or flip; best
-  /// first, of equals the first. Without votes none.
+  /// The best supported turns, each at another model point or flip; best first, of equals the first. Without votes none.
   std::vector<VotePeak> peaks(int count);
 
 private:
   int Turns;                       ///< bins of a sheet
+  bool Smooth;
   std::int64_t Cast = 0;           ///< no bin has more votes
-  std::vector<SheetGroup> Largest; ///< sums of neighbouring bins, for each sheet
+  std::vector<SheetGroup> Largest; ///< peak of each sheet
   std::vector<SheetGroup> Counts;  ///< group by group, and in each group bin by bin
 };
 }

@@ -155,7 +155,7 @@ class Chain(Evaluation):
         self.selection.SetPosesPerInstance(1)
         self.selection.SetMaximumNumberOfPoses(0)
         self.steps = [self.tangents, self.detection, self.verification, self.refinement, self.selection]
-        self.with_surface = True
+        self.on_surface = self.steps[2:]  # those that are told what the sensor measured
         choose(self)
         for before, step in zip(self.steps, self.steps[1:]):
             step.SetInputConnection(before.GetOutputPort())
@@ -167,9 +167,8 @@ class Chain(Evaluation):
 
     def find(self, surface, edges):
         self.tangents.SetInputDataObject(edges)
-        if self.with_surface:
-            for step in self.steps[2:]:
-                step.SetInputDataObject(3, surface)
+        for step in self.on_surface:
+            step.SetInputDataObject(3, surface)
         poses = vtkPolyData()
         poses.ShallowCopy(scripting.update(self.selection).GetOutput())
         return poses

@@ -47,10 +47,10 @@ meam::Scene lyingPlate(bool hidden)
 Eigen::Isometry3d quarter(int turns);
 
 /// Of the true pose over a quarter turn.
-double advantageIn(const meam::Scene& scene)
+double advantageIn(const meam::Scene& scene, const meam::EvidenceSettings& settings = {})
 {
   const meam::SceneIndex index(plate(), scene);
-  const meam::PoseComparison comparison(index);
+  const meam::PoseComparison comparison(index, settings);
   return comparison.advantage(comparison.contender(quarter(0)), comparison.contender(quarter(1)));
 }
 
@@ -165,6 +165,30 @@ TEST(PoseComparison, FloorSeenWhereAPoseHasSurfaceSpeaksAgainstIt)
     return scene;
   }();
   EXPECT_GT(advantageIn(onTheFloor), advantageIn(lyingPlate(false)) + 5.0);
+  meam::EvidenceSettings settings;
+  settings.freeSpace = false;
+  EXPECT_LE(advantageIn(onTheFloor, settings), advantageIn(lyingPlate(false), settings));
+}
+
+TEST(PoseComparison, WhatBothPredictDoesNotCountUnlessEachIsJudgedOnItsOwn)
+{
+  // Over a quarter that the true pose and a quarter turn both cover the sensor looked past the plate: against either, by as
+  // many points as it happens to predict there.
+  const auto advantage = [](bool torn, bool sameVisibility)
+  {
+    meam::Scene scene = lyingPlate(false);
+    for (auto& point : scene.surface)
+    {
+      point.z() -= torn && point.x() < -2 && point.y() < -2 ? 40.0f : 0.0f;
+    }
+    meam::EvidenceSettings settings;
+    settings.sameVisibility = sameVisibility;
+    const meam::SceneIndex index(plate(), scene);
+    const meam::PoseComparison comparison(index, settings);
+    return comparison.advantage(comparison.contender(quarter(0)), comparison.contender(quarter(1)));
+  };
+  EXPECT_NEAR(advantage(true, true), advantage(false, true), 1e-9);
+  EXPECT_GT(std::abs(advantage(true, false) - advantage(false, false)), 1.0);
 }
 
 TEST(PoseComparison, EdgesAloneDecide)

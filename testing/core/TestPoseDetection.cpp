@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <tuple>
 
 namespace
 {
@@ -38,13 +39,13 @@ meam::PointCloud ownEdges(const Eigen::Isometry3d& T, float sign = 1.0f)
 /// The best supported turn of one reference point, every vote of every pair counted on its own.
 struct SlowPeak
 {
-  int votes = 0; ///< of three neighbouring bins
+  int votes = 0; ///< of three neighbouring bins, or of one
   int lead = 0;  ///< before all others
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
 
 SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& referred, const meam::TangentFrame& scene,
-  const Eigen::Vector3f& tangent)
+  const Eigen::Vector3f& tangent, const meam::PoseDetectionSettings& settings)
 {
   constexpr int bins = 50; // of 7.2 degrees
   const auto framed = [&](std::uint32_t point)
@@ -65,7 +66,7 @@ SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& refer
       const std::uint32_t point = model.table.references[k];
       const Eigen::Vector3f& other = model.edges.points[model.table.referreds[k]];
       const meam::TangentFrame part = framed(point);
-      const bool flip = part.against(other) != scene.against(referred.points[i]);
+      const bool flip = settings.signedTangents && part.against(other) != scene.against(referred.points[i]);
       const double angle = scene.angleOf(referred.points[i]);
       const double turns = (flip ? angle + part.angleOf(other) : angle - part.angleOf(other)) / (2.0 * M_PI) + 2.0;
       ++counts[2 * point + (flip ? 1 : 0)][static_cast<int>(std::floor(turns * bins)) % bins];
@@ -76,7 +77,9 @@ SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& refer
   {
     for (int bin = 0; bin < bins; ++bin)
     {
-      const int before = counts[sheet][(bin + bins - 1) % bins], after = counts[sheet][(bin + 1) % bins];
+      const int beside = settings.smoothPeaks ? 1 : 0;
+      const int before = beside * counts[sheet][(bin + bins - 1) % bins];
+      const int after = beside * counts[sheet][(bin + 1) % bins];
       const int sum = before + counts[sheet][bin] + after;
       if (sum > best.votes)
       {
@@ -153,12 +156,17 @@ TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
   EXPECT_FALSE(same(first, other));
 }
 
-TEST(PoseDetection, CountsTheVotesOfAllPairs)
+class PoseDetectionVotes : public testing::TestWithParam<std::pair<bool, bool>>
+{
+};
+
+TEST_P(PoseDetectionVotes, CountsTheVotesOfAllPairs)
 {
   const meam::TrainedModel& model = scenes::bracket();
   const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
   meam::PoseDetectionSettings settings;
   settings.referenceShare = 1.0;
+  std::tie(settings.signedTangents, settings.smoothPeaks) = GetParam();
   const meam::Poses poses = meam::detectPoses(scene.edges, model, settings);
   const meam::FramedCloud own = meam::inOwnFrame(scene.edges);
   const meam::PointCloud referred = own.cloud.subset(meam::thinPoints(own.cloud.points, model.votingLeaf()));
@@ -169,7 +177,7 @@ TEST(PoseDetection, CountsTheVotesOfAllPairs)
   {
     const Eigen::Vector3f& stored = own.cloud.tangents[r];
     const Eigen::Vector3f tangent = stored.x() < 0.0f ? Eigen::Vector3f(-stored) : stored;
-    const SlowPeak peak = slowPeak(model, referred, meam::TangentFrame(own.cloud.points[r], tangent), tangent);
+    const SlowPeak peak = slowPeak(model, referred, meam::TangentFrame(own.cloud.points[r], tangent), tangent, settings);
     // Rounding may carry a vote over the border of its bin, which turns a pose of 30 votes by up to half a degree.
     EXPECT_NEAR(poses[r].votes, peak.votes, 2) << r;
     exact += poses[r].votes == peak.votes ? 1 : 0;
@@ -184,6 +192,31 @@ TEST(PoseDetection, CountsTheVotesOfAllPairs)
   }
   EXPECT_GT(exact, 0.98 * poses.size());
   EXPECT_GT(sure, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(SignedAndSmooth, PoseDetectionVotes,
+  testing::Values(std::make_pair(true, true), std::make_pair(false, true), std::make_pair(true, false)));
+
+TEST(PoseDetection, WithoutTheSignsOfTangentsHalfOfTheCandidatesAreWrong)
+{
+  std::mt19937 random(6);
+  meam::PointCloud edges;
+  std::vector<Eigen::Isometry3d> truth;
+  for (int copy = 0; copy < 12; ++copy)
+  {
+    truth.push_back(Eigen::Translation3d(1000.0 * copy, 0, 0) * parts::motion(random, 300.0));
+    const meam::PointCloud one = ownEdges(truth.back());
+    edges.points.insert(edges.points.end(), one.points.begin(), one.points.end());
+    edges.tangents.insert(edges.tangents.end(), one.tangents.begin(), one.tangents.end());
+  }
+  const auto found = [&](bool withSigns)
+  {
+    meam::PoseDetectionSettings settings;
+    settings.signedTangents = withSigns;
+    return right(meam::detectPoses(edges, scenes::bracket(), settings), truth, 3.0, 6.0);
+  };
+  EXPECT_GT(found(false), 0.3 * found(true));
+  EXPECT_LT(found(false), 0.7 * found(true));
 }
 
 TEST(PoseDetection, PointsOfOneCubeMakeOnePair)

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace
 {
 const meam::Scene& scene()
@@ -276,6 +278,50 @@ TEST(PoseVerification, TheOneThatIsLeftOfAnInstanceIsFarFromAllOthers)
       EXPECT_GE((best[a].T_scene_model * middle - best[b].T_scene_model * middle).norm(), 5.0);
     }
   }
+}
+
+TEST(PoseVerification, TheScoreIsTheWeightedMeanOfWhatIsThere)
+{
+  using meam::PointState;
+  meam::PoseEvidence evidence;
+  evidence.edges.resize(3);
+  evidence.edgeStates = { PointState::Matched, PointState::Violated, PointState::Hidden }; // 1 / 2
+  evidence.surface.resize(4);
+  evidence.surfaceStates = { PointState::Matched, PointState::Matched, PointState::Violated, PointState::Matched };
+  evidence.explained = 1;
+  evidence.unexplained = 3;
+  const auto score = [&](double edges, double surface, double explained)
+  {
+    meam::EvidenceSettings settings;
+    std::tie(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight) = std::tie(edges, surface, explained);
+    return evidence.support(settings);
+  };
+  EXPECT_NEAR(evidence.support(), 0.4 * 0.5 + 0.4 * 0.75 + 0.2 * 0.25, 1e-12);
+  EXPECT_NEAR(score(1, 0, 0), 0.5, 1e-12);
+  EXPECT_NEAR(score(0, 1, 0), 0.75, 1e-12);
+  EXPECT_NEAR(score(0.4, 0.4, 0), 0.625, 1e-12);
+  EXPECT_NEAR(score(2, 0, 2), 0.375, 1e-12);
+  evidence.surface.clear();
+  evidence.surfaceStates.clear();
+  EXPECT_NEAR(score(0, 1, 0), 0.5, 1e-12) << "edges alone";
+}
+
+TEST(PoseVerification, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
+{
+  const meam::SceneIndex index(scenes::bracket(), scene());
+  Eigen::Isometry3d lifted = scenes::threeCopies()[0]; // in front of all that was measured
+  lifted.translation().z() += 40.0;
+  meam::EvidenceSettings settings;
+  settings.freeSpace = false;
+  const auto count = [&](const meam::EvidenceSettings& with, meam::PointState state)
+  {
+    const auto states = meam::EvidenceCollector(index, 3.0, with).collect(lifted).surfaceStates;
+    return std::count(states.begin(), states.end(), state);
+  };
+  EXPECT_GT(count({}, meam::PointState::Violated), 50);
+  EXPECT_EQ(count(settings, meam::PointState::Violated), 0);
+  EXPECT_EQ(count(settings, meam::PointState::Hidden),
+    count({}, meam::PointState::Hidden) + count({}, meam::PointState::Violated));
 }
 
 TEST(PoseVerification, CoverageFollowsThePaper)

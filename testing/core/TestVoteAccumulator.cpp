@@ -108,6 +108,20 @@ TEST(VoteAccumulator, NeighbouringBinsAddUpAndPullThePeak)
   EXPECT_NEAR(peak.alpha, (0.5 + (4.0 - 2.0) / 12.0) * Step, 1e-9);
 }
 
+TEST(VoteAccumulator, WithoutSmoothingABinStandsAlone)
+{
+  for (const bool smooth : { true, false })
+  {
+    meam::VoteAccumulator votes(1, Step, smooth);
+    vote(votes, entry(0, false, 0.0), sceneTurn(false, 10.5 * 7.2), 3);
+    vote(votes, entry(0, false, 0.0), sceneTurn(false, 30.5 * 7.2), 2);
+    vote(votes, entry(0, false, 0.0), sceneTurn(false, 31.5 * 7.2), 2);
+    const meam::VotePeak peak = votes.peaks(1).at(0);
+    EXPECT_EQ(peak.votes, smooth ? 4 : 3);
+    EXPECT_NEAR(peak.alpha / Step, smooth ? 31.0 : 10.5, 1e-9);
+  }
+}
+
 TEST(VoteAccumulator, PeaksComeBestFirstAndOfDifferentPoints)
 {
   meam::VoteAccumulator votes(4, Step);

@@ -48,6 +48,11 @@ for threads in (1, 2, 3):
 check(tuples(run(detection(Seed=2)), "Transform") != transforms, "another seed chooses other points")
 check(run(detection(ReferenceShare=0.1)).GetNumberOfPoints() <= 100, "no more than the least number of reference points")
 
+single = tuples(run(detection(SmoothPeaks=False)), "Votes")
+check(len(single) == count and all(one <= three for (one,), (three,) in zip(single, votes)) and single != votes,
+      "one turn has no more votes than three")
+check(tuples(run(detection(SignedTangents=False)), "Transform") != transforms, "the signs of tangents matter")
+
 # Single invalid points do not matter.
 holes = cloud(points(edges) + [(math.nan, 0, 0)], Tangent=tuples(edges, "Tangent") + [(1, 0, 0)])
 check(not is_empty(run(detection(holes))), "a point of NaN")

@@ -64,6 +64,14 @@ for method in (0, 1):
         check(tuples(best, "ViewId")[0] == (0,), "the view of what the sensor sees")
         check(field(best, "Diameter") == [(diameter,)], "the diameter travels along")
 
+# The score is the mean of what counts; a surface that counts nothing leaves the score of the edges.
+by = [tuples(run(verification(poses(shifted()), scene.surface, EvidenceWeights=weights)), "Score")[0][0]
+      for weights in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0.4, 0.4, 0.2))]
+check(abs(by[3] - (0.4 * by[0] + 0.4 * by[1] + 0.2 * by[2])) < 1e-9, f"scores of kinds of evidence: {by}")
+above = poses(shifted(*(-30 * c for c in scene.looking)))  # towards the sensor: it looked past all of its surface
+matched = [tuples(run(verification(above, scene.surface, FreeSpace=free)), "VisibleFraction")[0][0] for free in (True, False)]
+check(matched[0] > matched[1] + 0.5, f"without free space nothing is known to be seen: {matched}")
+
 alone = run(verification(candidates, scene.surface, MaximumNumberOfPoses=1))
 check(alone.GetNumberOfPoints() == 1, "as many poses as asked for")
 check(is_empty(run(verification(candidates, scene.surface, MinimumScore=1.0))) or scores[0] == 1.0,
@@ -118,6 +126,8 @@ check(is_rotation(tuples(rounded, "Transform")[0]), "the rotation of few decimal
 fails(verification(poses(tuple(2 * c for c in scene.transform))), "pose 0", "rotation")
 fails(verification(poses(shifted(math.nan))), "pose 0")
 fails(verification(cloud([(0, 0, 0)])), "Transform")
+for weights in ((0, 0, 0), (1, -1, 1), (math.nan, 1, 1)):
+    fails(verification(candidates, EvidenceWeights=weights), "weights of edges, surface")
 fails(verification(candidates, edges=vtkPolyData()), "no points")
 fails(verification(candidates, edges=scene.edges), "Tangent", "TangentEstimation")
 fails(verification(candidates, cloud([(math.nan, 0, 0)] * 4)), "surface", "NaN")
