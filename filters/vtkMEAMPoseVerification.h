@@ -7,8 +7,9 @@
  * pose that has a scene edge point near. VisibleEvidence, the recommended one, asks of each edge and surface
  * point that should be visible at the pose whether the sensor saw it, saw something in front of it (which
  * says nothing) or looked past it (which speaks against the pose), and which scene edges on the part stay
- * unexplained. Then poses near each other are of one instance, of which the best are kept. When more poses come than
- * may stay, those whose surface is not there at a glance go first.
+ * unexplained. Where nothing was measured, as in glare, the surface says nothing. Then poses near each other are of one
+ * instance, of which the best are kept. When more poses come than may stay, those whose surface is not there at a glance
+ * go first.
  *
  * Input port 0: vtkPolyData of poses (vtkMEAMPoseDetection, vtkMEAMPoseRefinement or a pose file): `Transform`.
  * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).
@@ -71,7 +72,10 @@ public:
   ///@}
 
   ///@{
-  /** Surface of a pose that the sensor looked past speaks against it; false: it says nothing. Default: true. */
+  /**
+   * Surface of a pose that the sensor looked past speaks against it; false: it says nothing, as where nothing was measured.
+   * Default: true.
+   */
   vtkSetMacro(FreeSpace, bool);
   vtkGetMacro(FreeSpace, bool);
   vtkBooleanMacro(FreeSpace, bool);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests: the release build, core under the sanitizers (dev), and the filters
-# under plain VTK 9.1 (vtk). Arguments go to ctest: testing/run.sh -L core, testing/run.sh -R Hashing.
+# under plain VTK 9.1 (vtk), two tests at a time. Arguments go to ctest: testing/run.sh -L core, testing/run.sh -R Hashing.
 # The dataset tests look for data in $PPFMEAM_DATA and are skipped without it.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -16,7 +16,7 @@ run() { # PRESET, "what", build target or "", ctest arguments...
   echo "== $preset: $what"
   "$root/cmake/build.sh" "$preset" ${target:+"$target"} || { failed+=("$preset (build)"); return; }
   found=$((found + $(ctest --test-dir "$root/build/$preset" -N "$@" | sed -n 's/^Total Tests: //p')))
-  ctest --test-dir "$root/build/$preset" --output-on-failure "$@" || failed+=("$preset")
+  ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "$@" || failed+=("$preset")
 }
 run release "core, filters, plugin" "" "$@"
 run dev "core under the sanitizers" "" "$@"

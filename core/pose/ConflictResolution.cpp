@@ -61,12 +61,14 @@ std::vector<int> explainedPoints(
   return explained;
 }
 
-/// 1 when the sensor looked past nothing that the pose predicts, 0 when past as much as it matched.
+/// 1 when all that the pose predicts is there or hidden, 0 when as much is not as is. Of what was not measured a pose that
+/// does without is the better one.
 double soundShare(const std::vector<PointState>& states)
 {
   const auto matched = std::count(states.begin(), states.end(), PointState::Matched);
-  const auto violated = std::count(states.begin(), states.end(), PointState::Violated);
-  return matched > violated ? static_cast<double>(matched - violated) / matched : 0.0;
+  const auto missing = std::count(states.begin(), states.end(), PointState::Violated) +
+    std::count(states.begin(), states.end(), PointState::Unknown);
+  return matched > missing ? static_cast<double>(matched - missing) / matched : 0.0;
 }
 
 Claim claimOf(const PartPose& pose, const SceneIndex& index, const Measured& measured, double tolerance)

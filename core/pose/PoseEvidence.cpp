@@ -109,9 +109,10 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   std::transform(relations.begin(), relations.end(), std::back_inserter(evidence.surfaceStates),
     [this](DepthMap::Relation relation)
     {
-      return relation == DepthMap::Relation::OnSurface              ? PointState::Matched
-        : relation == DepthMap::Relation::Hidden || !this->FreeSpace ? PointState::Hidden
-                                                                    : PointState::Violated;
+      return relation == DepthMap::Relation::OnSurface                  ? PointState::Matched
+        : relation == DepthMap::Relation::Hidden                        ? PointState::Hidden
+        : relation == DepthMap::Relation::NoSurface || !this->FreeSpace ? PointState::Unknown
+                                                                        : PointState::Violated;
     });
   // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
   const Eigen::Isometry3f toModel = T.inverse();
@@ -158,7 +159,7 @@ double EvidenceCollector::glance(const Eigen::Isometry3d& T_scene_model) const
         x[begin + k] * towards.x() + y[begin + k] * towards.y() + z[begin + k] * towards.z() > 0.0f;
       const DepthMap::Relation relation = relations[k];
       matched += isFacing & (relation == DepthMap::Relation::OnSurface);
-      violated += isFacing & ((relation == DepthMap::Relation::InFront) | (relation == DepthMap::Relation::NoSurface));
+      violated += isFacing & (relation == DepthMap::Relation::InFront);
     }
   }
   violated = this->FreeSpace ? violated : 0;

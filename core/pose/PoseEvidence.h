@@ -10,6 +10,7 @@ enum class PointState : unsigned char
 {
   Matched, ///< it is there
   Hidden,  ///< something lies in front of it: says nothing about the pose
+  Unknown, ///< surface where nothing was measured: says nothing either
   Violated ///< the sensor looked past it: speaks against the pose
 };
 

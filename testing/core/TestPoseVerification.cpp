@@ -286,8 +286,9 @@ TEST(PoseVerification, TheScoreIsTheWeightedMeanOfWhatIsThere)
   meam::PoseEvidence evidence;
   evidence.edges.resize(3);
   evidence.edgeStates = { PointState::Matched, PointState::Violated, PointState::Hidden }; // 1 / 2
-  evidence.surface.resize(4);
-  evidence.surfaceStates = { PointState::Matched, PointState::Matched, PointState::Violated, PointState::Matched };
+  evidence.surface.resize(5);
+  evidence.surfaceStates = { PointState::Matched, PointState::Matched, PointState::Violated, PointState::Matched,
+    PointState::Unknown }; // 3 / 4
   evidence.explained = 1;
   evidence.unexplained = 3;
   const auto score = [&](double edges, double surface, double explained)
@@ -320,8 +321,8 @@ TEST(PoseVerification, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
   };
   EXPECT_GT(count({}, meam::PointState::Violated), 50);
   EXPECT_EQ(count(settings, meam::PointState::Violated), 0);
-  EXPECT_EQ(count(settings, meam::PointState::Hidden),
-    count({}, meam::PointState::Hidden) + count({}, meam::PointState::Violated));
+  EXPECT_EQ(count(settings, meam::PointState::Unknown),
+    count({}, meam::PointState::Unknown) + count({}, meam::PointState::Violated));
 }
 
 TEST(PoseVerification, CoverageFollowsThePaper)

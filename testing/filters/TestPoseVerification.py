@@ -68,9 +68,25 @@ for method in (0, 1):
 by = [tuples(run(verification(poses(shifted()), scene.surface, EvidenceWeights=weights)), "Score")[0][0]
       for weights in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0.4, 0.4, 0.2))]
 check(abs(by[3] - (0.4 * by[0] + 0.4 * by[1] + 0.2 * by[2])) < 1e-9, f"scores of kinds of evidence: {by}")
-above = poses(shifted(*(-30 * c for c in scene.looking)))  # towards the sensor: it looked past all of its surface
-matched = [tuples(run(verification(above, scene.surface, FreeSpace=free)), "VisibleFraction")[0][0] for free in (True, False)]
-check(matched[0] > matched[1] + 0.5, f"without free space nothing is known to be seen: {matched}")
+def visible(*args, **properties):
+    found = run(verification(poses(shifted()), *args, **properties))
+    return tuples(found, "VisibleFraction")[0][0]
+
+
+# On one side the sensor looked past the part: that speaks against the pose, where nothing was measured says nothing.
+side = [x > sum(x for x, *_ in points(scene.surface)) / scene.surface.GetNumberOfPoints() for x, *_ in points(scene.surface)]
+past = cloud([[c + 40 * d * beyond for c, d in zip(p, scene.looking)] for p, beyond in zip(points(scene.surface), side)])
+gone = cloud([p for p, beyond in zip(points(scene.surface), side) if not beyond])
+
+
+def score(surface, **properties):
+    return tuples(run(verification(poses(shifted()), surface, **properties)), "Score")[0][0]
+
+
+check(score(past) < score(scene.surface) - 0.1, f"the sensor looked past half of the part: {score(past)}")
+check(score(past, FreeSpace=False) > score(past) + 0.1, f"that says nothing: {score(past, FreeSpace=False)}")
+check(score(gone) > score(past) + 0.1, f"half of the part was not measured: {score(gone)}")
+check(visible(gone) > 0.9, "what was not measured is not hidden")
 
 alone = run(verification(candidates, scene.surface, MaximumNumberOfPoses=1))
 check(alone.GetNumberOfPoints() == 1, "as many poses as asked for")
@@ -96,11 +112,6 @@ def wall(distance):
     v = (y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0])
     return [[center[k] + distance * scene.looking[k] + i * u[k] + j * v[k] for k in range(3)]
             for j in range(-60, 61) for i in range(-60, 61)]
-
-
-def visible(*args, **properties):
-    found = run(verification(poses(shifted()), *args, **properties))
-    return tuples(found, "VisibleFraction")[0][0]
 
 
 hidden = cloud(wall(-80))
