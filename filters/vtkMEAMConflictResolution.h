@@ -6,7 +6,7 @@
  * Each type is looked for by itself; this filter brings the poses together. Two poses, of different parts or of one,
  * are in conflict when more than MaximumShared of the measured points that either explains are explained by the other,
  * too. The pose stays that has the larger odds of its probability times the measured points that it explains, less those
- * that it predicts and the sensor looked past. A small part that fits on a face of a larger one loses against it; one
+ * that it predicts and the sensor looked past or did not measure. A small part that fits on a face of a larger one loses against it; one
  * that lies on top of it stays.
  *
  * Input port 0, repeatable: vtkPolyData, the verified poses of each part (vtkMEAMPoseVerification or

@@ -57,8 +57,8 @@ public:
 
   ///@{
   /**
-   * The sense in which a pair runs along its tangents tells which way round these lie; false: they are taken as they come,
-   * as in the paper, and for half of the reference points wrongly. Default: true.
+   * The sense in which a pair runs along its tangents tells which way round these lie; false: their stored signs are taken
+   * for right, which is wrong for half of the reference points. For comparison. Default: true.
    */
   vtkSetMacro(SignedTangents, bool);
   vtkGetMacro(SignedTangents, bool);

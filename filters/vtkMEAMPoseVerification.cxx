@@ -66,8 +66,11 @@ int vtkMEAMPoseVerification::RequestData(
     meam::PoseVerificationSettings settings;
     settings.method = static_cast<meam::VerificationMethod>(this->Method);
     settings.tolerance = this->Tolerance;
-    settings.evidence = { this->EvidenceWeights[0], this->EvidenceWeights[1], this->EvidenceWeights[2], this->FreeSpace,
-      this->SameVisibility };
+    settings.evidence.edgeWeight = this->EvidenceWeights[0];
+    settings.evidence.surfaceWeight = this->EvidenceWeights[1];
+    settings.evidence.explainedWeight = this->EvidenceWeights[2];
+    settings.evidence.freeSpace = this->FreeSpace;
+    settings.evidence.sameVisibility = this->SameVisibility;
     settings.minimumScore = this->MinimumScore;
     settings.posesPerView = this->PosesPerView;
     settings.clusterDistance = this->ClusterDistance;

@@ -64,8 +64,8 @@ public:
   ///@{
   /**
    * What edges, surface, and that scene edges on the part are explained count in the score of VisibleEvidence: three numbers
-   * of 0 or more. Where a part is printed on, edges are there that its model does not explain: then the third is better 0.
-   * `Probability` is calibrated for the defaults. Default: 0.4, 0.4, 0.2.
+   * of 0 or more, not all 0. Where a part is printed on, edges are there that its model does not explain: then the third is
+   * better 0. Without a surface edges alone count. `Probability` is calibrated for the defaults. Default: 0.4, 0.4, 0.2.
    */
   vtkSetVector3Macro(EvidenceWeights, double);
   vtkGetVector3Macro(EvidenceWeights, double);
@@ -84,7 +84,7 @@ public:
   ///@{
   /**
    * Turns that compete for an instance are judged on what one of them alone predicts; false: each on all that it predicts,
-   * so that what it happens to be seen from decides, too. Default: true.
+   * so that what it happens to be seen from decides, too. Only with PosesPerInstance 1. Default: true.
    */
   vtkSetMacro(SameVisibility, bool);
   vtkGetMacro(SameVisibility, bool);

@@ -21,6 +21,7 @@ constexpr int VoteBlock = 16;
 
 /// Bits of an entry of the table that name the sheet of votes.
 constexpr int SheetBits = 32 - TurnBits;
+constexpr std::uint32_t SheetMask = (1u << SheetBits) - 1;
 
 /// An entry of the table as voting reads it. In its upper TurnBits bits the turn which, added to that of a scene pair
 /// along its tangent, gives alpha; below them the sheet of votes: 2 * reference, and one more when d runs against the
@@ -28,6 +29,13 @@ constexpr int SheetBits = 32 - TurnBits;
 constexpr std::uint32_t voteEntry(std::uint32_t reference, bool against, PairTurn turn)
 {
   return ((against ? turn : 0u - turn) << SheetBits) | (2 * reference + (against ? 1u : 0u));
+}
+
+/// The entry as if d ran along the reference's tangent.
+constexpr std::uint32_t withoutSense(std::uint32_t entry)
+{
+  const std::uint32_t sheet = entry & SheetMask, turn = entry >> SheetBits;
+  return voteEntry(sheet / 2, false, sheet % 2 == 1 ? turn : 0u - turn);
 }
 
 /// Keys and turns of one reference point with many referred points, computed for several points at a time with the

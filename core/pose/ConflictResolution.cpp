@@ -61,8 +61,8 @@ std::vector<int> explainedPoints(
   return explained;
 }
 
-/// 1 when all that the pose predicts is there or hidden, 0 when as much is not as is. Of what was not measured a pose that
-/// does without is the better one.
+/// 1 when nothing that the pose predicts in sight is missing, 0 when as much is missing as is there. Missing is what the
+/// sensor looked past, and, since another pose may do without it, what was not measured.
 double soundShare(const std::vector<PointState>& states)
 {
   const auto matched = std::count(states.begin(), states.end(), PointState::Matched);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace meam
@@ -56,18 +57,6 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
   return indices;
 }
 
-/// The entries of a table as if d ran along every tangent.
-std::vector<std::uint32_t> withoutSenses(std::vector<std::uint32_t> votes)
-{
-  constexpr std::uint32_t sheetMask = (1u << SheetBits) - 1;
-  for (std::uint32_t& entry : votes)
-  {
-    const std::uint32_t sheet = entry & sheetMask, turn = entry >> SheetBits;
-    entry = voteEntry(sheet / 2, false, sheet % 2 == 1 ? turn : 0u - turn);
-  }
-  return votes;
-}
-
 /// Votes of the scene's pairs, reference by reference.
 class Voting
 {
@@ -80,7 +69,8 @@ public:
   {
     if (!settings.signedTangents)
     {
-      this->OwnVotes = withoutSenses(model.table.votes);
+      const std::vector<std::uint32_t>& votes = model.table.votes;
+      std::transform(votes.begin(), votes.end(), std::back_inserter(this->OwnVotes), withoutSense);
     }
   }
 

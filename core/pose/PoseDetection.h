@@ -15,7 +15,8 @@ struct PoseDetectionSettings
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;
   int peaksPerReference = 1;    ///< candidates of one reference point; more find more hidden parts, at a cost
-  /// The sense of d along a tangent tells which way round it lies; else all are taken as they come, as in the paper.
+  /// The sense of d along a tangent tells which way round it lies; else stored signs are taken for right, which is wrong
+  /// for half of the references.
   bool signedTangents = true;
   bool smoothPeaks = true;      ///< peaks are of sums of three neighbouring turns
   unsigned seed = 1;            ///< of the choice of both

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace meam
 {
@@ -21,7 +22,7 @@ int count(const std::vector<PointState>& states, PointState state)
   return static_cast<int>(std::count(states.begin(), states.end(), state));
 }
 
-/// matched / (matched + violated), 0 when all is hidden.
+/// matched / (matched + violated), 0 when there is neither.
 double share(const std::vector<PointState>& states)
 {
   const int matched = count(states, PointState::Matched);
@@ -47,9 +48,15 @@ double PoseEvidence::support(const EvidenceSettings& settings) const
   {
     return share(this->edgeStates);
   }
-  return (settings.edgeWeight * share(this->edgeStates) + settings.surfaceWeight * share(this->surfaceStates) +
-           settings.explainedWeight * clean) /
-    (settings.edgeWeight + settings.surfaceWeight + settings.explainedWeight);
+  // The surface has a say as far as it was measured: one point that fits in a gap of the scan is no whole surface.
+  const int unknown = count(this->surfaceStates, PointState::Unknown);
+  const int inSight = static_cast<int>(this->surfaceStates.size()) - count(this->surfaceStates, PointState::Hidden);
+  const double measured = unknown > 0 ? 1.0 - static_cast<double>(unknown) / inSight : 1.0;
+  const double surfaceWeight = settings.surfaceWeight * measured;
+  const double sum = settings.edgeWeight + surfaceWeight + settings.explainedWeight;
+  const double there = settings.edgeWeight * share(this->edgeStates) + surfaceWeight * share(this->surfaceStates) +
+    settings.explainedWeight * clean;
+  return sum > 0.0 ? there / sum : 0.0;
 }
 
 double PoseEvidence::visibleFraction() const
@@ -84,6 +91,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     const Eigen::Vector3f point = T * model.edges.points[i];
     const Eigen::Vector3f tangent = T.linear() * model.edges.tangents[i];
     const bool matched = this->Index.lines.nearest(point, tangent, tolerance).edge >= 0;
+    // Also where no surface was measured: beside parts on no ground nothing else speaks against a pose.
     const PointState state = matched ? PointState::Matched
       : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
                                                                              : PointState::Violated;
@@ -146,8 +154,7 @@ double EvidenceCollector::glance(const Eigen::Isometry3d& T_scene_model) const
   const auto& [x, y, z] = this->Glanced.directions;
   const int size = static_cast<int>(this->Glanced.size());
   DepthMap::Relation relations[ColumnBlock];
-  int matched = 0;
-  int violated = 0;
+  int matched = 0, violated = 0, unknown = 0;
   for (int begin = 0; begin < size; begin += ColumnBlock)
   {
     const int count = std::min(ColumnBlock, size - begin);
@@ -160,10 +167,15 @@ double EvidenceCollector::glance(const Eigen::Isometry3d& T_scene_model) const
       const DepthMap::Relation relation = relations[k];
       matched += isFacing & (relation == DepthMap::Relation::OnSurface);
       violated += isFacing & (relation == DepthMap::Relation::InFront);
+      unknown += isFacing & (relation == DepthMap::Relation::NoSurface);
     }
   }
-  violated = this->FreeSpace ? violated : 0;
-  return matched > 0 ? static_cast<double>(matched) / (matched + violated) : 0.0;
+  if (!this->FreeSpace)
+  {
+    unknown += std::exchange(violated, 0);
+  }
+  const int inSight = matched + violated + unknown;
+  return inSight > 0 ? (matched + 0.5 * unknown) / inSight : 0.0;
 }
 
 double EvidenceCollector::shared(const PoseEvidence& a, const PoseEvidence& b) const

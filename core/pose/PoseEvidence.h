@@ -10,7 +10,7 @@ enum class PointState : unsigned char
 {
   Matched, ///< it is there
   Hidden,  ///< something lies in front of it: says nothing about the pose
-  Unknown, ///< surface where nothing was measured: says nothing either
+  Unknown, ///< surface where nothing was measured: says nothing about the pose by itself
   Violated ///< the sensor looked past it: speaks against the pose
 };
 
@@ -40,7 +40,8 @@ struct PoseEvidence
   int explained = 0;   ///< scene edge points on the part's visible surface that are edges of the part
   int unexplained = 0; ///< those that are not
 
-  /// Share of what should be visible that is there: edges, surface and explained scene edges, [0, 1].
+  /// Share of what should be visible that is there: edges, surface and explained scene edges, [0, 1]. The surface counts
+  /// in proportion to how much of what nothing hides was measured.
   double support(const EvidenceSettings& settings = {}) const;
   /// Share of the predicted points that nothing hides, [0, 1].
   double visibleFraction() const;
@@ -55,7 +56,7 @@ public:
   /// collected with a stride is no use to `shared`.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
   /// A first impression, at a fraction of the cost: of the surface points that face the sensor and that nothing hides the
-  /// share that is there, [0, 1].
+  /// share that is there, [0, 1]; of those where nothing was measured half.
   double glance(const Eigen::Isometry3d& T_scene_model) const;
   /// Share of what `a` matched that `b` matched, too, [0, 1]: poses of one instance share most of it.
   double shared(const PoseEvidence& a, const PoseEvidence& b) const;

@@ -27,7 +27,8 @@ constexpr double TurnDistanceShare = 0.04; // of the diameter, at its start
 constexpr double SureAdvantage = 10.0;  // points that make a turn e times likelier than another
 constexpr double Negligible = 9.0;      // times that: a turn so unlikely is one in ten thousand
 
-/// Logistic regression of whether a pose is right, over poses in scenes with true ones (examples/calibration.py).
+/// Logistic regression of whether a pose is right, over poses in scenes with true ones, of the default weights of evidence
+/// (examples/calibration.py).
 struct Calibration
 {
   double constant;
@@ -171,10 +172,13 @@ PoseVerificationSettings paperVerificationSettings()
 Poses verifyPoses(
   const Poses& candidates, const SceneIndex& index, const PoseVerificationSettings& settings, const Progress& progress)
 {
-  requireWeights(settings.evidence);
+  const bool byEvidence = settings.method == VerificationMethod::VisibleEvidence;
+  if (byEvidence)
+  {
+    requireWeights(settings.evidence);
+  }
   const TrainedModel& model = index.model;
   const Poses poses = inFrameOf(index.scene, candidates, model.symmetries);
-  const bool byEvidence = settings.method == VerificationMethod::VisibleEvidence;
   const EvidenceCollector collector(
     index, settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * model.diameter, settings.evidence);
   std::vector<Points> viewEdges; // asked for by coverage alone

@@ -44,7 +44,6 @@ MEAM_ALL_VECTORS
 void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pairs, std::uint32_t turns,
   bool mayOverflow, std::uint16_t* counts)
 {
-  constexpr std::uint32_t sheetMask = (1u << SheetBits) - 1;
   constexpr std::uint32_t laneMask = SheetGroup::Sheets - 1;
   std::uint32_t bins[Chunk + VoteBlock];
   int waiting = 0;
@@ -55,7 +54,7 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
     // -alpha: alpha is ~(-alpha - 1).
     const std::uint32_t against = 0u - (bucket.turn >> TurnBits);
     const std::uint32_t turn = (bucket.turn ^ against) << SheetBits;
-    const std::uint32_t turned = against & (~sheetMask | 1u);
+    const std::uint32_t turned = against & (~SheetMask | 1u);
     for (std::uint32_t begin = bucket.begin; begin < bucket.end; begin += VoteBlock)
     {
       const std::uint32_t* entry = entries + begin;
@@ -65,7 +64,7 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
       {
         const std::uint32_t sum = (entry[k] + turn) ^ turned;
         const std::uint32_t row = ((sum >> SheetBits) * turns) >> TurnBits;
-        bin[k] = (sum & sheetMask & ~laneMask) * turns + row * SheetGroup::Sheets + (sum & laneMask);
+        bin[k] = (sum & SheetMask & ~laneMask) * turns + row * SheetGroup::Sheets + (sum & laneMask);
       }
       waiting += static_cast<int>(std::min<std::uint32_t>(VoteBlock, bucket.end - begin));
       if (waiting >= Chunk)

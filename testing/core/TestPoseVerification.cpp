@@ -288,7 +288,7 @@ TEST(PoseVerification, TheScoreIsTheWeightedMeanOfWhatIsThere)
   evidence.edgeStates = { PointState::Matched, PointState::Violated, PointState::Hidden }; // 1 / 2
   evidence.surface.resize(5);
   evidence.surfaceStates = { PointState::Matched, PointState::Matched, PointState::Violated, PointState::Matched,
-    PointState::Unknown }; // 3 / 4
+    PointState::Unknown }; // 3 / 4, of 4 / 5
   evidence.explained = 1;
   evidence.unexplained = 3;
   const auto score = [&](double edges, double surface, double explained)
@@ -297,11 +297,19 @@ TEST(PoseVerification, TheScoreIsTheWeightedMeanOfWhatIsThere)
     std::tie(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight) = std::tie(edges, surface, explained);
     return evidence.support(settings);
   };
-  EXPECT_NEAR(evidence.support(), 0.4 * 0.5 + 0.4 * 0.75 + 0.2 * 0.25, 1e-12);
+  EXPECT_NEAR(evidence.support(), (0.4 * 0.5 + 0.32 * 0.75 + 0.2 * 0.25) / 0.92, 1e-12);
   EXPECT_NEAR(score(1, 0, 0), 0.5, 1e-12);
   EXPECT_NEAR(score(0, 1, 0), 0.75, 1e-12);
-  EXPECT_NEAR(score(0.4, 0.4, 0), 0.625, 1e-12);
+  EXPECT_NEAR(score(0.5, 0.5, 0), (0.5 * 0.5 + 0.4 * 0.75) / 0.9, 1e-12);
   EXPECT_NEAR(score(2, 0, 2), 0.375, 1e-12);
+  evidence.surfaceStates[4] = PointState::Hidden;
+  EXPECT_NEAR(evidence.support(), 0.4 * 0.5 + 0.4 * 0.75 + 0.2 * 0.25, 1e-12) << "all in sight was measured";
+  evidence.surfaceStates = { PointState::Matched, PointState::Unknown, PointState::Unknown, PointState::Unknown,
+    PointState::Hidden };
+  EXPECT_NEAR(evidence.support(), (0.2 + 0.1 + 0.05) / 0.7, 1e-12) << "a quarter was measured, all of it is there";
+  evidence.surfaceStates[0] = PointState::Unknown;
+  EXPECT_NEAR(evidence.support(), (0.2 + 0.05) / 0.6, 1e-12) << "nothing was measured";
+  EXPECT_EQ(score(0, 1, 0), 0.0) << "and nothing else counts";
   evidence.surface.clear();
   evidence.surfaceStates.clear();
   EXPECT_NEAR(score(0, 1, 0), 0.5, 1e-12) << "edges alone";
@@ -323,6 +331,27 @@ TEST(PoseVerification, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
   EXPECT_EQ(count(settings, meam::PointState::Violated), 0);
   EXPECT_EQ(count(settings, meam::PointState::Unknown),
     count({}, meam::PointState::Unknown) + count({}, meam::PointState::Violated));
+  EXPECT_EQ(meam::EvidenceCollector(index, 3.0).glance(lifted), 0.0);
+  EXPECT_EQ(meam::EvidenceCollector(index, 3.0, settings).glance(lifted), 0.5);
+}
+
+TEST(PoseVerification, AtAGlanceWhatWasNotMeasuredMayBeThereOrNot)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const auto glance = [&](const meam::Scene& in, const Eigen::Isometry3d& at)
+  {
+    const meam::SceneIndex index(scenes::bracket(), in);
+    return meam::EvidenceCollector(index, 3.0).glance(Eigen::Isometry3d(index.scene.frame * at));
+  };
+  const double whole = glance(scene(), T);
+  EXPECT_GT(whole, 0.9);
+  EXPECT_EQ(glance(scene(), Eigen::Translation3d(500, 0, 0) * T), 0.5) << "nothing was measured";
+  meam::Scene half = scene();
+  const float middle = static_cast<float>((T * scenes::bracket().surfaceDistance.middle().cast<double>()).x());
+  const auto gone = std::remove_if(half.surface.begin(), half.surface.end(), [&](const auto& p) { return p.x() > middle; });
+  half.surface.erase(gone, half.surface.end());
+  EXPECT_GT(glance(half, T), 0.6);
+  EXPECT_LT(glance(half, T), whole - 0.1);
 }
 
 TEST(PoseVerification, CoverageFollowsThePaper)
