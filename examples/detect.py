@@ -34,6 +34,7 @@ def options_of_user():
                         help="poses wanted, the best ones; 0: all that reach --probability (default: %(default)s)")
     parser.add_argument("--probability", type=scripting.share, metavar="P",
                         help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with --poses 0)")
+    scripting.add_reference_argument(parser)
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
@@ -67,6 +68,7 @@ def estimate(options, part, scene, poses):
     scripting.set_choice(estimation, "Preset", options.preset)
     estimation.SetMaximumNumberOfPoses(poses)
     estimation.SetMinimumProbability(options.probability)
+    estimation.SetReferenceShare(options.references)
     estimation.SetNumberOfThreads(options.threads)
     return scripting.update(estimation)
 

@@ -191,6 +191,14 @@ int vtkMEAMPoseEstimation::RequestData(
         static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses, this->NumberOfThreads,
         this->MinimumProbability);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
+      if (this->ReferenceShare > 0.0)
+      {
+        settings.detection.referenceShare = this->ReferenceShare;
+      }
+      else if (!boundary && this->Preset == Recommended)
+      {
+        settings.detection.referenceShare = meam::ImageReferenceShare;
+      }
       meam::StageTimes times;
       const meam::Poses poses = meam::estimatePoses(model, sceneEdges, std::move(surface), sensor, settings, &times,
         meam::subProgress(progress, AfterTraining, 1.0));
@@ -231,6 +239,7 @@ void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Preset: " << (this->Preset == Paper ? "Paper" : "Recommended") << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
   os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
+  os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "ImageEdges: " << this->ImageEdges << "\n";
   os << indent << "DepthEdges: " << this->DepthEdges << "\n";

@@ -81,6 +81,16 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref, Section 5.1); 0: the preset's, of the
+   * recommended one 0.1 of edges found in the scene and 0.03 of those of the boundary input. More finds more of the hidden
+   * copies and takes longer. Default: 0.
+   */
+  vtkSetClampMacro(ReferenceShare, double, 0.0, 1.0);
+  vtkGetMacro(ReferenceShare, double);
+  ///@}
+
+  ///@{
   /** Of all random choices: the same seed gives the same result. Default: 1. */
   vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
@@ -135,6 +145,7 @@ private:
   int Preset = Recommended;
   int MaximumNumberOfPoses = 5;
   double MinimumProbability = 0.0;
+  double ReferenceShare = 0.0;
   int Seed = 1;
   bool ImageEdges = true;
   bool DepthEdges = false;

@@ -8,6 +8,10 @@
 
 namespace meam
 {
+/// P_ref for edges found in a scan, by its image or its depth: many are not the part's, and some are displaced, so fewer
+/// references lead to a candidate than with an exact boundary.
+constexpr double ImageReferenceShare = 0.1;
+
 struct PoseDetectionSettings
 {
   double referenceShare = 0.03; ///< P_ref: share of the scene's edge points used as reference points, at least 100

@@ -79,6 +79,12 @@ def share(text):
     return number
 
 
+def add_reference_argument(parser):
+    parser.add_argument("--references", type=share, default=0, metavar="SHARE",
+                        help="share of the scene's edge points that are reference points, more finds more of the hidden "
+                             "copies and takes longer (default: the preset's; recommended: 0.1, of a boundary cloud 0.03)")
+
+
 def add_bin_arguments(parser, scenes):
     """What a script that simulates bins asks for: the part, and how many bins of how many copies; `scenes` by default."""
     parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")

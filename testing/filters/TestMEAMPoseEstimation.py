@@ -77,7 +77,7 @@ check(found(estimation(part, scan, MaximumNumberOfPoses=2, NumberOfThreads=1)) =
 model = run(Trained(part).model)
 check(found(estimation(model, scan, MaximumNumberOfPoses=2)) == expected, "the trained model")
 ready = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
-check(found(estimation(part, scan, ready, MaximumNumberOfPoses=2)) == expected, "ready-made edges")
+check(found(estimation(part, scan, ready, MaximumNumberOfPoses=2, ReferenceShare=0.1)) == expected, "ready-made edges")
 # A part in another unit and frame, brought back: the same two poses, whichever is the better by a hair.
 moved = found(estimation(scaled(part, 0.001), scan, MaximumNumberOfPoses=2, CADScale=1000.0, CADOffset=(0, 0, 5)))
 for pose in expected:
@@ -94,6 +94,13 @@ check(field(run(evaluation), "PaperRate") == [(100,)], "the poses in an unorgani
 paper = estimation(part, scan, MaximumNumberOfPoses=2)
 paper.SetPresetToPaper()
 check(run(paper).GetNumberOfPoints() > 0 and found(paper) != expected, "the paper's preset")
+
+# More reference points, more candidates, so more poses; the preset's own share follows where the edges come from.
+check(found(estimation(part, scan, MaximumNumberOfPoses=0, ReferenceShare=0.1))
+      == found(estimation(part, scan, MaximumNumberOfPoses=0)), "of edges of an image")
+few = found(estimation(part, scan, ready, MaximumNumberOfPoses=0, ReferenceShare=0.03))
+check(few == found(estimation(part, scan, ready, MaximumNumberOfPoses=0)), "of ready-made edges")
+check(len(few) < len(found(estimation(part, scan, ready, MaximumNumberOfPoses=0, ReferenceShare=0.5))), "more find more")
 
 # Asked to stop, it stops without an error and works again.
 filter = estimation(part, scan, MaximumNumberOfPoses=2)
@@ -123,4 +130,4 @@ sideways = estimation(part, surface, ready, ViewDirection=(0, 0, 0))
 fails(sideways, "view direction")
 fails(estimation(part, scan, CADScale=0.0), "scale")
 fails(estimation(part, image()), "vtkStructuredGrid")
-prints(filter, "Preset", "MaximumNumberOfPoses", "MinimumProbability", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")
+prints(filter, "Preset", "MaximumNumberOfPoses", "MinimumProbability", "ReferenceShare", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")
