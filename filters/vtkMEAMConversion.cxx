@@ -414,6 +414,16 @@ void fromEdgeTangents(const meam::EdgeTangents& edges, vtkPointSet* input, vtkPo
   vtkNew<vtkPoints> points;
   points->SetData(to);
   output->SetPoints(points);
+  if (vtkDataArray* sources = edgeSourcesOf(input))
+  {
+    const auto kept = vtk::TakeSmartPointer(sources->NewInstance());
+    kept->SetName(sources->GetName());
+    for (const int i : edges.points)
+    {
+      kept->InsertNextTuple(i, sources);
+    }
+    output->GetPointData()->AddArray(kept);
+  }
 }
 
 meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input)

@@ -30,6 +30,7 @@ struct EdgeTangents;
 struct MeasuredCloud;
 struct SceneEdges;
 }
+class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
 class vtkFieldData;
@@ -80,6 +81,10 @@ meam::CameraFile calibrationOf(const char* file, const double focalLength[2], co
 std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, const meam::OrganizedCloud& cloud);
 /// Edge points as fromCloud() has them, and the point array `EdgeSource`.
 void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output);
+/// Their point array `EdgeSource`; null for edge points that were not found in a scan.
+vtkDataArray* edgeSourcesOf(vtkPointSet* edges);
+/// P_ref: of edges found in a scan more than of others.
+double referenceShareOf(vtkPolyData* edges);
 
 /// One partition for each viewpoint, named, with the field data `ViewDirection` (3) and, where it is known,
 /// `Viewpoint` (3, mm); `WholePart` (1) stands where there is no viewpoint at all.

@@ -20,7 +20,11 @@ vtkMEAMPoseDetection::vtkMEAMPoseDetection()
 
 void vtkMEAMPoseDetection::SetParametersToPaper() { this->SetParameters(meam::paperDetectionSettings()); }
 
-void vtkMEAMPoseDetection::SetParametersToRecommended() { this->SetParameters({}); }
+void vtkMEAMPoseDetection::SetParametersToRecommended()
+{
+  this->SetParameters({});
+  this->SetReferenceShare(0.0);
+}
 
 void vtkMEAMPoseDetection::SetParameters(const meam::PoseDetectionSettings& settings)
 {
@@ -49,7 +53,7 @@ int vtkMEAMPoseDetection::RequestData(
   const auto work = [&]
   {
     meam::PoseDetectionSettings settings;
-    settings.referenceShare = this->ReferenceShare;
+    settings.referenceShare = this->ReferenceShare > 0.0 ? this->ReferenceShare : referenceShareOf(edges);
     settings.referredShare = this->ReferredShare;
     settings.peaksPerReference = this->PeaksPerReference;
     settings.signedTangents = this->SignedTangents;

@@ -8,7 +8,8 @@
  * point of the model the reference point is, and for the turn about its tangent. The peak of the votes gives
  * one candidate for each reference point. Candidates are not verified: many are wrong.
  *
- * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation).
+ * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation); those found in a scan
+ * have `EdgeSource` (vtkMEAMSceneEdgeExtraction).
  * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).
  *
  * Output port 0: vtkPolyData, one vertex for each candidate where the part's origin lies, in the order of the
@@ -36,10 +37,10 @@ public:
 
   ///@{
   /**
-   * Share of the scene's edge points that are reference points, in (0, 1] (P_ref), but at least 100. Of edges of an image
-   * 0.1 finds more of the hidden copies, in more time. Default: 0.03.
+   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref), but at least 100. More finds more of the
+   * hidden copies and takes longer. 0: 0.1 of edges found in a scan (with `EdgeSource`), 0.03 of others. Default: 0.
    */
-  vtkSetClampMacro(ReferenceShare, double, 1e-6, 1.0);
+  vtkSetClampMacro(ReferenceShare, double, 0.0, 1.0);
   vtkGetMacro(ReferenceShare, double);
   ///@}
 

@@ -195,9 +195,9 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         settings.detection.referenceShare = this->ReferenceShare;
       }
-      else if (!boundary && this->Preset == Recommended)
+      else if (this->Preset == Recommended)
       {
-        settings.detection.referenceShare = meam::ImageReferenceShare;
+        settings.detection.referenceShare = boundary ? referenceShareOf(boundary) : meam::ImageReferenceShare;
       }
       meam::StageTimes times;
       const meam::Poses poses = meam::estimatePoses(model, sceneEdges, std::move(surface), sensor, settings, &times,

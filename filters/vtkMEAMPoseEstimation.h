@@ -83,7 +83,7 @@ public:
   ///@{
   /**
    * Share of the scene's edge points that are reference points, in [0, 1] (P_ref, Section 5.1); 0: the preset's, of the
-   * recommended one 0.1 of edges found in the scene and 0.03 of those of the boundary input. More finds more of the hidden
+   * recommended one 0.1 of edges found in a scan (with `EdgeSource`) and 0.03 of others. More finds more of the hidden
    * copies and takes longer. Default: 0.
    */
   vtkSetClampMacro(ReferenceShare, double, 0.0, 1.0);

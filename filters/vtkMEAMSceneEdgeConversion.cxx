@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of vtkMEAMConversion.h that deals with a scene's edges and the camera that took its image.
 #include "io/CameraFile.h"
+#include "pose/PoseDetection.h"
 #include "scene/SceneEdgeExtraction.h"
 #include "vtkMEAMConversion.h"
 
@@ -18,6 +19,8 @@ namespace vtkMEAMConversion
 {
 namespace
 {
+constexpr const char* EdgeSourceName = "EdgeSource";
+
 /// The numbers of a field data array, row by row; nothing when it is not there.
 template <int Count>
 std::optional<Eigen::Matrix<double, Count, 1>> numbersOf(vtkImageData* image, const char* name)
@@ -75,10 +78,20 @@ void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
 {
   fromCloud(edges.cloud, output);
   vtkNew<vtkUnsignedCharArray> sources;
-  sources->SetName("EdgeSource");
+  sources->SetName(EdgeSourceName);
   sources->SetNumberOfTuples(static_cast<vtkIdType>(edges.sources.size()));
   std::transform(edges.sources.begin(), edges.sources.end(), sources->GetPointer(0),
     [](meam::EdgeSource source) { return static_cast<unsigned char>(source); });
   output->GetPointData()->SetScalars(sources); // what a view colours by
+}
+
+vtkDataArray* edgeSourcesOf(vtkPointSet* edges)
+{
+  return edges->GetPointData()->GetArray(EdgeSourceName);
+}
+
+double referenceShareOf(vtkPolyData* edges)
+{
+  return edgeSourcesOf(edges) ? meam::ImageReferenceShare : meam::PoseDetectionSettings().referenceShare;
 }
 }
