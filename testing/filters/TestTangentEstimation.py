@@ -64,6 +64,13 @@ check(all(0 <= weight <= 1 for weight in weights) and max(weights) == 1 and len(
 check({weight for weight, in tuples(run(tangents(scene(), model(50.0), LeafSize=-1)), "Weight")} == {1},
       "all points count alike where all are kept")
 
+# Where the edges of a scan come from goes along, point by point; other edge points have nothing of it.
+sources = cloud(LINES, PointId=range(120), Normals=[(0, 0, 1)] * 120, EdgeSource=[k % 3 for k in range(120)])
+kept = run(tangents(sources, model(50.0)))
+check(kept.GetNumberOfPoints() > 10, "points stay")
+check(tuples(kept, "EdgeSource") == [(i % 3,) for i, in tuples(kept, "PointId")], "the source of each point")
+check(not run(tangents(scene(), model(50.0))).GetPointData().HasArray("EdgeSource"), "none where there was none")
+
 for threads in (1, 2):
     again = run(tangents(scene(), model(50.0), NumberOfThreads=threads))
     check(tuples(again, "Tangent") == tuples(run(tangents(scene(), model(50.0))), "Tangent"), f"{threads} threads")
