@@ -16,9 +16,9 @@
  * Input port 1, optional: any data object with the field data `Diameter` in mm, usually the trained model.
  *
  * Output port 0: of the input's type; the points that stay, in the precision they came with, with `Tangent` (unit; the
- * sign carries no meaning; of a scene in double precision), and `Normals`, `PointId`, `EdgeType` and `EdgeSource` where they were there; in a scene `Weight`, [0, 1]: less of a point
- * that stands only for points at the border of its cube, so that poses change steadily as points move. Field data is
- * passed on.
+ * sign carries no meaning; of a scene in double precision), and `Normals`, `PointId`, `EdgeType` and `EdgeSource` where
+ * they were there; in a scene `Weight`, [0, 1]: less of a point that stands only for points at the border of its cube, so
+ * that poses change steadily as points move. Field data is passed on.
  */
 #ifndef vtkMEAMTangentEstimation_h
 #define vtkMEAMTangentEstimation_h
