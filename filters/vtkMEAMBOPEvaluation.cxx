@@ -3,6 +3,7 @@
 
 #include "evaluation/BOPEvaluation.h"
 #include "vtkMEAMConversion.h"
+#include "vtkMEAMSceneTime.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -54,6 +55,13 @@ int vtkMEAMBOPEvaluation::FillInputPortInformation(int port, vtkInformation* inf
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
+  return 1;
+}
+
+int vtkMEAMBOPEvaluation::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 3, 1, 0 }, outputVector);
   return 1;
 }
 

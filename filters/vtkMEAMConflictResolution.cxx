@@ -3,6 +3,7 @@
 
 #include "pose/ConflictResolution.h"
 #include "vtkMEAMConversion.h"
+#include "vtkMEAMSceneTime.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -82,6 +83,13 @@ int vtkMEAMConflictResolution::FillInputPortInformation(int port, vtkInformation
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
+  return 1;
+}
+
+int vtkMEAMConflictResolution::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 3, 2, 0 }, outputVector);
   return 1;
 }
 

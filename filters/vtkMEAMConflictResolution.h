@@ -61,6 +61,7 @@ protected:
   vtkMEAMConflictResolution();
   ~vtkMEAMConflictResolution() override = default;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

@@ -5,6 +5,7 @@
 #include "pose/MEAMPoseEstimation.h"
 #include "scene/SceneEdgeExtraction.h"
 #include "vtkMEAMConversion.h"
+#include "vtkMEAMSceneTime.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -100,6 +101,13 @@ int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* in
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
+  return 1;
+}
+
+int vtkMEAMPoseEstimation::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 1, 2, 3 }, outputVector);
   return 1;
 }
 

@@ -3,6 +3,7 @@
 
 #include "evaluation/PoseEvaluation.h"
 #include "vtkMEAMConversion.h"
+#include "vtkMEAMSceneTime.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -70,6 +71,13 @@ int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* in
   }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  return 1;
+}
+
+int vtkMEAMPoseEvaluation::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 0, 1 }, outputVector);
   return 1;
 }
 

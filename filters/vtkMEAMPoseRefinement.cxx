@@ -3,6 +3,7 @@
 
 #include "pose/PoseRefinement.h"
 #include "vtkMEAMConversion.h"
+#include "vtkMEAMSceneTime.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -38,6 +39,13 @@ int vtkMEAMPoseRefinement::FillInputPortInformation(int port, vtkInformation* in
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
+  return 1;
+}
+
+int vtkMEAMPoseRefinement::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 3, 2, 0 }, outputVector);
   return 1;
 }
 

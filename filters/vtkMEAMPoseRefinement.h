@@ -73,6 +73,7 @@ protected:
   vtkMEAMPoseRefinement();
   ~vtkMEAMPoseRefinement() override = default;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

@@ -3,6 +3,7 @@
 
 #include "pose/PoseVerification.h"
 #include "vtkMEAMConversion.h"
+#include "vtkMEAMSceneTime.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -49,6 +50,13 @@ int vtkMEAMPoseVerification::FillInputPortInformation(int port, vtkInformation* 
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
+  return 1;
+}
+
+int vtkMEAMPoseVerification::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 3, 2, 0 }, outputVector);
   return 1;
 }
 

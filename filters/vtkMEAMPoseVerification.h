@@ -151,6 +151,7 @@ protected:
   vtkMEAMPoseVerification();
   ~vtkMEAMPoseVerification() override = default;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

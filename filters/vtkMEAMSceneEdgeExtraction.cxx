@@ -3,6 +3,7 @@
 
 #include "scene/SceneEdgeExtraction.h"
 #include "vtkMEAMConversion.h"
+#include "vtkMEAMSceneTime.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -46,6 +47,7 @@ int vtkMEAMSceneEdgeExtraction::RequestInformation(
   vtkInformation* image = outputVector->GetInformationObject(1);
   image->CopyEntry(scene, vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
   vtkDataObject::SetPointDataActiveScalarInfo(image, VTK_UNSIGNED_CHAR, 1);
+  vtkMEAMSceneTime::announce(inputVector, { 0, 1 }, outputVector);
   return 1;
 }
 
