@@ -19,6 +19,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
+#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMConflictResolution.h"
 
-#include "pose/ConflictResolution.h"
+#include "pose/selection/ConflictResolution.h"
 #include "vtkMEAMConversion.h"
 #include "vtkMEAMSceneTime.h"
 
@@ -15,6 +15,7 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "scene/Units.h"
 
 #include <deque>
 #include <string>

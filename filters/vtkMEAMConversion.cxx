@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMConversion.h"
 
-#include "model/TangentEstimation.h"
+#include "features/TangentEstimation.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataSetAttributes.h"
@@ -23,6 +23,7 @@
 #include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVersion.h"
+#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,12 +6,14 @@
 #ifndef vtkMEAMConversion_h
 #define vtkMEAMConversion_h
 
-#include "Error.h"
-#include "Geometry.h"
+#include "base/Error.h"
+#include "base/PointCloud.h"
+#include "mesh/TriangleMesh.h"
+#include "model/AppearanceModel.h"
 #include "mesh/Symmetries.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
-#include "pose/Scene.h"
+#include "scene/Scene.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMMeshPreparation.h"
 
-#include "mesh/MeshPreparation.h"
+#include "mesh/preparation/MeshPreparation.h"
 #include "vtkMEAMConversion.h"
 
 #include "vtkFieldData.h"

@@ -15,6 +15,7 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedIntArray.h"
+#include "model/AppearanceModel.h"
 
 #include <algorithm>
 #include <cmath>

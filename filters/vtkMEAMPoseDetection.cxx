@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseDetection.h"
 
-#include "pose/PoseDetection.h"
+#include "pose/voting/PoseDetection.h"
 #include "vtkMEAMConversion.h"
 
 #include "vtkInformation.h"
@@ -9,6 +9,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
+#include "scene/Units.h"
 
 vtkStandardNewMacro(vtkMEAMPoseDetection);
 

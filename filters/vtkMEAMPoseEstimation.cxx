@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseEstimation.h"
 
-#include "mesh/MeshPreparation.h"
+#include "mesh/preparation/MeshPreparation.h"
 #include "pose/MEAMPoseEstimation.h"
-#include "scene/SceneEdgeExtraction.h"
+#include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMConversion.h"
 #include "vtkMEAMSceneTime.h"
 
@@ -17,6 +17,8 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
+#include "scene/Units.h"
+#include "mesh/TriangleMesh.h"
 
 #include <tuple>
 #include <utility>

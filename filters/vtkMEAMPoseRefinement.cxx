@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseRefinement.h"
 
-#include "pose/PoseRefinement.h"
+#include "pose/refinement/PoseRefinement.h"
 #include "vtkMEAMConversion.h"
 #include "vtkMEAMSceneTime.h"
 
@@ -10,6 +10,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
+#include "scene/Units.h"
 
 vtkStandardNewMacro(vtkMEAMPoseRefinement);
 

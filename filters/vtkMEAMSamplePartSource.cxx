@@ -9,6 +9,7 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "mesh/TriangleMesh.h"
 
 vtkStandardNewMacro(vtkMEAMSamplePartSource);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of vtkMEAMConversion.h that deals with a scene's edges and the camera that took its image.
 #include "io/CameraFile.h"
-#include "pose/PoseDetection.h"
-#include "scene/SceneEdgeExtraction.h"
+#include "pose/voting/PoseDetection.h"
+#include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMConversion.h"
 
 #include "vtkFieldData.h"

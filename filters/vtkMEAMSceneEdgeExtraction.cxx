@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMSceneEdgeExtraction.h"
 
-#include "scene/SceneEdgeExtraction.h"
+#include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMConversion.h"
 #include "vtkMEAMSceneTime.h"
 

@@ -8,6 +8,7 @@
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "mesh/TriangleMesh.h"
 
 vtkStandardNewMacro(vtkMEAMSurfaceSampling);
 

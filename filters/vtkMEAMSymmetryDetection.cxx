@@ -14,6 +14,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "base/Bounds.h"
 
 #include <algorithm>
 

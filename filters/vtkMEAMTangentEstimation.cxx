@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMTangentEstimation.h"
 
-#include "model/TangentEstimation.h"
+#include "features/TangentEstimation.h"
 #include "vtkMEAMConversion.h"
 
 #include "vtkDataObject.h"

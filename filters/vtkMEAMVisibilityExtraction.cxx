@@ -9,6 +9,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
+#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 

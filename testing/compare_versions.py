@@ -106,6 +106,10 @@ def run(name, mesh, scenes, threads):
     estimation.SetMaximumNumberOfPoses(0)
     estimation.SetNumberOfThreads(threads)
     judge.SetPosesAskedFor(5)
+    samples, symmetries = filters.vtkMEAMSurfaceSampling(), filters.vtkMEAMSymmetryDetection()
+    samples.SetInputDataObject(mesh)
+    symmetries.SetInputConnection(samples.GetOutputPort())
+    judge.SetInputConnection(2, symmetries.GetOutputPort())
     results = []
     for surface, edges, truth in scenes:
         estimation.SetInputDataObject(1, surface)

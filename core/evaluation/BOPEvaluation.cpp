@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/BOPEvaluation.h"
 
-#include "PCLConversion.h"
+#include "base/PCLConversion.h"
 #include "mesh/ConvexHull.h"
 #include "simulation/Rasterizer.h"
+#include "mesh/TriangleMesh.h"
 
 #include <Eigen/LU>
 

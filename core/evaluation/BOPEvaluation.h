@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
+#include "base/Error.h"
 #include "mesh/Symmetries.h"
 #include "pose/Pose.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
+#include "mesh/TriangleMesh.h"
 
 #include <array>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/CameraFile.h"
 
-#include "Error.h"
+#include "base/Error.h"
 #include "io/FileBytes.h"
 #include "io/JSONFile.h"
 #include "io/StorageText.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/FileBytes.h"
 
-#include "Error.h"
+#include "base/Error.h"
 
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/ImageFile.h"
 
-#include "Error.h"
+#include "base/Error.h"
 #include "io/FileBytes.h"
 
 #include <opencv2/imgcodecs.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/JSONFile.h"
 
-#include "Error.h"
+#include "base/Error.h"
 
 #include <nlohmann/json.hpp>
 

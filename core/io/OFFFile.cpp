@@ -2,6 +2,7 @@
 #include "io/OFFFile.h"
 
 #include "io/FileBytes.h"
+#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <charconv>

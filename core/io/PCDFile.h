@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
+#include "base/Error.h"
 #include "scene/MeasuredCloud.h"
 
 #include <array>

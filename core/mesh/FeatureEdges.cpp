@@ -3,7 +3,7 @@
 
 #include "mesh/ConvexHull.h"
 #include "mesh/MeshEdges.h"
-#include "mesh/RequireMesh.h"
+#include "mesh/TriangleMesh.h"
 
 #include <cmath>
 

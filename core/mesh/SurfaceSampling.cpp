@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceSampling.h"
 
-#include "Random.h"
+#include "base/Random.h"
 #include "mesh/ConvexHull.h"
-#include "mesh/RequireMesh.h"
+#include "mesh/TriangleMesh.h"
+#include "base/Bounds.h"
 
 #include <cmath>
 

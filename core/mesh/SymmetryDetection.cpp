@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SymmetryDetection.h"
 
-#include "Parallel.h"
-#include "PointGrid.h"
-#include "RigidFit.h"
+#include "base/Parallel.h"
+#include "base/PointGrid.h"
+#include "pose/refinement/NormalEquations.h"
 #include "mesh/ConvexHull.h"
-#include "model/Viewpoints.h"
+#include "mesh/Viewpoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,7 +108,7 @@ public:
     {
       const double reach = this->Reach * std::pow(0.25, static_cast<double>(step) / (FitSteps - 1));
       const Eigen::Isometry3f Tf = T.cast<float>();
-      RigidFit fit(T * middle);
+      NormalEquations fit(T * middle);
       for (std::size_t i = 0; i < samples.size(); ++i)
       {
         const Eigen::Vector3f point = Tf * samples.points[i];

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/BoundaryExtraction.h"
 
-#include "PCLConversion.h"
-#include "PointGrid.h"
+#include "base/PCLConversion.h"
+#include "base/PointGrid.h"
 #include "mesh/FeatureEdges.h"
-#include "mesh/RequireMesh.h"
+#include "mesh/TriangleMesh.h"
 #include "model/Silhouette.h"
 #include "model/VisibleEdges.h"
+#include "base/Bounds.h"
+#include "base/Frames.h"
+#include "model/AppearanceModel.h"
 
 #include <pcl/features/boundary.h>
 #include <pcl/kdtree/kdtree_flann.h>

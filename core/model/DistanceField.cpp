@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/DistanceField.h"
 
-#include "AllVectors.h"
+#include "base/AllVectors.h"
+#include "base/Bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,16 +88,16 @@ DistanceField::DistanceField(const Points& points, double spacing, double reach,
 }
 
 void DistanceField::at(
-  const Eigen::Isometry3f& toPart, const PointColumns& points, int begin, int count, float* distances) const
+  const Eigen::Isometry3f& toPart, const SoAPoints& points, int begin, int count, float* distances) const
 {
   Eigen::Matrix<float, 3, 4> toCells = this->InverseCell * toPart.matrix().topRows<3>();
   toCells.col(3) -= this->InverseCell * this->Origin;
   const int outside = static_cast<int>(this->Distances.size()) - 1;
-  int cells[ColumnBlock];
+  int cells[SoABlock];
   const float *x = points.x.data() + begin, *y = points.y.data() + begin, *z = points.z.data() + begin;
-  for (int done = 0; done < count; done += ColumnBlock)
+  for (int done = 0; done < count; done += SoABlock)
   {
-    const int size = std::min(ColumnBlock, count - done);
+    const int size = std::min(SoABlock, count - done);
     findCells(toCells, this->Size, x + done, y + done, z + done, size, outside, cells);
     for (int k = 0; k < size; ++k)
     {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PointColumns.h"
+#include "base/SoAPoints.h"
 
 #include <array>
 #include <cstdint>
@@ -35,7 +35,7 @@ public:
   }
 
   /// The same of `count` points from `begin` on, which `toPart` takes to the part's frame, several at a time.
-  void at(const Eigen::Isometry3f& toPart, const PointColumns& points, int begin, int count, float* distances) const;
+  void at(const Eigen::Isometry3f& toPart, const SoAPoints& points, int begin, int count, float* distances) const;
 
   /// A ball around all that the distances are from.
   const Eigen::Vector3f& middle() const { return this->Middle; }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/MEAMHashing.h"
 
-#include "Parallel.h"
-#include "PointGrid.h"
+#include "base/Parallel.h"
+#include "base/PointGrid.h"
 #include "mesh/ConvexHull.h"
-#include "model/Viewpoints.h"
+#include "mesh/Viewpoints.h"
 #include "model/VisibilityExtraction.h"
+#include "base/Bounds.h"
+#include "model/AppearanceModel.h"
 
 #include <algorithm>
 #include <cmath>

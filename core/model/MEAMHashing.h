@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
+#include "base/Error.h"
 #include "model/TrainedModel.h"
+#include "model/AppearanceModel.h"
 
 namespace meam
 {

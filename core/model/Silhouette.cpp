@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/Silhouette.h"
 
+#include "base/Bounds.h"
+#include "base/Frames.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

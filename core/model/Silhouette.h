@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Geometry.h"
+#include "base/PointCloud.h"
 
 namespace meam
 {

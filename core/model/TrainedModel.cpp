@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/TrainedModel.h"
 
-#include "PointGrid.h"
+#include "base/PointGrid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Geometry.h"
+#include "base/PointCloud.h"
 #include "mesh/Symmetries.h"
 #include "model/DistanceField.h"
-#include "model/PairKeys.h"
+#include "features/PairKeys.h"
 
 namespace meam
 {

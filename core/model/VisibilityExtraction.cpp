@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/VisibilityExtraction.h"
 
-#include "Parallel.h"
+#include "base/Parallel.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/LineOfSight.h"
-#include "mesh/RequireMesh.h"
-#include "model/Viewpoints.h"
+#include "mesh/TriangleMesh.h"
+#include "mesh/Viewpoints.h"
+#include "base/Bounds.h"
+#include "model/AppearanceModel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/VisibleEdges.h"
 
-#include "Parallel.h"
+#include "base/Parallel.h"
 
 #include <algorithm>
 #include <cmath>

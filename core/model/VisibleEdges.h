@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
-#include "Geometry.h"
+#include "base/Error.h"
+#include "base/PointCloud.h"
+#include "mesh/TriangleMesh.h"
 #include "mesh/LineOfSight.h"
 #include "mesh/MeshEdges.h"
 #include "model/Silhouette.h"

@@ -2,6 +2,8 @@
 #include "pose/MEAMPoseEstimation.h"
 
 #include "mesh/ConvexHull.h"
+#include "model/AppearanceModel.h"
+#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <chrono>

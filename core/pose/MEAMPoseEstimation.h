@@ -5,11 +5,12 @@
 #include "mesh/SymmetryDetection.h"
 #include "model/BoundaryExtraction.h"
 #include "model/MEAMHashing.h"
-#include "model/TangentEstimation.h"
+#include "features/TangentEstimation.h"
 #include "model/VisibilityExtraction.h"
-#include "pose/PoseDetection.h"
-#include "pose/PoseRefinement.h"
-#include "pose/PoseVerification.h"
+#include "pose/voting/PoseDetection.h"
+#include "pose/refinement/PoseRefinement.h"
+#include "pose/verification/PoseVerification.h"
+#include "mesh/TriangleMesh.h"
 
 namespace meam
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/SceneIndex.h"
 
-#include "Error.h"
-#include "Parallel.h"
+#include "base/Error.h"
+#include "base/Parallel.h"
 
 #include <algorithm>
 
@@ -49,7 +49,7 @@ SceneIndex::SceneIndex(const TrainedModel& trained, const Scene& seen, int threa
 {
   inParallel(threads,
     { [&] { this->surface = PointGrid(this->depth.means(), SurfaceCellShare * trained.diameter); },
-      [&] { this->lines = EdgeLines(seen.edges, EdgeCellShare * trained.diameter); } });
+      [&] { this->lines = EdgeIndex(seen.edges, EdgeCellShare * trained.diameter); } });
   if (!seen.surface.empty() && this->depth.means().empty())
   {
     throw Error("The scene has " + std::to_string(seen.surface.size()) +

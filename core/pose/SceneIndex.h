@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PointGrid.h"
-#include "pose/DepthMap.h"
-#include "pose/EdgeLines.h"
-#include "pose/PartView.h"
-#include "pose/Scene.h"
+#include "base/PointGrid.h"
+#include "scene/DepthMap.h"
+#include "scene/EdgeIndex.h"
+#include "pose/verification/PredictedVisibility.h"
+#include "scene/Scene.h"
 
 namespace meam
 {
@@ -25,8 +25,8 @@ struct SceneIndex
 
   const TrainedModel& model;
   const Scene& scene;
-  PartView view;
-  EdgeLines lines;        ///< of the scene's edge points
+  PredictedVisibility view;
+  EdgeIndex lines;        ///< of the scene's edge points
   const PointGrid& edges; ///< of these
   DepthMap depth;         ///< of its surface
   PointGrid surface;      ///< of depth.means()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/BackgroundRemoval.h"
 
-#include "Random.h"
-#include "scene/GridSurface.h"
+#include "base/Random.h"
+#include "scene/edges/GridSurface.h"
 
 #include <Eigen/Eigenvalues>
 

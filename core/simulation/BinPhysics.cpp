@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/BinPhysics.h"
 
-#include "PointGrid.h"
+#include "base/PointGrid.h"
 #include "mesh/FeatureEdges.h"
-#include "mesh/MeshPreparation.h"
+#include "mesh/preparation/MeshPreparation.h"
 #include "mesh/SurfaceSampling.h"
 #include "simulation/MassProperties.h"
 #include "simulation/PartContacts.h"
+#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <cmath>

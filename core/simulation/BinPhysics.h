@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
-#include "Geometry.h"
-#include "Random.h"
+#include "base/Error.h"
+#include "base/PointCloud.h"
+#include "mesh/TriangleMesh.h"
+#include "base/Random.h"
 
 namespace meam
 {

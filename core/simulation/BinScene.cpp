@@ -2,7 +2,7 @@
 #include "simulation/BinScene.h"
 
 #include "mesh/ConvexHull.h"
-#include "mesh/RequireMesh.h"
+#include "mesh/TriangleMesh.h"
 #include "simulation/BinPhysics.h"
 #include "simulation/Lighting.h"
 #include "simulation/Rasterizer.h"

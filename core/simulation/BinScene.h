@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
+#include "base/Error.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
 #include "simulation/VirtualSensor.h"
+#include "mesh/TriangleMesh.h"
 
 namespace meam
 {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/MassProperties.h"
 
+#include "base/Bounds.h"
+#include "mesh/TriangleMesh.h"
+
 #include <Eigen/Eigenvalues>
 
 namespace meam

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Geometry.h"
+#include "base/PointCloud.h"
+#include "mesh/TriangleMesh.h"
 
 namespace meam
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/PartContacts.h"
 
+#include "base/Bounds.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/Rasterizer.h"
 
-#include "Error.h"
+#include "base/Error.h"
 
 #include <cmath>
 #include <map>

@@ -3,7 +3,8 @@
 
 #include "scene/Camera.h"
 
-#include "Geometry.h"
+#include "base/PointCloud.h"
+#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <array>

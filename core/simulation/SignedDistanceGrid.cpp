@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/SignedDistanceGrid.h"
 
+#include "base/Bounds.h"
+#include "mesh/TriangleMesh.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

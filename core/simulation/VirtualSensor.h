@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
-#include "Random.h"
+#include "base/Error.h"
+#include "base/Random.h"
 #include "scene/OrganizedCloud.h"
 #include "simulation/Rasterizer.h"
 

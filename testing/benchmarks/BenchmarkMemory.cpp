@@ -3,7 +3,7 @@
 // anywhere in the accumulator. Both alone, on arrays of the sizes that voting has.
 #include "BenchmarkScene.h"
 
-#include "AllVectors.h"
+#include "base/AllVectors.h"
 
 #include <numeric>
 #include <random>

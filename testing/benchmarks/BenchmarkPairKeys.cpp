@@ -3,7 +3,7 @@
 // Threads each computes all of them.
 #include "BenchmarkScene.h"
 
-#include "model/PairKeys.h"
+#include "features/PairKeys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,12 +43,12 @@ void run(benchmark::State& state, const meam::PointCloud& edges, Compute&& compu
 void computeKeys(benchmark::State& state, const scenes::Search& search)
 {
   const meam::PairKeys pairs(search.scene.edges, search.model.quantizer());
-  std::vector<int> blocks((search.scene.edges.size() + meam::PointBlocks::Size - 1) / meam::PointBlocks::Size);
+  std::vector<int> blocks((search.scene.edges.size() + meam::BlockedPoints::Size - 1) / meam::BlockedPoints::Size);
   std::iota(blocks.begin(), blocks.end(), 0);
   run(state, search.scene.edges,
     [&](const meam::TangentFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)
     {
-      constexpr int size = meam::PointBlocks::Size;
+      constexpr int size = meam::BlockedPoints::Size;
       pairs.compute(frame, blocks.data() + begin / size, (end - begin + size - 1) / size, keys, turns);
     });
 }

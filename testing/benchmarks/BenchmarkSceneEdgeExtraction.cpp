@@ -3,9 +3,9 @@
 // sample part in a simulated bin. The first argument is the noise of the depth in tenths of a millimetre at 1 m,
 // the second the number of threads.
 #include "mesh/ConvexHull.h"
-#include "model/TangentEstimation.h"
+#include "features/TangentEstimation.h"
 #include "scene/BackgroundRemoval.h"
-#include "scene/SceneEdgeExtraction.h"
+#include "scene/edges/SceneEdgeExtraction.h"
 #include "simulation/BinScene.h"
 #include "simulation/SamplePart.h"
 

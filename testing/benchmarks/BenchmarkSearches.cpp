@@ -3,7 +3,8 @@
 
 #include "../core/TestScene.h"
 #include "io/PCDFile.h"
-#include "mesh/MeshPreparation.h"
+#include "mesh/preparation/MeshPreparation.h"
+#include "mesh/TriangleMesh.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -4,9 +4,9 @@
 // included; CastVotes and Peaks are what they name.
 #include "BenchmarkScene.h"
 
-#include "OwnFrame.h"
-#include "PointGrid.h"
-#include "pose/VoteAccumulator.h"
+#include "base/LocalFrame.h"
+#include "base/PointGrid.h"
+#include "pose/voting/VoteAccumulator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ public:
   {
     Votes votes;
     const std::vector<int> blocks = this->Blocks.within(reference.Origin, this->Searched.model.diameter);
-    std::vector<int> keys(blocks.size() * meam::PointBlocks::Size);
+    std::vector<int> keys(blocks.size() * meam::BlockedPoints::Size);
     std::vector<meam::PairTurn> turns(keys.size());
     this->Keys.compute(reference, blocks.data(), static_cast<int>(blocks.size()), keys.data(), turns.data());
     const std::vector<std::uint32_t>& offsets = this->Searched.model.table.offsets;
@@ -76,7 +76,7 @@ private:
   meam::PointCloud References;
   meam::PointCloud Referred;
   meam::PointGrid Grid;
-  meam::PointBlocks Blocks;
+  meam::BlockedPoints Blocks;
   meam::PairKeys Keys;
 };
 

@@ -2,7 +2,7 @@
 // Files of a test, and the messages that reading them gives.
 #pragma once
 
-#include "Error.h"
+#include "base/Error.h"
 #include "io/FileBytes.h"
 
 #include <gtest/gtest.h>

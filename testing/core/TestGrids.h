@@ -2,7 +2,7 @@
 // Organized clouds of simple surfaces.
 #pragma once
 
-#include "Random.h"
+#include "base/Random.h"
 #include "scene/OrganizedCloud.h"
 
 #include <cmath>

@@ -2,7 +2,8 @@
 // Parts made in code, and motions, for the tests.
 #pragma once
 
-#include "model/TangentEstimation.h"
+#include "features/TangentEstimation.h"
+#include "mesh/TriangleMesh.h"
 
 #include <cmath>
 #include <random>

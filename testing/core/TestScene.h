@@ -6,6 +6,8 @@
 #include "model/BoundaryExtraction.h"
 #include "model/VisibilityExtraction.h"
 #include "pose/MEAMPoseEstimation.h"
+#include "model/AppearanceModel.h"
+#include "mesh/TriangleMesh.h"
 
 namespace scenes
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "simulation/Rasterizer.h"
+#include "mesh/TriangleMesh.h"
 
 namespace meam::test
 {

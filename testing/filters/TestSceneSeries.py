@@ -44,7 +44,7 @@ class Series(VTKPythonAlgorithmBase):
         for port in range(2):
             info = outputs.GetInformationObject(port)
             time = info.Get(Pipeline.UPDATE_TIME_STEP()) if info.Has(Pipeline.UPDATE_TIME_STEP()) else TIMES[0]
-            data = self.data[port][max(i for i, t in enumerate(TIMES) if t <= time)]
+            data = self.data[port][max((i for i, t in enumerate(TIMES) if t <= time), default=0)]
             info.Get(data.DATA_OBJECT()).ShallowCopy(data)
         return 1
 

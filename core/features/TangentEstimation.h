@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Error.h"
+#include "base/LocalFrame.h"
+#include "model/AppearanceModel.h"
+
+namespace meam
+{
+enum class TangentMethod
+{
+  Tiles,     ///< Algorithms 1 and 2 of the paper
+  RobustLine ///< the best supported line in a sphere, then the principal axis of its inliers
+};
+
+/// Lengths in mm. A length of 0 follows the part's diameter.
+struct TangentEstimationSettings
+{
+  TangentMethod method = TangentMethod::RobustLine;
+  /// One point is kept per cube of this side; 0: 3 % of the diameter in a scene, 2 % in a model; negative: all.
+  double leafSize = 0.0;
+
+  // RobustLine
+  double radius = 0.0;         ///< of the sphere; 0: 6 % of the diameter, up to 12 % for noisy or sparse points
+  double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter, up to 3 % for noisy points
+
+  // Tiles
+  int tilePixels = 10;         ///< H_rec = W_rec
+  double pixelSize = 0.5;      ///< mm on the projection plane; the paper does not say
+  double lineDistance = 0.3;   ///< D_thresh
+  double lineSupport = 0.18;   ///< S_thresh, share of a tile's points
+
+  int threads = 0; ///< 0: one for each processor
+};
+
+/// The paper's settings (Section 6) in place of the recommended ones.
+TangentEstimationSettings paperTangentSettings();
+
+/// Edge points that stay when they are thinned.
+struct EdgeTangents
+{
+  std::vector<int> points;   ///< indices into those that were given
+  PrecisePoints tangents;    ///< unit; of each
+  std::vector<float> weights; ///< of each, as thinWithWeights() has them
+
+  PreciseCloud of(const PreciseCloud& edges) const;
+};
+
+/// Thins the edge points and gives each a tangent direction; points without a supported line are
+/// left out (Algorithm 2). Points that carry tangents, as edges of a mesh do, keep them and are only
+/// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across `viewDirection`. A motion of the
+/// points in double precision turns the tangents and changes nothing else, but for tiles. Throws Error for an empty cloud,
+/// for one that cannot be in the diameter's unit, or when a length is 0 and the diameter is too.
+EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
+  const TangentEstimationSettings& settings = {}, const Progress& progress = {});
+
+/// The same for each edge appearance model, seen from its viewpoint.
+std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> models, double partDiameter,
+  const TangentEstimationSettings& settings = {}, const Progress& progress = {});
+}

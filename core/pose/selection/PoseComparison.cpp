@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/PoseComparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+// Shares of the diameter.
+constexpr double FarShare = 0.02;        // a point this far from the part is not explained
+constexpr double NearShare = 0.01;       // an edge this near is
+constexpr double PastWeight = 2.25;       // of a predicted point: they are so much sparser than measured ones
+constexpr double MissingWeight = 1.0;        // of a predicted edge point: images lose edges
+constexpr double EdgeWeight = 3.0;        // of an edge point against a surface point
+}
+
+double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
+{
+  const DistanceField& surface = this->Index.model.surfaceDistance;
+  const float far = static_cast<float>(FarShare * this->Index.model.diameter);
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
+  const PointGrid& measured = this->Index.surface;
+  double explained = 0.0;
+  measured.forEachBlock(T * surface.middle(), surface.radius() + far,
+    [&](int begin, int count)
+    {
+      float distances[SoABlock];
+      surface.at(toModel, measured.sorted(), begin, count, distances);
+      for (int k = 0; k < count; ++k)
+      {
+        explained += std::max(0.0f, 1.0f - distances[k] / far);
+      }
+    });
+  return explained;
+}
+
+PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_scene_model) const
+{
+  const TrainedModel& model = this->Index.model;
+  const float far = static_cast<float>(FarShare * model.diameter);
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const auto visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
+  SoAPoints points;
+  std::vector<DepthMap::Relation> relations;
+  const auto those = [&](const std::vector<int>& indices, const Points& of, DepthMap::Relation wanted)
+  {
+    const int count = static_cast<int>(indices.size());
+    points.resize(indices.size());
+    for (int k = 0; k < count; ++k)
+    {
+      points.set(k, of[indices[k]]);
+    }
+    relations.resize(indices.size());
+    this->Index.depth.relations(T, points, 0, count, far, relations.data());
+    SoAPoints found;
+    for (int k = 0; k < count; ++k)
+    {
+      if (relations[k] == wanted)
+      {
+        found.add(points[k]);
+      }
+    }
+    return found;
+  };
+  return { this->Settings.freeSpace ? those(visible->surface, model.surface.points, DepthMap::Relation::InFront)
+                                    : SoAPoints{},
+    those(visible->edges, model.edges.points, DepthMap::Relation::OnSurface) };
+}
+
+PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const
+{
+  return { T_scene_model, this->explained(T_scene_model), this->predicted(T_scene_model) };
+}
+
+double PoseComparison::contradicted(const Contender& one, const Contender& other) const
+{
+  const TrainedModel& model = this->Index.model;
+  const float far = static_cast<float>(FarShare * model.diameter);
+  const float alone = this->Settings.sameVisibility ? far : 0.0f; // so far from what the other predicts
+  const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
+  const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
+  std::vector<float> distances; // to what the other predicts
+  const auto lookUp = [&](const SoAPoints& points, const DistanceField& field)
+  {
+    distances.resize(points.size());
+    field.at(toOther, points, 0, static_cast<int>(points.size()), distances.data());
+  };
+  double sum = 0.0;
+  lookUp(one.predicted.passed, model.surfaceDistance);
+  for (const float distance : distances)
+  {
+    sum += distance >= alone ? PastWeight : 0.0;
+  }
+  const SoAPoints& edges = one.predicted.edges;
+  lookUp(edges, model.edgeDistance);
+  for (std::size_t k = 0; k < edges.size(); ++k)
+  {
+    sum += distances[k] >= alone && this->Index.edges.nearest(T * edges[k], far) < 0 ? MissingWeight : 0.0;
+  }
+  return sum;
+}
+
+double PoseComparison::advantage(const Contender& one, const Contender& other) const
+{
+  return this->advantageAtMost(one, other) - this->contradicted(one, other);
+}
+
+double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const
+{
+  Contender one{ T_scene_model, this->explained(T_scene_model), {} };
+  const double most = this->advantageAtMost(one, other);
+  if (most < enough)
+  {
+    return most;
+  }
+  one.predicted = this->predicted(T_scene_model);
+  return most - this->contradicted(one, other);
+}
+
+double PoseComparison::advantageAtMost(const Contender& one, const Contender& other) const
+{
+  const TrainedModel& model = this->Index.model;
+  const float far = static_cast<float>(FarShare * model.diameter);
+  const float near = static_cast<float>(NearShare * model.diameter);
+  const Eigen::Isometry3d& a = one.T_scene_model;
+  const Eigen::Isometry3d& b = other.T_scene_model;
+  const Eigen::Isometry3f toA = a.inverse().cast<float>();
+  const Eigen::Isometry3f toB = b.inverse().cast<float>();
+  const DistanceField& surface = model.surfaceDistance;
+  const DistanceField& edges = model.edgeDistance;
+  const DistanceField& whole = model.surface.empty() ? edges : surface;
+  // Every edge near one of the two.
+  const Eigen::Vector3f middleA = a.cast<float>() * whole.middle();
+  const Eigen::Vector3f middleB = b.cast<float>() * whole.middle();
+  const Eigen::Vector3f between = 0.5f * (middleA + middleB);
+  const PointGrid& measured = this->Index.edges;
+  double sum = one.explained - other.explained + this->contradicted(other, one);
+  measured.forEachBlock(between, whole.radius() + near + (middleA - between).norm(),
+    [&](int begin, int count)
+    {
+      const SoAPoints& points = measured.sorted();
+      float ofA[SoABlock], ofB[SoABlock];
+      edges.at(toA, points, begin, count, ofA);
+      edges.at(toB, points, begin, count, ofB);
+      for (int k = 0; k < count; ++k)
+      {
+        const double weight =
+          ofA[k] < near && ofB[k] >= far ? EdgeWeight : ofB[k] < near && ofA[k] >= far ? -EdgeWeight : 0.0;
+        if (weight == 0.0)
+        {
+          continue;
+        }
+        const Eigen::Vector3f point = points[begin + k];
+        if (model.surface.empty() || surface.at(toA * point) < far || surface.at(toB * point) < far) // else another object's
+        {
+          sum += weight;
+        }
+      }
+    });
+  return sum;
+}
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose/verification/PoseEvidence.h"
+
+namespace meam
+{
+/// Decides between poses of one instance by what the sensor saw: every measured point and every scene edge near the
+/// instance speaks for the pose that explains it. Points that both explain, or none, do not count, so poses that
+/// differ by a near-symmetry are decided by the notch or hole that breaks it. Calls may run in parallel.
+class PoseComparison
+{
+public:
+  /// Keeps a reference to the index. Of `settings` the weights have no part in it.
+  explicit PoseComparison(const SceneIndex& index, const EvidenceSettings& settings = {})
+    : Index(index)
+    , Settings(settings)
+  {
+  }
+
+  /// What of the part the sensor should see at a pose and may not be there, in the part's frame.
+  struct Prediction
+  {
+    SoAPoints passed; ///< points of its surface that the sensor looked past
+    SoAPoints edges;  ///< edge points on a surface that it saw
+  };
+  /// A pose, how many points of the measured surface it explains (one for each that lies on the part, less for those
+  /// beside it), and what it predicts.
+  struct Contender
+  {
+    Eigen::Isometry3d T_scene_model;
+    double explained;
+    Prediction predicted;
+  };
+  Contender contender(const Eigen::Isometry3d& T_scene_model) const;
+
+  /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not,
+  /// and surface and edges that one of them alone predicts and that are not there.
+  double advantage(const Contender& a, const Contender& b) const;
+  /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what comes
+  /// back is below `enough`, but may be more than it is.
+  double advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
+
+private:
+  double explained(const Eigen::Isometry3d& T_scene_model) const;
+  Prediction predicted(const Eigen::Isometry3d& T_scene_model) const;
+  /// Without what contradicts `one`, which need not know what it predicts.
+  double advantageAtMost(const Contender& one, const Contender& other) const;
+  /// What `one` predicts and the other does not, and is not there: surface, and edges on surface.
+  double contradicted(const Contender& one, const Contender& other) const;
+
+  const SceneIndex& Index;
+  EvidenceSettings Settings;
+};
+}

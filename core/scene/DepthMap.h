@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/SoAPoints.h"
+#include "scene/Sensor.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace meam
+{
+/// What the sensor sees along each line of sight, from a cloud of any kind: a grid across the lines of sight, with the
+/// nearest and the farthest surface in each cell.
+class DepthMap
+{
+public:
+  /// How a point lies to the surface the sensor saw there.
+  enum class Relation
+  {
+    OnSurface,
+    Hidden,   ///< the scene is in front of it
+    InFront,  ///< the scene is behind it: the sensor looked through where it should be
+    NoSurface ///< the sensor saw nothing there
+  };
+
+  /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the first axis, as
+  /// seen by the sensor. The same for any number of threads.
+  DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads = 1);
+
+  /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
+  double cellSize() const { return this->CellSize; }
+
+  /// `tolerance` in mm along the line of sight.
+  Relation relation(const Eigen::Vector3f& point, float tolerance) const
+  {
+    const Place place = this->placeOf(point);
+    return relationTo(place.cell < 0 ? nothing() : this->Cells[place.cell], place.depth, tolerance);
+  }
+
+  /// The same of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
+  void relations(const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, float tolerance,
+    Relation* relations) const;
+
+  /// One point of the surface for each occupied cell: the mean of the nearest layer, which a sensor's noise moves less
+  /// than single points.
+  const Points& means() const { return this->Means; }
+
+  /// The means along the lines of sight through points; where the sensor has a gap of one cell, that of the nearest layer
+  /// beside it.
+  struct Seen
+  {
+    float x[SoABlock], y[SoABlock], z[SoABlock];
+    /// How far inside its cell a point lies, 1 in the middle and next to 0 at the border, where the mean changes, times
+    /// the mean's weight; 0 where there is none.
+    float inside[SoABlock];
+  };
+  /// For at most SoABlock points from `begin` on.
+  void meansAt(const SoAPoints& points, int begin, int count, Seen& seen) const;
+
+private:
+  struct Cell
+  {
+    float nearest;
+    float farthest;
+    Eigen::Vector3f mean;
+    float weight; ///< of the mean: [0, 1], less where all its points lie at the cell's border
+  };
+  static Relation relationTo(const Cell& cell, float depth, float tolerance)
+  {
+    const bool isSeen = cell.nearest < NothingSeen;
+    const bool isOn =
+      isSeen & ((std::abs(depth - cell.nearest) <= tolerance) | (std::abs(depth - cell.farthest) <= tolerance));
+    return isOn                ? Relation::OnSurface
+      : !isSeen                ? Relation::NoSurface
+      : cell.nearest < depth   ? Relation::Hidden
+                               : Relation::InFront;
+  }
+  struct Place
+  {
+    int cell;    ///< -1: outside the map
+    float depth; ///< mm, along the line of sight
+  };
+  Eigen::Vector3f project(const Eigen::Vector3f& point) const
+  {
+    Eigen::Vector3f p = this->Axes * (point - this->Eye);
+    if (this->IsPerspective)
+    {
+      p.head<2>() /= p.z();
+    }
+    return p;
+  }
+  /// In cells from the map's corner.
+  Eigen::Array2f indexOf(const Eigen::Vector3f& projected) const
+  {
+    return (projected.head<2>() - this->Low) * this->InverseCell;
+  }
+  Place placeOf(const Eigen::Vector3f& point) const { return this->placeOfProjected(this->project(point)); }
+  Place placeOfProjected(const Eigen::Vector3f& p) const
+  {
+    const Eigen::Array2f index = this->indexOf(p);
+    const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
+      !(this->IsPerspective && p.z() <= 0.0f);
+    return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };
+  }
+  struct Places
+  {
+    int cells[SoABlock]; ///< the last one: outside the map
+    float depths[SoABlock];
+    float insides[SoABlock];
+  };
+  void findPlaces(
+    const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, Places& places) const;
+  /// Sets depths and means of the cells from `firstCell` to before `lastCell`. Returns the means.
+  Points fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
+    int firstCell, int lastCell);
+  void fillGaps(float layer, int threads);
+  /// `seen` tells of the nine cells about one, `stride` from row to row.
+  void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);
+  Cell& cellIn(int row, int column) { return this->Cells[static_cast<std::size_t>(row) * this->Width + column]; }
+  static constexpr float NothingSeen = std::numeric_limits<float>::max();
+  static Cell nothing()
+  {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return { infinity, -infinity, Eigen::Vector3f::Zero(), 0.0f };
+  }
+
+  bool IsPerspective;
+  Eigen::Vector3f Eye; ///< the sensor's position, or anywhere
+  Eigen::Matrix3f Axes; ///< rows: right, down, depth
+  double CellSize;
+  float InverseCell = 1.0f;
+  Eigen::Vector2f Low = Eigen::Vector2f::Zero();
+  int Width = 0;
+  int Height = 0;
+  std::vector<Cell> Cells{ nothing() }; ///< and at the end one where there is nothing
+  Points Means;
+};
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/Units.h"
+
+#include "base/Bounds.h"
+#include "base/Error.h"
+
+#include <cstdio>
+
+namespace meam
+{
+namespace
+{
+std::string number(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", value);
+  return text;
+}
+}
+
+std::string unitsWarning(const Points& scene, double partDiameter)
+{
+  // A scene spans a part or more, and mostly some tens of them.
+  const double parts = bounds(scene).diagonal().norm() / partDiameter;
+  if (parts >= 0.7 && parts <= 200.0)
+  {
+    return {};
+  }
+  const int factor = parts < 1.0 ? (10.0 * parts >= 1.5 ? 10 : 1000) : (parts / 10.0 <= 100.0 ? 10 : 1000);
+  return "The scene spans " + number(parts * partDiameter) + " and the part's diameter is " + number(partDiameter) +
+    ": if their units differ, the likely factor is " + std::to_string(factor) + ". Scale the " +
+    (parts < 1.0 ? "scene" : "part") + " by it.";
+}
+
+void requireSameUnits(const Points& scene, double partDiameter)
+{
+  constexpr double StrayShare = 0.02; // of the points, at each end of each axis
+  double extent = bounds(scene).diagonal().norm();
+  if (extent > 1000.0 * partDiameter)
+  {
+    extent = innerBounds(scene, StrayShare).diagonal().norm(); // stray points are no other unit
+  }
+  if (extent < 0.2 * partDiameter)
+  {
+    throw Error("The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +
+      ": their units differ (a scene in metres and a part in millimetres differ by 1000). Scale the scene to the "
+      "part's unit.");
+  }
+  if (extent > 1000.0 * partDiameter)
+  {
+    throw Error("The scene spans " + number(extent) + " but the part's diameter is only " + number(partDiameter) +
+      ": their units differ (a part in metres and a scene in millimetres differ by 1000). Scale the part to the "
+      "scene's unit.");
+  }
+}
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Bounds.h"
+#include "base/Frames.h"
+#include "base/PointCloud.h"
+#include "scene/Units.h"
+
+#include "TestParts.h"
+
+#include "base/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+const float NaN = std::numeric_limits<float>::quiet_NaN();
+}
+
+TEST(Frames, FrameIsRightHandedWithTheAxisFirst)
+{
+  for (const Eigen::Vector3f& axis : { Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 0, -1),
+         Eigen::Vector3f(1, 2, -3).normalized().eval() })
+  {
+    const Eigen::Matrix3f frame = meam::frameAround(axis);
+    EXPECT_TRUE(frame.col(0).isApprox(axis));
+    EXPECT_TRUE(frame.isUnitary(1e-6f));
+    EXPECT_NEAR(frame.determinant(), 1.0f, 1e-6f);
+  }
+}
+
+TEST(Frames, ThePrincipalFrameOfPointsOnALine)
+{
+  // Their mean is (3, 0, 2); along x they are skewed towards greater values.
+  const Eigen::Isometry3d frame =
+    meam::principalFrame(meam::Points{ { 0, 0, 2 }, { NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
+  EXPECT_TRUE((frame * Eigen::Vector3d(3, 0, 2)).isZero(1e-9));
+  EXPECT_TRUE((frame * Eigen::Vector3d(8, 0, 2)).isApprox(Eigen::Vector3d(5, 0, 0), 1e-9));
+}
+
+TEST(Frames, ThePrincipalFrameMovesWithThePoints)
+{
+  std::mt19937 random(4);
+  std::gamma_distribution<float> skewed(2.0f, 1.0f);
+  meam::Points points;
+  for (int i = 0; i < 300; ++i)
+  {
+    points.push_back({ 9.0f * skewed(random), 4.0f * skewed(random), skewed(random) });
+  }
+  const Eigen::Isometry3d frame = meam::principalFrame(points);
+  EXPECT_NEAR(frame.linear().determinant(), 1.0, 1e-9);
+  EXPECT_GT(std::abs(frame.linear()(0, 0)), 0.9) << "most extent along x";
+  const meam::Points inFrame = meam::moved(points, frame);
+  const Eigen::Isometry3d T = parts::motion(random, 100.0);
+  meam::Points elsewhere = meam::moved(points, T);
+  elsewhere.push_back(Eigen::Vector3f::Constant(NAN));
+  const meam::Points again = meam::moved(elsewhere, meam::principalFrame(elsewhere));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_LT((inFrame[i] - again[i]).norm(), 1e-3f);
+  }
+  EXPECT_TRUE(meam::principalFrame(meam::Points{}).isApprox(Eigen::Isometry3d::Identity()));
+}

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/MEAMPoseEstimation.h"
+
+#include "base/Random.h"
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+int instancesFound(
+  const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& copies, double millimetres, double degrees)
+{
+  int found = 0;
+  for (const auto& T : copies)
+  {
+    found += std::any_of(poses.begin(), poses.end(),
+               [&](const meam::Pose& pose)
+               {
+                 return meam::translationError(pose.T_scene_model, T) < millimetres &&
+                        meam::rotationError(pose.T_scene_model, T) < degrees;
+               })
+               ? 1
+               : 0;
+  }
+  return found;
+}
+
+int instancesFound(const meam::Poses& poses, double millimetres, double degrees)
+{
+  return instancesFound(poses, scenes::threeCopies(), millimetres, degrees);
+}
+}
+
+TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  meam::StageTimes times;
+  const meam::Poses poses =
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3), &times);
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(instancesFound(poses, 0.2, 0.3), 3);
+  EXPECT_GT(times.detection, 0.0);
+  EXPECT_GT(times.selection, 0.0);
+}
+
+TEST(MEAMPoseEstimation, TheOrderOfPointsDoesNotMatter)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  meam::Scene shuffled = scene;
+  meam::Random random(3);
+  random.shuffle(shuffled.edges.points);
+  random.shuffle(shuffled.surface);
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses one = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses other = scenes::estimatePoses(scenes::bracket(), shuffled, settings);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_LT(meam::translationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+    EXPECT_LT(meam::rotationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+  }
+}
+
+TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses before = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  meam::PreciseCloud surface;
+  for (const auto& point : scene.surface)
+  {
+    surface.points.push_back(point.cast<double>());
+  }
+  std::mt19937 random(8);
+  for (const double distance : { 200.0, 1e6 })
+  {
+    const Eigen::Isometry3d T = parts::motion(random, distance);
+    const meam::PrecisePoints measured = parts::moved(surface.points, T);
+    const meam::Sensor sensor{ false, T * scene.sensor.position, T.linear() * scene.sensor.direction };
+    const meam::Poses after = meam::estimatePoses(scenes::bracket(), parts::moved(meam::PreciseCloud(scene.edges), T),
+      meam::inOwnFrame(measured.front().data(), measured.size()), sensor, settings);
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+    {
+      EXPECT_LT(meam::translationError(T * before[i].T_scene_model, after[i].T_scene_model), 1e-3) << i;
+      EXPECT_LT(meam::rotationError(T * before[i].T_scene_model, after[i].T_scene_model), 1e-3) << i;
+      EXPECT_NEAR(after[i].probability, before[i].probability, 1e-4) << i;
+      EXPECT_TRUE(meam::moved(before[i], T).fit.covariance.isApprox(after[i].fit.covariance, 1e-3)) << i;
+    }
+  }
+}
+
+TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses before = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 3; ++trial)
+  {
+    const Eigen::Isometry3d T = parts::motion(random, 200.0);
+    meam::Scene turned = scene;
+    turned.edges.points = meam::moved(scene.edges.points, T);
+    turned.surface = meam::moved(scene.surface, T);
+    turned.sensor.direction = T.linear() * scene.sensor.direction;
+    const meam::Poses after = scenes::estimatePoses(scenes::bracket(), turned, settings);
+    ASSERT_EQ(after.size(), before.size());
+    for (const meam::Pose& pose : before)
+    {
+      // Rounding to single precision moves a point over the border of its cube now and then; nothing more may change.
+      EXPECT_TRUE(std::any_of(after.begin(), after.end(),
+        [&](const meam::Pose& other)
+        {
+          return meam::translationError(T * pose.T_scene_model, other.T_scene_model) < 0.02 &&
+                 meam::rotationError(T * pose.T_scene_model, other.T_scene_model) < 0.05;
+        }))
+        << trial;
+    }
+  }
+}
+
+TEST(MEAMPoseEstimation, ThePaperPresetFindsThemToo)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Paper, 3);
+  settings.detection.referenceShare = 0.2; // the paper's own range is 5 to 20 %
+  const meam::Poses poses = scenes::estimatePoses(scenes::bracket(meam::Preset::Paper), scene, settings);
+  ASSERT_LE(poses.size(), 3u);
+  EXPECT_GE(instancesFound(poses, 7.5, 5.0), 2); // its weaker tangents and scores miss some
+}
+
+TEST(MEAMPoseEstimation, AModelOfTheMeshesEdgesFindsThemToo)
+{
+  meam::TrainingSettings training = meam::trainingSettings(meam::Preset::Recommended);
+  training.visibility.method = meam::VisibilityMethod::MeshVisibility;
+  training.boundary.method = meam::BoundaryMethod::MeshEdges;
+  const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
+}
+
+TEST(MEAMPoseEstimation, AModelOfTheWholePartWithoutVisibilityFindsThemToo)
+{
+  meam::TrainingSettings training = meam::trainingSettings(meam::Preset::Recommended);
+  training.visibility.viewpoints = 0;
+  const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
+  EXPECT_EQ(model.edgeViews, std::vector<std::uint32_t>(model.edges.size(), 1u));
+  // Every pair that the table reaches is there: also of points that are never seen together.
+  EXPECT_EQ(static_cast<int>(model.table.size()), model.votingEdges * (model.votingEdges - 1));
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
+}
+
+TEST(MEAMPoseEstimation, AnEdgeCloudAloneIsEnough)
+{
+  meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  scene.surface.clear();
+  const meam::Poses poses =
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  EXPECT_EQ(instancesFound(poses, 2.0, 3.0), 3);
+}
+
+TEST(MEAMPoseEstimation, AnyMotionOfTheSceneMovesThePoses)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  std::mt19937 random(4);
+  const Eigen::Isometry3d T = parts::motion(random, 200.0);
+  meam::Scene turned = scene;
+  turned.surface = parts::moved(scene.surface, T);
+  turned.edges = parts::moved(scene.edges, T);
+  turned.sensor.direction = T.linear() * scene.sensor.direction;
+  const meam::Poses poses =
+    scenes::estimatePoses(scenes::bracket(), turned, meam::detectionSettings(meam::Preset::Recommended, 3));
+  meam::Poses back = poses;
+  for (auto& pose : back)
+  {
+    pose.T_scene_model = T.inverse() * pose.T_scene_model;
+  }
+  EXPECT_EQ(instancesFound(back, 0.3, 0.4), 3);
+}
+
+TEST(MEAMPoseEstimation, TheSignsOfTangentsDoNotMatter)
+{
+  meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::Scene turned = scene;
+  std::mt19937 random(6);
+  for (Eigen::Vector3f& tangent : turned.edges.tangents)
+  {
+    tangent *= random() % 2 == 0 ? 1.0f : -1.0f;
+  }
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::Poses one = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses other = scenes::estimatePoses(scenes::bracket(), turned, settings);
+  EXPECT_EQ(instancesFound(one, 0.3, 0.4), 3);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_EQ(one[i].votes, other[i].votes);
+    EXPECT_LT(meam::translationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+    EXPECT_LT(meam::rotationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
+  }
+}
+
+TEST(MEAMPoseEstimation, TangentsThatAreNoneAreLeftOut)
+{
+  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::Scene broken = scene;
+  broken.edges.tangents[7].y() = NAN;
+  broken.edges.tangents[20].x() = INFINITY;
+  broken.edges.tangents[33].setZero();
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), broken, settings), 0.3, 0.4), 3);
+  for (const meam::Pose& pose : meam::detectPoses(broken.edges, scenes::bracket()))
+  {
+    EXPECT_TRUE(pose.T_scene_model.matrix().allFinite());
+  }
+}
+
+TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  meam::Scene one = scene;
+  one.surface.push_back({ 1e12f, 0.0f, 0.0f });
+  one.edges.points.push_back({ 0.0f, 1e9f, 0.0f });
+  EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), one, settings), 0.3, 0.4), 3);
+  meam::Scene many = scene;
+  for (std::size_t i = 0; i < scene.surface.size() / 9; ++i)
+  {
+    many.surface.push_back({ 1e10f, 1e10f, -1e10f }); // what some sensors write where they measured nothing
+  }
+  for (const bool perspective : { false, true })
+  {
+    many.sensor.perspective = perspective;
+    many.sensor.position = { 40.0, 40.0, 2000.0 };
+    EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), many, settings), 0.5, 0.6), 3) << perspective;
+  }
+}
+
+TEST(MEAMPoseEstimation, MoreThanAHundredCopiesComeOut)
+{
+  std::vector<Eigen::Isometry3d> copies;
+  for (int k = 0; k < 121; ++k)
+  {
+    copies.push_back(scenes::lying(160.0 * (k % 11), 160.0 * (k / 11), 37.0 * k, k % 3 != 0));
+  }
+  const meam::Scene scene = scenes::seenFromAbove(copies);
+  const meam::Poses poses =
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5));
+  EXPECT_GT(instancesFound(poses, copies, 1.0, 1.0), 110);
+  EXPECT_LE(poses.size(), copies.size());
+}
+
+TEST(MEAMPoseEstimation, ThreadsDoNotMatter)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const meam::Poses one =
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 1));
+  const meam::Poses three =
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 3));
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
+    EXPECT_EQ(one[i].score, three[i].score);
+  }
+}
+
+TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
+{
+  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  double last = 0.0;
+  scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
+    [&](double share)
+    {
+      EXPECT_GE(share, last - 1e-9);
+      EXPECT_LE(share, 1.0);
+      last = share;
+      return true;
+    });
+  EXPECT_DOUBLE_EQ(last, 1.0);
+  EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended),
+                 nullptr, [](double share) { return share < 0.4; }),
+    meam::Aborted);
+  EXPECT_THROW(meam::trainModel(parts::lBracket(), {}, [](double share) { return share < 0.3; }), meam::Aborted);
+}
+
+TEST(MEAMPoseEstimation, BadInput)
+{
+  EXPECT_THROW(meam::trainModel({}, {}), meam::Error);
+  EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), {}, {}), meam::Error);
+}

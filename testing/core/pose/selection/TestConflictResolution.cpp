@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/ConflictResolution.h"
+
+#include "TestScene.h"
+#include "mesh/TriangleMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+meam::TriangleMesh plate() { return parts::box({ 0, 0, 0 }, { 60, 40, 10 }); }
+meam::TriangleMesh block() { return parts::box({ 0, 0, 0 }, { 20, 12, 10 }); }
+
+/// Trained once for all tests of the executable.
+template <meam::TriangleMesh (*Part)()>
+const meam::TrainedModel& trained()
+{
+  static const meam::TrainedModel model = meam::trainModel(Part(), meam::trainingSettings(meam::Preset::Recommended));
+  return model;
+}
+
+meam::Pose at(const Eigen::Isometry3d& T, double probability)
+{
+  meam::Pose pose;
+  pose.T_scene_model = T;
+  pose.score = 0.8;
+  pose.probability = probability;
+  pose.visibleFraction = 1.0;
+  return pose;
+}
+
+Eigen::Isometry3d place(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
+
+meam::Scene withTangents(meam::Scene scene)
+{
+  scene.edges = parts::withTangents(scene.edges, trained<plate>().diameter, scene.sensor.direction);
+  return scene;
+}
+
+meam::Scene seen(const std::vector<scenes::Copy>& copies) { return withTangents(scenes::seenFromAbove(copies)); }
+
+/// The types of the parts that stay of one pose of each of two types.
+std::vector<int> typesLeft(const meam::Scene& scene, const meam::TrainedModel& a, const meam::Pose& poseA,
+  const meam::TrainedModel& b, const meam::Pose& poseB, const meam::ConflictResolutionSettings& settings = {})
+{
+  const meam::SceneIndex indexA(a, scene), indexB(b, scene);
+  const meam::Poses posesA{ poseA }, posesB{ poseB };
+  std::vector<int> types;
+  for (const meam::PartPose& stays : meam::resolveConflicts({ { indexA, posesA }, { indexB, posesB } }, settings))
+  {
+    types.push_back(stays.part);
+  }
+  std::sort(types.begin(), types.end());
+  return types;
+}
+
+using Types = std::vector<int>;
+}
+
+TEST(ConflictResolution, PartsSideBySideAreFoundOnceEach)
+{
+  // Two brackets and two plates; each type is looked for in the whole scene.
+  const std::vector<scenes::Copy> copies = { { parts::lBracket(), scenes::lying(0, 0, 20) },
+    { parts::lBracket(), scenes::lying(90, 10, 131, false) }, { parts::windowPlate(), scenes::lying(10, 75, 35) },
+    { parts::windowPlate(), scenes::lying(100, 65, -70) } };
+  const meam::Scene raw = scenes::seenFromAbove(copies);
+  const meam::Scene scene = withTangents(raw);
+  const meam::DetectionSettings all = meam::detectionSettings(meam::Preset::Recommended, 0);
+  const meam::TrainedModel& bracket = scenes::bracket();
+  const meam::TrainedModel& window = trained<parts::windowPlate>();
+  const meam::Poses brackets = scenes::estimatePoses(bracket, raw, all);
+  const meam::Poses windows = scenes::estimatePoses(window, raw, all);
+  const meam::SceneIndex bracketIndex(bracket, scene), windowIndex(window, scene);
+  const auto found = meam::resolveConflicts({ { bracketIndex, brackets }, { windowIndex, windows } });
+  ASSERT_GE(found.size(), copies.size());
+  const auto isAt = [](const meam::PartPose& pose, const Eigen::Isometry3d& T)
+  {
+    return meam::translationError(pose.pose.T_scene_model, T) < 0.5 &&
+           meam::rotationError(pose.pose.T_scene_model, T) < 1.0;
+  };
+  // The four best are the four true ones, each of its own type.
+  for (std::size_t i = 0; i < copies.size(); ++i)
+  {
+    const int type = i < 2 ? 0 : 1;
+    EXPECT_EQ(std::count_if(found.begin(), found.begin() + 4,
+                [&](const meam::PartPose& pose) { return pose.part == type && isAt(pose, copies[i].T_scene_model); }),
+      1)
+      << "copy " << i;
+  }
+  for (std::size_t i = 4; i < found.size(); ++i)
+  {
+    EXPECT_LT(found[i].pose.probability, 0.5);
+  }
+  // The order of the parts makes no difference but for their numbers.
+  const auto swapped = meam::resolveConflicts({ { windowIndex, windows }, { bracketIndex, brackets } });
+  ASSERT_EQ(swapped.size(), found.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    EXPECT_EQ(swapped[i].part, 1 - found[i].part);
+    EXPECT_TRUE(swapped[i].pose.T_scene_model.matrix() == found[i].pose.T_scene_model.matrix());
+  }
+}
+
+TEST(ConflictResolution, ThePlateWithItsWindowAndWithout)
+{
+  const Eigen::Isometry3d T = scenes::lying(5, -8, 25);
+  const meam::TrainedModel& window = trained<parts::windowPlate>();
+  const meam::TrainedModel& whole = trained<plate>();
+  // At the same pose and equally likely: what is measured tells.
+  const meam::Scene open = seen({ { parts::windowPlate(), T } });
+  EXPECT_EQ(typesLeft(open, window, at(T, 0.9), whole, at(T, 0.9)), Types{ 0 });
+  EXPECT_EQ(typesLeft(open, whole, at(T, 0.9), window, at(T, 0.9)), Types{ 1 });
+  const meam::Scene closed = seen({ { plate(), T } });
+  EXPECT_EQ(typesLeft(closed, window, at(T, 0.9), whole, at(T, 0.9)), Types{ 1 });
+  // The whole chain comes to the same.
+  for (const auto* scene : { &open, &closed })
+  {
+    const meam::DetectionSettings one = meam::detectionSettings(meam::Preset::Recommended, 1);
+    const meam::Pose asWindow = scenes::estimatePoses(window, *scene, one).at(0);
+    const meam::Pose asWhole = scenes::estimatePoses(whole, *scene, one).at(0);
+    EXPECT_EQ(typesLeft(*scene, window, asWindow, whole, asWhole), Types{ scene == &open ? 0 : 1 });
+  }
+}
+
+TEST(ConflictResolution, ASmallPartThatFitsInsideALargeOneLoses)
+{
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const meam::TrainedModel& large = trained<plate>();
+  const meam::TrainedModel& small = trained<block>();
+  // Its upper face is the plate's; that it is the likelier one does not help it...
+  EXPECT_EQ(typesLeft(scene, small, at(place(0, 0, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 1 });
+  EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 1 });
+  // ...unless the large one hardly can be there: it is not where it should be.
+  const meam::Scene alone = seen({ { block(), place(0, 0, 0) } });
+  EXPECT_EQ(typesLeft(alone, small, at(place(0, 0, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 0 });
+  EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 0), 0.99), large, at(place(0, 0, 0), 0.02)), Types{ 0 });
+}
+
+TEST(ConflictResolution, ASmallPartOnTopOfALargeOneStays)
+{
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) }, { block(), place(20, 14, 10) } });
+  const meam::TrainedModel& large = trained<plate>();
+  const meam::TrainedModel& small = trained<block>();
+  EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 10), 0.6), large, at(place(0, 0, 0), 0.99)), (Types{ 0, 1 }));
+}
+
+TEST(ConflictResolution, WithoutASurfaceEdgesDecide)
+{
+  const Eigen::Isometry3d T = scenes::lying(5, -8, 25);
+  meam::Scene open = seen({ { parts::windowPlate(), T } });
+  const meam::TrainedModel& window = trained<parts::windowPlate>();
+  const meam::TrainedModel& whole = trained<plate>();
+  meam::Scene edgesOnly = open;
+  edgesOnly.surface.clear();
+  EXPECT_EQ(typesLeft(edgesOnly, whole, at(T, 0.9), window, at(T, 0.9)), Types{ 1 });
+  const meam::SceneIndex with(window, open), without(whole, edgesOnly);
+  const meam::Poses poses{ at(T, 0.9) };
+  EXPECT_THROW(meam::resolveConflicts({ { with, poses }, { without, poses } }), meam::Error);
+}
+
+TEST(ConflictResolution, ModelsWithoutASurfaceClaimWhatIsNearTheirEdges)
+{
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  meam::TrainedModel bare = trained<plate>();
+  bare.surface = {};
+  bare.deriveFields();
+  EXPECT_EQ(typesLeft(scene, bare, at(place(0, 0, 0), 0.9), bare, at(place(0, 0, 0), 0.9)), Types{ 0 });
+  EXPECT_EQ(typesLeft(scene, bare, at(place(0, 0, 0), 0.9), bare, at(place(500, 0, 0), 0.9)), (Types{ 0, 1 }));
+}
+
+TEST(ConflictResolution, EqualSupportIsDecidedInTurn)
+{
+  // The same model twice at the same pose: the claims are equal.
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const meam::TrainedModel& model = trained<plate>();
+  meam::Pose pose = at(place(0, 0, 0), 0.995);
+  EXPECT_EQ(typesLeft(scene, model, pose, model, pose), Types{ 0 }); // the order
+  meam::Pose likelier = pose, better = pose;
+  const meam::Pose freer = pose;
+  likelier.probability = 0.999; // beyond what counts in the support
+  better.score = 0.9;
+  pose.visibleFraction = 0.9;
+  EXPECT_EQ(typesLeft(scene, model, better, model, likelier), Types{ 1 });
+  EXPECT_EQ(typesLeft(scene, model, freer, model, better), Types{ 1 });
+  EXPECT_EQ(typesLeft(scene, model, pose, model, freer), Types{ 1 });
+}
+
+TEST(ConflictResolution, HowMuchMayBeShared)
+{
+  // Two plates that overlap by two thirds.
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const meam::TrainedModel& model = trained<plate>();
+  meam::ConflictResolutionSettings settings;
+  const meam::Pose shifted = at(place(20, 0, 0), 0.9);
+  EXPECT_EQ(typesLeft(scene, model, at(place(0, 0, 0), 0.9), model, shifted, settings), Types{ 0 });
+  settings.shared = 1.0;
+  settings.maximumPoses = 1;
+  EXPECT_EQ(typesLeft(scene, model, shifted, model, at(place(0, 0, 0), 0.9), settings), Types{ 1 });
+  settings.maximumPoses = 0;
+  EXPECT_EQ(typesLeft(scene, model, at(place(0, 0, 0), 0.9), model, shifted, settings), (Types{ 0, 1 }));
+  EXPECT_EQ(typesLeft(scene, model, at(place(0, 0, 0), 0.9), model, at(place(500, 0, 0), 0.9)), (Types{ 0, 1 }));
+}
+
+TEST(ConflictResolution, ThreadsDoNotMatterAndAbortStops)
+{
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const meam::SceneIndex index(trained<plate>(), scene);
+  meam::Poses poses;
+  for (int i = 0; i < 40; ++i)
+  {
+    poses.push_back(at(place(3.0 * (i % 7), 2.0 * (i % 5), 0.5 * (i % 3)), 0.02 * i));
+  }
+  meam::ConflictResolutionSettings one, three;
+  one.threads = 1;
+  three.threads = 3;
+  const auto a = meam::resolveConflicts({ { index, poses } }, one);
+  const auto b = meam::resolveConflicts({ { index, poses } }, three);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    EXPECT_TRUE(a[i].pose.T_scene_model.matrix() == b[i].pose.T_scene_model.matrix());
+  }
+  EXPECT_THROW(meam::resolveConflicts({ { index, poses } }, {}, [](double) { return false; }), meam::Aborted);
+}
+
+TEST(ConflictResolution, NothingAndBadSettings)
+{
+  EXPECT_TRUE(meam::resolveConflicts({}).empty());
+  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const meam::SceneIndex index(trained<plate>(), scene);
+  const meam::Poses none;
+  EXPECT_TRUE(meam::resolveConflicts({ { index, none } }).empty());
+  meam::ConflictResolutionSettings settings;
+  settings.shared = 1.5;
+  EXPECT_THROW(meam::resolveConflicts({ { index, none } }, settings), meam::Error);
+  settings = {};
+  settings.tolerance = NAN;
+  EXPECT_THROW(meam::resolveConflicts({ { index, none } }, settings), meam::Error);
+}

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/voting/PoseDetection.h"
+
+#include "base/PointGrid.h"
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <tuple>
+
+namespace
+{
+int right(const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& truth, double millimetres, double degrees)
+{
+  return static_cast<int>(std::count_if(poses.begin(), poses.end(),
+    [&](const meam::Pose& pose)
+    {
+      return std::any_of(truth.begin(), truth.end(),
+        [&](const auto& T)
+        {
+          return meam::translationError(pose.T_scene_model, T) < millimetres &&
+                 meam::rotationError(pose.T_scene_model, T) < degrees;
+        });
+    }));
+}
+
+/// The model's own edges, moved: what voting should find exactly.
+meam::PointCloud ownEdges(const Eigen::Isometry3d& T, float sign = 1.0f)
+{
+  meam::PointCloud edges = parts::moved(scenes::bracket().edges, T);
+  for (auto& tangent : edges.tangents)
+  {
+    tangent *= sign;
+  }
+  return edges;
+}
+
+/// The best supported turn of one reference point, every vote of every pair counted on its own.
+struct SlowPeak
+{
+  int votes = 0; ///< of three neighbouring bins, or of one
+  int lead = 0;  ///< before all others
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+};
+
+SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& referred, const meam::TangentFrame& scene,
+  const Eigen::Vector3f& tangent, const meam::PoseDetectionSettings& settings)
+{
+  constexpr int bins = 50; // of 7.2 degrees
+  const auto framed = [&](std::uint32_t point)
+  { return meam::TangentFrame(model.edges.points[point], model.edges.tangents[point]); };
+  const meam::PairFeatureQuantizer quantizer = model.quantizer();
+  std::vector<std::array<int, bins>> counts(2 * model.votingEdges, std::array<int, bins>{});
+  for (std::size_t i = 0; i < referred.size(); ++i)
+  {
+    const meam::PairFeature feature =
+      meam::pairFeature(quantizer.kind(), scene.Origin, tangent, referred.points[i], referred.tangents[i]);
+    const int key = quantizer.key(feature);
+    if (key < 0 || feature.distance == 0.0f)
+    {
+      continue;
+    }
+    for (std::uint32_t k = model.table.offsets[key]; k < model.table.offsets[key + 1]; ++k)
+    {
+      const std::uint32_t point = model.table.references[k];
+      const Eigen::Vector3f& other = model.edges.points[model.table.referreds[k]];
+      const meam::TangentFrame part = framed(point);
+      const bool flip = settings.signedTangents && part.against(other) != scene.against(referred.points[i]);
+      const double angle = scene.angleOf(referred.points[i]);
+      const double turns = (flip ? angle + part.angleOf(other) : angle - part.angleOf(other)) / (2.0 * M_PI) + 2.0;
+      ++counts[2 * point + (flip ? 1 : 0)][static_cast<int>(std::floor(turns * bins)) % bins];
+    }
+  }
+  SlowPeak best;
+  for (std::size_t sheet = 0; sheet < counts.size(); ++sheet)
+  {
+    for (int bin = 0; bin < bins; ++bin)
+    {
+      const int beside = settings.smoothPeaks ? 1 : 0;
+      const int before = beside * counts[sheet][(bin + bins - 1) % bins];
+      const int after = beside * counts[sheet][(bin + 1) % bins];
+      const int sum = before + counts[sheet][bin] + after;
+      if (sum > best.votes)
+      {
+        best.lead = sum - best.votes;
+        best.votes = sum;
+        const double alpha = (bin + 0.5 + static_cast<double>(after - before) / sum) * 2.0 * M_PI / bins;
+        best.pose = meam::alignFrames(framed(sheet / 2), scene, sheet % 2 == 1, alpha);
+      }
+      else
+      {
+        best.lead = std::min(best.lead, best.votes - sum);
+      }
+    }
+  }
+  return best;
+}
+}
+
+TEST(PoseDetection, AMovedPartIsFoundAgain)
+{
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 4; ++trial)
+  {
+    const Eigen::Isometry3d T = parts::motion(random, 300.0);
+    for (const float sign : { 1.0f, -1.0f })
+    {
+      const meam::Poses poses = meam::detectPoses(ownEdges(T, sign), scenes::bracket());
+      ASSERT_GT(poses.size(), 10u);
+      EXPECT_GE(right(poses, { T }, 3.0, 6.0), static_cast<int>(0.8 * poses.size())) << "sign " << sign;
+    }
+  }
+}
+
+TEST(PoseDetection, CopiesInASceneAreAmongTheCandidates)
+{
+  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const meam::Poses poses = meam::detectPoses(scene.edges, scenes::bracket());
+  for (const auto& T : scenes::threeCopies())
+  {
+    EXPECT_GE(right(poses, { T }, 6.0, 10.0), 1);
+  }
+}
+
+TEST(PoseDetection, TheSameForAnyNumberOfThreads)
+{
+  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::PoseDetectionSettings settings;
+  settings.threads = 1;
+  const meam::Poses one = meam::detectPoses(scene.edges, scenes::bracket(), settings);
+  settings.threads = 3;
+  const meam::Poses three = meam::detectPoses(scene.edges, scenes::bracket(), settings);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_EQ(one[i].votes, three[i].votes);
+    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
+  }
+}
+
+TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
+{
+  const meam::PointCloud edges = ownEdges(Eigen::Isometry3d::Identity());
+  meam::PoseDetectionSettings settings;
+  const meam::Poses first = meam::detectPoses(edges, scenes::bracket(), settings);
+  const meam::Poses again = meam::detectPoses(edges, scenes::bracket(), settings);
+  settings.seed = 2;
+  const meam::Poses other = meam::detectPoses(edges, scenes::bracket(), settings);
+  const auto same = [](const meam::Poses& a, const meam::Poses& b)
+  {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+      [](const auto& p, const auto& q) { return p.T_scene_model.matrix() == q.T_scene_model.matrix(); });
+  };
+  EXPECT_TRUE(same(first, again));
+  EXPECT_FALSE(same(first, other));
+}
+
+class PoseDetectionVotes : public testing::TestWithParam<std::pair<bool, bool>>
+{
+};
+
+TEST_P(PoseDetectionVotes, CountsTheVotesOfAllPairs)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::PoseDetectionSettings settings;
+  settings.referenceShare = 1.0;
+  std::tie(settings.signedTangents, settings.smoothPeaks) = GetParam();
+  const meam::Poses poses = meam::detectPoses(scene.edges, model, settings);
+  const meam::FramedCloud own = meam::inOwnFrame(scene.edges);
+  const meam::PointCloud referred = own.cloud.subset(meam::thinPoints(own.cloud.points, model.votingLeaf()));
+  ASSERT_EQ(poses.size(), own.cloud.size()) << "every reference point finds pairs";
+  int exact = 0;
+  int sure = 0;
+  for (std::size_t r = 0; r < poses.size(); ++r)
+  {
+    const Eigen::Vector3f& stored = own.cloud.tangents[r];
+    const Eigen::Vector3f tangent = stored.x() < 0.0f ? Eigen::Vector3f(-stored) : stored;
+    const SlowPeak peak = slowPeak(model, referred, meam::TangentFrame(own.cloud.points[r], tangent), tangent, settings);
+    // Rounding may carry a vote over the border of its bin, which turns a pose of 30 votes by up to half a degree.
+    EXPECT_NEAR(poses[r].votes, peak.votes, 2) << r;
+    exact += poses[r].votes == peak.votes ? 1 : 0;
+    if (poses[r].votes == peak.votes && peak.lead > 3)
+    {
+      ++sure;
+      const Eigen::Isometry3d slow =
+        meam::nearestEqual(own.frame.inverse() * peak.pose, poses[r].T_scene_model, model.symmetries);
+      EXPECT_LT(meam::translationError(poses[r].T_scene_model, slow), 0.5) << r;
+      EXPECT_LT(meam::rotationError(poses[r].T_scene_model, slow), 0.5) << r;
+    }
+  }
+  EXPECT_GT(exact, 0.98 * poses.size());
+  EXPECT_GT(sure, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(SignedAndSmooth, PoseDetectionVotes,
+  testing::Values(std::make_pair(true, true), std::make_pair(false, true), std::make_pair(true, false)));
+
+TEST(PoseDetection, WithoutTheSignsOfTangentsHalfOfTheCandidatesAreWrong)
+{
+  std::mt19937 random(6);
+  meam::PointCloud edges;
+  std::vector<Eigen::Isometry3d> truth;
+  for (int copy = 0; copy < 12; ++copy)
+  {
+    truth.push_back(Eigen::Translation3d(1000.0 * copy, 0, 0) * parts::motion(random, 300.0));
+    const meam::PointCloud one = ownEdges(truth.back());
+    edges.points.insert(edges.points.end(), one.points.begin(), one.points.end());
+    edges.tangents.insert(edges.tangents.end(), one.tangents.begin(), one.tangents.end());
+  }
+  const auto found = [&](bool withSigns)
+  {
+    meam::PoseDetectionSettings settings;
+    settings.signedTangents = withSigns;
+    return right(meam::detectPoses(edges, scenes::bracket(), settings), truth, 3.0, 6.0);
+  };
+  EXPECT_GT(found(false), 0.3 * found(true));
+  EXPECT_LT(found(false), 0.7 * found(true));
+}
+
+TEST(PoseDetection, PointsOfOneCubeMakeOnePair)
+{
+  const auto mostVotes = [](const meam::PointCloud& edges)
+  {
+    meam::PoseDetectionSettings settings;
+    settings.referenceShare = 1.0;
+    const meam::Poses poses = meam::detectPoses(edges, scenes::bracket(), settings);
+    return std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.votes < b.votes; })
+      ->votes;
+  };
+  const meam::PointCloud once = ownEdges(Eigen::Isometry3d::Identity());
+  meam::PointCloud twice = once;
+  for (std::size_t i = 0; i < once.size(); ++i)
+  {
+    twice.points.push_back(once.points[i] + Eigen::Vector3f(0.01f, 0.01f, 0.01f));
+    twice.tangents.push_back(once.tangents[i]);
+  }
+  EXPECT_LT(mostVotes(twice), 1.2 * mostVotes(once));
+}
+
+TEST(PoseDetection, BadInput)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  EXPECT_THROW(meam::detectPoses({}, model), meam::Error);
+  meam::PointCloud bare = ownEdges(Eigen::Isometry3d::Identity());
+  bare.tangents.clear();
+  EXPECT_THROW(meam::detectPoses(bare, model), meam::Error);
+  meam::PointCloud metres = ownEdges(Eigen::Isometry3d::Identity());
+  for (auto& point : metres.points)
+  {
+    point *= 0.001f;
+  }
+  try
+  {
+    meam::detectPoses(metres, model);
+    FAIL() << "metres taken for millimetres";
+  }
+  catch (const meam::Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("1000"), std::string::npos) << error.what();
+  }
+  meam::PoseDetectionSettings none;
+  none.referenceShare = 0.0;
+  EXPECT_THROW(meam::detectPoses(ownEdges(Eigen::Isometry3d::Identity()), model, none), meam::Error);
+  EXPECT_THROW(
+    meam::detectPoses(ownEdges(Eigen::Isometry3d::Identity()), model, {}, [](double) { return false; }), meam::Aborted);
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestGrids.h"
+#include "scene/edges/GridSurface.h"
+
+#include <gtest/gtest.h>
+
+TEST(GridSurface, distanceAndNoiseAreMeasured)
+{
+  for (const double noise : { 0.0, 0.1, 1.0 })
+  {
+    const meam::GridScale scale =
+      meam::gridScale(grids::surface(200, 150, [](int x, int y) { return 500.0 + 0.7 * x - 0.3 * y; }, noise));
+    EXPECT_FLOAT_EQ(scale.pointDistance, 1.0);
+    EXPECT_NEAR(scale.noise, noise, 0.03 * noise + 1e-4);
+  }
+  const meam::GridScale nothing = meam::gridScale(grids::surface(10, 10, [](int x, int) { return x % 2 ? NAN : 1.0; }));
+  EXPECT_EQ(nothing.pointDistance, 0.0);
+  EXPECT_EQ(nothing.noise, 0.0);
+}
+
+TEST(GridSurface, windowsGrowWithTheNoise)
+{
+  EXPECT_EQ((meam::GridScale{ 1.0, 0.0 }.windowRadius()), 2);
+  EXPECT_GT((meam::GridScale{ 1.0, 1.0 }.windowRadius()), 2);
+  EXPECT_LE((meam::GridScale{ 1.0, 1e9 }.windowRadius()), 10);
+  EXPECT_LE((meam::GridScale{ 0.0, 0.0 }.windowRadius()), 10);
+  EXPECT_DOUBLE_EQ((meam::GridScale{ 2.0, 0.1 }.depthJump()), 6.5);
+}
+
+TEST(GridSurface, aPlaneIsFoundExactly)
+{
+  const auto cloud = grids::surface(20, 20, [](int x, int y) { return 500.0 + 0.5 * x - 0.25 * y; });
+  for (const auto& [row, column] : { std::pair(10, 10), std::pair(0, 0), std::pair(19, 7) })
+  {
+    const meam::GridPlane plane = meam::fitPlane(cloud, row, column, {}, 5.0);
+    ASSERT_TRUE(plane.valid());
+    EXPECT_TRUE(plane.middle.isApprox(cloud.points[row * 20 + column], 1e-5f));
+    EXPECT_TRUE(plane.alongColumn.isApprox(Eigen::Vector3f(1.0f, 0.0f, 0.5f), 1e-3f));
+    EXPECT_TRUE(plane.alongRow.isApprox(Eigen::Vector3f(0.0f, 1.0f, -0.25f), 1e-3f));
+    EXPECT_TRUE(plane.lifted({ 1.0f, 2.0f }).isApprox(Eigen::Vector3f(1.0f, 2.0f, 0.0f).normalized(), 1e-3f));
+  }
+}
+
+TEST(GridSurface, theOtherSideOfAJumpDoesNotCount)
+{
+  const auto cloud = grids::surface(20, 20, [](int x, int) { return x < 10 ? 400.0 : 500.0 + x; });
+  const meam::GridPlane nearer = meam::fitPlane(cloud, 10, 9, {}, 5.0);
+  EXPECT_TRUE(nearer.alongColumn.isApprox(Eigen::Vector3f(1.0f, 0.0f, 0.0f), 1e-3f));
+  const meam::GridPlane farther = meam::fitPlane(cloud, 10, 10, {}, 5.0);
+  EXPECT_TRUE(farther.alongColumn.isApprox(Eigen::Vector3f(1.0f, 0.0f, 1.0f), 1e-3f));
+}
+
+TEST(GridSurface, aWindowCanFollowAnEdge)
+{
+  // Only the diagonal has depth, three points wide: a square window of 2 sees 5 x 5, a long one more of it.
+  const auto cloud = grids::surface(40, 40, [](int x, int y) { return std::abs(x - y) <= 1 ? 500.0 + x : NAN; });
+  const meam::GridWindow window{ 6, 1, Eigen::Vector2f(1.0f, 1.0f).normalized() };
+  const meam::GridPlane plane = meam::fitPlane(cloud, 20, 20, window, 50.0);
+  ASSERT_TRUE(plane.valid());
+  EXPECT_TRUE(plane.lifted({ 1.0f, 1.0f }).isApprox(Eigen::Vector3f(1.0f, 1.0f, 1.0f).normalized(), 1e-3f));
+}
+
+TEST(GridSurface, tooFewPointsAreNoPlane)
+{
+  EXPECT_FALSE(meam::fitPlane(grids::surface(9, 9, [](int, int) { return NAN; }), 4, 4, {}, 5.0).valid());
+  EXPECT_FALSE(
+    meam::fitPlane(grids::surface(9, 9, [](int x, int) { return x == 4 ? 1.0 : NAN; }), 4, 4, { 4, 4 }, 5.0).valid());
+}

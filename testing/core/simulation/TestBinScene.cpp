@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/BinScene.h"
+#include "simulation/SamplePart.h"
+#include "mesh/TriangleMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+/// A tetrahedron with its corner at the origin and legs of 30, 40 and 50 mm.
+meam::TriangleMesh tetrahedron()
+{
+  meam::TriangleMesh mesh;
+  mesh.vertices = { { 0, 0, 0 }, { 30, 0, 0 }, { 0, 40, 0 }, { 0, 0, 50 } };
+  mesh.triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
+  return mesh;
+}
+
+meam::BinSceneSettings small(int copies, unsigned seed = 1)
+{
+  meam::BinSceneSettings settings;
+  settings.copies = copies;
+  settings.seed = seed;
+  settings.width = 160;
+  settings.height = 120;
+  return settings;
+}
+
+bool same(const meam::Points& a, const meam::Points& b)
+{
+  // Bit by bit, NaN included.
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+}
+}
+
+TEST(BinScene, aCopyIsWhereItsPoseSays)
+{
+  meam::BinSceneSettings settings = small(1);
+  settings.quality.depthNoise = settings.quality.depthStep = 0.0;
+  const meam::BinScene scene = meam::simulateBin(tetrahedron(), settings);
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_DOUBLE_EQ(scene.instances[0].visibleFraction(), 1.0);
+  const Eigen::Isometry3d T_model_scene = scene.instances[0].T_scene_model.inverse();
+  int seen = 0;
+  for (std::size_t i = 0; i < scene.cloud.size(); ++i)
+  {
+    if (scene.instanceOfPixel[i] == 0 && scene.cloud.points[i].allFinite())
+    {
+      const Eigen::Vector3d p = T_model_scene * scene.cloud.points[i].cast<double>();
+      const double slanted = (p.x() / 30 + p.y() / 40 + p.z() / 50 - 1.0) / std::hypot(1.0 / 30, 1.0 / 40, 1.0 / 50);
+      // Signed distances to the faces, positive outside: on one of them, outside of none.
+      EXPECT_NEAR(std::max({ -p.x(), -p.y(), -p.z(), slanted }), 0.0, 1e-3);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 300);
+}
+
+TEST(BinScene, cloudAndImageAreOneGrid)
+{
+  meam::BinSceneSettings settings = small(3);
+  settings.sensorHeight = 700.0;
+  settings.binSize = 200.0;
+  const meam::BinScene scene = meam::simulateBin(tetrahedron(), settings);
+  EXPECT_EQ(scene.cloud.width, 160);
+  EXPECT_EQ(scene.cloud.height, 120);
+  EXPECT_EQ(scene.image.channels, 1);
+  EXPECT_EQ(scene.image.pixels.size(), 160u * 120u);
+  EXPECT_EQ(scene.camera.fx, scene.sensor.fx);
+  EXPECT_TRUE(scene.camera.T_camera_scene.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_EQ(scene.instanceOfPixel.size(), 160u * 120u);
+  EXPECT_EQ(scene.binSize, 200.0);
+  // Every point projects to its pixel, and nothing is below the floor.
+  for (std::size_t i = 0; i < scene.cloud.size(); ++i)
+  {
+    const Eigen::Vector3f& point = scene.cloud.points[i];
+    if (point.allFinite())
+    {
+      ASSERT_NEAR(scene.sensor.fx * point.x() / point.z() + 79.5, i % 160, 1e-3);
+      ASSERT_NEAR(scene.sensor.fy * point.y() / point.z() + 59.5, i / 160, 1e-3);
+      ASSERT_LT(point.z(), 700.0f + 1.0f);
+    }
+  }
+}
+
+TEST(BinScene, theTruthInTheImage)
+{
+  const meam::BinScene scene = meam::simulateBin(meam::makeSamplePart(), small(8));
+  ASSERT_EQ(scene.instances.size(), 8u);
+  int hidden = 0;
+  for (int i = 0; i < 8; ++i)
+  {
+    const meam::BinInstance& instance = scene.instances[i];
+    const meam::Mask& mask = instance.silhouette;
+    EXPECT_EQ(instance.visiblePixels, std::count(scene.instanceOfPixel.begin(), scene.instanceOfPixel.end(), i));
+    EXPECT_LE(instance.visiblePixels, mask.count());
+    EXPECT_DOUBLE_EQ(instance.visibleFraction(), static_cast<double>(instance.visiblePixels) / mask.count());
+    hidden += instance.visibleFraction() < 0.9;
+    // What is seen of it is in its silhouette.
+    for (int k = 0; k < 160 * 120; ++k)
+    {
+      if (scene.instanceOfPixel[k] == i)
+      {
+        const int column = k % 160 - mask.left;
+        const int row = k / 160 - mask.top;
+        ASSERT_TRUE(column >= 0 && column < mask.width && row >= 0 && row < mask.height);
+        EXPECT_EQ(mask.pixels[row * mask.width + column], 255);
+      }
+    }
+  }
+  EXPECT_GT(hidden, 0);
+}
+
+TEST(BinScene, aCameraBesideTakesTheImage)
+{
+  meam::BinSceneSettings settings = small(3);
+  settings.colored = true;
+  settings.baseline = 100.0;
+  settings.binSize = 150.0;
+  const meam::BinScene scene = meam::simulateBin(tetrahedron(), settings);
+  EXPECT_EQ(scene.image.channels, 3);
+  EXPECT_EQ(scene.image.pixels.size(), 3u * 160u * 120u);
+  const Eigen::Isometry3d T_scene_camera = scene.camera.T_camera_scene.inverse();
+  EXPECT_NEAR(T_scene_camera.translation().norm(), 100.0, 1e-9);
+  EXPECT_GT(scene.camera.fx, scene.sensor.fx);
+  // It looks at the middle of the floor.
+  const Eigen::Vector2d middle = meam::project(scene.camera, Eigen::Vector3d(0, 0, 450));
+  EXPECT_NEAR(middle.x(), scene.camera.cx, 1e-9);
+  EXPECT_NEAR(middle.y(), scene.camera.cy, 1e-9);
+  // The same copies lie there, which are brighter than the floor.
+  settings.baseline = 0.0;
+  const meam::BinScene registered = meam::simulateBin(tetrahedron(), settings);
+  EXPECT_EQ(registered.instances[2].T_scene_model.matrix(), scene.instances[2].T_scene_model.matrix());
+  for (const auto& instance : scene.instances)
+  {
+    const Eigen::Vector3d inside = instance.T_scene_model * Eigen::Vector3d(6, 8, 10);
+    const Eigen::Vector2d pixel = meam::project(scene.camera, inside);
+    const int at = static_cast<int>(std::lround(pixel.y())) * 160 + static_cast<int>(std::lround(pixel.x()));
+    EXPECT_GT(scene.image.pixels[3 * at + 1], 70);
+  }
+}
+
+TEST(BinScene, theSeedDecides)
+{
+  const meam::BinScene one = meam::simulateBin(tetrahedron(), small(4, 1));
+  const meam::BinScene again = meam::simulateBin(tetrahedron(), small(4, 1));
+  EXPECT_TRUE(same(one.cloud.points, again.cloud.points));
+  EXPECT_EQ(one.image.pixels, again.image.pixels);
+  EXPECT_EQ(one.instances[3].T_scene_model.matrix(), again.instances[3].T_scene_model.matrix());
+  EXPECT_NE(one.instances[3].T_scene_model.matrix(),
+    meam::simulateBin(tetrahedron(), small(4, 2)).instances[3].T_scene_model.matrix());
+}
+
+TEST(BinScene, badInput)
+{
+  EXPECT_THROW(meam::simulateBin({}), meam::Error);
+  meam::TriangleMesh point = tetrahedron();
+  point.vertices.assign(4, Eigen::Vector3f(1, 2, 3));
+  EXPECT_THROW(meam::simulateBin(point), meam::Error);
+  const auto fails = [](const auto& change)
+  {
+    meam::BinSceneSettings settings = small(2);
+    change(settings);
+    EXPECT_THROW(meam::simulateBin(tetrahedron(), settings), meam::Error);
+  };
+  fails([](auto& s) { s.copies = 0; });
+  fails([](auto& s) { s.width = 0; });
+  fails([](auto& s) { s.height = 100000; });
+  fails([](auto& s) { s.binSize = 10.0; });
+  fails([](auto& s) { s.binSize = 1e9; });
+  fails([](auto& s) { s.sensorHeight = 20.0; });
+  fails([](auto& s) { s.baseline = -1.0; });
+  fails([](auto& s) { s.quality.dropout = 1.5; });
+  EXPECT_THROW(meam::simulateBin(tetrahedron(), small(2), [](double) { return false; }), meam::Aborted);
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestVirtualCamera.h"
+
+#include "simulation/VirtualSensor.h"
+#include "mesh/TriangleMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+using namespace meam::test;
+
+namespace
+{
+/// A sensor that makes no errors.
+meam::SensorQuality perfect()
+{
+  meam::SensorQuality quality;
+  quality.depthNoise = quality.depthStep = quality.dropout = quality.jumpDropout = 0.0;
+  quality.imageNoise = quality.imageBlur = 0.0;
+  quality.matchingWindow = 1;
+  return quality;
+}
+
+meam::OrganizedCloud measure(const std::vector<meam::Body>& bodies, const meam::SensorQuality& quality)
+{
+  meam::Random random(1);
+  return meam::measureDepth(meam::rasterize(meam::facetsOf(bodies), Floor, camera()), camera(), quality, random);
+}
+
+/// The standard deviation of the depth of a plate at z.
+double noiseAt(double z, double depthNoise)
+{
+  const meam::TriangleMesh mesh = plate(1e5f);
+  meam::SensorQuality quality = perfect();
+  quality.depthNoise = depthNoise;
+  meam::Body body = at(mesh, 0.0, z);
+  body.T_scene_model.linear() *= 100.0; // fills the view
+  double squares = 0.0;
+  const meam::OrganizedCloud cloud = measure({ body }, quality);
+  for (const auto& point : cloud.points)
+  {
+    squares += (point.z() - z) * (point.z() - z);
+  }
+  return std::sqrt(squares / cloud.size());
+}
+
+int missing(const meam::OrganizedCloud& cloud)
+{
+  return static_cast<int>(
+    std::count_if(cloud.points.begin(), cloud.points.end(), [](const auto& p) { return std::isnan(p.x()); }));
+}
+}
+
+TEST(VirtualSensor, aPerfectOneMeasuresWhatIsThere)
+{
+  const meam::TriangleMesh mesh = plate();
+  const meam::OrganizedCloud cloud = measure({ at(mesh, 0.0, 500.0) }, perfect());
+  ASSERT_EQ(cloud.width, 101);
+  ASSERT_EQ(cloud.size(), 101u * 101u);
+  EXPECT_EQ(missing(cloud), 0);
+  EXPECT_EQ(cloud.points[Middle], Eigen::Vector3f(0, 0, 500));
+  EXPECT_TRUE(cloud.points[Middle + 10].isApprox(Eigen::Vector3f(50, 0, 500)));
+  EXPECT_TRUE(cloud.points[Middle + 11].isApprox(Eigen::Vector3f(110, 0, 1000)));
+}
+
+TEST(VirtualSensor, noiseGrowsWithTheSquareOfTheDistance)
+{
+  EXPECT_NEAR(noiseAt(900.0, 0.3), 0.3 * 0.81, 0.01);
+  EXPECT_NEAR(noiseAt(450.0, 0.3), 0.3 * 0.2025, 0.0025);
+}
+
+TEST(VirtualSensor, depthComesInSteps)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = perfect();
+  quality.depthNoise = 1.0;
+  quality.depthStep = 0.25;
+  int different = 0;
+  for (const auto& point : measure({ at(mesh, 0.0, 900.0, 0.3) }, quality).points)
+  {
+    EXPECT_NEAR(std::remainder(point.z(), 0.25), 0.0, 1e-4);
+    different += std::abs(point.z() - 900.0) > 0.2 && std::abs(point.z() - 1000.0) > 0.2;
+  }
+  EXPECT_GT(different, 100);
+}
+
+TEST(VirtualSensor, dropouts)
+{
+  meam::SensorQuality quality = perfect();
+  quality.dropout = 0.3;
+  EXPECT_NEAR(missing(measure({}, quality)) / 10201.0, 0.3, 0.02);
+  quality.dropout = 1.0;
+  EXPECT_EQ(missing(measure({}, quality)), 10201);
+}
+
+TEST(VirtualSensor, nothingComesFromFlatViews)
+{
+  const meam::TriangleMesh mesh = plate();
+  // To the left of the view's middle and tilted so that its middle is seen at 4 degrees.
+  const double tilt = std::atan2(100.0, 500.0) + (90.0 - 4.0) * M_PI / 180.0;
+  const meam::View view = meam::rasterize(meam::facetsOf({ at(mesh, -100.0, 500.0, -tilt) }), Floor, camera());
+  const meam::OrganizedCloud cloud = measure({ at(mesh, -100.0, 500.0, -tilt) }, perfect());
+  int seen = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    EXPECT_EQ(std::isnan(cloud.points[i].z()), view.bodies[i] == 0);
+    seen += view.bodies[i] == 0;
+  }
+  EXPECT_GT(seen, 10);
+}
+
+TEST(VirtualSensor, jumpsLosePoints)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = perfect();
+  quality.jumpDropout = 1.0;
+  // The border of a square of 21 x 21 pixels, and the pixels around it.
+  EXPECT_EQ(missing(measure({ at(mesh, 0.0, 500.0) }, quality)), 4 * 20 + 4 * 22);
+  quality.jumpDropout = 0.5;
+  EXPECT_NEAR(missing(measure({ at(mesh, 0.0, 500.0) }, quality)), 84, 25);
+}
+
+TEST(VirtualSensor, thinRidgesAreLostAndWideOnesAreNot)
+{
+  meam::SensorQuality quality = perfect();
+  quality.matchingWindow = 9;
+  const auto middleIsLost = [&](float height, double z)
+  {
+    const meam::TriangleMesh ridge = plate(height);
+    return std::isnan(measure({ at(ridge, 0.0, z) }, quality).points[Middle].z());
+  };
+  // 3 pixels of 5 mm, then 7.
+  EXPECT_TRUE(middleIsLost(14.0f, 500.0));
+  EXPECT_FALSE(middleIsLost(34.0f, 500.0));
+  // One that rises by less than the sensor can tell is no ridge.
+  EXPECT_FALSE(middleIsLost(28.0f, 985.0));
+  // A slanted plate is not lost, its straight border neither.
+  const meam::TriangleMesh mesh = plate();
+  const meam::OrganizedCloud cloud = measure({ at(mesh, 0.0, 500.0, 0.9) }, quality);
+  EXPECT_FALSE(std::isnan(cloud.points[Middle].z()));
+  EXPECT_FALSE(std::isnan(cloud.points[Middle - 10 * 101].z()));
+}
+
+TEST(VirtualSensor, anImageIsNoisyAndBlurred)
+{
+  std::vector<Eigen::Vector3f> light(101 * 101, Eigen::Vector3f(0.6f, 0.4f, 0.2f));
+  meam::Random random(1);
+  const meam::Image colored = meam::takeImage(light, camera(), true, perfect(), random);
+  ASSERT_EQ(colored.channels, 3);
+  ASSERT_EQ(colored.pixels.size(), 3u * 101u * 101u);
+  EXPECT_EQ(colored.pixels[3 * Middle], 153);
+  EXPECT_EQ(colored.pixels[3 * Middle + 1], 102);
+  EXPECT_EQ(colored.pixels[3 * Middle + 2], 51);
+
+  light.assign(101 * 101, Eigen::Vector3f::Constant(0.4f));
+  light[Middle].setConstant(0.8f);
+  meam::SensorQuality quality = perfect();
+  quality.imageBlur = 1.0;
+  const meam::Image blurred = meam::takeImage(light, camera(), false, quality, random);
+  ASSERT_EQ(blurred.channels, 1);
+  EXPECT_NEAR(blurred.pixels[Middle], 102 + 102 * 0.16, 1.5);
+  EXPECT_NEAR(blurred.pixels[Middle + 1], 102 + 102 * 0.097, 1.5);
+  EXPECT_EQ(blurred.pixels[Middle + 20], 102);
+
+  quality = perfect();
+  quality.imageNoise = 3.0;
+  const meam::Image noisy = meam::takeImage(light, camera(), false, quality, random);
+  double squares = 0.0;
+  for (const std::uint8_t value : noisy.pixels)
+  {
+    squares += (value - 102.0) * (value - 102.0);
+  }
+  EXPECT_NEAR(std::sqrt(squares / noisy.pixels.size()), 3.2, 0.3);
+}
+
+TEST(VirtualSensor, badInput)
+{
+  const auto fails = [](const auto& change)
+  {
+    meam::SensorQuality quality;
+    meam::requireQuality(quality);
+    change(quality);
+    EXPECT_THROW(meam::requireQuality(quality), meam::Error);
+  };
+  fails([](auto& q) { q.depthNoise = -1.0; });
+  fails([](auto& q) { q.depthStep = std::nan(""); });
+  fails([](auto& q) { q.dropout = 1.5; });
+  fails([](auto& q) { q.jumpDropout = -0.1; });
+  fails([](auto& q) { q.matchingWindow = 0; });
+  fails([](auto& q) { q.imageBlur = 1e9; });
+  const meam::View view = meam::rasterize({}, Floor, camera());
+  meam::Random random(1);
+  EXPECT_THROW(
+    meam::measureDepth(view, camera(), meam::SensorQuality(), random, [](double) { return false; }), meam::Aborted);
+}
