@@ -2,7 +2,12 @@
 #include "vtkMEAMBOPEvaluation.h"
 
 #include "evaluation/BOPEvaluation.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSymmetryConversion.h"
 #include "vtkMEAMSceneTime.h"
 
 #include "vtkDoubleArray.h"

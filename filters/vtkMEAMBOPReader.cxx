@@ -2,7 +2,10 @@
 #include "vtkMEAMBOPReader.h"
 
 #include "io/BOPDataset.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -2,7 +2,8 @@
 #include "vtkMEAMBackgroundRemoval.h"
 
 #include "scene/BackgroundRemoval.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"

@@ -4,7 +4,11 @@
 #include "mesh/ConvexHull.h"
 #include "simulation/BinScene.h"
 #include "simulation/SamplePart.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

@@ -2,7 +2,9 @@
 #include "vtkMEAMBoundaryExtraction.h"
 
 #include "model/BoundaryExtraction.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

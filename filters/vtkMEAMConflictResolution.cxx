@@ -2,7 +2,10 @@
 #include "vtkMEAMConflictResolution.h"
 
 #include "pose/selection/ConflictResolution.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneTime.h"
 
 #include "vtkDoubleArray.h"

@@ -2,7 +2,11 @@
 #include "vtkMEAMHashing.h"
 
 #include "model/MEAMHashing.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

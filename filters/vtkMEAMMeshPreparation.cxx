@@ -2,7 +2,9 @@
 #include "vtkMEAMMeshPreparation.h"
 
 #include "mesh/preparation/MeshPreparation.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of vtkMEAMConversion.h that deals with collections: appearance models and the trained model.
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMModelConversion.h"
+
+#include "base/Error.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

@@ -2,7 +2,8 @@
 #include "vtkMEAMOFFReader.h"
 
 #include "io/OFFFile.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"

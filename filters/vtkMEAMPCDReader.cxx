@@ -2,7 +2,8 @@
 #include "vtkMEAMPCDReader.h"
 
 #include "io/PCDFile.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

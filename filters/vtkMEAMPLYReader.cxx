@@ -4,7 +4,8 @@
 #include "io/CameraFile.h"
 #include "io/PLYFile.h"
 #include "scene/CloudOrganization.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

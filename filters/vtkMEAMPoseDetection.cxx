@@ -2,7 +2,13 @@
 #include "vtkMEAMPoseDetection.h"
 
 #include "pose/voting/PoseDetection.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMSceneConversion.h"
+#include "vtkMEAMSceneEdgeConversion.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

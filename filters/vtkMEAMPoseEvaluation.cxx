@@ -2,7 +2,11 @@
 #include "vtkMEAMPoseEvaluation.h"
 
 #include "evaluation/PoseEvaluation.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMSymmetryConversion.h"
 #include "vtkMEAMSceneTime.h"
 
 #include "vtkDoubleArray.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseInstances.h"
 
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellData.h"

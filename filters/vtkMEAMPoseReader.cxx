@@ -2,7 +2,8 @@
 #include "vtkMEAMPoseReader.h"
 
 #include "io/PoseFile.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"

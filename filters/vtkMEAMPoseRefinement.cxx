@@ -2,7 +2,11 @@
 #include "vtkMEAMPoseRefinement.h"
 
 #include "pose/refinement/PoseRefinement.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneTime.h"
 
 #include "vtkInformation.h"

@@ -2,7 +2,8 @@
 #include "vtkMEAMPoseWriter.h"
 
 #include "io/PoseFile.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"

@@ -4,7 +4,9 @@
 #include "mesh/ConvexHull.h"
 #include "simulation/ExampleParts.h"
 #include "simulation/SamplePart.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of vtkMEAMConversion.h that deals with what sensors measure.
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMScanConversion.h"
 
+#include "base/Error.h"
 #include "io/CameraFile.h"
 #include "scene/MeasuredCloud.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMCloudConversion.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
@@ -14,11 +20,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 namespace vtkMEAMConversion
 {
 namespace
 {
+using meam::Error;
+
+/// Values of an 8 bit image from an array of any type.
+std::vector<std::uint8_t> toPixels(vtkDataArray* array, int channels)
+{
+  const vtkIdType count = array->GetNumberOfTuples();
+  const int components = array->GetNumberOfComponents();
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(count) * channels);
+  auto* bytes = vtkUnsignedCharArray::FastDownCast(array);
+  // 16 bit images use their whole range.
+  const double scale = array->GetDataType() == VTK_UNSIGNED_SHORT ? 1.0 / 257.0 : 1.0;
+  std::size_t place = 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    for (int c = 0; c < channels; ++c)
+    {
+      if (bytes)
+      {
+        pixels[place++] = *bytes->GetPointer(i * components + c);
+        continue;
+      }
+      const double value = std::round(scale * array->GetComponent(i, c));
+      if (!(value >= 0.0 && value <= 255.0))
+      {
+        throw Error("The image has the value " + std::to_string(value) + ": grey values and colours go from 0 to 255.");
+      }
+      pixels[place++] = static_cast<std::uint8_t>(value);
+    }
+  }
+  return pixels;
+}
+
 vtkSmartPointer<vtkUnsignedCharArray> newBytes(const char* name, int components, std::size_t tuples)
 {
   auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
@@ -73,6 +113,139 @@ void addNormals(const meam::Points& normals, vtkDataSet* output)
   }
   output->GetPointData()->SetNormals(array);
 }
+}
+
+void requireLayer(vtkStructuredGrid* grid)
+{
+  int size[3];
+  grid->GetDimensions(size);
+  const vtkIdType count = grid->GetNumberOfPoints();
+  if (count > 0 && (size[2] != 1 || static_cast<vtkIdType>(size[0]) * size[1] != count))
+  {
+    throw Error("The scene is a grid of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
+                std::to_string(size[2]) + " points: an organized cloud is width x height x 1.");
+  }
+}
+
+meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input)
+{
+  meam::OrganizedCloud cloud;
+  requireLayer(input);
+  int size[3];
+  input->GetDimensions(size);
+  const vtkIdType count = input->GetNumberOfPoints();
+  if (count == 0 || !input->GetPoints() || input->GetPoints()->GetNumberOfPoints() != count)
+  {
+    return cloud;
+  }
+  cloud.width = size[0];
+  cloud.height = size[1];
+  cloud.points = toVectors<float>(input->GetPoints()->GetData());
+  if (vtkUnsignedCharArray* ghosts = ghostsOf(input))
+  {
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+    {
+      if (isHidden(ghosts, i))
+      {
+        cloud.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+      }
+    }
+  }
+  return cloud;
+}
+
+void fromOrganizedCloud(const meam::OrganizedCloud& cloud, vtkStructuredGrid* output)
+{
+  output->SetDimensions(cloud.width, cloud.height, 1);
+  output->SetPoints(toVTKPoints(cloud.points));
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfTuples(static_cast<vtkIdType>(cloud.size()));
+  bool anyHidden = false;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const bool hidden = !cloud.points[i].allFinite();
+    *ghosts->GetPointer(static_cast<vtkIdType>(i)) = hidden ? vtkDataSetAttributes::HIDDENPOINT : 0;
+    anyHidden = anyHidden || hidden;
+  }
+  if (anyHidden)
+  {
+    output->GetPointData()->AddArray(ghosts);
+  }
+}
+
+meam::Image imageOfCloud(vtkStructuredGrid* input)
+{
+  meam::Image image;
+  int size[3];
+  input->GetDimensions(size);
+  image.width = size[0];
+  image.height = size[1];
+  vtkDataArray* pixels = pointArray(input, "Intensity", 1);
+  if (!pixels)
+  {
+    pixels = pointArray(input, "RGB", 3);
+    image.channels = 3;
+  }
+  if (!pixels)
+  {
+    throw Error(
+      "The scene has no image: it needs the point array 'Intensity' or 'RGB', or connect the sensor's image.");
+  }
+  image.pixels = toPixels(pixels, image.channels);
+  return image;
+}
+
+meam::Image toImage(vtkImageData* input)
+{
+  meam::Image image;
+  int size[3];
+  input->GetDimensions(size);
+  vtkDataArray* scalars = input->GetPointData()->GetScalars();
+  if (!scalars && input->GetPointData()->GetNumberOfArrays() == 1)
+  {
+    scalars = input->GetPointData()->GetArray(0);
+  }
+  if (!scalars || scalars->GetNumberOfTuples() == 0)
+  {
+    throw Error("The image has no pixels: check the file.");
+  }
+  if (size[2] != 1)
+  {
+    throw Error("The image has " + std::to_string(size[2]) + " layers: one is expected.");
+  }
+  const int components = scalars->GetNumberOfComponents();
+  if (components != 1 && components != 3 && components != 4)
+  {
+    throw Error("The image has " + std::to_string(components) + " components: 1 (grey), 3 or 4 (colour) are expected.");
+  }
+  image.width = size[0];
+  image.height = size[1];
+  image.channels = components == 1 ? 1 : 3;
+  const std::vector<std::uint8_t> upwards = toPixels(scalars, image.channels);
+  const std::size_t row = static_cast<std::size_t>(image.width) * image.channels;
+  image.pixels.reserve(upwards.size());
+  for (int y = image.height - 1; y >= 0; --y)
+  {
+    image.pixels.insert(image.pixels.end(), upwards.begin() + y * row, upwards.begin() + (y + 1) * row);
+  }
+  return image;
+}
+
+void fromImage(const meam::Image& image, vtkImageData* output)
+{
+  output->SetDimensions(image.width, image.height, 1);
+  vtkNew<vtkUnsignedCharArray> scalars;
+  scalars->SetName(image.channels == 1 ? "Intensity" : "RGB");
+  scalars->SetNumberOfComponents(image.channels);
+  scalars->SetNumberOfTuples(static_cast<vtkIdType>(image.width) * image.height);
+  const std::size_t row = static_cast<std::size_t>(image.width) * image.channels;
+  for (int y = 0; y < image.height; ++y)
+  {
+    std::copy(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
+      scalars->GetPointer(0) + (image.height - 1 - y) * row);
+  }
+  output->GetPointData()->SetScalars(scalars);
 }
 
 void fromMeasuredCloud(const meam::MeasuredCloud& measured, vtkPointSet* output)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of vtkMEAMConversion.h that deals with a scene's edges and the camera that took its image.
+#include "vtkMEAMSceneEdgeConversion.h"
+
 #include "io/CameraFile.h"
 #include "pose/voting/PoseDetection.h"
 #include "scene/edges/SceneEdgeExtraction.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMCloudConversion.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"

@@ -2,7 +2,9 @@
 #include "vtkMEAMSceneEdgeExtraction.h"
 
 #include "scene/edges/SceneEdgeExtraction.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSceneEdgeConversion.h"
 #include "vtkMEAMSceneTime.h"
 
 #include "vtkImageData.h"

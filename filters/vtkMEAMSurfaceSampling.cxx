@@ -3,7 +3,10 @@
 
 #include "mesh/ConvexHull.h"
 #include "mesh/SurfaceSampling.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"

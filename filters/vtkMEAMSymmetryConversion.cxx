@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of vtkMEAMConversion.h that deals with symmetries.
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMSymmetryConversion.h"
+
+#include "base/Error.h"
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"

@@ -4,7 +4,10 @@
 #include "io/ModelsInfo.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/SymmetryDetection.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"

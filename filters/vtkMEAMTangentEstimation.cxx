@@ -2,7 +2,11 @@
 #include "vtkMEAMTangentEstimation.h"
 
 #include "features/TangentEstimation.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMSceneConversion.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

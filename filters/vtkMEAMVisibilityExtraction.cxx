@@ -2,7 +2,10 @@
 #include "vtkMEAMVisibilityExtraction.h"
 
 #include "model/VisibilityExtraction.h"
-#include "vtkMEAMConversion.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMRun.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMArrays.h"
+
+#include "base/Error.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace vtkMEAMConversion
+{
+namespace
+{
+using meam::Error;
+
+template <typename Scalar>
+using Vectors = std::vector<Eigen::Matrix<Scalar, 3, 1>>;
+
+/// Three components of each tuple; VTK's own accessors are too slow for a scan.
+template <typename T, typename Scalar>
+void copyTuples(const T* values, Vectors<Scalar>& points)
+{
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = { static_cast<Scalar>(values[3 * i]), static_cast<Scalar>(values[3 * i + 1]),
+      static_cast<Scalar>(values[3 * i + 2]) };
+  }
+}
+}
+
+std::string quoted(const char* name) { return std::string("'") + name + "'"; }
+
+template <typename Scalar>
+std::vector<Eigen::Matrix<Scalar, 3, 1>> toVectors(vtkDataArray* array)
+{
+  Vectors<Scalar> points(array->GetNumberOfTuples());
+  if (auto* floats = vtkFloatArray::FastDownCast(array))
+  {
+    copyTuples(floats->GetPointer(0), points);
+  }
+  else if (auto* doubles = vtkDoubleArray::FastDownCast(array))
+  {
+    copyTuples(doubles->GetPointer(0), points);
+  }
+  else
+  {
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      double tuple[3];
+      array->GetTuple(static_cast<vtkIdType>(i), tuple);
+      points[i] = Eigen::Vector3d(tuple[0], tuple[1], tuple[2]).cast<Scalar>();
+    }
+  }
+  return points;
+}
+
+template std::vector<Eigen::Vector3f> toVectors<float>(vtkDataArray*);
+template std::vector<Eigen::Vector3d> toVectors<double>(vtkDataArray*);
+
+vtkSmartPointer<vtkFloatArray> fromVectors(const meam::Points& points, const char* name)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(points.size()));
+  float* values = array->GetPointer(0);
+  for (const auto& point : points)
+  {
+    values = std::copy(point.data(), point.data() + 3, values);
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkPoints> toVTKPoints(const meam::Points& points)
+{
+  auto result = vtkSmartPointer<vtkPoints>::New();
+  result->SetData(fromVectors(points, "Points"));
+  return result;
+}
+
+/// The point array of that name, or null; throws when its shape is another one.
+vtkDataArray* pointArray(vtkDataSet* input, const char* name, int components)
+{
+  vtkDataArray* array = input->GetPointData()->GetArray(name);
+  if (array &&
+      (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != input->GetNumberOfPoints()))
+  {
+    throw Error("The point array " + quoted(name) + " must have " + std::to_string(components) +
+                " components for each point: it was not made by the step before this one.");
+  }
+  return array;
+}
+
+/// Which points of a data set are blanked; null when none is.
+vtkUnsignedCharArray* ghostsOf(vtkDataSet* input)
+{
+  return vtkUnsignedCharArray::SafeDownCast(input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+}
+
+bool isHidden(vtkUnsignedCharArray* ghosts, std::size_t i)
+{
+  const auto id = static_cast<vtkIdType>(i);
+  return id < ghosts->GetNumberOfTuples() && (*ghosts->GetPointer(id) & vtkDataSetAttributes::HIDDENPOINT);
+}
+
+void addVertices(vtkPolyData* output)
+{
+  const vtkIdType count = output->GetNumberOfPoints();
+  const auto numbers = [](vtkIdType last)
+  {
+    auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+    ids->SetNumberOfTuples(last);
+    std::iota(ids->GetPointer(0), ids->GetPointer(0) + last, 0);
+    return ids;
+  };
+  vtkNew<vtkCellArray> vertices;
+  vertices->SetData(numbers(count + 1), numbers(count));
+  output->SetVerts(vertices);
+}
+
+double diameterOf(vtkDataObject* input)
+{
+  vtkFieldData* fields = input ? input->GetFieldData() : nullptr;
+  vtkDataArray* array = fields ? fields->GetArray("Diameter") : nullptr;
+  const double value = array && array->GetNumberOfValues() == 1 ? array->GetComponent(0, 0) : 0.0;
+  return value > 0.0 && std::isfinite(value) ? value : 0.0;
+}
+
+void setDiameter(vtkDataObject* output, double diameter) { setFieldValue(output, "Diameter", diameter); }
+
+void setFieldValue(vtkDataObject* output, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+}

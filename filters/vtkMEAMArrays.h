@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Arrays and field data of VTK data objects, for the conversions between these and the core. Not wrapped.
+ */
+#ifndef vtkMEAMArrays_h
+#define vtkMEAMArrays_h
+
+#include "base/PointCloud.h"
+
+#include "vtkDataArray.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <string>
+
+class vtkDataObject;
+class vtkDataSet;
+class vtkFloatArray;
+class vtkPoints;
+class vtkPolyData;
+
+namespace vtkMEAMConversion
+{
+std::string quoted(const char* name);
+
+/// Three components of each tuple, of an array of any type.
+template <typename Scalar>
+std::vector<Eigen::Matrix<Scalar, 3, 1>> toVectors(vtkDataArray* array);
+vtkSmartPointer<vtkFloatArray> fromVectors(const meam::Points& points, const char* name);
+vtkSmartPointer<vtkPoints> toVTKPoints(const meam::Points& points);
+
+/// The point array of that name, or null; throws when its shape is another one.
+vtkDataArray* pointArray(vtkDataSet* input, const char* name, int components);
+
+/// Which points of a data set are blanked; null when none is.
+vtkUnsignedCharArray* ghostsOf(vtkDataSet* input);
+bool isHidden(vtkUnsignedCharArray* ghosts, std::size_t i);
+
+/// A vertex cell for each point.
+void addVertices(vtkPolyData* output);
+
+/// d_max in mm travels with the part from step to step as the field data `Diameter`; 0 when it is not there.
+double diameterOf(vtkDataObject* input);
+void setDiameter(vtkDataObject* output, double diameter);
+/// A number as field data; replaces an array of that name.
+void setFieldValue(vtkDataObject* output, const char* name, double value);
+}
+
+#endif

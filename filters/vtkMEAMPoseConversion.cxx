@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPoseConversion.h"
+
+#include "base/Error.h"
+#include "vtkMEAMArrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <string>
+
+namespace vtkMEAMConversion
+{
+namespace
+{
+constexpr double ExactRotation = 1e-9; // of a file with few decimals it is not
+
+using meam::Error;
+}
+
+meam::Poses toPoses(vtkPolyData* input)
+{
+  meam::Poses poses;
+  const vtkIdType count = input->GetNumberOfPoints();
+  if (count == 0)
+  {
+    return poses;
+  }
+  vtkDataArray* transforms = pointArray(input, "Transform", 16);
+  if (!transforms)
+  {
+    throw Error("The poses have no point array 'Transform' of 16 components: use the output of PoseDetection or of a "
+                "pose file.");
+  }
+  vtkDataArray* scores = pointArray(input, "Score", 1);
+  vtkDataArray* votes = pointArray(input, "Votes", 1);
+  vtkDataArray* views = pointArray(input, "ViewId", 1);
+  vtkDataArray* fractions = pointArray(input, "VisibleFraction", 1);
+  vtkDataArray* certainties = pointArray(input, "Certainty", 1);
+  vtkDataArray* probabilities = pointArray(input, "Probability", 1);
+  vtkDataArray* residuals = pointArray(input, "Residual", 1);
+  vtkDataArray* iterations = pointArray(input, "Iterations", 1);
+  vtkDataArray* covariances = pointArray(input, "Covariance", 36);
+  vtkDataArray* constrained = pointArray(input, "ConstrainedDegreesOfFreedom", 1);
+  vtkDataArray* axes = pointArray(input, "ConstrainedAxes", 6);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix;
+    transforms->GetTuple(i, matrix.data());
+    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+    if (!matrix.allFinite() || !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-6) ||
+        !(rotation.transpose() * rotation).isIdentity(1e-3) || rotation.determinant() < 0.0)
+    {
+      throw Error("Pose " + std::to_string(i) +
+                  " is not a rotation and a translation: 'Transform' has to be 4 x 4, "
+                  "row by row, with the last row 0 0 0 1.");
+    }
+    meam::Pose pose;
+    pose.T_scene_model.matrix() = matrix;
+    if (!(rotation.transpose() * rotation).isIdentity(ExactRotation))
+    {
+      pose.T_scene_model.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+    }
+    pose.score = scores ? scores->GetComponent(i, 0) : 0.0;
+    pose.votes = votes ? static_cast<int>(votes->GetComponent(i, 0)) : 0;
+    pose.viewId = views ? static_cast<int>(views->GetComponent(i, 0)) : -1;
+    pose.visibleFraction = fractions ? fractions->GetComponent(i, 0) : 0.0;
+    pose.certainty = certainties ? certainties->GetComponent(i, 0) : 1.0;
+    pose.probability = probabilities ? probabilities->GetComponent(i, 0) : 0.0;
+    if (residuals && iterations && covariances && constrained && axes)
+    {
+      pose.fit.residual = residuals->GetComponent(i, 0);
+      pose.fit.iterations = static_cast<int>(iterations->GetComponent(i, 0));
+      covariances->GetTuple(i, pose.fit.covariance.data());
+      pose.fit.constrained = static_cast<int>(constrained->GetComponent(i, 0));
+      axes->GetTuple(i, pose.fit.constrainedAxes.data());
+    }
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+void fromPoses(const meam::Poses& poses, vtkPolyData* output)
+{
+  const auto count = static_cast<vtkIdType>(poses.size());
+  const auto doubles = [&](const char* name, int components)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(count);
+    output->GetPointData()->AddArray(array);
+    return array->GetPointer(0); // the point data keeps it
+  };
+  const auto integers = [&](const char* name)
+  {
+    vtkNew<vtkIntArray> array;
+    array->SetName(name);
+    array->SetNumberOfTuples(count);
+    output->GetPointData()->AddArray(array);
+    return array->GetPointer(0);
+  };
+  double* transform = doubles("Transform", 16);
+  double* quaternion = doubles("Quaternion", 4);
+  double* score = doubles("Score", 1);
+  double* probability = doubles("Probability", 1);
+  int* votes = integers("Votes");
+  int* view = integers("ViewId");
+  double* fraction = doubles("VisibleFraction", 1);
+  double* certainty = doubles("Certainty", 1);
+  int* rank = integers("Rank");
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const meam::Pose& pose = poses[i];
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(transform + 16 * i) = pose.T_scene_model.matrix();
+    Eigen::Quaterniond turn(pose.T_scene_model.linear());
+    turn.normalize();
+    if (turn.w() < 0.0)
+    {
+      turn.coeffs() *= -1.0;
+    }
+    Eigen::Map<Eigen::Vector4d>(quaternion + 4 * i) = turn.coeffs(); // x y z w
+    score[i] = pose.score;
+    votes[i] = pose.votes;
+    view[i] = pose.viewId;
+    fraction[i] = pose.visibleFraction;
+    certainty[i] = pose.certainty;
+    probability[i] = pose.probability;
+    rank[i] = static_cast<int>(i) + 1;
+    points->SetPoint(i, pose.T_scene_model.translation().data());
+  }
+  if (std::any_of(poses.begin(), poses.end(), [](const meam::Pose& pose) { return pose.fit.iterations > 0; }))
+  {
+    double* residual = doubles("Residual", 1);
+    int* iterations = integers("Iterations");
+    double* covariance = doubles("Covariance", 36);
+    int* constrained = integers("ConstrainedDegreesOfFreedom");
+    double* axes = doubles("ConstrainedAxes", 6);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const meam::PoseFit& fit = poses[i].fit;
+      residual[i] = fit.residual;
+      iterations[i] = fit.iterations;
+      Eigen::Map<Eigen::Matrix<double, 6, 6>>(covariance + 36 * i) = fit.covariance; // symmetric
+      constrained[i] = fit.constrained;
+      Eigen::Map<Eigen::Matrix<double, 6, 1>>(axes + 6 * i) = fit.constrainedAxes;
+    }
+  }
+  output->SetPoints(points);
+  addVertices(output);
+  output->GetPointData()->SetActiveScalars("Score");
+}
+}

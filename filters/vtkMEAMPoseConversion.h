@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Poses between VTK's data objects and the core. Not wrapped.
+ */
+#ifndef vtkMEAMPoseConversion_h
+#define vtkMEAMPoseConversion_h
+
+#include "pose/Pose.h"
+
+class vtkPolyData;
+
+namespace vtkMEAMConversion
+{
+/// One vertex for each pose, best first: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w),
+/// `Score`, `Probability`, `Votes`, `ViewId`, `VisibleFraction`, `Certainty`, `Rank` (from 1); of refined poses `Residual`,
+/// `Iterations`, `Covariance` (36), `ConstrainedDegreesOfFreedom` and `ConstrainedAxes` (6).
+meam::Poses toPoses(vtkPolyData* input);
+void fromPoses(const meam::Poses& poses, vtkPolyData* output);
+}
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What the filters that find poses know of a scene: edge points, surface, sensor. Not wrapped.
+ */
+#ifndef vtkMEAMSceneConversion_h
+#define vtkMEAMSceneConversion_h
+
+#include "base/LocalFrame.h"
+#include "scene/Scene.h"
+
+class vtkDataSet;
+class vtkPointSet;
+
+namespace vtkMEAMConversion
+{
+/// The property `Projection` of the filters that need to know where the scene is seen from.
+enum Projection
+{
+  AutomaticProjection,    ///< perspective from the origin along +z for an organized cloud, otherwise orthographic
+  OrthographicProjection, ///< along the view direction
+  PerspectiveProjection   ///< from the sensor position, looking along the view direction
+};
+
+/// Where the scene is seen from; `surface` may be null. Throws Error for a view direction of zero.
+meam::Sensor sensorOf(
+  int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
+/// Finite edge points with `Tangent`, and `Weight` where it is there. Throws Error without points or tangents.
+meam::PreciseCloud edgesOf(vtkPointSet* input);
+/// The points that a sensor measured, but for blanked ones; none for null. Throws Error, naming `what`, without points and
+/// for a grid that is not a single layer.
+meam::FramedPoints surfaceOf(vtkDataSet* input, const char* what, int threads);
+/// Both, for the filters that judge poses.
+meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor, int threads);
+}
+
+#endif

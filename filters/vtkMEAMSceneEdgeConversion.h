@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A scene's edges, and the camera that took its image, between VTK's data objects and the core. Not wrapped.
+ */
+#ifndef vtkMEAMSceneEdgeConversion_h
+#define vtkMEAMSceneEdgeConversion_h
+
+#include "scene/Camera.h"
+#include "scene/OrganizedCloud.h"
+
+#include <optional>
+
+namespace meam
+{
+struct SceneEdges;
+}
+class vtkDataArray;
+class vtkImageData;
+class vtkPointSet;
+class vtkPolyData;
+
+namespace vtkMEAMConversion
+{
+/// The camera beside the sensor that took an image: from a calibration file, when one is named, otherwise from the
+/// image's field data `CameraMatrix` (9, row-major, pixels) and `CameraPose` (16, row-major T_camera_scene, mm). None
+/// when neither is there, and when the field data say that the image is registered with the cloud. `image` may be null.
+std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, const meam::OrganizedCloud& cloud);
+/// Edge points as fromCloud() has them, and the point array `EdgeSource`.
+void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output);
+/// Their point array `EdgeSource`; null for edge points that were not found in a scan.
+vtkDataArray* edgeSourcesOf(vtkPointSet* edges);
+/// P_ref: of edges found in a scan more than of others.
+double referenceShareOf(vtkPolyData* edges);
+}
+
+#endif
