@@ -23,7 +23,7 @@ def judged(folder, part, scenes, noises, with_surface, threads):
 
     def choose(chain):
         if not with_surface:
-            chain.on_surface.clear()
+            chain.without_surface += chain.on_poses
 
     run = evaluation.Chain(model, choose, 0, threads)
     rows = []

@@ -34,6 +34,8 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
+#include <memory>
+
 namespace meam
 {
 struct MEAMHashingSettings;
@@ -127,13 +129,16 @@ public:
 
 protected:
   vtkMEAMHashing();
-  ~vtkMEAMHashing() override = default;
+  ~vtkMEAMHashing() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkMEAMHashing(const vtkMEAMHashing&) = delete;
   void operator=(const vtkMEAMHashing&) = delete;
+
+  struct SharedData;
+  std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
 
   void SetParameters(const meam::MEAMHashingSettings& settings);
 

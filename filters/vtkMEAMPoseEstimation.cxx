@@ -14,6 +14,7 @@
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneEdgeConversion.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSharedData.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -47,12 +48,18 @@ public:
   /// What of the filter's settings the model depends on.
   using Settings = std::tuple<int, int, double, double, double, double>;
 
-  const meam::TrainedModel& modelOf(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
+  std::shared_ptr<const meam::TrainedModel> modelOf(
+    vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
   {
+    if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(part))
+    {
+      this->Part = nullptr;
+      return this->Model = vtkMEAMConversion::sharedModel(collection);
+    }
     if (this->Part != part || this->Time != part->GetMTime() || this->Made != settings)
     {
       this->Part = nullptr; // until the new one is there
-      this->Model = train(part, settings, progress);
+      this->Model = std::make_shared<const meam::TrainedModel>(train(part, settings, progress));
       this->Part = part;
       this->Time = part->GetMTime();
       this->Made = settings;
@@ -63,10 +70,6 @@ public:
 private:
   static meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
   {
-    if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(part))
-    {
-      return vtkMEAMConversion::toTrainedModel(collection);
-    }
     meam::MeshPreparationSettings preparation;
     int preset = 0;
     int seed = 0;
@@ -80,7 +83,7 @@ private:
     return meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0));
   }
 
-  meam::TrainedModel Model;
+  std::shared_ptr<const meam::TrainedModel> Model;
   vtkWeakPointer<vtkDataObject> Part;
   vtkMTimeType Time = 0;
   Settings Made;
@@ -155,7 +158,7 @@ int vtkMEAMPoseEstimation::RequestData(
       const double start = vtkTimerLog::GetUniversalTime();
 
       // What is wrong with the scene is told before any time goes into training.
-      meam::FramedPoints surface = surfaceOf(sceneInput, "The scene", this->NumberOfThreads);
+      meam::requirePoints(sceneInput->GetNumberOfPoints(), sceneInput->GetNumberOfPoints(), "The scene");
       int size[3] = { 0, 0, 0 };
       if (organized)
       {
@@ -166,22 +169,18 @@ int vtkMEAMPoseEstimation::RequestData(
         throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
                           "points as the boundary, or an organized scan (a grid of width x height points).");
       }
-
-      const double loaded = vtkTimerLog::GetUniversalTime();
-      const meam::Sensor sensor =
-        sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
-      meam::SceneEdges found;
-      meam::PreciseCloud sceneEdges;
+      meam::SceneInput scene;
+      scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+      meam::SceneEdges found; // of a scan
       if (boundary)
       {
-        found.cloud = toCloud(boundary);
-        meam::requirePoints(found.cloud.points, "The scene's boundary cloud");
-        found.cloud = meam::finitePoints(std::move(found.cloud));
-        sceneEdges = toPreciseCloud(boundary);
+        scene.edges = toLocalCloud(boundary, this->NumberOfThreads);
+        meam::requirePoints(scene.edges.cloud.points, "The scene's boundary cloud");
       }
       else
       {
         const meam::OrganizedCloud cloud = toOrganizedCloud(organized);
+        meam::requirePoints(cloud.points, "The scene");
         meam::SceneEdgeExtractionSettings extraction;
         extraction.imageEdges = this->ImageEdges;
         extraction.depthEdges = this->DepthEdges;
@@ -195,12 +194,16 @@ int vtkMEAMPoseEstimation::RequestData(
           extraction.camera = cameraOf(this->CameraFile, image, cloud);
         }
         found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
-        sceneEdges = found.cloud;
+        scene.edges = meam::toLocalCloud(found.cloud, this->NumberOfThreads);
+        scene.edges.fromScan = true;
       }
-      const std::size_t measured = surface.points.size();
       const double extracted = vtkTimerLog::GetUniversalTime();
+      scene.measured = surfaceOf(sceneInput, "The scene", scene.edges.T_local_scene, this->NumberOfThreads);
+      const std::size_t measured = scene.measured.size();
+      const std::size_t edgePoints = scene.edges.cloud.size();
+      const double loaded = vtkTimerLog::GetUniversalTime();
 
-      const meam::TrainedModel& model = this->Trained->modelOf(part,
+      const auto model = this->Trained->modelOf(part,
         { this->Preset, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1], this->CADOffset[2] },
         meam::subProgress(progress, AfterSceneEdges, AfterTraining));
       const double trained = vtkTimerLog::GetUniversalTime();
@@ -213,14 +216,10 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         settings.detection.referenceShare = this->ReferenceShare;
       }
-      else if (this->Preset == Recommended)
-      {
-        settings.detection.referenceShare = boundary ? referenceShareOf(boundary) : meam::ImageReferenceShare;
-      }
       meam::StageTimes times;
-      const meam::Poses poses = meam::estimatePoses(model, sceneEdges, std::move(surface), sensor, settings, &times,
-        meam::subProgress(progress, AfterTraining, 1.0));
-      const std::string warning = meam::unitsWarning(found.cloud.points, model.diameter);
+      const meam::Poses poses =
+        meam::estimatePoses(*model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
+      const std::string warning = meam::unitsWarning(scene.edges.cloud.points, model->diameter);
       if (!warning.empty())
       {
         vtkWarningMacro(<< warning);
@@ -228,24 +227,26 @@ int vtkMEAMPoseEstimation::RequestData(
 
       if (boundary)
       {
-        fromCloud(found.cloud, edges);
+        edges->ShallowCopy(boundary);
       }
       else
       {
         fromSceneEdges(found, edges);
       }
       fromPoses(poses, output);
-      setDiameter(output, model.diameter);
-      setFieldValue(output, "SecondsTraining", trained - extracted);
-      setFieldValue(output, "SecondsSceneEdges", extracted - loaded);
+      setDiameter(output, model->diameter);
+      setFieldValue(output, "SecondsTraining", trained - loaded);
+      setFieldValue(output, "SecondsSceneEdges", extracted - start);
       setFieldValue(output, "SecondsTangents", times.tangents);
+      setFieldValue(output, "SecondsScene", loaded - extracted + times.scene);
       setFieldValue(output, "SecondsDetection", times.detection);
+      setFieldValue(output, "SecondsScreening", times.screening);
       setFieldValue(output, "SecondsVerification", times.verification);
       setFieldValue(output, "SecondsRefinement", times.refinement);
       setFieldValue(output, "SecondsSelection", times.selection);
       setFieldValue(output, "ScenePoints", static_cast<double>(measured));
-      setFieldValue(output, "SceneEdgePoints", static_cast<double>(found.cloud.size()));
-      setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
+      setFieldValue(output, "SceneEdgePoints", static_cast<double>(edgePoints));
+      setFieldValue(output, "ModelEdgePoints", static_cast<double>(model->edges.size()));
       setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
     },
     output, edges);

@@ -79,7 +79,7 @@ void vtkMEAMPoseWriter::WriteData()
         row.imageId = this->ImageId;
         row.objectId = this->ObjectId + (parts ? static_cast<int>(parts->GetComponent(rows.size(), 0)) : 0);
         row.T_scene_model = pose.T_scene_model;
-        row.score = meam::confidence(pose);
+        row.score = meam::probabilityOrScore(pose);
         row.time = this->Time >= 0.0 ? this->Time : measured;
         row.rank = static_cast<int>(rows.size()) + 1;
         row.viewId = pose.viewId;

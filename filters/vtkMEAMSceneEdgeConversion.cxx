@@ -2,7 +2,6 @@
 #include "vtkMEAMSceneEdgeConversion.h"
 
 #include "io/CameraFile.h"
-#include "pose/voting/PoseDetection.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMCloudConversion.h"
 
@@ -89,10 +88,5 @@ void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
 vtkDataArray* edgeSourcesOf(vtkPointSet* edges)
 {
   return edges->GetPointData()->GetArray(EdgeSourceName);
-}
-
-double referenceShareOf(vtkPolyData* edges)
-{
-  return edgeSourcesOf(edges) ? meam::ImageReferenceShare : meam::PoseDetectionSettings().referenceShare;
 }
 }

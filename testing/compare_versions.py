@@ -24,7 +24,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLStructuredGridReader,
                                  vtkXMLStructuredGridWriter)
 
-from ppfmeam import filters
+from ppfmeam import evaluation, filters, scripting
 
 DATA = os.environ.get("PPFMEAM_DATA", "")
 PARTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "parts")
@@ -35,7 +35,6 @@ BINS = {"ridged_disc": (PARTS, ".stl", 1), "arc_lever": (PARTS, ".stl", 1), "fla
         "small": (os.path.join(DATA, "cad"), ".ply", 1000)}
 SEEDS = (1, 2)
 READERS = {".stl": vtkSTLReader, ".ply": vtkPLYReader, ".obj": vtkOBJReader}
-STAGES = ("SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total")
 LIKELY = 0.9  # the probability from which on poses have to stay where they are
 NEAR = (0.01, 0.01)  # mm, degrees
 
@@ -63,7 +62,9 @@ def tohoku():
         scenes = [(read(filters.vtkMEAMPCDReader(), os.path.join(folder, "Scenes", f"Scene{i}.pcd")),
                    read(filters.vtkMEAMPCDReader(), os.path.join(folder, "Scenes", f"Scene_boundary{i}.pcd")),
                    read(filters.vtkMEAMPoseReader(), os.path.join(folder, "Results", f"trans{i}.txt"))) for i in range(20)]
-        yield f"Part_{part}", mesh, scenes
+        model = scripting.train(mesh)
+        yield f"Part_{part}", mesh, [(surface, edges, evaluation.with_visibility(truth, model, edges, surface))
+                                     for surface, edges, truth in scenes]
 
 
 def simulated(folder):
@@ -99,6 +100,13 @@ def number(data, name):
     return data.GetFieldData().GetArray(name).GetValue(0)
 
 
+def stage_times(poses):
+    """The ms of each stage that this version tells."""
+    fields = poses.GetFieldData()
+    names = [fields.GetArrayName(i) for i in range(fields.GetNumberOfArrays())]
+    return {name[7:]: 1000 * number(poses, name) for name in names if name.startswith("Seconds") and name != "SecondsTraining"}
+
+
 def run(name, mesh, scenes, threads):
     """All poses of a part's scenes, the figures over them, and the times in ms."""
     estimation, judge = filters.vtkMEAMPoseEstimation(), filters.vtkMEAMPoseEvaluation()
@@ -127,7 +135,7 @@ def run(name, mesh, scenes, threads):
         judge.AddInputDataObject(1, truth)
         results.append({"transforms": tuples(poses, "Transform"), "probabilities": [p for p, in tuples(poses, "Probability")],
                         "scores": [s for s, in tuples(poses, "Score")], "wall": wall,
-                        "ms": {stage: 1000 * number(poses, "Seconds" + stage) for stage in STAGES}})
+                        "ms": stage_times(poses)})
     judge.Update()
     figures = {figure: number(judge.GetOutput(), figure) for figure in ("StrictRate", "Recall")}
     print(f"{name:30s} strict {figures['StrictRate']:5.1f}  recall {figures['Recall']:5.1f}  "
@@ -154,7 +162,7 @@ def load(names):
         for i, scene in enumerate(result["scenes"]):
             of_all = [other[part]["scenes"][i] for other in runs]
             scene["wall"] = statistics.median(one["wall"] for one in of_all)
-            scene["ms"] = {stage: statistics.median(one["ms"][stage] for one in of_all) for stage in STAGES}
+            scene["ms"] = {stage: statistics.median(one["ms"][stage] for one in of_all) for stage in scene["ms"]}
     return runs[0]
 
 
@@ -175,7 +183,7 @@ def compare(old, new):
         def median(result, of):
             return statistics.median(of(scene) for scene in result["scenes"])
         walls = [median(result, lambda scene: scene["wall"]) for result in (before, after)]
-        stages = [median(result, lambda scene: sum(scene["ms"][s] for s in STAGES[:-1])) for result in (before, after)]
+        stages = [median(result, lambda scene: sum(ms for stage, ms in scene["ms"].items() if stage != "Total")) for result in (before, after)]
         print(f"{part:30s} {row[0]:5d}  {row[1]:5d}   {row[2]:5d}  {row[3]:5d}      {before['figures']['StrictRate']:6.1f}"
               f" {after['figures']['StrictRate']:5.1f}    {before['figures']['Recall']:6.1f} {after['figures']['Recall']:5.1f}"
               f"   {walls[0]:6.0f} {walls[1]:5.0f} {walls[1] / walls[0]:5.2f}      {stages[0]:6.0f} {stages[1]:5.0f}")

@@ -178,7 +178,7 @@ SceneEvaluation evaluatePoses(
     }
     if (instance < 0 || counts(instance))
     {
-      evaluation.ranking.emplace_back(confidence(estimate), instance >= 0 && !judgement.duplicate);
+      evaluation.ranking.emplace_back(probabilityOrScore(estimate), instance >= 0 && !judgement.duplicate);
     }
     evaluation.judgements.push_back(judgement);
   }

@@ -436,69 +436,46 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
 }
 }
 
-PreciseCloud EdgeTangents::of(const PreciseCloud& edges) const
-{
-  PreciseCloud cloud;
-  cloud.points.reserve(this->points.size());
-  for (const int i : this->points)
-  {
-    cloud.points.push_back(edges.points[i]);
-  }
-  cloud.tangents = this->tangents;
-  cloud.weights = this->weights;
-  return cloud;
-}
-
-EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
+ThinnedEdges estimateTangents(const LocalCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
-  auto [frame, local] = inOwnFrame(edges, settings.threads);
-  requirePoints(local.points, "The scene's edge cloud");
+  const PointCloud& all = edges.cloud;
+  requirePoints(all.points, "The scene's edge cloud");
   if (partDiameter > 0.0)
   {
-    requireSameUnits(local.points, partDiameter);
+    requireSameUnits(all.points, partDiameter);
   }
   std::vector<int> finite;
-  finite.reserve(local.size());
-  for (std::size_t i = 0; i < local.size(); ++i)
+  finite.reserve(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (local.points[i].allFinite())
+    if (all.points[i].allFinite())
     {
       finite.push_back(static_cast<int>(i));
     }
   }
-  if (finite.size() < local.size())
-  {
-    local = local.subset(finite);
-  }
+  const PointCloud local = finite.size() < all.size() ? all.subset(finite) : all;
   const auto tiles = [&](const std::vector<int>& kept)
   {
-    Points points;
-    for (const int k : kept)
-    {
-      points.push_back(edges.points[finite[k]].cast<float>());
-    }
+    // The paper's plane is that of the scene's own coordinates.
+    const Eigen::Isometry3d T_scene_local = edges.T_local_scene.inverse();
     Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-    turn.linear() = frame.linear();
-    return moved(tileTangents(points, viewDirection, settings, progress), turn);
+    turn.linear() = edges.T_local_scene.linear();
+    return moved(
+      tileTangents(moved(local.subset(kept).points, T_scene_local), viewDirection, settings, progress), turn);
   };
   LocalTangents found = estimate(local.points, local.tangents, partDiameter, SceneLeafShare, tiles, settings, progress);
-  EdgeTangents result;
-  result.points.resize(found.points.size());
-  result.tangents.resize(found.points.size());
-  const Eigen::Matrix3d back = frame.linear().transpose();
-  parallelFor(static_cast<int>(found.points.size()), settings.threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        const int i = finite[found.points[k]];
-        result.points[k] = i;
-        result.tangents[k] =
-          edges.tangents.empty() ? (back * found.tangents[k].cast<double>()).normalized() : edges.tangents[i];
-      }
-    });
-  result.weights = std::move(found.weights);
+  ThinnedEdges result;
+  result.edges.T_local_scene = edges.T_local_scene;
+  result.edges.fromScan = edges.fromScan;
+  result.edges.cloud.points.reserve(found.points.size());
+  for (const int k : found.points)
+  {
+    result.indices.push_back(finite[k]);
+    result.edges.cloud.points.push_back(local.points[k]);
+  }
+  result.edges.cloud.tangents = std::move(found.tangents);
+  result.edges.cloud.weights = std::move(found.weights);
   return result;
 }
 

@@ -4,7 +4,10 @@
 #include "base/PointCloud.h"
 #include "mesh/Symmetries.h"
 #include "model/DistanceField.h"
+#include "model/PredictedVisibility.h"
 #include "features/PairKeys.h"
+
+#include <memory>
 
 namespace meam
 {
@@ -76,16 +79,19 @@ struct TrainedModel
 
   // What deriveFields() makes of the above.
   int votingEdges = 0;           ///< so many of the edge points make pairs
-  std::vector<int> judged;       ///< surface points that evidence is taken from
-  DistanceField surfaceDistance; ///< capped at DistanceReach of the diameter
+  std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
+  DistanceField surfaceDistance;       ///< up to TruncationDistance times the diameter
   DistanceField edgeDistance;
-  static constexpr double DistanceReach = 0.03;
+  std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
+  static constexpr double TruncationDistance = 0.03;
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
   void deriveFields();
 
   /// The quantizer of the table's keys.
   PairFeatureQuantizer quantizer() const;
+  /// The edge appearance model of a view.
+  PointCloud edgesOfView(int view) const;
   /// Side of the cubes of which one edge point makes pairs, mm; 0: all do.
   double votingLeaf() const;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/PointCloud.h"
+#include "mesh/Symmetries.h"
 
 namespace meam
 {
@@ -40,11 +41,19 @@ using Poses = std::vector<Pose>;
 /// The pose after a motion of the scene.
 Pose moved(const Pose& pose, const Eigen::Isometry3d& motion);
 
-/// What poses of different scenes are compared by: the probability, or the score where none is known.
-inline double confidence(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
+/// Poses, in the scene's own coordinates, in its local frame: of those that are equal for a part with these symmetries the
+/// one that is turned least there, whatever the scene's coordinates are. Throws Error for a pose that is not finite.
+Poses toLocalFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries);
 
-/// What poses of a scene are ordered by: likely ones that nothing hides come first, for they can be grasped.
-inline double preference(const Pose& pose) { return confidence(pose) * std::sqrt(pose.visibleFraction); }
+/// Poses of the local frame in the scene's own coordinates; of those that the symmetries make equal the one that is turned
+/// least there.
+Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries);
+
+/// The probability, or the score where none is known, [0, 1]: what poses of different scenes are compared by.
+inline double probabilityOrScore(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
+
+/// What poses of one scene are ordered by, [0, 1]: likely ones that nothing hides come first, for they can be grasped.
+inline double rankingValue(const Pose& pose) { return probabilityOrScore(pose) * std::sqrt(pose.visibleFraction); }
 
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);

@@ -22,7 +22,8 @@ READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, "
            ".stl": vtkSTLReader, ".obj": vtkOBJReader}
 IMAGES = (vtkPNGReader, vtkJPEGReader, vtkBMPReader, vtkTIFFReader)
 WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
-STAGES = ("Training", "SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total")
+STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
+          "Total")
 
 
 class Failure(Exception):

@@ -28,7 +28,7 @@ void SceneByScenePoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
   estimate(state, search, 1);
-  scenes::growsWith(state, search.scan.edges.size());
+  scenes::growsWith(state, search.seen.edges.size());
 }
 BENCHMARK(SceneByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
 

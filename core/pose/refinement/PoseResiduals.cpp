@@ -9,8 +9,6 @@ namespace meam
 {
 namespace
 {
-constexpr int Most = NormalEquations::Rows::Most;
-
 MEAM_ALL_VECTORS
 void againstSurface(const SoAOrientedPoints& surface, int first, const DepthMap::Seen& seen, const SurfaceWeights& weights,
   NormalEquations::Rows& rows)
@@ -78,9 +76,9 @@ void addSurfaceResiduals(
   const int size = static_cast<int>(surface.size());
   DepthMap::Seen seen;
   NormalEquations::Rows rows;
-  for (int begin = 0; begin < size; begin += Most)
+  for (int begin = 0; begin < size; begin += SoABlock)
   {
-    rows.count = std::min(Most, size - begin);
+    rows.count = std::min(SoABlock, size - begin);
     depth.meansAt(surface.points, begin, rows.count, seen);
     againstSurface(surface, begin, seen, weights, rows);
     fit.add(rows);
@@ -92,9 +90,9 @@ void addLineResiduals(NormalEquations& fit, const SoAOrientedPoints& lines, cons
 {
   const int size = static_cast<int>(lines.size());
   NormalEquations::Rows along, beside;
-  for (int begin = 0; begin < size; begin += Most)
+  for (int begin = 0; begin < size; begin += SoABlock)
   {
-    along.count = beside.count = std::min(Most, size - begin);
+    along.count = beside.count = std::min(SoABlock, size - begin);
     acrossLines(lines, begin, offsets, weights.data(), along, beside);
     fit.add(along);
     fit.add(beside);

@@ -29,6 +29,7 @@ struct VoteBucket
 struct alignas(32) SheetGroup
 {
   static constexpr int Sheets = 16;
+  static constexpr int MostVotes = 21845; ///< of a bin: three fit into 16 bits
   std::uint16_t of[Sheets] = {};
 };
 static_assert(

@@ -69,7 +69,7 @@ TEST(PoseEvaluation, errorsOfARightPose)
 TEST(PoseEvaluation, axisAndRollAreToldApart)
 {
   const AngleAxisd truth = degrees(77, Vector3d(1, 2, 3).normalized());
-  const auto judged = [&](double swing, double roll, const Vector3d& axis)
+  const auto judgementOf = [&](double swing, double roll, const Vector3d& axis)
   {
     meam::PoseEvaluationSettings with = settings();
     with.axis = axis;
@@ -80,14 +80,14 @@ TEST(PoseEvaluation, axisAndRollAreToldApart)
   };
   for (const Vector3d& axis : { Vector3d(0, 0, 1), Vector3d(0, 3, 4) })
   {
-    EXPECT_NEAR(judged(30, 0, axis).axisError, 30.0, 1e-9);
-    EXPECT_NEAR(judged(30, 0, axis).rollError, 0.0, 1e-9);
-    EXPECT_NEAR(judged(0, 180, axis).axisError, 0.0, 1e-6);
-    EXPECT_NEAR(judged(0, 180, axis).rollError, 180.0, 1e-6);
-    EXPECT_NEAR(judged(0, 200, axis).rollError, 160.0, 1e-6);
-    EXPECT_NEAR(judged(25, 50, axis).axisError, 25.0, 1e-9);
-    EXPECT_NEAR(judged(25, 50, axis).rollError, 50.0, 1e-9);
-    EXPECT_NEAR(judged(180, 0, axis).axisError, 180.0, 1e-6);
+    EXPECT_NEAR(judgementOf(30, 0, axis).axisError, 30.0, 1e-9);
+    EXPECT_NEAR(judgementOf(30, 0, axis).rollError, 0.0, 1e-9);
+    EXPECT_NEAR(judgementOf(0, 180, axis).axisError, 0.0, 1e-6);
+    EXPECT_NEAR(judgementOf(0, 180, axis).rollError, 180.0, 1e-6);
+    EXPECT_NEAR(judgementOf(0, 200, axis).rollError, 160.0, 1e-6);
+    EXPECT_NEAR(judgementOf(25, 50, axis).axisError, 25.0, 1e-9);
+    EXPECT_NEAR(judgementOf(25, 50, axis).rollError, 50.0, 1e-9);
+    EXPECT_NEAR(judgementOf(180, 0, axis).axisError, 180.0, 1e-6);
   }
 }
 

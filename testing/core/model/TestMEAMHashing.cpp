@@ -188,7 +188,7 @@ TEST(MEAMHashing, OneEdgePointOfACubeVotes)
     return meam::hashModels({ view }, {}, with);
   };
   const meam::TrainedModel thin = trained(4.0);
-  EXPECT_EQ(thin.edges.size(), 40u) << "all judge poses";
+  EXPECT_EQ(thin.edges.size(), 40u) << "poses are verified on all";
   EXPECT_EQ(thin.votingEdges, 10);
   EXPECT_EQ(thin.table.size(), 90u);
   const meam::Points voting(thin.edges.points.begin(), thin.edges.points.begin() + 10);

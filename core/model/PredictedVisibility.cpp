@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose/verification/PredictedVisibility.h"
+#include "model/PredictedVisibility.h"
 
 #include "base/AllVectors.h"
+#include "base/Frames.h"
+#include "model/TrainedModel.h"
+#include "scene/Sensor.h"
 #include "base/Frames.h"
 
 #include <algorithm>
@@ -12,13 +15,6 @@ namespace meam
 {
 namespace
 {
-constexpr double CellShare = 0.025;        // of the diameter: cells of the depth buffer
-constexpr double ToleranceShare = 0.01;    // of the diameter: depth a point may lie behind the nearest
-constexpr float GrazingCosine = 0.15f;     // a surface seen at a flatter angle is not judged
-constexpr int DirectionSteps = 64;         // of each coordinate of the direction to the sensor, from 0 to 1
-constexpr std::size_t MostKnown = 1000;    // directions that are kept
-constexpr float EdgeSlope = 1.5f;          // slope allowed for at an edge, whose surface is not known
-
 Eigen::Vector3f meanOf(const Points& points)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -66,16 +62,16 @@ void project(const View& view, const float* x, const float* y, const float* z, i
 /// below all others.
 MEAM_ALL_VECTORS
 void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float* ny, const float* nz, int count,
-  float cell, float* heights)
+  float cell, float grazingCosine, float* heights)
 {
   const float hx = towards.x(), hy = towards.y(), hz = towards.z();
 #pragma omp simd
   for (int k = 0; k < count; ++k)
   {
     const float cosine = nx[k] * hx + ny[k] * hy + nz[k] * hz;
-    const float bounded = std::min(std::max(cosine, GrazingCosine), 1.0f);
+    const float bounded = std::min(std::max(cosine, grazingCosine), 1.0f);
     const float slope = std::sqrt(1.0f - bounded * bounded) / bounded;
-    heights[k] = cosine > GrazingCosine ? heights[k] + slope * cell : -std::numeric_limits<float>::max();
+    heights[k] = cosine > grazingCosine ? heights[k] + slope * cell : -std::numeric_limits<float>::max();
   }
 }
 
@@ -105,25 +101,28 @@ void keepInSight(const Projected& points, const std::vector<float>& buffer, floa
 }
 }
 
-PredictedVisibility::PredictedVisibility(const TrainedModel& model)
-  : Model(model)
+PredictedVisibility::PredictedVisibility(const TrainedModel& model, const PredictedVisibilitySettings& settings)
+  : Settings(settings)
+  , Diameter(model.diameter)
+  , ViewDirections(model.viewDirections)
   , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
+  , VerificationIndices(model.verificationPoints)
 {
   const auto relative = [&](const Points& points)
   {
-    SoAPoints columns;
-    columns.resize(points.size());
+    SoAPoints result;
+    result.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
     {
-      columns.set(k, points[k] - this->Middle);
+      result.set(k, points[k] - this->Middle);
     }
-    return columns;
+    return result;
   };
   this->Surface = relative(model.surface.points);
   this->Edges = relative(model.edges.points);
-  for (const int i : model.judged)
+  for (const int i : model.verificationPoints)
   {
-    this->Judged.add(model.surface.points[i] - this->Middle, model.surface.normals[i]);
+    this->VerificationPoints.add(model.surface.points[i] - this->Middle, model.surface.normals[i]);
   }
 }
 
@@ -136,7 +135,7 @@ Eigen::Vector3f PredictedVisibility::towards(const Eigen::Isometry3d& T_scene_mo
 int PredictedVisibility::view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
 {
   const Eigen::Vector3f towards = this->towards(T_scene_model, sensor);
-  const Points& views = this->Model.viewDirections;
+  const Points& views = this->ViewDirections;
   const auto nearer = [&](const auto& a, const auto& b) { return a.dot(towards) < b.dot(towards); };
   return static_cast<int>(std::max_element(views.begin(), views.end(), nearer) - views.begin());
 }
@@ -150,33 +149,33 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
   Eigen::Vector3i steps = Eigen::Vector3i::Zero(); // of poses beyond all measure, too
   if (direction.allFinite())
   {
-    steps = (static_cast<float>(DirectionSteps) * direction).array().round().cast<int>();
+    steps = (static_cast<float>(this->Settings.directionSteps) * direction).array().round().cast<int>();
   }
-  constexpr int range = 2 * DirectionSteps + 1;
+  const int range = 2 * this->Settings.directionSteps + 1;
   const int key = (steps.z() * range + steps.y()) * range + steps.x();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    const auto known = this->Known.find(key);
-    if (known != this->Known.end())
+    const auto cached = this->Cache.find(key);
+    if (cached != this->Cache.end())
     {
-      return known->second;
+      return cached->second;
     }
   }
   auto visible = std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized()));
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  if (this->Known.size() >= MostKnown)
+  if (this->Cache.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
   {
-    this->Known.clear();
+    this->Cache.clear();
   }
-  return this->Known.emplace(key, std::move(visible)).first->second;
+  return this->Cache.emplace(key, std::move(visible)).first->second;
 }
 
 PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards) const
 {
   Visible visible{ towards, {}, {} };
-  const float cell = static_cast<float>(CellShare * this->Model.diameter);
-  const float tolerance = static_cast<float>(ToleranceShare * this->Model.diameter);
-  const float half = static_cast<float>(this->Model.diameter); // a point is never farther from the middle
+  const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
+  const float tolerance = static_cast<float>(this->Settings.tolerance * this->Diameter);
+  const float half = static_cast<float>(this->Diameter); // a point is never farther from the middle
   const View across{ frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
   const auto projected = [&](const SoAPoints& points, Projected& result)
   {
@@ -191,25 +190,13 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   projected(this->Surface, surface);
   raise(surface, nearest);
   projected(this->Edges, others);
-  keepInSight(others, nearest, tolerance + EdgeSlope * cell, nullptr, visible.edges);
-  projected(this->Judged.points, others);
-  const SoAPoints& normals = this->Judged.directions;
+  keepInSight(
+    others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, nullptr, visible.edges);
+  projected(this->VerificationPoints.points, others);
+  const SoAPoints& normals = this->VerificationPoints.directions;
   allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
-    others.heights.data());
-  keepInSight(others, nearest, tolerance, this->Model.judged.data(), visible.surface);
+    static_cast<float>(this->Settings.grazingCosine), others.heights.data());
+  keepInSight(others, nearest, tolerance, this->VerificationIndices.data(), visible.surface);
   return visible;
-}
-
-PointCloud PredictedVisibility::viewEdges(int view) const
-{
-  std::vector<int> members;
-  for (std::size_t i = 0; i < this->Model.edges.size(); ++i)
-  {
-    if (this->Model.edgeViews[i] >> view & 1u)
-    {
-      members.push_back(static_cast<int>(i));
-    }
-  }
-  return this->Model.edges.subset(members);
 }
 }

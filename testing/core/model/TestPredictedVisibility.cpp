@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose/verification/PredictedVisibility.h"
+#include "model/PredictedVisibility.h"
 
 #include "TestScene.h"
 
@@ -22,21 +22,21 @@ meam::Sensor fromAbove()
 }
 }
 
-TEST(PredictedVisibility, PosesThatHardlyDifferAreJudgedOnTheSamePoints)
+TEST(PredictedVisibility, PosesThatHardlyDifferPredictTheSamePoints)
 {
   const meam::PredictedVisibility view(scenes::bracket());
   const auto visible = view.visible(turned(10.0), fromAbove());
   EXPECT_EQ(view.visible(turned(10.001), fromAbove()), visible) << "seen from the same direction nothing is looked up";
   EXPECT_FALSE(visible->edges.empty());
   EXPECT_NE(view.visible(turned(60.0), fromAbove())->surface, visible->surface);
-  // The direction is told to within a degree.
+  // The direction is rounded to within a degree.
   const Eigen::Vector3f towards = turned(10.0).linear().transpose().cast<float>() * Eigen::Vector3f::UnitZ();
   EXPECT_GT(visible->from.dot(towards), std::cos(M_PI / 180.0));
 }
 
 TEST(PredictedVisibility, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
 {
-  // More directions than are remembered.
+  // More directions than are cached.
   const meam::PredictedVisibility one(scenes::bracket()), other(scenes::bracket());
   const auto first = one.visible(turned(10.0), fromAbove());
   for (int k = 0; k < 1500; ++k)
