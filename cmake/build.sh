@@ -3,12 +3,15 @@
 # its end is shown when something fails. Says nothing when nothing is to be done.
 #
 #   cmake/build.sh PRESET [TARGET...]        release, dev or vtk; the targets default to everything
+#
+# The preset vtk links the core of build/release, which is built first.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 preset=$1; shift
 build=$root/build/$preset
 log=$root/build/$preset.log
 mkdir -p "$root/build"
+if [ "$preset" = vtk ]; then "${BASH_SOURCE[0]}" release coreLibraries; fi
 exec 9>"$root/build/.lock"
 flock 9 # two runs at once: the second waits
 

@@ -43,7 +43,7 @@ void copyTuples(const T* values, Vectors<Scalar>& points)
 std::string quoted(const char* name) { return std::string("'") + name + "'"; }
 
 template <typename Scalar>
-std::vector<Eigen::Matrix<Scalar, 3, 1>> toVectors(vtkDataArray* array)
+VectorsOf<Scalar> toVectors(vtkDataArray* array)
 {
   Vectors<Scalar> points(array->GetNumberOfTuples());
   if (auto* floats = vtkFloatArray::FastDownCast(array))
@@ -66,8 +66,8 @@ std::vector<Eigen::Matrix<Scalar, 3, 1>> toVectors(vtkDataArray* array)
   return points;
 }
 
-template std::vector<Eigen::Vector3f> toVectors<float>(vtkDataArray*);
-template std::vector<Eigen::Vector3d> toVectors<double>(vtkDataArray*);
+template meam::Points toVectors<float>(vtkDataArray*);
+template meam::PrecisePoints toVectors<double>(vtkDataArray*);
 
 vtkSmartPointer<vtkFloatArray> fromVectors(const meam::Points& points, const char* name)
 {

@@ -12,6 +12,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <string>
+#include <type_traits>
 
 class vtkDataObject;
 class vtkDataSet;
@@ -23,9 +24,12 @@ namespace vtkMEAMConversion
 {
 std::string quoted(const char* name);
 
+template <typename Scalar>
+using VectorsOf = std::conditional_t<std::is_same_v<Scalar, double>, meam::PrecisePoints, meam::Points>;
+
 /// Three components of each tuple, of an array of any type.
 template <typename Scalar>
-std::vector<Eigen::Matrix<Scalar, 3, 1>> toVectors(vtkDataArray* array);
+VectorsOf<Scalar> toVectors(vtkDataArray* array);
 vtkSmartPointer<vtkFloatArray> fromVectors(const meam::Points& points, const char* name);
 vtkSmartPointer<vtkPoints> toVTKPoints(const meam::Points& points);
 

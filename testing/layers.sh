@@ -1,5 +1,8 @@
 #!/usr/bin/env bash
-# Dependencies point one way: examples -> plugin, xml -> filters -> core. Prints what breaks that and fails.
+# The order of the house; prints what breaks it and fails:
+# - dependencies point one way: examples -> plugin, xml -> filters -> core
+# - a folder of core/ holds a dozen units, and testing/core/ has the same folders
+# - tuned numbers of core/pose are fields of settings
 cd "$1" || exit 2
 status=0
 forbid() { # reason, pattern, files...
@@ -10,9 +13,32 @@ shopt -s nullglob globstar
 core=(core/**/*.h core/**/*.cpp)
 headers=(filters/*.h)
 sources=(filters/*.h filters/*.cxx)
-[ ${#core[@]} -gt 0 ] && [ ${#headers[@]} -gt 0 ] || { echo "no sources under $1"; exit 2; }
+pose=(core/pose/**/*.cpp)
+[ ${#core[@]} -gt 0 ] && [ ${#headers[@]} -gt 0 ] && [ ${#pose[@]} -gt 0 ] || { echo "no sources under $1"; exit 2; }
 forbid "core/ does not include VTK" '#include *["<]vtk' "${core[@]}"
 forbid "core/ does not print" 'std::(cout|cerr|clog)|(^|[^a-zA-Z_])printf *\(' "${core[@]}"
 forbid "filters/ knows nothing of ParaView" '[Pp]ara[Vv]iew|PARAVIEW|vtkPV|vtkSM[A-Z]' "${sources[@]}"
 forbid "no third-party type in a filter's header" '(pcl|cv|Eigen|CGAL|OpenMesh)::|#include *[<"](pcl|opencv2|Eigen|CGAL|OpenMesh)/|#include *[<"](bullet|btBullet)' "${headers[@]}"
+
+# A unit is a stem: its header, its source, or both.
+most_units=13
+while read -r units folder; do
+  [ "$units" -le $most_units ] || { echo "$folder holds $units units, more than $most_units: split it"; status=1; }
+done < <(printf '%s\n' "${core[@]%.*}" | sort -u | xargs -n1 dirname | uniq -c)
+
+# testing/core/ROOM/TestStem.cpp tests core/ROOM/Stem.h. Those of testing/core itself are about several rooms.
+for test in testing/core/*/**/Test*.cpp; do
+  folder=$(dirname "${test#testing/}") stem=$(basename "$test" .cpp)
+  [ -f "$folder/${stem#Test}.h" ] || { echo "$test: there is no $folder/${stem#Test}.h"; status=1; }
+done
+
+# Constants with a number at namespace scope: so many are left, and their number may only go down.
+most_numbers=70
+numbers=$(grep -nHE '^(static |inline )*(constexpr|const) [^(]*[={].*[0-9]' "${pose[@]}")
+count=$(grep -c . <<<"$numbers")
+if [ "$count" -gt $most_numbers ]; then
+  echo "$numbers"
+  echo "^ $count numbers of core/pose stand outside settings, more than $most_numbers"
+  status=1
+fi
 exit $status

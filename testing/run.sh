@@ -1,8 +1,14 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests: the release build, core under the sanitizers (dev), and the filters
-# under plain VTK 9.1 (vtk), two tests at a time. Arguments go to ctest: testing/run.sh -L core, testing/run.sh -R Hashing.
+# Builds everything and runs the tests: the release build, core under the sanitizers (dev), and the filters
+# under plain VTK 9.1 (vtk), two tests at a time.
+#
+#   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
+#
+# Tests with the label `long` (all scenes of a dataset, thousands of damaged files) are left out without --long.
 # The dataset tests look for data in $PPFMEAM_DATA and are skipped without it.
 set -uo pipefail
+without=(-LE '^long$')
+if [ "${1:-}" = --long ]; then without=(); shift; fi
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if [ -z "${PPFMEAM_DATA:-}" ] && [ -d "$root/../shared/data" ]; then
   PPFMEAM_DATA=$(cd "$root/../shared/data" && pwd)
@@ -15,8 +21,8 @@ run() { # PRESET, "what", build target or "", ctest arguments...
   local preset=$1 what=$2 target=$3; shift 3
   echo "== $preset: $what"
   "$root/cmake/build.sh" "$preset" ${target:+"$target"} || { failed+=("$preset (build)"); return; }
-  found=$((found + $(ctest --test-dir "$root/build/$preset" -N "$@" | sed -n 's/^Total Tests: //p')))
-  ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "$@" || failed+=("$preset")
+  found=$((found + $(ctest --test-dir "$root/build/$preset" -N "${without[@]}" "$@" | sed -n 's/^Total Tests: //p')))
+  ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${without[@]}" "$@" || failed+=("$preset")
 }
 run release "core, filters, plugin" "" "$@"
 run dev "core under the sanitizers" "" "$@"
