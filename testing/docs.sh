@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the documents name exists: linked files, files in backquotes (but for Blur, the example of a new step), and the
 # settings in docs/method.md. Prints what does not and fails.
-cd "$1" || exit 2
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
 status=0
 missing() { echo "$1: $2"; status=1; }
 documents=(README.md CONTRIBUTING.md docs/*.md)
