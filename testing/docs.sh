@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the documents name exists: linked files, files in backquotes (but for Blur, the example of a new step), and the
-# settings in docs/method.md. Prints what does not and fails.
+# settings in docs/method.md; and they use the words of the glossary. Prints what breaks that and fails.
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
 status=0
 missing() { echo "$1: $2"; status=1; }
@@ -18,6 +18,10 @@ for document in "${documents[@]}"; do
     [ -e "$file" ] || missing "$document" "there is no $file"
   done < <(grep -oE '`(core|filters|xml|plugin|testing|examples|cmake|docs)/[A-Za-z0-9_/]+\.[A-Za-z]+`' "$document" | tr -d '`' | grep -v Blur | sort -u)
 done
+# Words that docs/glossary.md has better ones for.
+if grep -nwiE 'settles?|settled|glances?|own frame|in sight|looked past|judged points' "${documents[@]}"; then
+  missing docs "the glossary has the field's words for these"
+fi
 while read -r name; do
   grep -rqwF --include='*.h' "$name" core || missing docs/method.md "no header of core/ knows the setting $name"
 done < <(grep '^\*Settings\*' docs/method.md | grep -oE '`[A-Za-z]+`' | tr -d '`' | sort -u)
