@@ -19,7 +19,10 @@ else
   git rev-parse --verify -q HEAD >/dev/null || skip "this is no git repository: nothing tells what was changed"
   base=${1:-$(git merge-base HEAD main 2>/dev/null)}
   if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then base=HEAD~1; fi
-  git rev-parse --verify -q "$base^{commit}" >/dev/null || skip "there is no commit $base to compare with"
+  git rev-parse --verify -q "$base^{commit}" >/dev/null || {
+    [ -z "${1:-}" ] || { echo "there is no commit $1 to compare with"; exit 2; }
+    skip "there is no commit before this one to compare with"
+  }
   # Sources that were changed, and those beside a header that was.
   mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- core filters |
     sed -n 's|^\(core/.*\)\.h$|\1.cpp|p; s|^\(filters/.*\)\.h$|\1.cxx|p; /\.\(cpp\|cxx\)$/p' | sort -u | while read -r file; do [ -f "$file" ] && echo "$file"; done)
