@@ -452,7 +452,9 @@ PreciseCloud EdgeTangents::of(const PreciseCloud& edges) const
 EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
-  auto [frame, local] = inOwnFrame(edges, settings.threads);
+  FramedCloud own = inOwnFrame(edges, settings.threads);
+  const Eigen::Isometry3d& frame = own.frame; // no structured binding: C++17 lets no lambda capture one
+  PointCloud& local = own.cloud;
   requirePoints(local.points, "The scene's edge cloud");
   if (partDiameter > 0.0)
   {
