@@ -246,11 +246,11 @@ def benchmarks(commands, names, repetitions):
     for run in json.loads(told)["benchmarks"]:
         if run.get("aggregate_name") == "median":
             rates = [f"{value / 1e6:.0f} million {name}" for name, value in run.items() if name.endswith("/s")]
-            rows.append([f"`{run['run_name'].replace('/real_time', '')}`", f"{run['real_time']:.3g} {run['time_unit']}",
+            rows.append([f"`{run['run_name'].replace('/real_time', '')}`", f"{run['real_time']:.{0 if run['real_time'] >= 100 else 2}f} {run['time_unit']}",
                          ", ".join(rates)])
     if not rows:
         raise Failure("no benchmark was measured: do the names still fit?")
-    return f"Medians of {repetitions} runs in random order.\n\n" + table(("benchmark", "time", "rate"), rows)
+    return f"Medians of {repetitions} runs in random order.\n\n" + table(("benchmark", "time", "rate"), sorted(rows))
 
 
 def voting(commands):
