@@ -88,7 +88,8 @@ Camera cameraOfCloud(const OrganizedCloud& cloud)
       const Eigen::Vector3d p = cloud.points[i].cast<double>();
       if (p.allFinite() && p.z() > 0.0)
       {
-        visit(p.x() / p.z(), p.y() / p.z(), static_cast<double>(i % cloud.width), static_cast<double>(i / cloud.width));
+        const std::size_t row = i / cloud.width, column = i % cloud.width;
+        visit(p.x() / p.z(), p.y() / p.z(), static_cast<double>(column), static_cast<double>(row));
       }
     }
   };

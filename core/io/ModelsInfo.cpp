@@ -22,7 +22,7 @@ constexpr double RotationTolerance = 1e-3; // of entries that were printed with 
 nlohmann::json listUnder(const nlohmann::json& entry, const char* name, const std::string& path)
 {
   const auto found = entry.find(name);
-  const nlohmann::json list = found == entry.end() ? nlohmann::json::array() : *found;
+  nlohmann::json list = found == entry.end() ? nlohmann::json::array() : *found;
   if (!list.is_array())
   {
     fail(path, std::string("has ") + name + " that is not a list");

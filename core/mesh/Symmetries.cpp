@@ -27,7 +27,7 @@ Eigen::Isometry3d turnedTowards(
 ContinuousSymmetry axisOf(const Eigen::Isometry3d& turn)
 {
   const Eigen::AngleAxisd rotation(Eigen::Matrix3d(turn.linear()));
-  const Eigen::Vector3d axis = rotation.axis();
+  const Eigen::Vector3d& axis = rotation.axis();
   const Eigen::Vector3d across = turn.translation() - axis.dot(turn.translation()) * axis;
   return { axis, 0.5 * (across + axis.cross(across) / std::tan(0.5 * rotation.angle())) };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene of the Tohoku dataset with one decision of the online phase changed at a time; docs/method.md has what each
+// A scene of the Tohoku dataset with one decision of the online phase changed at a time; docs/evaluation.md has what each
 // is worth. One thread.
 #include "BenchmarkScene.h"
 
