@@ -181,7 +181,7 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       else
       {
-        const meam::OrganizedCloud cloud = toOrganizedCloud(organized);
+        const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
         meam::SceneEdgeExtractionSettings extraction;
         extraction.imageEdges = this->ImageEdges;
         extraction.depthEdges = this->DepthEdges;

@@ -6,6 +6,7 @@
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMScanConversion.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkFloatArray.h"
 #include "vtkPoints.h"
 #include "vtkPointSet.h"
@@ -21,23 +22,24 @@ namespace
 {
 using meam::Error;
 
-/// The points that are finite and not hidden; `ghosts` may be null.
+/// The points that are finite and not hidden; `flags` may be null.
 template <typename Scalar>
-meam::FramedPoints seenPoints(const Scalar* xyz, std::size_t count, vtkUnsignedCharArray* ghosts, int threads)
+meam::FramedPoints seenPoints(const Scalar* xyz, std::size_t count, const unsigned char* flags, int threads)
 {
-  bool isAnyHidden = false; // of those that have coordinates
-  for (std::size_t i = 0; ghosts && !isAnyHidden && i < count; ++i)
+  const auto isHidden = [flags](std::size_t i) { return (flags[i] & vtkDataSetAttributes::HIDDENPOINT) != 0; };
+  std::size_t first = flags ? 0 : count; // hidden, but with coordinates
+  while (first < count && !(isHidden(first) && std::isfinite(xyz[3 * first])))
   {
-    isAnyHidden = isHidden(ghosts, i) && std::isfinite(xyz[3 * i]);
+    ++first;
   }
-  if (!isAnyHidden)
+  if (first == count)
   {
     return meam::inOwnFrame(xyz, count, threads);
   }
   std::vector<Scalar> seen(xyz, xyz + 3 * count);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = first; i < count; ++i)
   {
-    seen[3 * i] = isHidden(ghosts, i) ? std::numeric_limits<Scalar>::quiet_NaN() : seen[3 * i];
+    seen[3 * i] = isHidden(i) ? std::numeric_limits<Scalar>::quiet_NaN() : seen[3 * i];
   }
   return meam::inOwnFrame(seen.data(), count, threads);
 }
@@ -110,7 +112,7 @@ meam::FramedPoints surfaceOf(vtkDataSet* input, const char* what, int threads)
   }
   vtkDataArray* array = measured->GetNumberOfPoints() > 0 ? measured->GetPoints()->GetData() : nullptr;
   const std::size_t count = array ? array->GetNumberOfTuples() : 0;
-  vtkUnsignedCharArray* ghosts = grid ? ghostsOf(grid) : nullptr;
+  const unsigned char* ghosts = grid ? ghostsOf(grid) : nullptr;
   meam::FramedPoints surface;
   if (auto* floats = vtkFloatArray::FastDownCast(array))
   {

@@ -3,6 +3,8 @@
 
 #include "base/PointCloud.h"
 
+#include <cstdint>
+
 namespace meam
 {
 // A scene's points are worked on in single precision, in a frame of their own that moves with them. Those that come in
@@ -32,6 +34,20 @@ struct FramedCloud
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   PointCloud cloud;
 };
+
+/// The points of a scan as they lie in memory: x, y and z of each, mm.
+template <typename Scalar>
+struct ScanPoints
+{
+  const Scalar* xyz = nullptr;
+  std::size_t count = 0;
+  const std::uint8_t* flags = nullptr; ///< of each point; null: none has any
+  std::uint8_t blanked = 0;            ///< flags of points that are left out
+};
+
+/// The points that are finite and not blanked, in their order, in a frame. The same for any number of threads.
+Points toFrame(const ScanPoints<float>& scan, const Eigen::Isometry3d& frame, int threads = 1);
+Points toFrame(const ScanPoints<double>& scan, const Eigen::Isometry3d& frame, int threads = 1);
 
 /// The cloud in a frame; points that are not finite stay so.
 PointCloud inFrame(const PreciseCloud& cloud, const Eigen::Isometry3d& frame, int threads = 1);

@@ -52,6 +52,33 @@ TEST(OwnFrame, OfPointsOnALine)
   EXPECT_TRUE(meam::inOwnFrame(meam::Points{}).points.empty());
 }
 
+TEST(LocalFrame, PointsThatAreBlankedOrNotFiniteAreLeftOut)
+{
+  constexpr int count = 3000; // more than one block
+  std::vector<double> xyz;
+  std::vector<std::uint8_t> flags(count, 1);
+  meam::Points expected;
+  const Eigen::Isometry3d frame = somewhere();
+  for (int i = 0; i < count; ++i)
+  {
+    const Eigen::Vector3d point(i % 11 == 0 ? NAN : i, i % 13 == 0 ? INFINITY : 2 * i, i == 7 ? 1e200 : -i);
+    xyz.insert(xyz.end(), point.data(), point.data() + 3);
+    flags[i] = i % 5 == 0 ? 6 : 4;
+    if (point.allFinite() && i % 5 != 0 && i != 7)
+    {
+      expected.push_back((frame * point).cast<float>());
+    }
+  }
+  for (const int threads : { 1, 3 })
+  {
+    EXPECT_EQ(meam::toFrame(meam::ScanPoints<double>{ xyz.data(), count, flags.data(), 2 }, frame, threads), expected);
+  }
+  const std::vector<float> rounded(xyz.begin(), xyz.end());
+  EXPECT_EQ(meam::toFrame(meam::ScanPoints<float>{ rounded.data(), count, flags.data(), 2 }, frame), expected);
+  EXPECT_GT(meam::toFrame(meam::ScanPoints<double>{ xyz.data(), count }, frame).size(), expected.size());
+  EXPECT_TRUE(meam::toFrame(meam::ScanPoints<float>{}, frame).empty());
+}
+
 TEST(OwnFrame, ThePrecisionOfPointsFarAway)
 {
   // In single precision coordinates of 1e6 mm are told to 0.06 mm.
