@@ -179,7 +179,7 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       else
       {
-        const meam::OrganizedCloud cloud = toOrganizedCloud(organized);
+        const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
         meam::requirePoints(cloud.points, "The scene");
         meam::SceneEdgeExtractionSettings extraction;
         extraction.imageEdges = this->ImageEdges;

@@ -6,13 +6,12 @@
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMScanConversion.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkFloatArray.h"
 #include "vtkPoints.h"
 #include "vtkPointSet.h"
 #include "vtkStructuredGrid.h"
 
-#include <cmath>
-#include <limits>
 #include <string>
 
 namespace vtkMEAMConversion
@@ -20,28 +19,6 @@ namespace vtkMEAMConversion
 namespace
 {
 using meam::Error;
-
-/// The points that are finite and not hidden; `ghosts` may be null.
-template <typename Scalar>
-meam::Points seenPoints(const Scalar* xyz, std::size_t count, vtkUnsignedCharArray* ghosts,
-  const Eigen::Isometry3d& T_local_scene, int threads)
-{
-  bool isAnyHidden = false; // of those that have coordinates
-  for (std::size_t i = 0; ghosts && !isAnyHidden && i < count; ++i)
-  {
-    isAnyHidden = isHidden(ghosts, i) && std::isfinite(xyz[3 * i]);
-  }
-  if (!isAnyHidden)
-  {
-    return meam::toLocalPoints(xyz, count, T_local_scene, threads);
-  }
-  std::vector<Scalar> seen(xyz, xyz + 3 * count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    seen[3 * i] = isHidden(ghosts, i) ? std::numeric_limits<Scalar>::quiet_NaN() : seen[3 * i];
-  }
-  return meam::toLocalPoints(seen.data(), count, T_local_scene, threads);
-}
 }
 
 meam::Sensor sensorOf(
@@ -95,16 +72,19 @@ meam::Points surfaceOf(vtkDataSet* input, const char* what, const Eigen::Isometr
   }
   vtkDataArray* array = measured->GetNumberOfPoints() > 0 ? measured->GetPoints()->GetData() : nullptr;
   const std::size_t count = array ? array->GetNumberOfTuples() : 0;
-  vtkUnsignedCharArray* ghosts = grid ? ghostsOf(grid) : nullptr;
+  const unsigned char* flags = grid ? ghostsOf(grid) : nullptr;
+  constexpr std::uint8_t hidden = vtkDataSetAttributes::HIDDENPOINT;
   meam::Points surface;
   if (auto* floats = vtkFloatArray::FastDownCast(array))
   {
-    surface = seenPoints(floats->GetPointer(0), count, ghosts, T_local_scene, threads);
+    surface = meam::toLocalPoints(
+      meam::ScanPoints<float>{ floats->GetPointer(0), count, flags, hidden }, T_local_scene, threads);
   }
   else if (count > 0)
   {
     const meam::PrecisePoints points = toVectors<double>(array);
-    surface = seenPoints(points.front().data(), count, ghosts, T_local_scene, threads);
+    surface = meam::toLocalPoints(
+      meam::ScanPoints<double>{ points.front().data(), count, flags, hidden }, T_local_scene, threads);
   }
   meam::requirePoints(count, surface.size(), what);
   return surface;

@@ -3,6 +3,8 @@
 
 #include "base/PointCloud.h"
 
+#include <cstdint>
+
 namespace meam
 {
 /// A cloud with an origin of its own: single precision in a local frame that moves with the points, so that a scene in a
@@ -24,11 +26,22 @@ LocalCloud toLocalCloud(const PrecisePoints& points, const PrecisePoints& tangen
 /// The cloud in its principal frame, with its tangents and weights.
 LocalCloud toLocalCloud(const PointCloud& cloud, int threads = 1);
 
-/// Those of `count` points, x y z each, that are finite, in a frame. The same for any number of threads.
-Points toLocalPoints(const float* xyz, std::size_t count, const Eigen::Isometry3d& T_local_scene, int threads = 1);
-Points toLocalPoints(const double* xyz, std::size_t count, const Eigen::Isometry3d& T_local_scene, int threads = 1);
+/// The points of a scan as they lie in memory: x, y and z of each, mm.
+template <typename Scalar>
+struct ScanPoints
+{
+  const Scalar* xyz = nullptr;
+  std::size_t count = 0;
+  const std::uint8_t* flags = nullptr; ///< of each point; null: none has any
+  std::uint8_t blanked = 0;            ///< flags of points that are left out
+};
+
+/// The points that are finite and not blanked, in their order, in a frame. The same for any number of threads.
+Points toLocalPoints(const ScanPoints<float>& scan, const Eigen::Isometry3d& T_local_scene, int threads = 1);
+Points toLocalPoints(const ScanPoints<double>& scan, const Eigen::Isometry3d& T_local_scene, int threads = 1);
 inline Points toLocalPoints(const Points& points, const Eigen::Isometry3d& T_local_scene, int threads = 1)
 {
-  return toLocalPoints(points.empty() ? nullptr : points.front().data(), points.size(), T_local_scene, threads);
+  return toLocalPoints(
+    ScanPoints<float>{ points.empty() ? nullptr : points.front().data(), points.size() }, T_local_scene, threads);
 }
 }

@@ -115,13 +115,16 @@ private:
   SoAPoints Sorted;
 };
 
+/// Of a cell's side: the strip along its border in which points count less.
+constexpr double BorderStrip = 0.15;
+
 /// What a point counts in its cell, (0, 1]: 1, and next to the border of the cell less. `place` is in sides of the cell from
 /// its corner. So points come into sums slowly as they come over a border.
 template <typename Array>
 typename Array::Scalar weightInCell(const Array& place)
 {
   using Scalar = typename Array::Scalar;
-  constexpr Scalar strip = Scalar(0.15); // next to the border
+  constexpr Scalar strip = Scalar(BorderStrip);
   const Array inside = Scalar(0.5) - (place - Scalar(0.5)).abs();
   return std::max<Scalar>(std::numeric_limits<float>::min(), (inside / strip).min(Scalar(1)).prod());
 }

@@ -110,9 +110,14 @@ private:
   };
   void findPlaces(
     const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, Places& places) const;
-  /// Sets depths and means of the cells from `firstCell` to before `lastCell`. Returns the means.
-  Points fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
-    int firstCell, int lastCell);
+  /// Points of a scan that follow each other, and the rows of the map that they come to.
+  struct Run
+  {
+    int begin, end;
+    float low, high; ///< across the lines of sight, along the map's columns
+  };
+  /// Sets depths and means of the cells in the rows from `firstRow` to before `lastRow`. Returns the means.
+  Points fillRows(const Points& surface, const std::vector<Run>& runs, float layer, int firstRow, int lastRow);
   void fillGaps(float layer, int threads);
   /// `seen` tells of the nine cells about one, `stride` from row to row.
   void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);

@@ -17,9 +17,6 @@ struct PixelMap
   double pixelsPerPoint = 1.0; ///< distance in the image of neighbouring grid points, median
 };
 
-/// The image whose pixels are the grid's points.
-PixelMap registeredPixels(const OrganizedCloud& cloud);
-
 /// The image of a camera beside the sensor, whose size has to be known. The surface is filled between
 /// neighbouring points, so that nothing shows through it, and a pixel gets the nearest point on what is in front.
 /// Where neighbours are more than `jump` (mm) apart, or an opening between them was not measured, something
@@ -32,4 +29,6 @@ PixelMap projectedPixels(
 /// The point of an edge pixel, or -1: of the pixels within `radius`, the closest one that shows the nearest
 /// surface there; `jump` (mm) tells surfaces apart.
 int pointOfPixel(const PixelMap& map, int row, int column, int radius, double jump);
+/// The same of an image that is registered with the cloud: its pixels are the grid's points.
+int pointOfPixel(const OrganizedCloud& cloud, int row, int column, int radius, double jump);
 }
