@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
-#include "mesh/ConvexHull.h"
-#include "model/AppearanceModel.h"
-#include "mesh/TriangleMesh.h"
-
 #include <algorithm>
 #include <chrono>
 
@@ -31,18 +27,6 @@ private:
 };
 }
 
-TrainingSettings trainingSettings(Preset preset)
-{
-  TrainingSettings settings;
-  if (preset == Preset::Paper)
-  {
-    settings.tangents = paperTangentSettings();
-    settings.hashing = paperHashingSettings();
-    settings.findSymmetries = false;
-  }
-  return settings;
-}
-
 DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
 {
   DetectionSettings settings;
@@ -63,22 +47,6 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
   settings.refinement.threads = threads;
   settings.selection.threads = threads;
   return settings;
-}
-
-TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress)
-{
-  const double partDiameter = diameter(mesh.vertices);
-  const PointCloud surface = sampleSurface(mesh, settings.sampling, subProgress(progress, 0.0, 0.1));
-  std::vector<AppearanceModel> models =
-    extractVisibility(surface, settings.visibility, &mesh, subProgress(progress, 0.1, 0.3));
-  models = extractBoundary(models, settings.boundary, &mesh, subProgress(progress, 0.3, 0.4));
-  models = estimateTangents(std::move(models), partDiameter, settings.tangents);
-  PartSurface part{ surface, partDiameter, {} };
-  if (settings.findSymmetries)
-  {
-    part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
-  }
-  return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
 }
 
 Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor,

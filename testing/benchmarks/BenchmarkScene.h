@@ -2,6 +2,7 @@
 // What the benchmarks share: brackets on a table and, where it is there, a scene of the Tohoku dataset.
 #pragma once
 
+#include "model/ModelTraining.h"
 #include "pose/MEAMPoseEstimation.h"
 
 #include <benchmark/benchmark.h>

@@ -3,11 +3,9 @@
 #pragma once
 
 #include "TestParts.h"
-#include "model/BoundaryExtraction.h"
-#include "model/VisibilityExtraction.h"
-#include "pose/MEAMPoseEstimation.h"
 #include "model/AppearanceModel.h"
-#include "mesh/TriangleMesh.h"
+#include "model/ModelTraining.h"
+#include "pose/MEAMPoseEstimation.h"
 
 namespace scenes
 {
