@@ -2,6 +2,7 @@
 #include "vtkMEAMPoseEstimation.h"
 
 #include "mesh/preparation/MeshPreparation.h"
+#include "model/ModelTraining.h"
 #include "pose/MEAMPoseEstimation.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMArrays.h"
@@ -27,7 +28,6 @@
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
 #include "scene/Units.h"
-#include "mesh/TriangleMesh.h"
 
 #include <tuple>
 #include <utility>

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
-#include "mesh/ConvexHull.h"
-#include "model/AppearanceModel.h"
-#include "mesh/TriangleMesh.h"
-
 #include <algorithm>
 #include <chrono>
 
@@ -27,18 +23,6 @@ public:
 private:
   std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
 };
-}
-
-TrainingSettings trainingSettings(Preset preset)
-{
-  TrainingSettings settings;
-  if (preset == Preset::Paper)
-  {
-    settings.tangents = paperTangentSettings();
-    settings.hashing = paperHashingSettings();
-    settings.findSymmetries = false;
-  }
-  return settings;
 }
 
 DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
@@ -71,22 +55,6 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
   settings.verification.threads = threads;
   settings.selection.threads = threads;
   return settings;
-}
-
-TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress)
-{
-  const double partDiameter = diameter(mesh.vertices);
-  const PointCloud surface = sampleSurface(mesh, settings.sampling, subProgress(progress, 0.0, 0.1));
-  std::vector<AppearanceModel> models =
-    extractVisibility(surface, settings.visibility, &mesh, subProgress(progress, 0.1, 0.3));
-  models = extractBoundary(models, settings.boundary, &mesh, subProgress(progress, 0.3, 0.4));
-  models = estimateTangents(std::move(models), partDiameter, settings.tangents);
-  PartSurface part{ surface, partDiameter, {} };
-  if (settings.findSymmetries)
-  {
-    part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
-  }
-  return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
 }
 
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mesh/SurfaceSampling.h"
-#include "mesh/SymmetryDetection.h"
-#include "model/BoundaryExtraction.h"
-#include "model/MEAMHashing.h"
+#include "features/Preset.h"
 #include "features/TangentEstimation.h"
-#include "model/VisibilityExtraction.h"
 #include "pose/refinement/PoseRefinement.h"
 #include "pose/selection/PoseSelection.h"
 #include "pose/verification/PoseScreening.h"
@@ -15,28 +11,9 @@
 #include "scene/Scene.h"
 
 #include <optional>
-#include "mesh/TriangleMesh.h"
 
 namespace meam
 {
-/// Which set of parameters every step starts from.
-enum class Preset
-{
-  Paper,      ///< Liu et al., Sensors 2018, Section 6
-  Recommended ///< what measures better
-};
-
-struct TrainingSettings
-{
-  SurfaceSamplingSettings sampling;
-  VisibilityExtractionSettings visibility;
-  BoundaryExtractionSettings boundary;
-  TangentEstimationSettings tangents;
-  bool findSymmetries = true;
-  SymmetryDetectionSettings symmetry;
-  MEAMHashingSettings hashing;
-};
-
 struct DetectionSettings
 {
   TangentEstimationSettings tangents;
@@ -50,14 +27,10 @@ struct DetectionSettings
   PoseSelectionSettings selection;       ///< one for each instance
 };
 
-TrainingSettings trainingSettings(Preset preset);
 /// `maximumPoses` is the number of poses wanted, 0 for all, and `minimumProbability` that of each; `threads` 0 for one
 /// for each processor.
 DetectionSettings detectionSettings(
   Preset preset, int maximumPoses = 5, int threads = 0, double minimumProbability = 0.0);
-
-/// The offline phase, from a prepared mesh (mm) to the trained model.
-TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress = {});
 
 /// Seconds spent in each stage of the online phase.
 struct StageTimes

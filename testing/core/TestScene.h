@@ -7,6 +7,7 @@
 #include "mesh/TriangleMesh.h"
 #include "model/AppearanceModel.h"
 #include "model/BoundaryExtraction.h"
+#include "model/ModelTraining.h"
 #include "model/VisibilityExtraction.h"
 #include "pose/MEAMPoseEstimation.h"
 
