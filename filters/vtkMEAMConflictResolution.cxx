@@ -33,7 +33,7 @@ struct Part
 {
   std::shared_ptr<const meam::TrainedModel> model;
   std::shared_ptr<const meam::Scene> scene;
-  std::shared_ptr<const vtkMEAMConversion::LocalPoses> found;
+  std::shared_ptr<const meam::LocalPoses> found;
   meam::Poses input; ///< the same in the scene's coordinates
 };
 
@@ -115,7 +115,7 @@ int vtkMEAMConflictResolution::RequestData(
         part.model = sharedModel(vtkPartitionedDataSetCollection::GetData(inputVector[1], i));
         part.scene = sharedScene(edges, surface, sensor, part.model->diameter, this->NumberOfThreads);
         auto* found = vtkPolyData::GetData(inputVector[0], i);
-        part.found = sharedPoses(found, part.scene->T_local_scene(), part.model->symmetries);
+        part.found = sharedPoses(found, *part.scene, part.model->symmetries);
         part.input = toPoses(found);
         parts.push_back(part);
       }

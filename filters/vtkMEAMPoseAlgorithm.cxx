@@ -16,7 +16,7 @@ struct vtkMEAMPoseAlgorithm::SharedData
 {
   std::shared_ptr<const meam::TrainedModel> Model;
   std::shared_ptr<const meam::Scene> Scene;
-  std::shared_ptr<const vtkMEAMConversion::LocalPoses> Poses;
+  std::shared_ptr<const meam::LocalPoses> Poses;
 };
 
 vtkMEAMPoseAlgorithm::vtkMEAMPoseAlgorithm()
@@ -59,7 +59,7 @@ int vtkMEAMPoseAlgorithm::RequestData(
     const auto model = sharedModel(trained);
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
     const auto scene = sharedScene(edges, surface, sensor, model->diameter, this->NumberOfThreads);
-    const auto poses = sharedPoses(input, scene->T_local_scene(), model->symmetries);
+    const auto poses = sharedPoses(input, *scene, model->symmetries);
     Work step{ poses->poses, *scene, *model, progressOf(this), {} };
     this->Process(step);
     *this->Shared = { model, scene, sharePoses({ scene->T_local_scene(), std::move(step.result) }, *model, output) };

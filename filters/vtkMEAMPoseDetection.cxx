@@ -19,7 +19,7 @@ vtkStandardNewMacro(vtkMEAMPoseDetection);
 struct vtkMEAMPoseDetection::SharedData
 {
   std::shared_ptr<const meam::TrainedModel> Model;
-  std::shared_ptr<const vtkMEAMConversion::LocalPoses> Poses;
+  std::shared_ptr<const meam::LocalPoses> Poses;
 };
 
 vtkMEAMPoseDetection::vtkMEAMPoseDetection()

@@ -198,7 +198,7 @@ int vtkMEAMPoseEstimation::RequestData(
         scene.edges.fromScan = true;
       }
       const double extracted = vtkTimerLog::GetUniversalTime();
-      scene.measured = surfaceOf(sceneInput, "The scene", scene.edges.T_local_scene, this->NumberOfThreads);
+      scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
       const std::size_t measured = scene.measured.size();
       const std::size_t edgePoints = scene.edges.cloud.size();
       const double loaded = vtkTimerLog::GetUniversalTime();

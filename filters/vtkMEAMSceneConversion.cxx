@@ -58,7 +58,7 @@ meam::LocalCloud edgesOf(vtkPointSet* input, int threads)
   return edges;
 }
 
-meam::Points surfaceOf(vtkDataSet* input, const char* what, const Eigen::Isometry3d& T_local_scene, int threads)
+meam::Points surfaceOf(vtkDataSet* input, const char* what, const meam::LocalCloud& edges, int threads)
 {
   auto* measured = vtkPointSet::SafeDownCast(input);
   if (!measured)
@@ -78,13 +78,13 @@ meam::Points surfaceOf(vtkDataSet* input, const char* what, const Eigen::Isometr
   if (auto* floats = vtkFloatArray::FastDownCast(array))
   {
     surface = meam::toLocalPoints(
-      meam::ScanPoints<float>{ floats->GetPointer(0), count, flags, hidden }, T_local_scene, threads);
+      meam::ScanPoints<float>{ floats->GetPointer(0), count, flags, hidden }, edges.T_local_scene, threads);
   }
   else if (count > 0)
   {
     const meam::PrecisePoints points = toVectors<double>(array);
     surface = meam::toLocalPoints(
-      meam::ScanPoints<double>{ points.front().data(), count, flags, hidden }, T_local_scene, threads);
+      meam::ScanPoints<double>{ points.front().data(), count, flags, hidden }, edges.T_local_scene, threads);
   }
   meam::requirePoints(count, surface.size(), what);
   return surface;

@@ -156,31 +156,33 @@ std::shared_ptr<const meam::Scene> sharedScene(
     meam::SceneSettings settings;
     settings.threads = threads;
     meam::LocalCloud local = edgesOf(edges, threads);
-    const meam::Points measured = surfaceOf(surface, "The scene's surface", local.T_local_scene, threads);
+    const meam::Points measured = surfaceOf(surface, "The scene's surface", local, threads);
     scene = std::make_shared<const meam::Scene>(std::move(local), measured, sensor, partDiameter, settings);
     cacheOf<meam::Scene>().insert(key, scene);
   }
   return scene;
 }
 
-std::shared_ptr<const LocalPoses> sharedPoses(
-  vtkPolyData* input, const Eigen::Isometry3d& T_local_scene, const meam::Symmetries& symmetries)
+std::shared_ptr<const meam::LocalPoses> sharedPoses(
+  vtkPolyData* input, const meam::Scene& scene, const meam::Symmetries& symmetries)
 {
-  const std::shared_ptr<const LocalPoses> known = cacheOf<LocalPoses>().find(keyOf(input));
+  const Eigen::Isometry3d& T_local_scene = scene.T_local_scene();
+  const std::shared_ptr<const meam::LocalPoses> known = cacheOf<meam::LocalPoses>().find(keyOf(input));
   if (known && known->T_local_scene.matrix() == T_local_scene.matrix())
   {
     return known;
   }
-  return std::make_shared<const LocalPoses>(
-    LocalPoses{ T_local_scene, meam::toLocalFrame(toPoses(input), T_local_scene, symmetries) });
+  return std::make_shared<const meam::LocalPoses>(
+    meam::LocalPoses{ T_local_scene, meam::toLocalFrame(toPoses(input), T_local_scene, symmetries) });
 }
 
-std::shared_ptr<const LocalPoses> sharePoses(LocalPoses poses, const meam::TrainedModel& model, vtkPolyData* output)
+std::shared_ptr<const meam::LocalPoses> sharePoses(
+  meam::LocalPoses poses, const meam::TrainedModel& model, vtkPolyData* output)
 {
   fromPoses(meam::toSceneFrame(poses.poses, poses.T_local_scene, model.symmetries), output);
   setDiameter(output, model.diameter);
-  const auto shared = std::make_shared<const LocalPoses>(std::move(poses));
-  cacheOf<LocalPoses>().insert(keyOf(output), shared);
+  const auto shared = std::make_shared<const meam::LocalPoses>(std::move(poses));
+  cacheOf<meam::LocalPoses>().insert(keyOf(output), shared);
   return shared;
 }
 }

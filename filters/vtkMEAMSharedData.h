@@ -31,13 +31,6 @@ struct TrainedModel;
 
 namespace vtkMEAMConversion
 {
-/// Poses in the local frame of a scene.
-struct LocalPoses
-{
-  Eigen::Isometry3d T_local_scene;
-  meam::Poses poses;
-};
-
 /// The core's model of a collection; throws as toTrainedModel() does.
 std::shared_ptr<const meam::TrainedModel> sharedModel(vtkPartitionedDataSetCollection* input);
 /// Lets others find the model that a collection was made of.
@@ -48,11 +41,12 @@ void shareModel(vtkPartitionedDataSetCollection* output, const std::shared_ptr<c
 std::shared_ptr<const meam::Scene> sharedScene(
   vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor, double partDiameter, int threads);
 
-/// Poses in the local frame: those that the filter before had, when the data are its own, otherwise from their arrays.
-std::shared_ptr<const LocalPoses> sharedPoses(
-  vtkPolyData* input, const Eigen::Isometry3d& T_local_scene, const meam::Symmetries& symmetries);
+/// Poses in the local frame of the scene: those that the filter before had, when the data are its own, otherwise from their arrays.
+std::shared_ptr<const meam::LocalPoses> sharedPoses(
+  vtkPolyData* input, const meam::Scene& scene, const meam::Symmetries& symmetries);
 /// Writes poses in the scene's coordinates, with the field data `Diameter`, and lets others find them in the local frame.
-std::shared_ptr<const LocalPoses> sharePoses(LocalPoses poses, const meam::TrainedModel& model, vtkPolyData* output);
+std::shared_ptr<const meam::LocalPoses> sharePoses(
+  meam::LocalPoses poses, const meam::TrainedModel& model, vtkPolyData* output);
 }
 
 #endif

@@ -41,6 +41,13 @@ using Poses = std::vector<Pose>;
 /// The pose after a motion of the scene.
 Pose moved(const Pose& pose, const Eigen::Isometry3d& motion);
 
+/// Poses in the local frame of a scene.
+struct LocalPoses
+{
+  Eigen::Isometry3d T_local_scene = Eigen::Isometry3d::Identity();
+  Poses poses;
+};
+
 /// Poses, in the scene's own coordinates, in its local frame: of those that are equal for a part with these symmetries the
 /// one that is turned least there, whatever the scene's coordinates are. Throws Error for a pose that is not finite.
 Poses toLocalFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries);
