@@ -195,16 +195,28 @@ bool PoseClusters::sameInstance(int a, int b) const
   {
     return apart < this->Distance;
   }
-  return apart < this->SharedWithin && this->sharedMatches(a, b) > this->Settings.shared;
+  return apart < this->SharedWithin && this->shareMatches(a, b);
 }
 
-double PoseClusters::sharedMatches(int a, int b) const
+bool PoseClusters::shareMatches(int a, int b) const
 {
   const Points& points = this->MatchedPoints[a].points;
   const PointGrid& others = this->MatchedPoints[b].grid;
-  const auto near = std::count_if(points.begin(), points.end(),
-    [&](const auto& point) { return others.nearest(point, this->SharedDistance) >= 0; });
-  return points.empty() ? 0.0 : static_cast<double>(near) / points.size();
+  const double wanted = this->Settings.shared * static_cast<double>(points.size());
+  std::size_t shared = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    shared += others.nearest(points[k], this->SharedDistance) >= 0 ? 1 : 0;
+    if (static_cast<double>(shared) > wanted)
+    {
+      return true;
+    }
+    if (static_cast<double>(shared + points.size() - k - 1) <= wanted) // the rest cannot make up for it
+    {
+      return false;
+    }
+  }
+  return false;
 }
 
 double PoseClusters::turnBetween(int a, int b) const

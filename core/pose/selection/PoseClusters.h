@@ -48,8 +48,8 @@ private:
   /// Whether pose `k` stays, and whether those of its instance, `before` it, still do.
   void choose(int k, const std::vector<int>& before, std::vector<char>& stays);
   bool sameInstance(int a, int b) const;
-  /// The share of what `a` matched that `b` matched, too, [0, 1]: poses of one instance share most of it.
-  double sharedMatches(int a, int b) const;
+  /// Whether `b` matched so much of what `a` matched, too: poses of one instance share most of it.
+  bool shareMatches(int a, int b) const;
   /// Degrees, up to what is the same.
   double turnBetween(int a, int b) const;
 
