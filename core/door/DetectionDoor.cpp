@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meam.h"
+#include "model/TrainedModel.h"
+#include "pose/MEAMPoseEstimation.h"
+#include "scene/Units.h"
+#include "scene/edges/SceneEdgeExtraction.h"
+
+#include <chrono>
+
+namespace meam
+{
+namespace
+{
+constexpr double AfterSceneEdges = 0.2; // share of the work, for the progress
+
+void requireScan(const Scan& scan)
+{
+  if (scan.width < 1 || scan.height < 1 ||
+      scan.points.size() != static_cast<std::size_t>(scan.width) * static_cast<std::size_t>(scan.height))
+  {
+    throw Error("The scan has " + std::to_string(scan.points.size()) + " points and a grid of " +
+                std::to_string(scan.width) + " x " + std::to_string(scan.height) + ": give a point for each of its places.");
+  }
+  if (scan.height == 1 && scan.edges.empty())
+  {
+    throw Error("The scan is not organized, so that its edges cannot be taken from an image: give its edge points, or an "
+                "organized scan (a grid of width x height points).");
+  }
+}
+
+Sensor sensorOf(const Scan& scan)
+{
+  Sensor sensor;
+  if (scan.sensor)
+  {
+    sensor = *scan.sensor;
+    if (!sensor.direction.allFinite() || !(sensor.direction.norm() > 0.0))
+    {
+      throw Error("The sensor's direction is zero: give the way it looks, in the scan's coordinates.");
+    }
+    sensor.direction.normalize();
+  }
+  else if (scan.height == 1)
+  {
+    sensor.perspective = false;
+    sensor.direction = -Eigen::Vector3d::UnitZ();
+  }
+  return sensor;
+}
+
+/// The scan's edge points as extracted, or as given.
+PointCloud edgesOf(const Scan& scan, const DetectSettings& settings, const Progress& progress)
+{
+  if (!scan.edges.empty())
+  {
+    requirePoints(scan.edges, "The scan's edge cloud");
+    PointCloud edges;
+    edges.points = scan.edges;
+    return finitePoints(std::move(edges));
+  }
+  SceneEdgeExtractionSettings extraction;
+  extraction.imageEdges = settings.imageEdges;
+  extraction.depthEdges = settings.depthEdges;
+  extraction.creases = settings.creases;
+  extraction.camera = scan.imageCamera;
+  extraction.tangents = settings.preset == Preset::Recommended;
+  extraction.threads = settings.threads;
+  if (settings.imageEdges && scan.image.pixels.empty())
+  {
+    throw Error("The scan has no image: give one, registered or with its camera, or look for depthEdges and creases "
+                "instead of imageEdges.");
+  }
+  return extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress).cloud;
+}
+}
+
+Detections detect(const Model& model, const Scan& scan, const DetectSettings& settings, const Progress& progress)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const TrainedModel& trained = model.trained();
+  requireScan(scan);
+  const Sensor sensor = sensorOf(scan);
+  FramedPoints surface = inOwnFrame(scan.points, settings.threads);
+  requirePoints(scan.points.size(), surface.points.size(), "The scan");
+  const PointCloud edges = edgesOf(scan, settings, subProgress(progress, 0.0, AfterSceneEdges));
+
+  DetectionSettings steps =
+    detectionSettings(settings.preset, settings.maximumPoses, settings.threads, settings.minimumProbability);
+  steps.detection.seed = settings.seed;
+  if (settings.referenceShare > 0.0)
+  {
+    steps.detection.referenceShare = settings.referenceShare;
+  }
+  else if (settings.preset == Preset::Recommended && scan.edges.empty())
+  {
+    steps.detection.referenceShare = ImageReferenceShare;
+  }
+
+  Detections result;
+  for (const Pose& pose : estimatePoses(
+         trained, edges, std::move(surface), sensor, steps, nullptr, subProgress(progress, AfterSceneEdges, 1.0)))
+  {
+    result.poses.push_back({ pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction,
+      pose.fit.residual });
+  }
+  result.warning = unitsWarning(edges.points, trained.diameter);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+}
