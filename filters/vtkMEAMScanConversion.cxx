@@ -102,23 +102,11 @@ vtkSmartPointer<vtkUnsignedCharArray> newBytes(const char* name, int components,
 
 void addIntensity(const std::vector<float>& intensities, const std::vector<int>& kept, vtkDataSet* output)
 {
-  float largest = 0.0f;
-  bool whole = true;
-  for (const float value : intensities)
-  {
-    if (std::isfinite(value))
-    {
-      largest = std::max(largest, value);
-      whole = whole && value >= 0.0f && value == std::floor(value);
-    }
-  }
-  const float factor = (whole && largest <= 255.0f) || largest <= 0.0f ? 1.0f : 255.0f / largest;
+  const std::vector<std::uint8_t> values = meam::greyValues(intensities);
   const auto array = newBytes("Intensity", 1, kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
-    const float value = std::round(factor * intensities[kept[i]]);
-    *array->GetPointer(static_cast<vtkIdType>(i)) =
-      value > 0.0f ? static_cast<unsigned char>(std::min(value, 255.0f)) : 0; // NaN is black
+    *array->GetPointer(static_cast<vtkIdType>(i)) = values[kept[i]];
   }
   output->GetPointData()->SetScalars(array);
 }

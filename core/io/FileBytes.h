@@ -11,4 +11,7 @@ void writeFile(const std::string& path, const std::string& bytes);
 
 /// All bytes of a file. Throws Error, naming the file, when it is missing or unreadable.
 std::string readFile(const std::string& path);
+
+/// The extension of a file's name in lower case: ".ply".
+std::string extensionOf(const std::string& path);
 }
