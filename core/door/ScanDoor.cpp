@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meam.h"
 #include "io/CameraFile.h"
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 #include "io/PCDFile.h"
 #include "io/PLYFile.h"
 #include "scene/CloudOrganization.h"

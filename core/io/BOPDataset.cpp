@@ -2,9 +2,9 @@
 #include "io/BOPDataset.h"
 
 #include "io/DepthImage.h"
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 #include "io/ImageFile.h"
-#include "io/JSONFile.h"
+#include "io/parsing/JSONFile.h"
 
 #include <nlohmann/json.hpp>
 

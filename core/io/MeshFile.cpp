@@ -2,10 +2,10 @@
 #include "io/MeshFile.h"
 
 #include "base/Error.h"
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 #include "io/OFFFile.h"
 #include "io/PLYFile.h"
-#include "io/TextLines.h"
+#include "io/parsing/TextLines.h"
 
 #include <algorithm>
 #include <cctype>

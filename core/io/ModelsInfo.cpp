@@ -2,8 +2,8 @@
 #include "io/ModelsInfo.h"
 
 #include "base/Error.h"
-#include "io/FileBytes.h"
-#include "io/JSONFile.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/JSONFile.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/OFFFile.h"
 
-#include "io/FileBytes.h"
-#include "io/TextLines.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/TextLines.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/PLYFile.h"
 
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,8 +2,8 @@
 #include "model/ModelFile.h"
 
 #include "base/Error.h"
-#include "io/FileBytes.h"
-#include "io/NamedArrays.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/NamedArrays.h"
 #include "model/ModelValidation.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 #include "io/PCDFile.h"
 
 #include <gtest/gtest.h>

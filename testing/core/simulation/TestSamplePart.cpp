@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 #include "mesh/preparation/MeshPreparation.h"
 #include "simulation/SamplePart.h"
 #include "base/Bounds.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/NamedArrays.h"
+#include "io/parsing/NamedArrays.h"
 
 #include "base/Error.h"
 

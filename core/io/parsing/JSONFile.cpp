@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/JSONFile.h"
+#include "io/parsing/JSONFile.h"
 
 #include "base/Error.h"
 

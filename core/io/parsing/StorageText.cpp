@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/StorageText.h"
+#include "io/parsing/StorageText.h"
 
 #include "base/Error.h"
 
