@@ -7,8 +7,8 @@
 ///     meam::Model model = meam::loadModel("part.meam");              // in the cell; meam::detect, no GPL in it
 ///     for (const meam::DetectedPose& pose : meam::detect(model, meam::loadScan("scan.pcd")).poses) ...
 ///
-/// Lengths are in mm. Every failure is a meam::Error whose message says what is wrong and what to do. The same input gives
-/// the same result, for any number of threads.
+/// Lengths are in mm. Every failure is a meam::Error whose message says what is wrong and what to do. The same input
+/// gives the same result, for any number of threads.
 #pragma once
 
 #include "base/Error.h"          // Error, Aborted, Progress
@@ -63,8 +63,8 @@ private:
 /// somewhere: an image, the cloud itself (DetectSettings), or `edges`.
 struct Scan
 {
-  int width = 0;  ///< of the grid of points
-  int height = 1; ///< 1: the points are not organized, and `edges` have to be given
+  int width = 0;                       ///< of the grid of points
+  int height = 1;                      ///< 1: the points are not organized, and `edges` have to be given
   std::vector<Eigen::Vector3f> points; ///< mm, row by row from the top left; NaN where nothing was measured
 
   Image image;                       ///< grey values or colours; a pixel for each point, or of `imageCamera`
@@ -80,7 +80,8 @@ struct DetectSettings
   Preset preset = Preset::Recommended;
   int maximumPoses = 5;            ///< the best ones; 0: all
   double minimumProbability = 0.0; ///< [0, 1], of each
-  /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the preset's
+  /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
+  /// preset's
   double referenceShare = 0.0;
   bool imageEdges = true;  ///< edges from the image
   bool depthEdges = false; ///< and where a surface ends in front of another one
@@ -128,7 +129,8 @@ MEAM_EXPORT Camera loadCamera(const std::string& path);
 /// Reads a PNG, JPEG, BMP or TIFF image, for Scan::image.
 MEAM_EXPORT Image loadImage(const std::string& path);
 
-/// Reads a depth image of 16 bits, PNG or TIFF, with the calibration of its camera, whose `depth_scale` brings it to mm.
+/// Reads a depth image of 16 bits, PNG or TIFF, with the calibration of its camera, whose `depth_scale` brings it to
+/// mm.
 MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& cameraFile);
 
 // ----------------------------------------------------------------------------------------------------------- training
@@ -146,7 +148,7 @@ struct TrainSettings
   Preset preset = Preset::Recommended;
   double scale = 1.0; ///< factor on the mesh's coordinates, to bring them to mm: 1000 for metres
   Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< mm, added after the scale
-  unsigned seed = 1;  ///< of all random choices
+  unsigned seed = 1;                                ///< of all random choices
 };
 
 /// Learns how a part looks from all sides. Takes seconds, on all processors.

@@ -88,7 +88,7 @@ DECISIONS = {
     "edges-score": ("score of edges alone", None, evidence(EvidenceWeights=(1, 0, 0))),
     "surface-score": ("score of the surface alone", None, evidence(EvidenceWeights=(0, 1, 0))),
     "no-unexplained": ("unexplained scene edges do not count", None, evidence(EvidenceWeights=(0.4, 0.4, 0))),
-    "no-free-space": ("what the sensor looked past does not count", None, evidence(FreeSpace=False)),
+    "no-free-space": ("what the sensor saw past does not count", None, evidence(FreeSpace=False)),
     "p-ref-5": ("P_ref 5 %", None, lambda chain: chain.detection.SetReferenceShare(0.05)),
     "p-ref-2": ("P_ref 2 %", None, lambda chain: chain.detection.SetReferenceShare(0.02)),
     "p-ref-1": ("P_ref 1 %", None, lambda chain: chain.detection.SetReferenceShare(0.01)),

@@ -29,8 +29,8 @@ namespace vtkMEAMConversion
 {
 namespace
 {
-constexpr double NearlyUnit = 1e-4;   // a length this near to 1 is 1 but for rounding
-constexpr double SamePlace = 1e-3;    // mm: a point that has been moved by no more lies where it was
+constexpr double NearlyUnit = 1e-4; // a length this near to 1 is 1 but for rounding
+constexpr double SamePlace = 1e-3;  // mm: a point that has been moved by no more lies where it was
 
 using meam::Error;
 /// The point array `Tangent`, made unit; none when it is not there. No direction becomes not finite.

@@ -2,6 +2,7 @@
 #include "vtkMEAMConflictResolution.h"
 
 #include "pose/selection/ConflictResolution.h"
+#include "scene/Units.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
@@ -18,7 +19,6 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "scene/Units.h"
 
 #include <memory>
 #include <string>
@@ -62,10 +62,7 @@ void setDiameters(const std::vector<Part>& parts, vtkPolyData* output)
 }
 }
 
-vtkMEAMConflictResolution::vtkMEAMConflictResolution()
-{
-  this->SetNumberOfInputPorts(4);
-}
+vtkMEAMConflictResolution::vtkMEAMConflictResolution() { this->SetNumberOfInputPorts(4); }
 
 int vtkMEAMConflictResolution::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -105,7 +102,7 @@ int vtkMEAMConflictResolution::RequestData(
       if (count != models)
       {
         throw meam::Error("There are poses of " + std::to_string(count) + " parts and models of " +
-          std::to_string(models) + ": connect both of each part, in the same order.");
+                          std::to_string(models) + ": connect both of each part, in the same order.");
       }
       const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
       std::vector<Part> parts;

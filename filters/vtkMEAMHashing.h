@@ -106,8 +106,9 @@ public:
 
   ///@{
   /**
-   * With ViewMerging Points, of the edge points in a cube of this side, in mm, one makes pairs and votes, in the model as
-   * in a scene; all of them judge and refine poses. 0: 4 % of the part's diameter. Otherwise every edge point makes pairs. Default: 0.
+   * With ViewMerging Points, of the edge points in a cube of this side, in mm, one makes pairs and votes, in the model
+   * as in a scene; all of them judge and refine poses. 0: 4 % of the part's diameter. Otherwise every edge point makes
+   * pairs. Default: 0.
    */
   vtkSetClampMacro(LeafSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(LeafSize, double);

@@ -262,7 +262,8 @@ private:
         if (fieldText(data, "Piece") != name || data->GetNumberOfPoints() != points)
         {
           refuseModel("is damaged: its piece '" + name + "' has " + std::to_string(data->GetNumberOfPoints()) +
-                      " points instead of " + std::to_string(points) + ", or is another one. The file may be truncated.");
+                      " points instead of " + std::to_string(points) +
+                      ", or is another one. The file may be truncated.");
         }
         return data;
       }

@@ -11,20 +11,11 @@
 
 vtkStandardNewMacro(vtkMEAMModelReader);
 
-vtkMEAMModelReader::vtkMEAMModelReader()
-{
-  this->SetNumberOfInputPorts(0);
-}
+vtkMEAMModelReader::vtkMEAMModelReader() { this->SetNumberOfInputPorts(0); }
 
-vtkMEAMModelReader::~vtkMEAMModelReader()
-{
-  this->SetFileName(nullptr);
-}
+vtkMEAMModelReader::~vtkMEAMModelReader() { this->SetFileName(nullptr); }
 
-int vtkMEAMModelReader::CanReadFile(const char* fileName)
-{
-  return fileName && meam::isModel(fileName) ? 1 : 0;
-}
+int vtkMEAMModelReader::CanReadFile(const char* fileName) { return fileName && meam::isModel(fileName) ? 1 : 0; }
 
 int vtkMEAMModelReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {

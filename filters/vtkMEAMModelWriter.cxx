@@ -14,10 +14,7 @@ vtkStandardNewMacro(vtkMEAMModelWriter);
 
 vtkMEAMModelWriter::vtkMEAMModelWriter() = default;
 
-vtkMEAMModelWriter::~vtkMEAMModelWriter()
-{
-  this->SetFileName(nullptr);
-}
+vtkMEAMModelWriter::~vtkMEAMModelWriter() { this->SetFileName(nullptr); }
 
 int vtkMEAMModelWriter::FillInputPortInformation(int, vtkInformation* info)
 {

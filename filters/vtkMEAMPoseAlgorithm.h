@@ -3,8 +3,8 @@
  * @class vtkMEAMPoseAlgorithm
  * @brief Base of the filters that take poses of a part in a scene, and give poses.
  *
- * The filters of a pipeline share the trained model, the scene and the poses in its local frame, so that each is made once
- * and nothing is rounded between them.
+ * The filters of a pipeline share the trained model, the scene and the poses in its local frame, so that each is made
+ * once and nothing is rounded between them.
  *
  * Input port 0: vtkPolyData of poses (vtkMEAMPoseDetection, another filter of this kind, or a pose file): `Transform`.
  * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).

@@ -2,6 +2,7 @@
 #include "vtkMEAMPoseDetection.h"
 
 #include "pose/voting/PoseDetection.h"
+#include "scene/Units.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSettings.h"
@@ -12,7 +13,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "scene/Units.h"
 
 vtkStandardNewMacro(vtkMEAMPoseDetection);
 

@@ -8,9 +8,9 @@
  * point of the model the reference point is, and for the turn about its tangent. The peak of the votes gives
  * one candidate for each reference point. Candidates are not verified: many are wrong.
  *
- * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation); those found in a scan
- * have `EdgeSource` (vtkMEAMSceneEdgeExtraction).
- * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).
+ * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation); those found in a
+ * scan have `EdgeSource` (vtkMEAMSceneEdgeExtraction). Input port 1: vtkPartitionedDataSetCollection, the trained model
+ * (vtkMEAMHashing).
  *
  * Output port 0: vtkPolyData, one vertex for each candidate where the part's origin lies, in the order of the
  * reference points: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Votes`, `ViewId` (the
@@ -39,8 +39,9 @@ public:
 
   ///@{
   /**
-   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref), but at least 100. More finds more of the
-   * hidden copies and takes longer. 0: 0.1 of edges found in a scan (with `EdgeSource`), 0.03 of others. Default: 0.
+   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref), but at least 100. More finds more of
+   * the hidden copies and takes longer. 0: 0.1 of edges found in a scan (with `EdgeSource`), 0.03 of others. Default:
+   * 0.
    */
   virtual void SetReferenceShare(double value);
   virtual double GetReferenceShare();
@@ -48,8 +49,8 @@ public:
 
   ///@{
   /**
-   * Share of the scene's edge points that are referred points, in (0, 1] (P_referred); of those in a cube of the model's
-   * LeafSize (vtkMEAMHashing) one. Default: 1. The paper: 0.2.
+   * Share of the scene's edge points that are referred points, in (0, 1] (P_referred); of those in a cube of the
+   * model's LeafSize (vtkMEAMHashing) one. Default: 1. The paper: 0.2.
    */
   virtual void SetReferredShare(double value);
   virtual double GetReferredShare();
@@ -63,8 +64,8 @@ public:
 
   ///@{
   /**
-   * The sense in which a pair runs along its tangents tells which way round these lie; false: their stored signs are taken
-   * for right, which is wrong for half of the reference points. For comparison. Default: true.
+   * The sense in which a pair runs along its tangents tells which way round these lie; false: their stored signs are
+   * taken for right, which is wrong for half of the reference points. For comparison. Default: true.
    */
   virtual void SetSignedTangents(bool value);
   virtual bool GetSignedTangents();

@@ -4,6 +4,7 @@
 #include "mesh/preparation/MeshPreparation.h"
 #include "model/ModelTraining.h"
 #include "pose/MEAMPoseEstimation.h"
+#include "scene/Units.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
@@ -27,7 +28,6 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
-#include "scene/Units.h"
 
 #include <tuple>
 #include <utility>
@@ -76,8 +76,7 @@ private:
     Eigen::Vector3d& offset = preparation.offset;
     std::tie(preset, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
     const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(vtkPolyData::SafeDownCast(part));
-    const meam::PreparedMesh prepared =
-      meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
+    const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
     meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
     training.sampling.seed = static_cast<unsigned>(seed);
     return meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0));
@@ -208,9 +207,8 @@ int vtkMEAMPoseEstimation::RequestData(
         meam::subProgress(progress, AfterSceneEdges, AfterTraining));
       const double trained = vtkTimerLog::GetUniversalTime();
 
-      meam::DetectionSettings settings = meam::detectionSettings(
-        static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses, this->NumberOfThreads,
-        this->MinimumProbability);
+      meam::DetectionSettings settings = meam::detectionSettings(static_cast<meam::Preset>(this->Preset),
+        this->MaximumNumberOfPoses, this->NumberOfThreads, this->MinimumProbability);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
       if (this->ReferenceShare > 0.0)
       {
@@ -265,6 +263,5 @@ void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Creases: " << this->Creases << "\n";
   os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
   os << indent << "CADScale: " << this->CADScale << "\n";
-  os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2]
-     << "\n";
+  os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2] << "\n";
 }

@@ -9,8 +9,8 @@
  * parameters, and return the same poses. The trained model is kept until the CAD or a setting that it depends on
  * changes. The outputs have the time steps of the scene.
  *
- * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the poses
- * and changes nothing else.
+ * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the
+ * poses and changes nothing else.
  *
  * Input port 0: the part, a vtkPolyData with the CAD's faces, or the trained model that vtkMEAMHashing
  * returns, a vtkPartitionedDataSetCollection.
@@ -25,10 +25,9 @@
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
  * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, and those that vtkMEAMPoseRefinement adds; field data:
  * `Diameter` (mm), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`,
- * `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, which add up to `SecondsTotal`, and the counts `ScenePoints`,
- * `SceneEdgePoints` and `ModelEdgePoints`.
- * Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`,
- * unless they came in.
+ * `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, which add up to `SecondsTotal`,
+ * and the counts `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as
+ * extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h

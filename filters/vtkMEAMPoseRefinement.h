@@ -16,10 +16,10 @@
  *
  * Output port 0: vtkPolyData, the same poses in the same order with a better `Transform`; the other arrays
  * of vtkMEAMPoseDetection stay, so verify them again for a score. Added: `Residual` (mm, root mean square),
- * `Iterations`, `Covariance` (6 x 6: rotation vector in radians and translation in mm of a small motion about the middle
- * of the part's surface, scene axes), `ConstrainedDegreesOfFreedom` (0 to 6: what the scene's points fix) and
- * `ConstrainedAxes` (6: which, as shares from 0 to 1 of the turns about the part's x, y and z axis through that middle and
- * of the shifts along them). Field data `Diameter` (mm, of the part).
+ * `Iterations`, `Covariance` (6 x 6: rotation vector in radians and translation in mm of a small motion about the
+ * middle of the part's surface, scene axes), `ConstrainedDegreesOfFreedom` (0 to 6: what the scene's points fix) and
+ * `ConstrainedAxes` (6: which, as shares from 0 to 1 of the turns about the part's x, y and z axis through that middle
+ * and of the shifts along them). Field data `Diameter` (mm, of the part).
  */
 #ifndef vtkMEAMPoseRefinement_h
 #define vtkMEAMPoseRefinement_h

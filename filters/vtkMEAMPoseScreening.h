@@ -3,13 +3,15 @@
  * @class vtkMEAMPoseScreening
  * @brief Drops raw candidates that are duplicates or whose surface is not there.
  *
- * Pre-screening, at a fraction of the cost of a score. Of candidates that are nearly the same the one with most votes times
- * the share of its surface that is there stays; candidates less than half of whose surface is there go, when there are more
- * than a few; those that stay are turned by the approximate symmetry that the scene's edges speak for. Candidates that any
- * rotation of a nearly round part makes equal are duplicates, too. Without a surface only duplicates go.
+ * Pre-screening, at a fraction of the cost of a score. Of candidates that are nearly the same the one with most votes
+ * times the share of its surface that is there stays; candidates less than half of whose surface is there go, when
+ * there are more than a few; those that stay are turned by the approximate symmetry that the scene's edges speak for.
+ * Candidates that any rotation of a nearly round part makes equal are duplicates, too. Without a surface only
+ * duplicates go.
  *
  * Input ports: as vtkMEAMPoseAlgorithm has them; port 0: raw candidates (vtkMEAMPoseDetection).
- * Output port 0: the candidates that stay, in the order they came; a vtkPolyData with the arrays of vtkMEAMPoseDetection.
+ * Output port 0: the candidates that stay, in the order they came; a vtkPolyData with the arrays of
+ * vtkMEAMPoseDetection.
  */
 #ifndef vtkMEAMPoseScreening_h
 #define vtkMEAMPoseScreening_h
@@ -71,8 +73,8 @@ public:
 
   ///@{
   /**
-   * Surface of a pose that the sensor looked past speaks against it; false: it says nothing, as where nothing was measured.
-   * Default: true.
+   * Surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing was
+   * measured. Default: true.
    */
   virtual void SetFreeSpace(bool value);
   virtual bool GetFreeSpace();

@@ -4,14 +4,15 @@
  * @brief Keeps the poses of each instance that are worth it.
  *
  * Clusters keeps the best of each cluster of poses, as the paper does. Alternatives keeps some of each instance, for
- * refinement; candidates that are equal up to an approximate symmetry are merged. Instances, for the result, keeps one of each
- * instance: poses that share most of what they match are of one instance, too; which stays is decided on the points that tell
- * them apart; it is turned about the axis of a nearly round part, or by an approximate symmetry, where the scene speaks for
- * it, aligned once more robustly, so that it stays at the same place whichever candidate led there, and scored.
+ * refinement; candidates that are equal up to an approximate symmetry are merged. Instances, for the result, keeps one
+ * of each instance: poses that share most of what they match are of one instance, too; which stays is decided on the
+ * points that tell them apart; it is turned about the axis of a nearly round part, or by an approximate symmetry, where
+ * the scene speaks for it, aligned once more robustly, so that it stays at the same place whichever candidate led
+ * there, and scored.
  *
  * Input ports: as vtkMEAMPoseAlgorithm has them; port 0: scored poses, best first (vtkMEAMPoseVerification).
- * Output port 0: the poses that stay, best first; of Instances with `Certainty` (that no near-symmetry turns it, [0, 1]) and
- * the arrays that vtkMEAMPoseRefinement adds.
+ * Output port 0: the poses that stay, best first; of Instances with `Certainty` (that no near-symmetry turns it, [0,
+ * 1]) and the arrays that vtkMEAMPoseRefinement adds.
  */
 #ifndef vtkMEAMPoseSelection_h
 #define vtkMEAMPoseSelection_h
@@ -107,8 +108,8 @@ public:
 
   ///@{
   /**
-   * Instances: surface of a pose that the sensor looked past speaks against it; false: it says nothing, as where nothing was
-   * measured. Default: true.
+   * Instances: surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing
+   * was measured. Default: true.
    */
   virtual void SetFreeSpace(bool value);
   virtual bool GetFreeSpace();
@@ -117,8 +118,8 @@ public:
 
   ///@{
   /**
-   * Instances: poses that compete for an instance are compared on what one of them alone predicts; false: each on all that it
-   * predicts, so that what it happens to be seen from decides, too. Default: true.
+   * Instances: poses that compete for an instance are compared on what one of them alone predicts; false: each on all
+   * that it predicts, so that what it happens to be seen from decides, too. Default: true.
    */
   virtual void SetSameVisibility(bool value);
   virtual bool GetSameVisibility();

@@ -3,16 +3,16 @@
  * @class vtkMEAMPoseVerification
  * @brief Scores poses against the scene.
  *
- * Section 5.2 of the paper. EdgeCoverage is the paper's score: the share of the edge appearance model of the pose that has a
- * scene edge point near. VisibleEvidence, the recommended one, asks of each edge and surface point that should be visible at
- * the pose whether the sensor saw it, saw something in front of it (which says nothing) or looked past it (which speaks
- * against the pose), and which scene edges on the part stay unexplained. Where nothing was measured, as in glare, the surface
- * says nothing.
+ * Section 5.2 of the paper. EdgeCoverage is the paper's score: the share of the edge appearance model of the pose that
+ * has a scene edge point near. VisibleEvidence, the recommended one, asks of each edge and surface point that should be
+ * visible at the pose whether the sensor saw it, saw something in front of it (which says nothing) or saw past it
+ * (which speaks against the pose), and which scene edges on the part stay unexplained. Where nothing was measured, as
+ * in glare, the surface says nothing.
  *
  * Input ports: as vtkMEAMPoseAlgorithm has them.
- * Output port 0: vtkPolyData, every pose but those below MinimumScore, best first, with `Score` (share of what should be
- * visible that is there), `Probability` (that the pose is right) and `VisibleFraction` (without a surface 1: nothing tells
- * what hides), all in [0, 1], `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection.
+ * Output port 0: vtkPolyData, every pose but those below MinimumScore, best first, with `Score` (share of what should
+ * be visible that is there), `Probability` (that the pose is right) and `VisibleFraction` (without a surface 1: nothing
+ * tells what hides), all in [0, 1], `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection.
  */
 #ifndef vtkMEAMPoseVerification_h
 #define vtkMEAMPoseVerification_h
@@ -58,9 +58,9 @@ public:
 
   ///@{
   /**
-   * What edges, surface, and that scene edges on the part are explained count in the score: three numbers of 0 or more, not
-   * all 0. Where a part is printed on, edges are there that its model does not explain: then the third is better 0. Without
-   * a surface edges alone count. `Probability` is calibrated for the defaults. Default: 0.4, 0.4, 0.2.
+   * What edges, surface, and that scene edges on the part are explained count in the score: three numbers of 0 or more,
+   * not all 0. Where a part is printed on, edges are there that its model does not explain: then the third is better 0.
+   * Without a surface edges alone count. `Probability` is calibrated for the defaults. Default: 0.4, 0.4, 0.2.
    */
   virtual void SetEvidenceWeights(double edges, double surface, double explained);
   virtual void SetEvidenceWeights(const double values[3]) { this->SetEvidenceWeights(values[0], values[1], values[2]); }
@@ -69,8 +69,8 @@ public:
 
   ///@{
   /**
-   * Surface of a pose that the sensor looked past speaks against it; false: it says nothing, as where nothing was measured.
-   * Default: true.
+   * Surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing was
+   * measured. Default: true.
    */
   virtual void SetFreeSpace(bool value);
   virtual bool GetFreeSpace();

@@ -33,17 +33,15 @@ int formatOf(const std::string& fileName)
   {
     return vtkMEAMPoseWriter::MATRICES;
   }
-  throw meam::Error("The file '" + fileName + "' was not written: poses go to .csv (BOP results), .json or .txt (4x4 "
-    "matrices); choose one of these extensions, or set the format.");
+  throw meam::Error("The file '" + fileName +
+                    "' was not written: poses go to .csv (BOP results), .json or .txt (4x4 "
+                    "matrices); choose one of these extensions, or set the format.");
 }
 }
 
 vtkMEAMPoseWriter::vtkMEAMPoseWriter() = default;
 
-vtkMEAMPoseWriter::~vtkMEAMPoseWriter()
-{
-  this->SetFileName(nullptr);
-}
+vtkMEAMPoseWriter::~vtkMEAMPoseWriter() { this->SetFileName(nullptr); }
 
 int vtkMEAMPoseWriter::FillInputPortInformation(int, vtkInformation* info)
 {

@@ -78,7 +78,8 @@ meam::Points toGrid(const Scalar* xyz, std::size_t count, const unsigned char* f
     {
       for (int i = begin; i < end; ++i)
       {
-        points[i] = Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(xyz + 3 * static_cast<std::size_t>(i)).template cast<float>();
+        points[i] =
+          Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(xyz + 3 * static_cast<std::size_t>(i)).template cast<float>();
       }
       for (int i = begin; flags && i < end; ++i)
       {

@@ -27,8 +27,8 @@ meam::Sensor sensorOf(
 /// A scene's edge points with `Tangent`, and `Weight` where it is there, in their local frame. Throws Error without
 /// points or tangents.
 meam::LocalCloud edgesOf(vtkPointSet* input, int threads);
-/// The points that a sensor measured, but for blanked and invalid ones, in the local frame of the scene's edges; none for null. Throws Error,
-/// naming `what`, without points and for a grid that is not a single layer.
+/// The points that a sensor measured, but for blanked and invalid ones, in the local frame of the scene's edges; none
+/// for null. Throws Error, naming `what`, without points and for a grid that is not a single layer.
 meam::Points surfaceOf(vtkDataSet* input, const char* what, const meam::LocalCloud& edges, int threads);
 }
 

@@ -32,8 +32,8 @@ std::optional<Eigen::Matrix<double, Count, 1>> numbersOf(vtkImageData* image, co
   }
   if (array->GetNumberOfValues() != Count)
   {
-    throw meam::Error("The image's field data '" + std::string(name) + "' must have " + std::to_string(Count) +
-                      " numbers.");
+    throw meam::Error(
+      "The image's field data '" + std::string(name) + "' must have " + std::to_string(Count) + " numbers.");
   }
   Eigen::Matrix<double, Count, 1> numbers;
   for (int i = 0; i < Count; ++i)
@@ -85,8 +85,5 @@ void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
   output->GetPointData()->SetScalars(sources); // what a view colours by
 }
 
-vtkDataArray* edgeSourcesOf(vtkPointSet* edges)
-{
-  return edges->GetPointData()->GetArray(EdgeSourceName);
-}
+vtkDataArray* edgeSourcesOf(vtkPointSet* edges) { return edges->GetPointData()->GetArray(EdgeSourceName); }
 }

@@ -9,7 +9,8 @@
 #include <algorithm>
 #include <type_traits>
 
-/// Defines SetNAME and GetNAME of a class as a field of its settings, kept within bounds; the field may be an enumeration.
+/// Defines SetNAME and GetNAME of a class as a field of its settings, kept within bounds; the field may be an
+/// enumeration.
 #define vtkMEAMClampedSettingMacro(thisClass, name, type, field, low, high)                                            \
   void thisClass::Set##name(type value)                                                                                \
   {                                                                                                                    \

@@ -43,8 +43,8 @@ inline __attribute__((always_inline)) int countEach(
 #pragma omp simd reduction(+ : number)
   for (int k = 0; k < count; ++k)
   {
-    const bool isFinite = (std::abs(xyz[3 * k]) < infinity) & (std::abs(xyz[3 * k + 1]) < infinity) &
-      (std::abs(xyz[3 * k + 2]) < infinity);
+    const bool isFinite =
+      (std::abs(xyz[3 * k]) < infinity) & (std::abs(xyz[3 * k + 1]) < infinity) & (std::abs(xyz[3 * k + 2]) < infinity);
     number += isFinite & ((flags[k] & blanked) == 0) ? 1 : 0;
   }
   return number;
@@ -147,7 +147,8 @@ Points chosenInFrame(const ScanPoints<Scalar>& scan, const Eigen::Isometry3d& fr
         number += to.stays[k];
       }
       const std::size_t expected = places[block + 1] - places[block];
-      std::fill(staying + number, staying + expected, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+      std::fill(
+        staying + number, staying + expected, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
       std::copy_n(staying, expected, points.begin() + static_cast<std::ptrdiff_t>(places[block]));
       if (number < expected)
       {
@@ -181,8 +182,8 @@ LocalCloud toLocalCloud(const PrecisePoints& points, const PrecisePoints& tangen
   local.T_local_scene = T_local_scene;
   local.cloud.points =
     rounded(points.size(), threads, [&](std::size_t i) -> Eigen::Vector3d { return T_local_scene * points[i]; });
-  local.cloud.tangents = rounded(tangents.size(), threads,
-    [&](std::size_t i) -> Eigen::Vector3d { return T_local_scene.linear() * tangents[i]; });
+  local.cloud.tangents = rounded(
+    tangents.size(), threads, [&](std::size_t i) -> Eigen::Vector3d { return T_local_scene.linear() * tangents[i]; });
   local.cloud.weights = std::move(weights);
   return local;
 }

@@ -7,8 +7,8 @@
 
 namespace meam
 {
-/// A cloud with an origin of its own: single precision in a local frame that moves with the points, so that a scene in a
-/// robot's coordinates loses nothing, and a scene that is moved in double precision is the same scene there.
+/// A cloud with an origin of its own: single precision in a local frame that moves with the points, so that a scene in
+/// a robot's coordinates loses nothing, and a scene that is moved in double precision is the same scene there.
 struct LocalCloud
 {
   Eigen::Isometry3d T_local_scene = Eigen::Isometry3d::Identity(); ///< takes the scene's coordinates to the cloud's
@@ -18,8 +18,8 @@ struct LocalCloud
   bool fromScan = false;
 };
 
-/// Edge points in double precision (mm) in a frame, with `tangents` (unit) and `weights`, which are empty or as many. The
-/// same for any number of threads; 0: one for each processor.
+/// Edge points in double precision (mm) in a frame, with `tangents` (unit) and `weights`, which are empty or as many.
+/// The same for any number of threads; 0: one for each processor.
 LocalCloud toLocalCloud(const PrecisePoints& points, const PrecisePoints& tangents, std::vector<float> weights,
   const Eigen::Isometry3d& T_local_scene, int threads = 1);
 

@@ -19,12 +19,14 @@ void requireScan(const Scan& scan)
       scan.points.size() != static_cast<std::size_t>(scan.width) * static_cast<std::size_t>(scan.height))
   {
     throw Error("The scan has " + std::to_string(scan.points.size()) + " points and a grid of " +
-                std::to_string(scan.width) + " x " + std::to_string(scan.height) + ": give a point for each of its places.");
+                std::to_string(scan.width) + " x " + std::to_string(scan.height) +
+                ": give a point for each of its places.");
   }
   if (scan.height == 1 && scan.edges.empty())
   {
-    throw Error("The scan is not organized, so that its edges cannot be taken from an image: give its edge points, or an "
-                "organized scan (a grid of width x height points).");
+    throw Error(
+      "The scan is not organized, so that its edges cannot be taken from an image: give its edge points, or an "
+      "organized scan (a grid of width x height points).");
   }
 }
 
@@ -70,8 +72,9 @@ LocalCloud edgesOf(const Scan& scan, const DetectSettings& settings, const Progr
     throw Error("The scan has no image: give one, registered or with its camera, or look for depthEdges and creases "
                 "instead of imageEdges.");
   }
-  LocalCloud edges = toLocalCloud(
-    extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress).cloud, settings.threads);
+  LocalCloud edges =
+    toLocalCloud(extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress).cloud,
+      settings.threads);
   edges.fromScan = true;
   return edges;
 }
@@ -100,8 +103,8 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   const Progress ofPoses = subProgress(progress, AfterSceneEdges, 1.0);
   for (const Pose& pose : estimatePoses(trained, input, steps, nullptr, ofPoses))
   {
-    result.poses.push_back({ pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction,
-      pose.fit.residual });
+    result.poses.push_back(
+      { pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction, pose.fit.residual });
   }
   result.warning = unitsWarning(input.edges.cloud.points, trained.diameter);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meam.h"
 #include "io/CameraFile.h"
-#include "io/parsing/FileBytes.h"
 #include "io/PCDFile.h"
 #include "io/PLYFile.h"
+#include "io/parsing/FileBytes.h"
+#include "meam.h"
 #include "scene/CloudOrganization.h"
 
 namespace meam
@@ -59,7 +59,8 @@ Scan loadScan(const std::string& path, const std::string& cameraFile, double sca
     }
     return scanOf(std::move(measured));
   }
-  throw Error("The scan '" + path + "' has an extension that is not known: give a .pcd or a .ply; depth images are "
+  throw Error("The scan '" + path +
+              "' has an extension that is not known: give a .pcd or a .ply; depth images are "
               "read by loadDepthImage().");
 }
 

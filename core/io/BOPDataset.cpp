@@ -2,8 +2,8 @@
 #include "io/BOPDataset.h"
 
 #include "io/DepthImage.h"
-#include "io/parsing/FileBytes.h"
 #include "io/ImageFile.h"
+#include "io/parsing/FileBytes.h"
 #include "io/parsing/JSONFile.h"
 
 #include <nlohmann/json.hpp>

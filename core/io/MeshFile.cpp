@@ -2,9 +2,9 @@
 #include "io/MeshFile.h"
 
 #include "base/Error.h"
-#include "io/parsing/FileBytes.h"
 #include "io/OFFFile.h"
 #include "io/PLYFile.h"
+#include "io/parsing/FileBytes.h"
 #include "io/parsing/TextLines.h"
 
 #include <algorithm>
@@ -86,7 +86,8 @@ TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes)
   Points vertices(std::size_t(3) * count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    std::memcpy(vertices[3 * i].data(), bytes.data() + start + STLTriangle * i + STLNormal, 3 * sizeof(Eigen::Vector3f));
+    std::memcpy(
+      vertices[3 * i].data(), bytes.data() + start + STLTriangle * i + STLNormal, 3 * sizeof(Eigen::Vector3f));
   }
   return soupOf(std::move(vertices));
 }

@@ -7,8 +7,8 @@
 
 namespace meam
 {
-/// Reads a mesh, in the file's own unit, by the file's extension: .stl (ascii or binary), .obj, .ply or .off. Polygons are
-/// cut into triangles; all but the shape is skipped. Throws Error, naming the file and what is wrong with it, also when
-/// it has no faces.
+/// Reads a mesh, in the file's own unit, by the file's extension: .stl (ascii or binary), .obj, .ply or .off. Polygons
+/// are cut into triangles; all but the shape is skipped. Throws Error, naming the file and what is wrong with it, also
+/// when it has no faces.
 TriangleMesh readMesh(const std::string& path);
 }

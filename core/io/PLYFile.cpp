@@ -274,8 +274,8 @@ private:
   Encoding Form;
 };
 
-/// Goes through an element; `entry` gets the place of a list among the properties and one of its values after the other,
-/// then `take` the record's number and its values, the lengths of lists among them.
+/// Goes through an element; `entry` gets the place of a list among the properties and one of its values after the
+/// other, then `take` the record's number and its values, the lengths of lists among them.
 template <typename Take, typename Entry>
 void forEachRecord(
   const std::string& path, Values& values, const Element& element, const Take& take, const Entry& entry)
@@ -439,7 +439,8 @@ TriangleMesh readPLYMesh(const std::string& path)
   {
     if (element.name == "vertex" && mesh.vertices.empty())
     {
-      forEachRecord(path, values, element, [&](std::uint64_t, const std::vector<double>& record)
+      forEachRecord(path, values, element,
+        [&](std::uint64_t, const std::vector<double>& record)
         { mesh.vertices.push_back(vectorOf(record, layout.point)); });
     }
     else if (element.name == "face" && mesh.triangles.empty())

@@ -32,9 +32,9 @@ Eigen::Isometry3d transformAt(const Numbers& numbers, std::size_t at)
 }
 
 // Numbers of a row: a symmetry in each.
-constexpr std::size_t DiscreteRow = 16;   // row-major 4 x 4
-constexpr std::size_t ContinuousRow = 6;  // axis, point on it
-constexpr std::size_t NearRow = 18;       // row-major 4 x 4, overlap, deviation
+constexpr std::size_t DiscreteRow = 16;  // row-major 4 x 4
+constexpr std::size_t ContinuousRow = 6; // axis, point on it
+constexpr std::size_t NearRow = 18;      // row-major 4 x 4, overlap, deviation
 
 /// Calls take(numbers, at) for each whole row of an array.
 template <typename Take>
@@ -86,8 +86,9 @@ Symmetries symmetriesOf(const NamedArrays& arrays)
         { Eigen::Vector3d(numbers.data() + at), Eigen::Vector3d(numbers.data() + at + 3) });
     });
   forEachRow(arrays, "NearSymmetries", NearRow,
-    [&](const Numbers& numbers, std::size_t at)
-    { symmetries.near.push_back({ transformAt(numbers, at), numbers[at + 16], numbers[at + 17] }); });
+    [&](const Numbers& numbers, std::size_t at) {
+      symmetries.near.push_back({ transformAt(numbers, at), numbers[at + 16], numbers[at + 17] });
+    });
   return symmetries;
 }
 
@@ -121,8 +122,8 @@ PointCloud cloudOf(const NamedArrays& arrays, const std::string& name)
     cloud.edgeTypes.push_back(static_cast<EdgeType>(type));
   }
   const std::size_t count = cloud.size();
-  for (const std::size_t length : { cloud.normals.size(), cloud.tangents.size(), cloud.pointIds.size(),
-         cloud.edgeTypes.size() })
+  for (const std::size_t length :
+    { cloud.normals.size(), cloud.tangents.size(), cloud.pointIds.size(), cloud.edgeTypes.size() })
   {
     if (length != 0 && length != count)
     {
@@ -211,7 +212,8 @@ TrainedModel readModel(const std::string& path)
   std::string_view content = bytes;
   if (content.substr(0, Signature.size()) != Signature)
   {
-    throw Error("The file '" + path + "' is not a trained model, or was changed on its way as if it were text: give the "
+    throw Error("The file '" + path +
+                "' is not a trained model, or was changed on its way as if it were text: give the "
                 "file that training saved.");
   }
   content.remove_prefix(Signature.size());

@@ -101,13 +101,13 @@ void requireSurface(const TrainedModel& model)
 
 void requireSymmetries(const Symmetries& symmetries)
 {
-  const bool sound =
-    std::all_of(symmetries.discrete.begin(), symmetries.discrete.end(), isMotion) &&
-    std::all_of(symmetries.near.begin(), symmetries.near.end(),
-      [](const NearSymmetry& near)
-      { return isMotion(near.T) && std::isfinite(near.overlap) && std::isfinite(near.deviation); }) &&
-    std::all_of(symmetries.continuous.begin(), symmetries.continuous.end(), [](const ContinuousSymmetry& symmetry)
-      { return std::abs(symmetry.axis.norm() - 1.0) < Rotation && symmetry.point.allFinite(); });
+  const bool sound = std::all_of(symmetries.discrete.begin(), symmetries.discrete.end(), isMotion) &&
+                     std::all_of(symmetries.near.begin(), symmetries.near.end(),
+                       [](const NearSymmetry& near)
+                       { return isMotion(near.T) && std::isfinite(near.overlap) && std::isfinite(near.deviation); }) &&
+                     std::all_of(symmetries.continuous.begin(), symmetries.continuous.end(),
+                       [](const ContinuousSymmetry& symmetry)
+                       { return std::abs(symmetry.axis.norm() - 1.0) < Rotation && symmetry.point.allFinite(); });
   if (!sound)
   {
     refuseModel("is damaged: its symmetries are not rigid motions.");
@@ -118,7 +118,8 @@ void requireTable(const TrainedModel& model)
 {
   const PairTable& table = model.table;
   const auto isEdge = [&](std::uint32_t index) { return index < model.edges.size(); };
-  bool sound = table.offsets.size() == static_cast<std::size_t>(model.quantizer().numberOfKeys()) + 1 &&
+  bool sound =
+    table.offsets.size() == static_cast<std::size_t>(model.quantizer().numberOfKeys()) + 1 &&
     table.referreds.size() == table.size() && table.angles.size() == table.size() &&
     table.viewBits.size() == table.size() && table.offsets.front() == 0 && table.offsets.back() == table.size() &&
     std::is_sorted(table.offsets.begin(), table.offsets.end()) &&

@@ -16,7 +16,7 @@ void requireModelVersion(double version);
 /// Throws for a diameter or settings out of range, and so before anything as long as the pair table is read.
 void requireModelSettings(const TrainedModel& model);
 
-/// Throws for all else that detection could fail on: arrays whose lengths do not fit, values that are not numbers, views
-/// and edge points that do not exist. What deriveFields() makes is not looked at. To be called before it.
+/// Throws for all else that detection could fail on: arrays whose lengths do not fit, values that are not numbers,
+/// views and edge points that do not exist. What deriveFields() makes is not looked at. To be called before it.
 void requireModel(const TrainedModel& model);
 }

@@ -5,7 +5,6 @@
 #include "base/Frames.h"
 #include "model/TrainedModel.h"
 #include "scene/Sensor.h"
-#include "base/Frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,8 +142,8 @@ int PredictedVisibility::view(const Eigen::Isometry3d& T_scene_model, const Sens
 std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible(
   const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
 {
-  // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged on
-  // the same points.
+  // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged
+  // on the same points.
   const Eigen::Vector3f direction = this->towards(T_scene_model, sensor);
   Eigen::Vector3i steps = Eigen::Vector3i::Zero(); // of poses beyond all measure, too
   if (direction.allFinite())
@@ -190,8 +189,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   projected(this->Surface, surface);
   raise(surface, nearest);
   projected(this->Edges, others);
-  keepInSight(
-    others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, nullptr, visible.edges);
+  keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, nullptr, visible.edges);
   projected(this->VerificationPoints.points, others);
   const SoAPoints& normals = this->VerificationPoints.directions;
   allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,

@@ -23,8 +23,8 @@ struct PredictedVisibilitySettings
   int cachedDirections = 1000;
 };
 
-/// Which points of a part the sensor should see from a direction, if nothing else were in the way: a depth buffer of its
-/// samples, cached by direction. Calls may run in parallel.
+/// Which points of a part the sensor should see from a direction, if nothing else were in the way: a depth buffer of
+/// its samples, cached by direction. Calls may run in parallel.
 class PredictedVisibility
 {
 public:
@@ -40,8 +40,8 @@ public:
   /// Unit vector towards the sensor from the middle of a part at a pose, in the model's frame.
   Eigen::Vector3f towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
-  /// Indices of edge points and of verification points of the surface that face the sensor and are not behind other points
-  /// of the part.
+  /// Indices of edge points and of verification points of the surface that face the sensor and are not behind other
+  /// points of the part.
   struct Visible
   {
     Eigen::Vector3f from; ///< the direction to the sensor, rounded to a step, in the model's frame

@@ -62,8 +62,9 @@ Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const De
 {
   StageTimes spent;
   Stopwatch watch;
-  LocalCloud edges = estimateTangents(input.edges, model.diameter, input.sensor.direction, settings.tangents,
-    subProgress(progress, 0.0, 0.1)).edges;
+  LocalCloud edges = estimateTangents(
+    input.edges, model.diameter, input.sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1))
+                       .edges;
   spent.tangents = watch.lap();
   const Scene scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene);
   spent.scene = watch.lap();

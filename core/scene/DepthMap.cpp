@@ -2,10 +2,10 @@
 #include "scene/DepthMap.h"
 
 #include "base/AllVectors.h"
-#include "base/Parallel.h"
-#include "base/PointGrid.h"
 #include "base/Bounds.h"
 #include "base/Frames.h"
+#include "base/Parallel.h"
+#include "base/PointGrid.h"
 
 #include <algorithm>
 #include <cassert>
@@ -80,8 +80,8 @@ struct Projection
   bool perspective;
 };
 
-/// Points of a scan that are looked at together: coordinates on a map's axes, divided by the depth when it is perspective. Not
-/// numbers where the sensor cannot have seen anything.
+/// Points of a scan that are looked at together: coordinates on a map's axes, divided by the depth when it is
+/// perspective. Not numbers where the sensor cannot have seen anything.
 struct ProjectedPoints
 {
   float u[RunLength], v[RunLength], depth[RunLength];
@@ -170,7 +170,8 @@ void extend(const ProjectedPoints& points, int count, Extent& extent)
   extent = result;
 }
 
-/// The cells of points, counted from `first`, and -1 for those in none of the next `cells`; their weights in their cells.
+/// The cells of points, counted from `first`, and -1 for those in none of the next `cells`; their weights in their
+/// cells.
 MEAM_ALL_VECTORS
 void place(
   const ProjectedPoints& points, int count, const MapCells& map, int first, int cells, int* cellOf, float* weights)
@@ -312,8 +313,8 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
   this->Height = static_cast<int>(last.y()) + 1;
   this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, nothing());
   const float layer = static_cast<float>(LayerCells * cellSize);
-  // Each thread has rows of its own, and sums up their points in order. Runs that come to the rows of two are looked at by
-  // both: more threads than processors would only look more often.
+  // Each thread has rows of its own, and sums up their points in order. Runs that come to the rows of two are looked at
+  // by both: more threads than processors would only look more often.
   const std::int64_t shares = std::min(numberOfThreads(threads), numberOfThreads(0));
   const auto firstOf = [&](int share) { return static_cast<int>(share * this->Height / shares); };
   std::vector<Points> means(shares);
@@ -376,8 +377,7 @@ void DepthMap::meansAt(const SoAPoints& points, int begin, int count, Seen& seen
   }
 }
 
-Points DepthMap::fillRows(
-  const Points& surface, const std::vector<Run>& runs, float layer, int firstRow, int lastRow)
+Points DepthMap::fillRows(const Points& surface, const std::vector<Run>& runs, float layer, int firstRow, int lastRow)
 {
   const Projection projection{ this->Axes, this->Eye, this->IsPerspective };
   const MapCells map{ this->Low, this->InverseCell, this->Width, this->Height };

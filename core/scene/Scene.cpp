@@ -23,7 +23,7 @@ LocalCloud checked(LocalCloud edges, double partDiameter)
   if (!weights.empty() && weights.size() != cloud.size())
   {
     throw Error("The scene has " + std::to_string(cloud.size()) + " edge points, but " +
-      std::to_string(weights.size()) + " weights of edge points.");
+                std::to_string(weights.size()) + " weights of edge points.");
   }
   edges.cloud = finitePoints(std::move(edges.cloud));
   requirePoints(cloud.points, "The scene's edge cloud");
@@ -32,7 +32,7 @@ LocalCloud checked(LocalCloud edges, double partDiameter)
   if (wrong != weights.end())
   {
     throw Error("An edge point of the scene has the Weight " + std::to_string(*wrong) +
-      ": weights go from 0 to 1. Rename the array, when it is something else.");
+                ": weights go from 0 to 1. Rename the array, when it is something else.");
   }
   requireSameUnits(cloud.points, partDiameter);
   return edges;
@@ -44,19 +44,20 @@ Sensor moved(const Sensor& sensor, const Eigen::Isometry3d& motion)
 }
 }
 
-Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFrom, double diameter,
-  const SceneSettings& settings)
+Scene::Scene(
+  LocalCloud edgePoints, const Points& measured, const Sensor& seenFrom, double diameter, const SceneSettings& settings)
   : edges(checked(std::move(edgePoints), diameter))
   , sensor(moved(seenFrom, edges.T_local_scene))
   , partDiameter(diameter)
   , depth(measured, sensor, settings.depthCell * diameter, settings.threads)
 {
-  inParallel(settings.threads,
-    { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
-      [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter); } });
+  inParallel(
+    settings.threads, { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
+                        [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter); } });
   if (!measured.empty() && !this->hasSurface())
   {
-    throw Error("The scene has " + std::to_string(measured.size()) +
+    throw Error(
+      "The scene has " + std::to_string(measured.size()) +
       " surface points, but the sensor looks away from all of them: turn the view direction round, or move the sensor "
       "position (a perspective sensor sees what lies before it).");
   }

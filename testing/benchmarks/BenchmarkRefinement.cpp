@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refinement of verified poses: along lines and planes, and by PCL's point-to-point ICP, the paper's way; selection of one
-// for each instance, with its final alignment. The first argument is the number of threads, of By... what grows.
+// Refinement of verified poses: along lines and planes, and by PCL's point-to-point ICP, the paper's way; selection of
+// one for each instance, with its final alignment. The first argument is the number of threads, of By... what grows.
 #include "BenchmarkScene.h"
 
 namespace

@@ -18,8 +18,8 @@ void estimate(benchmark::State& state, const scenes::Search& search, int threads
 
 void Scene(benchmark::State& state, scenes::SearchOf searchOf)
 {
-  scenes::withSearch(state, searchOf,
-    [&](const scenes::Search& search) { estimate(state, search, static_cast<int>(state.range(0))); });
+  scenes::withSearch(
+    state, searchOf, [&](const scenes::Search& search) { estimate(state, search, static_cast<int>(state.range(0))); });
 }
 BENCHMARK_CAPTURE(Scene, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Scene, tohoku, scenes::tohokuSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -2,8 +2,8 @@
 // From a scan of 1280 x 1024 points and its image to edge points with tangents, thinned as for a search: the
 // sample part in a simulated bin. The first argument is the noise of the depth in tenths of a millimetre at 1 m,
 // the second the number of threads.
-#include "mesh/ConvexHull.h"
 #include "features/TangentEstimation.h"
+#include "mesh/ConvexHull.h"
 #include "scene/BackgroundRemoval.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "simulation/BinScene.h"

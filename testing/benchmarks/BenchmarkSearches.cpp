@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BenchmarkScene.h"
-
 #include "io/PCDFile.h"
-#include "mesh/preparation/MeshPreparation.h"
 #include "mesh/TriangleMesh.h"
+#include "mesh/preparation/MeshPreparation.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -79,8 +78,9 @@ const meam::Scene& sceneOfBrackets(int copies)
 {
   static std::map<int, std::unique_ptr<const meam::Scene>> built;
   return *kept(built, copies,
-    [&]
-    { return std::unique_ptr<const meam::Scene>(new meam::Scene(preparedOf(seenBrackets(copies), bracket().diameter))); });
+    [&] {
+      return std::unique_ptr<const meam::Scene>(new meam::Scene(preparedOf(seenBrackets(copies), bracket().diameter)));
+    });
 }
 }
 

@@ -123,8 +123,8 @@ void detect(benchmark::State& state, const scenes::Search& search, int threads)
 
 void Voting(benchmark::State& state, SearchOf searchOf)
 {
-  scenes::withSearch(state, searchOf,
-    [&](const scenes::Search& search) { detect(state, search, static_cast<int>(state.range(0))); });
+  scenes::withSearch(
+    state, searchOf, [&](const scenes::Search& search) { detect(state, search, static_cast<int>(state.range(0))); });
 }
 BENCHMARK_CAPTURE(Voting, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Voting, tohoku, scenes::tohokuSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
@@ -263,8 +263,8 @@ void findPeaks(benchmark::State& state, const scenes::Search& search, int peaks)
 /// The argument is how many peaks; of Threads each finds all of them.
 void Peaks(benchmark::State& state, SearchOf searchOf)
 {
-  scenes::withSearch(state, searchOf,
-    [&](const scenes::Search& search) { findPeaks(state, search, static_cast<int>(state.range(0))); });
+  scenes::withSearch(
+    state, searchOf, [&](const scenes::Search& search) { findPeaks(state, search, static_cast<int>(state.range(0))); });
 }
 void oneAndTwo(benchmark::internal::Benchmark* peaks)
 {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What meam.h declares, through the shared libraries; the core beside them makes the scenes.
-#include "meam.h"
-
 #include "TestFiles.h"
 #include "TestImages.h"
 #include "TestScene.h"
 #include "io/PCDFile.h"
+#include "meam.h"
 
 #include <cmath>
 
@@ -187,12 +186,13 @@ TEST(Door, ReadsScans)
   EXPECT_EQ(scan.image.channels, 1);
   EXPECT_EQ(scan.image.pixels, (std::vector<std::uint8_t>{ 0, 100, 200, 255 }));
 
-  const std::string ply = folder.write("a.ply",
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
-    "property uchar green\nproperty uchar blue\nend_header\n10 0 100 1 2 3\n");
+  const std::string ply =
+    folder.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+                          "z\nproperty uchar red\n"
+                          "property uchar green\nproperty uchar blue\nend_header\n10 0 100 1 2 3\n");
   EXPECT_EQ(meam::loadScan(ply).height, 1);
-  const std::string camera =
-    folder.write("camera.json", R"({"fx": 10, "fy": 10, "cx": 1, "cy": 1, "width": 4, "height": 3, "depth_scale": 0.5})");
+  const std::string camera = folder.write(
+    "camera.json", R"({"fx": 10, "fy": 10, "cx": 1, "cy": 1, "width": 4, "height": 3, "depth_scale": 0.5})");
   EXPECT_EQ(meam::loadCamera(camera).width, 4);
   scan = meam::loadScan(ply, camera);
   EXPECT_EQ(scan.width, 4);
@@ -205,7 +205,8 @@ TEST(Door, ReadsScans)
   scan = meam::loadDepthImage(png, camera);
   EXPECT_EQ(scan.width, 4);
   EXPECT_EQ(scan.points[4 * 1 + 1], Eigen::Vector3f(0, 0, 100));
-  EXPECT_EQ(meam::loadImage(folder.write("grey.png", images::encoded(".png", cv::Mat(3, 4, CV_8UC1, cv::Scalar(7))))).pixels,
+  EXPECT_EQ(
+    meam::loadImage(folder.write("grey.png", images::encoded(".png", cv::Mat(3, 4, CV_8UC1, cv::Scalar(7))))).pixels,
     std::vector<std::uint8_t>(12, 7));
 
   EXPECT_TRUE(files::contains(files::errorOf([&] { meam::loadScan(png, camera); }), "loadDepthImage"));

@@ -395,26 +395,26 @@ TEST(FuzzedFiles, trainedModel)
   const std::string path = folder.path("a.meam");
   meam::writeModel(path, smallModel());
   fuzz(
-    path, { meam::readFile(path) },
-    [](const std::string& file) { EXPECT_GT(meam::readModel(file).votingEdges, 0); }, withChecksum);
+    path, { meam::readFile(path) }, [](const std::string& file) { EXPECT_GT(meam::readModel(file).votingEdges, 0); },
+    withChecksum);
 }
 
 TEST(FuzzedFiles, mesh)
 {
   const files::Folder folder(place());
-  const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1e0 0\nendloop\nendfacet\n";
+  const std::string facet =
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1e0 0\nendloop\nendfacet\n";
   const std::string corners(36, '\x3f');
   const auto read = [](const std::string& path) { EXPECT_FALSE(meam::readMesh(path).triangles.empty()); };
   fuzz(folder.path("a.stl"),
     { "solid part\n" + facet + facet + "endsolid part\n",
-      std::string(80, ' ') + files::raw<std::uint32_t>(2) + std::string(12, '\0') + corners + "  " + std::string(12, '\0') +
-        std::string(9, '\0') + std::string(27, '\x3e') + "  " },
+      std::string(80, ' ') + files::raw<std::uint32_t>(2) + std::string(12, '\0') + corners + "  " +
+        std::string(12, '\0') + std::string(9, '\0') + std::string(27, '\x3e') + "  " },
     read);
-  fuzz(folder.path("a.obj"), { "# a part\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf -4 -3 -2 -1\n" },
-    read);
-  const std::string header =
-    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-    "property list uchar int vertex_indices\nend_header\n";
+  fuzz(folder.path("a.obj"),
+    { "# a part\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf -4 -3 -2 -1\n" }, read);
+  const std::string header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                             "property list uchar int vertex_indices\nend_header\n";
   fuzz(folder.path("a.ply"),
     { "ply\nformat ascii 1.0\n" + header + "0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n",
       "ply\nformat binary_little_endian 1.0\n" + header + std::string(12, '\0') + corners.substr(0, 24) + "\3" +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A trained L-bracket, scenes of copies of it seen from above, and the steps of the online phase with poses in the scenes'
-// own coordinates.
+// A trained L-bracket, scenes of copies of it seen from above, and the steps of the online phase with poses in the
+// scenes' own coordinates.
 #pragma once
 
 #include "TestParts.h"
@@ -108,8 +108,7 @@ inline meam::Poses detect(const meam::PointCloud& edges, const meam::TrainedMode
   const meam::PoseDetectionSettings& settings = {}, const meam::Progress& progress = {})
 {
   const meam::LocalCloud local = meam::toLocalCloud(edges);
-  return meam::toSceneFrame(
-    meam::detectPoses(local, model, settings, progress), local.T_local_scene, model.symmetries);
+  return meam::toSceneFrame(meam::detectPoses(local, model, settings, progress), local.T_local_scene, model.symmetries);
 }
 
 inline meam::Poses screen(const meam::Poses& poses, const meam::Scene& scene, const meam::TrainedModel& model,
@@ -172,7 +171,8 @@ inline Eigen::Isometry3d lying(double x, double y, double degrees, bool up = tru
 
 inline const std::vector<Eigen::Isometry3d>& threeCopies()
 {
-  static const std::vector<Eigen::Isometry3d> poses = { lying(0, 0, 20), lying(90, 10, 131, false), lying(20, 90, -77) };
+  static const std::vector<Eigen::Isometry3d> poses = { lying(0, 0, 20), lying(90, 10, 131, false),
+    lying(20, 90, -77) };
   return poses;
 }
 /// Poses near them, as they come to refinement.

@@ -40,12 +40,12 @@ def kept(*args, **properties):
     return tuples(run(screening(*args, **properties)), "Transform")
 
 
-past = shifted(*(-40 * c for c in scene.looking))  # nearer to the sensor: it looked through the part
+past = shifted(*(-40 * c for c in scene.looking))  # nearer to the sensor: it saw past the part
 near = shifted(0.3, 0.3, 0.3)
 candidates = poses(past, near, shifted(), shifted(turned=True))
 check(len(kept(candidates)) == 3, "of few candidates only the duplicate goes")
 check(len(kept(candidates, Enough=0)) == 2, "what has no surface goes")
-check(past[3] not in [t[3] for t in kept(candidates, Enough=0)], "it is the one that the sensor looked through")
+check(past[3] not in [t[3] for t in kept(candidates, Enough=0)], "it is the one that the sensor saw past")
 check(len(kept(candidates, None, Enough=0)) == 3, "without a surface only the duplicate goes")
 check(len(kept(candidates, Enough=0, LeastSurface=0)) == 3, "no surface asked for")
 check(len(kept(candidates, Distance=0.1)) == 4, "0.5 mm apart are two")

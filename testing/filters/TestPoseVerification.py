@@ -81,14 +81,14 @@ def score(*args, **properties):
 by = [score(scene.surface, EvidenceWeights=weights) for weights in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0.3, 0.2))]
 check(abs(by[3] - (0.5 * by[0] + 0.3 * by[1] + 0.2 * by[2])) < 1e-9, f"scores of kinds of evidence: {by}")
 
-# On one side the sensor looked past the part: that speaks against the pose, where nothing was measured says nothing.
+# On one side the sensor saw past the part: that speaks against the pose, where nothing was measured says nothing.
 side = [x > sum(x for x, *_ in points(scene.surface)) / scene.surface.GetNumberOfPoints() for x, *_ in points(scene.surface)]
 past = cloud([[c + 40 * d * beyond for c, d in zip(p, scene.looking)] for p, beyond in zip(points(scene.surface), side)])
 gone = cloud([p for p, beyond in zip(points(scene.surface), side) if not beyond])
 
 
 check(score(past, EvidenceWeights=(0, 1, 0)) < 0.8 * by[1], "the surface counts")
-check(score(past) < score(scene.surface) - 0.1, f"the sensor looked past half of the part: {score(past)}")
+check(score(past) < score(scene.surface) - 0.1, f"the sensor saw past half of the part: {score(past)}")
 check(score(past, FreeSpace=False) > score(past) + 0.1, f"that says nothing: {score(past, FreeSpace=False)}")
 check(score(gone) > score(past) + 0.1, f"half of the part was not measured: {score(gone)}")
 check(score(gone) > 0.95 * score(scene.surface), f"that says nothing: {score(gone)}")

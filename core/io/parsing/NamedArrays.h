@@ -55,7 +55,8 @@ public:
 
   /// All arrays in a row, little-endian, with a check sum (CRC-32) at the end.
   std::string packed() const;
-  /// The arrays in such bytes. Throws Error when they are cut off or damaged; allocates no more than their length justifies.
+  /// The arrays in such bytes. Throws Error when they are cut off or damaged; allocates no more than their length
+  /// justifies.
   static NamedArrays unpacked(std::string_view bytes);
 
 private:

@@ -29,7 +29,7 @@ public:
     const double window = this->Settings.window * diameter;
     const double margin = this->Settings.margin * diameter;
     VisiblePart part;
-    EdgeIndex::Neighbours neighbours; // of its edges
+    EdgeIndex::Neighbours neighbours;                           // of its edges
     double travelled = std::numeric_limits<double>::infinity(); // since they were looked up, at most
     NormalEquations::Result fit;
     Twist wanted, taken;      // in the step before
@@ -37,7 +37,8 @@ public:
     double wide = this->Settings.widestFirst;
     double stepLength = 0.0;
     int steps = 0;
-    for (; steps < this->Settings.steps && !(isFollowing && stepLength <= this->Settings.leastMotion * diameter); ++steps)
+    for (; steps < this->Settings.steps && !(isFollowing && stepLength <= this->Settings.leastMotion * diameter);
+         ++steps)
     {
       if (steps < this->Settings.visibilitySteps && this->Fitter.update(part, pose, 1))
       {
@@ -113,14 +114,15 @@ private:
 };
 }
 
-Pose alignRobustly(const Pose& pose, const Scene& scene, const TrainedModel& model, const FinalAlignmentSettings& settings)
+Pose alignRobustly(
+  const Pose& pose, const Scene& scene, const TrainedModel& model, const FinalAlignmentSettings& settings)
 {
   const FinalAlignment alignment(scene, model, settings);
   Pose aligned = pose;
   const bool isFixed = alignment.align(aligned);
   const bool isNear = rotationError(aligned.T_scene_model, pose.T_scene_model) < settings.mostTurned &&
-    translationError(aligned.T_scene_model, pose.T_scene_model, model.visibility->middle().cast<double>()) <
-      settings.farthest * model.diameter;
+                      translationError(aligned.T_scene_model, pose.T_scene_model,
+                        model.visibility->middle().cast<double>()) < settings.farthest * model.diameter;
   if (isFixed && isNear)
   {
     return aligned;

@@ -33,7 +33,7 @@ bool PoseFitter::isFixed(const NormalEquations::Result& fit) const
 {
   const std::ptrdiff_t axes = this->Model.symmetries.continuous.size(); // turns about them are free, and equal
   return fit.weights >= this->Settings.fewestCorrespondences &&
-    (this->modes(fit).eigenvalues().array() > this->Settings.freeShare).count() >= 6 - axes;
+         (this->modes(fit).eigenvalues().array() > this->Settings.freeShare).count() >= 6 - axes;
 }
 
 PoseFit PoseFitter::poseFit(const Pose& pose, const NormalEquations::Result& fit, double squares, int iterations) const
@@ -60,10 +60,10 @@ PoseFit PoseFitter::poseFit(const Pose& pose, const NormalEquations::Result& fit
       ++result.constrained;
     }
   }
-  const Eigen::Matrix<double, 6, 1> variances = result.residual * result.residual / fit.weights *
-    values.array().max(this->Settings.leastShare).inverse();
+  const Eigen::Matrix<double, 6, 1> variances =
+    result.residual * result.residual / fit.weights * values.array().max(this->Settings.leastShare).inverse();
   result.covariance = scale.asDiagonal() * modes.eigenvectors() * variances.asDiagonal() *
-    modes.eigenvectors().transpose() * scale.asDiagonal();
+                      modes.eigenvectors().transpose() * scale.asDiagonal();
   return result;
 }
 

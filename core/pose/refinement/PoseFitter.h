@@ -30,15 +30,15 @@ struct VisiblePart
   SoAOrientedPoints surface; ///< with normals
 };
 
-/// What the steps of refinement share: visible points, correspondences, small motions, and how well a pose is fixed. Keeps
-/// references; calls may run in parallel.
+/// What the steps of refinement share: visible points, correspondences, small motions, and how well a pose is fixed.
+/// Keeps references; calls may run in parallel.
 class PoseFitter
 {
 public:
   PoseFitter(const Scene& scene, const TrainedModel& model, const PoseFitterSettings& settings = {});
 
-  /// Looks up every `stride`-th visible point of each kind at a pose; false when the direction to the sensor is the same
-  /// as before.
+  /// Looks up every `stride`-th visible point of each kind at a pose; false when the direction to the sensor is the
+  /// same as before.
   bool update(VisiblePart& part, const Pose& pose, int stride) const;
 
   /// Normal equations of all that something in the scene within `limit` (mm) corresponds to.
@@ -52,8 +52,8 @@ public:
   /// Whether something of the scene speaks for every motion but the part's continuous symmetries.
   bool isFixed(const NormalEquations::Result& fit) const;
 
-  /// A small motion of a pose about its middle: the rotation vector, as what it moves half a diameter from there, and the
-  /// translation, both in mm.
+  /// A small motion of a pose about its middle: the rotation vector, as what it moves half a diameter from there, and
+  /// the translation, both in mm.
   using Twist = Eigen::Matrix<double, 6, 1>;
   Twist twistOf(const Pose& pose, const Eigen::Isometry3d& motion) const;
   Eigen::Isometry3d motionOf(const Pose& pose, const Twist& twist) const;

@@ -73,7 +73,8 @@ void refinePointToPoint(Pose& pose, const PCLCloud::ConstPtr& view, const PCLClo
   const Eigen::Matrix4d result = icp.getFinalTransformation();
   if (icp.hasConverged() && result.allFinite())
   {
-    pose.T_scene_model.linear() = Eigen::Quaterniond(Eigen::Matrix3d(result.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
+    pose.T_scene_model.linear() =
+      Eigen::Quaterniond(Eigen::Matrix3d(result.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
     pose.T_scene_model.translation() = result.topRightCorner<3, 1>();
     pose.fit.iterations = icp.iterations();
   }
@@ -88,8 +89,8 @@ PoseRefinementSettings paperRefinementSettings()
   return settings;
 }
 
-Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& model, const PoseRefinementSettings& settings,
-  const Progress& progress)
+Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
+  const PoseRefinementSettings& settings, const Progress& progress)
 {
   if (settings.iterations < 1)
   {

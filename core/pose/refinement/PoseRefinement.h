@@ -10,8 +10,8 @@ namespace meam
 {
 enum class RefinementMethod
 {
-  PointToPoint,       ///< Section 5.3 of the paper: PCL's ICP with the edge appearance model
-  EdgesAndSurface     ///< edge points to scene tangents, surface points to planes, those visible only
+  PointToPoint,   ///< Section 5.3 of the paper: PCL's ICP with the edge appearance model
+  EdgesAndSurface ///< edge points to scene tangents, surface points to planes, those visible only
 };
 
 /// Lengths in mm; a length of 0 follows the part's diameter.
@@ -26,7 +26,7 @@ struct PoseRefinementSettings
   int fullSteps = 1;                ///< the last ones, with all points
   int coarseStride = 4;             ///< of the points in the steps before one of so many
   PoseFitterSettings fitter;
-  int threads = 0;                  ///< 0: one for each processor
+  int threads = 0; ///< 0: one for each processor
 };
 
 /// The paper's settings in place of the recommended ones.

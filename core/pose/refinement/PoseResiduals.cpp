@@ -10,8 +10,8 @@ namespace meam
 namespace
 {
 MEAM_ALL_VECTORS
-void againstSurface(const SoAOrientedPoints& surface, int first, const DepthMap::Seen& seen, const SurfaceWeights& weights,
-  NormalEquations::Rows& rows)
+void againstSurface(const SoAOrientedPoints& surface, int first, const DepthMap::Seen& seen,
+  const SurfaceWeights& weights, NormalEquations::Rows& rows)
 {
   const float *x = &surface.points.x[first], *y = &surface.points.y[first], *z = &surface.points.z[first];
   const float *u = &surface.directions.x[first], *v = &surface.directions.y[first], *w = &surface.directions.z[first];
@@ -85,8 +85,8 @@ void addSurfaceResiduals(
   }
 }
 
-void addLineResiduals(NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets,
-  const std::vector<float>& weights)
+void addLineResiduals(
+  NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets, const std::vector<float>& weights)
 {
   const int size = static_cast<int>(lines.size());
   NormalEquations::Rows along, beside;

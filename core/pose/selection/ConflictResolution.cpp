@@ -55,13 +55,13 @@ std::vector<int> explainedPoints(
   return explained;
 }
 
-/// 1 when nothing that the pose predicts in sight is missing, 0 when as much is missing as is there. Missing is what the
-/// sensor looked past, and, since another pose may do without it, what was not measured.
+/// 1 when nothing that the pose predicts in sight is missing, 0 when as much is missing as is there. Missing is what
+/// the sensor saw past, and, since another pose may do without it, what was not measured.
 double soundShare(const std::vector<PointState>& states)
 {
   const auto matched = std::count(states.begin(), states.end(), PointState::Matched);
   const auto missing = std::count(states.begin(), states.end(), PointState::Violated) +
-    std::count(states.begin(), states.end(), PointState::Unknown);
+                       std::count(states.begin(), states.end(), PointState::Unknown);
   return matched > missing ? static_cast<double>(matched - missing) / matched : 0.0;
 }
 
@@ -75,7 +75,7 @@ Claim claimOf(const PartPose& pose, const PartDetections& part, const Measured& 
   claim.pose.pose.viewId = viewOf(pose.pose, part.scene, part.model);
   const double probability = std::min(probabilityOrScore(pose.pose), settings.mostProbable);
   claim.support = probability / (1.0 - probability) * claim.points.size() *
-    soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
+                  soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
   return claim;
 }
 
@@ -93,8 +93,7 @@ bool betterSupported(const Claim& a, const Claim& b)
 double sharedPoints(const Claim& a, const Claim& b)
 {
   std::vector<int> common;
-  std::set_intersection(
-    a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
+  std::set_intersection(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
   const std::size_t fewer = std::min(a.points.size(), b.points.size());
   return fewer > 0 ? static_cast<double>(common.size()) / fewer : 0.0;
 }
@@ -107,7 +106,8 @@ const PartDetections& smallest(const std::vector<PartDetections>& parts)
   {
     if (part.scene.hasSurface() != least->scene.hasSurface())
     {
-      throw Error("Some parts were looked for with the scene's surface and others without: use the same scene for all.");
+      throw Error(
+        "Some parts were looked for with the scene's surface and others without: use the same scene for all.");
     }
     least = part.model.diameter < least->model.diameter ? &part : least;
   }
@@ -145,8 +145,8 @@ std::vector<PartPose> resolveConflicts(
         const double diameter = part.model.diameter;
         const double unexplained = settings.evidence.lengths.unexplained;
         const double tolerance = settings.tolerance > 0.0
-          ? std::min(settings.tolerance, unexplained * diameter)
-          : std::max(unexplained * finest.model.diameter, settings.resolvedShare * diameter);
+                                   ? std::min(settings.tolerance, unexplained * diameter)
+                                   : std::max(unexplained * finest.model.diameter, settings.resolvedShare * diameter);
         claims[i] = claimOf(claims[i].pose, part, measured, tolerance, settings);
       }
     });

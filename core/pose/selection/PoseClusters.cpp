@@ -35,7 +35,8 @@ std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before
 }
 
 PoseClusters::PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
-  const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings, int threads)
+  const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
+  int threads)
   : InPoses(poses)
   , Same(same)
   , Collector(collector)
@@ -173,7 +174,8 @@ void PoseClusters::choose(int k, const std::vector<int>& before, std::vector<cha
   }
   if (static_cast<int>(alternatives.size()) >= this->Settings.posesPerInstance)
   {
-    const bool isBest = this->Comparison &&
+    const bool isBest =
+      this->Comparison &&
       std::all_of(alternatives.begin(), alternatives.end(),
         [&](int other) { return this->Comparison->advantage(this->contender(k), this->contender(other)) > 0.0; });
     if (!isBest)

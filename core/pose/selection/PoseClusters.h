@@ -14,15 +14,18 @@ struct PoseClustersSettings
 {
   double distance = 0.0; ///< mm, poses whose middles are nearer than this are of one instance; 0: 10 % of the diameter
   double distanceShare = 0.1;
-  double distanceFor(double diameter) const { return this->distance > 0.0 ? this->distance : this->distanceShare * diameter; }
-  double angle = 15.0;       ///< poses of one instance that are turned less than this (degrees) are the same
-  int posesPerInstance = 1;  ///< that stay
+  double distanceFor(double diameter) const
+  {
+    return this->distance > 0.0 ? this->distance : this->distanceShare * diameter;
+  }
+  double angle = 15.0;      ///< poses of one instance that are turned less than this (degrees) are the same
+  int posesPerInstance = 1; ///< that stay
   /// Share of the matched points from which on two poses are of one instance, when these are compared: two parts do not
   /// have their surface in the same place.
   double shared = 0.5;
-  double sharedWithin = 0.5;      ///< of the diameter: middles farther apart than this are of two instances all the same
-  double sharedDistance = 0.04;   ///< of the diameter, between matched points: a little over their spacing
-  int allCompared = 300;          ///< of more poses than this each is compared only with those that stay
+  double sharedWithin = 0.5;    ///< of the diameter: middles farther apart than this are of two instances all the same
+  double sharedDistance = 0.04; ///< of the diameter, between matched points: a little over their spacing
+  int allCompared = 300;        ///< of more poses than this each is compared only with those that stay
 };
 
 /// Decides which poses of one instance stay. Keeps references to what it is made of.
@@ -31,8 +34,9 @@ class PoseClusters
 public:
   /// Poses up to the symmetries `same`, near ones among them, are the same. `comparison` decides between poses of an
   /// instance; null: the one that comes first stays. `collector` may be null without it.
-  PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model, const EvidenceCollector* collector,
-    const PoseComparison* comparison, const PoseClustersSettings& settings, int threads);
+  PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
+    const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
+    int threads);
 
   /// Of the poses, best first, the indices of those that stay.
   std::vector<int> select(const Progress& progress);
@@ -66,11 +70,11 @@ private:
   const PoseComparison* Comparison;
   PoseClustersSettings Settings;
   int Threads;
-  double Distance;       ///< mm
-  double SharedWithin;   ///< mm
-  double SharedDistance; ///< mm
-  std::vector<Eigen::Vector3d> Middles; ///< of the part, local frame
-  std::vector<Matched> MatchedPoints;   ///< of the poses, as far as they may be asked for
+  double Distance;                                                  ///< mm
+  double SharedWithin;                                              ///< mm
+  double SharedDistance;                                            ///< mm
+  std::vector<Eigen::Vector3d> Middles;                             ///< of the part, local frame
+  std::vector<Matched> MatchedPoints;                               ///< of the poses, as far as they may be asked for
   std::vector<std::optional<PoseComparison::Contender>> Contenders; ///< of the poses, as far as they were asked for
 };
 }

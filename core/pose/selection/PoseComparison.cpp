@@ -97,7 +97,8 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   lookUp(edges, model.edgeDistance);
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    sum += distances[k] >= alone && this->InScene.edgeGrid().nearest(T * edges[k], far) < 0 ? this->Settings.missing : 0.0;
+    sum +=
+      distances[k] >= alone && this->InScene.edgeGrid().nearest(T * edges[k], far) < 0 ? this->Settings.missing : 0.0;
   }
   return sum;
 }
@@ -146,14 +147,16 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
       edges.at(toB, points, begin, count, ofB);
       for (int k = 0; k < count; ++k)
       {
-        const double weight =
-          ofA[k] < near && ofB[k] >= far ? this->Settings.edge : ofB[k] < near && ofA[k] >= far ? -this->Settings.edge : 0.0;
+        const double weight = ofA[k] < near && ofB[k] >= far   ? this->Settings.edge
+                              : ofB[k] < near && ofA[k] >= far ? -this->Settings.edge
+                                                               : 0.0;
         if (weight == 0.0)
         {
           continue;
         }
         const Eigen::Vector3f point = points[begin + k];
-        if (model.surface.empty() || surface.at(toA * point) < far || surface.at(toB * point) < far) // else another object's
+        if (model.surface.empty() || surface.at(toA * point) < far ||
+            surface.at(toB * point) < far) // else another object's
         {
           sum += weight;
         }

@@ -13,9 +13,9 @@ struct PoseComparisonSettings
 {
   FitLengths lengths;
   double edge = 3.0;     ///< a scene edge point that one of the two alone explains: images have fewer edges than points
-  double past = 2.25;    ///< a predicted surface point that the sensor looked past: so much sparser than measured ones
+  double past = 2.25;    ///< a predicted surface point that the sensor saw past: so much sparser than measured ones
   double missing = 1.0;  ///< a predicted edge point on measured surface without an edge: images lose edges
-  bool freeSpace = true; ///< surface that the sensor looked past speaks against a pose; else it says nothing
+  bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
   /// Poses are compared on what one of them alone predicts; else each on all that it predicts.
   bool sameVisibility = true;
 };
@@ -32,7 +32,7 @@ public:
   /// What of the part the sensor should see at a pose and may not be there, in the part's frame.
   struct Prediction
   {
-    SoAPoints passed; ///< points of its surface that the sensor looked past
+    SoAPoints passed; ///< points of its surface that the sensor saw past
     SoAPoints edges;  ///< edge points on a surface that it saw
   };
   /// A pose, how many points of the measured surface it explains (one for each that lies on the part, less for those
@@ -48,8 +48,8 @@ public:
   /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not,
   /// and surface and edges that one of them alone predicts and that are not there.
   double advantage(const Contender& a, const Contender& b) const;
-  /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what comes
-  /// back is below `enough`, but may be more than it is.
+  /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what
+  /// comes back is below `enough`, but may be more than it is.
   double advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
 
 private:

@@ -156,14 +156,14 @@ Poses selectClusters(const Poses& scored, const TrainedModel& model, const PoseS
 }
 }
 
-Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model, const PoseSelectionSettings& settings,
-  const Progress& progress)
+Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
+  const PoseSelectionSettings& settings, const Progress& progress)
 {
   PoseClustersSettings clustering = settings.clusters;
   clustering.posesPerInstance = settings.method == SelectionMethod::Alternatives ? settings.alternatives : 1;
   Poses selected = settings.method == SelectionMethod::Instances
-    ? selectInstances(scored, scene, model, settings, clustering, progress)
-    : selectClusters(scored, model, settings, clustering, progress);
+                     ? selectInstances(scored, scene, model, settings, clustering, progress)
+                     : selectClusters(scored, model, settings, clustering, progress);
   selected.erase(std::remove_if(selected.begin(), selected.end(),
                    [&](const Pose& pose) { return pose.probability < settings.minimumProbability; }),
     selected.end());

@@ -16,7 +16,7 @@ enum class SelectionMethod
 {
   Clusters,     ///< the best of each cluster, as in the paper
   Alternatives, ///< some of each instance, to be refined: what an approximate symmetry makes equal is one
-  Instances     ///< one of each instance: compared, turned where another rotation is right, aligned and scored once more
+  Instances ///< one of each instance: compared, turned where another rotation is right, aligned and scored once more
 };
 
 struct PoseSelectionSettings
@@ -33,9 +33,9 @@ struct PoseSelectionSettings
   PoseComparisonSettings comparison;
   RotationSearchSettings rotation;
   PoseRefinementSettings rotated = afterRotation(); ///< of another rotation, which is nearly right
-  double rotatedDistance = 0.04;    ///< of the diameter, its correspondences at the start
-  double sureAdvantage = 10.0;      ///< points that make a rotation e times likelier than another
-  double negligible = 9.0;          ///< times that: a rotation so unlikely is one in ten thousand
+  double rotatedDistance = 0.04;                    ///< of the diameter, its correspondences at the start
+  double sureAdvantage = 10.0;                      ///< points that make a rotation e times likelier than another
+  double negligible = 9.0;                          ///< times that: a rotation so unlikely is one in ten thousand
   FinalAlignmentSettings alignment;
   int threads = 0; ///< 0: one for each processor
 
@@ -52,7 +52,8 @@ struct PoseSelectionSettings
 ///
 /// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is
 /// decided on the points that tell them apart. Then the pose is turned about the axis of a nearly round part, or by an
-/// approximate symmetry, where the scene speaks for it, which sets its certainty; it is aligned (alignRobustly) and scored.
+/// approximate symmetry, where the scene speaks for it, which sets its certainty; it is aligned (alignRobustly) and
+/// scored.
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings = {}, const Progress& progress = {});
 }

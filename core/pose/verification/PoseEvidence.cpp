@@ -29,7 +29,8 @@ void requireWeights(const EvidenceSettings& settings)
   const Eigen::Array3d weights(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight);
   if (!(weights.allFinite() && weights.minCoeff() >= 0.0 && weights.sum() > 0.0))
   {
-    throw Error("The weights of edges, surface and explained scene edges must be 0 or more, and one of them more than 0.");
+    throw Error(
+      "The weights of edges, surface and explained scene edges must be 0 or more, and one of them more than 0.");
   }
 }
 
@@ -48,7 +49,7 @@ double PoseEvidence::score(const EvidenceSettings& settings) const
   const double surfaceWeight = settings.surfaceWeight * measured;
   const double sum = settings.edgeWeight + surfaceWeight + settings.explainedWeight;
   const double there = settings.edgeWeight * share(this->edgeStates) + surfaceWeight * share(this->surfaceStates) +
-    settings.explainedWeight * clean;
+                       settings.explainedWeight * clean;
   return sum > 0.0 ? there / sum : 0.0;
 }
 
@@ -104,9 +105,9 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     const Eigen::Vector3f tangent = T.linear() * model.edges.tangents[i];
     const bool matched = this->InScene.edgeIndex.nearest(point, tangent, tolerance).edge >= 0;
     // Also where no surface was measured: beside parts on no ground nothing else speaks against a pose.
-    const PointState state = matched                                            ? PointState::Matched
-      : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
-                                                                       : PointState::Violated;
+    const PointState state = matched                                                          ? PointState::Matched
+                             : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
+                                                                                              : PointState::Violated;
     evidence.edges.push_back(point);
     evidence.edgeStates.push_back(state);
   }
@@ -129,10 +130,10 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   std::transform(relations.begin(), relations.end(), std::back_inserter(evidence.surfaceStates),
     [this](DepthMap::Relation relation)
     {
-      return relation == DepthMap::Relation::OnSurface                           ? PointState::Matched
-        : relation == DepthMap::Relation::Hidden                                 ? PointState::Hidden
-        : relation == DepthMap::Relation::NoSurface || !this->Settings.freeSpace ? PointState::Unknown
-                                                                                 : PointState::Violated;
+      return relation == DepthMap::Relation::OnSurface                                ? PointState::Matched
+             : relation == DepthMap::Relation::Hidden                                 ? PointState::Hidden
+             : relation == DepthMap::Relation::NoSurface || !this->Settings.freeSpace ? PointState::Unknown
+                                                                                      : PointState::Violated;
     });
   // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
   const Eigen::Isometry3f toModel = T.inverse();

@@ -15,7 +15,7 @@ enum class PointState : unsigned char
   Matched, ///< it is there
   Hidden,  ///< something lies in front of it: says nothing about the pose
   Unknown, ///< surface where nothing was measured: says nothing about the pose by itself
-  Violated ///< the sensor looked past it: speaks against the pose
+  Violated ///< the sensor saw past it: speaks against the pose
 };
 
 /// What counts when poses are scored.
@@ -23,15 +23,15 @@ struct EvidenceSettings
 {
   FitLengths lengths;
   double tolerance = 0.0; ///< mm, a model point this near to the scene fits; 0: lengths.fits of the diameter
-  /// What each kind of evidence counts in the score, 0 or more, not all 0: edges, surface, and that scene edges on the part
-  /// are explained. Without a surface edges alone count.
+  /// What each kind of evidence counts in the score, 0 or more, not all 0: edges, surface, and that scene edges on the
+  /// part are explained. Without a surface edges alone count.
   double edgeWeight = 0.4;
   double surfaceWeight = 0.4;
   double explainedWeight = 0.2;
-  bool freeSpace = true; ///< surface that the sensor looked past speaks against a pose; else it says nothing
+  bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
   /// Scene edges within so many tolerances of the part's surface are on the part: those a little off it are others'.
   double onSurface = 0.7;
-  int edgeStride = 2; ///< of the visible edge points one of so many: neighbours tell the same
+  int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same
   ProbabilityCalibration calibration; ///< of these weights
 };
 
@@ -48,8 +48,8 @@ struct PoseEvidence
   int explained = 0;   ///< scene edge points on the part's visible surface that are edges of the part
   int unexplained = 0; ///< those that are not
 
-  /// Share of what should be visible that is there: edges, surface and explained scene edges, [0, 1]. The surface counts
-  /// in proportion to how much of what nothing hides was measured.
+  /// Share of what should be visible that is there: edges, surface and explained scene edges, [0, 1]. The surface
+  /// counts in proportion to how much of what nothing hides was measured.
   double score(const EvidenceSettings& settings = {}) const;
   /// Share of the predicted points that nothing hides, [0, 1].
   double visibleFraction() const;

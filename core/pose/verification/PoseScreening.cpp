@@ -112,7 +112,7 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
       {
         const Eigen::Isometry3d& other = candidates[k].T_scene_model;
         return translationError(T, other, middle) < distance &&
-          rotationError(nearestEqual(T, other, same), other) < settings.angle;
+               rotationError(nearestEqual(T, other, same), other) < settings.angle;
       });
     if (!isDuplicate && shares[i] >= least)
     {

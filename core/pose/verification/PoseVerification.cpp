@@ -14,8 +14,8 @@ namespace
 void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)
 {
   const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
-  const auto fitted = std::count_if(
-    viewEdges.begin(), viewEdges.end(), [&](const auto& point) { return collector.nearEdge(T * point); });
+  const auto fitted =
+    std::count_if(viewEdges.begin(), viewEdges.end(), [&](const auto& point) { return collector.nearEdge(T * point); });
   pose.score = viewEdges.empty() ? 0.0 : static_cast<double>(fitted) / viewEdges.size();
   pose.probability = pose.score;
   pose.visibleFraction = pose.score;
@@ -44,8 +44,8 @@ void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceSet
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.score(settings);
   const ProbabilityCalibration& calibration = settings.calibration;
-  pose.probability =
-    (haveSurfaces(scene, model) ? calibration.withSurface : calibration.edgesAlone).probability(pose.score, pose.certainty);
+  pose.probability = (haveSurfaces(scene, model) ? calibration.withSurface : calibration.edgesAlone)
+                       .probability(pose.score, pose.certainty);
 }
 
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
@@ -87,7 +87,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
   for (const Pose& pose : scored)
   {
     if (pose.score >= settings.minimumScore &&
-      (settings.posesPerView == 0 || ++ofView[pose.viewId] <= settings.posesPerView))
+        (settings.posesPerView == 0 || ++ofView[pose.viewId] <= settings.posesPerView))
     {
       kept.push_back(pose);
     }

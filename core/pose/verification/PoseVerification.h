@@ -16,11 +16,11 @@ enum class VerificationMethod
 struct PoseVerificationSettings
 {
   VerificationMethod method = VerificationMethod::VisibleEvidence;
-  EvidenceSettings evidence;    ///< of both methods the tolerance, the rest of VisibleEvidence
-  int pointStride = 1;          ///< of the predicted points one of so many is looked at: 2 is enough for candidates
-  double minimumScore = 0.0;    ///< poses below are dropped
-  int posesPerView = 0;         ///< N_pv: best poses kept for each appearance model; 0: no limit
-  int threads = 0;              ///< 0: one for each processor
+  EvidenceSettings evidence; ///< of both methods the tolerance, the rest of VisibleEvidence
+  int pointStride = 1;       ///< of the predicted points one of so many is looked at: 2 is enough for candidates
+  double minimumScore = 0.0; ///< poses below are dropped
+  int posesPerView = 0;      ///< N_pv: best poses kept for each appearance model; 0: no limit
+  int threads = 0;           ///< 0: one for each processor
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.

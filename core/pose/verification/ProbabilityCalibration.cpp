@@ -7,7 +7,6 @@ namespace meam
 {
 double LogisticRegression::probability(double poseScore, double poseCertainty) const
 {
-  return 1.0 /
-    (1.0 + std::exp(-this->constant - this->score * poseScore) * std::pow(poseCertainty, -this->certainty));
+  return 1.0 / (1.0 + std::exp(-this->constant - this->score * poseScore) * std::pow(poseCertainty, -this->certainty));
 }
 }

@@ -14,9 +14,9 @@ struct LogisticRegression
   double probability(double poseScore, double poseCertainty) const;
 };
 
-/// What turns scores into probabilities. Fitted by examples/calibration.py, with the default weights of evidence, on all
-/// poses that come out of the Tohoku dataset: scenes 0 to 19 of parts 1 to 3, exact boundaries, without noise and with
-/// 0.5 mm. Probabilities of these scenes are those of the data they were fitted on.
+/// What turns scores into probabilities. Fitted by examples/calibration.py, with the default weights of evidence, on
+/// all poses that come out of the Tohoku dataset: scenes 0 to 19 of parts 1 to 3, exact boundaries, without noise and
+/// with 0.5 mm. Probabilities of these scenes are those of the data they were fitted on.
 struct ProbabilityCalibration
 {
   LogisticRegression withSurface{ -18.9, 26.4, 5.8 };

@@ -59,8 +59,7 @@ double RotationSearch::explained(const SoAPoints& edges, const Eigen::Isometry3d
 {
   thread_local std::vector<float> distances; // for hundreds of turns
   distances.resize(edges.size());
-  this->Model.edgeDistance.at(
-    turn.inverse().cast<float>(), edges, 0, static_cast<int>(edges.size()), distances.data());
+  this->Model.edgeDistance.at(turn.inverse().cast<float>(), edges, 0, static_cast<int>(edges.size()), distances.data());
   double sum = 0.0;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {

@@ -21,9 +21,9 @@ struct RotationSearchSettings
   int rotations = 2;            ///< that come out of an axis
 };
 
-/// Rotation search about the axes of a part's approximate symmetries. Its surface fits the scene at each of them, and that
-/// of a nearly round part at any rotation about its axis, so refinement stays at the rotation it came with; the scene's
-/// edges tell them apart. Calls may run in parallel.
+/// Rotation search about the axes of a part's approximate symmetries. Its surface fits the scene at each of them, and
+/// that of a nearly round part at any rotation about its axis, so refinement stays at the rotation it came with; the
+/// scene's edges tell them apart. Calls may run in parallel.
 class RotationSearch
 {
 public:
@@ -31,8 +31,8 @@ public:
   RotationSearch(const Scene& scene, const TrainedModel& model, const RotationSearchSettings& settings = {});
 
   /// The pose turned about each such axis to where more of the scene's edges on the part are edges of the part than as
-  /// it is: the better one first, as good as the steps of the search. None for a part without near-symmetries other than
-  /// half turns.
+  /// it is: the better one first, as good as the steps of the search. None for a part without near-symmetries other
+  /// than half turns.
   std::vector<Eigen::Isometry3d> better(const Eigen::Isometry3d& T_scene_model) const;
 
   /// The pose, or its turn by a near-symmetry if more of the scene's edges on the part are edges of the part then.

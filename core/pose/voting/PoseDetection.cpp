@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/voting/PoseDetection.h"
 
-#include "base/Parallel.h"
 #include "base/BlockedPoints.h"
+#include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "pose/voting/VoteAccumulator.h"
 #include "scene/Units.h"
@@ -30,8 +30,8 @@ std::uint64_t hashOf(const Eigen::Vector3f& point, double cell, unsigned seed)
   return hash;
 }
 
-/// Indices of `share` of the points, at least `least` where there are so many, ascending. Places are chosen, so the order
-/// of the points has no part in it.
+/// Indices of `share` of the points, at least `least` where there are so many, ascending. Places are chosen, so the
+/// order of the points has no part in it.
 std::vector<int> chooseShare(const Points& points, double share, int least, double cell, unsigned seed)
 {
   const int count = static_cast<int>(points.size());
@@ -118,7 +118,7 @@ private:
   const TrainedModel& Model;
   BlockedPoints Blocks;
   PairKeys Pairs;
-  PairTurn TurnsUsed; ///< bits of a scene pair's turn
+  PairTurn TurnsUsed;                  ///< bits of a scene pair's turn
   std::vector<std::uint32_t> OwnVotes; ///< in place of the table's, when senses are ignored
 };
 
@@ -154,9 +154,10 @@ Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const
   PointCloud edges = finitePoints(sceneEdges.cloud);
   requireSameUnits(edges.points, model.diameter);
   const double referenceShare = settings.referenceShare > 0.0 ? settings.referenceShare
-    : sceneEdges.fromScan                                     ? settings.scanReferenceShare
+                                : sceneEdges.fromScan         ? settings.scanReferenceShare
                                                               : settings.boundaryReferenceShare;
-  if (!(referenceShare > 0.0 && referenceShare <= 1.0) || !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
+  if (!(referenceShare > 0.0 && referenceShare <= 1.0) ||
+      !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
   {
     throw Error("The shares of reference and referred points must be in (0, 1].");
   }
@@ -182,7 +183,8 @@ Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const
   const Voting voting(model, referred, settings);
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
-  std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep, settings.smoothPeaks));
+  std::vector<VoteAccumulator> accumulators(
+    threads, VoteAccumulator(model.votingEdges, angleStep, settings.smoothPeaks));
   std::vector<Poses> found(references.size());
   parallelFor(static_cast<int>(references.size()), threads, progress,
     [&](int begin, int end, int thread)

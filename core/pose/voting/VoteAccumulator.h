@@ -49,11 +49,12 @@ public:
   /// VoteBlock words after the last entry are read.
   void vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne = 1);
 
-  /// The best supported turns, each at another model point or flip; best first, of equals the first. Without votes none.
+  /// The best supported turns, each at another model point or flip; best first, of equals the first. Without votes
+  /// none.
   std::vector<VotePeak> peaks(int count);
 
 private:
-  int Turns;                       ///< bins of a sheet
+  int Turns; ///< bins of a sheet
   bool Smooth;
   std::int64_t Cast = 0;           ///< no bin has more votes
   std::vector<SheetGroup> Largest; ///< peak of each sheet

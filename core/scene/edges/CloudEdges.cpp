@@ -24,10 +24,10 @@ constexpr double BendWithin = 0.35;      // of the angle between two pieces: a p
 constexpr double MeetingDistance = 0.75; // grid steps from the point to where the two pieces meet
 const std::array<std::pair<int, int>, 4> Across{ { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } } }; // columns, rows
 
-constexpr float LeastSpread = 1e-3f;    // of the spread of points that fill a window: less is a line, and no plane
-constexpr int FewestOfPlane = 6;         // points
-constexpr float CosineError = 1e-4f;     // more than what rounding makes of a cosine
-constexpr int BandRows = 96;             // rows of the grid that are worked on together, so that they stay in the cache
+constexpr float LeastSpread = 1e-3f; // of the spread of points that fill a window: less is a line, and no plane
+constexpr int FewestOfPlane = 6;     // points
+constexpr float CosineError = 1e-4f; // more than what rounding makes of a cosine
+constexpr int BandRows = 96;         // rows of the grid that are worked on together, so that they stay in the cache
 
 using GridEdges = std::vector<GridEdge>;
 
@@ -36,7 +36,8 @@ using Floats = float __attribute__((vector_size(32)));
 using Bits = int __attribute__((vector_size(32)));
 constexpr int Lanes = 8;
 
-/// A row's points coordinate by coordinate; depths of those that are not finite are no numbers. `x` and `y` may be null.
+/// A row's points coordinate by coordinate; depths of those that are not finite are no numbers. `x` and `y` may be
+/// null.
 MEAM_ALL_VECTORS
 void split(const float* xyz, int count, float* x, float* y, float* z)
 {
@@ -49,14 +50,14 @@ void split(const float* xyz, int count, float* x, float* y, float* z)
 #pragma omp simd
   for (int k = 0; k < count; ++k)
   {
-    const bool isFinite = (std::abs(xyz[3 * k]) < infinity) & (std::abs(xyz[3 * k + 1]) < infinity) &
-      (std::abs(xyz[3 * k + 2]) < infinity);
+    const bool isFinite =
+      (std::abs(xyz[3 * k]) < infinity) & (std::abs(xyz[3 * k + 1]) < infinity) & (std::abs(xyz[3 * k + 2]) < infinity);
     z[k] = isFinite ? xyz[3 * k + 2] : none;
   }
 }
 
-/// Rows of the grid coordinate by coordinate, with a margin on all sides. Depths are no numbers where nothing was measured, and
-/// in the margin.
+/// Rows of the grid coordinate by coordinate, with a margin on all sides. Depths are no numbers where nothing was
+/// measured, and in the margin.
 class GridRows
 {
 public:
@@ -91,7 +92,10 @@ public:
   const float* z(int row) const { return this->Z.data() + this->placeOf(row); }
 
 private:
-  std::size_t placeOf(int row) const { return static_cast<std::size_t>(row - this->First) * this->Stride + this->Margin; }
+  std::size_t placeOf(int row) const
+  {
+    return static_cast<std::size_t>(row - this->First) * this->Stride + this->Margin;
+  }
 
   int First, Margin, Stride;
   std::vector<float> X, Y, Z;
@@ -178,7 +182,8 @@ Eigen::Vector2f borderDirection(const OrganizedCloud& cloud, int row, int column
   return inwards.isZero() ? inwards : Eigen::Vector2f(-inwards.y(), inwards.x()).normalized();
 }
 
-/// Which points of a row, with depths about it, may be at the end of a surface: a neighbour is missing or farther by `jump`.
+/// Which points of a row, with depths about it, may be at the end of a surface: a neighbour is missing or farther by
+/// `jump`.
 MEAM_ALL_VECTORS
 void findEnds(const float* z, std::ptrdiff_t stride, int width, float jump, std::uint8_t* isCandidate)
 {
@@ -187,7 +192,8 @@ void findEnds(const float* z, std::ptrdiff_t stride, int width, float jump, std:
   {
     const float depth = z[k], left = z[k - 1], right = z[k + 1], above = z[k - stride], below = z[k + stride];
     // False for no numbers.
-    const bool goesOn = (left - depth <= jump) & (right - depth <= jump) & (above - depth <= jump) & (below - depth <= jump);
+    const bool goesOn =
+      (left - depth <= jump) & (right - depth <= jump) & (above - depth <= jump) & (below - depth <= jump);
     isCandidate[k] = (depth == depth) & !goesOn ? 1 : 0;
   }
 }
@@ -234,8 +240,8 @@ public:
     return { { value(NormalX), value(NormalY), value(NormalZ) }, value(Depth), value(ColumnSlope), value(RowSlope) };
   }
 
-  /// Fits planes in square windows to the points of a row; those that are `jump` before or behind the middle are of another
-  /// surface. Planes of a full window depend on its points alone.
+  /// Fits planes in square windows to the points of a row; those that are `jump` before or behind the middle are of
+  /// another surface. Planes of a full window depend on its points alone.
   void fit(const GridRows& grid, int row, int radius, float jump);
 
 private:
@@ -260,14 +266,15 @@ inline __attribute__((always_inline)) Floats kept(const Floats& values, const Bi
   return (Floats)((Bits)values & which);
 }
 
-/// Least squares for P = middle + u alongColumn + v alongRow in square windows, for the points of a row. `to` are rows of
-/// PlaneRows.
+/// Least squares for P = middle + u alongColumn + v alongRow in square windows, for the points of a row. `to` are rows
+/// of PlaneRows.
 MEAM_ALL_VECTORS
 void fitRow(const float* x, const float* y, const float* z, std::ptrdiff_t stride, int width, int radius, float jump,
   float* const* to)
 {
   const Bits magnitude = Bits{} + 0x7fffffff;
-  const Floats ones = Floats{} + 1.0f, limit = Floats{} + jump, none = Floats{} + std::numeric_limits<float>::quiet_NaN();
+  const Floats ones = Floats{} + 1.0f, limit = Floats{} + jump,
+               none = Floats{} + std::numeric_limits<float>::quiet_NaN();
   for (int begin = 0; begin < width; begin += Lanes)
   {
     const Floats atX = load(x + begin), atY = load(y + begin), atZ = load(z + begin);
@@ -282,7 +289,8 @@ void fitRow(const float* x, const float* y, const float* z, std::ptrdiff_t strid
         const float column = static_cast<float>(c);
         const Floats dz = load(z + from + c) - atZ;
         const Bits in = (Floats)((Bits)dz & magnitude) < limit; // false for no numbers
-        const Floats px = kept(load(x + from + c) - atX, in), py = kept(load(y + from + c) - atY, in), pz = kept(dz, in);
+        const Floats px = kept(load(x + from + c) - atX, in), py = kept(load(y + from + c) - atY, in),
+                     pz = kept(dz, in);
         const Floats one = kept(ones, in), uOne = column * one;
         rowN += one;
         rowU += uOne;
@@ -326,8 +334,8 @@ void fitRow(const float* x, const float* y, const float* z, std::ptrdiff_t strid
     along(sumX, sumUX, sumVX, columnX, rowX);
     along(sumY, sumUY, sumVY, columnY, rowY);
     along(sumZ, sumUZ, sumVZ, columnZ, rowZ);
-    const Bits isPlane =
-      (n >= static_cast<float>(FewestOfPlane)) & (determinant > LeastSpread * spreadU * spreadV); // false for no numbers
+    const Bits isPlane = (n >= static_cast<float>(FewestOfPlane)) &
+                         (determinant > LeastSpread * spreadU * spreadV); // false for no numbers
     const Floats values[6] = { columnY * rowZ - columnZ * rowY, columnZ * rowX - columnX * rowZ,
       columnX * rowY - columnY * rowX, atZ + sumZ / n - columnZ * meanU - rowZ * meanV, columnZ, rowZ };
     for (int k = 0; k < 6; ++k)
@@ -364,7 +372,8 @@ void PlaneRows::fit(const GridRows& grid, int row, int radius, float jump)
 
 /// Adds those of a row's points on whose two sides planes with these normals meet at an angle of this cosine or less.
 MEAM_ALL_VECTORS
-void findBends(const float* const* before, const float* const* after, int width, float cosine, std::uint8_t* isCandidate)
+void findBends(
+  const float* const* before, const float* const* after, int width, float cosine, std::uint8_t* isCandidate)
 {
   const float *ax = before[0], *ay = before[1], *az = before[2], *bx = after[0], *by = after[1], *bz = after[2];
 #pragma omp simd
@@ -439,7 +448,8 @@ std::vector<GridEdge> findCreases(
     float best = 0.0f;
     for (const auto& [right, down] : Across)
     {
-      if (!isInside(row - reach * down, column - reach * right) || !isInside(row + reach * down, column + reach * right))
+      if (!isInside(row - reach * down, column - reach * right) ||
+          !isInside(row + reach * down, column + reach * right))
       {
         continue;
       }

@@ -84,8 +84,8 @@ constexpr float Rim = 0.01f; // grid steps: points on the border of a window bel
 using Floats = float __attribute__((vector_size(32)));
 using Bits = int __attribute__((vector_size(32)));
 
-/// Sums up two windows that lie inside the grid. Their middles are at `first` and `second`, `stride` numbers from row to row;
-/// `box` holds both.
+/// Sums up two windows that lie inside the grid. Their middles are at `first` and `second`, `stride` numbers from row
+/// to row; `box` holds both.
 MEAM_ALL_VECTORS
 void sumUpTwo(const float* first, const float* second, std::ptrdiff_t stride, const GridWindow& a, const GridWindow& b,
   const HalfBox& box, float jump, PlaneSums* sums)
@@ -136,7 +136,7 @@ double GridScale::depthJump() const { return SlopesInJump * this->pointDistance 
 int GridScale::windowRadius() const
 {
   int radius = SmallestWindow;
-  while (radius < LargestWindow && this->slopeError(radius) > SlopeError)
+  while (radius<LargestWindow&& this->slopeError(radius)> SlopeError)
   {
     ++radius;
   }
@@ -176,7 +176,7 @@ GridScale gridScale(const OrganizedCloud& cloud, int threads)
   GridScale scale;
   // Of a normal distribution half is within 0.6745 deviations; the second difference has the root of 6 of them.
   inParallel(threads, { [&] { scale.pointDistance = median(distances); },
-    [&] { scale.noise = median(bends) / (0.6745 * std::sqrt(6.0)); } });
+                        [&] { scale.noise = median(bends) / (0.6745 * std::sqrt(6.0)); } });
   return scale;
 }
 
@@ -226,7 +226,8 @@ void fitPlanes(
 {
   const auto isInside = [&](int row, int column, const HalfBox& box)
   {
-    return row >= box.rows && column >= box.columns && row + box.rows < cloud.height && column + box.columns < cloud.width;
+    return row >= box.rows && column >= box.columns && row + box.rows < cloud.height &&
+           column + box.columns < cloud.width;
   };
   const auto fitOne = [&](int i)
   { planes[i] = fitPlane(cloud, points[i] / cloud.width, points[i] % cloud.width, windows[i], jump); };

@@ -41,8 +41,8 @@ struct GridPlane
 /// A rectangle of the grid around a point.
 struct GridWindow
 {
-  int along = 2;                                         ///< grid steps from the middle in `direction`
-  int across = 2;                                        ///< and across it
+  int along = 2;                                        ///< grid steps from the middle in `direction`
+  int across = 2;                                       ///< and across it
   Eigen::Vector2f direction = Eigen::Vector2f::UnitX(); ///< unit, in columns and rows
 };
 

@@ -162,9 +162,8 @@ std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSetting
   const cv::Mat grey = smoothGrey(image, settings.smoothing);
   cv::Mat dx, dy;
   inParallel(threads, { [&] { cv::Sobel(grey, dx, CV_16S, 1, 0, 3, 1.0, 0.0, cv::BORDER_REPLICATE); },
-    [&] { cv::Sobel(grey, dy, CV_16S, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE); } });
-  const double high =
-    settings.highThreshold > 0.0 ? settings.highThreshold : automaticThreshold(grey, dx, dy, threads);
+                        [&] { cv::Sobel(grey, dy, CV_16S, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE); } });
+  const double high = settings.highThreshold > 0.0 ? settings.highThreshold : automaticThreshold(grey, dx, dy, threads);
   const double low = settings.lowThreshold > 0.0 ? settings.lowThreshold : LowShare * high;
   cv::Mat edges;
   cv::Canny(dx, dy, edges, std::min(low, high), high, true);

@@ -16,9 +16,9 @@ namespace meam
 {
 namespace
 {
-constexpr int SmallHole = 4;             // grid steps: so wide a hole in a surface is taken as closed
-constexpr double SteepestWall = 1.0;     // a hole between two depths is closed when it is no wider than it is deep
-constexpr double BeyondTheImage = 1.1;   // of the image's widest ray: the lens model is not asked for more
+constexpr int SmallHole = 4;           // grid steps: so wide a hole in a surface is taken as closed
+constexpr double SteepestWall = 1.0;   // a hole between two depths is closed when it is no wider than it is deep
+constexpr double BeyondTheImage = 1.1; // of the image's widest ray: the lens model is not asked for more
 constexpr std::uint32_t Unknown = 0xffffffffu; // instead of a point: something that hides what is behind it
 
 /// Where the camera sees a grid point, in pixels, and how far away; NaN when it does not.

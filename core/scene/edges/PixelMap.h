@@ -12,8 +12,8 @@ struct PixelMap
 {
   int width = 0;
   int height = 0;
-  std::vector<int> points;   ///< row * width + column in the cloud's grid; -1: none that the sensor measured
-  std::vector<float> depths; ///< mm, how far that point is along the camera's z axis
+  std::vector<int> points;     ///< row * width + column in the cloud's grid; -1: none that the sensor measured
+  std::vector<float> depths;   ///< mm, how far that point is along the camera's z axis
   double pixelsPerPoint = 1.0; ///< distance in the image of neighbouring grid points, median
 };
 

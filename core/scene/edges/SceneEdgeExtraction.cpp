@@ -48,8 +48,9 @@ void check(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtra
   if (!(settings.depthJump >= 0.0) || !std::isfinite(settings.depthJump) || settings.searchRadius < 0 ||
       settings.searchRadius > 50 || !angleFits)
   {
-    throw Error("Settings of the scene edges are out of range: the search radius is 0 to 50 points, the depth jump 0 or "
-                "more, and the angle of creases above 0 and below 180 degrees.");
+    throw Error(
+      "Settings of the scene edges are out of range: the search radius is 0 to 50 points, the depth jump 0 or "
+      "more, and the angle of creases above 0 and below 180 degrees.");
   }
 }
 
@@ -93,8 +94,8 @@ private:
   std::vector<int> Ranks;           ///< how many were found before each word
 };
 
-/// Edge points, each once, in the order of the grid: with the first source that found it, and the mean of its directions
-/// from there.
+/// Edge points, each once, in the order of the grid: with the first source that found it, and the mean of its
+/// directions from there.
 struct EdgePoints
 {
   SceneEdges edges;
@@ -192,7 +193,8 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
   {
     lookUp(cloud, 1.0, subProgress(progress, 0.5, 1.0));
   }
-  found.erase(std::remove_if(found.begin(), found.end(), [](const Finding& one) { return one.point < 0; }), found.end());
+  found.erase(
+    std::remove_if(found.begin(), found.end(), [](const Finding& one) { return one.point < 0; }), found.end());
   return found;
 }
 
@@ -260,14 +262,13 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   }
   if (settings.creases)
   {
-    add(findingsOf(
-      findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)),
+    add(findingsOf(findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)),
       EdgeSource::Crease));
   }
   EdgePoints points = merged(cloud, found, settings.threads);
-  SceneEdges result = settings.tangents
-    ? withTangents(points, cloud, settings, jump, scale.windowRadius(), subProgress(progress, 0.8, 1.0))
-    : std::move(points.edges);
+  SceneEdges result = settings.tangents ? withTangents(points, cloud, settings, jump, scale.windowRadius(),
+                                            subProgress(progress, 0.8, 1.0))
+                                        : std::move(points.edges);
   report(progress, 1.0);
   return result;
 }

@@ -212,7 +212,7 @@ TEST(TangentEstimation, BadInput)
   meam::PointCloud invalid;
   invalid.points.assign(5, Eigen::Vector3f::Constant(NAN));
   EXPECT_THROW(parts::withTangents(invalid, 50.0, Down), meam::Error);
-  EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 10, 1.0f), 0.0, Down), meam::Error); // no length known
+  EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 10, 1.0f), 0.0, Down), meam::Error);     // no length known
   EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 30, 0.0005f), 50.0, Down), meam::Error); // in metres
   const meam::PrecisePoints far(5, Eigen::Vector3d(1e300, 0.0, 0.0));
   EXPECT_THROW(

@@ -82,8 +82,8 @@ std::string obj(const meam::TriangleMesh& mesh)
 std::string header(const meam::TriangleMesh& mesh, const std::string& format)
 {
   return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) +
-    "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(mesh.triangles.size()) +
-    "\nproperty list uchar int vertex_indices\nend_header\n";
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+         std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
 std::string asciiPLY(const meam::TriangleMesh& mesh)

@@ -11,7 +11,7 @@ namespace
 bool same(const std::vector<Eigen::Isometry3d>& a, const std::vector<Eigen::Isometry3d>& b)
 {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
-    [](const auto& one, const auto& other) { return one.matrix() == other.matrix(); });
+                                   [](const auto& one, const auto& other) { return one.matrix() == other.matrix(); });
 }
 
 void expectSame(const meam::PointCloud& a, const meam::PointCloud& b)
@@ -177,8 +177,14 @@ TEST(ModelFile, AModelThatIsNotSoundIsNotWritten)
     { "without normals", [](auto& model) { model.surface.normals.pop_back(); } },
     { "not numbers", [](auto& model) { model.surface.normals[2].x() = NAN; } },
     { "symmetries", [](auto& model) { model.symmetries.discrete = { Eigen::Isometry3d(Eigen::Matrix4d::Zero()) }; } },
-    { "symmetries", [](auto& model) { model.symmetries.continuous = { { { 0, 0, 2 }, { 0, 0, 0 } } }; } },
-    { "symmetries", [](auto& model) { model.symmetries.near = { { Eigen::Isometry3d::Identity(), NAN, 0.0 } }; } },
+    { "symmetries",
+      [](auto& model) {
+        model.symmetries.continuous = { { { 0, 0, 2 }, { 0, 0, 0 } } };
+      } },
+    { "symmetries",
+      [](auto& model) {
+        model.symmetries.near = { { Eigen::Isometry3d::Identity(), NAN, 0.0 } };
+      } },
     { "pair table", [](auto& model) { model.table.offsets.pop_back(); } },
     { "pair table", [](auto& model) { model.table.offsets[1] = 4000000000u; } },
     { "pair table", [](auto& model) { model.table.references[7] = 4000000000u; } },

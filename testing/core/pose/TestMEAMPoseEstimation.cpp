@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
+#include "TestScene.h"
 #include "base/Frames.h"
 #include "base/Random.h"
-#include "TestScene.h"
 
 #include <gtest/gtest.h>
 

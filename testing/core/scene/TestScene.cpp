@@ -49,8 +49,8 @@ meam::LocalCloud square()
 const meam::Points Table{ { 10, 10, 0 }, { 70, 10, 0 }, { 10, 50, 0 }, { 70, 50, 0 } };
 const meam::Sensor FromAbove{ false, { 0, 0, 0 }, { 0, 0, -1 } };
 
-std::string errorOf(meam::LocalCloud edges, const meam::Points& measured = Table, const meam::Sensor& sensor = FromAbove,
-  double partDiameter = Diameter)
+std::string errorOf(meam::LocalCloud edges, const meam::Points& measured = Table,
+  const meam::Sensor& sensor = FromAbove, double partDiameter = Diameter)
 {
   try
   {
@@ -89,7 +89,8 @@ TEST(Scene, ItsGridsAreThoseOfItsPoints)
 {
   meam::LocalCloud edges = square();
   edges.T_local_scene = Eigen::Translation3d(0, 0, -5); // the points as they are given are in it
-  const meam::Scene scene(edges, meam::moved(Table, edges.T_local_scene), { true, { 40, 30, 500 }, { 0, 0, -1 } }, Diameter);
+  const meam::Scene scene(
+    edges, meam::moved(Table, edges.T_local_scene), { true, { 40, 30, 500 }, { 0, 0, -1 } }, Diameter);
   EXPECT_TRUE(scene.sensor.position.isApprox(Eigen::Vector3d(40, 30, 495)));
   EXPECT_EQ(scene.edgeGrid().nearest({ 79, 1, 5 }, 3.0), 1);
   EXPECT_EQ(scene.edgePoints().points, edges.cloud.points);

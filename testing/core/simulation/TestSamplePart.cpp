@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/Bounds.h"
 #include "io/parsing/FileBytes.h"
+#include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
 #include "simulation/SamplePart.h"
-#include "base/Bounds.h"
-#include "mesh/TriangleMesh.h"
 
 #include <gtest/gtest.h>
 

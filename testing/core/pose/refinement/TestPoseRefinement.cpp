@@ -58,7 +58,8 @@ TEST(PoseRefinement, EdgesAlone)
 TEST(PoseRefinement, PointToPointOfThePaper)
 {
   expectNear(
-    scenes::refine(scenes::disturbedCopies(1.5, 2.0), scene(), scenes::bracket(), meam::paperRefinementSettings()), 0.8, 1.5);
+    scenes::refine(scenes::disturbedCopies(1.5, 2.0), scene(), scenes::bracket(), meam::paperRefinementSettings()), 0.8,
+    1.5);
 }
 
 TEST(PoseRefinement, ScoresAndOrderStayAndThreadsDoNotMatter)

@@ -43,7 +43,8 @@ struct Found
 std::vector<meam::PartPose> resolved(const scenes::Seen& seen, const Found& a, const Found& b,
   const meam::ConflictResolutionSettings& settings = {}, const meam::Progress& progress = {})
 {
-  const meam::Scene sceneA = scenes::prepared(seen, a.model.diameter), sceneB = scenes::prepared(seen, b.model.diameter);
+  const meam::Scene sceneA = scenes::prepared(seen, a.model.diameter),
+                    sceneB = scenes::prepared(seen, b.model.diameter);
   const Eigen::Isometry3d& T = sceneA.T_local_scene();
   const meam::Poses posesA = meam::toLocalFrame(a.poses, T, a.model.symmetries);
   const meam::Poses posesB = meam::toLocalFrame(b.poses, T, b.model.symmetries);

@@ -13,7 +13,7 @@ meam::Pose at(double x, double degrees = 0.0)
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   meam::Pose pose;
   pose.T_scene_model = Eigen::Translation3d(Eigen::Vector3d(x, 0, 0) - middle) *
-    meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, middle);
+                       meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, middle);
   return pose;
 }
 
@@ -56,7 +56,8 @@ TEST(PoseClusters, AlternativesOfAnInstanceAreTurned)
 TEST(PoseClusters, WhatASymmetryMakesEqualIsNoAlternative)
 {
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
-  const auto quarters = [&](int turns) { return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2.0, middle); };
+  const auto quarters = [&](int turns)
+  { return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2.0, middle); };
   meam::PoseClustersSettings settings;
   settings.posesPerInstance = 2;
   const meam::Poses poses{ at(0), at(1, 180), at(2, 90), at(3, 45) };

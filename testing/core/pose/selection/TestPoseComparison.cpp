@@ -117,8 +117,8 @@ TEST(PoseComparison, FloorSeenWhereAPoseHasSurfaceSpeaksAgainstIt)
 
 TEST(PoseComparison, WhatBothPredictDoesNotCountUnlessEachIsComparedByAllThatItPredicts)
 {
-  // Over a quarter that the true pose and a quarter turn both cover the sensor looked past the plate: against either, by as
-  // many points as it happens to predict there.
+  // Over a quarter that the true pose and a quarter turn both cover the sensor saw past the plate: against either, by
+  // as many points as it happens to predict there.
   const auto advantage = [](bool torn, bool sameVisibility)
   {
     scenes::Seen seen = lyingPlate(false);

@@ -57,7 +57,7 @@ const meam::TrainedModel& gear() { return scenes::trained<parts::gear>(); }
 Eigen::Isometry3d turned(double degrees)
 {
   return Eigen::Translation3d(40, -20, 7) *
-    meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
+         meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
 }
 
 /// It lies as turned(0).
@@ -240,7 +240,8 @@ TEST(PoseSelection, OfNearSymmetriesTheSceneDecides)
 
 TEST(PoseSelection, TurnsByNearSymmetriesAreOneAlternative)
 {
-  // All quarter turns, as they lie and upside down, and one that stands on its side: of two kept of the instance one is this.
+  // All quarter turns, as they lie and upside down, and one that stands on its side: of two kept of the instance one is
+  // this.
   meam::Poses poses;
   const Eigen::Isometry3d flip = meam::turnAbout(Eigen::Vector3d::UnitX(), M_PI, Eigen::Vector3d(0, 0, 5));
   const Eigen::Isometry3d side = meam::turnAbout(Eigen::Vector3d::UnitX(), M_PI / 2, Eigen::Vector3d(0, 0, 5));
@@ -307,8 +308,9 @@ TEST(PoseSelection, TheFirstOfEachClusterStaysAsItCame)
 {
   meam::PoseSelectionSettings settings;
   settings.method = meam::SelectionMethod::Clusters;
-  const meam::Poses poses{ ranked(0.8, place(0)), ranked(0.7, place(0) * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ())),
-    ranked(0.5, place(1)), ranked(0.2, place(2)) };
+  const meam::Poses poses{ ranked(0.8, place(0)),
+    ranked(0.7, place(0) * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ())), ranked(0.5, place(1)),
+    ranked(0.2, place(2)) };
   const meam::Poses kept = scenes::select(poses, scene(), scenes::bracket(), settings);
   ASSERT_EQ(kept.size(), 3u);
   EXPECT_EQ(kept[0].probability, 0.8);

@@ -22,7 +22,8 @@ TEST(PoseEvidence, TheScoreIsTheWeightedMeanOfWhatIsThere)
   const auto score = [&](double edges, double surface, double explained)
   {
     meam::EvidenceSettings settings;
-    std::tie(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight) = std::tie(edges, surface, explained);
+    std::tie(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight) =
+      std::tie(edges, surface, explained);
     return evidence.score(settings);
   };
   EXPECT_NEAR(evidence.score(), (0.4 * 0.5 + 0.32 * 0.75 + 0.2 * 0.25) / 0.92, 1e-12);
@@ -73,8 +74,7 @@ TEST(PoseEvidence, WeightsThatMakeNoScoreAreAnError)
 
 TEST(PoseEvidence, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
 {
-  const meam::Scene scene =
-    scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
   Eigen::Isometry3d lifted = scenes::threeCopies()[0]; // in front of all that was measured
   lifted.translation().z() += 40.0;
   meam::EvidenceSettings with, without;

@@ -33,7 +33,8 @@ meam::PoseScreeningSettings noneEnough()
 }
 
 /// The share of its surface that is there: the most that may be asked of the pose so that it stays.
-double surfaceShare(const meam::Scene& in, const Eigen::Isometry3d& T, meam::PoseScreeningSettings settings = noneEnough())
+double surfaceShare(
+  const meam::Scene& in, const Eigen::Isometry3d& T, meam::PoseScreeningSettings settings = noneEnough())
 {
   double low = 0.0, high = 1.0;
   for (int step = 0; step < 30; ++step)
@@ -49,7 +50,7 @@ double surfaceShare(const meam::Scene& in, const Eigen::Isometry3d& T, meam::Pos
 Eigen::Isometry3d turned(double degrees)
 {
   return Eigen::Translation3d(40, -20, 7) *
-    meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
+         meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
 }
 
 const meam::TrainedModel& gear() { return scenes::trained<parts::gear>(); }
@@ -57,10 +58,9 @@ const meam::TrainedModel& gear() { return scenes::trained<parts::gear>(); }
 /// It lies as turned(0).
 const meam::Scene& gearScene()
 {
-  static const meam::Scene alone =
-    scenes::prepared(scenes::withTangents(scenes::seenFromAbove({ scenes::Copy{ parts::gear(), turned(0) } }),
-                       gear().diameter),
-      gear().diameter);
+  static const meam::Scene alone = scenes::prepared(
+    scenes::withTangents(scenes::seenFromAbove({ scenes::Copy{ parts::gear(), turned(0) } }), gear().diameter),
+    gear().diameter);
   return alone;
 }
 }
@@ -93,7 +93,8 @@ TEST(PoseScreening, WhatWasNotMeasuredMayBeThereOrNot)
   EXPECT_NEAR(surfaceShare(scene(), Eigen::Translation3d(500, 0, 0) * T), 0.5, 1e-8) << "nothing was measured";
   scenes::Seen part = seen();
   const float middle = static_cast<float>((T * scenes::bracket().surfaceDistance.middle().cast<double>()).x());
-  const auto gone = std::remove_if(part.surface.begin(), part.surface.end(), [&](const auto& p) { return p.x() > middle; });
+  const auto gone =
+    std::remove_if(part.surface.begin(), part.surface.end(), [&](const auto& p) { return p.x() > middle; });
   part.surface.erase(gone, part.surface.end());
   const meam::Scene half = scenes::prepared(part);
   EXPECT_GT(surfaceShare(half, T), 0.6);

@@ -193,8 +193,8 @@ TEST(PoseVerification, CoverageFollowsThePaper)
   }
   own.edges = model.edges.subset(half);
   settings.evidence.tolerance = 1e-4;
-  EXPECT_DOUBLE_EQ(
-    scoreOf(at(Eigen::Isometry3d::Identity()), scenes::prepared(own), settings), static_cast<double>(half.size()) / inView);
+  EXPECT_DOUBLE_EQ(scoreOf(at(Eigen::Isometry3d::Identity()), scenes::prepared(own), settings),
+    static_cast<double>(half.size()) / inView);
 }
 
 TEST(PoseVerification, BadInput)
@@ -207,8 +207,7 @@ TEST(PoseVerification, BadInput)
   settings = {};
   settings.evidence.edgeWeight = -0.1;
   EXPECT_THROW(scenes::verify(poses, scene(), scenes::bracket(), settings), meam::Error);
-  EXPECT_THROW(
-    scenes::verify(poses, scene(), scenes::bracket(), {}, [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(scenes::verify(poses, scene(), scenes::bracket(), {}, [](double) { return false; }), meam::Aborted);
 }
 
 TEST(PoseVerification, APoseThatNamesNoViewTakesTheNearestToTheSensor)

@@ -12,16 +12,15 @@ const meam::TrainedModel& model() { return scenes::trained<parts::gear>(); }
 Eigen::Isometry3d turned(double degrees)
 {
   return Eigen::Translation3d(40, -20, 7) *
-    meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
+         meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
 }
 
 /// The gear at turned(0), seen from above.
 const meam::Scene& scene()
 {
-  static const meam::Scene alone =
-    scenes::prepared(scenes::withTangents(scenes::seenFromAbove({ scenes::Copy{ parts::gear(), turned(0) } }),
-                       model().diameter),
-      model().diameter);
+  static const meam::Scene alone = scenes::prepared(
+    scenes::withTangents(scenes::seenFromAbove({ scenes::Copy{ parts::gear(), turned(0) } }), model().diameter),
+    model().diameter);
   return alone;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/voting/PoseDetection.h"
 
-#include "base/PointGrid.h"
 #include "TestScene.h"
+#include "base/PointGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -202,8 +202,7 @@ TEST_P(PoseDetectionVotes, CountsTheVotesOfAllPairs)
     if (poses[r].votes == peak.votes && peak.lead > 3)
     {
       ++sure;
-      const Eigen::Isometry3d slow =
-        meam::nearestEqual(peak.pose, poses[r].T_scene_model, model.symmetries);
+      const Eigen::Isometry3d slow = meam::nearestEqual(peak.pose, poses[r].T_scene_model, model.symmetries);
       EXPECT_LT(meam::translationError(poses[r].T_scene_model, slow), 0.5) << r;
       EXPECT_LT(meam::rotationError(poses[r].T_scene_model, slow), 0.5) << r;
     }

@@ -8,8 +8,8 @@ TEST(GridSurface, distanceAndNoiseAreMeasured)
 {
   for (const double noise : { 0.0, 0.1, 1.0 })
   {
-    const meam::GridScale scale =
-      meam::gridScale(grids::surface(200, 150, [](int x, int y) { return 500.0 + 0.7 * x - 0.3 * y; }, noise));
+    const meam::GridScale scale = meam::gridScale(grids::surface(
+      200, 150, [](int x, int y) { return 500.0 + 0.7 * x - 0.3 * y; }, noise));
     EXPECT_FLOAT_EQ(scale.pointDistance, 1.0);
     EXPECT_NEAR(scale.noise, noise, 0.03 * noise + 1e-4);
   }
@@ -62,9 +62,12 @@ TEST(GridSurface, aWindowCanFollowAnEdge)
 
 TEST(GridSurface, severalPlanesAtOnceAreThoseOneByOne)
 {
-  // A step, a hole and noise; windows of all directions and sizes, some beyond the grid, around points with depth and without.
+  // A step, a hole and noise; windows of all directions and sizes, some beyond the grid, around points with depth and
+  // without.
   const auto cloud = grids::surface(
-    60, 50, [](int x, int y) { return x == 31 && y % 5 ? NAN : x < 20 ? 400.0 + 0.3 * y : 500.0 - 0.7 * x; }, 0.4);
+    60, 50, [](int x, int y) { return x == 31 && y % 5 ? NAN
+                                      : x < 20         ? 400.0 + 0.3 * y
+                                                       : 500.0 - 0.7 * x; }, 0.4);
   meam::Random random(7);
   std::vector<int> points;
   std::vector<meam::GridWindow> windows;

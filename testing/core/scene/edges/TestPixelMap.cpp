@@ -59,7 +59,7 @@ TEST(PixelMap, whatIsHiddenFromTheCameraHasNoPixel)
   const auto cloud = measured([](int column, int) { return column >= 8 && column <= 12 ? 400.0 : 500.0; });
   const meam::PixelMap map = meam::projectedPixels(cloud, cameraAt(20.0), 10.0);
   const int row = 10 * 21;
-  EXPECT_EQ(map.points[row + 2], row + 6);  // ground
+  EXPECT_EQ(map.points[row + 2], row + 6); // ground
   for (int k = 0; k < 5; ++k)
   {
     EXPECT_EQ(map.points[row + 3 + k], row + 8 + k); // the block; in pixel 3 the ground's column 7 is behind it
@@ -73,8 +73,9 @@ TEST(PixelMap, nothingShowsThroughHolesOfTheNearerSurface)
 {
   // A camera with twice the resolution: the block's points are two pixels apart, and one has no depth.
   const auto cloud = measured(
-    [](int column, int row)
-    { return column == 10 && row == 10 ? NAN : column >= 6 && column <= 14 ? 400.0 : 500.0; });
+    [](int column, int row) { return column == 10 && row == 10     ? NAN
+                                     : column >= 6 && column <= 14 ? 400.0
+                                                                   : 500.0; });
   meam::Camera camera = cameraAt(20.0);
   camera.width = camera.height = 41;
   camera.fx = camera.fy = 200.0;
