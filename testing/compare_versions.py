@@ -4,12 +4,14 @@
 
   compare_versions.py poses OUT.json [--bins DIR] [--threads N]     with the environment of each version in turn
   compare_versions.py compare OLD.json NEW.json
+  compare_versions.py chain [--bins DIR] [--threads N]              the single filters against the one filter for all
 
 `poses` runs the 60 scenes of the Tohoku dataset (in $PPFMEAM_DATA) and two simulated bins of each of seven parts,
 1280 x 1024 points, and writes all poses, the figures and the times. The bins are simulated once and kept in DIR, so that
 both versions see the same. `compare` tells how many poses are the same to the last bit, how far the likely ones (more than
 0.9) are from the nearest of the other version, and the figures and median times of both. Between versions that are
-timed, run `poses` alternately: the files of several runs, joined by commas, count together.
+timed, run `poses` alternately: the files of several runs, joined by commas, count together. `chain` tells whether the chain
+of single filters returns the same poses as vtkMEAMPoseEstimation, and in how many times its time.
 """
 import argparse
 import json
@@ -193,6 +195,35 @@ def compare(old, new):
           f"{NEAR[0]} mm and {NEAR[1]} degrees")
 
 
+def chain(sources, threads):
+    """The scan of each bin through the single filters, and through the one filter, alternately."""
+    from ppfmeam import chains
+    for name, mesh, scenes in sources:
+        model = scripting.train(mesh)
+        scan = scenes[0][0]
+        box = filters.vtkMEAMPoseEstimation()
+        edges = filters.vtkMEAMSceneEdgeExtraction()
+        edges.SetInputDataObject(scan)
+        edges.SetNumberOfThreads(threads)
+        steps = chains.Detection(model, edges, scan, threads=threads)
+        box.SetInputDataObject(0, model)
+        box.SetInputDataObject(1, scan)
+        box.SetMaximumNumberOfPoses(0)
+        box.SetNumberOfThreads(threads)
+        times = {box: [], steps.selection: []}
+        for _ in range(5):
+            for last in times:
+                scan.GetPoints().GetData().Modified()  # a new scan: nothing of it is known
+                scan.Modified()
+                start = time.perf_counter()
+                last.Update()
+                times[last].append(1000 * (time.perf_counter() - start))
+        same = tuples(box.GetOutput(), "Transform") == tuples(steps.selection.GetOutput(), "Transform")
+        one, other = (statistics.median(of) for of in times.values())
+        print(f"{name:30s} one filter {one:6.0f} ms, chain {other:6.0f} ms, {other / one:5.2f}; "
+              f"{'the same poses' if same else 'OTHER POSES'}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
@@ -204,9 +235,15 @@ def main():
     one = commands.add_parser("compare")
     one.add_argument("old")
     one.add_argument("new")
+    one = commands.add_parser("chain")
+    one.add_argument("--bins", metavar="DIR", default="bins")
+    one.add_argument("--threads", type=int, default=2)
     options = parser.parse_args()
     if options.command == "compare":
         compare(load(options.old), load(options.new))
+        return
+    if options.command == "chain":
+        chain(simulated(options.bins), options.threads)
         return
     results = {}
     for source in (tohoku(), simulated(options.bins)):

@@ -21,7 +21,7 @@ meam::Mesh bracketMesh()
 /// Three brackets seen from above, with their edges.
 meam::Scan scanOfThree()
 {
-  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
   meam::Scan scan;
   scan.points = scene.surface;
   scan.width = static_cast<int>(scan.points.size());

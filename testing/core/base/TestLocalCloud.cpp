@@ -24,7 +24,8 @@ meam::PrecisePoints skewed(int count)
 /// In their principal frame.
 meam::Points local(const meam::PrecisePoints& points, int threads = 1)
 {
-  return meam::toLocalPoints(points.front().data(), points.size(), meam::principalFrame(points), threads);
+  return meam::toLocalPoints(
+    meam::ScanPoints<double>{ points.front().data(), points.size() }, meam::principalFrame(points), threads);
 }
 
 /// Sensible poses have a middle far from the frame's origin.
@@ -50,6 +51,34 @@ TEST(LocalCloud, PointsOnALine)
     EXPECT_TRUE(found[k].isApprox(Eigen::Vector3f(k == 0 ? -3.0f : k == 1 ? -2.0f : 5.0f, 0, 0), 1e-6f)) << k;
   }
   EXPECT_TRUE(meam::toLocalPoints(meam::Points{}, Eigen::Isometry3d::Identity()).empty());
+}
+
+TEST(LocalCloud, PointsThatAreBlankedOrNotFiniteAreLeftOut)
+{
+  constexpr int count = 3000; // more than one block
+  std::vector<double> xyz;
+  std::vector<std::uint8_t> flags(count, 1);
+  meam::Points expected;
+  const Eigen::Isometry3d frame = somewhere();
+  for (int i = 0; i < count; ++i)
+  {
+    const Eigen::Vector3d point(i % 11 == 0 ? NAN : i, i % 13 == 0 ? INFINITY : 2 * i, i == 7 ? 1e200 : -i);
+    xyz.insert(xyz.end(), point.data(), point.data() + 3);
+    flags[i] = i % 5 == 0 ? 6 : 4;
+    if (point.allFinite() && i % 5 != 0 && i != 7)
+    {
+      expected.push_back((frame * point).cast<float>());
+    }
+  }
+  for (const int threads : { 1, 3 })
+  {
+    EXPECT_EQ(
+      meam::toLocalPoints(meam::ScanPoints<double>{ xyz.data(), count, flags.data(), 2 }, frame, threads), expected);
+  }
+  const std::vector<float> rounded(xyz.begin(), xyz.end());
+  EXPECT_EQ(meam::toLocalPoints(meam::ScanPoints<float>{ rounded.data(), count, flags.data(), 2 }, frame), expected);
+  EXPECT_GT(meam::toLocalPoints(meam::ScanPoints<double>{ xyz.data(), count }, frame).size(), expected.size());
+  EXPECT_TRUE(meam::toLocalPoints(meam::ScanPoints<float>{}, frame).empty());
 }
 
 TEST(LocalCloud, ThePrecisionOfPointsFarAway)

@@ -99,7 +99,7 @@ TEST(ModelFile, FindsTheSamePoses)
   const files::Folder folder;
   meam::writeModel(folder.path("model.meam"), scenes::bracket());
   const meam::TrainedModel read = meam::readModel(folder.path("model.meam"));
-  const meam::Scene scene = scenes::seenFromAbove(scenes::threeCopies());
+  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
   const auto settings = meam::detectionSettings(meam::Preset::Recommended, 0);
   const meam::Poses poses = scenes::estimatePoses(scenes::bracket(), scene, settings);
   const meam::Poses again = scenes::estimatePoses(read, scene, settings);

@@ -79,7 +79,7 @@ TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
     const meam::PrecisePoints movedEdges = parts::moved(edges, T), movedMeasured = parts::moved(measured, T);
     const Eigen::Isometry3d frame = meam::principalFrame(movedEdges);
     const meam::SceneInput input{ meam::toLocalCloud(movedEdges, {}, {}, frame),
-      meam::toLocalPoints(movedMeasured.front().data(), movedMeasured.size(), frame),
+      meam::toLocalPoints(meam::ScanPoints<double>{ movedMeasured.front().data(), movedMeasured.size() }, frame),
       { false, T * scene.sensor.position, T.linear() * scene.sensor.direction } };
     const meam::Poses after = meam::estimatePoses(scenes::bracket(), input, settings);
     ASSERT_EQ(after.size(), before.size());

@@ -32,7 +32,8 @@ meam::Scene moved(const Eigen::Isometry3d& T, bool withSurface = true)
   const meam::PrecisePoints surface = parts::moved(skewed(3000), T);
   const Eigen::Isometry3d T_local_scene = meam::principalFrame(edges);
   return meam::Scene(meam::toLocalCloud(edges, tangents, {}, T_local_scene),
-    withSurface ? meam::toLocalPoints(surface.front().data(), surface.size(), T_local_scene) : meam::Points{},
+    withSurface ? meam::toLocalPoints(meam::ScanPoints<double>{ surface.front().data(), surface.size() }, T_local_scene)
+                : meam::Points{},
     { true, T * Eigen::Vector3d(10, 20, 900), T.linear() * Eigen::Vector3d(0, 0, -1) }, Diameter);
 }
 
