@@ -4,6 +4,7 @@
 #include "base/LocalCloud.h"
 #include "model/TrainedModel.h"
 #include "scene/Scene.h"
+#include "scene/Units.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
@@ -156,6 +157,7 @@ std::shared_ptr<const meam::Scene> sharedScene(
     meam::SceneSettings settings;
     settings.threads = threads;
     meam::LocalCloud local = edgesOf(edges, threads);
+    meam::requireSameUnits(local.cloud.points, partDiameter);
     const meam::Points measured = surfaceOf(surface, "The scene's surface", local, threads);
     scene = std::make_shared<const meam::Scene>(std::move(local), measured, sensor, partDiameter, settings);
     cacheOf<meam::Scene>().insert(key, scene);

@@ -3,7 +3,6 @@
 
 #include "base/Error.h"
 #include "base/Parallel.h"
-#include "scene/Units.h"
 
 #include <algorithm>
 
@@ -12,7 +11,7 @@ namespace meam
 namespace
 {
 /// The edges, when they can be looked up.
-LocalCloud checked(LocalCloud edges, double partDiameter)
+LocalCloud checked(LocalCloud edges)
 {
   const PointCloud& cloud = edges.cloud;
   if (cloud.tangents.size() != cloud.size())
@@ -34,7 +33,6 @@ LocalCloud checked(LocalCloud edges, double partDiameter)
     throw Error("An edge point of the scene has the Weight " + std::to_string(*wrong) +
                 ": weights go from 0 to 1. Rename the array, when it is something else.");
   }
-  requireSameUnits(cloud.points, partDiameter);
   return edges;
 }
 
@@ -46,7 +44,7 @@ Sensor moved(const Sensor& sensor, const Eigen::Isometry3d& motion)
 
 Scene::Scene(
   LocalCloud edgePoints, const Points& measured, const Sensor& seenFrom, double diameter, const SceneSettings& settings)
-  : edges(checked(std::move(edgePoints), diameter))
+  : edges(checked(std::move(edgePoints)))
   , sensor(moved(seenFrom, edges.T_local_scene))
   , partDiameter(diameter)
   , depth(measured, sensor, settings.depthCell * diameter, settings.threads)

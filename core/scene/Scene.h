@@ -24,8 +24,8 @@ struct Scene
 {
   /// `edges`: thinned edge points with tangents (estimateTangents). `measured`: all points that the sensor measured, in
   /// their frame, or none. `sensor` in the scene's own coordinates.
-  /// Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], when no point of the
-  /// surface lies before the sensor, and when the part's diameter is in another unit.
+  /// Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], and when no point of
+  /// the surface lies before the sensor.
   Scene(LocalCloud edges, const Points& measured, const Sensor& sensor, double partDiameter,
     const SceneSettings& settings = {});
   Scene(const Scene&) = delete;

@@ -90,7 +90,7 @@ TEST(SamplePart, hasItsSizeAndFeatures)
 //   PPFMEAM_REGENERATE=1 meamCoreTests --gtest_filter=SamplePart.isTheFileOfTheExamples
 TEST(SamplePart, isTheFileOfTheExamples)
 {
-  const std::string path = (std::filesystem::path(__FILE__).parent_path() / "../../examples/data/ribbed_flange.stl")
+  const std::string path = (std::filesystem::path(__FILE__).parent_path() / "../../../examples/data/ribbed_flange.stl")
                              .lexically_normal()
                              .string();
   const std::string bytes = stl(meam::makeSamplePart());
