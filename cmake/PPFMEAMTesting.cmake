@@ -11,13 +11,22 @@ function(meam_add_script_test name labels)
     LABELS "${labels}" ENVIRONMENT "${PPFMEAM_ENVIRONMENT}" SKIP_RETURN_CODE 77 TIMEOUT 600)
 endfunction()
 
-# NAME.py under the plain interpreter and, with ParaView's VTK, under pvpython with the plugin loaded.
+# NAME.py under the plain interpreter and, with ParaView's VTK, under pvpython with the plugin loaded. ONLY_PYTHON3 is for
+# what takes longer, which also starts first: the filters are the same ones.
 function(meam_add_filter_test name)
   set(script "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
   meam_add_script_test(${name}.python3 filters "${Python3_EXECUTABLE}" "${script}")
-  if(PPFMEAM_USE_PARAVIEW)
+  if("ONLY_PYTHON3" IN_LIST ARGN)
+    set_tests_properties(${name}.python3 PROPERTIES COST 10)
+  elseif(PPFMEAM_USE_PARAVIEW)
     meam_add_script_test(${name}.pvpython filters "${PVPYTHON_EXECUTABLE}" "${script}")
   endif()
+endfunction()
+
+# NAME.py --long under the plain interpreter: all of what NAME.py alone takes a small part of.
+function(meam_add_long_test name labels)
+  meam_add_script_test(${name}.long "${labels};long" "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py" --long)
+  set_tests_properties(${name}.long PROPERTIES TIMEOUT 3600)
 endfunction()
 
 # NAME.py under pvpython with a display of its own; further arguments go to the script.

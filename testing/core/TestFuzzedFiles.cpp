@@ -27,8 +27,6 @@ extern "C" const char* __asan_default_options() { return "max_allocation_size_mb
 
 namespace
 {
-constexpr int Cases = 30000; // of each reader
-
 /// Damages files as disks, networks and other programs do. The same every time.
 class Damage
 {
@@ -104,14 +102,20 @@ private:
   std::mt19937 Random{ 5489 };
 };
 
+/// The parameter is how many files a reader gets.
+class FuzzedFiles : public testing::TestWithParam<int>
+{
+};
+
 /// Reads damaged copies of the files, which all have the same name. `mend` repairs what would hide the damage.
 template <typename Read>
 void fuzz(const std::string& path, const std::vector<std::string>& whole, Read&& read,
   const std::function<std::string(std::string)>& mend = {})
 {
+  const int cases = FuzzedFiles::GetParam();
   Damage damage;
   int readable = 0;
-  for (int i = 0; i < Cases; ++i)
+  for (int i = 0; i < cases; ++i)
   {
     std::string bytes = damage(whole[i % whole.size()]);
     bytes = mend && i % 4 != 0 ? mend(bytes) : bytes;
@@ -128,7 +132,7 @@ void fuzz(const std::string& path, const std::vector<std::string>& whole, Read&&
     }
   }
   EXPECT_GT(readable, 0) << "all files were refused: the damage is too large, or the whole file is bad";
-  EXPECT_LT(readable, Cases) << "no file was refused";
+  EXPECT_LT(readable, cases) << "no file was refused";
 }
 
 /// Where files are written: in memory, where that can be.
@@ -264,7 +268,10 @@ const char* const modelsInfo =
   "symmetries_continuous": [{ "axis": [0, 0, 1], "offset": [0, 0, 0] }] } })";
 }
 
-TEST(FuzzedFiles, pcd)
+INSTANTIATE_TEST_SUITE_P(Quick, FuzzedFiles, testing::Values(2000));
+INSTANTIATE_TEST_SUITE_P(Long, FuzzedFiles, testing::Values(30000));
+
+TEST_P(FuzzedFiles, pcd)
 {
   const files::Folder folder(place());
   const std::string columns(120, '\x3f');
@@ -285,7 +292,7 @@ TEST(FuzzedFiles, pcd)
     });
 }
 
-TEST(FuzzedFiles, ply)
+TEST_P(FuzzedFiles, ply)
 {
   const files::Folder folder(place());
   const std::string faces = "\x03" + std::string(12, '\1') + "\x04" + std::string(16, '\2');
@@ -300,7 +307,7 @@ TEST(FuzzedFiles, ply)
     });
 }
 
-TEST(FuzzedFiles, off)
+TEST_P(FuzzedFiles, off)
 {
   const files::Folder folder(place());
   fuzz(folder.path("a.off"),
@@ -315,7 +322,7 @@ TEST(FuzzedFiles, off)
     });
 }
 
-TEST(FuzzedFiles, poses)
+TEST_P(FuzzedFiles, poses)
 {
   const files::Folder folder(place());
   fuzz(folder.path("a.txt"),
@@ -323,21 +330,21 @@ TEST(FuzzedFiles, poses)
     [](const std::string& path) { meam::readMatrices(path); });
 }
 
-TEST(FuzzedFiles, cameraInJSON)
+TEST_P(FuzzedFiles, cameraInJSON)
 {
   const files::Folder folder(place());
   fuzz(folder.path("camera.json"), { camera, cameraOfBOP },
     [](const std::string& path) { EXPECT_GT(meam::readCamera(path).camera.fx, 0.0); });
 }
 
-TEST(FuzzedFiles, cameraInYAMLAndXML)
+TEST_P(FuzzedFiles, cameraInYAMLAndXML)
 {
   const files::Folder folder(place());
   fuzz(folder.path("camera.yaml"), { cameraYAML, cameraXML },
     [](const std::string& path) { EXPECT_GT(meam::readCamera(path).camera.fx, 0.0); });
 }
 
-TEST(FuzzedFiles, depthImage)
+TEST_P(FuzzedFiles, depthImage)
 {
   const files::Folder folder(place());
   meam::Camera camera;
@@ -347,7 +354,7 @@ TEST(FuzzedFiles, depthImage)
     [&](const std::string& path) { EXPECT_GT(meam::readDepthImage(path, camera).size(), 0u); }, withChecksums);
 }
 
-TEST(FuzzedFiles, image)
+TEST_P(FuzzedFiles, image)
 {
   const files::Folder folder(place());
   std::vector<std::string> whole;
@@ -364,14 +371,14 @@ TEST(FuzzedFiles, image)
     });
 }
 
-TEST(FuzzedFiles, sceneCameraOfBOP)
+TEST_P(FuzzedFiles, sceneCameraOfBOP)
 {
   const files::Folder folder(place());
   fuzz(folder.path("scene_camera.json"), { sceneCamera },
     [](const std::string& path) { EXPECT_FALSE(meam::listBOPImages(path).empty()); });
 }
 
-TEST(FuzzedFiles, truthOfBOP)
+TEST_P(FuzzedFiles, truthOfBOP)
 {
   const files::Folder folder(place());
   meam::BOPImage image;
@@ -383,7 +390,7 @@ TEST(FuzzedFiles, truthOfBOP)
   fuzz(folder.path("scene_gt_info.json"), { sceneTruthInfo }, read);
 }
 
-TEST(FuzzedFiles, modelsInfo)
+TEST_P(FuzzedFiles, modelsInfo)
 {
   const files::Folder folder(place());
   fuzz(folder.path("models_info.json"), { modelsInfo }, [](const std::string& path) { meam::readModelsInfo(path, 1); });

@@ -20,6 +20,7 @@ from ppfmeam.filters import (
 )
 
 SKIPPED = 77
+LONG = "--long" in sys.argv  # all of it, not a small part
 
 
 def check(condition, message):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
+#include "TestScale.h"
 #include "TestScene.h"
 #include "base/Frames.h"
 #include "base/Random.h"
@@ -244,15 +245,16 @@ TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
 
 TEST(MEAMPoseEstimation, MoreThanAHundredCopiesComeOut)
 {
+  const int side = SmallData ? 3 : 11;
   std::vector<Eigen::Isometry3d> copies;
-  for (int k = 0; k < 121; ++k)
+  for (int k = 0; k < side * side; ++k)
   {
-    copies.push_back(scenes::lying(160.0 * (k % 11), 160.0 * (k / 11), 37.0 * k, k % 3 != 0));
+    copies.push_back(scenes::lying(160.0 * (k % side), 160.0 * (k / side), 37.0 * k, k % 3 != 0));
   }
   const scenes::Seen scene = scenes::seenFromAbove(copies);
   const meam::Poses poses =
     scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5));
-  EXPECT_GT(instancesFound(poses, copies, 1.0, 1.0), 110);
+  EXPECT_GT(instancesFound(poses, copies, 1.0, 1.0), 0.97 * copies.size());
   EXPECT_LE(poses.size(), copies.size());
 }
 
