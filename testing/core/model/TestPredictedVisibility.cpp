@@ -43,7 +43,7 @@ meam::TrainedModel cube()
       point[axis] = sign * half;
       point[(axis + 1) % 3] = 0.5f + static_cast<float>(k % CubeSteps) - half;
       point[(axis + 2) % 3] = 0.5f + static_cast<float>(k / CubeSteps) - half;
-      model.judged.push_back(static_cast<int>(model.surface.size()));
+      model.verificationPoints.push_back(static_cast<int>(model.surface.size()));
       model.surface.points.push_back(point);
       model.surface.normals.push_back(sign * Eigen::Vector3f::Unit(axis));
     }
