@@ -19,7 +19,7 @@ packages=(
   libbullet-dev
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
   qttools5-dev qtxmlpatterns5-dev-tools # ParaView makes the plugin's help pages with them
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev clang-format
 )
 unpack=(pcl:libpcl-dev)
 if [ "${1:-}" = vtk ]; then

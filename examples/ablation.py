@@ -32,28 +32,31 @@ def no_near_symmetries(training):
 
 
 def edge_coverage(chain):
+    chain.candidates.SetMethodToEdgeCoverage()
     chain.verification.SetMethodToEdgeCoverage()
-    chain.selection.SetMethodToEdgeCoverage()
+    chain.alternatives.SetMethodToClusters()
+    chain.selection.SetMethodToClusters()
 
 
 def no_refinement(chain):
-    chain.steps.remove(chain.refinement)
+    chain.verification.SetInputConnection(chain.alternatives.GetOutputPort())
 
 
 def edges_refine(chain):
-    chain.on_surface.remove(chain.refinement)
+    chain.without_surface.append(chain.refinement)
 
 
 def no_surface(chain):
-    chain.on_surface.clear()
+    chain.without_surface += chain.on_poses
 
 
-def judged(**values):
-    """Sets these properties of both verifications."""
+def evidence(**values):
+    """Sets these properties of all steps that have them."""
     def choose(chain):
-        for step in (chain.verification, chain.selection):
+        for step in chain.on_poses:
             for name, value in values.items():
-                getattr(step, "Set" + name)(value)
+                if hasattr(step, "Set" + name):
+                    getattr(step, "Set" + name)(value)
     return choose
 
 
@@ -81,18 +84,18 @@ DECISIONS = {
     "sparse-edges": ("only points that vote judge, too",
                      lambda training: training.tangents.SetLeafSize(length(training, 0.04)), None),
     "near": ("no near-symmetries", no_near_symmetries, None),
-    "own-visibility": ("competing turns each judged on all they predict", None, judged(SameVisibility=False)),
-    "edges-score": ("score of edges alone", None, judged(EvidenceWeights=(1, 0, 0))),
-    "surface-score": ("score of the surface alone", None, judged(EvidenceWeights=(0, 1, 0))),
-    "no-unexplained": ("unexplained scene edges do not count", None, judged(EvidenceWeights=(0.4, 0.4, 0))),
-    "no-free-space": ("what the sensor looked past does not count", None, judged(FreeSpace=False)),
+    "own-visibility": ("competing turns each judged on all they predict", None, evidence(SameVisibility=False)),
+    "edges-score": ("score of edges alone", None, evidence(EvidenceWeights=(1, 0, 0))),
+    "surface-score": ("score of the surface alone", None, evidence(EvidenceWeights=(0, 1, 0))),
+    "no-unexplained": ("unexplained scene edges do not count", None, evidence(EvidenceWeights=(0.4, 0.4, 0))),
+    "no-free-space": ("what the sensor saw past does not count", None, evidence(FreeSpace=False)),
     "p-ref-5": ("P_ref 5 %", None, lambda chain: chain.detection.SetReferenceShare(0.05)),
     "p-ref-2": ("P_ref 2 %", None, lambda chain: chain.detection.SetReferenceShare(0.02)),
     "p-ref-1": ("P_ref 1 %", None, lambda chain: chain.detection.SetReferenceShare(0.01)),
     "peaks": ("two peaks of each reference", None, lambda chain: chain.detection.SetPeaksPerReference(2)),
-    "candidates-15": ("15 candidates refined", None, lambda chain: chain.verification.SetMaximumNumberOfPoses(15)),
-    "candidates-25": ("25 candidates refined", None, lambda chain: chain.verification.SetMaximumNumberOfPoses(25)),
-    "alternatives": ("one candidate of an instance", None, lambda chain: chain.verification.SetPosesPerInstance(1)),
+    "candidates-15": ("15 candidates refined", None, lambda chain: chain.alternatives.SetMaximumNumberOfPoses(15)),
+    "candidates-25": ("25 candidates refined", None, lambda chain: chain.alternatives.SetMaximumNumberOfPoses(25)),
+    "alternatives": ("one candidate of an instance", None, lambda chain: chain.alternatives.SetPosesPerInstance(1)),
     "coverage": ("verification by edge coverage", None, edge_coverage),
     "no-refinement": ("no refinement", None, no_refinement),
     "point-to-point": ("point-to-point refinement", None, lambda chain: chain.refinement.SetParametersToPaper()),

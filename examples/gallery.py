@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 
-from ppfmeam import evaluation, filters, picture, scripting
+from ppfmeam import chains, evaluation, filters, picture, scripting
 
 SIZE = (840, 650)
 MOST_BYTES = 119000
@@ -174,23 +174,10 @@ class Gallery:
 
     def steps(self, surface, edges):
         """Scene edges with tangents, candidates, verified and final poses."""
-        tangents, detection = filters.vtkMEAMTangentEstimation(), filters.vtkMEAMPoseDetection()
-        tangents.SetInputDataObject(edges)
-        tangents.SetInputDataObject(1, self.model)
-        detection.SetInputConnection(tangents.GetOutputPort())
-        detection.SetInputDataObject(1, self.model)
-        chain = [tangents, detection]
-        for kind in (filters.vtkMEAMPoseVerification, filters.vtkMEAMPoseRefinement, filters.vtkMEAMPoseVerification):
-            step = kind()
-            step.SetInputConnection(chain[-1].GetOutputPort())
-            step.SetInputDataObject(1, self.model)
-            step.SetInputConnection(2, tangents.GetOutputPort())
-            step.SetInputDataObject(3, surface)
-            chain.append(step)
-        chain[-1].SetPosesPerInstance(1)
-        chain[-1].SetMaximumNumberOfPoses(5)
-        scripting.update(chain[-1])
-        return [chain[i].GetOutputDataObject(0) for i in (0, 1, 2, 4)]
+        chain = chains.Detection(self.model, edges, surface)
+        chain.selection.SetMaximumNumberOfPoses(5)
+        scripting.update(chain.selection)
+        return [step.GetOutput() for step in (chain.tangents, chain.detection, chain.alternatives, chain.selection)]
 
     def outline(self):
         """The part's sharp edges as pairs of points."""

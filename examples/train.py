@@ -16,7 +16,7 @@ def main():
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s); paper trains without symmetries")
-    parser.add_argument("--out", required=True, help="the trained model to write: NAME.vtpc, with a folder NAME beside")
+    parser.add_argument("--out", required=True, help="the trained model to write: NAME.meam, or NAME.vtpc with a folder NAME beside")
     parser.add_argument("--models-info", metavar="FILE",
                         help="write diameter, bounds and symmetries as a BOP models_info.json; the part is object 1")
     options = parser.parse_args()

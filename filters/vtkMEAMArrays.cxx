@@ -103,16 +103,12 @@ vtkDataArray* pointArray(vtkDataSet* input, const char* name, int components)
   return array;
 }
 
-/// Which points of a data set are blanked; null when none is.
-vtkUnsignedCharArray* ghostsOf(vtkDataSet* input)
+const unsigned char* ghostsOf(vtkDataSet* input)
 {
-  return vtkUnsignedCharArray::SafeDownCast(input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
-}
-
-bool isHidden(vtkUnsignedCharArray* ghosts, std::size_t i)
-{
-  const auto id = static_cast<vtkIdType>(i);
-  return id < ghosts->GetNumberOfTuples() && (*ghosts->GetPointer(id) & vtkDataSetAttributes::HIDDENPOINT);
+  auto* ghosts =
+    vtkUnsignedCharArray::SafeDownCast(input->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  const vtkIdType count = input->GetNumberOfPoints();
+  return ghosts && count > 0 && ghosts->GetNumberOfValues() == count ? ghosts->GetPointer(0) : nullptr;
 }
 
 void addVertices(vtkPolyData* output)

@@ -36,9 +36,9 @@ vtkSmartPointer<vtkPoints> toVTKPoints(const meam::Points& points);
 /// The point array of that name, or null; throws when its shape is another one.
 vtkDataArray* pointArray(vtkDataSet* input, const char* name, int components);
 
-/// Which points of a data set are blanked; null when none is.
-vtkUnsignedCharArray* ghostsOf(vtkDataSet* input);
-bool isHidden(vtkUnsignedCharArray* ghosts, std::size_t i);
+/// The flags of a data set's points, of which vtkDataSetAttributes::HIDDENPOINT is that of a blanked one; null when it
+/// has none. A raw pointer, because VTK's accessors are too slow for a scan.
+const unsigned char* ghostsOf(vtkDataSet* input);
 
 /// A vertex cell for each point.
 void addVertices(vtkPolyData* output);

@@ -7,8 +7,8 @@
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
-#include "vtkMEAMSymmetryConversion.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -45,17 +45,13 @@ double meanOf(const meam::BOPRecall::Counts& counts)
 }
 }
 
-vtkMEAMBOPEvaluation::vtkMEAMBOPEvaluation()
-{
-  this->SetNumberOfInputPorts(5);
-}
+vtkMEAMBOPEvaluation::vtkMEAMBOPEvaluation() { this->SetNumberOfInputPorts(5); }
 
 int vtkMEAMBOPEvaluation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
-    port < 3       ? "vtkPolyData"
-      : port == 3 ? "vtkStructuredGrid"
-                  : "vtkDataObject");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port < 3    ? "vtkPolyData"
+                                                      : port == 3 ? "vtkStructuredGrid"
+                                                                  : "vtkDataObject");
   if (port == 4)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -103,12 +99,10 @@ int vtkMEAMBOPEvaluation::RequestData(
       setFieldValue(output, "MSSDRecall", share * meanOf(recall.mssd));
       setFieldValue(output, "MSPDRecall", share * meanOf(recall.mspd));
       setFieldValue(output, "VSDRecall", share * meanOf(recall.vsd));
-      setFieldValue(output, "AverageRecall", share * (meanOf(recall.mssd) + meanOf(recall.mspd) + meanOf(recall.vsd)) / 3.0);
+      setFieldValue(
+        output, "AverageRecall", share * (meanOf(recall.mssd) + meanOf(recall.mspd) + meanOf(recall.vsd)) / 3.0);
     },
     output);
 }
 
-void vtkMEAMBOPEvaluation::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}
+void vtkMEAMBOPEvaluation::PrintSelf(ostream& os, vtkIndent indent) { this->Superclass::PrintSelf(os, indent); }

@@ -35,8 +35,9 @@ Eigen::AlignedBox3f boxOf(const double region[6])
     const double high = region[2 * axis + 1];
     if (!(low <= high))
     {
-      throw meam::Error("The region's least value along an axis is above its greatest one: give xmin, xmax, ymin, ymax, "
-                        "zmin, zmax.");
+      throw meam::Error(
+        "The region's least value along an axis is above its greatest one: give xmin, xmax, ymin, ymax, "
+        "zmin, zmax.");
     }
     if (low < high)
     {
@@ -97,8 +98,8 @@ int vtkMEAMBackgroundRemoval::RequestData(
       {
         mask = vtkMEAMConversion::toImage(maskInput);
       }
-      const meam::BackgroundRemoval found = meam::removeBackground(
-        cloud, maskInput ? &mask : nullptr, settings, vtkMEAMConversion::progressOf(this));
+      const meam::BackgroundRemoval found =
+        meam::removeBackground(cloud, maskInput ? &mask : nullptr, settings, vtkMEAMConversion::progressOf(this));
 
       output->GetPointData()->ShallowCopy(scene->GetPointData());
       output->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());

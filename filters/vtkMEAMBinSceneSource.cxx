@@ -2,6 +2,7 @@
 #include "vtkMEAMBinSceneSource.h"
 
 #include "mesh/ConvexHull.h"
+#include "mesh/TriangleMesh.h"
 #include "simulation/BinScene.h"
 #include "simulation/SamplePart.h"
 #include "vtkMEAMArrays.h"
@@ -23,7 +24,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
-#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <array>

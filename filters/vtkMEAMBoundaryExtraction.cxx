@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMBoundaryExtraction.h"
 
+#include "mesh/TriangleMesh.h"
 #include "model/BoundaryExtraction.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMModelConversion.h"
@@ -11,7 +12,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "mesh/TriangleMesh.h"
 
 vtkStandardNewMacro(vtkMEAMBoundaryExtraction);
 

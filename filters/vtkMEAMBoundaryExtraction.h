@@ -55,7 +55,8 @@ public:
   ///@}
 
   ///@{
-  /** Point boundary: neighbourhood of a point in mm; 0: 2.5 times the distance between neighbouring points. Default: 0. */
+  /** Point boundary: neighbourhood of a point in mm; 0: 2.5 times the distance between neighbouring points. Default: 0.
+   */
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
   ///@}

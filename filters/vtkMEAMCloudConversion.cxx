@@ -2,12 +2,14 @@
 #include "vtkMEAMCloudConversion.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 #include "features/TangentEstimation.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMSceneEdgeConversion.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -17,8 +19,10 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace vtkMEAMConversion
@@ -26,8 +30,93 @@ namespace vtkMEAMConversion
 namespace
 {
 constexpr double NearlyUnit = 1e-4; // a length this near to 1 is 1 but for rounding
+constexpr double SamePlace = 1e-3;  // mm: a point that has been moved by no more lies where it was
 
 using meam::Error;
+/// The point array `Tangent`, made unit; none when it is not there. No direction becomes not finite.
+meam::PrecisePoints unitTangents(vtkPointSet* input)
+{
+  meam::PrecisePoints tangents;
+  if (vtkDataArray* array = pointArray(input, "Tangent", 3))
+  {
+    tangents = toVectors<double>(array);
+    for (Eigen::Vector3d& tangent : tangents)
+    {
+      // Of a cloud that comes from elsewhere; our own stay what they are to the last bit.
+      const double length = tangent.norm();
+      if (std::abs(length - 1.0) > NearlyUnit)
+      {
+        tangent /= length;
+      }
+    }
+  }
+  return tangents;
+}
+
+/// The frame of the points that have a direction.
+Eigen::Isometry3d principalFrameOf(meam::PrecisePoints points, const meam::PrecisePoints& tangents)
+{
+  for (std::size_t i = 0; i < tangents.size(); ++i)
+  {
+    if (!tangents[i].allFinite())
+    {
+      points[i] = tangents[i]; // not finite: has no part in it
+    }
+  }
+  return meam::principalFrame(points);
+}
+
+/// The first point, the middle one and the last one.
+std::array<std::size_t, 3> checkedPoints(std::size_t count) { return { 0, count / 2, count - 1 }; }
+
+void setLocalFrame(vtkPolyData* output, const Eigen::Isometry3d& T_local_scene, const meam::Points& points)
+{
+  vtkNew<vtkDoubleArray> frame, check;
+  frame->SetName("LocalFrame");
+  frame->SetNumberOfComponents(16);
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = T_local_scene.matrix();
+  frame->InsertNextTuple(matrix.data());
+  check->SetName("LocalFrameCheck");
+  check->SetNumberOfComponents(3);
+  for (const std::size_t i : checkedPoints(points.size()))
+  {
+    if (i < points.size())
+    {
+      check->InsertNextTuple3(points[i].x(), points[i].y(), points[i].z());
+    }
+  }
+  output->GetFieldData()->AddArray(frame);
+  output->GetFieldData()->AddArray(check);
+}
+
+/// The frame that the points were thinned in; none when they have been moved or chosen from since.
+std::optional<Eigen::Isometry3d> localFrameOf(vtkPointSet* input, const meam::PrecisePoints& points)
+{
+  vtkDataArray* frame = input->GetFieldData()->GetArray("LocalFrame");
+  vtkDataArray* check = input->GetFieldData()->GetArray("LocalFrameCheck");
+  if (!frame || !check || frame->GetNumberOfValues() != 16 || check->GetNumberOfValues() != 9)
+  {
+    return std::nullopt;
+  }
+  const auto value = [](vtkDataArray* array, int i)
+  { return array->GetComponent(i / array->GetNumberOfComponents(), i % array->GetNumberOfComponents()); };
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 12; ++i)
+  {
+    T.matrix()(i / 4, i % 4) = value(frame, i);
+  }
+  int row = 0;
+  for (const std::size_t i : checkedPoints(points.size()))
+  {
+    const Eigen::Vector3d expected(value(check, 3 * row), value(check, 3 * row + 1), value(check, 3 * row + 2));
+    if (!((T * points[i] - expected).norm() <= SamePlace))
+    {
+      return std::nullopt;
+    }
+    ++row;
+  }
+  return T;
+}
 }
 
 meam::PointCloud toCloud(vtkPointSet* input)
@@ -111,44 +200,38 @@ void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output)
   }
 }
 
-meam::PreciseCloud toPreciseCloud(vtkPointSet* input)
+meam::LocalCloud toLocalCloud(vtkPointSet* input, int threads)
 {
-  meam::PreciseCloud cloud;
   if (input->GetNumberOfPoints() == 0)
   {
-    return cloud;
+    return {};
   }
-  cloud.points = toVectors<double>(input->GetPoints()->GetData());
-  if (vtkDataArray* tangents = pointArray(input, "Tangent", 3))
+  const meam::PrecisePoints points = toVectors<double>(input->GetPoints()->GetData());
+  const meam::PrecisePoints tangents = unitTangents(input);
+  std::vector<float> weights;
+  if (vtkDataArray* array = pointArray(input, "Weight", 1))
   {
-    cloud.tangents = toVectors<double>(tangents);
-    for (Eigen::Vector3d& tangent : cloud.tangents)
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
     {
-      // Of a cloud that comes from elsewhere; our own stay what they are to the last bit.
-      const double length = tangent.norm();
-      if (std::abs(length - 1.0) > NearlyUnit && length > 0.0)
-      {
-        tangent /= length;
-      }
+      weights.push_back(static_cast<float>(array->GetComponent(i, 0)));
     }
   }
-  if (vtkDataArray* weights = pointArray(input, "Weight", 1))
-  {
-    for (vtkIdType i = 0; i < weights->GetNumberOfTuples(); ++i)
-    {
-      cloud.weights.push_back(static_cast<float>(weights->GetComponent(i, 0)));
-    }
-  }
-  return cloud;
+  const std::optional<Eigen::Isometry3d> frame = localFrameOf(input, points);
+  meam::LocalCloud local = meam::toLocalCloud(
+    points, tangents, std::move(weights), frame ? *frame : principalFrameOf(points, tangents), threads);
+  local.fromScan = edgeSourcesOf(input) != nullptr;
+  return local;
 }
 
-void fromEdgeTangents(const meam::EdgeTangents& edges, vtkPointSet* input, vtkPolyData* output)
+void fromThinnedEdges(const meam::ThinnedEdges& thinned, vtkPointSet* input, vtkPolyData* output)
 {
-  meam::PointCloud cloud = toCloud(input).subset(edges.points);
+  meam::PointCloud cloud = toCloud(input).subset(thinned.indices);
   cloud.tangents.clear();
-  cloud.weights = edges.weights;
+  cloud.weights = thinned.edges.cloud.weights;
   fromCloud(cloud, output);
-  const auto count = static_cast<vtkIdType>(edges.points.size());
+  const auto count = static_cast<vtkIdType>(thinned.indices.size());
+  const Eigen::Isometry3d& T_local_scene = thinned.edges.T_local_scene;
+  const Eigen::Matrix3d toScene = T_local_scene.linear().transpose();
   vtkNew<vtkDoubleArray> tangents;
   tangents->SetName("Tangent");
   tangents->SetNumberOfComponents(3);
@@ -157,20 +240,25 @@ void fromEdgeTangents(const meam::EdgeTangents& edges, vtkPointSet* input, vtkPo
   const auto to = vtk::TakeSmartPointer(from->NewInstance());
   to->SetNumberOfComponents(3);
   to->SetNumberOfTuples(count);
+  const meam::PrecisePoints given = unitTangents(input); // stay as they came
   for (vtkIdType i = 0; i < count; ++i)
   {
-    tangents->SetTuple(i, edges.tangents[i].data());
-    to->SetTuple(i, edges.points[i], from);
+    const int index = thinned.indices[i];
+    const Eigen::Vector3d tangent =
+      given.empty() ? (toScene * thinned.edges.cloud.tangents[i].cast<double>()).eval() : given[index];
+    tangents->SetTuple(i, tangent.data());
+    to->SetTuple(i, index, from);
   }
   output->GetPointData()->SetVectors(tangents);
   vtkNew<vtkPoints> points;
   points->SetData(to);
   output->SetPoints(points);
+  setLocalFrame(output, T_local_scene, thinned.edges.cloud.points);
   if (vtkDataArray* sources = edgeSourcesOf(input))
   {
     const auto kept = vtk::TakeSmartPointer(sources->NewInstance());
     kept->SetName(sources->GetName());
-    for (const int i : edges.points)
+    for (const int i : thinned.indices)
     {
       kept->InsertNextTuple(i, sources);
     }

@@ -5,12 +5,12 @@
 #ifndef vtkMEAMCloudConversion_h
 #define vtkMEAMCloudConversion_h
 
-#include "base/LocalFrame.h"
+#include "base/LocalCloud.h"
 #include "base/PointCloud.h"
 
 namespace meam
 {
-struct EdgeTangents;
+struct ThinnedEdges;
 }
 class vtkPointSet;
 class vtkPolyData;
@@ -21,11 +21,14 @@ namespace vtkMEAMConversion
 meam::PointCloud toCloud(vtkPointSet* input);
 /// The same arrays, `Weight` where it is known, and a vertex cell for each point.
 void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output);
-/// Edge points with the arrays `Tangent`, made unit, and `Weight`, where they are there.
-meam::PreciseCloud toPreciseCloud(vtkPointSet* input);
+/// Edge points in double precision, with the arrays `Tangent`, made unit, and `Weight`, where they are there, in their
+/// local frame: that of the field data `LocalFrame` when it is that of these points, otherwise their principal frame.
+/// What has no tangent, or an invalid one, has one that is not finite.
+meam::LocalCloud toLocalCloud(vtkPointSet* input, int threads);
 /// Of `input` the points that stay, in the precision they have there, with the arrays of toCloud(), `Tangent` in double
-/// precision and `Weight`.
-void fromEdgeTangents(const meam::EdgeTangents& edges, vtkPointSet* input, vtkPolyData* output);
+/// precision, `Weight` and `EdgeSource`; field data: `LocalFrame` (16, row-major, takes the points to the frame they
+/// were thinned in) and `LocalFrameCheck` (9: three points there, which tell whether the points have been moved since).
+void fromThinnedEdges(const meam::ThinnedEdges& edges, vtkPointSet* input, vtkPolyData* output);
 }
 
 #endif

@@ -2,11 +2,12 @@
 #include "vtkMEAMConflictResolution.h"
 
 #include "pose/selection/ConflictResolution.h"
-#include "vtkMEAMModelConversion.h"
+#include "scene/Units.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSharedData.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -18,31 +19,22 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "scene/Units.h"
 
-#include <deque>
+#include <memory>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkMEAMConflictResolution);
 
 namespace
 {
-/// One type of part as the core has it; it refers to itself, so it stays where it was made.
+/// One type of part as the core has it.
 struct Part
 {
-  Part(vtkPartitionedDataSetCollection* trained, vtkPolyData* found, const meam::Scene& scene, int threads)
-    : Model(vtkMEAMConversion::toTrainedModel(trained))
-    , Found(vtkMEAMConversion::toPoses(found))
-    , Index(Model, scene, threads)
-  {
-    meam::requireSameUnits(scene.edges.points, this->Model.diameter);
-  }
-  Part(const Part&) = delete;
-  void operator=(const Part&) = delete;
-
-  meam::TrainedModel Model;
-  meam::Poses Found;
-  meam::SceneIndex Index;
+  std::shared_ptr<const meam::TrainedModel> model;
+  std::shared_ptr<const meam::Scene> scene;
+  std::shared_ptr<const meam::LocalPoses> found;
+  meam::Poses input; ///< the same in the scene's coordinates
 };
 
 void addPartIds(const std::vector<meam::PartPose>& poses, vtkPolyData* output)
@@ -57,23 +49,20 @@ void addPartIds(const std::vector<meam::PartPose>& poses, vtkPolyData* output)
 }
 
 /// In place of what came along from the first part.
-void setDiameters(const std::deque<Part>& parts, vtkPolyData* output)
+void setDiameters(const std::vector<Part>& parts, vtkPolyData* output)
 {
   vtkNew<vtkDoubleArray> diameters;
   diameters->SetName("Diameter");
   for (const Part& part : parts)
   {
-    diameters->InsertNextValue(part.Model.diameter);
+    diameters->InsertNextValue(part.model->diameter);
   }
   output->GetFieldData()->Initialize();
   output->GetFieldData()->AddArray(diameters);
 }
 }
 
-vtkMEAMConflictResolution::vtkMEAMConflictResolution()
-{
-  this->SetNumberOfInputPorts(4);
-}
+vtkMEAMConflictResolution::vtkMEAMConflictResolution() { this->SetNumberOfInputPorts(4); }
 
 int vtkMEAMConflictResolution::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -113,17 +102,24 @@ int vtkMEAMConflictResolution::RequestData(
       if (count != models)
       {
         throw meam::Error("There are poses of " + std::to_string(count) + " parts and models of " +
-          std::to_string(models) + ": connect both of each part, in the same order.");
+                          std::to_string(models) + ": connect both of each part, in the same order.");
       }
       const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
-      const meam::Scene scene = sceneOf(edges, surface, sensor, this->NumberOfThreads);
-      std::deque<Part> parts;
-      std::vector<meam::PartDetections> detections;
+      std::vector<Part> parts;
       for (int i = 0; i < count; ++i)
       {
-        const Part& part = parts.emplace_back(vtkPartitionedDataSetCollection::GetData(inputVector[1], i),
-          vtkPolyData::GetData(inputVector[0], i), scene, this->NumberOfThreads);
-        detections.push_back({ part.Index, part.Found });
+        Part part;
+        part.model = sharedModel(vtkPartitionedDataSetCollection::GetData(inputVector[1], i));
+        part.scene = sharedScene(edges, surface, sensor, part.model->diameter, this->NumberOfThreads);
+        auto* found = vtkPolyData::GetData(inputVector[0], i);
+        part.found = sharedPoses(found, *part.scene, part.model->symmetries);
+        part.input = toPoses(found);
+        parts.push_back(part);
+      }
+      std::vector<meam::PartDetections> detections;
+      for (const Part& part : parts)
+      {
+        detections.push_back({ *part.scene, *part.model, part.found->poses });
       }
       meam::ConflictResolutionSettings settings;
       settings.tolerance = this->Tolerance;
@@ -134,7 +130,8 @@ int vtkMEAMConflictResolution::RequestData(
       meam::Poses poses;
       for (const meam::PartPose& pose : stay)
       {
-        poses.push_back(pose.pose);
+        poses.push_back(parts[pose.part].input[pose.index]); // where it came from, to the last bit
+        poses.back().viewId = pose.pose.viewId;
       }
       fromPoses(poses, output);
       addPartIds(stay, output);

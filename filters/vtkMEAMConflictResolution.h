@@ -5,9 +5,9 @@
  *
  * Each type is looked for by itself; this filter brings the poses together. Two poses, of different parts or of one,
  * are in conflict when more than MaximumShared of the measured points that either explains are explained by the other,
- * too. The pose stays that has the larger odds of its probability times the measured points that it explains, less those
- * that it predicts and the sensor looked past or did not measure. A small part that fits on a face of a larger one loses against it; one
- * that lies on top of it stays.
+ * too. The pose stays that has the larger odds of its probability times the measured points that it explains, less
+ * those that it predicts and the sensor saw past or did not measure. A small part that fits on a face of a larger one
+ * loses against it; one that lies on top of it stays.
  *
  * Input port 0, repeatable: vtkPolyData, the verified poses of each part (vtkMEAMPoseVerification or
  * vtkMEAMPoseEstimation): `Transform`, `Probability`, `Score`, `VisibleFraction`.
@@ -37,8 +37,8 @@ public:
 
   ///@{
   /**
-   * A pose explains the measured points this near to its part, in mm; no more than 2 % of the part's diameter counts. 0:
-   * 2 % of the smallest part's diameter, but 1 % of the own diameter of parts that are more than twice as large.
+   * A pose explains the measured points this near to its part, in mm; no more than 2 % of the part's diameter counts.
+   * 0: 2 % of the smallest part's diameter, but 1 % of the own diameter of parts that are more than twice as large.
    * Default: 0.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);

@@ -3,6 +3,7 @@
 
 #include "mesh/ConvexHull.h"
 #include "mesh/FeatureEdges.h"
+#include "mesh/TriangleMesh.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMMeshConversion.h"
@@ -11,7 +12,6 @@
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "mesh/TriangleMesh.h"
 
 vtkStandardNewMacro(vtkMEAMFeatureEdges);
 

@@ -6,6 +6,7 @@
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSharedData.h"
 #include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkInformation.h"
@@ -16,11 +17,19 @@
 
 vtkStandardNewMacro(vtkMEAMHashing);
 
+struct vtkMEAMHashing::SharedData
+{
+  std::shared_ptr<const meam::TrainedModel> Model;
+};
+
 vtkMEAMHashing::vtkMEAMHashing()
+  : Shared(new SharedData)
 {
   this->SetNumberOfInputPorts(2);
   this->SetParametersToRecommended();
 }
+
+vtkMEAMHashing::~vtkMEAMHashing() = default;
 
 void vtkMEAMHashing::SetParametersToPaper() { this->SetParameters(meam::paperHashingSettings()); }
 
@@ -74,7 +83,11 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
       }
     }
     const meam::PartSurface part{ surface, diameterOf(input), symmetriesOf(samples) };
-    fromTrainedModel(meam::hashModels(toAppearanceModels(input), part, settings, progressOf(this)), output);
+    const auto model = std::make_shared<const meam::TrainedModel>(
+      meam::hashModels(toAppearanceModels(input), part, settings, progressOf(this)));
+    fromTrainedModel(*model, output);
+    shareModel(output, model);
+    this->Shared->Model = model;
   };
   return vtkMEAMRun(this, work, output);
 }

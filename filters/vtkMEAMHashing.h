@@ -34,6 +34,8 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
+#include <memory>
+
 namespace meam
 {
 struct MEAMHashingSettings;
@@ -104,8 +106,9 @@ public:
 
   ///@{
   /**
-   * With ViewMerging Points, of the edge points in a cube of this side, in mm, one makes pairs and votes, in the model as
-   * in a scene; all of them judge and refine poses. 0: 4 % of the part's diameter. Otherwise every edge point makes pairs. Default: 0.
+   * With ViewMerging Points, of the edge points in a cube of this side, in mm, one makes pairs and votes, in the model
+   * as in a scene; all of them judge and refine poses. 0: 4 % of the part's diameter. Otherwise every edge point makes
+   * pairs. Default: 0.
    */
   vtkSetClampMacro(LeafSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(LeafSize, double);
@@ -127,13 +130,16 @@ public:
 
 protected:
   vtkMEAMHashing();
-  ~vtkMEAMHashing() override = default;
+  ~vtkMEAMHashing() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkMEAMHashing(const vtkMEAMHashing&) = delete;
   void operator=(const vtkMEAMHashing&) = delete;
+
+  struct SharedData;
+  std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
 
   void SetParameters(const meam::MEAMHashingSettings& settings);
 

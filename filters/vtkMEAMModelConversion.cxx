@@ -2,6 +2,8 @@
 #include "vtkMEAMModelConversion.h"
 
 #include "base/Error.h"
+#include "model/AppearanceModel.h"
+#include "model/ModelValidation.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMSymmetryConversion.h"
@@ -19,7 +21,6 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedIntArray.h"
-#include "model/AppearanceModel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,13 +31,7 @@ namespace vtkMEAMConversion
 namespace
 {
 using meam::Error;
-
-[[noreturn]] void refuse(const std::string& what)
-{
-  throw Error("The trained model " + what +
-              " Train the model again with MEAMHashing, and save it with the data mode "
-              "'Binary'.");
-}
+using meam::refuseModel;
 
 std::string nameOf(vtkPartitionedDataSetCollection* input, unsigned int index)
 {
@@ -182,17 +177,15 @@ public:
     this->checkVersion();
     meam::TrainedModel model;
     model.diameter = this->number("Diameter");
-    if (!(model.diameter > 0.0))
-    {
-      refuse("has no diameter.");
-    }
     model.digest = fieldText(this->Input, "Digest");
     this->readSettings(model.settings);
+    requireModelSettings(model);
     this->readEdges(model);
     this->readViews(model);
     this->readSurface(model);
     this->readTable(model);
     model.symmetries = symmetriesOf(this->Input);
+    requireModel(model);
     model.deriveFields();
     return model;
   }
@@ -206,17 +199,11 @@ private:
       throw Error("This is not a trained model: it has no field data 'FormatVersion'. Use the output of MEAMHashing, "
                   "or a file saved from it.");
     }
-    const double value = version->GetComponent(0, 0);
-    if (value != meam::TrainedModel::FormatVersion)
-    {
-      throw Error("The trained model has format version " + std::to_string(static_cast<int>(value)) +
-                  ", this program reads version " + std::to_string(meam::TrainedModel::FormatVersion) +
-                  ": train the model again with MEAMHashing.");
-    }
+    meam::requireModelVersion(version->GetComponent(0, 0));
     const std::string units = fieldText(this->Input, "Units");
     if (units != "mm")
     {
-      refuse("is in '" + units + "', not in mm.");
+      refuseModel("is in '" + units + "', not in mm.");
     }
   }
 
@@ -226,7 +213,7 @@ private:
     const double value = array ? array->GetComponent(0, 0) : NAN;
     if (!std::isfinite(value))
     {
-      refuse("is incomplete: it has no field data '" + std::string(name) + "'.");
+      refuseModel("is incomplete: it has no field data '" + std::string(name) + "'.");
     }
     return value;
   }
@@ -237,7 +224,7 @@ private:
     const double value = this->number(name);
     if (!(value >= 0.0 && value < choices))
     {
-      refuse("has a '" + std::string(name) + "' that is not known here.");
+      refuseModel("has a '" + std::string(name) + "' that is not known here.");
     }
     return static_cast<int>(value);
   }
@@ -247,7 +234,7 @@ private:
     const double value = this->number(name);
     if (!(value >= 0.0 && value <= 2147483647.0))
     {
-      refuse("is damaged: '" + std::string(name) + "' is not a count.");
+      refuseModel("is damaged: '" + std::string(name) + "' is not a count.");
     }
     return static_cast<vtkIdType>(value);
   }
@@ -260,12 +247,7 @@ private:
     settings.merging = static_cast<meam::ViewMerging>(this->choice("ViewMerging", 3));
     settings.voxelSize = this->number("VoxelSize");
     settings.leafSize = this->number("LeafSize");
-    settings.coVisibilityDirections = static_cast<int>(this->number("CoVisibilityDirections"));
-    if (!(settings.distanceStep > 0.0 && settings.distanceStep <= 1.0) ||
-        !(settings.angleStep >= 1.0 && settings.angleStep <= 90.0))
-    {
-      refuse("has a distance step or an angle step that is out of range.");
-    }
+    settings.coVisibilityDirections = static_cast<int>(this->count("CoVisibilityDirections"));
   }
 
   /// A partition by name, of the length that was written. A reader may hand out another piece, or an empty
@@ -279,14 +261,15 @@ private:
       {
         if (fieldText(data, "Piece") != name || data->GetNumberOfPoints() != points)
         {
-          refuse("is damaged: its piece '" + name + "' has " + std::to_string(data->GetNumberOfPoints()) +
-                 " points instead of " + std::to_string(points) + ", or is another one. The file may be truncated.");
+          refuseModel("is damaged: its piece '" + name + "' has " + std::to_string(data->GetNumberOfPoints()) +
+                      " points instead of " + std::to_string(points) +
+                      ", or is another one. The file may be truncated.");
         }
         return data;
       }
     }
-    refuse("is incomplete: its piece '" + name +
-           "' is missing. The file may be truncated, or the folder beside it was not copied along.");
+    refuseModel("is incomplete: its piece '" + name +
+                "' is missing. The file may be truncated, or the folder beside it was not copied along.");
   }
 
   template <typename T>
@@ -296,7 +279,7 @@ private:
     const vtkIdType count = data->GetNumberOfPoints();
     if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != count)
     {
-      refuse("is damaged: its array '" + std::string(name) + "' is missing or too short.");
+      refuseModel("is damaged: its array '" + std::string(name) + "' is missing or too short.");
     }
     std::vector<T> result(count);
     if (array->GetDataType() == vtkTypeTraits<T>::VTK_TYPE_ID)
@@ -312,28 +295,10 @@ private:
     return result;
   }
 
-  static void requireFinite(const meam::Points& points, const char* what)
-  {
-    if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }))
-    {
-      refuse("is damaged: its " + std::string(what) + " are not numbers.");
-    }
-  }
-
   void readEdges(meam::TrainedModel& model) const
   {
     vtkDataSet* edges = this->piece("Edges", this->count("NumberOfEdgePoints"));
     model.edges = toCloud(vtkPointSet::SafeDownCast(edges));
-    if (model.edges.empty() || model.edges.tangents.empty())
-    {
-      refuse("has no edge points with tangents.");
-    }
-    if (model.edges.size() > meam::TrainedModel::MostEdges)
-    {
-      refuse("is damaged: it has " + std::to_string(model.edges.size()) + " edge points.");
-    }
-    requireFinite(model.edges.points, "edge points");
-    requireFinite(model.edges.tangents, "tangents");
     model.edgeViews = this->values<std::uint32_t>(edges, "ViewBits");
     model.edgeVisible = this->values<std::uint32_t>(edges, "VisibleBits");
   }
@@ -343,16 +308,12 @@ private:
     const vtkIdType views = this->count("NumberOfViews");
     if (views < 1 || views > meam::TrainedModel::MaximumViews)
     {
-      refuse("is damaged: it has " + std::to_string(views) + " views.");
+      refuseModel("is damaged: it has " + std::to_string(views) + " views.");
     }
-    // Every edge point was seen somewhere, and in a view that exists.
+    // A view is there as long as it has edge points.
     std::vector<vtkIdType> members(views, 0);
     for (const std::uint32_t bits : model.edgeViews)
     {
-      if (bits == 0 || (static_cast<std::uint64_t>(bits) >> views) != 0)
-      {
-        refuse("is damaged: its 'ViewBits' name a view that does not exist.");
-      }
       for (vtkIdType v = 0; v < views; ++v)
       {
         members[v] += bits >> v & 1u;
@@ -363,7 +324,7 @@ private:
       const Eigen::Vector3f direction = fieldDirection(this->Input, "ViewDirections", views, v);
       if (direction.isZero())
       {
-        refuse("is incomplete: it has no field data 'ViewDirections'.");
+        refuseModel("is incomplete: it has no field data 'ViewDirections'.");
       }
       model.viewDirections.push_back(direction);
       if (members[v] > 0)
@@ -381,21 +342,15 @@ private:
       return;
     }
     model.surface = toCloud(vtkPointSet::SafeDownCast(this->piece("Surface", points)));
-    if (model.surface.empty() || model.surface.normals.empty())
+    if (model.surface.empty())
     {
-      refuse("has a surface without normals.");
+      refuseModel("is damaged: its piece 'Surface' is not a cloud.");
     }
-    requireFinite(model.surface.points, "surface points");
-    requireFinite(model.surface.normals, "normals");
   }
 
   void readTable(meam::TrainedModel& model) const
   {
     const std::int64_t keys = model.quantizer().numberOfKeys();
-    if (keys > meam::TrainedModel::MostKeys)
-    {
-      refuse("has a distance step or an angle step that is too small.");
-    }
     meam::PairTable& table = model.table;
     table.offsets = this->values<std::uint32_t>(this->piece("PairTableBuckets", keys + 1), "Offset");
     const vtkIdType entries = this->count("NumberOfPairs");
@@ -406,23 +361,6 @@ private:
       table.referreds = this->values<std::uint32_t>(data, "Referred");
       table.angles = this->values<float>(data, "Angle");
       table.viewBits = this->values<std::uint32_t>(data, "ViewBits");
-    }
-    const auto inRange = [&](std::uint32_t index) { return index < model.edges.size(); };
-    bool sound =
-      table.offsets.front() == 0 && table.offsets.back() == table.size() &&
-      std::is_sorted(table.offsets.begin(), table.offsets.end()) &&
-      std::all_of(table.references.begin(), table.references.end(), inRange) &&
-      std::all_of(table.referreds.begin(), table.referreds.end(), inRange) &&
-      std::all_of(table.angles.begin(), table.angles.end(), [](float angle) { return std::abs(angle) < 3.15f; });
-    const auto sortedWithin = [&](std::uint32_t begin, std::uint32_t end)
-    { return std::is_sorted(table.references.begin() + begin, table.references.begin() + end); };
-    for (std::size_t key = 0; sound && key + 1 < table.offsets.size(); ++key)
-    {
-      sound = sortedWithin(table.offsets[key], table.offsets[key + 1]);
-    }
-    if (!sound)
-    {
-      refuse("is damaged: its pair table does not fit its edge points.");
     }
   }
 

@@ -2,30 +2,21 @@
 #include "vtkMEAMOFFReader.h"
 
 #include "io/OFFFile.h"
+#include "mesh/TriangleMesh.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMRun.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "mesh/TriangleMesh.h"
 
 vtkStandardNewMacro(vtkMEAMOFFReader);
 
-vtkMEAMOFFReader::vtkMEAMOFFReader()
-{
-  this->SetNumberOfInputPorts(0);
-}
+vtkMEAMOFFReader::vtkMEAMOFFReader() { this->SetNumberOfInputPorts(0); }
 
-vtkMEAMOFFReader::~vtkMEAMOFFReader()
-{
-  this->SetFileName(nullptr);
-}
+vtkMEAMOFFReader::~vtkMEAMOFFReader() { this->SetFileName(nullptr); }
 
-int vtkMEAMOFFReader::CanReadFile(const char* fileName)
-{
-  return fileName && meam::isOFF(fileName) ? 1 : 0;
-}
+int vtkMEAMOFFReader::CanReadFile(const char* fileName) { return fileName && meam::isOFF(fileName) ? 1 : 0; }
 
 int vtkMEAMOFFReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {

@@ -32,15 +32,9 @@ std::array<int, 2> sizeOf(const char* fileName)
 }
 }
 
-vtkMEAMPCDReader::vtkMEAMPCDReader()
-{
-  this->SetNumberOfInputPorts(0);
-}
+vtkMEAMPCDReader::vtkMEAMPCDReader() { this->SetNumberOfInputPorts(0); }
 
-vtkMEAMPCDReader::~vtkMEAMPCDReader()
-{
-  this->SetFileName(nullptr);
-}
+vtkMEAMPCDReader::~vtkMEAMPCDReader() { this->SetFileName(nullptr); }
 
 int vtkMEAMPCDReader::CanReadFile(const char* fileName)
 {

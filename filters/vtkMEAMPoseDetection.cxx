@@ -2,45 +2,51 @@
 #include "vtkMEAMPoseDetection.h"
 
 #include "pose/voting/PoseDetection.h"
-#include "vtkMEAMArrays.h"
-#include "vtkMEAMCloudConversion.h"
-#include "vtkMEAMModelConversion.h"
-#include "vtkMEAMPoseConversion.h"
+#include "scene/Units.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
-#include "vtkMEAMSceneEdgeConversion.h"
+#include "vtkMEAMSettings.h"
+#include "vtkMEAMSharedData.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "scene/Units.h"
 
 vtkStandardNewMacro(vtkMEAMPoseDetection);
 
+struct vtkMEAMPoseDetection::SharedData
+{
+  std::shared_ptr<const meam::TrainedModel> Model;
+  std::shared_ptr<const meam::LocalPoses> Poses;
+};
+
 vtkMEAMPoseDetection::vtkMEAMPoseDetection()
+  : Shared(new SharedData)
+  , Settings(new meam::PoseDetectionSettings)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetParametersToRecommended();
 }
 
-void vtkMEAMPoseDetection::SetParametersToPaper() { this->SetParameters(meam::paperDetectionSettings()); }
+vtkMEAMPoseDetection::~vtkMEAMPoseDetection() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, ReferenceShare, double, referenceShare, 0.0, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, ReferredShare, double, referredShare, 1e-6, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, PeaksPerReference, int, peaksPerReference, 1, 100)
+vtkMEAMSettingMacro(vtkMEAMPoseDetection, SignedTangents, bool, signedTangents)
+vtkMEAMSettingMacro(vtkMEAMPoseDetection, SmoothPeaks, bool, smoothPeaks)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, Seed, int, seed, 0, VTK_INT_MAX)
+
+void vtkMEAMPoseDetection::SetParametersToPaper()
+{
+  *this->Settings = meam::paperDetectionSettings();
+  this->Modified();
+}
 
 void vtkMEAMPoseDetection::SetParametersToRecommended()
 {
-  this->SetParameters({});
-  this->SetReferenceShare(0.0);
-}
-
-void vtkMEAMPoseDetection::SetParameters(const meam::PoseDetectionSettings& settings)
-{
-  this->ReferenceShare = settings.referenceShare;
-  this->ReferredShare = settings.referredShare;
-  this->PeaksPerReference = settings.peaksPerReference;
-  this->SignedTangents = settings.signedTangents;
-  this->SmoothPeaks = settings.smoothPeaks;
-  this->Seed = static_cast<int>(settings.seed);
+  *this->Settings = {};
   this->Modified();
 }
 
@@ -59,19 +65,12 @@ int vtkMEAMPoseDetection::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
-    meam::PoseDetectionSettings settings;
-    settings.referenceShare = this->ReferenceShare > 0.0 ? this->ReferenceShare : referenceShareOf(edges);
-    settings.referredShare = this->ReferredShare;
-    settings.peaksPerReference = this->PeaksPerReference;
-    settings.signedTangents = this->SignedTangents;
-    settings.smoothPeaks = this->SmoothPeaks;
-    settings.seed = static_cast<unsigned>(this->Seed);
-    settings.threads = this->NumberOfThreads;
-    const meam::TrainedModel model = toTrainedModel(trained);
-    const meam::PreciseCloud scene = edgesOf(edges);
-    fromPoses(meam::detectPoses(scene, model, settings, progressOf(this)), output);
-    setDiameter(output, model.diameter);
-    const std::string warning = meam::unitsWarning(toCloud(edges).points, model.diameter);
+    this->Settings->threads = this->NumberOfThreads;
+    const auto model = sharedModel(trained);
+    const meam::LocalCloud scene = edgesOf(edges, this->NumberOfThreads);
+    meam::Poses poses = meam::detectPoses(scene, *model, *this->Settings, progressOf(this));
+    *this->Shared = { model, sharePoses({ scene.T_local_scene, std::move(poses) }, *model, output) };
+    const std::string warning = meam::unitsWarning(scene.cloud.points, model->diameter);
     if (!warning.empty())
     {
       vtkWarningMacro(<< warning);
@@ -83,11 +82,11 @@ int vtkMEAMPoseDetection::RequestData(
 void vtkMEAMPoseDetection::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
-  os << indent << "ReferredShare: " << this->ReferredShare << "\n";
-  os << indent << "PeaksPerReference: " << this->PeaksPerReference << "\n";
-  os << indent << "SignedTangents: " << this->SignedTangents << "\n";
-  os << indent << "SmoothPeaks: " << this->SmoothPeaks << "\n";
-  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "ReferenceShare: " << this->GetReferenceShare() << "\n";
+  os << indent << "ReferredShare: " << this->GetReferredShare() << "\n";
+  os << indent << "PeaksPerReference: " << this->GetPeaksPerReference() << "\n";
+  os << indent << "SignedTangents: " << this->GetSignedTangents() << "\n";
+  os << indent << "SmoothPeaks: " << this->GetSmoothPeaks() << "\n";
+  os << indent << "Seed: " << this->GetSeed() << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }

@@ -8,9 +8,9 @@
  * point of the model the reference point is, and for the turn about its tangent. The peak of the votes gives
  * one candidate for each reference point. Candidates are not verified: many are wrong.
  *
- * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation); those found in a scan
- * have `EdgeSource` (vtkMEAMSceneEdgeExtraction).
- * Input port 1: vtkPartitionedDataSetCollection, the trained model (vtkMEAMHashing).
+ * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation); those found in a
+ * scan have `EdgeSource` (vtkMEAMSceneEdgeExtraction). Input port 1: vtkPartitionedDataSetCollection, the trained model
+ * (vtkMEAMHashing).
  *
  * Output port 0: vtkPolyData, one vertex for each candidate where the part's origin lies, in the order of the
  * reference points: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Votes`, `ViewId` (the
@@ -22,6 +22,8 @@
 
 #include "ppfmeamFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
+
+#include <memory>
 
 namespace meam
 {
@@ -37,49 +39,50 @@ public:
 
   ///@{
   /**
-   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref), but at least 100. More finds more of the
-   * hidden copies and takes longer. 0: 0.1 of edges found in a scan (with `EdgeSource`), 0.03 of others. Default: 0.
+   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref), but at least 100. More finds more of
+   * the hidden copies and takes longer. 0: 0.1 of edges found in a scan (with `EdgeSource`), 0.03 of others. Default:
+   * 0.
    */
-  vtkSetClampMacro(ReferenceShare, double, 0.0, 1.0);
-  vtkGetMacro(ReferenceShare, double);
+  virtual void SetReferenceShare(double value);
+  virtual double GetReferenceShare();
   ///@}
 
   ///@{
   /**
-   * Share of the scene's edge points that are referred points, in (0, 1] (P_referred); of those in a cube of the model's
-   * LeafSize (vtkMEAMHashing) one. Default: 1. The paper: 0.2.
+   * Share of the scene's edge points that are referred points, in (0, 1] (P_referred); of those in a cube of the
+   * model's LeafSize (vtkMEAMHashing) one. Default: 1. The paper: 0.2.
    */
-  vtkSetClampMacro(ReferredShare, double, 1e-6, 1.0);
-  vtkGetMacro(ReferredShare, double);
+  virtual void SetReferredShare(double value);
+  virtual double GetReferredShare();
   ///@}
 
   ///@{
   /** Candidates of one reference point, 1 to 100: more find more hidden copies. Default: 1. */
-  vtkSetClampMacro(PeaksPerReference, int, 1, 100);
-  vtkGetMacro(PeaksPerReference, int);
+  virtual void SetPeaksPerReference(int value);
+  virtual int GetPeaksPerReference();
   ///@}
 
   ///@{
   /**
-   * The sense in which a pair runs along its tangents tells which way round these lie; false: their stored signs are taken
-   * for right, which is wrong for half of the reference points. For comparison. Default: true.
+   * The sense in which a pair runs along its tangents tells which way round these lie; false: their stored signs are
+   * taken for right, which is wrong for half of the reference points. For comparison. Default: true.
    */
-  vtkSetMacro(SignedTangents, bool);
-  vtkGetMacro(SignedTangents, bool);
+  virtual void SetSignedTangents(bool value);
+  virtual bool GetSignedTangents();
   vtkBooleanMacro(SignedTangents, bool);
   ///@}
 
   ///@{
   /** The peak of the votes is that of three neighbouring turns together; false: of single ones. Default: true. */
-  vtkSetMacro(SmoothPeaks, bool);
-  vtkGetMacro(SmoothPeaks, bool);
+  virtual void SetSmoothPeaks(bool value);
+  virtual bool GetSmoothPeaks();
   vtkBooleanMacro(SmoothPeaks, bool);
   ///@}
 
   ///@{
   /** Seed of the choice of both: the same seed gives the same poses. Default: 1. */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
-  vtkGetMacro(Seed, int);
+  virtual void SetSeed(int value);
+  virtual int GetSeed();
   ///@}
 
   ///@{
@@ -95,7 +98,7 @@ public:
 
 protected:
   vtkMEAMPoseDetection();
-  ~vtkMEAMPoseDetection() override = default;
+  ~vtkMEAMPoseDetection() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -103,14 +106,9 @@ private:
   vtkMEAMPoseDetection(const vtkMEAMPoseDetection&) = delete;
   void operator=(const vtkMEAMPoseDetection&) = delete;
 
-  void SetParameters(const meam::PoseDetectionSettings& settings);
-
-  double ReferenceShare;
-  double ReferredShare;
-  int PeaksPerReference;
-  bool SignedTangents;
-  bool SmoothPeaks;
-  int Seed;
+  struct SharedData;
+  std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
+  std::unique_ptr<meam::PoseDetectionSettings> Settings;
   int NumberOfThreads = 0;
 };
 

@@ -2,7 +2,9 @@
 #include "vtkMEAMPoseEstimation.h"
 
 #include "mesh/preparation/MeshPreparation.h"
+#include "model/ModelTraining.h"
 #include "pose/MEAMPoseEstimation.h"
+#include "scene/Units.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
@@ -14,6 +16,7 @@
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneEdgeConversion.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSharedData.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -25,8 +28,6 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
-#include "scene/Units.h"
-#include "mesh/TriangleMesh.h"
 
 #include <tuple>
 #include <utility>
@@ -47,12 +48,18 @@ public:
   /// What of the filter's settings the model depends on.
   using Settings = std::tuple<int, int, double, double, double, double>;
 
-  const meam::TrainedModel& modelOf(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
+  std::shared_ptr<const meam::TrainedModel> modelOf(
+    vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
   {
+    if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(part))
+    {
+      this->Part = nullptr;
+      return this->Model = vtkMEAMConversion::sharedModel(collection);
+    }
     if (this->Part != part || this->Time != part->GetMTime() || this->Made != settings)
     {
       this->Part = nullptr; // until the new one is there
-      this->Model = train(part, settings, progress);
+      this->Model = std::make_shared<const meam::TrainedModel>(train(part, settings, progress));
       this->Part = part;
       this->Time = part->GetMTime();
       this->Made = settings;
@@ -63,24 +70,19 @@ public:
 private:
   static meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
   {
-    if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(part))
-    {
-      return vtkMEAMConversion::toTrainedModel(collection);
-    }
     meam::MeshPreparationSettings preparation;
     int preset = 0;
     int seed = 0;
     Eigen::Vector3d& offset = preparation.offset;
     std::tie(preset, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
     const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(vtkPolyData::SafeDownCast(part));
-    const meam::PreparedMesh prepared =
-      meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
+    const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
     meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
     training.sampling.seed = static_cast<unsigned>(seed);
     return meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0));
   }
 
-  meam::TrainedModel Model;
+  std::shared_ptr<const meam::TrainedModel> Model;
   vtkWeakPointer<vtkDataObject> Part;
   vtkMTimeType Time = 0;
   Settings Made;
@@ -155,7 +157,7 @@ int vtkMEAMPoseEstimation::RequestData(
       const double start = vtkTimerLog::GetUniversalTime();
 
       // What is wrong with the scene is told before any time goes into training.
-      meam::FramedPoints surface = surfaceOf(sceneInput, "The scene", this->NumberOfThreads);
+      meam::requirePoints(sceneInput->GetNumberOfPoints(), sceneInput->GetNumberOfPoints(), "The scene");
       int size[3] = { 0, 0, 0 };
       if (organized)
       {
@@ -166,22 +168,18 @@ int vtkMEAMPoseEstimation::RequestData(
         throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
                           "points as the boundary, or an organized scan (a grid of width x height points).");
       }
-
-      const double loaded = vtkTimerLog::GetUniversalTime();
-      const meam::Sensor sensor =
-        sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
-      meam::SceneEdges found;
-      meam::PreciseCloud sceneEdges;
+      meam::SceneInput scene;
+      scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+      meam::SceneEdges found; // of a scan
       if (boundary)
       {
-        found.cloud = toCloud(boundary);
-        meam::requirePoints(found.cloud.points, "The scene's boundary cloud");
-        found.cloud = meam::finitePoints(std::move(found.cloud));
-        sceneEdges = toPreciseCloud(boundary);
+        scene.edges = toLocalCloud(boundary, this->NumberOfThreads);
+        meam::requirePoints(scene.edges.cloud.points, "The scene's boundary cloud");
       }
       else
       {
-        const meam::OrganizedCloud cloud = toOrganizedCloud(organized);
+        const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
+        meam::requirePoints(cloud.points, "The scene");
         meam::SceneEdgeExtractionSettings extraction;
         extraction.imageEdges = this->ImageEdges;
         extraction.depthEdges = this->DepthEdges;
@@ -195,32 +193,31 @@ int vtkMEAMPoseEstimation::RequestData(
           extraction.camera = cameraOf(this->CameraFile, image, cloud);
         }
         found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
-        sceneEdges = found.cloud;
+        scene.edges = meam::toLocalCloud(found.cloud, this->NumberOfThreads);
+        scene.edges.fromScan = true;
       }
-      const std::size_t measured = surface.points.size();
       const double extracted = vtkTimerLog::GetUniversalTime();
+      scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
+      const std::size_t measured = scene.measured.size();
+      const std::size_t edgePoints = scene.edges.cloud.size();
+      const double loaded = vtkTimerLog::GetUniversalTime();
 
-      const meam::TrainedModel& model = this->Trained->modelOf(part,
+      const auto model = this->Trained->modelOf(part,
         { this->Preset, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1], this->CADOffset[2] },
         meam::subProgress(progress, AfterSceneEdges, AfterTraining));
       const double trained = vtkTimerLog::GetUniversalTime();
 
-      meam::DetectionSettings settings = meam::detectionSettings(
-        static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses, this->NumberOfThreads,
-        this->MinimumProbability);
+      meam::DetectionSettings settings = meam::detectionSettings(static_cast<meam::Preset>(this->Preset),
+        this->MaximumNumberOfPoses, this->NumberOfThreads, this->MinimumProbability);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
       if (this->ReferenceShare > 0.0)
       {
         settings.detection.referenceShare = this->ReferenceShare;
       }
-      else if (this->Preset == Recommended)
-      {
-        settings.detection.referenceShare = boundary ? referenceShareOf(boundary) : meam::ImageReferenceShare;
-      }
       meam::StageTimes times;
-      const meam::Poses poses = meam::estimatePoses(model, sceneEdges, std::move(surface), sensor, settings, &times,
-        meam::subProgress(progress, AfterTraining, 1.0));
-      const std::string warning = meam::unitsWarning(found.cloud.points, model.diameter);
+      const meam::Poses poses =
+        meam::estimatePoses(*model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
+      const std::string warning = meam::unitsWarning(scene.edges.cloud.points, model->diameter);
       if (!warning.empty())
       {
         vtkWarningMacro(<< warning);
@@ -228,24 +225,26 @@ int vtkMEAMPoseEstimation::RequestData(
 
       if (boundary)
       {
-        fromCloud(found.cloud, edges);
+        edges->ShallowCopy(boundary);
       }
       else
       {
         fromSceneEdges(found, edges);
       }
       fromPoses(poses, output);
-      setDiameter(output, model.diameter);
-      setFieldValue(output, "SecondsTraining", trained - extracted);
-      setFieldValue(output, "SecondsSceneEdges", extracted - loaded);
+      setDiameter(output, model->diameter);
+      setFieldValue(output, "SecondsTraining", trained - loaded);
+      setFieldValue(output, "SecondsSceneEdges", extracted - start);
       setFieldValue(output, "SecondsTangents", times.tangents);
+      setFieldValue(output, "SecondsScene", loaded - extracted + times.scene);
       setFieldValue(output, "SecondsDetection", times.detection);
+      setFieldValue(output, "SecondsScreening", times.screening);
       setFieldValue(output, "SecondsVerification", times.verification);
       setFieldValue(output, "SecondsRefinement", times.refinement);
       setFieldValue(output, "SecondsSelection", times.selection);
       setFieldValue(output, "ScenePoints", static_cast<double>(measured));
-      setFieldValue(output, "SceneEdgePoints", static_cast<double>(found.cloud.size()));
-      setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
+      setFieldValue(output, "SceneEdgePoints", static_cast<double>(edgePoints));
+      setFieldValue(output, "ModelEdgePoints", static_cast<double>(model->edges.size()));
       setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
     },
     output, edges);
@@ -264,6 +263,5 @@ void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Creases: " << this->Creases << "\n";
   os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
   os << indent << "CADScale: " << this->CADScale << "\n";
-  os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2]
-     << "\n";
+  os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2] << "\n";
 }

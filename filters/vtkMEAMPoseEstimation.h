@@ -6,10 +6,11 @@
  * Trains the model of the part (paper, Section 4) unless it gets one, extracts the scene's edges from
  * its image unless it gets them, and finds, verifies, refines and selects poses (paper, Section 5) with
  * the parameters of the preset. The steps are those of the single filters, which have all the
- * parameters; but of more than 300 raw candidates a third is refined, not 100. The trained model is kept until the CAD or a setting that it depends on changes.
+ * parameters, and return the same poses. The trained model is kept until the CAD or a setting that it depends on
+ * changes. The outputs have the time steps of the scene.
  *
- * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the poses
- * and changes nothing else.
+ * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the
+ * poses and changes nothing else.
  *
  * Input port 0: the part, a vtkPolyData with the CAD's faces, or the trained model that vtkMEAMHashing
  * returns, a vtkPartitionedDataSetCollection.
@@ -23,11 +24,10 @@
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
  * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, and those that vtkMEAMPoseRefinement adds; field data:
- * `Diameter` (mm), `SecondsTraining`, `SecondsSceneEdges`, `SecondsTangents`, `SecondsDetection`, `SecondsVerification`,
- * `SecondsRefinement`, `SecondsSelection`, `SecondsTotal`, and the counts `ScenePoints`,
- * `SceneEdgePoints` and `ModelEdgePoints`.
- * Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`,
- * unless they came in.
+ * `Diameter` (mm), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`,
+ * `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, which add up to `SecondsTotal`,
+ * and the counts `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as
+ * extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h

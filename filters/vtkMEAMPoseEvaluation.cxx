@@ -6,8 +6,8 @@
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
-#include "vtkMEAMSymmetryConversion.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -60,10 +60,7 @@ private:
 };
 }
 
-vtkMEAMPoseEvaluation::vtkMEAMPoseEvaluation()
-{
-  this->SetNumberOfInputPorts(3);
-}
+vtkMEAMPoseEvaluation::vtkMEAMPoseEvaluation() { this->SetNumberOfInputPorts(3); }
 
 int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -98,7 +95,8 @@ int vtkMEAMPoseEvaluation::RequestData(
       if (inputVector[1]->GetNumberOfInformationObjects() != scenes)
       {
         throw meam::Error("There are estimated poses of " + std::to_string(scenes) + " scenes and true poses of " +
-          std::to_string(inputVector[1]->GetNumberOfInformationObjects()) + ": connect both of each scene.");
+                          std::to_string(inputVector[1]->GetNumberOfInformationObjects()) +
+                          ": connect both of each scene.");
       }
       meam::PoseEvaluationSettings settings;
       settings.diameter = this->Diameter;

@@ -60,10 +60,7 @@ void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, doubl
 }
 }
 
-vtkMEAMPoseInstances::vtkMEAMPoseInstances()
-{
-  this->SetNumberOfInputPorts(2);
-}
+vtkMEAMPoseInstances::vtkMEAMPoseInstances() { this->SetNumberOfInputPorts(2); }
 
 int vtkMEAMPoseInstances::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
@@ -80,8 +77,8 @@ int vtkMEAMPoseInstances::RequestData(
       const meam::Progress progress = vtkMEAMConversion::progressOf(this);
       const meam::Poses poses = vtkMEAMConversion::toPoses(posesInput);
       const std::size_t copies = this->MaximumNumberOfInstances > 0
-        ? std::min<std::size_t>(poses.size(), this->MaximumNumberOfInstances)
-        : poses.size();
+                                   ? std::min<std::size_t>(poses.size(), this->MaximumNumberOfInstances)
+                                   : poses.size();
 
       vtkDataArray* ranks = posesInput->GetPointData()->GetArray("Rank");
       vtkNew<vtkAppendPolyData> append;

@@ -11,15 +11,9 @@
 
 vtkStandardNewMacro(vtkMEAMPoseReader);
 
-vtkMEAMPoseReader::vtkMEAMPoseReader()
-{
-  this->SetNumberOfInputPorts(0);
-}
+vtkMEAMPoseReader::vtkMEAMPoseReader() { this->SetNumberOfInputPorts(0); }
 
-vtkMEAMPoseReader::~vtkMEAMPoseReader()
-{
-  this->SetFileName(nullptr);
-}
+vtkMEAMPoseReader::~vtkMEAMPoseReader() { this->SetFileName(nullptr); }
 
 int vtkMEAMPoseReader::CanReadFile(const char* fileName)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMEAMPoseRefinement
- * @brief Moves each pose to where the part fits the scene best.
+ * @brief Moves each pose to where edges and surface fit best.
  *
  * Section 5.3 of the paper: iterative closest point with the appearance model of the pose. PointToPoint is
  * the paper's way, on edge points alone. EdgesAndSurface, the recommended one, draws visible edge points to
@@ -16,26 +16,26 @@
  *
  * Output port 0: vtkPolyData, the same poses in the same order with a better `Transform`; the other arrays
  * of vtkMEAMPoseDetection stay, so verify them again for a score. Added: `Residual` (mm, root mean square),
- * `Iterations`, `Covariance` (6 x 6: rotation vector in radians and translation in mm of a small motion about the middle
- * of the part's surface, scene axes), `ConstrainedDegreesOfFreedom` (0 to 6: what the scene's points fix) and
- * `ConstrainedAxes` (6: which, as shares from 0 to 1 of the turns about the part's x, y and z axis through that middle and
- * of the shifts along them). Field data `Diameter` (mm, of the part).
+ * `Iterations`, `Covariance` (6 x 6: rotation vector in radians and translation in mm of a small motion about the
+ * middle of the part's surface, scene axes), `ConstrainedDegreesOfFreedom` (0 to 6: what the scene's points fix) and
+ * `ConstrainedAxes` (6: which, as shares from 0 to 1 of the turns about the part's x, y and z axis through that middle
+ * and of the shifts along them). Field data `Diameter` (mm, of the part).
  */
 #ifndef vtkMEAMPoseRefinement_h
 #define vtkMEAMPoseRefinement_h
 
-#include "vtkMEAMSensorAlgorithm.h"
+#include "vtkMEAMPoseAlgorithm.h"
 
 namespace meam
 {
 struct PoseRefinementSettings;
 }
 
-class PPFMEAMFILTERS_EXPORT vtkMEAMPoseRefinement : public vtkMEAMSensorAlgorithm
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseRefinement : public vtkMEAMPoseAlgorithm
 {
 public:
   static vtkMEAMPoseRefinement* New();
-  vtkTypeMacro(vtkMEAMPoseRefinement, vtkMEAMSensorAlgorithm);
+  vtkTypeMacro(vtkMEAMPoseRefinement, vtkMEAMPoseAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum Methods
@@ -45,46 +45,46 @@ public:
   };
 
   ///@{
-  /** PointToPoint (0, the paper's) or EdgesAndSurface (1). Default: EdgesAndSurface. */
-  vtkSetClampMacro(Method, int, PointToPoint, EdgesAndSurface);
-  vtkGetMacro(Method, int);
+  /**
+   * PointToPoint (0, the paper's) or EdgesAndSurface (1). Default: EdgesAndSurface.
+   */
+  virtual void SetMethod(int value);
+  virtual int GetMethod();
   void SetMethodToPointToPoint() { this->SetMethod(PointToPoint); }
   void SetMethodToEdgesAndSurface() { this->SetMethod(EdgesAndSurface); }
   ///@}
 
   ///@{
-  /** Steps; of PointToPoint at most. Default: 10. */
-  vtkSetClampMacro(NumberOfIterations, int, 1, 10000);
-  vtkGetMacro(NumberOfIterations, int);
+  /**
+   * Steps of each pose, at least 1. Default: 10. The paper: 50.
+   */
+  virtual void SetNumberOfIterations(int value);
+  virtual int GetNumberOfIterations();
   ///@}
 
   ///@{
-  /** Between corresponding points at the start, in mm; 0: 10 % of the part's diameter, point-to-point 4 %. Default: 0. */
-  vtkSetClampMacro(MaximumDistance, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumDistance, double);
+  /**
+   * Between corresponding points at the start, in mm; 0: 10 % of the part's diameter, PointToPoint 4 %. Default: 0.
+   */
+  virtual void SetMaximumDistance(double value);
+  virtual double GetMaximumDistance();
   ///@}
 
-  /** The way of the paper, Section 5.3. Sensor and number of threads stay. */
+  /** The parameters of the paper, Section 6. Sensor and number of threads stay. */
   void SetParametersToPaper();
   /** The parameters that measure better: the defaults. Sensor and number of threads stay. */
   void SetParametersToRecommended();
 
 protected:
   vtkMEAMPoseRefinement();
-  ~vtkMEAMPoseRefinement() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  ~vtkMEAMPoseRefinement() override;
+  void Process(Work& work) override;
 
 private:
   vtkMEAMPoseRefinement(const vtkMEAMPoseRefinement&) = delete;
   void operator=(const vtkMEAMPoseRefinement&) = delete;
 
-  void SetParameters(const meam::PoseRefinementSettings& settings);
-
-  int Method;
-  int NumberOfIterations;
-  double MaximumDistance;
+  std::unique_ptr<meam::PoseRefinementSettings> Settings;
 };
 
 #endif

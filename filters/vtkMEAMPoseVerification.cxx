@@ -2,121 +2,75 @@
 #include "vtkMEAMPoseVerification.h"
 
 #include "pose/verification/PoseVerification.h"
-#include "vtkMEAMArrays.h"
-#include "vtkMEAMModelConversion.h"
-#include "vtkMEAMPoseConversion.h"
-#include "vtkMEAMRun.h"
-#include "vtkMEAMSceneConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMPoseWork.h"
+#include "vtkMEAMSettings.h"
 
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPartitionedDataSetCollection.h"
-#include "vtkPolyData.h"
-#include "scene/Units.h"
 
 vtkStandardNewMacro(vtkMEAMPoseVerification);
 
 vtkMEAMPoseVerification::vtkMEAMPoseVerification()
+  : Settings(new meam::PoseVerificationSettings)
 {
-  this->SetNumberOfInputPorts(4);
-  this->SetParametersToRecommended();
 }
 
-void vtkMEAMPoseVerification::SetParametersToPaper() { this->SetParameters(meam::paperVerificationSettings()); }
+vtkMEAMPoseVerification::~vtkMEAMPoseVerification() = default;
 
-void vtkMEAMPoseVerification::SetParametersToRecommended() { this->SetParameters({}); }
+vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Method, int, method, EdgeCoverage, VisibleEvidence)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Tolerance, double, evidence.tolerance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMSettingMacro(vtkMEAMPoseVerification, FreeSpace, bool, evidence.freeSpace)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PointStride, int, pointStride, 1, VTK_INT_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, MinimumScore, double, minimumScore, 0.0, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PosesPerView, int, posesPerView, 0, VTK_INT_MAX)
 
-void vtkMEAMPoseVerification::SetParameters(const meam::PoseVerificationSettings& settings)
+void vtkMEAMPoseVerification::SetEvidenceWeights(double edges, double surface, double explained)
 {
-  this->Method = static_cast<int>(settings.method);
-  this->Tolerance = settings.tolerance;
-  this->EvidenceWeights[0] = settings.evidence.edgeWeight;
-  this->EvidenceWeights[1] = settings.evidence.surfaceWeight;
-  this->EvidenceWeights[2] = settings.evidence.explainedWeight;
-  this->FreeSpace = settings.evidence.freeSpace;
-  this->SameVisibility = settings.evidence.sameVisibility;
-  this->MinimumScore = settings.minimumScore;
-  this->PosesPerView = settings.posesPerView;
-  this->ClusterDistance = settings.clusterDistance;
-  this->ClusterAngle = settings.clusterAngle;
-  this->PosesPerInstance = settings.posesPerInstance;
-  this->MaximumNumberOfPoses = settings.maximumPoses;
-  this->MinimumProbability = settings.minimumProbability;
+  meam::EvidenceSettings& evidence = this->Settings->evidence;
+  if (evidence.edgeWeight != edges || evidence.surfaceWeight != surface || evidence.explainedWeight != explained)
+  {
+    evidence.edgeWeight = edges;
+    evidence.surfaceWeight = surface;
+    evidence.explainedWeight = explained;
+    this->Modified();
+  }
+}
+
+double* vtkMEAMPoseVerification::GetEvidenceWeights()
+{
+  const meam::EvidenceSettings& evidence = this->Settings->evidence;
+  this->Weights[0] = evidence.edgeWeight;
+  this->Weights[1] = evidence.surfaceWeight;
+  this->Weights[2] = evidence.explainedWeight;
+  return this->Weights;
+}
+
+void vtkMEAMPoseVerification::SetParametersToPaper()
+{
+  *this->Settings = meam::paperVerificationSettings();
   this->Modified();
 }
 
-int vtkMEAMPoseVerification::FillInputPortInformation(int port, vtkInformation* info)
+void vtkMEAMPoseVerification::SetParametersToRecommended()
 {
-  const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkPointSet" };
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
-  if (port == 3)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  *this->Settings = {};
+  this->Modified();
 }
 
-int vtkMEAMPoseVerification::RequestInformation(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkMEAMPoseVerification::Process(Work& work)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 3, 2, 0 }, outputVector);
-  return 1;
-}
-
-int vtkMEAMPoseVerification::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  using namespace vtkMEAMConversion;
-  vtkPolyData* candidates = vtkPolyData::GetData(inputVector[0]);
-  auto* trained = vtkPartitionedDataSetCollection::GetData(inputVector[1]);
-  vtkPolyData* edges = vtkPolyData::GetData(inputVector[2]);
-  vtkPointSet* surface = vtkPointSet::GetData(inputVector[3]);
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  const auto work = [&]
-  {
-    meam::PoseVerificationSettings settings;
-    settings.method = static_cast<meam::VerificationMethod>(this->Method);
-    settings.tolerance = this->Tolerance;
-    settings.evidence.edgeWeight = this->EvidenceWeights[0];
-    settings.evidence.surfaceWeight = this->EvidenceWeights[1];
-    settings.evidence.explainedWeight = this->EvidenceWeights[2];
-    settings.evidence.freeSpace = this->FreeSpace;
-    settings.evidence.sameVisibility = this->SameVisibility;
-    settings.minimumScore = this->MinimumScore;
-    settings.posesPerView = this->PosesPerView;
-    settings.clusterDistance = this->ClusterDistance;
-    settings.clusterAngle = this->ClusterAngle;
-    settings.posesPerInstance = this->PosesPerInstance;
-    settings.maximumPoses = this->MaximumNumberOfPoses;
-    settings.minimumProbability = this->MinimumProbability;
-    settings.threads = this->NumberOfThreads;
-    const meam::TrainedModel model = toTrainedModel(trained);
-    const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
-    const meam::Scene scene = sceneOf(edges, surface, sensor, this->NumberOfThreads);
-    meam::requireSameUnits(scene.edges.points, model.diameter);
-    const meam::Poses poses = toPoses(candidates);
-    fromPoses(meam::verifyPoses(poses, model, scene, settings, progressOf(this)), output);
-    setDiameter(output, model.diameter);
-  };
-  return vtkMEAMRun(this, work, output);
+  this->Settings->threads = this->NumberOfThreads;
+  work.result = meam::verifyPoses(work.poses, work.scene, work.model, *this->Settings, work.progress);
 }
 
 void vtkMEAMPoseVerification::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << (this->Method == EdgeCoverage ? "EdgeCoverage" : "VisibleEvidence") << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "EvidenceWeights: " << this->EvidenceWeights[0] << " " << this->EvidenceWeights[1] << " "
-     << this->EvidenceWeights[2] << "\n";
-  os << indent << "FreeSpace: " << this->FreeSpace << "\n";
-  os << indent << "SameVisibility: " << this->SameVisibility << "\n";
-  os << indent << "MinimumScore: " << this->MinimumScore << "\n";
-  os << indent << "PosesPerView: " << this->PosesPerView << "\n";
-  os << indent << "ClusterDistance: " << this->ClusterDistance << "\n";
-  os << indent << "ClusterAngle: " << this->ClusterAngle << "\n";
-  os << indent << "PosesPerInstance: " << this->PosesPerInstance << "\n";
-  os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
-  os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
+  os << indent << "Method: " << this->GetMethod() << "\n";
+  os << indent << "Tolerance: " << this->GetTolerance() << "\n";
+  const double* weights = this->GetEvidenceWeights();
+  os << indent << "EvidenceWeights: " << weights[0] << " " << weights[1] << " " << weights[2] << "\n";
+  os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
+  os << indent << "PointStride: " << this->GetPointStride() << "\n";
+  os << indent << "MinimumScore: " << this->GetMinimumScore() << "\n";
+  os << indent << "PosesPerView: " << this->GetPosesPerView() << "\n";
 }

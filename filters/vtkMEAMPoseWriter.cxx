@@ -33,17 +33,15 @@ int formatOf(const std::string& fileName)
   {
     return vtkMEAMPoseWriter::MATRICES;
   }
-  throw meam::Error("The file '" + fileName + "' was not written: poses go to .csv (BOP results), .json or .txt (4x4 "
-    "matrices); choose one of these extensions, or set the format.");
+  throw meam::Error("The file '" + fileName +
+                    "' was not written: poses go to .csv (BOP results), .json or .txt (4x4 "
+                    "matrices); choose one of these extensions, or set the format.");
 }
 }
 
 vtkMEAMPoseWriter::vtkMEAMPoseWriter() = default;
 
-vtkMEAMPoseWriter::~vtkMEAMPoseWriter()
-{
-  this->SetFileName(nullptr);
-}
+vtkMEAMPoseWriter::~vtkMEAMPoseWriter() { this->SetFileName(nullptr); }
 
 int vtkMEAMPoseWriter::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -79,7 +77,7 @@ void vtkMEAMPoseWriter::WriteData()
         row.imageId = this->ImageId;
         row.objectId = this->ObjectId + (parts ? static_cast<int>(parts->GetComponent(rows.size(), 0)) : 0);
         row.T_scene_model = pose.T_scene_model;
-        row.score = meam::confidence(pose);
+        row.score = meam::probabilityOrScore(pose);
         row.time = this->Time >= 0.0 ? this->Time : measured;
         row.rank = static_cast<int>(rows.size()) + 1;
         row.viewId = pose.viewId;

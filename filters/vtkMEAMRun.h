@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What every filter's RequestData shares: progress and abort as the core asks for them, and errors on VTK's channel. Not
- * wrapped.
+ * What every filter's RequestData shares: progress and abort as the core asks for them, and errors on VTK's channel.
+ * Not wrapped.
  */
 #ifndef vtkMEAMRun_h
 #define vtkMEAMRun_h

@@ -2,6 +2,7 @@
 #include "vtkMEAMSamplePartSource.h"
 
 #include "mesh/ConvexHull.h"
+#include "mesh/TriangleMesh.h"
 #include "simulation/ExampleParts.h"
 #include "simulation/SamplePart.h"
 #include "vtkMEAMArrays.h"
@@ -11,7 +12,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "mesh/TriangleMesh.h"
 
 vtkStandardNewMacro(vtkMEAMSamplePartSource);
 

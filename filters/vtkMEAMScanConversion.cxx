@@ -2,6 +2,7 @@
 #include "vtkMEAMScanConversion.h"
 
 #include "base/Error.h"
+#include "base/Parallel.h"
 #include "io/CameraFile.h"
 #include "scene/MeasuredCloud.h"
 #include "vtkMEAMArrays.h"
@@ -35,7 +36,20 @@ std::vector<std::uint8_t> toPixels(vtkDataArray* array, int channels)
   const vtkIdType count = array->GetNumberOfTuples();
   const int components = array->GetNumberOfComponents();
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(count) * channels);
-  auto* bytes = vtkUnsignedCharArray::FastDownCast(array);
+  if (auto* bytes = vtkUnsignedCharArray::FastDownCast(array))
+  {
+    const unsigned char* from = count > 0 ? bytes->GetPointer(0) : nullptr;
+    if (components == channels)
+    {
+      std::copy_n(from, pixels.size(), pixels.begin());
+      return pixels;
+    }
+    for (auto to = pixels.begin(); to != pixels.end(); to += channels, from += components)
+    {
+      std::copy_n(from, channels, to);
+    }
+    return pixels;
+  }
   // 16 bit images use their whole range.
   const double scale = array->GetDataType() == VTK_UNSIGNED_SHORT ? 1.0 / 257.0 : 1.0;
   std::size_t place = 0;
@@ -43,11 +57,6 @@ std::vector<std::uint8_t> toPixels(vtkDataArray* array, int channels)
   {
     for (int c = 0; c < channels; ++c)
     {
-      if (bytes)
-      {
-        pixels[place++] = *bytes->GetPointer(i * components + c);
-        continue;
-      }
       const double value = std::round(scale * array->GetComponent(i, c));
       if (!(value >= 0.0 && value <= 255.0))
       {
@@ -57,6 +66,30 @@ std::vector<std::uint8_t> toPixels(vtkDataArray* array, int channels)
     }
   }
   return pixels;
+}
+
+/// Points in single precision, NaN where they are blanked, from arrays as they lie in memory. `flags` may be null.
+template <typename Scalar>
+meam::Points toGrid(const Scalar* xyz, std::size_t count, const unsigned char* flags, int threads)
+{
+  meam::Points points(count);
+  meam::parallelFor(static_cast<int>(count), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        points[i] =
+          Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(xyz + 3 * static_cast<std::size_t>(i)).template cast<float>();
+      }
+      for (int i = begin; flags && i < end; ++i)
+      {
+        if (flags[i] & vtkDataSetAttributes::HIDDENPOINT)
+        {
+          points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+        }
+      }
+    });
+  return points;
 }
 
 vtkSmartPointer<vtkUnsignedCharArray> newBytes(const char* name, int components, std::size_t tuples)
@@ -70,23 +103,11 @@ vtkSmartPointer<vtkUnsignedCharArray> newBytes(const char* name, int components,
 
 void addIntensity(const std::vector<float>& intensities, const std::vector<int>& kept, vtkDataSet* output)
 {
-  float largest = 0.0f;
-  bool whole = true;
-  for (const float value : intensities)
-  {
-    if (std::isfinite(value))
-    {
-      largest = std::max(largest, value);
-      whole = whole && value >= 0.0f && value == std::floor(value);
-    }
-  }
-  const float factor = (whole && largest <= 255.0f) || largest <= 0.0f ? 1.0f : 255.0f / largest;
+  const std::vector<std::uint8_t> values = meam::greyValues(intensities);
   const auto array = newBytes("Intensity", 1, kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
-    const float value = std::round(factor * intensities[kept[i]]);
-    *array->GetPointer(static_cast<vtkIdType>(i)) =
-      value > 0.0f ? static_cast<unsigned char>(std::min(value, 255.0f)) : 0; // NaN is black
+    *array->GetPointer(static_cast<vtkIdType>(i)) = values[kept[i]];
   }
   output->GetPointData()->SetScalars(array);
 }
@@ -127,7 +148,7 @@ void requireLayer(vtkStructuredGrid* grid)
   }
 }
 
-meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input)
+meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input, int threads)
 {
   meam::OrganizedCloud cloud;
   requireLayer(input);
@@ -140,16 +161,16 @@ meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input)
   }
   cloud.width = size[0];
   cloud.height = size[1];
-  cloud.points = toVectors<float>(input->GetPoints()->GetData());
-  if (vtkUnsignedCharArray* ghosts = ghostsOf(input))
+  vtkDataArray* array = input->GetPoints()->GetData();
+  const unsigned char* flags = ghostsOf(input);
+  if (auto* floats = vtkFloatArray::FastDownCast(array))
   {
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-    {
-      if (isHidden(ghosts, i))
-      {
-        cloud.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
-      }
-    }
+    cloud.points = toGrid(floats->GetPointer(0), count, flags, threads);
+  }
+  else
+  {
+    const meam::PrecisePoints points = toVectors<double>(array);
+    cloud.points = toGrid(points.front().data(), count, flags, threads);
   }
   return cloud;
 }

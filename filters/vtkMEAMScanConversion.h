@@ -21,7 +21,7 @@ namespace vtkMEAMConversion
 /// Throws Error for a grid that is not a single layer.
 void requireLayer(vtkStructuredGrid* grid);
 /// W x H x 1; blanked points become NaN. Throws for a grid that is not a single layer.
-meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input);
+meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input, int threads = 1);
 /// NaN points are blanked.
 void fromOrganizedCloud(const meam::OrganizedCloud& cloud, vtkStructuredGrid* output);
 /// From the point array `Intensity` (1 component) or `RGB` (3) of an organized cloud. Throws without.

@@ -6,13 +6,12 @@
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMScanConversion.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkFloatArray.h"
 #include "vtkPoints.h"
 #include "vtkPointSet.h"
 #include "vtkStructuredGrid.h"
 
-#include <cmath>
-#include <limits>
 #include <string>
 
 namespace vtkMEAMConversion
@@ -20,27 +19,6 @@ namespace vtkMEAMConversion
 namespace
 {
 using meam::Error;
-
-/// The points that are finite and not hidden; `ghosts` may be null.
-template <typename Scalar>
-meam::FramedPoints seenPoints(const Scalar* xyz, std::size_t count, vtkUnsignedCharArray* ghosts, int threads)
-{
-  bool isAnyHidden = false; // of those that have coordinates
-  for (std::size_t i = 0; ghosts && !isAnyHidden && i < count; ++i)
-  {
-    isAnyHidden = isHidden(ghosts, i) && std::isfinite(xyz[3 * i]);
-  }
-  if (!isAnyHidden)
-  {
-    return meam::inOwnFrame(xyz, count, threads);
-  }
-  std::vector<Scalar> seen(xyz, xyz + 3 * count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    seen[3 * i] = isHidden(ghosts, i) ? std::numeric_limits<Scalar>::quiet_NaN() : seen[3 * i];
-  }
-  return meam::inOwnFrame(seen.data(), count, threads);
-}
 }
 
 meam::Sensor sensorOf(
@@ -67,36 +45,20 @@ meam::Sensor sensorOf(
   return sensor;
 }
 
-meam::PreciseCloud edgesOf(vtkPointSet* input)
+meam::LocalCloud edgesOf(vtkPointSet* input, int threads)
 {
-  const meam::PreciseCloud all = toPreciseCloud(input);
-  meam::PreciseCloud finite;
-  for (std::size_t i = 0; i < all.points.size(); ++i)
-  {
-    const bool directed = all.tangents.empty() || (all.tangents[i].allFinite() && !all.tangents[i].isZero());
-    if (!all.points[i].allFinite() || !directed)
-    {
-      continue;
-    }
-    finite.points.push_back(all.points[i]);
-    if (!all.tangents.empty())
-    {
-      finite.tangents.push_back(all.tangents[i]);
-    }
-    if (!all.weights.empty())
-    {
-      finite.weights.push_back(all.weights[i]);
-    }
-  }
-  meam::requirePoints(all.points.size(), finite.points.size(), "The scene's edge cloud");
-  if (finite.tangents.empty())
+  meam::LocalCloud edges = toLocalCloud(input, threads);
+  const std::size_t count = edges.cloud.size();
+  edges.cloud = meam::finitePoints(std::move(edges.cloud));
+  meam::requirePoints(count, edges.cloud.size(), "The scene's edge cloud");
+  if (edges.cloud.tangents.empty())
   {
     throw Error("The scene's edge points have no point array 'Tangent': use TangentEstimation first.");
   }
-  return finite;
+  return edges;
 }
 
-meam::FramedPoints surfaceOf(vtkDataSet* input, const char* what, int threads)
+meam::Points surfaceOf(vtkDataSet* input, const char* what, const meam::LocalCloud& edges, int threads)
 {
   auto* measured = vtkPointSet::SafeDownCast(input);
   if (!measured)
@@ -110,23 +72,21 @@ meam::FramedPoints surfaceOf(vtkDataSet* input, const char* what, int threads)
   }
   vtkDataArray* array = measured->GetNumberOfPoints() > 0 ? measured->GetPoints()->GetData() : nullptr;
   const std::size_t count = array ? array->GetNumberOfTuples() : 0;
-  vtkUnsignedCharArray* ghosts = grid ? ghostsOf(grid) : nullptr;
-  meam::FramedPoints surface;
+  const unsigned char* flags = grid ? ghostsOf(grid) : nullptr;
+  constexpr std::uint8_t hidden = vtkDataSetAttributes::HIDDENPOINT;
+  meam::Points surface;
   if (auto* floats = vtkFloatArray::FastDownCast(array))
   {
-    surface = seenPoints(floats->GetPointer(0), count, ghosts, threads);
+    surface = meam::toLocalPoints(
+      meam::ScanPoints<float>{ floats->GetPointer(0), count, flags, hidden }, edges.T_local_scene, threads);
   }
   else if (count > 0)
   {
     const meam::PrecisePoints points = toVectors<double>(array);
-    surface = seenPoints(points.front().data(), count, ghosts, threads);
+    surface = meam::toLocalPoints(
+      meam::ScanPoints<double>{ points.front().data(), count, flags, hidden }, edges.T_local_scene, threads);
   }
-  meam::requirePoints(count, surface.points.size(), what);
+  meam::requirePoints(count, surface.size(), what);
   return surface;
-}
-
-meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor, int threads)
-{
-  return meam::sceneInOwnFrame(edgesOf(edges), surfaceOf(surface, "The scene's surface", threads), sensor);
 }
 }

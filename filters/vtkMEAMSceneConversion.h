@@ -5,8 +5,8 @@
 #ifndef vtkMEAMSceneConversion_h
 #define vtkMEAMSceneConversion_h
 
-#include "base/LocalFrame.h"
-#include "scene/Scene.h"
+#include "base/LocalCloud.h"
+#include "scene/Sensor.h"
 
 class vtkDataSet;
 class vtkPointSet;
@@ -24,13 +24,12 @@ enum Projection
 /// Where the scene is seen from; `surface` may be null. Throws Error for a view direction of zero.
 meam::Sensor sensorOf(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
-/// Finite edge points with `Tangent`, and `Weight` where it is there. Throws Error without points or tangents.
-meam::PreciseCloud edgesOf(vtkPointSet* input);
-/// The points that a sensor measured, but for blanked ones; none for null. Throws Error, naming `what`, without points and
-/// for a grid that is not a single layer.
-meam::FramedPoints surfaceOf(vtkDataSet* input, const char* what, int threads);
-/// Both, for the filters that judge poses.
-meam::Scene sceneOf(vtkPointSet* edges, vtkDataSet* surface, const meam::Sensor& sensor, int threads);
+/// A scene's edge points with `Tangent`, and `Weight` where it is there, in their local frame. Throws Error without
+/// points or tangents.
+meam::LocalCloud edgesOf(vtkPointSet* input, int threads);
+/// The points that a sensor measured, but for blanked and invalid ones, in the local frame of the scene's edges; none
+/// for null. Throws Error, naming `what`, without points and for a grid that is not a single layer.
+meam::Points surfaceOf(vtkDataSet* input, const char* what, const meam::LocalCloud& edges, int threads);
 }
 
 #endif

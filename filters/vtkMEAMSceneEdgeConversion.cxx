@@ -2,7 +2,6 @@
 #include "vtkMEAMSceneEdgeConversion.h"
 
 #include "io/CameraFile.h"
-#include "pose/voting/PoseDetection.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMCloudConversion.h"
 
@@ -33,8 +32,8 @@ std::optional<Eigen::Matrix<double, Count, 1>> numbersOf(vtkImageData* image, co
   }
   if (array->GetNumberOfValues() != Count)
   {
-    throw meam::Error("The image's field data '" + std::string(name) + "' must have " + std::to_string(Count) +
-                      " numbers.");
+    throw meam::Error(
+      "The image's field data '" + std::string(name) + "' must have " + std::to_string(Count) + " numbers.");
   }
   Eigen::Matrix<double, Count, 1> numbers;
   for (int i = 0; i < Count; ++i)
@@ -86,13 +85,5 @@ void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
   output->GetPointData()->SetScalars(sources); // what a view colours by
 }
 
-vtkDataArray* edgeSourcesOf(vtkPointSet* edges)
-{
-  return edges->GetPointData()->GetArray(EdgeSourceName);
-}
-
-double referenceShareOf(vtkPolyData* edges)
-{
-  return edgeSourcesOf(edges) ? meam::ImageReferenceShare : meam::PoseDetectionSettings().referenceShare;
-}
+vtkDataArray* edgeSourcesOf(vtkPointSet* edges) { return edges->GetPointData()->GetArray(EdgeSourceName); }
 }

@@ -29,8 +29,6 @@ std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, cons
 void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output);
 /// Their point array `EdgeSource`; null for edge points that were not found in a scan.
 vtkDataArray* edgeSourcesOf(vtkPointSet* edges);
-/// P_ref: of edges found in a scan more than of others.
-double referenceShareOf(vtkPolyData* edges);
 }
 
 #endif

@@ -92,7 +92,7 @@ int vtkMEAMSceneEdgeExtraction::RequestData(
       settings.searchRadius = this->SearchRadius;
       settings.depthJump = this->DepthJump;
       settings.threads = this->NumberOfThreads;
-      const meam::OrganizedCloud cloud = vtkMEAMConversion::toOrganizedCloud(scene);
+      const meam::OrganizedCloud cloud = vtkMEAMConversion::toOrganizedCloud(scene, this->NumberOfThreads);
       meam::requirePoints(cloud.points, "The scene");
       meam::Image image;
       if (this->ImageEdges)

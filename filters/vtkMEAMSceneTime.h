@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Time steps of filters whose first input is not the scene. VTK hands on the time of the first input alone; a part, or a
- * trained model, has none, so that poses would stay those of the first scan. Not wrapped.
+ * Time steps of filters whose first input is not the scene. VTK hands on the time of the first input alone; a part, or
+ * a trained model, has none, so that poses would stay those of the first scan. Not wrapped.
  */
 #ifndef vtkMEAMSceneTime_h
 #define vtkMEAMSceneTime_h

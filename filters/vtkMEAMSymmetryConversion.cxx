@@ -33,7 +33,7 @@ std::vector<double> fieldValues(vtkDataObject* input, const char* name, std::siz
   if (values.size() % perTuple != 0)
   {
     throw meam::Error("The field data '" + std::string(name) + "' does not have " + std::to_string(perTuple) +
-      " values for each symmetry: use the output of SymmetryDetection.");
+                      " values for each symmetry: use the output of SymmetryDetection.");
   }
   return values;
 }
@@ -49,7 +49,8 @@ std::vector<Eigen::Isometry3d> fieldTransforms(vtkDataObject* input, const char*
     const Eigen::Matrix3d R = T.linear();
     if (!(T.matrix().allFinite() && R.isUnitary(1e-3) && R.determinant() > 0.0))
     {
-      throw meam::Error("The field data '" + std::string(name) + "' has a matrix that is not a rigid motion: use the "
+      throw meam::Error("The field data '" + std::string(name) +
+                        "' has a matrix that is not a rigid motion: use the "
                         "output of SymmetryDetection.");
     }
     transforms.push_back(T);
@@ -89,8 +90,9 @@ meam::Symmetries symmetriesOf(vtkDataObject* input)
     const Eigen::Vector3d point(axes[i + 3], axes[i + 4], axes[i + 5]);
     if (!(std::abs(axis.norm() - 1.0) < 1e-3 && point.allFinite()))
     {
-      throw meam::Error("The field data 'SymmetriesContinuous' has an axis that is not a unit vector: use the output of "
-                        "SymmetryDetection.");
+      throw meam::Error(
+        "The field data 'SymmetriesContinuous' has an axis that is not a unit vector: use the output of "
+        "SymmetryDetection.");
     }
     symmetries.continuous.push_back({ axis, point });
   }

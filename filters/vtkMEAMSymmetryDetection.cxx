@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMSymmetryDetection.h"
 
+#include "base/Bounds.h"
 #include "io/ModelsInfo.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/SymmetryDetection.h"
@@ -17,7 +18,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "base/Bounds.h"
 
 #include <algorithm>
 
@@ -35,10 +35,7 @@ vtkMEAMSymmetryDetection::vtkMEAMSymmetryDetection()
   this->LeastOverlap = settings.leastOverlap;
 }
 
-vtkMEAMSymmetryDetection::~vtkMEAMSymmetryDetection()
-{
-  this->SetModelsInfoFile(nullptr);
-}
+vtkMEAMSymmetryDetection::~vtkMEAMSymmetryDetection() { this->SetModelsInfoFile(nullptr); }
 
 int vtkMEAMSymmetryDetection::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)

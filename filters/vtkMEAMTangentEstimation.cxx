@@ -86,9 +86,9 @@ int vtkMEAMTangentEstimation::RequestData(
         setDiameter(output, diameter);
       }
       const meam::Sensor sensor = sensorOf(OrthographicProjection, this->ViewDirection, this->ViewDirection, nullptr);
-      const meam::EdgeTangents edges =
-        meam::estimateTangents(toPreciseCloud(scene), diameter, sensor.direction, settings, progress);
-      fromEdgeTangents(edges, scene, vtkPolyData::SafeDownCast(output));
+      const meam::ThinnedEdges edges = meam::estimateTangents(
+        toLocalCloud(scene, this->NumberOfThreads), diameter, sensor.direction, settings, progress);
+      fromThinnedEdges(edges, scene, vtkPolyData::SafeDownCast(output));
       return;
     }
     const auto views = toAppearanceModels(vtkPartitionedDataSetCollection::SafeDownCast(input));

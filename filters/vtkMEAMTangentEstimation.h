@@ -17,8 +17,8 @@
  *
  * Output port 0: of the input's type; the points that stay, in the precision they came with, with `Tangent` (unit; the
  * sign carries no meaning; of a scene in double precision), and `Normals`, `PointId`, `EdgeType` and `EdgeSource` where
- * they were there; in a scene `Weight`, [0, 1]: less of a point that stands only for points at the border of its cube, so
- * that poses change steadily as points move. Field data is passed on.
+ * they were there; in a scene `Weight`, [0, 1]: less of a point that stands only for points at the border of its cube,
+ * so that poses change steadily as points move. Field data is passed on.
  */
 #ifndef vtkMEAMTangentEstimation_h
 #define vtkMEAMTangentEstimation_h
@@ -54,8 +54,8 @@ public:
 
   ///@{
   /**
-   * One point is kept for each cube of this side, in mm; 0: 3 % of the part's diameter in a scene, 2 % in a model; negative: all
-   * points are kept. Default: 0. The paper: 1.
+   * One point is kept for each cube of this side, in mm; 0: 3 % of the part's diameter in a scene, 2 % in a model;
+   * negative: all points are kept. Default: 0. The paper: 1.
    */
   vtkSetMacro(LeafSize, double);
   vtkGetMacro(LeafSize, double);

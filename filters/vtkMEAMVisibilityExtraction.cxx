@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMVisibilityExtraction.h"
 
+#include "mesh/TriangleMesh.h"
 #include "model/VisibilityExtraction.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMMeshConversion.h"
@@ -12,7 +13,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 

@@ -81,8 +81,8 @@ public:
 
   ///@{
   /**
-   * Hidden point removal: radius of the inversion sphere over the distance of the farthest point. Smaller loses the rims of
-   * holes, larger lets the back side through. Default: 1000.
+   * Hidden point removal: radius of the inversion sphere over the distance of the farthest point. Smaller loses the
+   * rims of holes, larger lets the back side through. Default: 1000.
    */
   vtkSetClampMacro(RadiusFactor, double, 1.0, VTK_DOUBLE_MAX);
   vtkGetMacro(RadiusFactor, double);

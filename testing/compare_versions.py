@@ -4,12 +4,14 @@
 
   compare_versions.py poses OUT.json [--bins DIR] [--threads N]     with the environment of each version in turn
   compare_versions.py compare OLD.json NEW.json
+  compare_versions.py chain [--bins DIR] [--threads N]              the single filters against the one filter for all
 
 `poses` runs the 60 scenes of the Tohoku dataset (in $PPFMEAM_DATA) and two simulated bins of each of seven parts,
 1280 x 1024 points, and writes all poses, the figures and the times. The bins are simulated once and kept in DIR, so that
 both versions see the same. `compare` tells how many poses are the same to the last bit, how far the likely ones (more than
 0.9) are from the nearest of the other version, and the figures and median times of both. Between versions that are
-timed, run `poses` alternately: the files of several runs, joined by commas, count together.
+timed, run `poses` alternately: the files of several runs, joined by commas, count together. `chain` tells whether the chain
+of single filters returns the same poses as vtkMEAMPoseEstimation, and in how many times its time.
 """
 import argparse
 import json
@@ -24,7 +26,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLStructuredGridReader,
                                  vtkXMLStructuredGridWriter)
 
-from ppfmeam import filters
+from ppfmeam import evaluation, filters, scripting
 
 DATA = os.environ.get("PPFMEAM_DATA", "")
 PARTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "parts")
@@ -35,7 +37,6 @@ BINS = {"ridged_disc": (PARTS, ".stl", 1), "arc_lever": (PARTS, ".stl", 1), "fla
         "small": (os.path.join(DATA, "cad"), ".ply", 1000)}
 SEEDS = (1, 2)
 READERS = {".stl": vtkSTLReader, ".ply": vtkPLYReader, ".obj": vtkOBJReader}
-STAGES = ("SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total")
 LIKELY = 0.9  # the probability from which on poses have to stay where they are
 NEAR = (0.01, 0.01)  # mm, degrees
 
@@ -63,7 +64,9 @@ def tohoku():
         scenes = [(read(filters.vtkMEAMPCDReader(), os.path.join(folder, "Scenes", f"Scene{i}.pcd")),
                    read(filters.vtkMEAMPCDReader(), os.path.join(folder, "Scenes", f"Scene_boundary{i}.pcd")),
                    read(filters.vtkMEAMPoseReader(), os.path.join(folder, "Results", f"trans{i}.txt"))) for i in range(20)]
-        yield f"Part_{part}", mesh, scenes
+        model = scripting.train(mesh)
+        yield f"Part_{part}", mesh, [(surface, edges, evaluation.with_visibility(truth, model, edges, surface))
+                                     for surface, edges, truth in scenes]
 
 
 def simulated(folder):
@@ -99,6 +102,13 @@ def number(data, name):
     return data.GetFieldData().GetArray(name).GetValue(0)
 
 
+def stage_times(poses):
+    """The ms of each stage that this version tells."""
+    fields = poses.GetFieldData()
+    names = [fields.GetArrayName(i) for i in range(fields.GetNumberOfArrays())]
+    return {name[7:]: 1000 * number(poses, name) for name in names if name.startswith("Seconds") and name != "SecondsTraining"}
+
+
 def run(name, mesh, scenes, threads):
     """All poses of a part's scenes, the figures over them, and the times in ms."""
     estimation, judge = filters.vtkMEAMPoseEstimation(), filters.vtkMEAMPoseEvaluation()
@@ -127,7 +137,7 @@ def run(name, mesh, scenes, threads):
         judge.AddInputDataObject(1, truth)
         results.append({"transforms": tuples(poses, "Transform"), "probabilities": [p for p, in tuples(poses, "Probability")],
                         "scores": [s for s, in tuples(poses, "Score")], "wall": wall,
-                        "ms": {stage: 1000 * number(poses, "Seconds" + stage) for stage in STAGES}})
+                        "ms": stage_times(poses)})
     judge.Update()
     figures = {figure: number(judge.GetOutput(), figure) for figure in ("StrictRate", "Recall")}
     print(f"{name:30s} strict {figures['StrictRate']:5.1f}  recall {figures['Recall']:5.1f}  "
@@ -154,7 +164,7 @@ def load(names):
         for i, scene in enumerate(result["scenes"]):
             of_all = [other[part]["scenes"][i] for other in runs]
             scene["wall"] = statistics.median(one["wall"] for one in of_all)
-            scene["ms"] = {stage: statistics.median(one["ms"][stage] for one in of_all) for stage in STAGES}
+            scene["ms"] = {stage: statistics.median(one["ms"][stage] for one in of_all) for stage in scene["ms"]}
     return runs[0]
 
 
@@ -175,7 +185,7 @@ def compare(old, new):
         def median(result, of):
             return statistics.median(of(scene) for scene in result["scenes"])
         walls = [median(result, lambda scene: scene["wall"]) for result in (before, after)]
-        stages = [median(result, lambda scene: sum(scene["ms"][s] for s in STAGES[:-1])) for result in (before, after)]
+        stages = [median(result, lambda scene: sum(ms for stage, ms in scene["ms"].items() if stage != "Total")) for result in (before, after)]
         print(f"{part:30s} {row[0]:5d}  {row[1]:5d}   {row[2]:5d}  {row[3]:5d}      {before['figures']['StrictRate']:6.1f}"
               f" {after['figures']['StrictRate']:5.1f}    {before['figures']['Recall']:6.1f} {after['figures']['Recall']:5.1f}"
               f"   {walls[0]:6.0f} {walls[1]:5.0f} {walls[1] / walls[0]:5.2f}      {stages[0]:6.0f} {stages[1]:5.0f}")
@@ -183,6 +193,35 @@ def compare(old, new):
     count = sum(len(scene["transforms"]) for part in old.values() for scene in part["scenes"])
     print(f"{same} of {count} poses are the same; {near} of {likely} likely ones ({100 * near / max(likely, 1):.2f} %) are within "
           f"{NEAR[0]} mm and {NEAR[1]} degrees")
+
+
+def chain(sources, threads):
+    """The scan of each bin through the single filters, and through the one filter, alternately."""
+    from ppfmeam import chains
+    for name, mesh, scenes in sources:
+        model = scripting.train(mesh)
+        scan = scenes[0][0]
+        box = filters.vtkMEAMPoseEstimation()
+        edges = filters.vtkMEAMSceneEdgeExtraction()
+        edges.SetInputDataObject(scan)
+        edges.SetNumberOfThreads(threads)
+        steps = chains.Detection(model, edges, scan, threads=threads)
+        box.SetInputDataObject(0, model)
+        box.SetInputDataObject(1, scan)
+        box.SetMaximumNumberOfPoses(0)
+        box.SetNumberOfThreads(threads)
+        times = {box: [], steps.selection: []}
+        for _ in range(5):
+            for last in times:
+                scan.GetPoints().GetData().Modified()  # a new scan: nothing of it is known
+                scan.Modified()
+                start = time.perf_counter()
+                last.Update()
+                times[last].append(1000 * (time.perf_counter() - start))
+        same = tuples(box.GetOutput(), "Transform") == tuples(steps.selection.GetOutput(), "Transform")
+        one, other = (statistics.median(of) for of in times.values())
+        print(f"{name:30s} one filter {one:6.0f} ms, chain {other:6.0f} ms, {other / one:5.2f}; "
+              f"{'the same poses' if same else 'OTHER POSES'}", flush=True)
 
 
 def main():
@@ -196,9 +235,15 @@ def main():
     one = commands.add_parser("compare")
     one.add_argument("old")
     one.add_argument("new")
+    one = commands.add_parser("chain")
+    one.add_argument("--bins", metavar="DIR", default="bins")
+    one.add_argument("--threads", type=int, default=2)
     options = parser.parse_args()
     if options.command == "compare":
         compare(load(options.old), load(options.new))
+        return
+    if options.command == "chain":
+        chain(simulated(options.bins), options.threads)
         return
     results = {}
     for source in (tohoku(), simulated(options.bins)):

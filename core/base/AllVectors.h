@@ -15,12 +15,12 @@
 
 namespace meam
 {
-/// Points that a loop over a scan looks at together: sums and bounds are kept lane by lane, so that the width of vectors has
-/// no part in the result.
+/// Points that a loop over a scan looks at together: sums and bounds are kept lane by lane, so that the width of
+/// vectors has no part in the result.
 constexpr int PointLanes = 8;
 
-/// Calls work(coordinates, count) with all points and a count that is a multiple of PointLanes: the last ones are filled up
-/// with points that are no numbers.
+/// Calls work(coordinates, count) with all points and a count that is a multiple of PointLanes: the last ones are
+/// filled up with points that are no numbers.
 template <typename Scalar, typename Work>
 void inLanes(const Scalar* xyz, std::size_t count, Work&& work)
 {

@@ -24,7 +24,8 @@ Iterator halve(const Points& points, Iterator begin, Iterator end)
   }
   int axis = 0;
   box.sizes().maxCoeff(&axis);
-  const Iterator middle = begin + ((end - begin) / 2 + BlockedPoints::Size - 1) / BlockedPoints::Size * BlockedPoints::Size;
+  const Iterator middle =
+    begin + ((end - begin) / 2 + BlockedPoints::Size - 1) / BlockedPoints::Size * BlockedPoints::Size;
   std::nth_element(begin, middle, end,
     [&](int a, int b) { return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b; });
   return middle;

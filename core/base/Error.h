@@ -7,15 +7,16 @@
 
 namespace meam
 {
-/// Every failure a user can act on: the message says what is wrong and what to do.
-class Error : public std::runtime_error
+/// Every failure a user can act on: the message says what is wrong and what to do. Exported, as the next, so that it is
+/// caught outside of the library that throws it.
+class __attribute__((visibility("default"))) Error : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
 /// Thrown when the progress callback asked to stop. Nothing is returned then.
-class Aborted : public std::exception
+class __attribute__((visibility("default"))) Aborted : public std::exception
 {
 public:
   const char* what() const noexcept override { return "stopped on request"; }

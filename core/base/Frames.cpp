@@ -16,7 +16,8 @@ namespace
 static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "points are plain coordinates");
 static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points are plain coordinates");
 
-/// Sums over points: their number, x, y, z, xx, xy, xz, yy, yz, zz, and xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz.
+/// Sums over points: their number, x, y, z, xx, xy, xz, yy, yz, zz, and xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz,
+/// zzz.
 constexpr int Moments = 20;
 
 /// Adds those of the finite points, as seen from `from`.
@@ -72,7 +73,7 @@ void addMoments(const double* xyz, std::size_t count, const double* from, double
   addEachMoment(xyz, count, from, sums);
 }
 
-constexpr double Spread = 1e4;     // mm, root mean square from the mean, of no bin: looked at for stray points
+constexpr double Spread = 1e4;        // mm, root mean square from the mean, of no bin: looked at for stray points
 constexpr double StrayDistance = 1e3; // of the extent of the middle half of the points
 
 /// The points that are not far beyond all measure from the middle half of them.
@@ -101,7 +102,8 @@ Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
 {
   // Moments are about one of the points, so they keep their precision far from the origin.
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  const auto at = [xyz](std::size_t i) { return Eigen::Matrix<Scalar, 3, 1>(xyz + 3 * i).template cast<double>().eval(); };
+  const auto at = [xyz](std::size_t i)
+  { return Eigen::Matrix<Scalar, 3, 1>(xyz + 3 * i).template cast<double>().eval(); };
   std::size_t first = 0;
   while (first < count && !at(first).allFinite())
   {
@@ -142,7 +144,8 @@ Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
   {
     // The third moment along the axis, about the mean.
     const double a = axes(0, axis), b = axes(1, axis), c = axes(2, axis);
-    const double cubes = a * a * a * m[10] + b * b * b * m[16] + c * c * c * m[19] +
+    const double cubes =
+      a * a * a * m[10] + b * b * b * m[16] + c * c * c * m[19] +
       3.0 * (a * a * (b * m[11] + c * m[12]) + b * b * (a * m[13] + c * m[17]) + c * c * (a * m[15] + b * m[18])) +
       6.0 * a * b * c * m[14];
     const double along = mean.dot(axes.col(axis));

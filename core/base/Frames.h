@@ -9,8 +9,8 @@ namespace meam
 Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis);
 
 /// Takes points to their own principal frame (mean, axes of most and second most extent, signs by their skewness):
-/// what is cut into cells and steps there does not depend on how the scene lies in its coordinates. Of `count` points, x y
-/// z each, those that are finite and no strays far beyond all measure.
+/// what is cut into cells and steps there does not depend on how the scene lies in its coordinates. Of `count` points,
+/// x y z each, those that are finite and no strays far beyond all measure.
 Eigen::Isometry3d principalFrame(const float* xyz, std::size_t count);
 Eigen::Isometry3d principalFrame(const double* xyz, std::size_t count);
 template <typename Scalar>

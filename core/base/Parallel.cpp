@@ -11,7 +11,7 @@ namespace meam
 {
 namespace
 {
-constexpr int RangesPerThread = 16; // enough to balance the load and to report progress
+constexpr int RangesPerThread = 16;        // enough to balance the load and to report progress
 constexpr int MostThreadsPerProcessor = 8; // more help nobody, and the system refuses very many
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/PointGrid.h"
 
-#include "base/Error.h"
 #include "base/Bounds.h"
+#include "base/Error.h"
 
 #include <cmath>
 #include <cstdint>
@@ -15,9 +15,9 @@ namespace
 {
 constexpr double MostCells = 4e6;
 constexpr double SameDistance = 1e-4; // of a cube's side
-constexpr double MostCubes = 1 << 21;  // along an axis, so that 64 bits number all
-constexpr double StrayShare = 0.001; // of the points, at each end of each axis
-constexpr double MiddleShare = 0.49;   // as that leaves next to the medians
+constexpr double MostCubes = 1 << 21; // along an axis, so that 64 bits number all
+constexpr double StrayShare = 0.001;  // of the points, at each end of each axis
+constexpr double MiddleShare = 0.49;  // as that leaves next to the medians
 
 /// A point and the number of the cube it lies in.
 struct Member
@@ -62,7 +62,7 @@ PointGrid::PointGrid(const Points& points, double cellSize)
   if (!(cell > 0.0) || !std::isfinite(cell) || !box.sizes().allFinite())
   {
     throw Error("Points cannot be sorted into cells of " + std::to_string(cellSize) +
-      " mm: the points coincide, a length is zero, or coordinates are far beyond any part's size.");
+                " mm: the points coincide, a length is zero, or coordinates are far beyond any part's size.");
   }
   // Stray points far away must cost neither memory nor speed: they go to the cells of the border. Then
   // cells grow until their number is reasonable.
@@ -107,8 +107,8 @@ PointGrid::PointGrid(const Points& points, double cellSize)
 
 namespace
 {
-/// Points count less next to the borders of their cubes when they fade there, and the origin is the middle of a cube, not
-/// a corner.
+/// Points count less next to the borders of their cubes when they fade there, and the origin is the middle of a cube,
+/// not a corner.
 ThinnedPoints thin(const Points& points, double leafSize, bool fade)
 {
   const double corner = fade ? 0.5 : 0.0;
@@ -192,13 +192,7 @@ ThinnedPoints thin(const Points& points, double leafSize, bool fade)
 }
 }
 
-std::vector<int> thinPoints(const Points& points, double leafSize)
-{
-  return thin(points, leafSize, false).indices;
-}
+std::vector<int> thinPoints(const Points& points, double leafSize) { return thin(points, leafSize, false).indices; }
 
-ThinnedPoints thinWithWeights(const Points& points, double leafSize)
-{
-  return thin(points, leafSize, true);
-}
+ThinnedPoints thinWithWeights(const Points& points, double leafSize) { return thin(points, leafSize, true); }
 }

@@ -99,8 +99,8 @@ public:
 private:
   Eigen::Vector3i cellOf(const Eigen::Vector3f& point) const
   {
-    // What lies outside belongs to the cells of the border; clamped before the cast. Of a number and none the maximum is
-    // its first operand.
+    // What lies outside belongs to the cells of the border; clamped before the cast. Of a number and none the maximum
+    // is its first operand.
     return Eigen::Array3f::Zero()
       .max(((point - this->Origin) * this->InverseCell).array())
       .min(this->Size.cast<float>().array() - 1.0f)
@@ -115,13 +115,16 @@ private:
   SoAPoints Sorted;
 };
 
-/// What a point counts in its cell, (0, 1]: 1, and next to the border of the cell less. `place` is in sides of the cell from
-/// its corner. So points come into sums slowly as they come over a border.
+/// Of a cell's side: the strip along its border in which points count less.
+constexpr double BorderStrip = 0.15;
+
+/// What a point counts in its cell, (0, 1]: 1, and next to the border of the cell less. `place` is in sides of the cell
+/// from its corner. So points come into sums slowly as they come over a border.
 template <typename Array>
 typename Array::Scalar weightInCell(const Array& place)
 {
   using Scalar = typename Array::Scalar;
-  constexpr Scalar strip = Scalar(0.15); // next to the border
+  constexpr Scalar strip = Scalar(BorderStrip);
   const Array inside = Scalar(0.5) - (place - Scalar(0.5)).abs();
   return std::max<Scalar>(std::numeric_limits<float>::min(), (inside / strip).min(Scalar(1)).prod());
 }
@@ -139,8 +142,8 @@ struct ThinnedPoints
   std::vector<float> weights; ///< of each
 };
 /// A like choice with weights, [0, 1]: 1 of what stands for a point well inside a cube, and less the nearer to their
-/// cube's border all points are that it stands for. In the means they count so, too. As points move, one that comes over
-/// a border is kept or left out at once, but its weight is next to 0 then. The origin of the coordinates is the middle
-/// of a cube, so points in a plane through it are well inside.
+/// cube's border all points are that it stands for. In the means they count so, too. As points move, one that comes
+/// over a border is kept or left out at once, but its weight is next to 0 then. The origin of the coordinates is the
+/// middle of a cube, so points in a plane through it are well inside.
 ThinnedPoints thinWithWeights(const Points& points, double leafSize);
 }

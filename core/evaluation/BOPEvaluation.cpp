@@ -3,8 +3,8 @@
 
 #include "base/PCLConversion.h"
 #include "mesh/ConvexHull.h"
-#include "simulation/Rasterizer.h"
 #include "mesh/TriangleMesh.h"
+#include "simulation/Rasterizer.h"
 
 #include <Eigen/LU>
 
@@ -18,11 +18,11 @@ namespace meam
 {
 namespace
 {
-constexpr double VisibleShare = 0.1;   // of a copy that has to be found
+constexpr double VisibleShare = 0.1;         // of a copy that has to be found
 constexpr double VisibilityTolerance = 15.0; // mm a surface may lie behind the measured one and still be visible
-constexpr double SymmetryStep = 0.01;  // of the diameter: no vertex moves more between turns about an axis
-constexpr double ReferenceWidth = 640; // of the image whose pixels MSPD counts
-constexpr double OffRay = 0.05;        // pixels a point of a scan may be off its ray, in the mean
+constexpr double SymmetryStep = 0.01;        // of the diameter: no vertex moves more between turns about an axis
+constexpr double ReferenceWidth = 640;       // of the image whose pixels MSPD counts
+constexpr double OffRay = 0.05;              // pixels a point of a scan may be off its ray, in the mean
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 /// Distances (mm) of the nearest surface of a part from the camera in a part of the image, 0 where there is none.
@@ -35,8 +35,8 @@ struct Rendering
   {
     const int u = column - this->left, v = row - this->top;
     return u < 0 || v < 0 || u >= this->width || v >= this->height
-      ? 0.0f
-      : this->distances[static_cast<std::size_t>(v) * this->width + u];
+             ? 0.0f
+             : this->distances[static_cast<std::size_t>(v) * this->width + u];
   }
 };
 
@@ -45,8 +45,8 @@ Eigen::Vector2d onImage(const Eigen::Vector3d& point, const Camera& camera)
   return { camera.fx * point.x() / point.z() + camera.cx, camera.fy * point.y() / point.z() + camera.cy };
 }
 
-/// The whole group: turns about an axis in steps, each with and without what is left beside it. Of a ball the turns about
-/// one axis: any other is asked for when two poses are compared.
+/// The whole group: turns about an axis in steps, each with and without what is left beside it. Of a ball the turns
+/// about one axis: any other is asked for when two poses are compared.
 std::vector<Eigen::Isometry3d> equalPoses(const Symmetries& symmetries, const Points& vertices, double diameter)
 {
   std::vector<Eigen::Isometry3d> turns{ Eigen::Isometry3d::Identity() };
@@ -88,7 +88,8 @@ Camera cameraOfCloud(const OrganizedCloud& cloud)
       const Eigen::Vector3d p = cloud.points[i].cast<double>();
       if (p.allFinite() && p.z() > 0.0)
       {
-        visit(p.x() / p.z(), p.y() / p.z(), static_cast<double>(i % cloud.width), static_cast<double>(i / cloud.width));
+        const std::size_t row = i / cloud.width, column = i % cloud.width;
+        visit(p.x() / p.z(), p.y() / p.z(), static_cast<double>(column), static_cast<double>(row));
       }
     }
   };
@@ -116,8 +117,9 @@ Camera cameraOfCloud(const OrganizedCloud& cloud)
     { off += std::hypot(camera.fx * x + camera.cx - u, camera.fy * y + camera.cy - v); });
   if (!(count >= 4.0 && camera.fx > 0.0 && camera.fy > 0.0 && off / count < OffRay))
   {
-    throw Error("The scan's points are not on the rays of a pinhole camera, one for each pixel: give the organized cloud "
-                "in the frame of the camera that took it.");
+    throw Error(
+      "The scan's points are not on the rays of a pinhole camera, one for each pixel: give the organized cloud "
+      "in the frame of the camera that took it.");
   }
   return camera;
 }
@@ -225,7 +227,8 @@ struct BOPEvaluation::Impl
         [&](int u, int v, const Eigen::Vector3d& weights)
         {
           const double depth = 1.0 / weights.dot(inverse); // 1 / z is linear on the image
-          const Eigen::Vector3d ray((u + result.left - camera.cx) / camera.fx, (v + result.top - camera.cy) / camera.fy, 1.0);
+          const Eigen::Vector3d ray(
+            (u + result.left - camera.cx) / camera.fx, (v + result.top - camera.cy) / camera.fy, 1.0);
           const float distance = static_cast<float>(depth * ray.norm());
           float& nearest = result.distances[static_cast<std::size_t>(v) * result.width + u];
           nearest = nearest == 0.0f ? distance : std::min(nearest, distance);
@@ -235,8 +238,8 @@ struct BOPEvaluation::Impl
   }
 
   /// `measured`: distances of the scan, 0 where there is none.
-  std::array<double, BOPThresholds> vsd(const Rendering& estimate, const Rendering& truth, const std::vector<float>& measured,
-    const Camera& camera) const
+  std::array<double, BOPThresholds> vsd(
+    const Rendering& estimate, const Rendering& truth, const std::vector<float>& measured, const Camera& camera) const
   {
     std::array<int, BOPThresholds> wrong{};
     int both = 0, either = 0;
@@ -279,8 +282,8 @@ struct BOPEvaluation::Impl
     BOPErrors result;
     result.add = this->add(estimate, truth);
     result.adi = this->adi(estimate, truth);
-    result.mssd = this->largest(
-      estimate, truth, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); });
+    result.mssd =
+      this->largest(estimate, truth, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); });
     result.mspd = this->mspd(estimate, truth, camera);
     result.vsd = this->vsd(ofEstimate, ofTruth, measured, camera);
     return result;

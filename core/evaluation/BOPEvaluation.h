@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/Error.h"
 #include "mesh/Symmetries.h"
+#include "mesh/TriangleMesh.h"
 #include "pose/Pose.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
-#include "mesh/TriangleMesh.h"
 
 #include <array>
 #include <memory>
@@ -18,16 +17,16 @@ namespace meam
 constexpr int BOPThresholds = 10;
 inline double bopThreshold(int k) { return 0.05 * (k + 1); }
 
-/// The pose errors of the BOP benchmark (Hodan et al., BOP Challenge 2020, Section 2.2; ADD and ADI: Hinterstoisser et al.
-/// 2012) between an estimated pose and a true one.
+/// The pose errors of the BOP benchmark (Hodan et al., BOP Challenge 2020, Section 2.2; ADD and ADI: Hinterstoisser et
+/// al. 2012) between an estimated pose and a true one.
 struct BOPErrors
 {
   double add = 0.0;  ///< mm, mean distance of the vertices
   double adi = 0.0;  ///< mm, mean distance of a vertex at the true pose to the nearest one at the estimated pose
   double mssd = 0.0; ///< mm, largest distance of a vertex, least over the part's symmetries
   double mspd = 0.0; ///< pixels, the same on the image; infinite for a vertex behind the camera
-  /// Share of the visible surface whose distance is wrong by bopThreshold(k) of the diameter or more, [0, 1]. Visible is
-  /// what lies no more than 15 mm behind the measured surface.
+  /// Share of the visible surface whose distance is wrong by bopThreshold(k) of the diameter or more, [0, 1]. Visible
+  /// is what lies no more than 15 mm behind the measured surface.
   std::array<double, BOPThresholds> vsd{};
 };
 

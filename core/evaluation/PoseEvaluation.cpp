@@ -29,9 +29,8 @@ void check(const PoseEvaluationSettings& settings)
   {
     throw Error("Poses can only be judged against the size of the part: give its diameter in mm.");
   }
-  if (!(settings.translationTolerance >= 0.0) || !(settings.rotationTolerance >= 0.0) ||
-      settings.posesAskedFor < 0 || !(settings.axis.norm() > 0.0) || !settings.axis.allFinite() ||
-      !settings.middle.allFinite())
+  if (!(settings.translationTolerance >= 0.0) || !(settings.rotationTolerance >= 0.0) || settings.posesAskedFor < 0 ||
+      !(settings.axis.norm() > 0.0) || !settings.axis.allFinite() || !settings.middle.allFinite())
   {
     throw Error("Settings of the evaluation are out of range: tolerances and the number of poses "
                 "are 0 or more, the axis is not 0, the middle is finite.");
@@ -39,8 +38,8 @@ void check(const PoseEvaluationSettings& settings)
 }
 
 /// The turn from one pose to the other as a swing of the axis and a roll about it, degrees.
-void splitRotation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth,
-  const Eigen::Vector3d& axis, PoseJudgement& judgement)
+void splitRotation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const Eigen::Vector3d& axis,
+  PoseJudgement& judgement)
 {
   const Eigen::Quaterniond turn(Eigen::Matrix3d(truth.linear().transpose() * estimate.linear()));
   const double along = turn.vec().dot(axis);
@@ -51,8 +50,7 @@ void splitRotation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& t
   judgement.rollError = 2.0 * std::atan2(std::abs(along), std::abs(turn.w())) * 180.0 / M_PI;
 }
 
-PoseJudgement judge(
-  const Pose& estimate, const Poses& truths, const PoseEvaluationSettings& settings)
+PoseJudgement judge(const Pose& estimate, const Poses& truths, const PoseEvaluationSettings& settings)
 {
   PoseJudgement judgement;
   const double reach = settings.translationTolerance / 100.0 * settings.diameter;
@@ -60,8 +58,7 @@ PoseJudgement judge(
   double leastTurn = settings.rotationTolerance;
   for (std::size_t i = 0; i < truths.size(); ++i)
   {
-    const Eigen::Isometry3d equal =
-      nearestEqual(estimate.T_scene_model, truths[i].T_scene_model, settings.symmetries);
+    const Eigen::Isometry3d equal = nearestEqual(estimate.T_scene_model, truths[i].T_scene_model, settings.symmetries);
     const double distance = translationError(equal, truths[i].T_scene_model, settings.middle);
     if (distance < nearest)
     {
@@ -97,9 +94,7 @@ double percent(double part, double whole) { return whole > 0.0 ? 100.0 * part / 
 
 double mean(const std::vector<double>& values)
 {
-  return values.empty() ? NaN
-                        : std::accumulate(values.begin(), values.end(), 0.0) /
-                            static_cast<double>(values.size());
+  return values.empty() ? NaN : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double median(std::vector<double> values)
@@ -120,8 +115,7 @@ double averagePrecision(std::vector<std::pair<double, bool>> ranking, int instan
   {
     return NaN;
   }
-  std::stable_sort(
-    ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   // Precision when the k-th instance was found, then the best from there on.
   std::vector<double> precisions;
   for (std::size_t i = 0; i < ranking.size(); ++i)
@@ -146,22 +140,19 @@ double averagePrecision(std::vector<std::pair<double, bool>> ranking, int instan
 }
 }
 
-SceneEvaluation evaluatePoses(
-  const Poses& estimates, const Poses& truths, const PoseEvaluationSettings& settings)
+SceneEvaluation evaluatePoses(const Poses& estimates, const Poses& truths, const PoseEvaluationSettings& settings)
 {
   check(settings);
   check(estimates, "The estimated poses");
   check(truths, "The true poses");
 
-  const bool visibilityKnown = std::any_of(
-    truths.begin(), truths.end(), [](const Pose& truth) { return truth.visibleFraction > 0.0; });
-  const auto counts = [&](int instance) {
-    return !visibilityKnown || truths[instance].visibleFraction >= settings.minimumVisibleFraction;
-  };
+  const bool visibilityKnown =
+    std::any_of(truths.begin(), truths.end(), [](const Pose& truth) { return truth.visibleFraction > 0.0; });
+  const auto counts = [&](int instance)
+  { return !visibilityKnown || truths[instance].visibleFraction >= settings.minimumVisibleFraction; };
 
   SceneEvaluation evaluation;
-  evaluation.asked =
-    settings.posesAskedFor > 0 ? settings.posesAskedFor : static_cast<int>(estimates.size());
+  evaluation.asked = settings.posesAskedFor > 0 ? settings.posesAskedFor : static_cast<int>(estimates.size());
   for (int i = 0; i < static_cast<int>(truths.size()); ++i)
   {
     evaluation.visibleInstances += counts(i) ? 1 : 0;
@@ -178,7 +169,7 @@ SceneEvaluation evaluatePoses(
     }
     if (instance < 0 || counts(instance))
     {
-      evaluation.ranking.emplace_back(confidence(estimate), instance >= 0 && !judgement.duplicate);
+      evaluation.ranking.emplace_back(probabilityOrScore(estimate), instance >= 0 && !judgement.duplicate);
     }
     evaluation.judgements.push_back(judgement);
   }
@@ -212,8 +203,8 @@ void EvaluationTotals::add(const SceneEvaluation& scene)
 
 EvaluationFigures evaluationFigures(const EvaluationTotals& totals)
 {
-  const auto found = std::count_if(
-    totals.ranking.begin(), totals.ranking.end(), [](const auto& entry) { return entry.second; });
+  const auto found =
+    std::count_if(totals.ranking.begin(), totals.ranking.end(), [](const auto& entry) { return entry.second; });
   EvaluationFigures figures;
   figures.paperRate = percent(totals.right, totals.poses);
   figures.strictRate = percent(totals.distinct, totals.asked);

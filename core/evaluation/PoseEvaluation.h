@@ -50,8 +50,7 @@ struct SceneEvaluation
 /// Compares the poses of a scene, best first, with the true ones (paper, Section 6.3). A true pose
 /// whose visibleFraction is too small need not be found; where no true pose has one, all count.
 /// Throws Error without a diameter, for settings out of range and for poses that are not finite.
-SceneEvaluation evaluatePoses(
-  const Poses& estimates, const Poses& truths, const PoseEvaluationSettings& settings);
+SceneEvaluation evaluatePoses(const Poses& estimates, const Poses& truths, const PoseEvaluationSettings& settings);
 
 /// Counts over scenes; the errors are those of the right poses.
 struct EvaluationTotals

@@ -26,13 +26,13 @@ struct PairFeature
   bool rightHanded;     ///< sign of det[t_r, t_i, d] with both tangents along d (Oriented)
 };
 
-/// The angle of a cosine in [0, 1] in radians, within 3e-7 (Abramowitz and Stegun, 4.4.46): without branches or calls, so
-/// that loops over it run on several values at a time.
+/// The angle of a cosine in [0, 1] in radians, within 3e-7 (Abramowitz and Stegun, 4.4.46): without branches or calls,
+/// so that loops over it run on several values at a time.
 inline float acuteAngle(float cosine)
 {
   float sum = -0.0012624911f;
-  for (const float coefficient : { 0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f,
-         -0.2145988016f, 1.5707963050f })
+  for (const float coefficient :
+    { 0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f, -0.2145988016f, 1.5707963050f })
   {
     sum = sum * cosine + coefficient;
   }
@@ -86,8 +86,7 @@ public:
     , Longest(static_cast<float>(maximumDistance * (1.0 + Rounding)))
     , Distances(static_cast<int>(std::min(1e9, std::floor(maximumDistance / distanceStep))) + 1)
     , Acute(static_cast<int>(std::ceil(M_PI_2 / angleStep - 1e-6)))
-    , Between(kind == PairFeatureKind::Paper ? this->Acute
-                                             : static_cast<int>(std::ceil(M_PI / angleStep - 1e-6)))
+    , Between(kind == PairFeatureKind::Paper ? this->Acute : static_cast<int>(std::ceil(M_PI / angleStep - 1e-6)))
   {
   }
 
@@ -95,7 +94,7 @@ public:
   std::int64_t numberOfKeys() const
   {
     return static_cast<std::int64_t>(this->Distances) * this->Acute * this->Acute * this->Between *
-      (this->Kind == PairFeatureKind::Oriented ? 2 : 1);
+           (this->Kind == PairFeatureKind::Oriented ? 2 : 1);
   }
   /// The key in [0, numberOfKeys()), or -1 for a pair longer than d_max. Keys are int: tables of more are
   /// refused (TrainedModel::MostKeys).

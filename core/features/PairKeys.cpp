@@ -39,8 +39,8 @@ constexpr int Lanes = BlockedPoints::Size;
 constexpr float FarAway = 1e15f; // its square is finite
 
 MEAM_ALL_VECTORS
-void computeKeys(const Reference& reference, const SoAPoints& referred, const SoAPoints& tangents,
-  const int* blocks, int count, const PairFeatureQuantizer& quantizer, int* keys, PairTurn* turns)
+void computeKeys(const Reference& reference, const SoAPoints& referred, const SoAPoints& tangents, const int* blocks,
+  int count, const PairFeatureQuantizer& quantizer, int* keys, PairTurn* turns)
 {
   const float px = reference.point.x(), py = reference.point.y(), pz = reference.point.z();
   const float rx = reference.tangent.x(), ry = reference.tangent.y(), rz = reference.tangent.z();

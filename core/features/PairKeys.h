@@ -46,8 +46,8 @@ public:
   /// Points with tangents, in blocks of BlockedPoints::Size; `quantizer` cuts their features.
   PairKeys(const PointCloud& referred, const PairFeatureQuantizer& quantizer);
 
-  /// For the referred points of `count` blocks, BlockedPoints::Size of each: the keys, -1 for a pair longer than d_max or
-  /// without length and where the last block has no point; and the turns.
+  /// For the referred points of `count` blocks, BlockedPoints::Size of each: the keys, -1 for a pair longer than d_max
+  /// or without length and where the last block has no point; and the turns.
   void compute(const TangentFrame& reference, const int* blocks, int count, int* keys, PairTurn* turns) const;
 
 private:

@@ -2,11 +2,11 @@
 #include "features/TangentEstimation.h"
 
 #include "base/AllVectors.h"
+#include "base/Frames.h"
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
-#include "base/Frames.h"
-#include "scene/Units.h"
 #include "model/AppearanceModel.h"
+#include "scene/Units.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -27,17 +27,17 @@ constexpr double ModelLeafShare = 0.02;
 constexpr double RadiusShare = 0.06;
 constexpr double InlierShare = 0.012;
 
-constexpr std::size_t MostPerTile = 4000;  // the work grows with its cube
-constexpr double CandidateShare = 0.3;     // of the radius: spacing of the neighbours that lines are tried through
+constexpr std::size_t MostPerTile = 4000; // the work grows with its cube
+constexpr double CandidateShare = 0.3;    // of the radius: spacing of the neighbours that lines are tried through
 // A measured point's line: what its lengths are at most, and what they are of noise and spacing.
-constexpr double MostInlierShare = 0.03;  // of the diameter
-constexpr double MostRadiusShare = 0.12;  // of the diameter
+constexpr double MostInlierShare = 0.03; // of the diameter
+constexpr double MostRadiusShare = 0.12; // of the diameter
 constexpr double InlierNoise = 2.2;
 constexpr double RadiusInliers = 4.0;
 constexpr double RadiusSpacings = 3.0;
 constexpr std::size_t MeasuredPoints = 400; // around which noise and spacing are measured
 constexpr int FewestForNoise = 12;
-constexpr int FewestInliers = 4;         // a line through three points of a band of edge points is chance
+constexpr int FewestInliers = 4; // a line through three points of a band of edge points is chance
 
 constexpr int Lanes = 8; // offsets that are looked at together
 
@@ -161,8 +161,8 @@ Eigen::Vector3f principalAxis(const Neighbours& offsets, const Eigen::Vector3f& 
 }
 
 /// Tangent at a point from its neighbours' offsets; zero when no line is supported. Lines through the point and some of
-/// its neighbours are tried, as in Algorithm 2; the sphere makes the neighbourhood the same wherever the point lies, and
-/// the inliers' axis uses all of them instead of one far point.
+/// its neighbours are tried, as in Algorithm 2; the sphere makes the neighbourhood the same wherever the point lies,
+/// and the inliers' axis uses all of them instead of one far point.
 Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidates, double inlierDistance)
 {
   const float limit = static_cast<float>(inlierDistance * inlierDistance);
@@ -178,8 +178,7 @@ Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidat
       continue;
     }
     const Eigen::Vector3f line = candidate / length;
-    const int support =
-      lineSupport(offsets.x(), offsets.y(), offsets.z(), offsets.size(), line, limit);
+    const int support = lineSupport(offsets.x(), offsets.y(), offsets.z(), offsets.size(), line, limit);
     if (support > best || (support == best && length > farthest))
     {
       best = support;
@@ -254,8 +253,8 @@ PointStatistics statisticsOf(
   return { quantile(deviations, 0.25), quantile(distances, 0.5) };
 }
 
-/// Tangents at the points `kept`, by lines through points of `ends`. `grid` is of all points; cells of both are of `radius`,
-/// that of the settings or the part. Lengths of the settings that are 0 follow the points, too.
+/// Tangents at the points `kept`, by lines through points of `ends`. `grid` is of all points; cells of both are of
+/// `radius`, that of the settings or the part. Lengths of the settings that are 0 follow the points, too.
 Points robustTangents(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, const PointGrid& ends,
   double radius, double partDiameter, const TangentEstimationSettings& settings, const Progress& progress)
 {
@@ -265,7 +264,8 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
     const PointStatistics statistics = statisticsOf(edges, kept, grid, radius, settings.threads);
     if (settings.inlierDistance <= 0.0)
     {
-      inlierDistance = std::clamp(InlierNoise * statistics.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
+      inlierDistance =
+        std::clamp(InlierNoise * statistics.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
     }
     if (settings.radius <= 0.0)
     {
@@ -290,8 +290,8 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
 }
 
 /// Algorithms 1 and 2 of the paper, on the points that are kept.
-Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection, const TangentEstimationSettings& settings,
-  const Progress& progress)
+Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection,
+  const TangentEstimationSettings& settings, const Progress& progress)
 {
   // The projection plane: that of x and y for a view along z, as in the paper.
   const bool alongZ = std::abs(viewDirection.z()) > 0.999;
@@ -314,7 +314,7 @@ Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection, 
     if (members.size() > MostPerTile)
     {
       throw Error("A tile holds " + std::to_string(members.size()) +
-        " edge points, each pair of which makes a line to try: use smaller tiles or a larger leaf size.");
+                  " edge points, each pair of which makes a line to try: use smaller tiles or a larger leaf size.");
     }
     for (const int j : members)
     {
@@ -356,9 +356,9 @@ TangentEstimationSettings paperTangentSettings()
 
 namespace
 {
-/// What stays of the points `local`, in the frame in which they are thinned and all of them finite: indices, tangents in that
-/// frame, weights. `given` are tangents that they have already, or none. `tiles` gives the tangents at points by
-/// Algorithms 1 and 2.
+/// What stays of the points `local`, in the frame in which they are thinned and all of them finite: indices, tangents
+/// in that frame, weights. `given` are tangents that they have already, or none. `tiles` gives the tangents at points
+/// by Algorithms 1 and 2.
 struct LocalTangents
 {
   std::vector<int> points;
@@ -436,69 +436,46 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
 }
 }
 
-PreciseCloud EdgeTangents::of(const PreciseCloud& edges) const
-{
-  PreciseCloud cloud;
-  cloud.points.reserve(this->points.size());
-  for (const int i : this->points)
-  {
-    cloud.points.push_back(edges.points[i]);
-  }
-  cloud.tangents = this->tangents;
-  cloud.weights = this->weights;
-  return cloud;
-}
-
-EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
+ThinnedEdges estimateTangents(const LocalCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
-  auto [frame, local] = inOwnFrame(edges, settings.threads);
-  requirePoints(local.points, "The scene's edge cloud");
+  const PointCloud& all = edges.cloud;
+  requirePoints(all.points, "The scene's edge cloud");
   if (partDiameter > 0.0)
   {
-    requireSameUnits(local.points, partDiameter);
+    requireSameUnits(all.points, partDiameter);
   }
   std::vector<int> finite;
-  finite.reserve(local.size());
-  for (std::size_t i = 0; i < local.size(); ++i)
+  finite.reserve(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (local.points[i].allFinite())
+    if (all.points[i].allFinite())
     {
       finite.push_back(static_cast<int>(i));
     }
   }
-  if (finite.size() < local.size())
-  {
-    local = local.subset(finite);
-  }
+  const PointCloud local = finite.size() < all.size() ? all.subset(finite) : all;
   const auto tiles = [&](const std::vector<int>& kept)
   {
-    Points points;
-    for (const int k : kept)
-    {
-      points.push_back(edges.points[finite[k]].cast<float>());
-    }
+    // The paper's plane is that of the scene's own coordinates.
+    const Eigen::Isometry3d T_scene_local = edges.T_local_scene.inverse();
     Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-    turn.linear() = frame.linear();
-    return moved(tileTangents(points, viewDirection, settings, progress), turn);
+    turn.linear() = edges.T_local_scene.linear();
+    return moved(
+      tileTangents(moved(local.subset(kept).points, T_scene_local), viewDirection, settings, progress), turn);
   };
   LocalTangents found = estimate(local.points, local.tangents, partDiameter, SceneLeafShare, tiles, settings, progress);
-  EdgeTangents result;
-  result.points.resize(found.points.size());
-  result.tangents.resize(found.points.size());
-  const Eigen::Matrix3d back = frame.linear().transpose();
-  parallelFor(static_cast<int>(found.points.size()), settings.threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        const int i = finite[found.points[k]];
-        result.points[k] = i;
-        result.tangents[k] =
-          edges.tangents.empty() ? (back * found.tangents[k].cast<double>()).normalized() : edges.tangents[i];
-      }
-    });
-  result.weights = std::move(found.weights);
+  ThinnedEdges result;
+  result.edges.T_local_scene = edges.T_local_scene;
+  result.edges.fromScan = edges.fromScan;
+  result.edges.cloud.points.reserve(found.points.size());
+  for (const int k : found.points)
+  {
+    result.indices.push_back(finite[k]);
+    result.edges.cloud.points.push_back(local.points[k]);
+  }
+  result.edges.cloud.tangents = std::move(found.tangents);
+  result.edges.cloud.weights = std::move(found.weights);
   return result;
 }
 
@@ -517,7 +494,7 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
     const PointCloud cloud = finitePoints(std::move(models[v].cloud));
     const auto tiles = [&](const std::vector<int>& kept)
     { return tileTangents(cloud.subset(kept).points, models[v].direction.cast<double>(), exact, ofView); };
-    // In the part's own frame, so that views share the cubes.
+    // In the part frame, so that views share the cubes.
     LocalTangents found = estimate(cloud.points, cloud.tangents, partDiameter, ModelLeafShare, tiles, exact, ofView);
     models[v].cloud = cloud.subset(found.points); // without weights: a view that sees a point, sees it
     models[v].cloud.tangents = std::move(found.tangents);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/Error.h"
-#include "base/LocalFrame.h"
+#include "base/LocalCloud.h"
 #include "model/AppearanceModel.h"
 
 namespace meam
@@ -25,10 +25,10 @@ struct TangentEstimationSettings
   double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter, up to 3 % for noisy points
 
   // Tiles
-  int tilePixels = 10;         ///< H_rec = W_rec
-  double pixelSize = 0.5;      ///< mm on the projection plane; the paper does not say
-  double lineDistance = 0.3;   ///< D_thresh
-  double lineSupport = 0.18;   ///< S_thresh, share of a tile's points
+  int tilePixels = 10;       ///< H_rec = W_rec
+  double pixelSize = 0.5;    ///< mm on the projection plane; the paper does not say
+  double lineDistance = 0.3; ///< D_thresh
+  double lineSupport = 0.18; ///< S_thresh, share of a tile's points
 
   int threads = 0; ///< 0: one for each processor
 };
@@ -36,22 +36,19 @@ struct TangentEstimationSettings
 /// The paper's settings (Section 6) in place of the recommended ones.
 TangentEstimationSettings paperTangentSettings();
 
-/// Edge points that stay when they are thinned.
-struct EdgeTangents
+/// Edge points that stay when they are thinned, with their tangents and weights, as thinWithWeights() has them.
+struct ThinnedEdges
 {
-  std::vector<int> points;   ///< indices into those that were given
-  PrecisePoints tangents;    ///< unit; of each
-  std::vector<float> weights; ///< of each, as thinWithWeights() has them
-
-  PreciseCloud of(const PreciseCloud& edges) const;
+  LocalCloud edges;
+  std::vector<int> indices; ///< of these in the cloud that was given
 };
 
-/// Thins the edge points and gives each a tangent direction; points without a supported line are
-/// left out (Algorithm 2). Points that carry tangents, as edges of a mesh do, keep them and are only
-/// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across `viewDirection`. A motion of the
-/// points in double precision turns the tangents and changes nothing else, but for tiles. Throws Error for an empty cloud,
-/// for one that cannot be in the diameter's unit, or when a length is 0 and the diameter is too.
-EdgeTangents estimateTangents(const PreciseCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
+/// Thins a scene's edge points and gives each a tangent direction; points without a supported line are
+/// left out (Algorithm 2). Points that carry tangents, as edges of a mesh or of an image do, keep them and are only
+/// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across `viewDirection`, which is in
+/// the scene's own coordinates. Throws Error for an empty cloud, for one that cannot be in the diameter's unit, or when
+/// a length is 0 and the diameter is too.
+ThinnedEdges estimateTangents(const LocalCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings = {}, const Progress& progress = {});
 
 /// The same for each edge appearance model, seen from its viewpoint.

@@ -2,9 +2,9 @@
 #include "io/BOPDataset.h"
 
 #include "io/DepthImage.h"
-#include "io/FileBytes.h"
 #include "io/ImageFile.h"
-#include "io/JSONFile.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/JSONFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -154,7 +154,7 @@ std::string fileOf(
 
 std::string depthFileOf(const BOPImage& image)
 {
-  const std::string path = fileOf(image, { "depth" }, { ".png", ".tif", ".tiff" });
+  std::string path = fileOf(image, { "depth" }, { ".png", ".tif", ".tiff" });
   if (path.empty())
   {
     throw Error("The scene '" + image.folder + "' has no depth image number " + std::to_string(image.imageId) +

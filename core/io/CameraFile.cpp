@@ -2,9 +2,9 @@
 #include "io/CameraFile.h"
 
 #include "base/Error.h"
-#include "io/FileBytes.h"
-#include "io/JSONFile.h"
-#include "io/StorageText.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/JSONFile.h"
+#include "io/parsing/StorageText.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #include "io/ImageFile.h"
 
 #include "base/Error.h"
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>

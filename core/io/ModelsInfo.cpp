@@ -2,8 +2,8 @@
 #include "io/ModelsInfo.h"
 
 #include "base/Error.h"
-#include "io/FileBytes.h"
-#include "io/JSONFile.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/JSONFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,7 +22,7 @@ constexpr double RotationTolerance = 1e-3; // of entries that were printed with 
 nlohmann::json listUnder(const nlohmann::json& entry, const char* name, const std::string& path)
 {
   const auto found = entry.find(name);
-  const nlohmann::json list = found == entry.end() ? nlohmann::json::array() : *found;
+  nlohmann::json list = found == entry.end() ? nlohmann::json::array() : *found;
   if (!list.is_array())
   {
     fail(path, std::string("has ") + name + " that is not a list");

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/OFFFile.h"
 
-#include "io/FileBytes.h"
-#include "mesh/TriangleMesh.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/TextLines.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -31,63 +30,6 @@ std::size_t prefixOf(std::string_view word)
   return word.substr(at) == "OFF" ? at : std::string_view::npos;
 }
 
-/// Goes through the words of a file line by line; comments, from # on, and empty lines are skipped.
-class Lines
-{
-public:
-  explicit Lines(const std::string& bytes)
-    : Rest(bytes)
-  {
-  }
-
-  /// Goes to the next line that has a word; false at the end of the file.
-  bool next()
-  {
-    while (!this->Rest.empty())
-    {
-      const std::size_t end = std::min(this->Rest.find_first_of("\r\n"), this->Rest.size());
-      this->Line = this->Rest.substr(0, end);
-      this->Rest.remove_prefix(std::min(end + 1, this->Rest.size()));
-      this->Line = this->Line.substr(0, this->Line.find('#'));
-      if (this->Line.find_first_not_of(" \t") != std::string_view::npos)
-      {
-        return true;
-      }
-    }
-    this->Line = {};
-    return false;
-  }
-
-  /// The next word of the line; empty at its end.
-  std::string_view word()
-  {
-    this->Line.remove_prefix(std::min(this->Line.find_first_not_of(" \t"), this->Line.size()));
-    const std::size_t end = std::min(this->Line.find_first_of(" \t"), this->Line.size());
-    const std::string_view result = this->Line.substr(0, end);
-    this->Line.remove_prefix(end);
-    return result;
-  }
-
-  /// Bytes of the line and of all after it.
-  std::size_t left() const { return this->Line.size() + 1 + this->Rest.size(); }
-
-private:
-  std::string_view Rest;
-  std::string_view Line;
-};
-
-/// Locale does not matter to from_chars; it takes no plus sign.
-template <typename Number>
-bool parse(std::string_view text, Number& value)
-{
-  if (text.size() > 1 && text[0] == '+')
-  {
-    text.remove_prefix(1);
-  }
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return failure == std::errc() && end == text.data() + text.size();
-}
-
 /// A word that is not what it should be, for a message.
 std::string quoted(std::string_view word)
 {
@@ -99,7 +41,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
   report(progress, 0.0);
-  Lines lines(bytes);
+  TextLines lines(bytes);
   const std::string_view first = lines.next() ? lines.word() : std::string_view();
   if (prefixOf(first) == std::string_view::npos)
   {
@@ -117,7 +59,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
   }
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
-  if (!parse(word, vertices) || !parse(lines.word(), faces))
+  if (!parseNumber(word, vertices) || !parseNumber(lines.word(), faces))
   {
     fail(path, "has no numbers of vertices and faces after its first word");
   }
@@ -143,7 +85,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
     {
       word = lines.word();
       double value = 0.0;
-      if (!parse(word, value))
+      if (!parseNumber(word, value))
       {
         fail(path, "has a coordinate that is not a number in vertex " + std::to_string(v) + ": " + quoted(word));
       }
@@ -164,7 +106,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
     }
     word = lines.word();
     std::uint64_t corners = 0;
-    if (!parse(word, corners))
+    if (!parseNumber(word, corners))
     {
       fail(path, "has no number of corners in " + place + ": " + quoted(word));
     }
@@ -173,7 +115,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
     {
       word = lines.word();
       std::uint64_t vertex = 0;
-      if (!parse(word, vertex) || vertex >= vertices)
+      if (!parseNumber(word, vertex) || vertex >= vertices)
       {
         fail(path, "has a corner in " + place + " that is not the number of a vertex: " + quoted(word));
       }
@@ -201,7 +143,7 @@ bool isOFF(const std::string& path)
   try
   {
     const std::string bytes = readFile(path);
-    Lines lines(bytes);
+    TextLines lines(bytes);
     return lines.next() && prefixOf(lines.word()) != std::string_view::npos;
   }
   catch (const Error&)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/PCDFile.h"
 
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 
 #include <liblzf/lzf.h>
 

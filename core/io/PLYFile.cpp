@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/PLYFile.h"
 
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 
 #include <algorithm>
 #include <charconv>
@@ -274,9 +274,11 @@ private:
   Encoding Form;
 };
 
-/// Goes through an element; `take` gets the record's number and its values, those of lists left out.
-template <typename Take>
-void forEachRecord(const std::string& path, Values& values, const Element& element, const Take& take)
+/// Goes through an element; `entry` gets the place of a list among the properties and one of its values after the
+/// other, then `take` the record's number and its values, the lengths of lists among them.
+template <typename Take, typename Entry>
+void forEachRecord(
+  const std::string& path, Values& values, const Element& element, const Take& take, const Entry& entry)
 {
   values.requireRoom(element.count, element.properties);
   // A record without properties takes no room: there is nothing in it.
@@ -297,13 +299,25 @@ void forEachRecord(const std::string& path, Values& values, const Element& eleme
       {
         fail(path, "has a list of an impossible length");
       }
-      for (std::uint64_t entry = 0; entry < static_cast<std::uint64_t>(record[k]); ++entry)
+      for (auto left = static_cast<std::uint64_t>(record[k]); left > 0; --left)
       {
-        values.next(property.type);
+        entry(k, values.next(property.type));
       }
     }
     take(i, record);
   }
+}
+
+/// The same without the values of lists.
+template <typename Take>
+void forEachRecord(const std::string& path, Values& values, const Element& element, const Take& take)
+{
+  forEachRecord(path, values, element, take, [](std::size_t, double) {});
+}
+
+void skip(const std::string& path, Values& values, const Element& element)
+{
+  forEachRecord(path, values, element, [](std::uint64_t, const std::vector<double>&) {});
 }
 
 /// The place of a property among the element's, or -1.
@@ -348,20 +362,16 @@ Eigen::Vector3f vectorOf(const std::vector<double>& record, const int places[3])
 {
   return Eigen::Vector3d(record[places[0]], record[places[1]], record[places[2]]).cast<float>();
 }
-}
 
-MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
+/// The element of the points; fails without any, and without coordinates.
+const Element* requiredVertices(const std::string& path, const Header& header)
 {
-  const std::string bytes = readFile(path);
-  report(progress, 0.0);
-  const Header header = parseHeader(path, bytes);
   const Element* vertex = verticesOf(header);
   if (!vertex || vertex->count == 0)
   {
     fail(path, "has no points");
   }
-  const Layout layout(*vertex);
-  if (!Layout::whole(layout.point))
+  if (!Layout::whole(Layout(*vertex).point))
   {
     fail(path, "has no properties x, y and z of its points");
   }
@@ -369,11 +379,93 @@ MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
   {
     fail(path, "promises an impossible number of points");
   }
+  return vertex;
+}
 
+/// The place of a face's list of corners, or -1.
+int cornersOf(const Element& face)
+{
+  for (std::size_t k = 0; k < face.properties.size(); ++k)
+  {
+    const Property& property = face.properties[k];
+    if (property.list && (property.name == "vertex_indices" || property.name == "vertex_index"))
+    {
+      return static_cast<int>(k);
+    }
+  }
+  return -1;
+}
+
+/// The faces of an element, cut into triangles about their first corner.
+void takeFaces(const std::string& path, Values& values, const Element& face, TriangleMesh& mesh)
+{
+  const int list = cornersOf(face);
+  if (list < 0)
+  {
+    fail(path, "has faces without the list vertex_indices");
+  }
+  std::vector<int> corners;
+  const auto entry = [&](std::size_t k, double value)
+  {
+    if (static_cast<int>(k) == list)
+    {
+      if (!(value >= 0.0 && value < static_cast<double>(mesh.vertices.size())))
+      {
+        fail(path, "has a face with a point that does not exist");
+      }
+      corners.push_back(static_cast<int>(value));
+    }
+  };
+  const auto take = [&](std::uint64_t, const std::vector<double>&)
+  {
+    for (std::size_t k = 2; k < corners.size(); ++k)
+    {
+      mesh.triangles.emplace_back(corners[0], corners[k - 1], corners[k]);
+    }
+    corners.clear();
+  };
+  forEachRecord(path, values, face, take, entry);
+}
+}
+
+TriangleMesh readPLYMesh(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  const Header header = parseHeader(path, bytes);
+  const Layout layout(*requiredVertices(path, header));
+  Values values(path, bytes, header);
+  TriangleMesh mesh;
+  for (const Element& element : header.elements)
+  {
+    if (element.name == "vertex" && mesh.vertices.empty())
+    {
+      forEachRecord(path, values, element,
+        [&](std::uint64_t, const std::vector<double>& record)
+        { mesh.vertices.push_back(vectorOf(record, layout.point)); });
+    }
+    else if (element.name == "face" && mesh.triangles.empty())
+    {
+      takeFaces(path, values, element, mesh);
+    }
+    else
+    {
+      skip(path, values, element);
+    }
+  }
+  return mesh;
+}
+
+MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
+{
+  const std::string bytes = readFile(path);
+  report(progress, 0.0);
+  const Header header = parseHeader(path, bytes);
+  const Element* vertex = requiredVertices(path, header);
+  const Layout layout(*vertex);
   Values values(path, bytes, header);
   for (const Element* before = header.elements.data(); before != vertex; ++before)
   {
-    forEachRecord(path, values, *before, [](std::uint64_t, const std::vector<double>&) {});
+    skip(path, values, *before);
   }
   MeasuredCloud result;
   const auto take = [&](std::uint64_t i, const std::vector<double>& record)

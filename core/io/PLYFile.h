@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Error.h"
+#include "mesh/TriangleMesh.h"
 #include "scene/MeasuredCloud.h"
 
 #include <string>
@@ -13,6 +14,10 @@ namespace meam
 /// faces and what else there may be are skipped. Colours in floats go from 0 to 1. Throws Error, naming the
 /// file and what is wrong with it; allocates no more than the length of the file justifies.
 MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress = {});
+
+/// Reads the faces of a PLY file, after its points, in the file's own unit; polygons are cut into triangles about their
+/// first corner. No triangles when there are none. Throws as above.
+TriangleMesh readPLYMesh(const std::string& path);
 
 /// Whether the file's header is that of a PLY file with points and no faces; false for one that cannot be read.
 bool isPLYCloud(const std::string& path);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/PoseFile.h"
 
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 
 #include <nlohmann/json.hpp>
 

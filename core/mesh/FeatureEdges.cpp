@@ -9,8 +9,7 @@
 
 namespace meam
 {
-PointCloud extractFeatureEdges(
-  const TriangleMesh& mesh, const FeatureEdgesSettings& settings, const Progress& progress)
+PointCloud extractFeatureEdges(const TriangleMesh& mesh, const FeatureEdgesSettings& settings, const Progress& progress)
 {
   requireMesh(mesh);
   if (!(settings.angle > 0.0) || !(settings.angle < 180.0))

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/LineOfSight.h"
 
-#include "mesh/TriangleMesh.h"
 #include "base/Bounds.h"
+#include "mesh/TriangleMesh.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceSampling.h"
 
+#include "base/Bounds.h"
 #include "base/Random.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
-#include "base/Bounds.h"
 
 #include <cmath>
 

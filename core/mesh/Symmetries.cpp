@@ -27,7 +27,7 @@ Eigen::Isometry3d turnedTowards(
 ContinuousSymmetry axisOf(const Eigen::Isometry3d& turn)
 {
   const Eigen::AngleAxisd rotation(Eigen::Matrix3d(turn.linear()));
-  const Eigen::Vector3d axis = rotation.axis();
+  const Eigen::Vector3d& axis = rotation.axis();
   const Eigen::Vector3d across = turn.translation() - axis.dot(turn.translation()) * axis;
   return { axis, 0.5 * (across + axis.cross(across) / std::tan(0.5 * rotation.angle())) };
 }
@@ -140,7 +140,7 @@ std::vector<bool> representatives(const Points& points, const Symmetries& symmet
       const double along = offset.dot(symmetry.axis);
       const double across = Generic.dot(symmetry.axis);
       return Generic.dot(symmetry.point) + along * across +
-        (offset - along * symmetry.axis).norm() * std::sqrt(std::max(0.0, 1.0 - across * across));
+             (offset - along * symmetry.axis).norm() * std::sqrt(std::max(0.0, 1.0 - across * across));
     };
     result[i] = farthest(point) <= limit;
     for (const Eigen::Isometry3d& S : symmetries.discrete)

@@ -3,9 +3,9 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
-#include "pose/refinement/NormalEquations.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/Viewpoints.h"
+#include "pose/refinement/NormalEquations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ namespace meam
 namespace
 {
 constexpr double Degree = M_PI / 180.0;
-constexpr int AxesOnSphere = 1500;      // 3 degrees from any direction to the nearest
-constexpr int LargestCoarseOrder = 8;   // turns by 360 / k tried to find axes; the scan finds the others
+constexpr int AxesOnSphere = 1500;    // 3 degrees from any direction to the nearest
+constexpr int LargestCoarseOrder = 8; // turns by 360 / k tried to find axes; the scan finds the others
 constexpr double CoarseReachShare = 0.08;
 constexpr double CoarseLeafShare = 0.15; // of the diameter: points that find axes
 constexpr double ScanLeafShare = 0.06;   // points that find angles
@@ -26,8 +26,8 @@ constexpr int MostAxes = 24;
 constexpr double AxisSeparation = 12.0; // degrees
 constexpr int FitSteps = 12;
 constexpr double NearSpacings = 2.0; // most points that lie on the surface have a sample this near
-constexpr float SameSide = 0.7f; // cosine between the normals of corresponding points
-constexpr double SameTurn = 4.0; // degrees between two turns that are one
+constexpr float SameSide = 0.7f;     // cosine between the normals of corresponding points
+constexpr double SameTurn = 4.0;     // degrees between two turns that are one
 constexpr int ContinuousChecks = 11;
 
 double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
@@ -65,7 +65,8 @@ public:
     }
     const Eigen::Vector3f offset = point - this->Surface.points[k];
     const float across = std::abs(this->Surface.normals[k].dot(offset));
-    const float along = std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - 1.5f * this->Spacing);
+    const float along =
+      std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - 1.5f * this->Spacing);
     return std::min(this->Reach, std::hypot(across, along));
   }
 
@@ -264,8 +265,9 @@ private:
     {
       directions.push_back(axis); // the axes of coordinates are likely ones: CAD parts are drawn along them
     }
-    directions.erase(std::remove_if(directions.begin(), directions.end(),
-                       [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); }),
+    directions.erase(
+      std::remove_if(directions.begin(), directions.end(),
+        [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); }),
       directions.end());
     std::vector<Candidate> candidates(directions.size());
     parallelFor(static_cast<int>(directions.size()), 0, progress,
@@ -282,11 +284,13 @@ private:
           }
         }
       });
-    std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+    std::stable_sort(
+      candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
     std::vector<Candidate> best;
     for (const Candidate& candidate : candidates)
     {
-      const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other)
+      const bool known = std::any_of(best.begin(), best.end(),
+        [&](const Candidate& other)
         { return std::abs(other.axis.dot(candidate.axis)) > std::cos(AxisSeparation * Degree); });
       if (!known && candidate.misfit < 0.6)
       {
@@ -316,7 +320,8 @@ private:
     result.T = T;
     std::size_t within = 0;
     float largest = 0.0f;
-    for (const Eigen::Isometry3f& way : { Eigen::Isometry3f(T.cast<float>()), Eigen::Isometry3f(T.inverse().cast<float>()) })
+    for (const Eigen::Isometry3f& way :
+      { Eigen::Isometry3f(T.cast<float>()), Eigen::Isometry3f(T.inverse().cast<float>()) })
     {
       for (const int i : this->Measured)
       {
@@ -342,7 +347,8 @@ private:
   bool isContinuous(const Eigen::Vector3d& roughly, ContinuousSymmetry& result) const
   {
     // The axis of a fitted third of a turn is the exact one, if there is one.
-    const Eigen::Isometry3d T = this->Matcher.fitted(this->Scan, turnAbout(roughly, 2.0 * M_PI / 3.0, this->Middle), this->Middle);
+    const Eigen::Isometry3d T =
+      this->Matcher.fitted(this->Scan, turnAbout(roughly, 2.0 * M_PI / 3.0, this->Middle), this->Middle);
     const Eigen::AngleAxisd exact(T.linear());
     if (std::abs(exact.axis().dot(roughly)) < std::cos(AxisSeparation * Degree))
     {
@@ -355,7 +361,7 @@ private:
       // Angles that no small order shares.
       const Eigen::Isometry3d S = turnAbout(result.axis, i * 31.0 * Degree, result.point);
       if (this->Matcher.misfit(this->Scan, S) * CoarseReachShare * this->Diameter > this->Tolerance ||
-        this->measured(S).deviation > this->Tolerance)
+          this->measured(S).deviation > this->Tolerance)
       {
         return false;
       }
@@ -408,7 +414,7 @@ private:
       if (turnBetween(known.T, candidate.T) < SameTurn)
       {
         if (candidate.overlap > known.overlap ||
-          (candidate.overlap == known.overlap && candidate.deviation < known.deviation))
+            (candidate.overlap == known.overlap && candidate.deviation < known.deviation))
         {
           known = candidate;
         }
@@ -456,8 +462,8 @@ private:
       {
         const Eigen::Isometry3d product = exact[i].T * exact[k].T;
         const bool known = Eigen::AngleAxisd(product.linear()).angle() < SameTurn * Degree ||
-          std::any_of(exact.begin(), exact.end(),
-            [&](const NearSymmetry& other) { return turnBetween(other.T, product) < SameTurn; });
+                           std::any_of(exact.begin(), exact.end(),
+                             [&](const NearSymmetry& other) { return turnBetween(other.T, product) < SameTurn; });
         if (!known)
         {
           // The product of two symmetries is one; fitted again, so that errors do not add up.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/TriangleMesh.h"
 
-#include "base/Error.h"
 #include "base/Bounds.h"
+#include "base/Error.h"
 
 namespace meam
 {

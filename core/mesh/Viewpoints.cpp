@@ -25,7 +25,8 @@ Points cubeDirections()
   {
     for (int code = 26; code >= 0; --code)
     {
-      const Eigen::Vector3f direction(code % 3 - 1.0f, code / 3 % 3 - 1.0f, code / 9 - 1.0f);
+      const Eigen::Vector3i corner(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+      const Eigen::Vector3f direction = corner.cast<float>();
       if (direction.cwiseAbs().sum() == static_cast<float>(nonZero))
       {
         directions.push_back(direction.normalized());

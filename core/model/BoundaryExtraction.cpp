@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/BoundaryExtraction.h"
 
+#include "base/Bounds.h"
+#include "base/Frames.h"
 #include "base/PCLConversion.h"
 #include "base/PointGrid.h"
 #include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"
+#include "model/AppearanceModel.h"
 #include "model/Silhouette.h"
 #include "model/VisibleEdges.h"
-#include "base/Bounds.h"
-#include "base/Frames.h"
-#include "model/AppearanceModel.h"
 
 #include <pcl/features/boundary.h>
 #include <pcl/kdtree/kdtree_flann.h>
@@ -40,8 +40,7 @@ std::vector<int> boundaryPoints(const PointCloud& cloud, double radius, double a
     Eigen::Vector4f v = Eigen::Vector4f::Zero();
     u.head<3>() = frame.col(1);
     v.head<3>() = frame.col(2);
-    if (estimation.isBoundaryPoint(
-          *points, (*points)[i], neighbours, u, v, static_cast<float>(angle * M_PI / 180.0)))
+    if (estimation.isBoundaryPoint(*points, (*points)[i], neighbours, u, v, static_cast<float>(angle * M_PI / 180.0)))
     {
       boundary.push_back(static_cast<int>(i));
     }
@@ -53,8 +52,8 @@ Eigen::Vector3d viewpointOf(const AppearanceModel& model)
 {
   const Eigen::AlignedBox3f box = bounds(model.cloud.points);
   const Eigen::Vector3f viewpoint = model.viewpoint.allFinite()
-    ? model.viewpoint
-    : (box.center() + FarAway * box.diagonal().norm() * model.direction).eval();
+                                      ? model.viewpoint
+                                      : (box.center() + FarAway * box.diagonal().norm() * model.direction).eval();
   return viewpoint.cast<double>();
 }
 
@@ -214,7 +213,7 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
     if (!(spacings.back() > 0.0))
     {
       throw Error("Appearance model " + model.name +
-        " has a single place: sample the surface with a spacing that is small against the part.");
+                  " has a single place: sample the surface with a spacing that is small against the part.");
     }
     part.insert(part.end(), model.cloud.points.begin(), model.cloud.points.end());
     if (model.cloud.size() > most)
@@ -232,8 +231,8 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
     const PointCloud& cloud = models[view].cloud;
     if (meshEdges && models[view].wholePart)
     {
-      edges[view].cloud =
-        extractFeatureEdges(*mesh, { settings.sharpAngle, spacing }, subProgress(progress, share * view, share * (view + 1)));
+      edges[view].cloud = extractFeatureEdges(
+        *mesh, { settings.sharpAngle, spacing }, subProgress(progress, share * view, share * (view + 1)));
       edges[view].cloud.pointIds = nearestIds(edges[view].cloud.points, cloud, spacing);
       continue;
     }
@@ -250,8 +249,8 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
     const std::vector<int> boundary = boundaryPoints(cloud, radius, settings.angle);
     edges[view].cloud = cloud.subset(boundary);
     edges[view].cloud.edgeTypes = models[view].wholePart
-      ? std::vector<EdgeType>(boundary.size(), EdgeType::Crease)
-      : boundaryTypes(cloud, boundary, radius, settings.angle, viewpoint, silhouette);
+                                    ? std::vector<EdgeType>(boundary.size(), EdgeType::Crease)
+                                    : boundaryTypes(cloud, boundary, radius, settings.angle, viewpoint, silhouette);
   }
   report(progress, 1.0);
   return edges;

@@ -77,8 +77,8 @@ DistanceField::DistanceField(const Points& points, double spacing, double reach,
         std::uint8_t* row = &this->Distances[(static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x()];
         for (int x = low.x(); x <= high.x(); ++x)
         {
-          const Eigen::Vector3f centre(
-            (x + 0.5f) * static_cast<float>(cell), (y + 0.5f) * static_cast<float>(cell), (z + 0.5f) * static_cast<float>(cell));
+          const Eigen::Vector3f centre((x + 0.5f) * static_cast<float>(cell), (y + 0.5f) * static_cast<float>(cell),
+            (z + 0.5f) * static_cast<float>(cell));
           const float stored = metric(i, centre - place.matrix()) / step;
           row[x] = stored < row[x] ? static_cast<std::uint8_t>(stored) : row[x];
         }

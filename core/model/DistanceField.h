@@ -9,8 +9,8 @@
 
 namespace meam
 {
-/// Distances from a part's surface or from its edges on a grid about the part: one look-up for each point asked. Between
-/// samples the surface is taken as flat and an edge as straight.
+/// Distances from a part's surface or from its edges on a grid about the part: one look-up for each point asked.
+/// Between samples the surface is taken as flat and an edge as straight.
 class DistanceField
 {
 public:
@@ -54,7 +54,7 @@ private:
   Eigen::Vector3f Middle = Eigen::Vector3f::Zero();
   float Radius = 0.0f;
   float Reach = 0.0f;
-  std::array<float, Farthest + 1> Told{};   ///< mm, for what is stored
+  std::array<float, Farthest + 1> Told{};          ///< mm, for what is stored
   std::vector<std::uint8_t> Distances{ Farthest }; ///< of the cells, and of all outside
 };
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/MEAMHashing.h"
 
+#include "base/Bounds.h"
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/Viewpoints.h"
-#include "model/VisibilityExtraction.h"
-#include "base/Bounds.h"
 #include "model/AppearanceModel.h"
+#include "model/VisibilityExtraction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +146,7 @@ std::vector<std::uint64_t> voxelCodes(const Points& points, double voxelSize)
     // The minimum is subtracted before the cast, so no voxel is twice as wide as the others.
     const Eigen::Array3d index = ((point - low).cast<double>() / voxelSize).array().floor();
     codes.push_back((static_cast<std::uint64_t>(index.x()) << 42) | (static_cast<std::uint64_t>(index.y()) << 21) |
-      static_cast<std::uint64_t>(index.z()));
+                    static_cast<std::uint64_t>(index.z()));
   }
   return codes;
 }
@@ -227,8 +227,8 @@ void buildTable(TrainedModel& model, int count, double voxelSize, const Progress
       {
         continue;
       }
-      const PairFeature feature = pairFeature(
-        quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]);
+      const PairFeature feature =
+        pairFeature(quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]);
       const int key = quantizer.key(feature);
       if (key < 0 || !(feature.distance > 0.0f))
       {
@@ -335,7 +335,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     throw Error("There are more than 32 appearance models or co-visibility directions: use fewer viewpoints.");
   }
   if (!(settings.distanceStep > 0.0 && settings.distanceStep <= 1.0) ||
-    !(settings.angleStep >= 1.0 && settings.angleStep <= 90.0))
+      !(settings.angleStep >= 1.0 && settings.angleStep <= 90.0))
   {
     throw Error("The distance step must be in (0, 1] of the diameter and the angle step in [1, 90] degrees.");
   }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/Error.h"
-#include "model/TrainedModel.h"
 #include "model/AppearanceModel.h"
+#include "model/TrainedModel.h"
 
 namespace meam
 {

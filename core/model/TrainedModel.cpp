@@ -15,7 +15,7 @@ constexpr double CellShare = 0.0075;
 constexpr double SurfaceSpacing = 0.018; // a little over that of the surface points
 constexpr double EdgeSpacing = 0.03;
 constexpr double VotingLeafShare = 0.04;
-constexpr double JudgedLeafShare = 0.03;
+constexpr double VerificationLeafShare = 0.03;
 
 void deriveVotes(const PointCloud& edges, PairTable& pairs)
 {
@@ -48,6 +48,19 @@ double TrainedModel::votingLeaf() const
   return this->settings.leafSize > 0.0 ? this->settings.leafSize : VotingLeafShare * this->diameter;
 }
 
+PointCloud TrainedModel::edgesOfView(int view) const
+{
+  std::vector<int> members;
+  for (std::size_t i = 0; i < this->edges.size(); ++i)
+  {
+    if (this->edgeViews[i] >> view & 1u)
+    {
+      members.push_back(static_cast<int>(i));
+    }
+  }
+  return this->edges.subset(members);
+}
+
 PairFeatureQuantizer TrainedModel::quantizer() const
 {
   return PairFeatureQuantizer(this->settings.feature, this->settings.distanceStep * this->diameter,
@@ -63,10 +76,11 @@ void TrainedModel::deriveFields()
     this->votingEdges = std::max(this->votingEdges, last == indices->end() ? 0 : static_cast<int>(*last) + 1);
   }
   deriveVotes(this->edges, this->table);
-  this->judged = thinPoints(this->surface.points, JudgedLeafShare * this->diameter);
-  const double reach = DistanceReach * this->diameter;
+  this->verificationPoints = thinPoints(this->surface.points, VerificationLeafShare * this->diameter);
+  const double reach = TruncationDistance * this->diameter;
   const double cell = CellShare * this->diameter;
   this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfaceSpacing * this->diameter, reach, cell);
   this->edgeDistance = DistanceField::ofEdges(this->edges, EdgeSpacing * this->diameter, reach, cell);
+  this->visibility = std::make_shared<const PredictedVisibility>(*this);
 }
 }

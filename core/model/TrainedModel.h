@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/PointCloud.h"
+#include "features/PairKeys.h"
 #include "mesh/Symmetries.h"
 #include "model/DistanceField.h"
-#include "features/PairKeys.h"
+#include "model/PredictedVisibility.h"
+
+#include <memory>
 
 namespace meam
 {
@@ -22,9 +24,9 @@ struct MEAMHashingSettings
   double distanceStep = 0.07; ///< tau_d: d_dist as a share of d_max
   double angleStep = 7.2;     ///< d_angle, degrees; also the step of the votes' turn about the tangent
   ViewMerging merging = ViewMerging::Points;
-  double voxelSize = 0.0;     ///< L_voxel in mm; 0: 1.5 % of the diameter
-  /// ViewMerging::Points: of the edge points in a cube of this side (mm) one makes pairs, in the model as in a scene; the
-  /// others are there to judge and refine poses; 0: 4 % of the diameter. Otherwise all make pairs.
+  double voxelSize = 0.0; ///< L_voxel in mm; 0: 1.5 % of the diameter
+  /// ViewMerging::Points: of the edge points in a cube of this side (mm) one makes pairs, in the model as in a scene;
+  /// the others are there to judge and refine poses; 0: 4 % of the diameter. Otherwise all make pairs.
   double leafSize = 0.0;
   /// Directions from which two points must be visible together to make a pair; 0: only the views
   /// themselves (paper).
@@ -46,7 +48,7 @@ struct PairTable
 
   // As voting reads it, made by deriveFields():
   std::vector<std::uint32_t> votes; ///< voteEntry of each; VoteBlock zeros follow the last
-  int mostOfOne = 1; ///< entries of one reference point in a bucket
+  int mostOfOne = 1;                ///< entries of one reference point in a bucket
 
   std::size_t size() const { return this->references.size(); }
   std::size_t bytes() const { return (this->offsets.size() + 4 * this->size()) * sizeof(std::uint32_t); }
@@ -58,7 +60,8 @@ struct TrainedModel
   static constexpr int FormatVersion = 3;
   static constexpr int MaximumViews = 32; ///< views and directions are bits of a word
   static constexpr std::int64_t MostKeys = 50000000;
-  static constexpr std::size_t MostEdges = std::size_t{ 1 } << (SheetBits - 1); ///< edge points; two sheets of votes each
+  static constexpr std::size_t MostEdges = std::size_t{ 1 }
+                                           << (SheetBits - 1); ///< edge points; two sheets of votes each
 
   double diameter = 0.0; ///< d_max, mm
   std::string digest;    ///< of the surface, the edges and the settings
@@ -75,17 +78,20 @@ struct TrainedModel
   PairTable table;
 
   // What deriveFields() makes of the above.
-  int votingEdges = 0;           ///< so many of the edge points make pairs
-  std::vector<int> judged;       ///< surface points that evidence is taken from
-  DistanceField surfaceDistance; ///< capped at DistanceReach of the diameter
+  int votingEdges = 0;                 ///< so many of the edge points make pairs
+  std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
+  DistanceField surfaceDistance;       ///< up to TruncationDistance times the diameter
   DistanceField edgeDistance;
-  static constexpr double DistanceReach = 0.03;
+  std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
+  static constexpr double TruncationDistance = 0.03;
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
   void deriveFields();
 
   /// The quantizer of the table's keys.
   PairFeatureQuantizer quantizer() const;
+  /// The edge appearance model of a view.
+  PointCloud edgesOfView(int view) const;
   /// Side of the cubes of which one edge point makes pairs, mm; 0: all do.
   double votingLeaf() const;
 };

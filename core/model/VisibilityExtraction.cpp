@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/VisibilityExtraction.h"
 
+#include "base/Bounds.h"
 #include "base/Parallel.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/LineOfSight.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/Viewpoints.h"
-#include "base/Bounds.h"
 #include "model/AppearanceModel.h"
 
 #include <algorithm>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/Error.h"
 #include "base/PointCloud.h"
-#include "mesh/TriangleMesh.h"
 #include "mesh/LineOfSight.h"
 #include "mesh/MeshEdges.h"
+#include "mesh/TriangleMesh.h"
 #include "model/Silhouette.h"
 
 #include <optional>

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
-#include "mesh/ConvexHull.h"
-#include "model/AppearanceModel.h"
-#include "mesh/TriangleMesh.h"
-
 #include <algorithm>
 #include <chrono>
 
@@ -12,8 +8,6 @@ namespace meam
 {
 namespace
 {
-constexpr int RawPerRefined = 3; // of so many raw candidates one may be refined: a large bin has many instances
-
 /// Seconds since the last call.
 class Stopwatch
 {
@@ -31,18 +25,6 @@ private:
 };
 }
 
-TrainingSettings trainingSettings(Preset preset)
-{
-  TrainingSettings settings;
-  if (preset == Preset::Paper)
-  {
-    settings.tangents = paperTangentSettings();
-    settings.hashing = paperHashingSettings();
-    settings.findSymmetries = false;
-  }
-  return settings;
-}
-
 DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
 {
   DetectionSettings settings;
@@ -50,61 +32,60 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
   {
     settings.tangents = paperTangentSettings();
     settings.detection = paperDetectionSettings();
-    settings.verification = paperVerificationSettings();
+    settings.candidateVerification = paperVerificationSettings();
+    settings.candidateSelection.method = SelectionMethod::Clusters;
     settings.refinement = paperRefinementSettings();
-    settings.selection = paperVerificationSettings();
+    settings.verification = paperVerificationSettings();
+    settings.selection.method = SelectionMethod::Clusters;
   }
-  settings.selection.posesPerInstance = 1;
+  else
+  {
+    settings.screening.emplace().threads = threads;
+    settings.candidateVerification.pointStride = 2;
+    settings.candidateSelection.method = SelectionMethod::Alternatives;
+  }
   settings.selection.maximumPoses = maximumPoses;
   settings.selection.minimumProbability = minimumProbability;
   settings.tangents.threads = threads;
+  settings.scene.threads = threads;
   settings.detection.threads = threads;
-  settings.verification.threads = threads;
+  settings.candidateVerification.threads = threads;
+  settings.candidateSelection.threads = threads;
   settings.refinement.threads = threads;
+  settings.verification.threads = threads;
   settings.selection.threads = threads;
   return settings;
 }
 
-TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress)
-{
-  const double partDiameter = diameter(mesh.vertices);
-  const PointCloud surface = sampleSurface(mesh, settings.sampling, subProgress(progress, 0.0, 0.1));
-  std::vector<AppearanceModel> models =
-    extractVisibility(surface, settings.visibility, &mesh, subProgress(progress, 0.1, 0.3));
-  models = extractBoundary(models, settings.boundary, &mesh, subProgress(progress, 0.3, 0.4));
-  models = estimateTangents(std::move(models), partDiameter, settings.tangents);
-  PartSurface part{ surface, partDiameter, {} };
-  if (settings.findSymmetries)
-  {
-    part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
-  }
-  return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
-}
-
-Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor,
-  const DetectionSettings& settings, StageTimes* times, const Progress& progress)
+Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
+  StageTimes* times, const Progress& progress)
 {
   StageTimes spent;
   Stopwatch watch;
-  const EdgeTangents found =
-    estimateTangents(edges, model.diameter, sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1));
-  const PreciseCloud withTangents = found.of(edges);
+  LocalCloud edges = estimateTangents(
+    input.edges, model.diameter, input.sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1))
+                       .edges;
   spent.tangents = watch.lap();
-  Poses poses = detectPoses(withTangents, model, settings.detection, subProgress(progress, 0.1, 0.5));
+  const Scene scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene);
+  spent.scene = watch.lap();
+  Poses poses = detectPoses(scene.edges, model, settings.detection, subProgress(progress, 0.1, 0.5));
   spent.detection = watch.lap();
-  const Scene scene = sceneInOwnFrame(withTangents, std::move(surface), sensor, settings.verification.threads);
-  const SceneIndex index(model, scene, settings.verification.threads);
-  PoseVerificationSettings verification = settings.verification;
-  if (verification.maximumPoses > 0)
+  if (settings.screening)
   {
-    verification.maximumPoses = std::max(verification.maximumPoses, static_cast<int>(poses.size()) / RawPerRefined);
+    poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.5, 0.6));
   }
-  poses = verifyPoses(poses, index, verification, subProgress(progress, 0.5, 0.7));
+  spent.screening = watch.lap();
+  poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.6, 0.7));
   spent.verification = watch.lap();
-  poses = refinePoses(poses, index, settings.refinement, subProgress(progress, 0.7, 0.95));
-  spent.refinement = watch.lap();
-  poses = verifyPoses(poses, index, settings.selection, subProgress(progress, 0.95, 1.0));
+  poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.7, 0.75));
   spent.selection = watch.lap();
+  poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.75, 0.9));
+  spent.refinement = watch.lap();
+  poses = verifyPoses(poses, scene, model, settings.verification, subProgress(progress, 0.9, 0.93));
+  spent.verification += watch.lap();
+  poses = selectPoses(poses, scene, model, settings.selection, subProgress(progress, 0.93, 1.0));
+  poses = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
+  spent.selection += watch.lap();
   if (times)
   {
     *times = spent;

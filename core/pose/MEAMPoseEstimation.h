@@ -1,68 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mesh/SurfaceSampling.h"
-#include "mesh/SymmetryDetection.h"
-#include "model/BoundaryExtraction.h"
-#include "model/MEAMHashing.h"
+#include "features/Preset.h"
 #include "features/TangentEstimation.h"
-#include "model/VisibilityExtraction.h"
-#include "pose/voting/PoseDetection.h"
 #include "pose/refinement/PoseRefinement.h"
+#include "pose/selection/PoseSelection.h"
+#include "pose/verification/PoseScreening.h"
 #include "pose/verification/PoseVerification.h"
-#include "mesh/TriangleMesh.h"
+#include "pose/voting/PoseDetection.h"
+#include "scene/Scene.h"
+
+#include <optional>
 
 namespace meam
 {
-/// Which set of parameters every step starts from.
-enum class Preset
-{
-  Paper,      ///< Liu et al., Sensors 2018, Section 6
-  Recommended ///< what measures better
-};
-
-struct TrainingSettings
-{
-  SurfaceSamplingSettings sampling;
-  VisibilityExtractionSettings visibility;
-  BoundaryExtractionSettings boundary;
-  TangentEstimationSettings tangents;
-  bool findSymmetries = true;
-  SymmetryDetectionSettings symmetry;
-  MEAMHashingSettings hashing;
-};
-
 struct DetectionSettings
 {
   TangentEstimationSettings tangents;
+  SceneSettings scene;
   PoseDetectionSettings detection;
-  PoseVerificationSettings verification; ///< of the raw candidates
+  std::optional<PoseScreeningSettings> screening; ///< of the raw candidates; the paper has none
+  PoseVerificationSettings candidateVerification;
+  PoseSelectionSettings candidateSelection; ///< of those to be refined
   PoseRefinementSettings refinement;
-  PoseVerificationSettings selection;    ///< of the refined poses: one for each instance
+  PoseVerificationSettings verification; ///< of the refined poses
+  PoseSelectionSettings selection;       ///< one for each instance
 };
 
-TrainingSettings trainingSettings(Preset preset);
 /// `maximumPoses` is the number of poses wanted, 0 for all, and `minimumProbability` that of each; `threads` 0 for one
 /// for each processor.
 DetectionSettings detectionSettings(
   Preset preset, int maximumPoses = 5, int threads = 0, double minimumProbability = 0.0);
 
-/// The offline phase, from a prepared mesh (mm) to the trained model.
-TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress = {});
-
 /// Seconds spent in each stage of the online phase.
 struct StageTimes
 {
   double tangents = 0.0;
+  double scene = 0.0; ///< what is looked up in the scene
   double detection = 0.0;
+  double screening = 0.0;
   double verification = 0.0;
   double refinement = 0.0;
-  double selection = 0.0;
+  double selection = 0.0; ///< with the final alignment
 };
 
-/// The online phase, from edge points without tangents, as extracted, to ranked poses. The surface may be empty; all
-/// poses, `edges` and `sensor` are in the scene's coordinates (mm). Of many raw candidates a third may be refined, also when
-/// these are more than settings.verification.maximumPoses. `times` may be null.
-Poses estimatePoses(const TrainedModel& model, const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor,
-  const DetectionSettings& settings, StageTimes* times = nullptr, const Progress& progress = {});
+/// What a sensor says of a bin.
+struct SceneInput
+{
+  LocalCloud edges; ///< edge points, not thinned yet, with tangents where they are known
+  Points measured;  ///< all points that the sensor measured, in the frame of the edges; may be empty
+  Sensor sensor;    ///< in the scene's own coordinates
+};
+
+/// The online phase: ranked poses in the scene's own coordinates (mm). Everything happens in the frame of the edges.
+/// `times` may be null.
+Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
+  StageTimes* times = nullptr, const Progress& progress = {});
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/Pose.h"
 
+#include "base/Error.h"
+
 #include <cmath>
 
 namespace meam
@@ -13,6 +15,34 @@ Pose moved(const Pose& pose, const Eigen::Isometry3d& motion)
   turn.topLeftCorner<3, 3>() = motion.linear();
   turn.bottomRightCorner<3, 3>() = motion.linear();
   result.fit.covariance = turn * pose.fit.covariance * turn.transpose();
+  return result;
+}
+
+Poses toLocalFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries)
+{
+  Poses result;
+  for (const Pose& pose : poses)
+  {
+    if (!pose.T_scene_model.matrix().allFinite())
+    {
+      throw Error("Pose " + std::to_string(result.size()) + " has numbers that are not finite.");
+    }
+    result.push_back(moved(pose, T_local_scene));
+    Eigen::Isometry3d& T = result.back().T_scene_model;
+    T = nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);
+  }
+  return result;
+}
+
+Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries)
+{
+  Poses result;
+  for (const Pose& pose : poses)
+  {
+    result.push_back(moved(pose, T_local_scene.inverse()));
+    Eigen::Isometry3d& T = result.back().T_scene_model;
+    T = nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);
+  }
   return result;
 }
 

@@ -2,21 +2,22 @@
 #pragma once
 
 #include "base/PointCloud.h"
+#include "mesh/Symmetries.h"
 
 namespace meam
 {
 /// How well the scene fixes a pose: what the last step of refinement saw.
 struct PoseFit
 {
-  int iterations = 0;   ///< 0: the pose has not been refined
+  int iterations = 0;    ///< 0: the pose has not been refined
   double residual = 0.0; ///< mm, root mean square over what corresponds, weighted
   /// Of a small motion about the middle of the part's surface, scene axes: rotation vector (radians), then translation
   /// (mm). Errors of the measured points are taken as independent. Where nothing corresponds to anything: half the
   /// part's diameter in every direction.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int constrained = 0; ///< degrees of freedom, of six, that the scene's points fix
-  /// Which: the share that they fix, [0, 1], of turns about the part's x, y and z axis through that middle and of shifts
-  /// along them.
+  /// Which: the share that they fix, [0, 1], of turns about the part's x, y and z axis through that middle and of
+  /// shifts along them.
   Eigen::Matrix<double, 6, 1> constrainedAxes = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
@@ -24,8 +25,8 @@ struct PoseFit
 struct Pose
 {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm
-  double score = 0.0;           ///< [0, 1], share of what should be visible that is there; 0 until the pose is verified
-  double probability = 0.0;     ///< [0, 1], that the pose is right; 0 until it is verified
+  double score = 0.0;       ///< [0, 1], share of what should be visible that is there; 0 until the pose is verified
+  double probability = 0.0; ///< [0, 1], that the pose is right; 0 until it is verified
   /// [0, 1], how sure it is that the part is not turned by one of its near-symmetries: low when what breaks them is
   /// not in sight.
   double certainty = 1.0;
@@ -40,15 +41,31 @@ using Poses = std::vector<Pose>;
 /// The pose after a motion of the scene.
 Pose moved(const Pose& pose, const Eigen::Isometry3d& motion);
 
-/// What poses of different scenes are compared by: the probability, or the score where none is known.
-inline double confidence(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
+/// Poses in the local frame of a scene.
+struct LocalPoses
+{
+  Eigen::Isometry3d T_local_scene = Eigen::Isometry3d::Identity();
+  Poses poses;
+};
 
-/// What poses of a scene are ordered by: likely ones that nothing hides come first, for they can be grasped.
-inline double preference(const Pose& pose) { return confidence(pose) * std::sqrt(pose.visibleFraction); }
+/// Poses, in the scene's own coordinates, in its local frame: of those that are equal for a part with these symmetries
+/// the one that is turned least there, whatever the scene's coordinates are. Throws Error for a pose that is not
+/// finite.
+Poses toLocalFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries);
+
+/// Poses of the local frame in the scene's own coordinates; of those that the symmetries make equal the one that is
+/// turned least there.
+Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries);
+
+/// The probability, or the score where none is known, [0, 1]: what poses of different scenes are compared by.
+inline double probabilityOrScore(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
+
+/// What poses of one scene are ordered by, [0, 1]: likely ones that nothing hides come first, for they can be grasped.
+inline double rankingValue(const Pose& pose) { return probabilityOrScore(pose) * std::sqrt(pose.visibleFraction); }
 
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 /// Distance between where two poses take a point of the part (model frame, mm), mm.
-double translationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b,
-  const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
+double translationError(
+  const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
 }

@@ -121,8 +121,8 @@ bool largestPlane(const Points& points, double tolerance, Plane& plane)
 }
 }
 
-BackgroundRemoval removeBackground(const OrganizedCloud& cloud, const Image* mask,
-  const BackgroundRemovalSettings& settings, const Progress& progress)
+BackgroundRemoval removeBackground(
+  const OrganizedCloud& cloud, const Image* mask, const BackgroundRemovalSettings& settings, const Progress& progress)
 {
   check(cloud, mask, settings);
   report(progress, 0.0);
@@ -151,8 +151,8 @@ BackgroundRemoval removeBackground(const OrganizedCloud& cloud, const Image* mas
 
   const GridScale scale = gridScale(cloud);
   const double tolerance = settings.tolerance > 0.0
-    ? settings.tolerance
-    : PointsInTolerance * scale.pointDistance + NoiseInTolerance * scale.noise;
+                             ? settings.tolerance
+                             : PointsInTolerance * scale.pointDistance + NoiseInTolerance * scale.noise;
   const double fewest = std::max(3.0, settings.leastShare / 100.0 * static_cast<double>(left.size()));
   std::vector<int> candidates = spread(left); // those of a plane that stays are not looked at again
   const auto on = [&](const Plane& plane) {

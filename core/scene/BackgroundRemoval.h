@@ -25,8 +25,8 @@ struct BackgroundRemovalSettings
 
 struct BackgroundRemoval
 {
-  OrganizedCloud cloud; ///< what is removed is NaN
-  std::vector<Background> reasons;         ///< of every grid point; points without depth are kept as they are
+  OrganizedCloud cloud;                            ///< what is removed is NaN
+  std::vector<Background> reasons;                 ///< of every grid point; points without depth are kept as they are
   std::vector<Eigen::Hyperplane<float, 3>> planes; ///< mm, that were removed; normals point to the sensor
 };
 

@@ -19,12 +19,12 @@ public:
   {
     OnSurface,
     Hidden,   ///< the scene is in front of it
-    InFront,  ///< the scene is behind it: the sensor looked through where it should be
+    InFront,  ///< the scene is behind it: the sensor saw past where it should be
     NoSurface ///< the sensor saw nothing there
   };
 
-  /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the first axis, as
-  /// seen by the sensor. The same for any number of threads.
+  /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the first axis,
+  /// as seen by the sensor. The same for any number of threads.
   DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads = 1);
 
   /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
@@ -45,8 +45,8 @@ public:
   /// than single points.
   const Points& means() const { return this->Means; }
 
-  /// The means along the lines of sight through points; where the sensor has a gap of one cell, that of the nearest layer
-  /// beside it.
+  /// The means along the lines of sight through points; where the sensor has a gap of one cell, that of the nearest
+  /// layer beside it.
   struct Seen
   {
     float x[SoABlock], y[SoABlock], z[SoABlock];
@@ -70,10 +70,10 @@ private:
     const bool isSeen = cell.nearest < NothingSeen;
     const bool isOn =
       isSeen & ((std::abs(depth - cell.nearest) <= tolerance) | (std::abs(depth - cell.farthest) <= tolerance));
-    return isOn                ? Relation::OnSurface
-      : !isSeen                ? Relation::NoSurface
-      : cell.nearest < depth   ? Relation::Hidden
-                               : Relation::InFront;
+    return isOn                   ? Relation::OnSurface
+           : !isSeen              ? Relation::NoSurface
+           : cell.nearest < depth ? Relation::Hidden
+                                  : Relation::InFront;
   }
   struct Place
   {
@@ -99,7 +99,7 @@ private:
   {
     const Eigen::Array2f index = this->indexOf(p);
     const bool inside = index.x() >= 0.0f && index.y() >= 0.0f && index.x() < this->Width && index.y() < this->Height &&
-      !(this->IsPerspective && p.z() <= 0.0f);
+                        !(this->IsPerspective && p.z() <= 0.0f);
     return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };
   }
   struct Places
@@ -110,9 +110,14 @@ private:
   };
   void findPlaces(
     const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, Places& places) const;
-  /// Sets depths and means of the cells from `firstCell` to before `lastCell`. Returns the means.
-  Points fillCells(const Points& surface, const Points& projected, const std::vector<int>& cellOf, float layer,
-    int firstCell, int lastCell);
+  /// Points of a scan that follow each other, and the rows of the map that they come to.
+  struct Run
+  {
+    int begin, end;
+    float low, high; ///< across the lines of sight, along the map's columns
+  };
+  /// Sets depths and means of the cells in the rows from `firstRow` to before `lastRow`. Returns the means.
+  Points fillRows(const Points& surface, const std::vector<Run>& runs, float layer, int firstRow, int lastRow);
   void fillGaps(float layer, int threads);
   /// `seen` tells of the nine cells about one, `stride` from row to row.
   void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);
@@ -125,7 +130,7 @@ private:
   }
 
   bool IsPerspective;
-  Eigen::Vector3f Eye; ///< the sensor's position, or anywhere
+  Eigen::Vector3f Eye;  ///< the sensor's position, or anywhere
   Eigen::Matrix3f Axes; ///< rows: right, down, depth
   double CellSize;
   float InverseCell = 1.0f;

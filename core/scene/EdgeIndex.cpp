@@ -82,7 +82,8 @@ void search(const SoAOrientedPoints& edges, const Range* ranges, int count, cons
 /// Writes which of the edges in the ranges lie within the query's radius and, across its tangent, within `across`, and
 /// are nearly parallel. Returns their number.
 MEAM_ALL_VECTORS
-int select(const SoAOrientedPoints& edges, const Range* ranges, int count, const Query& query, float across, int* selected)
+int select(
+  const SoAOrientedPoints& edges, const Range* ranges, int count, const Query& query, float across, int* selected)
 {
   const float *ex = edges.points.x.data(), *ey = edges.points.y.data(), *ez = edges.points.z.data();
   const float *tangentX = edges.directions.x.data(), *tangentY = edges.directions.y.data(),
@@ -106,7 +107,7 @@ int select(const SoAOrientedPoints& edges, const Range* ranges, int count, const
         const float along = qx * dx + qy * dy + qz * dz;
         const float cosine = std::abs(tangentX[k] * qx + tangentY[k] * qy + tangentZ[k] * qz);
         const bool isNear = (k < end) & (squared <= squaredRadius) & (squared - along * along <= squaredAcross) &
-          (cosine > NearlyParallel);
+                            (cosine > NearlyParallel);
         passes[lane] = isNear ? 1 : 0;
       }
       for (int lane = 0; lane < Lanes; ++lane)
@@ -231,8 +232,8 @@ EdgeIndex::Match EdgeIndex::nearest(const Eigen::Vector3f& point, const Eigen::V
   Nearest nearest;
   std::fill_n(nearest.distances, Lanes, query.squaredRadius);
   std::fill_n(nearest.places, Lanes, -1);
-  this->forEachGroupOfRanges(point, radius,
-    [&](const Range* ranges, int count) { search(this->Lines, ranges, count, query, nearest); });
+  this->forEachGroupOfRanges(
+    point, radius, [&](const Range* ranges, int count) { search(this->Lines, ranges, count, query, nearest); });
   // Without a branch: floats from 0 on are ordered as their bits are. What is not found is farther than all that is.
   std::uint64_t least = ~std::uint64_t(0);
   for (int lane = 0; lane < Lanes; ++lane)

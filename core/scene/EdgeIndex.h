@@ -30,17 +30,17 @@ public:
   /// For each of several points the lines of the edge points about it.
   struct Neighbours
   {
-    std::vector<int> starts; ///< of each point's lines, and the end of the last one's
-    SoAOrientedPoints lines;   ///< and room at the end for as many as are looked at together
+    std::vector<int> starts;    ///< of each point's lines, and the end of the last one's
+    SoAOrientedPoints lines;    ///< and room at the end for as many as are looked at together
     std::vector<float> weights; ///< of these
   };
-  /// Those that `meansAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by 5
-  /// degrees. `radius` and `across` as there.
+  /// Those that `meansAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by
+  /// 5 degrees. `radius` and `across` as there.
   Neighbours neighbours(const SoAOrientedPoints& points, double radius, double across, double margin) const;
 
   struct Means
   {
-    SoAPoints offsets;       ///< mm, at right angles to the tangents
+    SoAPoints offsets;          ///< mm, at right angles to the tangents
     std::vector<float> weights; ///< its own for each edge point at the same place; 0: there is none that counts
   };
   /// How far points with unit tangents, those with these neighbours, are from the edge points about them, on average,
@@ -50,12 +50,13 @@ public:
   static Means meansAround(const Neighbours& neighbours, const SoAOrientedPoints& points, double radius, double across);
 
 private:
-  /// Calls visit(ranges, count) with ranges of the columns, several at once, that hold all within `radius` of the point.
+  /// Calls visit(ranges, count) with ranges of the columns, several at once, that hold all within `radius` of the
+  /// point.
   template <typename Visitor>
   void forEachGroupOfRanges(const Eigen::Vector3f& point, double radius, Visitor&& visit) const;
 
   PointGrid Grid;
-  SoAOrientedPoints Lines; ///< the points and their tangents, in the order of the grid, and room at the end
+  SoAOrientedPoints Lines;    ///< the points and their tangents, in the order of the grid, and room at the end
   std::vector<float> Weights; ///< of these
 };
 }

@@ -14,4 +14,8 @@ struct MeasuredCloud
   std::vector<float> intensities;   ///< grey values of any range
   std::vector<std::uint8_t> colors; ///< red, green, blue of each point
 };
+
+/// Grey values of 8 bits: those that are whole numbers up to 255 already as they are, others times what makes the
+/// largest 255; below 0 and NaN is black.
+std::vector<std::uint8_t> greyValues(const std::vector<float>& intensities);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/PointCloud.h"
+#include "scene/Image.h"
 
 namespace meam
 {
@@ -14,14 +15,5 @@ struct OrganizedCloud
   Points points;
 
   std::size_t size() const { return this->points.size(); }
-};
-
-/// An 8 bit image, row by row from the top left; 1 channel (grey) or 3 (red, green, blue).
-struct Image
-{
-  int width = 0;
-  int height = 0;
-  int channels = 1;
-  std::vector<std::uint8_t> pixels;
 };
 }

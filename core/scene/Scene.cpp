@@ -2,33 +2,62 @@
 #include "scene/Scene.h"
 
 #include "base/Error.h"
-#include "base/Frames.h"
+#include "base/Parallel.h"
+
+#include <algorithm>
 
 namespace meam
 {
-Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor, int threads)
+namespace
 {
-  Scene scene;
-  scene.frame = surface.points.empty() ? principalFrame(edges.points) : surface.frame;
-  scene.edges = inFrame(edges, scene.frame, threads);
-  scene.surface = std::move(surface.points);
-  scene.sensor = { sensor.perspective, scene.frame * sensor.position, scene.frame.linear() * sensor.direction };
-  return scene;
+/// The edges, when they can be looked up.
+LocalCloud checked(LocalCloud edges)
+{
+  const PointCloud& cloud = edges.cloud;
+  if (cloud.tangents.size() != cloud.size())
+  {
+    throw Error("The scene's edge points have no tangents: estimate them before poses are looked for.");
+  }
+  const std::vector<float>& weights = cloud.weights;
+  if (!weights.empty() && weights.size() != cloud.size())
+  {
+    throw Error("The scene has " + std::to_string(cloud.size()) + " edge points, but " +
+                std::to_string(weights.size()) + " weights of edge points.");
+  }
+  edges.cloud = finitePoints(std::move(edges.cloud));
+  requirePoints(cloud.points, "The scene's edge cloud");
+  const auto isWeight = [](float weight) { return weight >= 0.0f && weight <= 1.0f; };
+  const auto wrong = std::find_if_not(weights.begin(), weights.end(), isWeight);
+  if (wrong != weights.end())
+  {
+    throw Error("An edge point of the scene has the Weight " + std::to_string(*wrong) +
+                ": weights go from 0 to 1. Rename the array, when it is something else.");
+  }
+  return edges;
 }
 
-Poses inFrameOf(const Scene& scene, const Poses& poses, const Symmetries& symmetries)
+Sensor moved(const Sensor& sensor, const Eigen::Isometry3d& motion)
 {
-  Poses result;
-  for (const Pose& pose : poses)
+  return { sensor.perspective, motion * sensor.position, motion.linear() * sensor.direction };
+}
+}
+
+Scene::Scene(
+  LocalCloud edgePoints, const Points& measured, const Sensor& seenFrom, double diameter, const SceneSettings& settings)
+  : edges(checked(std::move(edgePoints)))
+  , sensor(moved(seenFrom, edges.T_local_scene))
+  , partDiameter(diameter)
+  , depth(measured, sensor, settings.depthCell * diameter, settings.threads)
+{
+  inParallel(
+    settings.threads, { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
+                        [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter); } });
+  if (!measured.empty() && !this->hasSurface())
   {
-    if (!pose.T_scene_model.matrix().allFinite())
-    {
-      throw Error("Pose " + std::to_string(result.size()) + " has numbers that are not finite.");
-    }
-    result.push_back(moved(pose, scene.frame));
-    Eigen::Isometry3d& T = result.back().T_scene_model;
-    T = nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);
+    throw Error(
+      "The scene has " + std::to_string(measured.size()) +
+      " surface points, but the sensor looks away from all of them: turn the view direction round, or move the sensor "
+      "position (a perspective sensor sees what lies before it).");
   }
-  return result;
 }
 }

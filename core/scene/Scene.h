@@ -1,28 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/LocalFrame.h"
-#include "mesh/Symmetries.h"
-#include "pose/Pose.h"
+#include "base/LocalCloud.h"
+#include "base/PointGrid.h"
+#include "scene/DepthMap.h"
+#include "scene/EdgeIndex.h"
 #include "scene/Sensor.h"
 
 namespace meam
 {
-/// All that is known of a bin at the time of detection; mm.
-struct Scene
+/// Cells of what is looked up in a scene, as shares of the part's diameter: about the distances that are asked for.
+struct SceneSettings
 {
-  PointCloud edges; ///< edge points with tangents
-  Points surface;   ///< all points the sensor measured; may be empty
-  Sensor sensor;
-  /// Takes the scene's own coordinates, in which poses are told, to those in which points and sensor are given here.
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  double edgeCell = 0.08;    ///< of the edge index; refinement starts with correspondences of 10 %
+  double depthCell = 0.02;   ///< of the depth map: some points of a usual scan each
+  double surfaceCell = 0.05; ///< of the measured surface's grid
+  int threads = 0;           ///< 0: one for each processor
 };
 
-/// The scene in the frame of its surface, or without one that of its edges: a scene that is moved is the same scene there.
-/// `edges` and `sensor` are in the scene's coordinates.
-Scene sceneInOwnFrame(const PreciseCloud& edges, FramedPoints surface, const Sensor& sensor, int threads = 1);
+/// A bin at the time of detection, prepared for parts of one diameter: built once, in the frame of its edge points, in
+/// which all stages work and all poses stay until the end. Lengths in mm. Calls may run in parallel.
+struct Scene
+{
+  /// `edges`: thinned edge points with tangents (estimateTangents). `measured`: all points that the sensor measured, in
+  /// their frame, or none. `sensor` in the scene's own coordinates.
+  /// Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], and when no point of
+  /// the surface lies before the sensor.
+  Scene(LocalCloud edges, const Points& measured, const Sensor& sensor, double partDiameter,
+    const SceneSettings& settings = {});
+  Scene(const Scene&) = delete;
+  void operator=(const Scene&) = delete;
 
-/// Poses, in the scene's own coordinates, in those of its points. Of poses that are equal for a part with these symmetries
-/// the one that is turned least there, whatever the scene's coordinates are. Throws Error for a pose that is not finite.
-Poses inFrameOf(const Scene& scene, const Poses& poses, const Symmetries& symmetries);
+  bool hasSurface() const { return !this->depth.means().empty(); }
+  const Eigen::Isometry3d& T_local_scene() const { return this->edges.T_local_scene; }
+  const PointCloud& edgePoints() const { return this->edges.cloud; }
+  /// Grid of the edge points.
+  const PointGrid& edgeGrid() const { return this->edgeIndex.grid(); }
+
+  LocalCloud edges;
+  Sensor sensor; ///< in the local frame
+  double partDiameter;
+  EdgeIndex edgeIndex;
+  DepthMap depth;
+  PointGrid surface; ///< of depth.means()
+};
 }

@@ -28,8 +28,8 @@ std::string unitsWarning(const Points& scene, double partDiameter)
   }
   const int factor = parts < 1.0 ? (10.0 * parts >= 1.5 ? 10 : 1000) : (parts / 10.0 <= 100.0 ? 10 : 1000);
   return "The scene spans " + number(parts * partDiameter) + " and the part's diameter is " + number(partDiameter) +
-    ": if their units differ, the likely factor is " + std::to_string(factor) + ". Scale the " +
-    (parts < 1.0 ? "scene" : "part") + " by it.";
+         ": if their units differ, the likely factor is " + std::to_string(factor) + ". Scale the " +
+         (parts < 1.0 ? "scene" : "part") + " by it.";
 }
 
 void requireSameUnits(const Points& scene, double partDiameter)
@@ -42,13 +42,15 @@ void requireSameUnits(const Points& scene, double partDiameter)
   }
   if (extent < 0.2 * partDiameter)
   {
-    throw Error("The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +
+    throw Error(
+      "The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +
       ": their units differ (a scene in metres and a part in millimetres differ by 1000). Scale the scene to the "
       "part's unit.");
   }
   if (extent > 1000.0 * partDiameter)
   {
-    throw Error("The scene spans " + number(extent) + " but the part's diameter is only " + number(partDiameter) +
+    throw Error(
+      "The scene spans " + number(extent) + " but the part's diameter is only " + number(partDiameter) +
       ": their units differ (a part in metres and a scene in millimetres differ by 1000). Scale the part to the "
       "scene's unit.");
   }

@@ -9,7 +9,7 @@ namespace meam
 /// larger than `partDiameter` allows. The message names the likely factor.
 void requireSameUnits(const Points& scene, double partDiameter);
 
-/// What to tell a user when a scene's extent is possible but unlikely for a part in the same unit, as with centimetres: it
-/// names the likely factor. Empty when there is nothing to tell.
+/// What to tell a user when a scene's extent is possible but unlikely for a part in the same unit, as with centimetres:
+/// it names the likely factor. Empty when there is nothing to tell.
 std::string unitsWarning(const Points& scene, double partDiameter);
 }

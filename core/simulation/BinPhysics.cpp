@@ -3,11 +3,11 @@
 
 #include "base/PointGrid.h"
 #include "mesh/FeatureEdges.h"
-#include "mesh/preparation/MeshPreparation.h"
 #include "mesh/SurfaceSampling.h"
+#include "mesh/TriangleMesh.h"
+#include "mesh/preparation/MeshPreparation.h"
 #include "simulation/MassProperties.h"
 #include "simulation/PartContacts.h"
-#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/Error.h"
 #include "base/PointCloud.h"
-#include "mesh/TriangleMesh.h"
 #include "base/Random.h"
+#include "mesh/TriangleMesh.h"
 
 namespace meam
 {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/Error.h"
+#include "mesh/TriangleMesh.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
 #include "simulation/VirtualSensor.h"
-#include "mesh/TriangleMesh.h"
 
 namespace meam
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/ExampleParts.h"
 
+#include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
 #include "simulation/ColumnMesh.h"
-#include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
-#include "scene/Camera.h"
-
 #include "base/PointCloud.h"
 #include "mesh/TriangleMesh.h"
+#include "scene/Camera.h"
 
 #include <algorithm>
 #include <array>

@@ -1,2 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""PPF-MEAM: 6D poses of industrial parts in a bin, as VTK algorithms. See ppfmeam.filters."""
+"""PPF-MEAM: 6D poses of industrial parts in a bin.
+
+    import ppfmeam
+    model = ppfmeam.train("part.stl")
+    print(ppfmeam.detect(model, "scan.pcd").poses)
+
+The single steps are VTK algorithms: ppfmeam.filters."""
+
+
+class Error(Exception):
+    """Something the user has to know and can act on: the message says what is wrong and what to do."""
+
+
+def __getattr__(name):
+    # Only now, so that ppfmeam.filters alone needs neither NumPy nor VTK's readers.
+    if name in ("Detections", "Model", "detect", "load", "train"):
+        from . import api
+        return getattr(api, name)
+    raise AttributeError(f"module 'ppfmeam' has no attribute '{name}'")

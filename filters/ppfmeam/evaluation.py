@@ -10,7 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from . import filters, scripting
+from . import chains, filters, scripting
 
 # mm. Part 3's STL is in another frame than its true poses.
 OFFSETS = {3: (-20.9645, -17.4974, -9.3144)}
@@ -68,8 +68,6 @@ def with_visibility(truth, model, edges, surface):
     verification = filters.vtkMEAMPoseVerification()
     for port, data in enumerate((truth, model, scripting.update(tangents).GetOutputDataObject(0), surface)):
         verification.SetInputDataObject(port, data)
-    verification.SetMaximumNumberOfPoses(0)
-    verification.SetClusterDistance(1e-6)  # every pose stays
     return scripting.update(verification).GetOutput()
 
 
@@ -148,28 +146,11 @@ class Chain(Evaluation):
 
     def __init__(self, model, choose, poses_asked_for, threads):
         super().__init__(model, poses_asked_for=poses_asked_for, threads=threads)
-        self.tangents = filters.vtkMEAMTangentEstimation()
-        self.detection = filters.vtkMEAMPoseDetection()
-        self.verification = filters.vtkMEAMPoseVerification()
-        self.refinement = filters.vtkMEAMPoseRefinement()
-        self.selection = filters.vtkMEAMPoseVerification()
-        self.selection.SetPosesPerInstance(1)
-        self.selection.SetMaximumNumberOfPoses(0)
-        self.steps = [self.tangents, self.detection, self.verification, self.refinement, self.selection]
-        self.on_surface = self.steps[2:]  # those that are told what the sensor measured
-        choose(self)
-        for before, step in zip(self.steps, self.steps[1:]):
-            step.SetInputConnection(before.GetOutputPort())
-        for step in self.steps:
-            step.SetInputDataObject(1, model)
-            step.SetNumberOfThreads(threads)
-        for step in self.steps[2:]:
-            step.SetInputConnection(2, self.tangents.GetOutputPort())
+        self.chain = chains.Detection(model, threads=threads)
+        choose(self.chain)
 
     def find(self, surface, edges):
-        self.tangents.SetInputDataObject(edges)
-        for step in self.on_surface:
-            step.SetInputDataObject(3, surface)
+        self.chain.set_scene(edges, surface)
         poses = vtkPolyData()
-        poses.ShallowCopy(scripting.update(self.selection).GetOutput())
+        poses.ShallowCopy(scripting.update(self.chain.selection).GetOutput())
         return poses

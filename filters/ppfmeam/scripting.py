@@ -6,6 +6,7 @@ import os
 import re
 import sys
 import tempfile
+import warnings
 
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonTransforms import vtkTransform
@@ -16,21 +17,21 @@ from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
+from . import Error as Failure
 from . import filters, meshfiles
 
 READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, ".ply": vtkPLYReader,
            ".stl": vtkSTLReader, ".obj": vtkOBJReader}
 IMAGES = (vtkPNGReader, vtkJPEGReader, vtkBMPReader, vtkTIFFReader)
 WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
-STAGES = ("Training", "SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total")
-
-
-class Failure(Exception):
-    """Something the user has to know and can act on."""
+STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
+          "Total")
 
 
 def run(main):
-    """Runs a script's main function; a Failure is one message and exit status 1."""
+    """Runs a script's main function; a Failure is one message and exit status 1, a warning is a line on stderr."""
+    warnings.simplefilter("always", UserWarning)
+    warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
     try:
         sys.exit(main())
     except Failure as failure:
@@ -41,7 +42,7 @@ def run(main):
 
 def update(algorithm, step="Update", *arguments):
     """Updates an algorithm (or calls another method); what it reports as an error is raised as a Failure, and what our own
-    filters warn of is printed on stderr."""
+    filters warn of is a warning."""
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
@@ -55,7 +56,7 @@ def update(algorithm, step="Update", *arguments):
     if isinstance(text, bytes):  # a message with bytes of a file that is not text
         text = text.decode(errors="replace")
     for warning in re.findall(r"Warning: In .*\nvtkMEAM\w+ \(.*?\): ((?:.+\n?)+)", text):
-        print("warning: " + " ".join(warning.split()), file=sys.stderr)
+        warnings.warn(" ".join(warning.split()), stacklevel=3)
     errors = re.findall(r"ERROR: In .*\n(?:\w+ \(.*?\): )?((?:.+\n?)+)", text)
     if errors:
         causes = [error for error in errors if "returned failure for request" not in error]
@@ -149,15 +150,20 @@ def read(path, scale=1.0):
     data = read_with(READERS[extension](), path)
     if data.GetNumberOfPoints() == 0:
         raise Failure(f"{path} has no points: it is empty, cut off, or no {extension[1:].upper()} file")
+    return scaled(data, scale, path)
+
+
+def scaled(data, scale, what):
+    """The points times a factor; `what` they are is for the message."""
     if scale == 1.0:
         return data
     if not 0 < scale < float("inf"):
-        raise Failure(f"{path}: the scale has to be a positive number, not {scale}")
-    transform, scaled = vtkTransform(), vtkTransformFilter()
+        raise Failure(f"{what}: the scale has to be a positive number, not {scale}")
+    transform, filter = vtkTransform(), vtkTransformFilter()
     transform.Scale(scale, scale, scale)
-    scaled.SetTransform(transform)
-    scaled.SetInputDataObject(data)
-    return update(scaled).GetOutputDataObject(0)
+    filter.SetTransform(transform)
+    filter.SetInputDataObject(data)
+    return update(filter).GetOutputDataObject(0)
 
 
 def read_mesh(path, offset=(0, 0, 0), scale=1.0):
@@ -165,6 +171,11 @@ def read_mesh(path, offset=(0, 0, 0), scale=1.0):
     data = read(path)
     if not data.IsA("vtkPolyData"):
         raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.stl, .obj, .ply or .off)")
+    return prepare_mesh(data, offset, scale)
+
+
+def prepare_mesh(data, offset=(0, 0, 0), scale=1.0):
+    """The clean mesh of a vtkPolyData, scaled to mm and moved by an offset in mm."""
     preparation = filters.vtkMEAMMeshPreparation()
     preparation.SetInputDataObject(data)
     preparation.SetScale(scale)
@@ -209,6 +220,8 @@ def read_depth(path, camera, scale=0.0):
 
 def read_model(path):
     """The trained model that write_model wrote."""
+    if path.lower().endswith(".meam"):
+        return read_with(filters.vtkMEAMModelReader(), path)
     return read_with(vtkXMLPartitionedDataSetCollectionReader(), path)
 
 
@@ -267,10 +280,16 @@ def resolve_conflicts(found, models, scene, edges, preset="recommended", poses=0
 
 
 def write_model(model, path):
-    """Writes a trained model, NAME.vtpc and the folder NAME beside it, whole or not at all."""
+    """Writes a trained model, NAME.meam, or NAME.vtpc and the folder NAME beside it, whole or not at all."""
     name, extension = os.path.splitext(os.path.basename(path))
-    if extension != ".vtpc":
-        raise Failure(f"{path}: the name of a trained model ends in .vtpc")
+    if extension not in (".meam", ".vtpc"):
+        raise Failure(f"{path}: the name of a trained model ends in .meam, or .vtpc")
+    if extension == ".meam":
+        writer = filters.vtkMEAMModelWriter()
+        writer.SetInputDataObject(model)
+        writer.SetFileName(path)
+        update(writer, "Write")
+        return
     folder = os.path.dirname(os.path.abspath(path))
     with tempfile.TemporaryDirectory(dir=folder) as scratch:
         writer = vtkXMLPartitionedDataSetCollectionWriter()

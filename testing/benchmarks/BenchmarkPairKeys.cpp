@@ -42,10 +42,10 @@ void run(benchmark::State& state, const meam::PointCloud& edges, Compute&& compu
 
 void computeKeys(benchmark::State& state, const scenes::Search& search)
 {
-  const meam::PairKeys pairs(search.scene.edges, search.model.quantizer());
-  std::vector<int> blocks((search.scene.edges.size() + meam::BlockedPoints::Size - 1) / meam::BlockedPoints::Size);
+  const meam::PairKeys pairs(search.edges().cloud, search.model.quantizer());
+  std::vector<int> blocks((search.edges().cloud.size() + meam::BlockedPoints::Size - 1) / meam::BlockedPoints::Size);
   std::iota(blocks.begin(), blocks.end(), 0);
-  run(state, search.scene.edges,
+  run(state, search.edges().cloud,
     [&](const meam::TangentFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)
     {
       constexpr int size = meam::BlockedPoints::Size;
@@ -60,14 +60,14 @@ void PairKeysByScenePoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
   computeKeys(state, search);
-  scenes::growsWith(state, search.scene.edges.size());
+  scenes::growsWith(state, search.edges().cloud.size());
 }
 BENCHMARK(PairKeysByScenePoints)->ArgsProduct({ scenes::Copies })->Unit(benchmark::kMillisecond);
 
 void PairKeysOneByOne(benchmark::State& state)
 {
   const scenes::Search& search = *scenes::bracketSearch();
-  const meam::PointCloud& edges = search.scene.edges;
+  const meam::PointCloud& edges = search.edges().cloud;
   const meam::PairFeatureQuantizer quantizer = search.model.quantizer();
   run(state, edges,
     [&](const meam::TangentFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refinement of verified poses: along lines and planes, and by PCL's point-to-point ICP, the paper's way. The first
-// argument is the number of threads, of By... what grows.
+// Refinement of verified poses: along lines and planes, and by PCL's point-to-point ICP, the paper's way; selection of
+// one for each instance, with its final alignment. The first argument is the number of threads, of By... what grows.
 #include "BenchmarkScene.h"
 
 namespace
 {
 void refine(benchmark::State& state, const scenes::Search& search, meam::PoseRefinementSettings settings, int threads)
 {
-  const meam::SceneIndex index(search.model, search.scene);
-  const meam::Poses poses = meam::verifyPoses(meam::detectPoses(search.scene.edges, search.model), index);
+  const meam::Poses poses = scenes::Candidates(search).alternatives;
   settings.threads = threads;
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(meam::refinePoses(poses, index, settings));
+    benchmark::DoNotOptimize(meam::refinePoses(poses, search.scene, search.model, settings));
   }
   state.counters["poses/s"] =
     benchmark::Counter(static_cast<double>(poses.size()), benchmark::Counter::kIsIterationInvariantRate);
@@ -34,7 +33,7 @@ void RefinementByScenePoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
   refine(state, search, {}, 1);
-  scenes::growsWith(state, search.scene.edges.size());
+  scenes::growsWith(state, search.edges().cloud.size());
 }
 BENCHMARK(RefinementByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
 
@@ -45,4 +44,28 @@ void RefinementByModelPoints(benchmark::State& state)
   scenes::growsWith(state, search.model.edges.size());
 }
 BENCHMARK(RefinementByModelPoints)->ArgsProduct({ scenes::Leaves })->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void select(benchmark::State& state, const scenes::Search& search, int threads)
+{
+  const meam::Poses poses = scenes::Candidates(search).refined;
+  meam::PoseSelectionSettings settings;
+  settings.threads = threads;
+  for (auto _ : state)
+  {
+    benchmark::DoNotOptimize(meam::selectPoses(poses, search.scene, search.model, settings));
+  }
+  state.counters["poses/s"] =
+    benchmark::Counter(static_cast<double>(poses.size()), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void Selection(benchmark::State& state) { select(state, *scenes::bracketSearch(), static_cast<int>(state.range(0))); }
+BENCHMARK(Selection)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void SelectionByScenePoints(benchmark::State& state)
+{
+  const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
+  select(state, search, 1);
+  scenes::growsWith(state, search.edges().cloud.size());
+}
+BENCHMARK(SelectionByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
 }

@@ -18,8 +18,8 @@ void estimate(benchmark::State& state, const scenes::Search& search, int threads
 
 void Scene(benchmark::State& state, scenes::SearchOf searchOf)
 {
-  scenes::withSearch(state, searchOf,
-    [&](const scenes::Search& search) { estimate(state, search, static_cast<int>(state.range(0))); });
+  scenes::withSearch(
+    state, searchOf, [&](const scenes::Search& search) { estimate(state, search, static_cast<int>(state.range(0))); });
 }
 BENCHMARK_CAPTURE(Scene, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Scene, tohoku, scenes::tohokuSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
@@ -28,7 +28,7 @@ void SceneByScenePoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
   estimate(state, search, 1);
-  scenes::growsWith(state, search.scan.edges.size());
+  scenes::growsWith(state, search.seen.edges.size());
 }
 BENCHMARK(SceneByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
 

@@ -2,7 +2,7 @@
 // What the benchmarks share: brackets on a table and, where it is there, a scene of the Tohoku dataset.
 #pragma once
 
-#include "pose/MEAMPoseEstimation.h"
+#include "../core/TestScene.h"
 
 #include <benchmark/benchmark.h>
 
@@ -12,17 +12,39 @@ namespace scenes
 struct Search
 {
   const meam::TrainedModel& model;
-  const meam::Scene& scene; ///< its edges have tangents
-  const meam::Scene& scan;  ///< before they had
+  const meam::Scene& scene;
+  const Seen& seen; ///< what it is made of; its edges have no tangents yet
+
+  const meam::LocalCloud& edges() const { return this->scene.edges; }
 };
 
-/// The whole online phase, from the scan as a filter has it.
+/// The whole online phase, from what the sensor saw, as a filter has it.
 inline meam::Poses estimatePoses(const Search& search, const meam::DetectionSettings& settings)
 {
-  const meam::Scene& scan = search.scan;
-  const int threads = settings.tangents.threads;
-  return meam::estimatePoses(search.model, scan.edges, meam::inOwnFrame(scan.surface, threads), scan.sensor, settings);
+  return estimatePoses(search.model, search.seen, settings);
 }
+
+/// What the first steps of the online phase come to, one thread, in the local frame.
+struct Candidates
+{
+  explicit Candidates(const Search& search)
+    : settings(meam::detectionSettings(meam::Preset::Recommended, 0, 1))
+    , detected(meam::detectPoses(search.edges(), search.model, this->settings.detection))
+    , screened(meam::screenPoses(this->detected, search.scene, search.model, *this->settings.screening))
+  {
+    const auto& [model, scene, seen] = search;
+    this->alternatives = meam::verifyPoses(this->screened, scene, model, this->settings.candidateVerification);
+    this->alternatives = meam::selectPoses(this->alternatives, scene, model, this->settings.candidateSelection);
+    this->refined = meam::refinePoses(this->alternatives, scene, model, this->settings.refinement);
+    this->refined = meam::verifyPoses(this->refined, scene, model, this->settings.verification);
+  }
+
+  meam::DetectionSettings settings;
+  meam::Poses detected;
+  meam::Poses screened;
+  meam::Poses alternatives; ///< of the screened ones, verified, those to be refined
+  meam::Poses refined;      ///< and verified again
+};
 
 /// Copies of the bracket on a table, far enough from each other that no pair of points joins two; the bracket as it is
 /// trained by default.

@@ -2,8 +2,8 @@
 // From a scan of 1280 x 1024 points and its image to edge points with tangents, thinned as for a search: the
 // sample part in a simulated bin. The first argument is the noise of the depth in tenths of a millimetre at 1 m,
 // the second the number of threads.
-#include "mesh/ConvexHull.h"
 #include "features/TangentEstimation.h"
+#include "mesh/ConvexHull.h"
 #include "scene/BackgroundRemoval.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "simulation/BinScene.h"
@@ -32,13 +32,14 @@ const meam::BinScene& bin(int tenths, double baseline = 0.0)
   return bins[{ tenths, baseline }] = meam::simulateBin(meam::makeSamplePart(), settings);
 }
 
-meam::EdgeTangents edgesOf(const meam::BinScene& scene, const meam::SceneEdgeExtractionSettings& settings)
+meam::ThinnedEdges edgesOf(const meam::BinScene& scene, const meam::SceneEdgeExtractionSettings& settings)
 {
   static const double diameter = meam::diameter(meam::makeSamplePart().vertices);
   meam::TangentEstimationSettings tangents;
   tangents.threads = settings.threads;
-  return meam::estimateTangents(meam::extractSceneEdges(scene.cloud, scene.image, settings).cloud, diameter,
-    Eigen::Vector3d::UnitZ(), tangents);
+  const meam::PointCloud edges = meam::extractSceneEdges(scene.cloud, scene.image, settings).cloud;
+  return meam::estimateTangents(
+    meam::toLocalCloud(edges, settings.threads), diameter, Eigen::Vector3d::UnitZ(), tangents);
 }
 
 void run(benchmark::State& state, meam::SceneEdgeExtractionSettings settings, double baseline = 0.0)
@@ -48,7 +49,7 @@ void run(benchmark::State& state, meam::SceneEdgeExtractionSettings settings, do
   std::size_t points = 0;
   for (auto _ : state)
   {
-    points = edgesOf(scene, settings).points.size();
+    points = edgesOf(scene, settings).indices.size();
   }
   state.counters["points"] = static_cast<double>(points);
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BenchmarkScene.h"
-
-#include "../core/TestScene.h"
 #include "io/PCDFile.h"
-#include "mesh/preparation/MeshPreparation.h"
 #include "mesh/TriangleMesh.h"
+#include "mesh/preparation/MeshPreparation.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -15,13 +13,22 @@ namespace scenes
 {
 namespace
 {
+meam::Scene preparedOf(const Seen& seen, double diameter) { return prepared(withTangents(seen, diameter), diameter); }
+
 /// A trained part and a scene of it, kept.
 struct KeptSearch
 {
+  KeptSearch(meam::TrainedModel trained, Seen inScene)
+    : model(std::move(trained))
+    , seen(std::move(inScene))
+    , scene(preparedOf(this->seen, this->model.diameter))
+  {
+  }
+
   meam::TrainedModel model;
-  meam::Scene scan;
+  Seen seen;
   meam::Scene scene;
-  Search search{ model, scene, scan };
+  Search search{ model, scene, seen };
 };
 
 meam::TriangleMesh readAsciiSTL(const std::string& path)
@@ -51,10 +58,10 @@ const Value& kept(std::map<int, Value>& values, int argument, Make&& make)
   return found != values.end() ? found->second : values[argument] = make();
 }
 
-const meam::Scene& scanOfBrackets(int copies)
+const Seen& seenBrackets(int copies)
 {
-  static std::map<int, meam::Scene> scans;
-  return kept(scans, copies,
+  static std::map<int, Seen> seen;
+  return kept(seen, copies,
     [&]
     {
       const int inRow = static_cast<int>(std::ceil(std::sqrt(copies)));
@@ -69,12 +76,15 @@ const meam::Scene& scanOfBrackets(int copies)
 
 const meam::Scene& sceneOfBrackets(int copies)
 {
-  static std::map<int, meam::Scene> scans;
-  return kept(scans, copies, [&] { return withTangents(scanOfBrackets(copies)); });
+  static std::map<int, std::unique_ptr<const meam::Scene>> built;
+  return *kept(built, copies,
+    [&] {
+      return std::unique_ptr<const meam::Scene>(new meam::Scene(preparedOf(seenBrackets(copies), bracket().diameter)));
+    });
 }
 }
 
-Search searchOfCopies(int copies) { return { bracket(), sceneOfBrackets(copies), scanOfBrackets(copies) }; }
+Search searchOfCopies(int copies) { return { bracket(), sceneOfBrackets(copies), seenBrackets(copies) }; }
 
 Search searchOfThinned(int tenths)
 {
@@ -86,7 +96,7 @@ Search searchOfThinned(int tenths)
       settings.tangents.leafSize = 0.1 * tenths;
       return meam::trainModel(parts::lBracket(), settings);
     });
-  return { model, sceneOfBrackets(12), scanOfBrackets(12) };
+  return { model, sceneOfBrackets(12), seenBrackets(12) };
 }
 
 const Search* bracketSearch()
@@ -106,16 +116,13 @@ const Search* tohokuSearch()
       return nullptr;
     }
     const meam::TriangleMesh mesh = readAsciiSTL(folder + "Part_1.STL");
-    auto result = std::make_unique<KeptSearch>();
-    result->model = meam::trainModel(mesh, meam::trainingSettings(meam::Preset::Recommended));
-    result->scan.surface = meam::readPCD(folder + "Scenes/Scene0.pcd").cloud.points;
-    result->scan.edges.points = meam::readPCD(folder + "Scenes/Scene_boundary0.pcd").cloud.points;
-    result->scan.sensor.perspective = false;
-    result->scan.sensor.direction = -Eigen::Vector3d::UnitZ();
-    result->scene = result->scan;
-    result->scene.edges =
-      parts::withTangents(result->scan.edges, result->model.diameter, result->scan.sensor.direction);
-    return result;
+    Seen seen;
+    seen.surface = meam::readPCD(folder + "Scenes/Scene0.pcd").cloud.points;
+    seen.edges.points = meam::readPCD(folder + "Scenes/Scene_boundary0.pcd").cloud.points;
+    seen.sensor.perspective = false;
+    seen.sensor.direction = -Eigen::Vector3d::UnitZ();
+    return std::make_unique<KeptSearch>(
+      meam::trainModel(mesh, meam::trainingSettings(meam::Preset::Recommended)), std::move(seen));
   }();
   return kept ? &kept->search : nullptr;
 }

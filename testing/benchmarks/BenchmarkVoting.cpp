@@ -4,7 +4,6 @@
 // included; CastVotes and Peaks are what they name.
 #include "BenchmarkScene.h"
 
-#include "base/LocalFrame.h"
 #include "base/PointGrid.h"
 #include "pose/voting/VoteAccumulator.h"
 
@@ -24,7 +23,7 @@ class Pairs
 public:
   explicit Pairs(const scenes::Search& search)
     : Searched(search)
-    , References(meam::inOwnFrame(search.scene.edges).cloud)
+    , References(search.edges().cloud)
     , Referred(this->References.subset(meam::thinPoints(this->References.points, search.model.votingLeaf())))
     , Grid(this->Referred.points, 0.25 * search.model.diameter)
     , Blocks(this->Referred.points)
@@ -116,7 +115,7 @@ void detect(benchmark::State& state, const scenes::Search& search, int threads)
   const Cast cast = castBy(search);
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(meam::detectPoses(search.scene.edges, search.model, settings));
+    benchmark::DoNotOptimize(meam::detectPoses(search.edges(), search.model, settings));
   }
   state.counters["votes/s"] = benchmark::Counter(cast.votes, benchmark::Counter::kIsIterationInvariantRate);
   state.counters["votes/bucket"] = cast.votes / cast.buckets;
@@ -124,8 +123,8 @@ void detect(benchmark::State& state, const scenes::Search& search, int threads)
 
 void Voting(benchmark::State& state, SearchOf searchOf)
 {
-  scenes::withSearch(state, searchOf,
-    [&](const scenes::Search& search) { detect(state, search, static_cast<int>(state.range(0))); });
+  scenes::withSearch(
+    state, searchOf, [&](const scenes::Search& search) { detect(state, search, static_cast<int>(state.range(0))); });
 }
 BENCHMARK_CAPTURE(Voting, bracket, scenes::bracketSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Voting, tohoku, scenes::tohokuSearch)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
@@ -134,7 +133,7 @@ void VotingByScenePoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfCopies(static_cast<int>(state.range(0)));
   detect(state, search, 1);
-  scenes::growsWith(state, search.scene.edges.size());
+  scenes::growsWith(state, search.edges().cloud.size());
 }
 BENCHMARK(VotingByScenePoints)->ArgsProduct({ scenes::Copies })->UseRealTime()->Unit(benchmark::kMillisecond);
 
@@ -264,8 +263,8 @@ void findPeaks(benchmark::State& state, const scenes::Search& search, int peaks)
 /// The argument is how many peaks; of Threads each finds all of them.
 void Peaks(benchmark::State& state, SearchOf searchOf)
 {
-  scenes::withSearch(state, searchOf,
-    [&](const scenes::Search& search) { findPeaks(state, search, static_cast<int>(state.range(0))); });
+  scenes::withSearch(
+    state, searchOf, [&](const scenes::Search& search) { findPeaks(state, search, static_cast<int>(state.range(0))); });
 }
 void oneAndTwo(benchmark::internal::Benchmark* peaks)
 {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/Error.h"
-#include "io/FileBytes.h"
+#include "io/parsing/FileBytes.h"
 
 #include <gtest/gtest.h>
 

@@ -7,11 +7,13 @@
 #include "io/CameraFile.h"
 #include "io/DepthImage.h"
 #include "io/ImageFile.h"
+#include "io/MeshFile.h"
 #include "io/ModelsInfo.h"
 #include "io/OFFFile.h"
 #include "io/PCDFile.h"
 #include "io/PLYFile.h"
 #include "io/PoseFile.h"
+#include "model/ModelFile.h"
 
 #include <liblzf/lzf.h>
 
@@ -152,6 +154,64 @@ std::string ply(const std::string& format, const std::string& data)
          data;
 }
 
+/// CRC-32, as PNG and our own files have it.
+std::uint32_t checksum(std::string_view bytes)
+{
+  std::uint32_t sum = 0xffffffff;
+  for (const char byte : bytes)
+  {
+    sum ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit)
+    {
+      sum = sum >> 1 ^ (sum & 1 ? 0xedb88320 : 0);
+    }
+  }
+  return ~sum;
+}
+
+/// Gives a trained model's file its right check sum again.
+std::string withChecksum(std::string bytes)
+{
+  constexpr std::size_t start = 12; // signature and version
+  if (bytes.size() >= start + 4)
+  {
+    const std::size_t end = bytes.size() - 4;
+    bytes.replace(end, 4, files::raw(checksum(std::string_view(bytes).substr(start, end - start))));
+  }
+  return bytes;
+}
+
+/// Eight edge points of a part of 10 mm, all close to each other, and two pairs of them.
+meam::TrainedModel smallModel()
+{
+  meam::TrainedModel model;
+  model.diameter = 10.0;
+  model.digest = "0123";
+  model.settings.distanceStep = 1.0;
+  model.settings.angleStep = 90.0;
+  model.viewDirections = { Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX() };
+  for (int i = 0; i < 8; ++i)
+  {
+    const Eigen::Vector3f point(0.1f * (i & 1), 0.1f * (i >> 1 & 1), 0.1f * (i >> 2));
+    model.edges.points.push_back(point);
+    model.edges.tangents.push_back(Eigen::Vector3f::UnitY());
+    model.edgeViews.push_back(1 + i % 3);
+    model.edgeVisible.push_back(3);
+    model.surface.points.push_back(point);
+    model.surface.normals.push_back(Eigen::Vector3f::UnitZ());
+  }
+  model.symmetries.discrete = { Eigen::Isometry3d::Identity() };
+  model.symmetries.continuous = { { Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero() } };
+  model.symmetries.near = { { Eigen::Isometry3d::Identity(), 0.9, 0.1 } };
+  model.table.offsets.assign(static_cast<std::size_t>(model.quantizer().numberOfKeys()) + 1, 2);
+  model.table.offsets.front() = 0;
+  model.table.references = { 0, 1 };
+  model.table.referreds = { 7, 6 };
+  model.table.angles = { 0.5f, -0.5f };
+  model.table.viewBits = { 1, 2 };
+  return model;
+}
+
 /// Gives every chunk of a PNG file its right check sum again, as far as chunks can be told apart.
 std::string withChecksums(std::string png)
 {
@@ -164,18 +224,10 @@ std::string withChecksums(std::string png)
     {
       break;
     }
-    std::uint32_t sum = 0xffffffff;
-    for (std::size_t i = at + 4; i < at + 8 + length; ++i)
-    {
-      sum ^= byteAt(i);
-      for (int bit = 0; bit < 8; ++bit)
-      {
-        sum = sum >> 1 ^ (sum & 1 ? 0xedb88320 : 0);
-      }
-    }
+    const std::uint32_t sum = checksum(std::string_view(png).substr(at + 4, 4 + length));
     for (int i = 0; i < 4; ++i)
     {
-      png[at + 8 + length + i] = static_cast<char>(~sum >> (24 - 8 * i));
+      png[at + 8 + length + i] = static_cast<char>(sum >> (24 - 8 * i));
     }
     at += 12 + length;
   }
@@ -342,4 +394,37 @@ TEST_P(FuzzedFiles, modelsInfo)
 {
   const files::Folder folder(place());
   fuzz(folder.path("models_info.json"), { modelsInfo }, [](const std::string& path) { meam::readModelsInfo(path, 1); });
+}
+
+TEST(FuzzedFiles, trainedModel)
+{
+  const files::Folder folder(place());
+  const std::string path = folder.path("a.meam");
+  meam::writeModel(path, smallModel());
+  fuzz(
+    path, { meam::readFile(path) }, [](const std::string& file) { EXPECT_GT(meam::readModel(file).votingEdges, 0); },
+    withChecksum);
+}
+
+TEST(FuzzedFiles, mesh)
+{
+  const files::Folder folder(place());
+  const std::string facet =
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1e0 0\nendloop\nendfacet\n";
+  const std::string corners(36, '\x3f');
+  const auto read = [](const std::string& path) { EXPECT_FALSE(meam::readMesh(path).triangles.empty()); };
+  fuzz(folder.path("a.stl"),
+    { "solid part\n" + facet + facet + "endsolid part\n",
+      std::string(80, ' ') + files::raw<std::uint32_t>(2) + std::string(12, '\0') + corners + "  " +
+        std::string(12, '\0') + std::string(9, '\0') + std::string(27, '\x3e') + "  " },
+    read);
+  fuzz(folder.path("a.obj"),
+    { "# a part\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf -4 -3 -2 -1\n" }, read);
+  const std::string header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                             "property list uchar int vertex_indices\nend_header\n";
+  fuzz(folder.path("a.ply"),
+    { "ply\nformat ascii 1.0\n" + header + "0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n",
+      "ply\nformat binary_little_endian 1.0\n" + header + std::string(12, '\0') + corners.substr(0, 24) + "\3" +
+        files::raw(0) + files::raw(1) + files::raw(2) },
+    read);
 }

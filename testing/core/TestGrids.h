@@ -12,8 +12,7 @@
 namespace grids
 {
 /// x = column, y = row, 1 mm apart; z by a function of them, NaN where it is NaN.
-inline meam::OrganizedCloud surface(
-  int width, int height, const std::function<double(int, int)>& z, double noise = 0.0)
+inline meam::OrganizedCloud surface(int width, int height, const std::function<double(int, int)>& z, double noise = 0.0)
 {
   meam::OrganizedCloud cloud;
   cloud.width = width;

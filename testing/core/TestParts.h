@@ -89,6 +89,39 @@ inline meam::TriangleMesh windowPlate()
   return mesh;
 }
 
+/// A gear of ten teeth, one of which is missing: turns by 36 degrees are near-symmetries.
+inline meam::TriangleMesh gear()
+{
+  constexpr int Corners = 40;
+  meam::TriangleMesh mesh;
+  for (const float z : { 0.0f, 10.0f })
+  {
+    for (int k = 0; k < Corners; ++k)
+    {
+      const bool tooth = k % 4 < 2 && k >= 4;
+      const double angle = k * M_PI / 20.0;
+      mesh.vertices.emplace_back((tooth ? 34.0 : 28.0) * std::cos(angle), (tooth ? 34.0 : 28.0) * std::sin(angle), z);
+    }
+  }
+  mesh.vertices.emplace_back(0, 0, 0);
+  mesh.vertices.emplace_back(0, 0, 10);
+  for (int k = 0; k < Corners; ++k)
+  {
+    const int next = (k + 1) % Corners;
+    mesh.triangles.push_back({ next, k, 2 * Corners });
+    mesh.triangles.push_back({ Corners + k, Corners + next, 2 * Corners + 1 });
+    mesh.triangles.push_back({ k, next, Corners + next });
+    mesh.triangles.push_back({ k, Corners + next, Corners + k });
+  }
+  return mesh;
+}
+
+/// A square plate of 60 x 60 x 10 mm with one corner cut off: quarter turns and flips are near-symmetries.
+inline meam::TriangleMesh cutPlate()
+{
+  return prism({ { -30, -30 }, { 30, -30 }, { 30, 20 }, { 6, 30 }, { -30, 30 } }, 10);
+}
+
 inline Eigen::Isometry3d motion(std::mt19937& random, double reach)
 {
   const auto number = [&] { return random() / 2147483648.0 - 1.0; };
@@ -129,14 +162,13 @@ inline meam::PrecisePoints moved(const meam::PrecisePoints& points, const Eigen:
   return result;
 }
 
-/// In double precision.
-inline meam::PreciseCloud moved(const meam::PreciseCloud& cloud, const Eigen::Isometry3d& T)
+inline meam::PrecisePoints precise(const meam::Points& points)
 {
-  Eigen::Isometry3d R = Eigen::Isometry3d::Identity();
-  R.linear() = T.linear();
-  meam::PreciseCloud result = cloud;
-  result.points = moved(cloud.points, T);
-  result.tangents = moved(cloud.tangents, R);
+  meam::PrecisePoints result;
+  for (const auto& point : points)
+  {
+    result.push_back(point.cast<double>());
+  }
   return result;
 }
 
@@ -144,14 +176,13 @@ inline meam::PreciseCloud moved(const meam::PreciseCloud& cloud, const Eigen::Is
 inline meam::PointCloud withTangents(const meam::PointCloud& edges, double partDiameter,
   const Eigen::Vector3d& viewDirection, const meam::TangentEstimationSettings& settings = {})
 {
-  const meam::EdgeTangents found = meam::estimateTangents(edges, partDiameter, viewDirection, settings);
-  meam::PointCloud result = edges.subset(found.points);
-  result.tangents.clear();
-  for (const auto& tangent : found.tangents)
-  {
-    result.tangents.push_back(tangent.cast<float>());
-  }
-  result.weights = found.weights;
+  const meam::ThinnedEdges found =
+    meam::estimateTangents(meam::toLocalCloud(edges), partDiameter, viewDirection, settings);
+  Eigen::Isometry3d toScene = Eigen::Isometry3d::Identity();
+  toScene.linear() = found.edges.T_local_scene.linear().transpose();
+  meam::PointCloud result = edges.subset(found.indices);
+  result.tangents = moved(found.edges.cloud.tangents, toScene);
+  result.weights = found.edges.cloud.weights;
   return result;
 }
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the tests of the simulated sensor look at.
 #pragma once
-
-#include "simulation/Rasterizer.h"
 #include "mesh/TriangleMesh.h"
+#include "simulation/Rasterizer.h"
 
 namespace meam::test
 {

@@ -13,6 +13,8 @@ from ppfmeam.filters import (
     vtkMEAMPoseDetection,
     vtkMEAMPoseEstimation,
     vtkMEAMPoseRefinement,
+    vtkMEAMPoseScreening,
+    vtkMEAMPoseSelection,
     vtkMEAMPoseVerification,
     vtkMEAMTangentEstimation,
     vtkMEAMVisibilityExtraction,
@@ -46,7 +48,9 @@ filters = [
     connect(vtkMEAMPoseEstimation(), trained.prepared, scene.surface, scene.edges),  # most of it is training
     tangents,
     connect(vtkMEAMPoseDetection(), edges, model),
+    connect(vtkMEAMPoseScreening(), candidates, model, edges),
     connect(vtkMEAMPoseVerification(), candidates, model, edges),
+    connect(vtkMEAMPoseSelection(), candidates, model, edges),
     connect(vtkMEAMPoseRefinement(), candidates, model, edges),
 ]
 for filter in filters:

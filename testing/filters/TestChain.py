@@ -4,13 +4,11 @@ import os
 
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 
+from ppfmeam.chains import Detection
 from ppfmeam.filters import (
     vtkMEAMPCDReader,
-    vtkMEAMPoseDetection,
+    vtkMEAMPoseEstimation,
     vtkMEAMPoseReader,
-    vtkMEAMPoseRefinement,
-    vtkMEAMPoseVerification,
-    vtkMEAMTangentEstimation,
 )
 from meamtest import Trained, check, connect, field, pose_error, run, skip, tuples
 
@@ -35,30 +33,29 @@ published = tuples(run(reader(vtkMEAMPoseReader, "Results", "trans0.txt")), "Tra
 check(len(published) == 20, f"{len(published)} published poses")
 
 
-def detect(paper):
-    tangents = connect(vtkMEAMTangentEstimation(), boundary, trained.model)
-    detection = connect(vtkMEAMPoseDetection(), tangents, trained.model)
-    verification = connect(vtkMEAMPoseVerification(), detection, trained.model, tangents, surface)
-    refinement = connect(vtkMEAMPoseRefinement(), verification, trained.model, tangents, surface)
-    selection = connect(vtkMEAMPoseVerification(), refinement, trained.model, tangents, surface)
-    if paper:
-        for filter in (tangents, detection, verification, refinement, selection):
-            filter.SetParametersToPaper()
-    selection.SetPosesPerInstance(1)
-    selection.SetMaximumNumberOfPoses(5)
-    return run(selection)
+def detect(preset):
+    """By the single filters, and by all in one: the same poses to the last bit."""
+    chain = Detection(trained.model, boundary, surface, preset)
+    found = run(chain.selection)
+    box = connect(vtkMEAMPoseEstimation(), trained.model, surface, boundary)
+    box.SetMaximumNumberOfPoses(0)
+    getattr(box, "SetPresetTo" + preset.capitalize())()
+    check(tuples(run(box), "Transform") == tuples(found, "Transform"), f"{preset}: the chain and the one filter differ")
+    for name in ("Score", "Probability", "Certainty", "VisibleFraction", "Covariance"):
+        check(tuples(run(box), name) == tuples(found, name), f"{preset}: {name} of the chain and of the one filter differ")
+    return found
 
 
 for paper in (False, True):
     if paper:
         trained.tangents.SetParametersToPaper()
         trained.model.SetParametersToPaper()
-    found = detect(paper)
+    found = detect("paper" if paper else "recommended")
     diameter = field(found, "Diameter")[0][0]
     check(abs(diameter - 49.4) < 0.1, f"the diameter is {diameter}")
-    check(found.GetNumberOfPoints() == 5, f"{found.GetNumberOfPoints()} poses")
+    check(found.GetNumberOfPoints() >= 5, f"{found.GetNumberOfPoints()} poses")
     right = 0
-    for rank, transform in enumerate(tuples(found, "Transform"), 1):
+    for rank, transform in enumerate(tuples(found, "Transform")[:5], 1):
         mm, degrees = min(pose_error(transform, p) for p in published)
         right += mm < 0.1 * diameter and degrees < 5
         print(f"{'paper' if paper else 'recommended'} {rank}: {mm:.3f} mm, {degrees:.3f} degrees")

@@ -15,7 +15,8 @@ from ppfmeam.filters import (
 from meamtest import (Errors, Trained, check, cloud, collection, connect, fails, field, image, is_empty, points, prints, run,
                       tuples)
 
-STAGES = ["Training", "SceneEdges", "Tangents", "Detection", "Verification", "Refinement", "Selection", "Total"]
+STAGES = ["Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
+          "Total"]
 
 source = vtkMEAMBinSceneSource()
 source.SetCopies(4)
@@ -58,7 +59,8 @@ check(field(run(evaluation), "StrictRate") == [(100,)], "both poses are right")
 (first,), (second,) = tuples(poses, "Score")
 check(tuples(poses, "Rank") == [(1,), (2,)] and 1 >= first >= second > 0.5, f"scores {first}, {second}")
 parts = [seconds(filter, stage) for stage in STAGES]
-check(all(s >= 0 for s in parts) and sum(parts[:-1]) <= parts[-1] * 1.001, f"the stages add up: {parts}")
+check(all(s >= 0 for s in parts) and 0.97 * parts[-1] <= sum(parts[:-1]) <= parts[-1] * 1.001,
+      f"the stages add up to the total: {parts}")
 check(field(poses, "Diameter") == field(truth, "Diameter"), "the diameter travels along")
 edges = filter.GetOutputDataObject(1)
 check(field(poses, "SceneEdgePoints") == [(edges.GetNumberOfPoints(),)], "the edges are the second output")

@@ -10,11 +10,10 @@ from vtkmodules.vtkCommonDataModel import vtkPartitionedDataSetCollection
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
+from ppfmeam.chains import Detection
 from ppfmeam.filters import (
     vtkMEAMHashing,
     vtkMEAMPoseDetection,
-    vtkMEAMPoseRefinement,
-    vtkMEAMPoseVerification,
     vtkMEAMTangentEstimation,
 )
 from meamtest import (
@@ -38,15 +37,11 @@ from meamtest import (
 
 def detect(scene, model):
     """The online phase on an edge cloud alone."""
-    tangents = connect(vtkMEAMTangentEstimation(), scene.edges, model)
-    step = connect(vtkMEAMPoseDetection(), tangents, model)
-    step.SetReferenceShare(0.5)
-    for filter in (vtkMEAMPoseVerification(), vtkMEAMPoseRefinement(), vtkMEAMPoseVerification()):
-        step = connect(filter, step, model, tangents)
-        step.SetViewDirection(scene.looking)
-    step.SetPosesPerInstance(1)
-    step.SetMaximumNumberOfPoses(5)
-    return run(step)
+    chain = Detection(model, scene.edges)
+    chain.detection.SetReferenceShare(0.5)
+    chain.set_sensor(view_direction=scene.looking)
+    chain.selection.SetMaximumNumberOfPoses(5)
+    return run(chain.selection)
 
 
 def write(collection, path):

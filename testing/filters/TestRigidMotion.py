@@ -11,13 +11,10 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 
+from ppfmeam.chains import Detection
 from ppfmeam.filters import (
     vtkMEAMPCDReader,
-    vtkMEAMPoseDetection,
     vtkMEAMPoseEstimation,
-    vtkMEAMPoseRefinement,
-    vtkMEAMPoseVerification,
-    vtkMEAMTangentEstimation,
 )
 from meamtest import LONG, MovedView, Trained, bracket, check, connect, is_rotation, pose_error, run, tuples
 
@@ -61,16 +58,9 @@ def at_once(model, scene):
 
 
 def step_by_step(model, scene):
-    tangents = connect(vtkMEAMTangentEstimation(), scene.edges, model)
-    detection = connect(vtkMEAMPoseDetection(), tangents, model)
-    verification = connect(vtkMEAMPoseVerification(), detection, model, tangents, scene.surface)
-    refinement = connect(vtkMEAMPoseRefinement(), verification, model, tangents, scene.surface)
-    selection = connect(vtkMEAMPoseVerification(), refinement, model, tangents, scene.surface)
-    selection.SetPosesPerInstance(1)
-    selection.SetMaximumNumberOfPoses(0)
-    for step in (tangents, verification, refinement, selection):
-        step.SetViewDirection(scene.looking)
-    return run(selection)
+    chain = Detection(model, scene.edges, scene.surface)
+    chain.set_sensor(view_direction=scene.looking)
+    return run(chain.selection)
 
 
 def check_same(poses, expected, motion, what):

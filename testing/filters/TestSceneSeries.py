@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A series of three scans: every filter that has a scene follows its time, whatever its first input is."""
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
+from ppfmeam.chains import Detection
 from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
     vtkMEAMConflictResolution,
-    vtkMEAMPoseDetection,
     vtkMEAMPoseEstimation,
     vtkMEAMPoseEvaluation,
     vtkMEAMPoseInstances,
-    vtkMEAMPoseRefinement,
-    vtkMEAMPoseVerification,
     vtkMEAMSceneEdgeExtraction,
-    vtkMEAMTangentEstimation,
 )
 from meamtest import Errors, Trained, check, connect, field, pose_error, run, tuples
 
@@ -28,8 +26,7 @@ class Series(VTKPythonAlgorithmBase):
         self.data = scans, truths
 
     def FillOutputPortInformation(self, port, info):
-        info.Set(self.GetOutputDataObject(port).DATA_TYPE_NAME() if self.GetOutputDataObject(port) else
-                 self.data[port][0].DATA_TYPE_NAME(), ("vtkStructuredGrid", "vtkPolyData")[port])
+        info.Set(vtkDataObject.DATA_TYPE_NAME(), ("vtkStructuredGrid", "vtkPolyData")[port])
         return 1
 
     def RequestInformation(self, request, inputs, outputs):
@@ -98,15 +95,10 @@ estimation.SetInputConnection(1, series.GetOutputPort(0))
 
 # The chain of single filters, the part's model first where a filter has it first.
 edges = connect(vtkMEAMSceneEdgeExtraction(), series)
-tangents = connect(vtkMEAMTangentEstimation(), edges, model)
-candidates = connect(vtkMEAMPoseDetection(), tangents, model)
-verified = connect(vtkMEAMPoseVerification(), candidates, model, tangents, series)
-refined = connect(vtkMEAMPoseRefinement(), verified, model, tangents, series)
-selected = connect(vtkMEAMPoseVerification(), refined, model, tangents, series)
-selected.SetPosesPerInstance(1)
-resolved = connect(vtkMEAMConflictResolution(), selected, model, tangents, series)
+steps = Detection(model, edges, series)
+resolved = connect(vtkMEAMConflictResolution(), steps.selection, model, steps.tangents, series)
 instances = connect(vtkMEAMPoseInstances(), resolved, part)
-chain = [edges, tangents, candidates, verified, refined, selected, resolved, instances]
+chain = [edges, *steps.steps, resolved, instances]
 
 for filter in (estimation, *chain):
     announces(filter)

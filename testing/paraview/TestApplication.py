@@ -23,10 +23,13 @@ def build_and_show():
     edges = simple.TangentEstimation(Input=simple.OutputPort(edges, 0), Model=model)
     candidates = simple.PoseDetection(Input=edges, Model=model)
     scan = simple.OutputPort(scene, 0)
-    verified = simple.PoseVerification(Input=candidates, Model=model, SceneEdges=edges, SceneSurface=scan)
-    refined = simple.PoseRefinement(Input=verified, Model=model, SceneEdges=edges, SceneSurface=scan)
-    ranked = simple.PoseVerification(Input=refined, Model=model, SceneEdges=edges, SceneSurface=scan,
-                                     PosesPerInstance=1, MaximumNumberOfPoses=5)
+    scene = {"Model": model, "SceneEdges": edges, "SceneSurface": scan}
+    screened = simple.PoseScreening(Input=candidates, **scene)
+    verified = simple.PoseVerification(Input=screened, **scene)
+    alternatives = simple.PoseSelection(Input=verified, Method="Alternatives", **scene)
+    refined = simple.PoseRefinement(Input=alternatives, **scene)
+    scored = simple.PoseVerification(Input=refined, **scene)
+    ranked = simple.PoseSelection(Input=scored, MaximumNumberOfPoses=5, **scene)
     chain = simple.PoseInstances(Input=ranked, Mesh=mesh)
     box = simple.MEAMPoseEstimation(Input=mesh, Scene=scan)
 

@@ -85,8 +85,8 @@ double largestDistance(const Points& points, const TriangleMesh& mesh, const Pro
   {
     if (areaOf(mesh, triangle) > 0.0)
     {
-      triangles.emplace_back(toPoint(mesh.vertices[triangle[0]]), toPoint(mesh.vertices[triangle[1]]),
-        toPoint(mesh.vertices[triangle[2]]));
+      triangles.emplace_back(
+        toPoint(mesh.vertices[triangle[0]]), toPoint(mesh.vertices[triangle[1]]), toPoint(mesh.vertices[triangle[2]]));
     }
   }
   Tree tree(triangles.begin(), triangles.end());
@@ -112,8 +112,8 @@ double meshDistance(const TriangleMesh& a, const TriangleMesh& b, const Progress
   {
     area += areaOf(a, triangle);
   }
-  const double wanted = std::max({ LeastPoints, static_cast<double>(a.vertices.size()),
-    static_cast<double>(b.vertices.size()) });
+  const double wanted =
+    std::max({ LeastPoints, static_cast<double>(a.vertices.size()), static_cast<double>(b.vertices.size()) });
   const double spacing = std::sqrt(area / wanted);
   const double ofA = largestDistance(spread(a, spacing), b, subProgress(progress, 0.0, 0.5));
   const double ofB = largestDistance(spread(b, spacing), a, subProgress(progress, 0.5, 1.0));

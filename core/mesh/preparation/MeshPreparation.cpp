@@ -2,11 +2,11 @@
 #include "mesh/preparation/MeshPreparation.h"
 
 #include "mesh/ConvexHull.h"
+#include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshOrientation.h"
 #include "mesh/preparation/MeshRemeshing.h"
 #include "mesh/preparation/MeshRepair.h"
 #include "mesh/preparation/MeshSimplification.h"
-#include "mesh/TriangleMesh.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -82,8 +82,7 @@ std::string describe(const MeshReport& report)
   {
     add(report.intersections, "pair of triangles intersects", "pairs of triangles intersect");
   }
-  found.push_back(
-    report.closed ? "closed" : "open: " + counted(report.borderEdges, "border edge", "border edges"));
+  found.push_back(report.closed ? "closed" : "open: " + counted(report.borderEdges, "border edge", "border edges"));
   found.push_back(counted(report.components, "component", "components") + " of " +
                   counted(report.triangles, "triangle", "triangles"));
   std::string text;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/Error.h"
+#include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
 #include "mesh/preparation/SurfaceMesh.h"
-#include "mesh/TriangleMesh.h"
 
 namespace meam
 {

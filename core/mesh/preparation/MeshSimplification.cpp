@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/preparation/MeshSimplification.h"
 
-#include "mesh/preparation/MeshDistance.h"
 #include "mesh/TriangleMesh.h"
+#include "mesh/preparation/MeshDistance.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
@@ -195,8 +195,8 @@ Mesh toOpenMesh(const TriangleMesh& mesh)
   }
   for (const auto& triangle : mesh.triangles)
   {
-    result.add_face(result.vertex_handle(triangle[0]), result.vertex_handle(triangle[1]),
-      result.vertex_handle(triangle[2]));
+    result.add_face(
+      result.vertex_handle(triangle[0]), result.vertex_handle(triangle[1]), result.vertex_handle(triangle[2]));
   }
   if (result.n_faces() != mesh.triangles.size())
   {

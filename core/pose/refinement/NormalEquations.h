@@ -52,16 +52,17 @@ public:
   {
     /// Of the motion (rotation vector, translation): the inverse of its covariance for residuals of variance 1.
     Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity(); ///< to apply on the left; the identity when nothing can be said
-    double weights = 0.0;     ///< their sum
-    double squares = 0.0;     ///< sum of the squared residuals, weighted
-    double remaining = 0.0;   ///< the same after the motion, to first order
+    Eigen::Isometry3d motion =
+      Eigen::Isometry3d::Identity(); ///< to apply on the left; the identity when nothing can be said
+    double weights = 0.0;            ///< their sum
+    double squares = 0.0;            ///< sum of the squared residuals, weighted
+    double remaining = 0.0;          ///< the same after the motion, to first order
   };
   Result result();
 
 private:
-  static constexpr int Lanes = 8;        // residuals that are summed at once
-  static constexpr int Values = 8;       // of a residual: its row of the Jacobian, itself, its weight
+  static constexpr int Lanes = 8;         // residuals that are summed at once
+  static constexpr int Values = 8;        // of a residual: its row of the Jacobian, itself, its weight
   static constexpr int Sums = 21 + 6 + 2; // lower triangle of the information, right side, squares, weights
 
   void sum();

@@ -3,14 +3,15 @@
 
 #include "base/Error.h"
 #include "pose/Pose.h"
-#include "pose/SceneIndex.h"
+#include "pose/refinement/FinalAlignment.h"
+#include "pose/refinement/PoseFitter.h"
 
 namespace meam
 {
 enum class RefinementMethod
 {
-  PointToPoint,       ///< Section 5.3 of the paper: PCL's ICP with the edge appearance model
-  EdgesAndSurface     ///< edge points to scene tangents, surface points to planes, those visible only
+  PointToPoint,   ///< Section 5.3 of the paper: PCL's ICP with the edge appearance model
+  EdgesAndSurface ///< edge points to scene tangents, surface points to planes, those visible only
 };
 
 /// Lengths in mm; a length of 0 follows the part's diameter.
@@ -18,33 +19,21 @@ struct PoseRefinementSettings
 {
   RefinementMethod method = RefinementMethod::EdgesAndSurface;
   int iterations = 10;
-  double maximumDistance = 0.0; ///< between corresponding points; 0: 10 % of the diameter, point-to-point 4 %
-  int threads = 0;              ///< 0: one for each processor
+  double maximumDistance = 0.0; ///< between corresponding points at the start; 0: a share of the diameter:
+  double distanceShare = 0.1;
+  double pointDistanceShare = 0.04; ///< the same of point-to-point ICP
+  double lastDistanceShare = 0.12;  ///< of that distance at the end: correspondences get nearer step by step
+  int fullSteps = 1;                ///< the last ones, with all points
+  int coarseStride = 4;             ///< of the points in the steps before one of so many
+  PoseFitterSettings fitter;
+  int threads = 0; ///< 0: one for each processor
 };
 
 /// The paper's settings in place of the recommended ones.
 PoseRefinementSettings paperRefinementSettings();
 
-/// Iterative closest point for each pose (paper, Section 5.3), in the order they come; scores stay.
-/// Without a surface only edges count. Of poses that the part's symmetries make equal the nearest to what came comes out.
-/// Throws Error for less than one iteration.
-Poses refinePoses(const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings = {},
-  const Progress& progress = {});
-
-/// The same of poses in the frame of the scene's points.
-Poses refineInFrame(const Poses& poses, const SceneIndex& index, const PoseRefinementSettings& settings = {},
-  const Progress& progress = {});
-
-/// The pose, in the frame of the scene's points, refined once more by edges and surface, by residuals that change steadily
-/// and until it stays: from anywhere within 2 % of the diameter the same place. As it came where the scene leaves it a
-/// freedom that is none of the part's symmetries, or leads it farther away. The residual is that of means over edge points,
-/// less than that of the points.
-Pose settlePose(const Pose& pose, const SceneIndex& index);
-
-/// refinePoses in a scene that nothing else is asked about. Throws Error when the scene has no edges.
-inline Poses refinePoses(const Poses& poses, const TrainedModel& model, const Scene& scene, const PoseRefinementSettings& settings = {},
-  const Progress& progress = {})
-{
-  return refinePoses(poses, SceneIndex(model, scene, settings.threads), settings, progress);
-}
+/// Iterative closest point for each pose (paper, Section 5.3), in the order they come, in the local frame; scores stay.
+/// Without a surface only edges count. Throws Error for less than one iteration.
+Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
+  const PoseRefinementSettings& settings = {}, const Progress& progress = {});
 }

@@ -9,11 +9,9 @@ namespace meam
 {
 namespace
 {
-constexpr int Most = NormalEquations::Rows::Most;
-
 MEAM_ALL_VECTORS
-void againstSurface(const SoAOrientedPoints& surface, int first, const DepthMap::Seen& seen, const SurfaceWeights& weights,
-  NormalEquations::Rows& rows)
+void againstSurface(const SoAOrientedPoints& surface, int first, const DepthMap::Seen& seen,
+  const SurfaceWeights& weights, NormalEquations::Rows& rows)
 {
   const float *x = &surface.points.x[first], *y = &surface.points.y[first], *z = &surface.points.z[first];
   const float *u = &surface.directions.x[first], *v = &surface.directions.y[first], *w = &surface.directions.z[first];
@@ -78,23 +76,23 @@ void addSurfaceResiduals(
   const int size = static_cast<int>(surface.size());
   DepthMap::Seen seen;
   NormalEquations::Rows rows;
-  for (int begin = 0; begin < size; begin += Most)
+  for (int begin = 0; begin < size; begin += SoABlock)
   {
-    rows.count = std::min(Most, size - begin);
+    rows.count = std::min(SoABlock, size - begin);
     depth.meansAt(surface.points, begin, rows.count, seen);
     againstSurface(surface, begin, seen, weights, rows);
     fit.add(rows);
   }
 }
 
-void addLineResiduals(NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets,
-  const std::vector<float>& weights)
+void addLineResiduals(
+  NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets, const std::vector<float>& weights)
 {
   const int size = static_cast<int>(lines.size());
   NormalEquations::Rows along, beside;
-  for (int begin = 0; begin < size; begin += Most)
+  for (int begin = 0; begin < size; begin += SoABlock)
   {
-    along.count = beside.count = std::min(Most, size - begin);
+    along.count = beside.count = std::min(SoABlock, size - begin);
     acrossLines(lines, begin, offsets, weights.data(), along, beside);
     fit.add(along);
     fit.add(beside);

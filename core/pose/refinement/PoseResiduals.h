@@ -21,6 +21,6 @@ void addSurfaceResiduals(
 
 /// Adds to `fit` by what `offsets` (mm) points are off lines at right angles to the lines' directions: two residuals of
 /// each.
-void addLineResiduals(NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets,
-  const std::vector<float>& weights);
+void addLineResiduals(
+  NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets, const std::vector<float>& weights);
 }

@@ -2,7 +2,7 @@
 #include "pose/selection/ConflictResolution.h"
 
 #include "base/Parallel.h"
-#include "pose/verification/PoseEvidence.h"
+#include "pose/verification/PoseVerification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,19 +13,12 @@ namespace meam
 {
 namespace
 {
-// Shares of the diameter.
-constexpr double VerifiedShare = 0.03;  // within which verification matches
-constexpr double ExplainedShare = 0.02; // a point this far from a part is not explained
-constexpr double ResolvedShare = 0.01;  // what the distance to a part's surface is known to
-
-constexpr double MostProbable = 0.99;      // no pose is surer: 99 to 1
-
 /// What the sensor measured, the same for all parts: the finest of the maps of its surface, or the scene's edges.
 struct Measured
 {
-  explicit Measured(const SceneIndex& ofSmallest)
-    : points(ofSmallest.scene.surface.empty() ? ofSmallest.scene.edges.points : ofSmallest.depth.means())
-    , grid(ofSmallest.scene.surface.empty() ? ofSmallest.edges : ofSmallest.surface)
+  explicit Measured(const Scene& ofSmallest)
+    : points(ofSmallest.hasSurface() ? ofSmallest.depth.means() : ofSmallest.edgePoints().points)
+    , grid(ofSmallest.hasSurface() ? ofSmallest.surface : ofSmallest.edgeGrid())
   {
   }
 
@@ -43,9 +36,10 @@ struct Claim
 
 /// The measured points within `tolerance` (mm) of the part.
 std::vector<int> explainedPoints(
-  const Measured& measured, const SceneIndex& index, const Eigen::Isometry3d& T_scene_model, double tolerance)
+  const Measured& measured, const PartDetections& part, const Eigen::Isometry3d& T_scene_model, double tolerance)
 {
-  const DistanceField& distance = index.hasSurfaces() ? index.model.surfaceDistance : index.model.edgeDistance;
+  const DistanceField& distance =
+    haveSurfaces(part.scene, part.model) ? part.model.surfaceDistance : part.model.edgeDistance;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Isometry3f toModel = T.inverse();
   std::vector<int> explained;
@@ -61,27 +55,27 @@ std::vector<int> explainedPoints(
   return explained;
 }
 
-/// 1 when nothing that the pose predicts in sight is missing, 0 when as much is missing as is there. Missing is what the
-/// sensor looked past, and, since another pose may do without it, what was not measured.
+/// 1 when nothing that the pose predicts in sight is missing, 0 when as much is missing as is there. Missing is what
+/// the sensor saw past, and, since another pose may do without it, what was not measured.
 double soundShare(const std::vector<PointState>& states)
 {
   const auto matched = std::count(states.begin(), states.end(), PointState::Matched);
   const auto missing = std::count(states.begin(), states.end(), PointState::Violated) +
-    std::count(states.begin(), states.end(), PointState::Unknown);
+                       std::count(states.begin(), states.end(), PointState::Unknown);
   return matched > missing ? static_cast<double>(matched - missing) / matched : 0.0;
 }
 
-Claim claimOf(const PartPose& pose, const SceneIndex& index, const Measured& measured, double tolerance)
+Claim claimOf(const PartPose& pose, const PartDetections& part, const Measured& measured, double tolerance,
+  const ConflictResolutionSettings& settings)
 {
-  const Pose inFrame = inFrameOf(index.scene, { pose.pose }, index.model.symmetries).front();
-  const Eigen::Isometry3d& T = inFrame.T_scene_model;
-  const EvidenceCollector collector(index, VerifiedShare * index.model.diameter);
+  const Eigen::Isometry3d& T = pose.pose.T_scene_model;
+  const EvidenceCollector collector(part.scene, part.model, settings.evidence);
   const PoseEvidence evidence = collector.collect(T);
-  Claim claim{ pose, explainedPoints(measured, index, T, tolerance) };
-  claim.pose.pose.viewId = index.viewOf(inFrame);
-  const double probability = std::min(confidence(pose.pose), MostProbable);
+  Claim claim{ pose, explainedPoints(measured, part, T, tolerance) };
+  claim.pose.pose.viewId = viewOf(pose.pose, part.scene, part.model);
+  const double probability = std::min(probabilityOrScore(pose.pose), settings.mostProbable);
   claim.support = probability / (1.0 - probability) * claim.points.size() *
-    soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
+                  soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
   return claim;
 }
 
@@ -90,7 +84,7 @@ bool betterSupported(const Claim& a, const Claim& b)
   const auto key = [](const Claim& claim)
   {
     const Pose& pose = claim.pose.pose;
-    return std::make_tuple(claim.support, confidence(pose), pose.score, pose.visibleFraction);
+    return std::make_tuple(claim.support, probabilityOrScore(pose), pose.score, pose.visibleFraction);
   };
   return key(a) > key(b);
 }
@@ -99,23 +93,23 @@ bool betterSupported(const Claim& a, const Claim& b)
 double sharedPoints(const Claim& a, const Claim& b)
 {
   std::vector<int> common;
-  std::set_intersection(
-    a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
+  std::set_intersection(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
   const std::size_t fewer = std::min(a.points.size(), b.points.size());
   return fewer > 0 ? static_cast<double>(common.size()) / fewer : 0.0;
 }
 
 /// The part with the smallest diameter, after checks.
-const SceneIndex& smallest(const std::vector<PartDetections>& parts)
+const PartDetections& smallest(const std::vector<PartDetections>& parts)
 {
-  const SceneIndex* least = &parts.front().index;
+  const PartDetections* least = &parts.front();
   for (const PartDetections& part : parts)
   {
-    if (part.index.scene.surface.empty() != least->scene.surface.empty())
+    if (part.scene.hasSurface() != least->scene.hasSurface())
     {
-      throw Error("Some parts were looked for with the scene's surface and others without: use the same scene for all.");
+      throw Error(
+        "Some parts were looked for with the scene's surface and others without: use the same scene for all.");
     }
-    least = part.index.model.diameter < least->model.diameter ? &part.index : least;
+    least = part.model.diameter < least->model.diameter ? &part : least;
   }
   return *least;
 }
@@ -131,28 +125,29 @@ std::vector<PartPose> resolveConflicts(
   std::vector<Claim> claims;
   for (std::size_t part = 0; part < parts.size(); ++part)
   {
-    for (const Pose& pose : parts[part].poses)
+    for (std::size_t i = 0; i < parts[part].poses.size(); ++i)
     {
-      claims.push_back({ { static_cast<int>(part), pose }, {} });
+      claims.push_back({ { static_cast<int>(part), static_cast<int>(i), parts[part].poses[i] }, {} });
     }
   }
   if (claims.empty())
   {
     return {};
   }
-  const SceneIndex& finest = smallest(parts);
-  const Measured measured(finest);
+  const PartDetections& finest = smallest(parts);
+  const Measured measured(finest.scene);
   parallelFor(static_cast<int>(claims.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        const SceneIndex& index = parts[claims[i].pose.part].index;
-        const double diameter = index.model.diameter;
+        const PartDetections& part = parts[claims[i].pose.part];
+        const double diameter = part.model.diameter;
+        const double unexplained = settings.evidence.lengths.unexplained;
         const double tolerance = settings.tolerance > 0.0
-          ? std::min(settings.tolerance, ExplainedShare * diameter)
-          : std::max(ExplainedShare * finest.model.diameter, ResolvedShare * diameter);
-        claims[i] = claimOf(claims[i].pose, index, measured, tolerance);
+                                   ? std::min(settings.tolerance, unexplained * diameter)
+                                   : std::max(unexplained * finest.model.diameter, settings.resolvedShare * diameter);
+        claims[i] = claimOf(claims[i].pose, part, measured, tolerance, settings);
       }
     });
   std::stable_sort(claims.begin(), claims.end(), betterSupported);
@@ -167,7 +162,7 @@ std::vector<PartPose> resolveConflicts(
     }
   }
   std::stable_sort(kept.begin(), kept.end(),
-    [](const Claim* a, const Claim* b) { return preference(a->pose.pose) > preference(b->pose.pose); });
+    [](const Claim* a, const Claim* b) { return rankingValue(a->pose.pose) > rankingValue(b->pose.pose); });
   if (settings.maximumPoses > 0 && kept.size() > static_cast<std::size_t>(settings.maximumPoses))
   {
     kept.resize(settings.maximumPoses);

@@ -10,9 +10,6 @@ namespace meam
 {
 namespace
 {
-constexpr int MostCompared = 300;   // poses that are all compared with each other to find those of one instance
-constexpr double SharedByOne = 0.5; // share of the matched surface from which on two poses are of one instance
-
 /// Places that are of one instance, directly or by others between them, ascending: different groups have nothing to do
 /// with each other.
 std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before)
@@ -37,41 +34,44 @@ std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before
 }
 }
 
-PoseClusters::PoseClusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const Symmetries& same,
-  const SceneIndex& index, const EvidenceCollector& collector, const PoseComparison* comparison,
-  const PoseVerificationSettings& settings, double distance, double reach)
+PoseClusters::PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
+  const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
+  int threads)
   : InPoses(poses)
-  , Evidence(evidence)
   , Same(same)
   , Collector(collector)
   , Comparison(comparison)
   , Settings(settings)
-  , Distance(distance)
-  , Reach(reach)
+  , Threads(threads)
+  , Distance(settings.distanceFor(model.diameter))
+  , SharedWithin(settings.sharedWithin * model.diameter)
+  , SharedDistance(settings.sharedDistance * model.diameter)
+  , MatchedPoints(poses.size())
   , Contenders(poses.size())
 {
   for (const Pose& pose : poses)
   {
-    this->Middles.push_back(pose.T_scene_model * index.view.middle().cast<double>());
+    this->Middles.push_back(pose.T_scene_model * model.visibility->middle().cast<double>());
   }
 }
 
-std::vector<int> PoseClusters::select(const std::vector<int>& ranked, const Progress& progress)
+std::vector<int> PoseClusters::select(const Progress& progress)
 {
-  const int count = static_cast<int>(ranked.size());
+  const int count = static_cast<int>(this->InPoses.size());
   std::vector<char> stays(count, 0);
-  if (count <= MostCompared)
+  this->collectMatched();
+  if (count <= this->Settings.allCompared)
   {
-    const std::vector<std::vector<int>> before = this->instancesBefore(ranked);
+    const std::vector<std::vector<int>> before = this->instancesBefore();
     const std::vector<std::vector<int>> groups = joined(before);
-    parallelFor(count, this->Settings.threads, progress,
+    parallelFor(count, this->Threads, progress,
       [&](int begin, int end, int)
       {
         for (int g = begin; g < end; ++g)
         {
           for (const int k : groups[g])
           {
-            this->choose(k, before[k], ranked, stays);
+            this->choose(k, before[k], stays);
           }
         }
       });
@@ -84,12 +84,12 @@ std::vector<int> PoseClusters::select(const std::vector<int>& ranked, const Prog
       std::vector<int> before;
       for (int other = 0; other < k; ++other)
       {
-        if (stays[other] && this->sameInstance(ranked[k], ranked[other]))
+        if (stays[other] && this->sameInstance(k, other))
         {
           before.push_back(other);
         }
       }
-      this->choose(k, before, ranked, stays);
+      this->choose(k, before, stays);
     }
   }
   std::vector<int> selected;
@@ -97,7 +97,7 @@ std::vector<int> PoseClusters::select(const std::vector<int>& ranked, const Prog
   {
     if (stays[k])
     {
-      selected.push_back(ranked[k]);
+      selected.push_back(k);
     }
   }
   return selected;
@@ -113,18 +113,46 @@ const PoseComparison::Contender& PoseClusters::contender(int index)
   return *known;
 }
 
-std::vector<std::vector<int>> PoseClusters::instancesBefore(const std::vector<int>& ranked) const
+void PoseClusters::collectMatched()
 {
-  const int count = static_cast<int>(ranked.size());
+  if (!this->Comparison)
+  {
+    return;
+  }
+  const int count = static_cast<int>(this->InPoses.size());
+  parallelFor(count, this->Threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int k = begin; k < end; ++k)
+      {
+        const bool isAskedFor = std::any_of(this->Middles.begin(), this->Middles.end(),
+          [&](const Eigen::Vector3d& other)
+          {
+            const double apart = (other - this->Middles[k]).norm();
+            return apart >= this->Distance && apart < this->SharedWithin;
+          });
+        if (isAskedFor)
+        {
+          Matched& matched = this->MatchedPoints[k];
+          matched.points = this->Collector->collect(this->InPoses[k].T_scene_model).matched();
+          matched.grid = PointGrid(matched.points, this->SharedDistance);
+        }
+      }
+    });
+}
+
+std::vector<std::vector<int>> PoseClusters::instancesBefore()
+{
+  const int count = static_cast<int>(this->InPoses.size());
   std::vector<std::vector<int>> before(count);
-  parallelFor(count, this->Settings.threads, {},
+  parallelFor(count, this->Threads, {},
     [&](int begin, int end, int)
     {
       for (int k = begin; k < end; ++k)
       {
         for (int other = 0; other < k; ++other)
         {
-          if (this->sameInstance(ranked[k], ranked[other]))
+          if (this->sameInstance(k, other))
           {
             before[k].push_back(other);
           }
@@ -134,23 +162,22 @@ std::vector<std::vector<int>> PoseClusters::instancesBefore(const std::vector<in
   return before;
 }
 
-void PoseClusters::choose(
-  int k, const std::vector<int>& before, const std::vector<int>& ranked, std::vector<char>& stays)
+void PoseClusters::choose(int k, const std::vector<int>& before, std::vector<char>& stays)
 {
   std::vector<int> alternatives;
   std::copy_if(before.begin(), before.end(), std::back_inserter(alternatives), [&](int other) { return stays[other]; });
   const bool isKnown = std::any_of(alternatives.begin(), alternatives.end(),
-    [&](int other) { return this->turnBetween(ranked[k], ranked[other]) < this->Settings.clusterAngle; });
+    [&](int other) { return this->turnBetween(k, other) < this->Settings.angle; });
   if (isKnown)
   {
     return;
   }
   if (static_cast<int>(alternatives.size()) >= this->Settings.posesPerInstance)
   {
-    const bool isBest = this->Comparison &&
+    const bool isBest =
+      this->Comparison &&
       std::all_of(alternatives.begin(), alternatives.end(),
-        [&](int other)
-        { return this->Comparison->advantage(this->contender(ranked[k]), this->contender(ranked[other])) > 0.0; });
+        [&](int other) { return this->Comparison->advantage(this->contender(k), this->contender(other)) > 0.0; });
     if (!isBest)
     {
       return;
@@ -170,8 +197,28 @@ bool PoseClusters::sameInstance(int a, int b) const
   {
     return apart < this->Distance;
   }
-  // Two parts do not have their surface in the same place.
-  return apart < this->Reach && this->Collector.shared(this->Evidence[a], this->Evidence[b]) > SharedByOne;
+  return apart < this->SharedWithin && this->shareMatches(a, b);
+}
+
+bool PoseClusters::shareMatches(int a, int b) const
+{
+  const Points& points = this->MatchedPoints[a].points;
+  const PointGrid& others = this->MatchedPoints[b].grid;
+  const double wanted = this->Settings.shared * static_cast<double>(points.size());
+  std::size_t shared = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    shared += others.nearest(points[k], this->SharedDistance) >= 0 ? 1 : 0;
+    if (static_cast<double>(shared) > wanted)
+    {
+      return true;
+    }
+    if (static_cast<double>(shared + points.size() - k - 1) <= wanted) // the rest cannot make up for it
+    {
+      return false;
+    }
+  }
+  return false;
 }
 
 double PoseClusters::turnBetween(int a, int b) const

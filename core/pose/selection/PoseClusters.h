@@ -1,48 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Error.h"
+#include "pose/Pose.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/verification/PoseEvidence.h"
-#include "pose/verification/PoseVerification.h"
 
 #include <optional>
 
 namespace meam
 {
+struct PoseClustersSettings
+{
+  double distance = 0.0; ///< mm, poses whose middles are nearer than this are of one instance; 0: 10 % of the diameter
+  double distanceShare = 0.1;
+  double distanceFor(double diameter) const
+  {
+    return this->distance > 0.0 ? this->distance : this->distanceShare * diameter;
+  }
+  double angle = 15.0;      ///< poses of one instance that are turned less than this (degrees) are the same
+  int posesPerInstance = 1; ///< that stay
+  /// Share of the matched points from which on two poses are of one instance, when these are compared: two parts do not
+  /// have their surface in the same place.
+  double shared = 0.5;
+  double sharedWithin = 0.5;    ///< of the diameter: middles farther apart than this are of two instances all the same
+  double sharedDistance = 0.04; ///< of the diameter, between matched points: a little over their spacing
+  int allCompared = 300;        ///< of more poses than this each is compared only with those that stay
+};
+
 /// Decides which poses of one instance stay. Keeps references to what it is made of.
 class PoseClusters
 {
 public:
-  /// Poses up to the symmetries `same`, near ones among them, are the same. `comparison` may be null: then the better
-  /// score decides. Middles nearer than `distance` (mm) are of one instance, those farther apart than `reach` of two.
-  PoseClusters(const Poses& poses, const std::vector<PoseEvidence>& evidence, const Symmetries& same,
-    const SceneIndex& index, const EvidenceCollector& collector, const PoseComparison* comparison,
-    const PoseVerificationSettings& settings, double distance, double reach);
+  /// Poses up to the symmetries `same`, near ones among them, are the same. `comparison` decides between poses of an
+  /// instance; null: the one that comes first stays. `collector` may be null without it.
+  PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
+    const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
+    int threads);
 
-  /// Of the poses `ranked`, indices with the best first, those that stay.
-  std::vector<int> select(const std::vector<int>& ranked, const Progress& progress);
+  /// Of the poses, best first, the indices of those that stay.
+  std::vector<int> select(const Progress& progress);
 
   /// Different ones may be asked for in parallel.
   const PoseComparison::Contender& contender(int index);
 
 private:
-  /// For each place in `ranked` those of the same instance that come before it.
-  std::vector<std::vector<int>> instancesBefore(const std::vector<int>& ranked) const;
-  /// Whether the one at place `k` stays, and whether those of its instance, `before` it, still do.
-  void choose(int k, const std::vector<int>& before, const std::vector<int>& ranked, std::vector<char>& stays);
+  /// For each pose those of the same instance that come before it.
+  std::vector<std::vector<int>> instancesBefore();
+  /// Finds the matched points of the poses near enough to others that these decide.
+  void collectMatched();
+  /// Whether pose `k` stays, and whether those of its instance, `before` it, still do.
+  void choose(int k, const std::vector<int>& before, std::vector<char>& stays);
   bool sameInstance(int a, int b) const;
+  /// Whether `b` matched so much of what `a` matched, too: poses of one instance share most of it.
+  bool shareMatches(int a, int b) const;
   /// Degrees, up to what is the same.
   double turnBetween(int a, int b) const;
 
+  /// What a pose matched, and its grid for look-ups.
+  struct Matched
+  {
+    Points points;
+    PointGrid grid;
+  };
+
   const Poses& InPoses;
-  const std::vector<PoseEvidence>& Evidence;
   const Symmetries& Same;
-  const EvidenceCollector& Collector;
+  const EvidenceCollector* Collector;
   const PoseComparison* Comparison;
-  const PoseVerificationSettings& Settings;
-  double Distance;
-  double Reach;
-  std::vector<Eigen::Vector3d> Middles; ///< of the part, scene frame
+  PoseClustersSettings Settings;
+  int Threads;
+  double Distance;                                                  ///< mm
+  double SharedWithin;                                              ///< mm
+  double SharedDistance;                                            ///< mm
+  std::vector<Eigen::Vector3d> Middles;                             ///< of the part, local frame
+  std::vector<Matched> MatchedPoints;                               ///< of the poses, as far as they may be asked for
   std::vector<std::optional<PoseComparison::Contender>> Contenders; ///< of the poses, as far as they were asked for
 };
 }

@@ -6,23 +6,22 @@
 
 namespace meam
 {
-namespace
+PoseComparison::PoseComparison(const Scene& scene, const TrainedModel& model, const PoseComparisonSettings& settings)
+  : InScene(scene)
+  , Model(model)
+  , Settings(settings)
+  , Explained(static_cast<float>(settings.lengths.explained * model.diameter))
+  , Unexplained(static_cast<float>(settings.lengths.unexplained * model.diameter))
 {
-// Shares of the diameter.
-constexpr double FarShare = 0.02;        // a point this far from the part is not explained
-constexpr double NearShare = 0.01;       // an edge this near is
-constexpr double PastWeight = 2.25;       // of a predicted point: they are so much sparser than measured ones
-constexpr double MissingWeight = 1.0;        // of a predicted edge point: images lose edges
-constexpr double EdgeWeight = 3.0;        // of an edge point against a surface point
 }
 
 double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
 {
-  const DistanceField& surface = this->Index.model.surfaceDistance;
-  const float far = static_cast<float>(FarShare * this->Index.model.diameter);
+  const DistanceField& surface = this->Model.surfaceDistance;
+  const float far = this->Unexplained;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
-  const PointGrid& measured = this->Index.surface;
+  const PointGrid& measured = this->InScene.surface;
   double explained = 0.0;
   measured.forEachBlock(T * surface.middle(), surface.radius() + far,
     [&](int begin, int count)
@@ -39,10 +38,10 @@ double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
 
 PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_scene_model) const
 {
-  const TrainedModel& model = this->Index.model;
-  const float far = static_cast<float>(FarShare * model.diameter);
+  const TrainedModel& model = this->Model;
+  const float far = this->Unexplained;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const auto visible = this->Index.view.visible(T_scene_model, this->Index.scene.sensor);
+  const auto visible = this->Model.visibility->visible(T_scene_model, this->InScene.sensor);
   SoAPoints points;
   std::vector<DepthMap::Relation> relations;
   const auto those = [&](const std::vector<int>& indices, const Points& of, DepthMap::Relation wanted)
@@ -54,7 +53,7 @@ PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_
       points.set(k, of[indices[k]]);
     }
     relations.resize(indices.size());
-    this->Index.depth.relations(T, points, 0, count, far, relations.data());
+    this->InScene.depth.relations(T, points, 0, count, far, relations.data());
     SoAPoints found;
     for (int k = 0; k < count; ++k)
     {
@@ -77,8 +76,8 @@ PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_s
 
 double PoseComparison::contradicted(const Contender& one, const Contender& other) const
 {
-  const TrainedModel& model = this->Index.model;
-  const float far = static_cast<float>(FarShare * model.diameter);
+  const TrainedModel& model = this->Model;
+  const float far = this->Unexplained;
   const float alone = this->Settings.sameVisibility ? far : 0.0f; // so far from what the other predicts
   const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
   const Eigen::Isometry3f toOther = (other.T_scene_model.inverse() * one.T_scene_model).cast<float>(); // part to part
@@ -92,13 +91,14 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   lookUp(one.predicted.passed, model.surfaceDistance);
   for (const float distance : distances)
   {
-    sum += distance >= alone ? PastWeight : 0.0;
+    sum += distance >= alone ? this->Settings.past : 0.0;
   }
   const SoAPoints& edges = one.predicted.edges;
   lookUp(edges, model.edgeDistance);
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    sum += distances[k] >= alone && this->Index.edges.nearest(T * edges[k], far) < 0 ? MissingWeight : 0.0;
+    sum +=
+      distances[k] >= alone && this->InScene.edgeGrid().nearest(T * edges[k], far) < 0 ? this->Settings.missing : 0.0;
   }
   return sum;
 }
@@ -122,9 +122,9 @@ double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const C
 
 double PoseComparison::advantageAtMost(const Contender& one, const Contender& other) const
 {
-  const TrainedModel& model = this->Index.model;
-  const float far = static_cast<float>(FarShare * model.diameter);
-  const float near = static_cast<float>(NearShare * model.diameter);
+  const TrainedModel& model = this->Model;
+  const float far = this->Unexplained;
+  const float near = this->Explained;
   const Eigen::Isometry3d& a = one.T_scene_model;
   const Eigen::Isometry3d& b = other.T_scene_model;
   const Eigen::Isometry3f toA = a.inverse().cast<float>();
@@ -136,7 +136,7 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
   const Eigen::Vector3f middleA = a.cast<float>() * whole.middle();
   const Eigen::Vector3f middleB = b.cast<float>() * whole.middle();
   const Eigen::Vector3f between = 0.5f * (middleA + middleB);
-  const PointGrid& measured = this->Index.edges;
+  const PointGrid& measured = this->InScene.edgeGrid();
   double sum = one.explained - other.explained + this->contradicted(other, one);
   measured.forEachBlock(between, whole.radius() + near + (middleA - between).norm(),
     [&](int begin, int count)
@@ -147,14 +147,16 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
       edges.at(toB, points, begin, count, ofB);
       for (int k = 0; k < count; ++k)
       {
-        const double weight =
-          ofA[k] < near && ofB[k] >= far ? EdgeWeight : ofB[k] < near && ofA[k] >= far ? -EdgeWeight : 0.0;
+        const double weight = ofA[k] < near && ofB[k] >= far   ? this->Settings.edge
+                              : ofB[k] < near && ofA[k] >= far ? -this->Settings.edge
+                                                               : 0.0;
         if (weight == 0.0)
         {
           continue;
         }
         const Eigen::Vector3f point = points[begin + k];
-        if (model.surface.empty() || surface.at(toA * point) < far || surface.at(toB * point) < far) // else another object's
+        if (model.surface.empty() || surface.at(toA * point) < far ||
+            surface.at(toB * point) < far) // else another object's
         {
           sum += weight;
         }

@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pose/verification/PoseEvidence.h"
+#include "base/SoAPoints.h"
+#include "model/TrainedModel.h"
+#include "pose/FitLengths.h"
+#include "scene/Scene.h"
 
 namespace meam
 {
+/// What counts between two poses, in measured surface points, which count 1.
+struct PoseComparisonSettings
+{
+  FitLengths lengths;
+  double edge = 3.0;     ///< a scene edge point that one of the two alone explains: images have fewer edges than points
+  double past = 2.25;    ///< a predicted surface point that the sensor saw past: so much sparser than measured ones
+  double missing = 1.0;  ///< a predicted edge point on measured surface without an edge: images lose edges
+  bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
+  /// Poses are compared on what one of them alone predicts; else each on all that it predicts.
+  bool sameVisibility = true;
+};
+
 /// Decides between poses of one instance by what the sensor saw: every measured point and every scene edge near the
 /// instance speaks for the pose that explains it. Points that both explain, or none, do not count, so poses that
 /// differ by a near-symmetry are decided by the notch or hole that breaks it. Calls may run in parallel.
 class PoseComparison
 {
 public:
-  /// Keeps a reference to the index. Of `settings` the weights have no part in it.
-  explicit PoseComparison(const SceneIndex& index, const EvidenceSettings& settings = {})
-    : Index(index)
-    , Settings(settings)
-  {
-  }
+  /// Keeps references to both.
+  PoseComparison(const Scene& scene, const TrainedModel& model, const PoseComparisonSettings& settings = {});
 
   /// What of the part the sensor should see at a pose and may not be there, in the part's frame.
   struct Prediction
   {
-    SoAPoints passed; ///< points of its surface that the sensor looked past
+    SoAPoints passed; ///< points of its surface that the sensor saw past
     SoAPoints edges;  ///< edge points on a surface that it saw
   };
   /// A pose, how many points of the measured surface it explains (one for each that lies on the part, less for those
@@ -37,8 +48,8 @@ public:
   /// Greater than 0 when the scene speaks for `a`, less for `b`: points that one explains and the other does not,
   /// and surface and edges that one of them alone predicts and that are not there.
   double advantage(const Contender& a, const Contender& b) const;
-  /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what comes
-  /// back is below `enough`, but may be more than it is.
+  /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what
+  /// comes back is below `enough`, but may be more than it is.
   double advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
 
 private:
@@ -49,7 +60,10 @@ private:
   /// What `one` predicts and the other does not, and is not there: surface, and edges on surface.
   double contradicted(const Contender& one, const Contender& other) const;
 
-  const SceneIndex& Index;
-  EvidenceSettings Settings;
+  const Scene& InScene;
+  const TrainedModel& Model;
+  PoseComparisonSettings Settings;
+  float Explained;   ///< mm
+  float Unexplained; ///< mm
 };
 }

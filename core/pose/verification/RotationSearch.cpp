@@ -8,15 +8,6 @@ namespace meam
 {
 namespace
 {
-constexpr double Reach = 0.02;         // of the diameter: an edge this far from the part's is not explained
-constexpr int Steps = 180;             // of 2 degrees
-constexpr double LeastGain = 1.0;      // points and
-constexpr double LeastGainShare = 0.02; // of what the pose as it is explains that a better turn explains more
-constexpr std::size_t MostPoints = 200; // of the scene's edges that are looked at
-constexpr std::size_t RoughStride = 4;  // of these at first
-constexpr std::size_t MostMaxima = 10;  // that are looked at closely
-constexpr std::size_t MostTurns = 2;   // of an axis
-
 SoAPoints everyOf(const SoAPoints& points, std::size_t stride)
 {
   SoAPoints result;
@@ -28,19 +19,21 @@ SoAPoints everyOf(const SoAPoints& points, std::size_t stride)
 }
 }
 
-RotationSearch::RotationSearch(const SceneIndex& index)
-  : Index(index)
-  , Axes(nearlyRoundAxes(index.model.symmetries))
+RotationSearch::RotationSearch(const Scene& scene, const TrainedModel& model, const RotationSearchSettings& settings)
+  : InScene(scene)
+  , Model(model)
+  , Settings(settings)
+  , Unexplained(static_cast<float>(settings.lengths.unexplained * model.diameter))
+  , Axes(nearlyRoundAxes(model.symmetries))
 {
 }
 
 SoAPoints RotationSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
 {
-  const TrainedModel& model = this->Index.model;
-  const float reach = static_cast<float>(Reach * model.diameter);
+  const TrainedModel& model = this->Model;
   const DistanceField& whole = model.surface.empty() ? model.edgeDistance : model.surfaceDistance;
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
-  const PointGrid& measured = this->Index.edges;
+  const PointGrid& measured = this->InScene.edgeGrid();
   SoAPoints edges;
   measured.forEachBlock(T_scene_model.cast<float>() * whole.middle(), whole.radius(),
     [&](int begin, int count)
@@ -49,7 +42,7 @@ SoAPoints RotationSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
       whole.at(toModel, measured.sorted(), begin, count, distances);
       for (int k = 0; k < count; ++k)
       {
-        if (model.surface.empty() || distances[k] < reach)
+        if (model.surface.empty() || distances[k] < this->Unexplained)
         {
           const Eigen::Vector3f point = toModel * measured.sorted()[begin + k];
           if ((point - whole.middle()).norm() <= whole.radius()) // blocks reach beyond the ball about the part
@@ -59,33 +52,32 @@ SoAPoints RotationSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
         }
       }
     });
-  return everyOf(edges, (edges.size() + MostPoints - 1) / MostPoints);
+  return everyOf(edges, (edges.size() + this->Settings.points - 1) / this->Settings.points);
 }
 
 double RotationSearch::explained(const SoAPoints& edges, const Eigen::Isometry3d& turn) const
 {
-  const float reach = static_cast<float>(Reach * this->Index.model.diameter);
-  float distances[MostPoints];
-  this->Index.model.edgeDistance.at(
-    turn.inverse().cast<float>(), edges, 0, static_cast<int>(edges.size()), distances);
+  thread_local std::vector<float> distances; // for hundreds of turns
+  distances.resize(edges.size());
+  this->Model.edgeDistance.at(turn.inverse().cast<float>(), edges, 0, static_cast<int>(edges.size()), distances.data());
   double sum = 0.0;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    sum += std::max(0.0f, 1.0f - distances[k] / reach);
+    sum += std::max(0.0f, 1.0f - distances[k] / this->Unexplained);
   }
   return sum;
 }
 
 Eigen::Isometry3d RotationSearch::likeliest(const Eigen::Isometry3d& T_scene_model) const
 {
-  if (this->Index.model.symmetries.near.empty())
+  if (this->Model.symmetries.near.empty())
   {
     return T_scene_model;
   }
   const SoAPoints edges = this->edgesOn(T_scene_model);
   Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
   double most = this->explained(edges, best);
-  for (const NearSymmetry& symmetry : this->Index.model.symmetries.near)
+  for (const NearSymmetry& symmetry : this->Model.symmetries.near)
   {
     const double sum = this->explained(edges, symmetry.T);
     if (sum > most)
@@ -105,34 +97,35 @@ std::vector<Eigen::Isometry3d> RotationSearch::better(const Eigen::Isometry3d& T
     return found;
   }
   const SoAPoints some = this->edgesOn(T_scene_model);
-  const SoAPoints few = everyOf(some, RoughStride);
+  const int steps = this->Settings.steps;
+  const SoAPoints few = everyOf(some, this->Settings.coarseStride);
   for (const ContinuousSymmetry& axis : this->Axes)
   {
-    const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
+    const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / steps, axis.point); };
     const auto explained = [&](int step, const SoAPoints& edges) { return this->explained(edges, turn(step)); };
     // Maxima by some of the points, which then all are asked about.
-    std::vector<double> roughly(Steps);
-    for (int step = 0; step < Steps; ++step)
+    std::vector<double> coarse(steps);
+    for (int step = 0; step < steps; ++step)
     {
-      roughly[step] = explained(step, few);
+      coarse[step] = explained(step, few);
     }
     std::vector<int> maxima;
-    for (int step = 2; step < Steps - 1; ++step)
+    for (int step = 2; step < steps - 1; ++step)
     {
-      if (roughly[step] > roughly[step - 1] && roughly[step] >= roughly[(step + 1) % Steps])
+      if (coarse[step] > coarse[step - 1] && coarse[step] >= coarse[(step + 1) % steps])
       {
         maxima.push_back(step);
       }
     }
-    std::stable_sort(maxima.begin(), maxima.end(), [&](int a, int b) { return roughly[a] > roughly[b]; });
-    maxima.resize(std::min(maxima.size(), MostMaxima));
+    std::stable_sort(maxima.begin(), maxima.end(), [&](int a, int b) { return coarse[a] > coarse[b]; });
+    maxima.resize(std::min<std::size_t>(maxima.size(), this->Settings.maxima));
     const double asItIs = std::max({ explained(-1, some), explained(0, some), explained(1, some) });
-    const double least = asItIs + LeastGain + LeastGainShare * asItIs;
+    const double least = asItIs + this->Settings.leastGain + this->Settings.leastGainShare * asItIs;
     std::vector<std::pair<double, int>> better;
-    for (const int rough : maxima)
+    for (const int peak : maxima)
     {
-      std::pair<double, int> best{ 0.0, rough };
-      for (const int step : { rough - 1, rough, rough + 1 })
+      std::pair<double, int> best{ 0.0, peak };
+      for (const int step : { peak - 1, peak, peak + 1 })
       {
         best = std::max(best, { explained(step, some), step });
       }
@@ -147,7 +140,7 @@ std::vector<Eigen::Isometry3d> RotationSearch::better(const Eigen::Isometry3d& T
     {
       const bool known =
         std::any_of(taken.begin(), taken.end(), [step = step](int other) { return std::abs(step - other) <= 1; });
-      if (!known && taken.size() < MostTurns)
+      if (!known && static_cast<int>(taken.size()) < this->Settings.rotations)
       {
         taken.push_back(step);
         found.push_back(T_scene_model * turn(step));

@@ -1,22 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pose/SceneIndex.h"
+#include "base/SoAPoints.h"
+#include "mesh/Symmetries.h"
+#include "model/TrainedModel.h"
+#include "pose/FitLengths.h"
+#include "scene/Scene.h"
 
 namespace meam
 {
-/// Looks for a better turn of a part with near-symmetries. Its surface fits the scene at each of them, and that of a
-/// nearly round part at any turn about its axis, so refinement stays at the turn it came with; the scene's edges know
-/// better. Calls may run in parallel.
+struct RotationSearchSettings
+{
+  FitLengths lengths;
+  int steps = 180;              ///< of a full turn about an axis: 2 degrees, less than a notch
+  double leastGain = 1.0;       ///< scene edge points that a better rotation explains more, and
+  double leastGainShare = 0.02; ///< of what the pose as it is explains
+  int points = 200;             ///< of the scene's edges on the part that are looked at
+  int coarseStride = 4;         ///< of these one of so many is looked at first
+  int maxima = 10;              ///< of the coarse search that all points are asked about
+  int rotations = 2;            ///< that come out of an axis
+};
+
+/// Rotation search about the axes of a part's approximate symmetries. Its surface fits the scene at each of them, and
+/// that of a nearly round part at any rotation about its axis, so refinement stays at the rotation it came with; the
+/// scene's edges tell them apart. Calls may run in parallel.
 class RotationSearch
 {
 public:
-  /// Keeps a reference to the index.
-  explicit RotationSearch(const SceneIndex& index);
+  /// Keeps references to both.
+  RotationSearch(const Scene& scene, const TrainedModel& model, const RotationSearchSettings& settings = {});
 
   /// The pose turned about each such axis to where more of the scene's edges on the part are edges of the part than as
-  /// it is: at most two for an axis, the better one first, as good as the steps of the search. None for a part
-  /// without near-symmetries other than half turns.
+  /// it is: the better one first, as good as the steps of the search. None for a part without near-symmetries other
+  /// than half turns.
   std::vector<Eigen::Isometry3d> better(const Eigen::Isometry3d& T_scene_model) const;
 
   /// The pose, or its turn by a near-symmetry if more of the scene's edges on the part are edges of the part then.
@@ -28,7 +44,10 @@ private:
   /// How many of these are edges of the part once it is turned, less for those beside.
   double explained(const SoAPoints& edges, const Eigen::Isometry3d& turn) const;
 
-  const SceneIndex& Index;
+  const Scene& InScene;
+  const TrainedModel& Model;
+  RotationSearchSettings Settings;
+  float Unexplained; ///< mm
   std::vector<ContinuousSymmetry> Axes;
 };
 }

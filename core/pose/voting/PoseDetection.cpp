@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/voting/PoseDetection.h"
 
-#include "base/Parallel.h"
 #include "base/BlockedPoints.h"
+#include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "pose/voting/VoteAccumulator.h"
 #include "scene/Units.h"
@@ -16,12 +16,8 @@ namespace meam
 {
 namespace
 {
-constexpr int LeastReferences = 100; // that a few copies are found by in a small scene
-constexpr int MostPairs = 512;       // whose keys are computed at once
-constexpr double LotShare = 0.01;    // of the diameter: points nearer than this share a lot
-
 /// A number that looks random, from a place and a seed (finalizer of MurmurHash3).
-std::uint64_t lot(const Eigen::Vector3f& point, double cell, unsigned seed)
+std::uint64_t hashOf(const Eigen::Vector3f& point, double cell, unsigned seed)
 {
   std::uint64_t hash = seed;
   for (int axis = 0; axis < 3; ++axis)
@@ -34,8 +30,8 @@ std::uint64_t lot(const Eigen::Vector3f& point, double cell, unsigned seed)
   return hash;
 }
 
-/// Indices of `share` of the points, at least `least` where there are so many, ascending. The lot falls on places, so
-/// the order of the points has no part in it.
+/// Indices of `share` of the points, at least `least` where there are so many, ascending. Places are chosen, so the
+/// order of the points has no part in it.
 std::vector<int> chooseShare(const Points& points, double share, int least, double cell, unsigned seed)
 {
   const int count = static_cast<int>(points.size());
@@ -44,14 +40,14 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
   const int wanted = std::min(count, std::max(least, static_cast<int>(std::ceil(share * count))));
   if (wanted < count)
   {
-    std::vector<std::uint64_t> lots;
-    lots.reserve(points.size());
+    std::vector<std::uint64_t> hashes;
+    hashes.reserve(points.size());
     for (const auto& point : points)
     {
-      lots.push_back(lot(point, cell, seed));
+      hashes.push_back(hashOf(point, cell, seed));
     }
     std::nth_element(indices.begin(), indices.begin() + wanted, indices.end(),
-      [&](int a, int b) { return lots[a] != lots[b] ? lots[a] < lots[b] : a < b; });
+      [&](int a, int b) { return hashes[a] != hashes[b] ? hashes[a] < hashes[b] : a < b; });
     indices.resize(wanted);
     std::sort(indices.begin(), indices.end());
   }
@@ -91,6 +87,8 @@ public:
   }
 
 private:
+  static constexpr int MostPairs = 512; ///< whose keys are computed at once
+
   /// Votes of `count` pairs. Leaves in `keys` and `turns` what it pleases.
   void cast(int* keys, PairTurn* turns, int count, VoteAccumulator& accumulator) const
   {
@@ -120,16 +118,16 @@ private:
   const TrainedModel& Model;
   BlockedPoints Blocks;
   PairKeys Pairs;
-  PairTurn TurnsUsed; ///< bits of a scene pair's turn
+  PairTurn TurnsUsed;                  ///< bits of a scene pair's turn
   std::vector<std::uint32_t> OwnVotes; ///< in place of the table's, when senses are ignored
 };
 
-/// The pose that lays the frame of the peak's model point on `scene`. `own` takes the scene to the frame it votes in.
-Pose poseOf(const VotePeak& peak, const TrainedModel& model, const TangentFrame& scene, const Eigen::Isometry3d& own)
+/// The pose that lays the frame of the peak's model point on `scene`.
+Pose poseOf(const VotePeak& peak, const TrainedModel& model, const TangentFrame& scene)
 {
   const TangentFrame part(model.edges.points[peak.modelPoint], model.edges.tangents[peak.modelPoint]);
   Pose pose;
-  pose.T_scene_model = own.inverse() * alignFrames(part, scene, peak.flip, peak.alpha);
+  pose.T_scene_model = alignFrames(part, scene, peak.flip, peak.alpha);
   pose.T_scene_model = nearestEqual(pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
   pose.votes = peak.votes;
   pose.viewId = __builtin_ctz(model.edgeViews[peak.modelPoint]);
@@ -145,18 +143,20 @@ PoseDetectionSettings paperDetectionSettings()
   return settings;
 }
 
-Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
+Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
   const Progress& progress)
 {
-  auto [frame, edges] = inOwnFrame(sceneEdges, settings.threads);
-  requirePoints(edges.points, "The scene's edge cloud");
-  if (edges.tangents.size() != edges.size())
+  requirePoints(sceneEdges.cloud.points, "The scene's edge cloud");
+  if (sceneEdges.cloud.tangents.size() != sceneEdges.cloud.size())
   {
     throw Error("The scene's edge points have no tangents: estimate them before detection.");
   }
-  edges = finitePoints(std::move(edges));
+  PointCloud edges = finitePoints(sceneEdges.cloud);
   requireSameUnits(edges.points, model.diameter);
-  if (!(settings.referenceShare > 0.0 && settings.referenceShare <= 1.0) ||
+  const double referenceShare = settings.referenceShare > 0.0 ? settings.referenceShare
+                                : sceneEdges.fromScan         ? settings.scanReferenceShare
+                                                              : settings.boundaryReferenceShare;
+  if (!(referenceShare > 0.0 && referenceShare <= 1.0) ||
       !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
   {
     throw Error("The shares of reference and referred points must be in (0, 1].");
@@ -170,11 +170,11 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
   {
     tangent = tangent.x() < 0.0f ? Eigen::Vector3f(-tangent) : tangent; // the sign is that of the first axis
   }
-  const double cell = LotShare * model.diameter;
+  const double cell = settings.choiceCell * model.diameter;
   std::vector<int> references;
   PointCloud referred;
   inParallel(settings.threads,
-    { [&] { references = chooseShare(edges.points, settings.referenceShare, LeastReferences, cell, settings.seed); },
+    { [&] { references = chooseShare(edges.points, referenceShare, settings.leastReferences, cell, settings.seed); },
       [&]
       {
         referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
@@ -183,7 +183,8 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
   const Voting voting(model, referred, settings);
 
   const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
-  std::vector<VoteAccumulator> accumulators(threads, VoteAccumulator(model.votingEdges, angleStep, settings.smoothPeaks));
+  std::vector<VoteAccumulator> accumulators(
+    threads, VoteAccumulator(model.votingEdges, angleStep, settings.smoothPeaks));
   std::vector<Poses> found(references.size());
   parallelFor(static_cast<int>(references.size()), threads, progress,
     [&](int begin, int end, int thread)
@@ -196,7 +197,7 @@ Poses detectPoses(const PreciseCloud& sceneEdges, const TrainedModel& model, con
         voting.vote(scene, accumulator);
         for (const VotePeak& peak : accumulator.peaks(settings.peaksPerReference))
         {
-          found[r].push_back(poseOf(peak, model, scene, frame));
+          found[r].push_back(poseOf(peak, model, scene));
         }
       }
     });

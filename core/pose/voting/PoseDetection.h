@@ -2,39 +2,42 @@
 #pragma once
 
 #include "base/Error.h"
-#include "base/LocalFrame.h"
+#include "base/LocalCloud.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
 
 namespace meam
 {
-/// P_ref for edges found in a scan, by its image or its depth: many are not the part's, and some are displaced, so fewer
-/// references lead to a candidate than with an exact boundary.
-constexpr double ImageReferenceShare = 0.1;
-
 struct PoseDetectionSettings
 {
-  double referenceShare = 0.03; ///< P_ref: share of the scene's edge points used as reference points, at least 100
+  /// P_ref: share of the scene's edge points used as reference points; 0: by where the edges come from.
+  double referenceShare = 0.0;
+  double boundaryReferenceShare = 0.03; ///< P_ref of an exact boundary
+  /// P_ref of edges found in a scan, by its image or its depth: many are not the part's, and some are displaced, so
+  /// fewer references lead to a candidate (docs/evaluation.md).
+  double scanReferenceShare = 0.1;
+  int leastReferences = 100; ///< that a few copies are found by in a small scene
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;
-  int peaksPerReference = 1;    ///< candidates of one reference point; more find more hidden parts, at a cost
-  /// The sense of d along a tangent tells which way round it lies; else stored signs are taken for right, which is wrong
-  /// for half of the references.
+  int peaksPerReference = 1; ///< candidates of one reference point; more find more hidden parts, at a cost
+  /// The sense of d along a tangent tells which way round it lies; else stored signs are taken for right, which is
+  /// wrong for half of the references.
   bool signedTangents = true;
-  bool smoothPeaks = true;      ///< peaks are of sums of three neighbouring turns
-  unsigned seed = 1;            ///< of the choice of both
-  int threads = 0;              ///< 0: one for each processor
+  bool smoothPeaks = true; ///< peaks are of sums of three neighbouring turns
+  /// Share of the diameter: random choices fall on cubes of this side, so that the order of the points has no part in
+  /// them.
+  double choiceCell = 0.01;
+  unsigned seed = 1; ///< of the choice of both
+  int threads = 0;   ///< 0: one for each processor
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.
 PoseDetectionSettings paperDetectionSettings();
 
-/// Raw pose candidates by voting (paper, Section 5.1): one or more for each reference point that found pairs,
-/// in the order of the reference points. `edges` are the scene's edge points with tangents, mm; a motion of them in double
-/// precision moves the candidates and changes nothing else.
-/// The same for any number of threads. Throws Error when the scene is empty, has no tangents, or is
-/// in another unit than the model.
-Poses detectPoses(const PreciseCloud& edges, const TrainedModel& model, const PoseDetectionSettings& settings = {},
+/// Raw pose candidates by voting (paper, Section 5.1): one or more for each reference point that found pairs, in the
+/// order of the reference points, in the local frame of `edges`, the scene's edge points with tangents. The same for
+/// any number of threads. Throws Error when the scene is empty, has no tangents, or is in another unit than the model.
+Poses detectPoses(const LocalCloud& edges, const TrainedModel& model, const PoseDetectionSettings& settings = {},
   const Progress& progress = {});
 }

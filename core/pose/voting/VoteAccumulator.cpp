@@ -11,9 +11,6 @@ namespace meam
 {
 namespace
 {
-constexpr int MostVotes = 21845; // of a bin: three fit into 16 bits
-constexpr int Chunk = 128;       // bins that wait until they are counted
-
 /// One after the other, so that votes for one bin add up.
 inline void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::uint16_t* counts)
 {
@@ -36,7 +33,7 @@ inline void count(const std::uint32_t* bins, int votes, bool mayOverflow, std::u
   }
   for (int k = 0; k < votes; ++k)
   {
-    counts[bins[k]] = static_cast<std::uint16_t>(counts[bins[k]] + (counts[bins[k]] < MostVotes ? 1 : 0));
+    counts[bins[k]] = static_cast<std::uint16_t>(counts[bins[k]] + (counts[bins[k]] < SheetGroup::MostVotes ? 1 : 0));
   }
 }
 
@@ -45,7 +42,8 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
   bool mayOverflow, std::uint16_t* counts)
 {
   constexpr std::uint32_t laneMask = SheetGroup::Sheets - 1;
-  std::uint32_t bins[Chunk + VoteBlock];
+  constexpr int chunk = 128; // bins that wait until they are counted
+  std::uint32_t bins[chunk + VoteBlock];
   int waiting = 0;
   for (int pair = 0; pair < pairs; ++pair)
   {
@@ -67,11 +65,11 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
         bin[k] = (sum & SheetMask & ~laneMask) * turns + row * SheetGroup::Sheets + (sum & laneMask);
       }
       waiting += static_cast<int>(std::min<std::uint32_t>(VoteBlock, bucket.end - begin));
-      if (waiting >= Chunk)
+      if (waiting >= chunk)
       {
-        count(bins, Chunk, mayOverflow, counts);
-        std::copy_n(bins + Chunk, VoteBlock, bins);
-        waiting -= Chunk;
+        count(bins, chunk, mayOverflow, counts);
+        std::copy_n(bins + chunk, VoteBlock, bins);
+        waiting -= chunk;
       }
     }
   }
@@ -143,7 +141,7 @@ void VoteAccumulator::clear()
 void VoteAccumulator::vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne)
 {
   this->Cast += static_cast<std::int64_t>(count) * mostOfOne;
-  castVotes(entries, buckets, count, this->Turns, this->Cast > MostVotes, this->Counts.data()->of);
+  castVotes(entries, buckets, count, this->Turns, this->Cast > SheetGroup::MostVotes, this->Counts.data()->of);
 }
 
 std::vector<VotePeak> VoteAccumulator::peaks(int count)

@@ -29,6 +29,7 @@ struct VoteBucket
 struct alignas(32) SheetGroup
 {
   static constexpr int Sheets = 16;
+  static constexpr int MostVotes = 21845; ///< of a bin: three fit into 16 bits
   std::uint16_t of[Sheets] = {};
 };
 static_assert(
@@ -48,11 +49,12 @@ public:
   /// VoteBlock words after the last entry are read.
   void vote(const std::uint32_t* entries, const VoteBucket* buckets, int count, int mostOfOne = 1);
 
-  /// The best supported turns, each at another model point or flip; best first, of equals the first. Without votes none.
+  /// The best supported turns, each at another model point or flip; best first, of equals the first. Without votes
+  /// none.
   std::vector<VotePeak> peaks(int count);
 
 private:
-  int Turns;                       ///< bins of a sheet
+  int Turns; ///< bins of a sheet
   bool Smooth;
   std::int64_t Cast = 0;           ///< no bin has more votes
   std::vector<SheetGroup> Largest; ///< peak of each sheet

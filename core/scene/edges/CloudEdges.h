@@ -22,6 +22,6 @@ std::vector<GridEdge> findDepthEdges(
 /// Points in which two flat pieces of the surface meet at `angle` degrees or more, and at clearly more
 /// than noise makes. Each piece is a window of the grid (GridScale::windowRadius) on its side of the point;
 /// round surfaces, which bend on in both windows, have no creases. In the order of the grid.
-std::vector<GridEdge> findCreases(const OrganizedCloud& cloud, const GridScale& scale, double angle, int threads = 0,
-  const Progress& progress = {});
+std::vector<GridEdge> findCreases(
+  const OrganizedCloud& cloud, const GridScale& scale, double angle, int threads = 0, const Progress& progress = {});
 }

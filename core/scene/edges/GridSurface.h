@@ -20,7 +20,7 @@ struct GridScale
 };
 
 /// Zeros for a cloud without neighbours that both have depth.
-GridScale gridScale(const OrganizedCloud& cloud);
+GridScale gridScale(const OrganizedCloud& cloud, int threads = 1);
 
 /// A plane through the surface around a grid point.
 struct GridPlane
@@ -41,12 +41,15 @@ struct GridPlane
 /// A rectangle of the grid around a point.
 struct GridWindow
 {
-  int along = 2;                                         ///< grid steps from the middle in `direction`
-  int across = 2;                                        ///< and across it
+  int along = 2;                                        ///< grid steps from the middle in `direction`
+  int across = 2;                                       ///< and across it
   Eigen::Vector2f direction = Eigen::Vector2f::UnitX(); ///< unit, in columns and rows
 };
 
 /// The plane that fits the points in a window around a grid point best; those that are a jump (mm) or more
 /// before or behind it in z are of another surface. Invalid for a point without depth, or with too few others.
 GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridWindow& window, double jump);
+/// The same of `count` points of the grid, several at a time: planes[i] is that of points[i] in windows[i].
+void fitPlanes(
+  const OrganizedCloud& cloud, const int* points, const GridWindow* windows, int count, double jump, GridPlane* planes);
 }

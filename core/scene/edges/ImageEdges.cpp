@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/edges/ImageEdges.h"
 
+#include "base/AllVectors.h"
+#include "base/Parallel.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace meam
 {
@@ -56,57 +61,77 @@ cv::Mat smoothGrey(const Image& image, double smoothing)
   return grey;
 }
 
-/// Counts of whole numbers, and the number below which a share of them lies.
-class Histogram
-{
-public:
-  void add(float value)
-  {
-    const std::size_t bin = static_cast<std::size_t>(Steps * value);
-    this->Counts.resize(std::max(this->Counts.size(), bin + 1));
-    ++this->Counts[bin];
-    ++this->Total;
-  }
-  double quantile(double share) const
-  {
-    const double wanted = share * static_cast<double>(this->Total);
-    double below = 0.0;
-    std::size_t bin = 0;
-    while (bin < this->Counts.size() && below + static_cast<double>(this->Counts[bin]) < wanted)
-    {
-      below += static_cast<double>(this->Counts[bin++]);
-    }
-    return (static_cast<double>(bin) + 0.5) / Steps;
-  }
-  bool empty() const { return this->Total == 0; }
+constexpr double GradientSteps = 4.0; // of a grey value: how finely gradients are counted
+constexpr int GradientBins = 6144;    // more than Sobel makes of 8 bits: the root of 2 times 4 times 255, in steps
 
-private:
-  static constexpr double Steps = 4.0; // of a grey value
-  std::vector<std::size_t> Counts;
-  std::size_t Total = 0;
-};
+/// How many pixels have each gradient.
+using Histogram = std::array<std::size_t, GradientBins>;
 
-double automaticThreshold(const cv::Mat& grey, const cv::Mat& dx, const cv::Mat& dy)
+/// The gradient below which a share of the pixels lies; 0 without pixels.
+double quantile(const Histogram& histogram, double share)
 {
-  Histogram all;
-  Histogram unsaturated;
-  for (int row = 0; row < dx.rows; ++row)
+  std::size_t total = 0;
+  for (const std::size_t count : histogram)
   {
-    const std::uint8_t* value = grey.ptr<std::uint8_t>(row);
-    const short* x = dx.ptr<short>(row);
-    const short* y = dy.ptr<short>(row);
-    for (int column = 0; column < dx.cols; ++column)
+    total += count;
+  }
+  if (total == 0)
+  {
+    return 0.0;
+  }
+  const double wanted = share * static_cast<double>(total);
+  double below = 0.0;
+  int bin = 0;
+  while (bin < GradientBins && below + static_cast<double>(histogram[bin]) < wanted)
+  {
+    below += static_cast<double>(histogram[bin++]);
+  }
+  return (bin + 0.5) / GradientSteps;
+}
+
+/// The gradients' bins of a row, and GradientBins more for pixels that are nearly black or white.
+MEAM_ALL_VECTORS
+void binsOf(const std::uint8_t* value, const short* x, const short* y, int count, int* bins)
+{
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const float gradient = std::sqrt(static_cast<float>(x[k] * x[k] + y[k] * y[k]));
+    const bool isSaturated = (value[k] < Dark) | (value[k] > Bright);
+    bins[k] = static_cast<int>(static_cast<float>(GradientSteps) * gradient) + (isSaturated ? GradientBins : 0);
+  }
+}
+
+double automaticThreshold(const cv::Mat& grey, const cv::Mat& dx, const cv::Mat& dy, int threads)
+{
+  Histogram all{}, unsaturated{};
+  const int used = numberOfThreads(threads);
+  std::vector<std::vector<std::uint32_t>> counts(used);
+  parallelFor(grey.rows, used, {},
+    [&](int begin, int end, int thread)
     {
-      const float gradient = std::sqrt(static_cast<float>(x[column] * x[column] + y[column] * y[column]));
-      all.add(gradient);
-      if (value[column] >= Dark && value[column] <= Bright)
+      std::vector<std::uint32_t>& mine = counts[thread];
+      mine.resize(2 * GradientBins);
+      std::vector<int> bins(grey.cols);
+      for (int row = begin; row < end; ++row)
       {
-        unsaturated.add(gradient);
+        binsOf(grey.ptr<std::uint8_t>(row), dx.ptr<short>(row), dy.ptr<short>(row), grey.cols, bins.data());
+        for (const int bin : bins)
+        {
+          ++mine[bin];
+        }
       }
+    });
+  for (const std::vector<std::uint32_t>& some : counts)
+  {
+    for (std::size_t bin = 0; bin < some.size(); ++bin)
+    {
+      all[bin % GradientBins] += some[bin];
+      unsaturated[bin % GradientBins] += bin < GradientBins ? some[bin] : 0;
     }
   }
-  const double noise = unsaturated.empty() ? 0.0 : unsaturated.quantile(0.5) / RayleighMedian;
-  return std::max({ all.quantile(1.0 - EdgeShare), NoiseDeviations * noise, LeastGradient });
+  const double noise = quantile(unsaturated, 0.5) / RayleighMedian;
+  return std::max({ quantile(all, 1.0 - EdgeShare), NoiseDeviations * noise, LeastGradient });
 }
 
 /// Across the gradients around a pixel, summed so that opposite ones agree (the structure tensor).
@@ -131,14 +156,14 @@ Eigen::Vector2f edgeDirection(const cv::Mat& dx, const cv::Mat& dy, int row, int
 }
 }
 
-std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSettings& settings)
+std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSettings& settings, int threads)
 {
   check(image, settings);
   const cv::Mat grey = smoothGrey(image, settings.smoothing);
   cv::Mat dx, dy;
-  cv::Sobel(grey, dx, CV_16S, 1, 0, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-  cv::Sobel(grey, dy, CV_16S, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-  const double high = settings.highThreshold > 0.0 ? settings.highThreshold : automaticThreshold(grey, dx, dy);
+  inParallel(threads, { [&] { cv::Sobel(grey, dx, CV_16S, 1, 0, 3, 1.0, 0.0, cv::BORDER_REPLICATE); },
+                        [&] { cv::Sobel(grey, dy, CV_16S, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE); } });
+  const double high = settings.highThreshold > 0.0 ? settings.highThreshold : automaticThreshold(grey, dx, dy, threads);
   const double low = settings.lowThreshold > 0.0 ? settings.lowThreshold : LowShare * high;
   cv::Mat edges;
   cv::Canny(dx, dy, edges, std::min(low, high), high, true);
@@ -146,15 +171,24 @@ std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSetting
   std::vector<EdgePixel> result;
   for (int row = 0; row < edges.rows; ++row)
   {
-    const std::uint8_t* isEdge = edges.ptr<std::uint8_t>(row);
-    for (int column = 0; column < edges.cols; ++column)
+    const std::uint8_t* const begin = edges.ptr<std::uint8_t>(row);
+    const std::uint8_t* const end = begin + edges.cols;
+    constexpr int isEdge = 255;
+    for (const void* at = begin; (at = std::memchr(at, isEdge, end - static_cast<const std::uint8_t*>(at)));)
     {
-      if (isEdge[column])
-      {
-        result.push_back({ column, row, edgeDirection(dx, dy, row, column) });
-      }
+      const auto* pixel = static_cast<const std::uint8_t*>(at);
+      result.push_back({ static_cast<int>(pixel - begin), row });
+      at = pixel + 1;
     }
   }
+  parallelFor(static_cast<int>(result.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        result[i].direction = edgeDirection(dx, dy, result[i].row, result[i].column);
+      }
+    });
   return result;
 }
 }

@@ -27,5 +27,5 @@ struct EdgePixel
 /// are plenty of strong ones. An image of one colour has no edges.
 ///
 /// Throws Error for an image without pixels or of another shape, and for settings out of range.
-std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSettings& settings = {});
+std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSettings& settings = {}, int threads = 1);
 }

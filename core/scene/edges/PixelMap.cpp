@@ -10,14 +10,15 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace meam
 {
 namespace
 {
-constexpr int SmallHole = 4;             // grid steps: so wide a hole in a surface is taken as closed
-constexpr double SteepestWall = 1.0;     // a hole between two depths is closed when it is no wider than it is deep
-constexpr double BeyondTheImage = 1.1;   // of the image's widest ray: the lens model is not asked for more
+constexpr int SmallHole = 4;           // grid steps: so wide a hole in a surface is taken as closed
+constexpr double SteepestWall = 1.0;   // a hole between two depths is closed when it is no wider than it is deep
+constexpr double BeyondTheImage = 1.1; // of the image's widest ray: the lens model is not asked for more
 constexpr std::uint32_t Unknown = 0xffffffffu; // instead of a point: something that hides what is behind it
 
 /// Where the camera sees a grid point, in pixels, and how far away; NaN when it does not.
@@ -224,19 +225,52 @@ double pixelsPerPoint(const std::vector<Seen>& seen, int width)
   std::nth_element(distances.begin(), middle, distances.end());
   return std::max(static_cast<double>(*middle), 1.0);
 }
-}
 
-PixelMap registeredPixels(const OrganizedCloud& cloud)
+/// seen(pixel) is the point that a pixel shows, or -1, and its depth; pixels are numbered row by row.
+template <typename Seen>
+int nearestAround(int width, int height, int row, int column, int radius, double jump, const Seen& seen)
 {
-  PixelMap map{ cloud.width, cloud.height, {}, {} };
-  map.points.resize(cloud.size());
-  map.depths.resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
+  const int top = std::max(row - radius, 0);
+  const int bottom = std::min(row + radius, height - 1);
+  const int left = std::max(column - radius, 0);
+  const int right = std::min(column + radius, width - 1);
+  const auto forEach = [&](const auto& visit)
   {
-    map.points[i] = cloud.points[i].allFinite() ? static_cast<int>(i) : -1;
-    map.depths[i] = cloud.points[i].z();
+    for (int r = top; r <= bottom; ++r)
+    {
+      for (int c = left; c <= right; ++c)
+      {
+        const auto [point, depth] = seen(static_cast<std::size_t>(r) * width + c);
+        if (point >= 0)
+        {
+          visit(point, depth, (r - row) * (r - row) + (c - column) * (c - column));
+        }
+      }
+    }
+  };
+  float nearest = std::numeric_limits<float>::infinity();
+  forEach([&](int, float depth, int) { nearest = std::min(nearest, depth); });
+  const auto [own, ownDepth] = seen(static_cast<std::size_t>(row) * width + column);
+  if (own >= 0 && ownDepth <= nearest + static_cast<float>(jump))
+  {
+    return own; // none is closer
   }
-  return map;
+  int best = -1;
+  int bestPixels = 0;
+  float bestDepth = 0.0f;
+  forEach(
+    [&](int point, float depth, int pixels)
+    {
+      if (depth <= nearest + static_cast<float>(jump) &&
+          (best < 0 || pixels < bestPixels || (pixels == bestPixels && depth < bestDepth)))
+      {
+        best = point;
+        bestPixels = pixels;
+        bestDepth = depth;
+      }
+    });
+  return best;
+}
 }
 
 PixelMap projectedPixels(
@@ -314,40 +348,17 @@ PixelMap projectedPixels(
 
 int pointOfPixel(const PixelMap& map, int row, int column, int radius, double jump)
 {
-  const int top = std::max(row - radius, 0);
-  const int bottom = std::min(row + radius, map.height - 1);
-  const int left = std::max(column - radius, 0);
-  const int right = std::min(column + radius, map.width - 1);
-  const auto forEach = [&](const auto& visit)
-  {
-    for (int r = top; r <= bottom; ++r)
+  return nearestAround(map.width, map.height, row, column, radius, jump,
+    [&](std::size_t pixel) { return std::make_pair(map.points[pixel], map.depths[pixel]); });
+}
+
+int pointOfPixel(const OrganizedCloud& cloud, int row, int column, int radius, double jump)
+{
+  return nearestAround(cloud.width, cloud.height, row, column, radius, jump,
+    [&](std::size_t pixel)
     {
-      for (int c = left; c <= right; ++c)
-      {
-        const std::size_t pixel = static_cast<std::size_t>(r) * map.width + c;
-        if (map.points[pixel] >= 0)
-        {
-          visit(map.points[pixel], map.depths[pixel], (r - row) * (r - row) + (c - column) * (c - column));
-        }
-      }
-    }
-  };
-  float nearest = std::numeric_limits<float>::infinity();
-  forEach([&](int, float depth, int) { nearest = std::min(nearest, depth); });
-  int best = -1;
-  int bestPixels = 0;
-  float bestDepth = 0.0f;
-  forEach(
-    [&](int point, float depth, int pixels)
-    {
-      if (depth <= nearest + static_cast<float>(jump) &&
-          (best < 0 || pixels < bestPixels || (pixels == bestPixels && depth < bestDepth)))
-      {
-        best = point;
-        bestPixels = pixels;
-        bestDepth = depth;
-      }
+      const Eigen::Vector3f& point = cloud.points[pixel];
+      return std::make_pair(point.allFinite() ? static_cast<int>(pixel) : -1, point.z());
     });
-  return best;
 }
 }

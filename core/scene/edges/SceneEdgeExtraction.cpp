@@ -8,7 +8,11 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <bitset>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace meam
 {
@@ -44,66 +48,95 @@ void check(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtra
   if (!(settings.depthJump >= 0.0) || !std::isfinite(settings.depthJump) || settings.searchRadius < 0 ||
       settings.searchRadius > 50 || !angleFits)
   {
-    throw Error("Settings of the scene edges are out of range: the search radius is 0 to 50 points, the depth jump 0 or "
-                "more, and the angle of creases above 0 and below 180 degrees.");
+    throw Error(
+      "Settings of the scene edges are out of range: the search radius is 0 to 50 points, the depth jump 0 or "
+      "more, and the angle of creases above 0 and below 180 degrees.");
   }
 }
 
-/// Edge points as they are found: the first source, and the sum of the directions, which have no sign, as
-/// cosines and sines of twice their angles.
-class FoundEdges
+/// A point of the grid that something tells to be on an edge.
+struct Finding
+{
+  int point;
+  EdgeSource source;
+  Eigen::Vector2f direction; ///< unit, along the edge, in the image or in columns and rows of the grid
+};
+
+/// Places of the points that were found, in the order of the grid.
+class FoundPoints
 {
 public:
-  explicit FoundEdges(std::size_t gridPoints)
-    : Places(gridPoints, -1)
+  FoundPoints(std::size_t gridPoints, const std::vector<Finding>& found)
+    : Words(gridPoints / 64 + 1)
+    , Ranks(Words.size() + 1)
   {
-  }
-
-  void add(int point, EdgeSource source, const Eigen::Vector2f& direction)
-  {
-    int& place = this->Places[point];
-    if (place < 0)
+    for (const Finding& one : found)
     {
-      place = static_cast<int>(this->Sources.size());
-      this->Sources.push_back(source);
-      this->Doubled.emplace_back(0.0f, 0.0f);
+      this->Words[one.point / 64] |= std::uint64_t(1) << one.point % 64;
     }
-    if (this->Sources[place] == source)
+    for (std::size_t k = 0; k < this->Words.size(); ++k)
     {
-      const float x = direction.x();
-      const float y = direction.y();
-      this->Doubled[place] += Eigen::Vector2f(x * x - y * y, 2.0f * x * y);
+      this->Ranks[k + 1] = this->Ranks[k] + countOf(this->Words[k]);
     }
   }
 
-  void add(const std::vector<GridEdge>& edges, EdgeSource source)
+  int size() const { return this->Ranks.back(); }
+  int placeOf(int point) const
   {
-    for (const GridEdge& edge : edges)
-    {
-      this->add(edge.point, source, edge.direction);
-    }
-  }
-
-  /// Calls visit(grid point, source, direction) in the order of the grid.
-  template <typename Visitor>
-  void forEach(const Visitor& visit) const
-  {
-    for (std::size_t i = 0; i < this->Places.size(); ++i)
-    {
-      if (this->Places[i] >= 0)
-      {
-        const Eigen::Vector2f& doubled = this->Doubled[this->Places[i]];
-        const float angle = 0.5f * std::atan2(doubled.y(), doubled.x());
-        visit(static_cast<int>(i), this->Sources[this->Places[i]], Eigen::Vector2f(std::cos(angle), std::sin(angle)));
-      }
-    }
+    const std::uint64_t before = (std::uint64_t(1) << point % 64) - 1;
+    return this->Ranks[point / 64] + countOf(this->Words[point / 64] & before);
   }
 
 private:
-  std::vector<int> Places; ///< of a grid point in the others, -1: none
-  std::vector<EdgeSource> Sources;
-  std::vector<Eigen::Vector2f> Doubled;
+  static int countOf(std::uint64_t word) { return static_cast<int>(std::bitset<64>(word).count()); }
+
+  std::vector<std::uint64_t> Words; ///< a bit for each point of the grid
+  std::vector<int> Ranks;           ///< how many were found before each word
 };
+
+/// Edge points, each once, in the order of the grid: with the first source that found it, and the mean of its
+/// directions from there.
+struct EdgePoints
+{
+  SceneEdges edges;
+  std::vector<Eigen::Vector2f> directions;
+};
+
+EdgePoints merged(const OrganizedCloud& cloud, const std::vector<Finding>& found, int threads)
+{
+  const FoundPoints places(cloud.size(), found);
+  EdgePoints result;
+  result.edges.sources.resize(places.size());
+  result.edges.cloud.pointIds.assign(places.size(), -1);
+  result.edges.cloud.points.resize(places.size());
+  // Directions have no sign: sums of cosines and sines of twice their angles.
+  result.directions.assign(places.size(), Eigen::Vector2f::Zero());
+  for (const Finding& one : found)
+  {
+    const int place = places.placeOf(one.point);
+    if (result.edges.cloud.pointIds[place] < 0)
+    {
+      result.edges.cloud.pointIds[place] = one.point;
+      result.edges.sources[place] = one.source;
+    }
+    if (result.edges.sources[place] == one.source)
+    {
+      const float x = one.direction.x(), y = one.direction.y();
+      result.directions[place] += Eigen::Vector2f(x * x - y * y, 2.0f * x * y);
+    }
+  }
+  parallelFor(places.size(), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        const float angle = 0.5f * std::atan2(result.directions[i].y(), result.directions[i].x());
+        result.directions[i] = { std::cos(angle), std::sin(angle) };
+        result.edges.cloud.points[i] = cloud.points[result.edges.cloud.pointIds[i]];
+      }
+    });
+  return result;
+}
 
 /// A direction in the image of a camera as one in columns and rows of the grid; zero when the camera looks
 /// along the surface.
@@ -117,52 +150,78 @@ Eigen::Vector2f onGrid(const Camera& camera, const GridPlane& plane, const Eigen
   const Eigen::Vector2d inGrid = steps.inverse() * direction.cast<double>();
   return inGrid.allFinite() ? inGrid.normalized().cast<float>().eval() : Eigen::Vector2f::Zero().eval();
 }
-void addImageEdges(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtractionSettings& settings,
-  double jump, FoundEdges& found, const Progress& progress)
+
+std::vector<Finding> findingsOf(const std::vector<GridEdge>& edges, EdgeSource source)
 {
-  const std::vector<EdgePixel> pixels = findImageEdges(image, settings.image);
+  std::vector<Finding> found;
+  found.reserve(edges.size());
+  for (const GridEdge& edge : edges)
+  {
+    found.push_back({ edge.point, source, edge.direction });
+  }
+  return found;
+}
+
+std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& image,
+  const SceneEdgeExtractionSettings& settings, double jump, const Progress& progress)
+{
+  const std::vector<EdgePixel> pixels = findImageEdges(image, settings.image, settings.threads);
   report(progress, 0.5);
-  PixelMap map;
+  std::vector<Finding> found(pixels.size());
+  const auto lookUp = [&](const auto& map, double pixelsPerPoint, const Progress& rest)
+  {
+    const int radius = static_cast<int>(std::ceil(settings.searchRadius * pixelsPerPoint));
+    parallelFor(static_cast<int>(pixels.size()), settings.threads, rest,
+      [&](int begin, int end, int)
+      {
+        for (int i = begin; i < end; ++i)
+        {
+          const EdgePixel& pixel = pixels[i];
+          found[i] = { pointOfPixel(map, pixel.row, pixel.column, radius, jump), EdgeSource::Image, pixel.direction };
+        }
+      });
+  };
   if (settings.camera)
   {
     Camera camera = *settings.camera;
     camera.width = image.width;
     camera.height = image.height;
-    map = projectedPixels(cloud, camera, jump, settings.threads, subProgress(progress, 0.5, 0.9));
+    const PixelMap map = projectedPixels(cloud, camera, jump, settings.threads, subProgress(progress, 0.5, 0.9));
+    lookUp(map, map.pixelsPerPoint, subProgress(progress, 0.9, 1.0));
   }
   else
   {
-    map = registeredPixels(cloud);
+    lookUp(cloud, 1.0, subProgress(progress, 0.5, 1.0));
   }
-  const int radius = static_cast<int>(std::ceil(settings.searchRadius * map.pixelsPerPoint));
-  for (const EdgePixel& pixel : pixels)
-  {
-    const int point = pointOfPixel(map, pixel.row, pixel.column, radius, jump);
-    if (point >= 0)
-    {
-      found.add(point, EdgeSource::Image, pixel.direction);
-    }
-  }
+  found.erase(
+    std::remove_if(found.begin(), found.end(), [](const Finding& one) { return one.point < 0; }), found.end());
+  return found;
 }
 
 /// Lifts each point's direction to the surface there; points whose surface cannot be told are left out.
-SceneEdges withTangents(const SceneEdges& edges, const std::vector<Eigen::Vector2f>& directions,
-  const OrganizedCloud& cloud, const SceneEdgeExtractionSettings& settings, double jump, int radius,
-  const Progress& progress)
+SceneEdges withTangents(const EdgePoints& found, const OrganizedCloud& cloud,
+  const SceneEdgeExtractionSettings& settings, double jump, int radius, const Progress& progress)
 {
+  const SceneEdges& edges = found.edges;
   Points tangents(edges.cloud.size(), Eigen::Vector3f::Zero());
   parallelFor(static_cast<int>(tangents.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
+      std::vector<GridWindow> windows;
       for (int i = begin; i < end; ++i)
       {
-        const int point = edges.cloud.pointIds[i];
-        const GridWindow window{ 2 * radius, radius, directions[i] }; // long: the slope along the edge is what counts
-        const GridPlane plane = fitPlane(cloud, point / cloud.width, point % cloud.width, window, jump);
+        windows.push_back({ 2 * radius, radius, found.directions[i] }); // long: the slope along the edge is what counts
+      }
+      std::vector<GridPlane> planes(windows.size());
+      fitPlanes(cloud, &edges.cloud.pointIds[begin], windows.data(), end - begin, jump, planes.data());
+      for (int i = begin; i < end; ++i)
+      {
+        const GridPlane& plane = planes[i - begin];
+        const Eigen::Vector2f& direction = found.directions[i];
         if (plane.valid())
         {
           const bool inImage = settings.camera && edges.sources[i] == EdgeSource::Image;
-          tangents[i] = plane.lifted(inImage ? onGrid(*settings.camera, plane, directions[i]) : directions[i]);
+          tangents[i] = plane.lifted(inImage ? onGrid(*settings.camera, plane, direction) : direction);
         }
       }
     });
@@ -188,39 +247,28 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
 {
   check(cloud, image, settings);
   report(progress, 0.0);
-  const GridScale scale = gridScale(cloud);
+  const GridScale scale = gridScale(cloud, settings.threads);
   const double jump = settings.depthJump > 0.0 ? settings.depthJump : scale.depthJump();
-  FoundEdges found(cloud.size());
+  std::vector<Finding> found;
+  const auto add = [&](const std::vector<Finding>& some) { found.insert(found.end(), some.begin(), some.end()); };
   if (settings.imageEdges)
   {
-    addImageEdges(cloud, image, settings, jump, found, subProgress(progress, 0.0, 0.5));
+    found = findingsOfImage(cloud, image, settings, jump, subProgress(progress, 0.0, 0.5));
   }
   if (settings.depthEdges)
   {
-    found.add(findDepthEdges(cloud, jump, settings.threads, subProgress(progress, 0.5, 0.6)), EdgeSource::DepthJump);
+    add(findingsOf(
+      findDepthEdges(cloud, jump, settings.threads, subProgress(progress, 0.5, 0.6)), EdgeSource::DepthJump));
   }
   if (settings.creases)
   {
-    found.add(
-      findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)),
-      EdgeSource::Crease);
+    add(findingsOf(findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)),
+      EdgeSource::Crease));
   }
-
-  SceneEdges result;
-  std::vector<Eigen::Vector2f> directions;
-  found.forEach(
-    [&](int point, EdgeSource source, const Eigen::Vector2f& direction)
-    {
-      result.cloud.points.push_back(cloud.points[point]);
-      result.cloud.pointIds.push_back(point);
-      result.sources.push_back(source);
-      directions.push_back(direction);
-    });
-  if (settings.tangents)
-  {
-    result = withTangents(
-      result, directions, cloud, settings, jump, scale.windowRadius(), subProgress(progress, 0.8, 1.0));
-  }
+  EdgePoints points = merged(cloud, found, settings.threads);
+  SceneEdges result = settings.tangents ? withTangents(points, cloud, settings, jump, scale.windowRadius(),
+                                            subProgress(progress, 0.8, 1.0))
+                                        : std::move(points.edges);
   report(progress, 1.0);
   return result;
 }

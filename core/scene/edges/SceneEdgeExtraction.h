@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-
 #include "base/Error.h"
 #include "scene/Camera.h"
-#include "scene/edges/ImageEdges.h"
 #include "scene/OrganizedCloud.h"
+#include "scene/edges/ImageEdges.h"
 
 #include <optional>
 
@@ -26,10 +25,10 @@ struct SceneEdgeExtractionSettings
   ImageEdgeSettings image;
   std::optional<Camera> camera; ///< that took the image; none: the image is registered with the cloud
   int searchRadius = 1;         ///< grid steps around an edge pixel in which its depth is looked for
-  double depthJump = 0.0;       ///< mm between two surfaces that are neighbours; 0: 3 point distances, 5 times the noise
-  double creaseAngle = 30.0;    ///< degrees between the two pieces of a crease
-  bool tangents = true;         ///< from the edge's direction and the local surface; points without it are left out
-  int threads = 0;              ///< 0: one for each processor
+  double depthJump = 0.0;    ///< mm between two surfaces that are neighbours; 0: 3 point distances, 5 times the noise
+  double creaseAngle = 30.0; ///< degrees between the two pieces of a crease
+  bool tangents = true;      ///< from the edge's direction and the local surface; points without it are left out
+  int threads = 0;           ///< 0: one for each processor
 };
 
 struct SceneEdges

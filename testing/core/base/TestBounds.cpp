@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Bounds.h"
+
+#include "TestParts.h"
+#include "base/Error.h"
 #include "base/Frames.h"
 #include "base/PointCloud.h"
 #include "scene/Units.h"
-
-#include "TestParts.h"
-
-#include "base/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestParts.h"
 #include "base/Bounds.h"
+#include "base/Error.h"
 #include "base/Frames.h"
 #include "base/PointCloud.h"
 #include "scene/Units.h"
-
-#include "TestParts.h"
-
-#include "base/Error.h"
 
 #include <gtest/gtest.h>
 
@@ -20,8 +18,8 @@ const float NaN = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Frames, FrameIsRightHandedWithTheAxisFirst)
 {
-  for (const Eigen::Vector3f& axis : { Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 0, -1),
-         Eigen::Vector3f(1, 2, -3).normalized().eval() })
+  for (const Eigen::Vector3f& axis :
+    { Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 0, -1), Eigen::Vector3f(1, 2, -3).normalized().eval() })
   {
     const Eigen::Matrix3f frame = meam::frameAround(axis);
     EXPECT_TRUE(frame.col(0).isApprox(axis));

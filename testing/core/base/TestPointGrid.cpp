@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/PointGrid.h"
 
-#include "base/Error.h"
 #include "TestParts.h"
+#include "base/Error.h"
 
 #include <gtest/gtest.h>
 

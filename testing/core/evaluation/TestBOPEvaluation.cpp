@@ -112,7 +112,8 @@ TEST(BOPEvaluation, ABallIsTheSameAnyWayItIsTurned)
 TEST(BOPEvaluation, FarAlongTheRayIsNearOnTheImage)
 {
   const meam::BOPEvaluation evaluation(plate(), {});
-  const meam::BOPRecall recall = evaluation.recall({ pose(at(-20, -20, 5120)) }, { pose(at(-20, -20, 5000)) }, wall(6000));
+  const meam::BOPRecall recall =
+    evaluation.recall({ pose(at(-20, -20, 5120)) }, { pose(at(-20, -20, 5000)) }, wall(6000));
   EXPECT_EQ(recall.mssd[9], 0.0);
   EXPECT_EQ(recall.vsd[9], 0.0);
   EXPECT_EQ(recall.mspd[0], 1.0);

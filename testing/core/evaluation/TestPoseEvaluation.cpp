@@ -19,10 +19,7 @@ meam::Pose poseAt(double x, const AngleAxisd& turn = AngleAxisd(0.0, Vector3d::U
   return pose;
 }
 
-AngleAxisd degrees(double angle, const Vector3d& axis)
-{
-  return AngleAxisd(angle * M_PI / 180.0, axis);
-}
+AngleAxisd degrees(double angle, const Vector3d& axis) { return AngleAxisd(angle * M_PI / 180.0, axis); }
 
 /// A part of 50 mm: right within 5 mm and 5 degrees.
 meam::PoseEvaluationSettings settings()
@@ -32,8 +29,8 @@ meam::PoseEvaluationSettings settings()
   return settings;
 }
 
-meam::EvaluationFigures figuresOf(const meam::Poses& estimates, const meam::Poses& truths,
-  const meam::PoseEvaluationSettings& with = settings())
+meam::EvaluationFigures figuresOf(
+  const meam::Poses& estimates, const meam::Poses& truths, const meam::PoseEvaluationSettings& with = settings())
 {
   meam::EvaluationTotals totals;
   totals.add(meam::evaluatePoses(estimates, truths, with));
@@ -55,9 +52,9 @@ TEST(PoseEvaluation, toleranceOfTranslationAndRotation)
 
 TEST(PoseEvaluation, errorsOfARightPose)
 {
-  const auto judgement = meam::evaluatePoses(
-    { poseAt(103, degrees(4, Vector3d::UnitZ())) }, { poseAt(0), poseAt(100) }, settings())
-                           .judgements.at(0);
+  const auto judgement =
+    meam::evaluatePoses({ poseAt(103, degrees(4, Vector3d::UnitZ())) }, { poseAt(0), poseAt(100) }, settings())
+      .judgements.at(0);
   EXPECT_EQ(judgement.nearest, 1);
   EXPECT_FALSE(judgement.duplicate);
   EXPECT_NEAR(judgement.translationError, 3.0, 1e-12);
@@ -69,25 +66,23 @@ TEST(PoseEvaluation, errorsOfARightPose)
 TEST(PoseEvaluation, axisAndRollAreToldApart)
 {
   const AngleAxisd truth = degrees(77, Vector3d(1, 2, 3).normalized());
-  const auto judged = [&](double swing, double roll, const Vector3d& axis)
+  const auto judgementOf = [&](double swing, double roll, const Vector3d& axis)
   {
     meam::PoseEvaluationSettings with = settings();
     with.axis = axis;
-    const Eigen::Quaterniond turn =
-      truth * degrees(swing, axis.unitOrthogonal()) * degrees(roll, axis.normalized());
-    return meam::evaluatePoses({ poseAt(0, AngleAxisd(turn)) }, { poseAt(0, truth) }, with)
-      .judgements.at(0);
+    const Eigen::Quaterniond turn = truth * degrees(swing, axis.unitOrthogonal()) * degrees(roll, axis.normalized());
+    return meam::evaluatePoses({ poseAt(0, AngleAxisd(turn)) }, { poseAt(0, truth) }, with).judgements.at(0);
   };
   for (const Vector3d& axis : { Vector3d(0, 0, 1), Vector3d(0, 3, 4) })
   {
-    EXPECT_NEAR(judged(30, 0, axis).axisError, 30.0, 1e-9);
-    EXPECT_NEAR(judged(30, 0, axis).rollError, 0.0, 1e-9);
-    EXPECT_NEAR(judged(0, 180, axis).axisError, 0.0, 1e-6);
-    EXPECT_NEAR(judged(0, 180, axis).rollError, 180.0, 1e-6);
-    EXPECT_NEAR(judged(0, 200, axis).rollError, 160.0, 1e-6);
-    EXPECT_NEAR(judged(25, 50, axis).axisError, 25.0, 1e-9);
-    EXPECT_NEAR(judged(25, 50, axis).rollError, 50.0, 1e-9);
-    EXPECT_NEAR(judged(180, 0, axis).axisError, 180.0, 1e-6);
+    EXPECT_NEAR(judgementOf(30, 0, axis).axisError, 30.0, 1e-9);
+    EXPECT_NEAR(judgementOf(30, 0, axis).rollError, 0.0, 1e-9);
+    EXPECT_NEAR(judgementOf(0, 180, axis).axisError, 0.0, 1e-6);
+    EXPECT_NEAR(judgementOf(0, 180, axis).rollError, 180.0, 1e-6);
+    EXPECT_NEAR(judgementOf(0, 200, axis).rollError, 160.0, 1e-6);
+    EXPECT_NEAR(judgementOf(25, 50, axis).axisError, 25.0, 1e-9);
+    EXPECT_NEAR(judgementOf(25, 50, axis).rollError, 50.0, 1e-9);
+    EXPECT_NEAR(judgementOf(180, 0, axis).axisError, 180.0, 1e-6);
   }
 }
 
@@ -102,8 +97,7 @@ TEST(PoseEvaluation, ofTwoInReachTheOneThatIsTurnedLessMatches)
 
 TEST(PoseEvaluation, aWrongPoseIsMeasuredAgainstTheNearest)
 {
-  const auto judgement =
-    meam::evaluatePoses({ poseAt(60) }, { poseAt(0), poseAt(100) }, settings()).judgements.at(0);
+  const auto judgement = meam::evaluatePoses({ poseAt(60) }, { poseAt(0), poseAt(100) }, settings()).judgements.at(0);
   EXPECT_EQ(judgement.instance, -1);
   EXPECT_EQ(judgement.nearest, 1);
   EXPECT_NEAR(judgement.translationError, 40.0, 1e-12);
@@ -188,8 +182,7 @@ TEST(PoseEvaluation, averagePrecision)
     estimates[i].score = 0.9 - 0.1 * i;
   }
   // Precision 1 up to a recall of 1/2 (51 of 101 steps), then 2/3.
-  EXPECT_NEAR(
-    figuresOf(estimates, truths).averagePrecision, 100.0 * (51.0 + 50.0 * 2.0 / 3.0) / 101.0, 1e-9);
+  EXPECT_NEAR(figuresOf(estimates, truths).averagePrecision, 100.0 * (51.0 + 50.0 * 2.0 / 3.0) / 101.0, 1e-9);
   estimates.pop_back();
   EXPECT_NEAR(figuresOf(estimates, truths).averagePrecision, 100.0 * 51.0 / 101.0, 1e-9);
   // The score decides over scenes: a wrong pose with the best score halves the precision.

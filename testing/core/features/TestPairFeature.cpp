@@ -67,8 +67,8 @@ TEST(PairFeature, NeitherMotionNorTheSignOfATangentChangesIt)
       const PairFeature expected = meam::pairFeature(kind, pr, tr, pi, ti);
       for (int signs = 0; signs < 4; ++signs)
       {
-        const PairFeature found = meam::pairFeature(kind, T * pr, (signs & 1 ? -1.0f : 1.0f) * (T.linear() * tr), T * pi,
-          (signs & 2 ? -1.0f : 1.0f) * (T.linear() * ti));
+        const PairFeature found = meam::pairFeature(kind, T * pr, (signs & 1 ? -1.0f : 1.0f) * (T.linear() * tr),
+          T * pi, (signs & 2 ? -1.0f : 1.0f) * (T.linear() * ti));
         EXPECT_NEAR(found.distance, expected.distance, 1e-4);
         EXPECT_NEAR(found.referenceAngle, expected.referenceAngle, 2e-3);
         EXPECT_NEAR(found.referredAngle, expected.referredAngle, 2e-3);

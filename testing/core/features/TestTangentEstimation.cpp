@@ -181,11 +181,15 @@ TEST(TangentEstimation, PointsThatCarryTangentsAreOnlyThinned)
   for (const auto method : { meam::TangentMethod::RobustLine, meam::TangentMethod::Tiles })
   {
     settings.method = method;
-    const meam::PointCloud edges = parts::withTangents(cloud, 50.0, Down, settings);
-    ASSERT_EQ(edges.size(), 11u) << "the middle of the line is that of a cube";
-    EXPECT_EQ(edges.tangents, meam::Points(11, Eigen::Vector3f::UnitY()));
+    const meam::LocalCloud local = meam::toLocalCloud(cloud);
+    const meam::ThinnedEdges found = meam::estimateTangents(local, 50.0, Down, settings);
+    ASSERT_EQ(found.indices.size(), 11u) << "the middle of the line is that of a cube";
+    EXPECT_EQ(found.edges.cloud.points, local.cloud.subset(found.indices).points);
+    EXPECT_EQ(found.edges.cloud.tangents, local.cloud.subset(found.indices).tangents);
+    EXPECT_EQ(found.edges.cloud.weights, std::vector<float>(11, 1.0f));
+    EXPECT_TRUE(found.edges.T_local_scene.matrix() == local.T_local_scene.matrix());
+    const meam::PointCloud edges = cloud.subset(found.indices);
     EXPECT_EQ(edges.edgeTypes, std::vector<meam::EdgeType>(11, meam::EdgeType::Crease));
-    EXPECT_EQ(edges.weights, std::vector<float>(11, 1.0f));
     EXPECT_EQ(parts::withTangents(edges, 50.0, Down, settings).points, edges.points);
   }
   // Nothing else has to be known of the part.
@@ -194,17 +198,25 @@ TEST(TangentEstimation, PointsThatCarryTangentsAreOnlyThinned)
   EXPECT_NO_THROW(parts::withTangents(parts::withTangents(line({ 1, 0, 0 }, 41, 0.5f), 50.0, Down), 0.0, Down, given));
 }
 
+TEST(TangentEstimation, EdgesSayWhereTheyComeFrom)
+{
+  meam::LocalCloud edges = meam::toLocalCloud(line({ 1, 0, 0 }, 30, 0.5f));
+  EXPECT_FALSE(meam::estimateTangents(edges, 50.0, Down).edges.fromScan);
+  edges.fromScan = true;
+  EXPECT_TRUE(meam::estimateTangents(edges, 50.0, Down).edges.fromScan);
+}
+
 TEST(TangentEstimation, BadInput)
 {
   EXPECT_THROW(parts::withTangents({}, 50.0, Down), meam::Error);
   meam::PointCloud invalid;
   invalid.points.assign(5, Eigen::Vector3f::Constant(NAN));
   EXPECT_THROW(parts::withTangents(invalid, 50.0, Down), meam::Error);
-  EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 10, 1.0f), 0.0, Down), meam::Error); // no length known
+  EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 10, 1.0f), 0.0, Down), meam::Error);     // no length known
   EXPECT_THROW(parts::withTangents(line({ 1, 0, 0 }, 30, 0.0005f), 50.0, Down), meam::Error); // in metres
-  meam::PreciseCloud far;
-  far.points.assign(5, Eigen::Vector3d(1e300, 0.0, 0.0));
-  EXPECT_THROW(meam::estimateTangents(far, 50.0, -Eigen::Vector3d::UnitZ(), {}), meam::Error);
+  const meam::PrecisePoints far(5, Eigen::Vector3d(1e300, 0.0, 0.0));
+  EXPECT_THROW(
+    meam::estimateTangents(meam::toLocalCloud(far, {}, {}, Eigen::Isometry3d::Identity()), 50.0, Down), meam::Error);
   meam::PointCloud some = line({ 1, 0, 0 }, 30, 0.5f);
   some.points[3].x() = NAN;
   EXPECT_NO_THROW(parts::withTangents(some, 50.0, Down));

@@ -17,7 +17,8 @@ void expectError(const std::string& text, const std::string& word)
   const files::Folder folder;
   const std::string path = folder.write("models_info.json", text);
   const std::string error = files::errorOf([&] { meam::readModelsInfo(path, 1); });
-  EXPECT_TRUE(files::contains(error, word) && files::contains(error, path)) << text.substr(0, 200) << "\nsays: " << error;
+  EXPECT_TRUE(files::contains(error, word) && files::contains(error, path))
+    << text.substr(0, 200) << "\nsays: " << error;
 }
 }
 

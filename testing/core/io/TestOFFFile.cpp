@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/FileBytes.h"
 #include "io/OFFFile.h"
+#include "io/parsing/FileBytes.h"
 #include "mesh/TriangleMesh.h"
 
 #include <gtest/gtest.h>
@@ -64,9 +64,9 @@ TEST(OFFFile, commentsBlankLinesAndOtherLineEnds)
 {
   for (const std::string end : { "\n", "\r\n" })
   {
-    const meam::TriangleMesh mesh = read("# made by hand" + end + end + "OFF # a mesh" + end + "3 1 # no edges" + end +
-                                         "0 0 0" + end + " \t" + end + "1 0 0 # second" + end + "0\t1 0" + end +
-                                         "# faces" + end + "3 0 1 2");
+    const meam::TriangleMesh mesh =
+      read("# made by hand" + end + end + "OFF # a mesh" + end + "3 1 # no edges" + end + "0 0 0" + end + " \t" + end +
+           "1 0 0 # second" + end + "0\t1 0" + end + "# faces" + end + "3 0 1 2");
     EXPECT_EQ(mesh.vertices.size(), 3u);
     EXPECT_EQ(mesh.triangles.size(), 1u);
   }

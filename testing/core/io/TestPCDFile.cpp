@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/FileBytes.h"
 #include "io/PCDFile.h"
+#include "io/parsing/FileBytes.h"
 
 #include <gtest/gtest.h>
 #include <liblzf/lzf.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/Error.h"
 #include "TestParts.h"
+#include "base/Error.h"
 #include "mesh/MeshEdges.h"
 #include "mesh/TriangleMesh.h"
 

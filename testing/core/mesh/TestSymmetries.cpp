@@ -192,8 +192,9 @@ TEST(Symmetries, whatIsKnownReplacesTheExactOnes)
 
 TEST(Symmetries, NearTurnsMakeAPartNearlyRoundHalfTurnsDoNot)
 {
-  const auto near = [](const Eigen::Vector3d& axis, double degrees)
-  { return meam::NearSymmetry{ turn(axis, degrees), 0.9, 1.0 }; };
+  const auto near = [](const Eigen::Vector3d& axis, double degrees) {
+    return meam::NearSymmetry{ turn(axis, degrees), 0.9, 1.0 };
+  };
   meam::Symmetries symmetries;
   symmetries.near = { near(Eigen::Vector3d::UnitX(), 180.0) };
   EXPECT_TRUE(meam::nearlyRoundAxes(symmetries).empty());
@@ -203,11 +204,13 @@ TEST(Symmetries, NearTurnsMakeAPartNearlyRoundHalfTurnsDoNot)
   const std::vector<meam::ContinuousSymmetry> axes = meam::nearlyRoundAxes(symmetries);
   ASSERT_EQ(axes.size(), 1u);
   EXPECT_NEAR(std::abs(axes[0].axis.z()), 1.0, 1e-9);
-  EXPECT_LT((axes[0].point - Eigen::Vector3d(Centre.x(), Centre.y(), 0)).norm(), 1e-6) << "on the axis, nearest to the origin";
+  EXPECT_LT((axes[0].point - Eigen::Vector3d(Centre.x(), Centre.y(), 0)).norm(), 1e-6)
+    << "on the axis, nearest to the origin";
   const meam::Symmetries round = meam::asIfRound(symmetries);
   ASSERT_EQ(round.continuous.size(), 1u);
   EXPECT_EQ(round.near.size(), 3u);
   const Eigen::Isometry3d turned = turn(Eigen::Vector3d::UnitZ(), 37.0);
-  EXPECT_TRUE(meam::nearestEqual(turned, Eigen::Isometry3d::Identity(), round).isApprox(Eigen::Isometry3d::Identity(), 1e-6));
+  EXPECT_TRUE(
+    meam::nearestEqual(turned, Eigen::Isometry3d::Identity(), round).isApprox(Eigen::Isometry3d::Identity(), 1e-6));
   EXPECT_EQ(meam::asIfRound(cylinder(true)).continuous.size(), 1u) << "what is round stays so";
 }

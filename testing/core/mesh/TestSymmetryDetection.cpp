@@ -4,8 +4,8 @@
 #include "TestParts.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/SurfaceSampling.h"
-#include "pose/Pose.h"
 #include "mesh/TriangleMesh.h"
+#include "pose/Pose.h"
 
 #include <gtest/gtest.h>
 
@@ -151,7 +151,9 @@ TEST(SymmetryDetection, ANotchMakesItNearAndTheDeviationShowsWhereItIs)
   EXPECT_TRUE(contains(found.discrete, { -1, 1, 0 }, 180.0));
 
   const auto half = std::find_if(found.near.begin(), found.near.end(),
-    [](const auto& symmetry) { return contains({ symmetry.T }, { 0, 0, 1 }, 180.0); });
+    [](const auto& symmetry) {
+      return contains({ symmetry.T }, { 0, 0, 1 }, 180.0);
+    });
   ASSERT_NE(half, found.near.end());
   const std::vector<float> deviation = meam::surfaceDeviation(surface, half->T, 5.0);
   ASSERT_EQ(deviation.size(), surface.size());

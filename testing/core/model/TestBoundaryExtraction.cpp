@@ -3,9 +3,9 @@
 
 #include "TestParts.h"
 #include "mesh/SurfaceSampling.h"
-#include "model/VisibilityExtraction.h"
-#include "model/AppearanceModel.h"
 #include "mesh/TriangleMesh.h"
+#include "model/AppearanceModel.h"
+#include "model/VisibilityExtraction.h"
 
 #include <gtest/gtest.h>
 

@@ -39,14 +39,14 @@ TEST(DistanceField, OfAPlaneIsTheHeight)
   EXPECT_NEAR(field.at({ 22.5f, 10.0f, 0.0f }), 1.5, Cell); // beside it, less the spacing
 }
 
-TEST(DistanceField, FarAwayIsTheReach)
+TEST(DistanceField, FarAwayIsTheTruncationDistance)
 {
   const meam::DistanceField field = meam::DistanceField::ofSurface(square(), 1.0, 3.0, Cell);
   EXPECT_EQ(field.at({ 10, 10, 3.5f }), 3.0f);
   EXPECT_EQ(field.at({ 1e6f, 0, 0 }), 3.0f);
   EXPECT_EQ(field.at({ -1e30f, 0, 0 }), 3.0f);
   EXPECT_EQ(field.at(Eigen::Vector3f::Constant(NAN)), 3.0f);
-  EXPECT_EQ(meam::DistanceField().at({ 0, 0, 0 }), 0.0f) << "of nothing, with no reach";
+  EXPECT_EQ(meam::DistanceField().at({ 0, 0, 0 }), 0.0f) << "of nothing, truncated at 0";
   EXPECT_EQ(meam::DistanceField::ofSurface({}, 1.0, 3.0, Cell).at({ 0, 0, 0 }), 3.0f);
 }
 
@@ -95,5 +95,5 @@ TEST(DistanceField, ManyAtOnceAsOneByOne)
   EXPECT_GT(near, 300);
   float distance = -1.0f;
   meam::DistanceField().at(toPart, points, 0, 1, &distance);
-  EXPECT_EQ(distance, 0.0f) << "of nothing, with no reach";
+  EXPECT_EQ(distance, 0.0f) << "of nothing, truncated at 0";
 }

@@ -49,7 +49,8 @@ std::map<std::array<float, 6>, std::uint32_t> pairsOf(const meam::TrainedModel& 
   {
     const auto& r = model.edges.points[model.table.references[k]];
     const auto& i = model.edges.points[model.table.referreds[k]];
-    EXPECT_TRUE(pairs.emplace(std::array<float, 6>{ r.x(), r.y(), r.z(), i.x(), i.y(), i.z() }, model.table.viewBits[k]).second)
+    EXPECT_TRUE(
+      pairs.emplace(std::array<float, 6>{ r.x(), r.y(), r.z(), i.x(), i.y(), i.z() }, model.table.viewBits[k]).second)
       << "stored twice";
   }
   return pairs;
@@ -118,8 +119,9 @@ TEST(MEAMHashing, OneOfEqualPointsIsAReference)
   const meam::Points points = { { 10, 0, 0 }, { -10, 0, 0 }, { 0, 15, 5 }, { 0, -15, 5 } };
   meam::Symmetries half;
   half.discrete.push_back(meam::turnAbout(Eigen::Vector3d::UnitZ(), M_PI, Eigen::Vector3d::Zero()));
-  const auto trained = [&](const meam::Symmetries& symmetries)
-  { return meam::hashModels({ view("top", points) }, { {}, 40.0, symmetries }, settings(true)); };
+  const auto trained = [&](const meam::Symmetries& symmetries) {
+    return meam::hashModels({ view("top", points) }, { {}, 40.0, symmetries }, settings(true));
+  };
   EXPECT_EQ(trained({}).table.size(), 12u);
   const meam::TrainedModel model = trained(half);
   EXPECT_EQ(model.table.size(), 6u);
@@ -163,10 +165,11 @@ TEST(MEAMHashing, EveryBucketHoldsThePairsOfItsKey)
   {
     for (int i = 0; i < model.votingEdges; ++i)
     {
-      expected += r != i && model.edges.points[r] != model.edges.points[i] &&
-          ((model.edgeViews[r] & model.edgeViews[i]) != 0 || (model.edgeVisible[r] & model.edgeVisible[i]) != 0)
-        ? 1
-        : 0;
+      expected +=
+        r != i && model.edges.points[r] != model.edges.points[i] &&
+            ((model.edgeViews[r] & model.edgeViews[i]) != 0 || (model.edgeVisible[r] & model.edgeVisible[i]) != 0)
+          ? 1
+          : 0;
     }
   }
   EXPECT_EQ(stored, expected);
@@ -188,7 +191,7 @@ TEST(MEAMHashing, OneEdgePointOfACubeVotes)
     return meam::hashModels({ view }, {}, with);
   };
   const meam::TrainedModel thin = trained(4.0);
-  EXPECT_EQ(thin.edges.size(), 40u) << "all judge poses";
+  EXPECT_EQ(thin.edges.size(), 40u) << "poses are verified on all";
   EXPECT_EQ(thin.votingEdges, 10);
   EXPECT_EQ(thin.table.size(), 90u);
   const meam::Points voting(thin.edges.points.begin(), thin.edges.points.begin() + 10);
@@ -228,9 +231,11 @@ TEST(MEAMHashing, BadInput)
   MEAMHashingSettings fine;
   fine.angleStep = 1.0;
   fine.distanceStep = 0.001;
-  EXPECT_THROW(meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, fine), meam::Error); // 3 thousand million keys
+  EXPECT_THROW(
+    meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, fine), meam::Error); // 3 thousand million keys
   MEAMHashingSettings none;
   none.angleStep = 0.0;
   EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, none), meam::Error);
-  EXPECT_THROW(meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, {}, [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(
+    meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, {}, [](double) { return false; }), meam::Aborted);
 }

@@ -62,14 +62,16 @@ TEST(DepthMap, TellsHowAPointLiesToTheSurface)
 TEST(DepthMap, MeansAreOfTheNearestLayer)
 {
   // Four points of one cell on a slope, two far below them.
-  const meam::Points points = { { 0, 0, 1 }, { 1, 0, 2 }, { 0, 1, 1 }, { 1, 1, 2 }, { 0.5f, 0.5f, -30 }, { 0.2f, 0.4f, -31 } };
+  const meam::Points points = { { 0, 0, 1 }, { 1, 0, 2 }, { 0, 1, 1 }, { 1, 1, 2 }, { 0.5f, 0.5f, -30 },
+    { 0.2f, 0.4f, -31 } };
   const meam::DepthMap map(points, fromAbove(), 4.0);
   ASSERT_EQ(map.means().size(), 1u);
   EXPECT_TRUE(map.means()[0].isApprox(Eigen::Vector3f(0.5f, 0.5f, 1.5f), 1e-5f));
   ASSERT_TRUE(meanAt(map, { 0.3f, 0.3f, 5 }));
   EXPECT_TRUE(meanAt(map, { 0.3f, 0.3f, 5 })->isApprox(map.means()[0]));
   EXPECT_FALSE(meanAt(map, { 100, 0, 0 }));
-  EXPECT_EQ(map.relation({ 0.3f, 0.3f, -31 }, 0.5f), meam::DepthMap::Relation::OnSurface) << "the farthest was seen, too";
+  EXPECT_EQ(map.relation({ 0.3f, 0.3f, -31 }, 0.5f), meam::DepthMap::Relation::OnSurface)
+    << "the farthest was seen, too";
 }
 
 TEST(DepthMap, AGapOfOneCellIsFilledFromTheNearestSurface)

@@ -188,7 +188,8 @@ TEST(EdgeIndex, NeighboursServeUntilAPointHasMovedByTheMargin)
   const meam::PointCloud points = asked(100);
   constexpr double Radius = 6.0, Across = 2.0, Margin = 0.4;
   const Eigen::Vector3f step = 0.99f * Margin * Eigen::Vector3f(0.6f, 0.0f, -0.8f);
-  const Eigen::Matrix3f turn = Eigen::AngleAxisf(0.07f, Eigen::Vector3f(1, 2, 2) / 3.0f).toRotationMatrix(); // 4 degrees
+  const Eigen::Matrix3f turn =
+    Eigen::AngleAxisf(0.07f, Eigen::Vector3f(1, 2, 2) / 3.0f).toRotationMatrix(); // 4 degrees
   meam::SoAOrientedPoints before, after;
   before.resize(points.size());
   after.resize(points.size());

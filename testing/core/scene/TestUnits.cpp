@@ -18,7 +18,8 @@ TEST(Units, AnUnlikelyExtentIsAWarningThatNamesTheFactor)
 {
   const auto spanning = [](float length) { return meam::Points{ { 0, 0, 0 }, { length, 0, 0 } }; };
   EXPECT_TRUE(meam::unitsWarning(spanning(300), 60.0).empty());
-  EXPECT_NE(meam::unitsWarning(spanning(30), 60.0).find("factor is 10. Scale the scene"), std::string::npos); // centimetres
+  EXPECT_NE(
+    meam::unitsWarning(spanning(30), 60.0).find("factor is 10. Scale the scene"), std::string::npos); // centimetres
   EXPECT_NE(meam::unitsWarning(spanning(0.3f), 60.0).find("factor is 1000. Scale the scene"), std::string::npos);
   EXPECT_NE(meam::unitsWarning(spanning(600), 2.0).find("factor is 10. Scale the part"), std::string::npos);
   EXPECT_NE(meam::unitsWarning(spanning(3000), 2.0).find("factor is 1000. Scale the part"), std::string::npos);

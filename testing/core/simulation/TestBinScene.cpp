@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/BinScene.h"
-#include "simulation/SamplePart.h"
+
 #include "mesh/TriangleMesh.h"
+#include "simulation/SamplePart.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/ConvexHull.h"
+#include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
 #include "simulation/ExampleParts.h"
-#include "mesh/TriangleMesh.h"
 
 #include <gtest/gtest.h>
 

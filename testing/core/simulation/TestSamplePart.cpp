@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/FileBytes.h"
+#include "base/Bounds.h"
+#include "io/parsing/FileBytes.h"
+#include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
 #include "simulation/SamplePart.h"
-#include "base/Bounds.h"
-#include "mesh/TriangleMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ TEST(SamplePart, hasItsSizeAndFeatures)
 //   PPFMEAM_REGENERATE=1 meamCoreTests --gtest_filter=SamplePart.isTheFileOfTheExamples
 TEST(SamplePart, isTheFileOfTheExamples)
 {
-  const std::string path = (std::filesystem::path(__FILE__).parent_path() / "../../examples/data/ribbed_flange.stl")
+  const std::string path = (std::filesystem::path(__FILE__).parent_path() / "../../../examples/data/ribbed_flange.stl")
                              .lexically_normal()
                              .string();
   const std::string bytes = stl(meam::makeSamplePart());

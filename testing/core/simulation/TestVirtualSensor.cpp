@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestVirtualCamera.h"
-
-#include "simulation/VirtualSensor.h"
 #include "mesh/TriangleMesh.h"
+#include "simulation/VirtualSensor.h"
 
 #include <gtest/gtest.h>
 

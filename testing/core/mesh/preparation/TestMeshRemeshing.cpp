@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestParts.h"
 #include "mesh/MeshEdges.h"
-#include "mesh/preparation/MeshRemeshing.h"
 #include "mesh/TriangleMesh.h"
+#include "mesh/preparation/MeshRemeshing.h"
 
 #include <gtest/gtest.h>
 

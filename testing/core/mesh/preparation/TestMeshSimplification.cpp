@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestParts.h"
-#include "mesh/preparation/MeshDistance.h"
-#include "mesh/MeshEdges.h"
-#include "mesh/preparation/MeshSimplification.h"
 #include "base/Bounds.h"
+#include "mesh/MeshEdges.h"
 #include "mesh/TriangleMesh.h"
+#include "mesh/preparation/MeshDistance.h"
+#include "mesh/preparation/MeshSimplification.h"
 
 #include <gtest/gtest.h>
 
@@ -153,8 +153,8 @@ TEST(MeshSimplification, edgesStaySharp)
 TEST(MeshSimplification, notchesAndHolesOfASheetStay)
 {
   // A notch of 4 x 2 mm in the border and a hole of 3 x 3: filling either would move no point off the plane.
-  const meam::TriangleMesh fine = sheet(12,
-    [](int x, int y) { return (x >= 4 && x < 8 && y < 2) || (x >= 5 && x < 8 && y >= 6 && y < 9); });
+  const meam::TriangleMesh fine =
+    sheet(12, [](int x, int y) { return (x >= 4 && x < 8 && y < 2) || (x >= 5 && x < 8 && y >= 6 && y < 9); });
   const meam::TriangleMesh result = meam::simplifyMesh(fine, 0.5);
   EXPECT_NEAR(area(result), 144.0 - 8.0 - 9.0, 1e-4);
   EXPECT_LT(result.triangles.size(), 20u);

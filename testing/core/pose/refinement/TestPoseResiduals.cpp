@@ -89,8 +89,8 @@ TEST(PoseResiduals, OfASurfaceWeighLessNearTheBorderOfACell)
 TEST(PoseResiduals, OfLinesAreAcrossThem)
 {
   std::mt19937 random(9);
-  for (const Eigen::Vector3f& line : { Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(0, 0, -1), Eigen::Vector3f(0.6f, 0, 0.8f),
-         Eigen::Vector3f(2, -3, -1).normalized(), Eigen::Vector3f(1, 0, 0) })
+  for (const Eigen::Vector3f& line : { Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(0, 0, -1),
+         Eigen::Vector3f(0.6f, 0, 0.8f), Eigen::Vector3f(2, -3, -1).normalized(), Eigen::Vector3f(1, 0, 0) })
   {
     meam::SoAOrientedPoints lines;
     meam::SoAPoints offsets;
@@ -98,8 +98,7 @@ TEST(PoseResiduals, OfLinesAreAcrossThem)
     lines.resize(300); // more than are added together
     Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
     double squares = 0.0;
-    const Eigen::Matrix3d across =
-      Eigen::Matrix3d::Identity() - line.cast<double>() * line.cast<double>().transpose();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - line.cast<double>() * line.cast<double>().transpose();
     for (int k = 0; k < 300; ++k)
     {
       const Eigen::Vector3d point = parts::motion(random, 30.0).translation();

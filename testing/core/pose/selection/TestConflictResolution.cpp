@@ -13,13 +13,7 @@ namespace
 meam::TriangleMesh plate() { return parts::box({ 0, 0, 0 }, { 60, 40, 10 }); }
 meam::TriangleMesh block() { return parts::box({ 0, 0, 0 }, { 20, 12, 10 }); }
 
-/// Trained once for all tests of the executable.
-template <meam::TriangleMesh (*Part)()>
-const meam::TrainedModel& trained()
-{
-  static const meam::TrainedModel model = meam::trainModel(Part(), meam::trainingSettings(meam::Preset::Recommended));
-  return model;
-}
+using scenes::trained;
 
 meam::Pose at(const Eigen::Isometry3d& T, double probability)
 {
@@ -33,22 +27,42 @@ meam::Pose at(const Eigen::Isometry3d& T, double probability)
 
 Eigen::Isometry3d place(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
 
-meam::Scene withTangents(meam::Scene scene)
+scenes::Seen seen(const std::vector<scenes::Copy>& copies)
 {
-  scene.edges = parts::withTangents(scene.edges, trained<plate>().diameter, scene.sensor.direction);
-  return scene;
+  return scenes::withTangents(scenes::seenFromAbove(copies), trained<plate>().diameter);
 }
 
-meam::Scene seen(const std::vector<scenes::Copy>& copies) { return withTangents(scenes::seenFromAbove(copies)); }
+/// Poses of a type of part, in the scene's coordinates.
+struct Found
+{
+  const meam::TrainedModel& model;
+  meam::Poses poses;
+};
+
+/// What stays of two types, in the scene's coordinates.
+std::vector<meam::PartPose> resolved(const scenes::Seen& seen, const Found& a, const Found& b,
+  const meam::ConflictResolutionSettings& settings = {}, const meam::Progress& progress = {})
+{
+  const meam::Scene sceneA = scenes::prepared(seen, a.model.diameter),
+                    sceneB = scenes::prepared(seen, b.model.diameter);
+  const Eigen::Isometry3d& T = sceneA.T_local_scene();
+  const meam::Poses posesA = meam::toLocalFrame(a.poses, T, a.model.symmetries);
+  const meam::Poses posesB = meam::toLocalFrame(b.poses, T, b.model.symmetries);
+  std::vector<meam::PartPose> stay =
+    meam::resolveConflicts({ { sceneA, a.model, posesA }, { sceneB, b.model, posesB } }, settings, progress);
+  for (meam::PartPose& pose : stay)
+  {
+    pose.pose = meam::toSceneFrame({ pose.pose }, T, (pose.part == 0 ? a : b).model.symmetries)[0];
+  }
+  return stay;
+}
 
 /// The types of the parts that stay of one pose of each of two types.
-std::vector<int> typesLeft(const meam::Scene& scene, const meam::TrainedModel& a, const meam::Pose& poseA,
+std::vector<int> typesLeft(const scenes::Seen& seen, const meam::TrainedModel& a, const meam::Pose& poseA,
   const meam::TrainedModel& b, const meam::Pose& poseB, const meam::ConflictResolutionSettings& settings = {})
 {
-  const meam::SceneIndex indexA(a, scene), indexB(b, scene);
-  const meam::Poses posesA{ poseA }, posesB{ poseB };
   std::vector<int> types;
-  for (const meam::PartPose& stays : meam::resolveConflicts({ { indexA, posesA }, { indexB, posesB } }, settings))
+  for (const meam::PartPose& stays : resolved(seen, { a, { poseA } }, { b, { poseB } }, settings))
   {
     types.push_back(stays.part);
   }
@@ -65,15 +79,14 @@ TEST(ConflictResolution, PartsSideBySideAreFoundOnceEach)
   const std::vector<scenes::Copy> copies = { { parts::lBracket(), scenes::lying(0, 0, 20) },
     { parts::lBracket(), scenes::lying(90, 10, 131, false) }, { parts::windowPlate(), scenes::lying(10, 75, 35) },
     { parts::windowPlate(), scenes::lying(100, 65, -70) } };
-  const meam::Scene raw = scenes::seenFromAbove(copies);
-  const meam::Scene scene = withTangents(raw);
+  const scenes::Seen raw = scenes::seenFromAbove(copies);
+  const scenes::Seen scene = scenes::withTangents(raw, trained<plate>().diameter);
   const meam::DetectionSettings all = meam::detectionSettings(meam::Preset::Recommended, 0);
   const meam::TrainedModel& bracket = scenes::bracket();
   const meam::TrainedModel& window = trained<parts::windowPlate>();
-  const meam::Poses brackets = scenes::estimatePoses(bracket, raw, all);
-  const meam::Poses windows = scenes::estimatePoses(window, raw, all);
-  const meam::SceneIndex bracketIndex(bracket, scene), windowIndex(window, scene);
-  const auto found = meam::resolveConflicts({ { bracketIndex, brackets }, { windowIndex, windows } });
+  const Found brackets{ bracket, scenes::estimatePoses(bracket, raw, all) };
+  const Found windows{ window, scenes::estimatePoses(window, raw, all) };
+  const auto found = resolved(scene, brackets, windows);
   ASSERT_GE(found.size(), copies.size());
   const auto isAt = [](const meam::PartPose& pose, const Eigen::Isometry3d& T)
   {
@@ -94,7 +107,7 @@ TEST(ConflictResolution, PartsSideBySideAreFoundOnceEach)
     EXPECT_LT(found[i].pose.probability, 0.5);
   }
   // The order of the parts makes no difference but for their numbers.
-  const auto swapped = meam::resolveConflicts({ { windowIndex, windows }, { bracketIndex, brackets } });
+  const auto swapped = resolved(scene, windows, brackets);
   ASSERT_EQ(swapped.size(), found.size());
   for (std::size_t i = 0; i < found.size(); ++i)
   {
@@ -109,10 +122,10 @@ TEST(ConflictResolution, ThePlateWithItsWindowAndWithout)
   const meam::TrainedModel& window = trained<parts::windowPlate>();
   const meam::TrainedModel& whole = trained<plate>();
   // At the same pose and equally likely: what is measured tells.
-  const meam::Scene open = seen({ { parts::windowPlate(), T } });
+  const scenes::Seen open = seen({ { parts::windowPlate(), T } });
   EXPECT_EQ(typesLeft(open, window, at(T, 0.9), whole, at(T, 0.9)), Types{ 0 });
   EXPECT_EQ(typesLeft(open, whole, at(T, 0.9), window, at(T, 0.9)), Types{ 1 });
-  const meam::Scene closed = seen({ { plate(), T } });
+  const scenes::Seen closed = seen({ { plate(), T } });
   EXPECT_EQ(typesLeft(closed, window, at(T, 0.9), whole, at(T, 0.9)), Types{ 1 });
   // The whole chain comes to the same.
   for (const auto* scene : { &open, &closed })
@@ -126,21 +139,21 @@ TEST(ConflictResolution, ThePlateWithItsWindowAndWithout)
 
 TEST(ConflictResolution, ASmallPartThatFitsInsideALargeOneLoses)
 {
-  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) } });
   const meam::TrainedModel& large = trained<plate>();
   const meam::TrainedModel& small = trained<block>();
   // Its upper face is the plate's; that it is the likelier one does not help it...
   EXPECT_EQ(typesLeft(scene, small, at(place(0, 0, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 1 });
   EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 1 });
   // ...unless the large one hardly can be there: it is not where it should be.
-  const meam::Scene alone = seen({ { block(), place(0, 0, 0) } });
+  const scenes::Seen alone = seen({ { block(), place(0, 0, 0) } });
   EXPECT_EQ(typesLeft(alone, small, at(place(0, 0, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 0 });
   EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 0), 0.99), large, at(place(0, 0, 0), 0.02)), Types{ 0 });
 }
 
 TEST(ConflictResolution, ASmallPartOnTopOfALargeOneStays)
 {
-  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) }, { block(), place(20, 14, 10) } });
+  const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) }, { block(), place(20, 14, 10) } });
   const meam::TrainedModel& large = trained<plate>();
   const meam::TrainedModel& small = trained<block>();
   EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 10), 0.6), large, at(place(0, 0, 0), 0.99)), (Types{ 0, 1 }));
@@ -149,20 +162,21 @@ TEST(ConflictResolution, ASmallPartOnTopOfALargeOneStays)
 TEST(ConflictResolution, WithoutASurfaceEdgesDecide)
 {
   const Eigen::Isometry3d T = scenes::lying(5, -8, 25);
-  meam::Scene open = seen({ { parts::windowPlate(), T } });
+  const scenes::Seen open = seen({ { parts::windowPlate(), T } });
   const meam::TrainedModel& window = trained<parts::windowPlate>();
   const meam::TrainedModel& whole = trained<plate>();
-  meam::Scene edgesOnly = open;
+  scenes::Seen edgesOnly = open;
   edgesOnly.surface.clear();
   EXPECT_EQ(typesLeft(edgesOnly, whole, at(T, 0.9), window, at(T, 0.9)), Types{ 1 });
-  const meam::SceneIndex with(window, open), without(whole, edgesOnly);
-  const meam::Poses poses{ at(T, 0.9) };
-  EXPECT_THROW(meam::resolveConflicts({ { with, poses }, { without, poses } }), meam::Error);
+  const meam::Scene with = scenes::prepared(open, window.diameter);
+  const meam::Scene without = scenes::prepared(edgesOnly, whole.diameter);
+  const meam::Poses poses{ at(with.T_local_scene() * T, 0.9) };
+  EXPECT_THROW(meam::resolveConflicts({ { with, window, poses }, { without, whole, poses } }), meam::Error);
 }
 
 TEST(ConflictResolution, ModelsWithoutASurfaceClaimWhatIsNearTheirEdges)
 {
-  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) } });
   meam::TrainedModel bare = trained<plate>();
   bare.surface = {};
   bare.deriveFields();
@@ -173,7 +187,7 @@ TEST(ConflictResolution, ModelsWithoutASurfaceClaimWhatIsNearTheirEdges)
 TEST(ConflictResolution, EqualSupportIsDecidedInTurn)
 {
   // The same model twice at the same pose: the claims are equal.
-  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) } });
   const meam::TrainedModel& model = trained<plate>();
   meam::Pose pose = at(place(0, 0, 0), 0.995);
   EXPECT_EQ(typesLeft(scene, model, pose, model, pose), Types{ 0 }); // the order
@@ -190,7 +204,7 @@ TEST(ConflictResolution, EqualSupportIsDecidedInTurn)
 TEST(ConflictResolution, HowMuchMayBeShared)
 {
   // Two plates that overlap by two thirds.
-  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
+  const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) } });
   const meam::TrainedModel& model = trained<plate>();
   meam::ConflictResolutionSettings settings;
   const meam::Pose shifted = at(place(20, 0, 0), 0.9);
@@ -205,8 +219,8 @@ TEST(ConflictResolution, HowMuchMayBeShared)
 
 TEST(ConflictResolution, ThreadsDoNotMatterAndAbortStops)
 {
-  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
-  const meam::SceneIndex index(trained<plate>(), scene);
+  const meam::TrainedModel& model = trained<plate>();
+  const meam::Scene scene = scenes::prepared(seen({ { plate(), place(0, 0, 0) } }), model.diameter);
   meam::Poses poses;
   for (int i = 0; i < 40; ++i)
   {
@@ -215,27 +229,28 @@ TEST(ConflictResolution, ThreadsDoNotMatterAndAbortStops)
   meam::ConflictResolutionSettings one, three;
   one.threads = 1;
   three.threads = 3;
-  const auto a = meam::resolveConflicts({ { index, poses } }, one);
-  const auto b = meam::resolveConflicts({ { index, poses } }, three);
+  poses = meam::toLocalFrame(poses, scene.T_local_scene(), model.symmetries);
+  const auto a = meam::resolveConflicts({ { scene, model, poses } }, one);
+  const auto b = meam::resolveConflicts({ { scene, model, poses } }, three);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
   {
     EXPECT_TRUE(a[i].pose.T_scene_model.matrix() == b[i].pose.T_scene_model.matrix());
   }
-  EXPECT_THROW(meam::resolveConflicts({ { index, poses } }, {}, [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(meam::resolveConflicts({ { scene, model, poses } }, {}, [](double) { return false; }), meam::Aborted);
 }
 
 TEST(ConflictResolution, NothingAndBadSettings)
 {
   EXPECT_TRUE(meam::resolveConflicts({}).empty());
-  const meam::Scene scene = seen({ { plate(), place(0, 0, 0) } });
-  const meam::SceneIndex index(trained<plate>(), scene);
+  const meam::TrainedModel& model = trained<plate>();
+  const meam::Scene scene = scenes::prepared(seen({ { plate(), place(0, 0, 0) } }), model.diameter);
   const meam::Poses none;
-  EXPECT_TRUE(meam::resolveConflicts({ { index, none } }).empty());
+  EXPECT_TRUE(meam::resolveConflicts({ { scene, model, none } }).empty());
   meam::ConflictResolutionSettings settings;
   settings.shared = 1.5;
-  EXPECT_THROW(meam::resolveConflicts({ { index, none } }, settings), meam::Error);
+  EXPECT_THROW(meam::resolveConflicts({ { scene, model, none } }, settings), meam::Error);
   settings = {};
   settings.tolerance = NAN;
-  EXPECT_THROW(meam::resolveConflicts({ { index, none } }, settings), meam::Error);
+  EXPECT_THROW(meam::resolveConflicts({ { scene, model, none } }, settings), meam::Error);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/voting/PoseDetection.h"
 
-#include "base/PointGrid.h"
 #include "TestScene.h"
+#include "base/PointGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ int right(const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& truth,
     }));
 }
 
-/// The model's own edges, moved: what voting should find exactly.
-meam::PointCloud ownEdges(const Eigen::Isometry3d& T, float sign = 1.0f)
+/// The model's edges, moved: what voting should find exactly.
+meam::PointCloud modelEdges(const Eigen::Isometry3d& T, float sign = 1.0f)
 {
   meam::PointCloud edges = parts::moved(scenes::bracket().edges, T);
   for (auto& tangent : edges.tangents)
@@ -106,7 +106,7 @@ TEST(PoseDetection, AMovedPartIsFoundAgain)
     const Eigen::Isometry3d T = parts::motion(random, 300.0);
     for (const float sign : { 1.0f, -1.0f })
     {
-      const meam::Poses poses = meam::detectPoses(ownEdges(T, sign), scenes::bracket());
+      const meam::Poses poses = scenes::detect(modelEdges(T, sign), scenes::bracket());
       ASSERT_GT(poses.size(), 10u);
       EXPECT_GE(right(poses, { T }, 3.0, 6.0), static_cast<int>(0.8 * poses.size())) << "sign " << sign;
     }
@@ -115,8 +115,8 @@ TEST(PoseDetection, AMovedPartIsFoundAgain)
 
 TEST(PoseDetection, CopiesInASceneAreAmongTheCandidates)
 {
-  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
-  const meam::Poses poses = meam::detectPoses(scene.edges, scenes::bracket());
+  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const meam::Poses poses = scenes::detect(seen.edges, scenes::bracket());
   for (const auto& T : scenes::threeCopies())
   {
     EXPECT_GE(right(poses, { T }, 6.0, 10.0), 1);
@@ -125,12 +125,12 @@ TEST(PoseDetection, CopiesInASceneAreAmongTheCandidates)
 
 TEST(PoseDetection, TheSameForAnyNumberOfThreads)
 {
-  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
   meam::PoseDetectionSettings settings;
   settings.threads = 1;
-  const meam::Poses one = meam::detectPoses(scene.edges, scenes::bracket(), settings);
+  const meam::Poses one = scenes::detect(seen.edges, scenes::bracket(), settings);
   settings.threads = 3;
-  const meam::Poses three = meam::detectPoses(scene.edges, scenes::bracket(), settings);
+  const meam::Poses three = scenes::detect(seen.edges, scenes::bracket(), settings);
   ASSERT_EQ(one.size(), three.size());
   for (std::size_t i = 0; i < one.size(); ++i)
   {
@@ -141,12 +141,12 @@ TEST(PoseDetection, TheSameForAnyNumberOfThreads)
 
 TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
 {
-  const meam::PointCloud edges = ownEdges(Eigen::Isometry3d::Identity());
+  const meam::PointCloud edges = modelEdges(Eigen::Isometry3d::Identity());
   meam::PoseDetectionSettings settings;
-  const meam::Poses first = meam::detectPoses(edges, scenes::bracket(), settings);
-  const meam::Poses again = meam::detectPoses(edges, scenes::bracket(), settings);
+  const meam::Poses first = scenes::detect(edges, scenes::bracket(), settings);
+  const meam::Poses again = scenes::detect(edges, scenes::bracket(), settings);
   settings.seed = 2;
-  const meam::Poses other = meam::detectPoses(edges, scenes::bracket(), settings);
+  const meam::Poses other = scenes::detect(edges, scenes::bracket(), settings);
   const auto same = [](const meam::Poses& a, const meam::Poses& b)
   {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -156,6 +156,23 @@ TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
   EXPECT_FALSE(same(first, other));
 }
 
+TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
+{
+  meam::LocalCloud edges = meam::toLocalCloud(modelEdges(Eigen::Isometry3d::Identity()));
+  const std::size_t count = edges.cloud.size();
+  meam::PoseDetectionSettings settings;
+  settings.leastReferences = 1;
+  settings.boundaryReferenceShare = 0.25;
+  settings.scanReferenceShare = 0.5;
+  const auto candidates = [&] { return meam::detectPoses(edges, scenes::bracket(), settings).size(); };
+  const auto of = [&](double share) { return static_cast<std::size_t>(std::ceil(share * count)); };
+  EXPECT_EQ(candidates(), of(0.25));
+  edges.fromScan = true;
+  EXPECT_EQ(candidates(), of(0.5));
+  settings.referenceShare = 0.75;
+  EXPECT_EQ(candidates(), of(0.75)) << "whatever they come from";
+}
+
 class PoseDetectionVotes : public testing::TestWithParam<std::pair<bool, bool>>
 {
 };
@@ -163,29 +180,29 @@ class PoseDetectionVotes : public testing::TestWithParam<std::pair<bool, bool>>
 TEST_P(PoseDetectionVotes, CountsTheVotesOfAllPairs)
 {
   const meam::TrainedModel& model = scenes::bracket();
-  const meam::Scene scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
   meam::PoseDetectionSettings settings;
   settings.referenceShare = 1.0;
   std::tie(settings.signedTangents, settings.smoothPeaks) = GetParam();
-  const meam::Poses poses = meam::detectPoses(scene.edges, model, settings);
-  const meam::FramedCloud own = meam::inOwnFrame(scene.edges);
-  const meam::PointCloud referred = own.cloud.subset(meam::thinPoints(own.cloud.points, model.votingLeaf()));
-  ASSERT_EQ(poses.size(), own.cloud.size()) << "every reference point finds pairs";
+  const meam::LocalCloud local = meam::toLocalCloud(seen.edges);
+  const meam::PointCloud& edges = local.cloud;
+  const meam::Poses poses = meam::detectPoses(local, model, settings);
+  const meam::PointCloud referred = edges.subset(meam::thinPoints(edges.points, model.votingLeaf()));
+  ASSERT_EQ(poses.size(), edges.size()) << "every reference point finds pairs";
   int exact = 0;
   int sure = 0;
   for (std::size_t r = 0; r < poses.size(); ++r)
   {
-    const Eigen::Vector3f& stored = own.cloud.tangents[r];
+    const Eigen::Vector3f& stored = edges.tangents[r];
     const Eigen::Vector3f tangent = stored.x() < 0.0f ? Eigen::Vector3f(-stored) : stored;
-    const SlowPeak peak = slowPeak(model, referred, meam::TangentFrame(own.cloud.points[r], tangent), tangent, settings);
+    const SlowPeak peak = slowPeak(model, referred, meam::TangentFrame(edges.points[r], tangent), tangent, settings);
     // Rounding may carry a vote over the border of its bin, which turns a pose of 30 votes by up to half a degree.
     EXPECT_NEAR(poses[r].votes, peak.votes, 2) << r;
     exact += poses[r].votes == peak.votes ? 1 : 0;
     if (poses[r].votes == peak.votes && peak.lead > 3)
     {
       ++sure;
-      const Eigen::Isometry3d slow =
-        meam::nearestEqual(own.frame.inverse() * peak.pose, poses[r].T_scene_model, model.symmetries);
+      const Eigen::Isometry3d slow = meam::nearestEqual(peak.pose, poses[r].T_scene_model, model.symmetries);
       EXPECT_LT(meam::translationError(poses[r].T_scene_model, slow), 0.5) << r;
       EXPECT_LT(meam::rotationError(poses[r].T_scene_model, slow), 0.5) << r;
     }
@@ -205,7 +222,7 @@ TEST(PoseDetection, WithoutTheSignsOfTangentsHalfOfTheCandidatesAreWrong)
   for (int copy = 0; copy < 12; ++copy)
   {
     truth.push_back(Eigen::Translation3d(1000.0 * copy, 0, 0) * parts::motion(random, 300.0));
-    const meam::PointCloud one = ownEdges(truth.back());
+    const meam::PointCloud one = modelEdges(truth.back());
     edges.points.insert(edges.points.end(), one.points.begin(), one.points.end());
     edges.tangents.insert(edges.tangents.end(), one.tangents.begin(), one.tangents.end());
   }
@@ -213,7 +230,7 @@ TEST(PoseDetection, WithoutTheSignsOfTangentsHalfOfTheCandidatesAreWrong)
   {
     meam::PoseDetectionSettings settings;
     settings.signedTangents = withSigns;
-    return right(meam::detectPoses(edges, scenes::bracket(), settings), truth, 3.0, 6.0);
+    return right(scenes::detect(edges, scenes::bracket(), settings), truth, 3.0, 6.0);
   };
   EXPECT_GT(found(false), 0.3 * found(true));
   EXPECT_LT(found(false), 0.7 * found(true));
@@ -225,11 +242,11 @@ TEST(PoseDetection, PointsOfOneCubeMakeOnePair)
   {
     meam::PoseDetectionSettings settings;
     settings.referenceShare = 1.0;
-    const meam::Poses poses = meam::detectPoses(edges, scenes::bracket(), settings);
+    const meam::Poses poses = scenes::detect(edges, scenes::bracket(), settings);
     return std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.votes < b.votes; })
       ->votes;
   };
-  const meam::PointCloud once = ownEdges(Eigen::Isometry3d::Identity());
+  const meam::PointCloud once = modelEdges(Eigen::Isometry3d::Identity());
   meam::PointCloud twice = once;
   for (std::size_t i = 0; i < once.size(); ++i)
   {
@@ -242,27 +259,29 @@ TEST(PoseDetection, PointsOfOneCubeMakeOnePair)
 TEST(PoseDetection, BadInput)
 {
   const meam::TrainedModel& model = scenes::bracket();
-  EXPECT_THROW(meam::detectPoses({}, model), meam::Error);
-  meam::PointCloud bare = ownEdges(Eigen::Isometry3d::Identity());
+  EXPECT_THROW(scenes::detect({}, model), meam::Error);
+  meam::PointCloud bare = modelEdges(Eigen::Isometry3d::Identity());
   bare.tangents.clear();
-  EXPECT_THROW(meam::detectPoses(bare, model), meam::Error);
-  meam::PointCloud metres = ownEdges(Eigen::Isometry3d::Identity());
+  EXPECT_THROW(scenes::detect(bare, model), meam::Error);
+  meam::PointCloud metres = modelEdges(Eigen::Isometry3d::Identity());
   for (auto& point : metres.points)
   {
     point *= 0.001f;
   }
   try
   {
-    meam::detectPoses(metres, model);
+    scenes::detect(metres, model);
     FAIL() << "metres taken for millimetres";
   }
   catch (const meam::Error& error)
   {
     EXPECT_NE(std::string(error.what()).find("1000"), std::string::npos) << error.what();
   }
-  meam::PoseDetectionSettings none;
-  none.referenceShare = 0.0;
-  EXPECT_THROW(meam::detectPoses(ownEdges(Eigen::Isometry3d::Identity()), model, none), meam::Error);
+  meam::PoseDetectionSettings none, tooMany;
+  none.boundaryReferenceShare = 0.0;
+  EXPECT_THROW(scenes::detect(modelEdges(Eigen::Isometry3d::Identity()), model, none), meam::Error);
+  tooMany.referenceShare = 1.1;
+  EXPECT_THROW(scenes::detect(modelEdges(Eigen::Isometry3d::Identity()), model, tooMany), meam::Error);
   EXPECT_THROW(
-    meam::detectPoses(ownEdges(Eigen::Isometry3d::Identity()), model, {}, [](double) { return false; }), meam::Aborted);
+    scenes::detect(modelEdges(Eigen::Isometry3d::Identity()), model, {}, [](double) { return false; }), meam::Aborted);
 }

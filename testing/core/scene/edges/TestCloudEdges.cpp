@@ -40,8 +40,9 @@ TEST(CloudEdges, slopesHolesAndSinglePointsAreNoJumps)
   EXPECT_TRUE(meam::findDepthEdges(grids::surface(20, 15, [](int x, int) { return 500.0 + 2.0 * x; }), 3.0).empty());
   EXPECT_TRUE(
     meam::findDepthEdges(grids::surface(20, 15, [](int x, int) { return x == 8 ? NAN : 500.0; }), 3.0).empty());
-  EXPECT_TRUE(meam::findDepthEdges(
-    grids::surface(20, 15, [](int x, int y) { return x == 8 && y == 7 ? 450.0 : 500.0; }), 3.0).empty());
+  EXPECT_TRUE(
+    meam::findDepthEdges(grids::surface(20, 15, [](int x, int y) { return x == 8 && y == 7 ? 450.0 : 500.0; }), 3.0)
+      .empty());
 }
 
 TEST(CloudEdges, steepWallsAreNoJumpsButEndInOne)
@@ -76,7 +77,8 @@ TEST(CloudEdges, aRoofHasACreaseAlongItsRidge)
 
 TEST(CloudEdges, creasesStandNoise)
 {
-  const auto roof = grids::surface(60, 60, [](int x, int) { return 500.0 + std::abs(x - 30); }, 0.3);
+  const auto roof = grids::surface(
+    60, 60, [](int x, int) { return 500.0 + std::abs(x - 30); }, 0.3);
   std::set<int> rows;
   for (const auto& edge : creases(roof))
   {
@@ -86,7 +88,11 @@ TEST(CloudEdges, creasesStandNoise)
   EXPECT_GE(rows.size(), 40u);
   for (const double noise : { 0.1, 0.5, 2.0 })
   {
-    EXPECT_LE(creases(grids::surface(100, 100, [](int, int) { return 500.0; }, noise)).size(), 20u) << noise;
+    EXPECT_LE(creases(grids::surface(
+                        100, 100, [](int, int) { return 500.0; }, noise))
+                .size(),
+      20u)
+      << noise;
   }
 }
 
@@ -103,8 +109,8 @@ TEST(CloudEdges, roundSurfacesAndJumpsAreNoCreases)
 
 TEST(CloudEdges, theNumberOfThreadsDoesNotMatter)
 {
-  const auto cloud =
-    grids::surface(80, 60, [](int x, int y) { return 500.0 + std::abs(x - 30) + (y > 40 ? 30.0 : 0.0); }, 0.2);
+  const auto cloud = grids::surface(
+    80, 60, [](int x, int y) { return 500.0 + std::abs(x - 30) + (y > 40 ? 30.0 : 0.0); }, 0.2);
   const auto same = [](const std::vector<meam::GridEdge>& a, const std::vector<meam::GridEdge>& b)
   {
     return a.size() == b.size() &&

@@ -8,8 +8,8 @@ TEST(GridSurface, distanceAndNoiseAreMeasured)
 {
   for (const double noise : { 0.0, 0.1, 1.0 })
   {
-    const meam::GridScale scale =
-      meam::gridScale(grids::surface(200, 150, [](int x, int y) { return 500.0 + 0.7 * x - 0.3 * y; }, noise));
+    const meam::GridScale scale = meam::gridScale(grids::surface(
+      200, 150, [](int x, int y) { return 500.0 + 0.7 * x - 0.3 * y; }, noise));
     EXPECT_FLOAT_EQ(scale.pointDistance, 1.0);
     EXPECT_NEAR(scale.noise, noise, 0.03 * noise + 1e-4);
   }
@@ -58,6 +58,38 @@ TEST(GridSurface, aWindowCanFollowAnEdge)
   const meam::GridPlane plane = meam::fitPlane(cloud, 20, 20, window, 50.0);
   ASSERT_TRUE(plane.valid());
   EXPECT_TRUE(plane.lifted({ 1.0f, 1.0f }).isApprox(Eigen::Vector3f(1.0f, 1.0f, 1.0f).normalized(), 1e-3f));
+}
+
+TEST(GridSurface, severalPlanesAtOnceAreThoseOneByOne)
+{
+  // A step, a hole and noise; windows of all directions and sizes, some beyond the grid, around points with depth and
+  // without.
+  const auto cloud = grids::surface(
+    60, 50, [](int x, int y) { return x == 31 && y % 5 ? NAN
+                                      : x < 20         ? 400.0 + 0.3 * y
+                                                       : 500.0 - 0.7 * x; }, 0.4);
+  meam::Random random(7);
+  std::vector<int> points;
+  std::vector<meam::GridWindow> windows;
+  for (int i = 0; i < 3001; ++i)
+  {
+    points.push_back(static_cast<int>(random.index(cloud.size())));
+    const float angle = static_cast<float>(random.uniform() * M_PI);
+    const int radius = 1 + static_cast<int>(random.index(5));
+    windows.push_back({ 2 * radius, radius, { std::cos(angle), std::sin(angle) } });
+  }
+  std::vector<meam::GridPlane> planes(points.size());
+  meam::fitPlanes(cloud, points.data(), windows.data(), static_cast<int>(points.size()), 5.0, planes.data());
+  int valid = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const meam::GridPlane one = meam::fitPlane(cloud, points[i] / 60, points[i] % 60, windows[i], 5.0);
+    EXPECT_EQ(planes[i].alongColumn, one.alongColumn) << i;
+    EXPECT_EQ(planes[i].alongRow, one.alongRow) << i;
+    EXPECT_TRUE(planes[i].middle == one.middle || !one.valid()) << i;
+    valid += one.valid() ? 1 : 0;
+  }
+  EXPECT_GT(valid, 2900);
 }
 
 TEST(GridSurface, tooFewPointsAreNoPlane)

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace
 {
 /// A pinhole sensor at the origin: 100 pixels focal length, the middle of the image at (10, 10); what it measures
@@ -40,13 +42,13 @@ meam::Camera cameraAt(double x)
 TEST(PixelMap, aRegisteredImageShowsItsOwnPoints)
 {
   const auto cloud = measured([](int column, int) { return column == 4 ? NAN : 500.0; });
-  const meam::PixelMap map = meam::registeredPixels(cloud);
-  EXPECT_EQ(map.points[7], 7);
-  EXPECT_EQ(map.points[4], -1);
-  EXPECT_EQ(map.depths[7], 500.0f);
+  EXPECT_EQ(meam::pointOfPixel(cloud, 0, 7, 0, 10.0), 7);
+  EXPECT_EQ(meam::pointOfPixel(cloud, 0, 4, 0, 10.0), -1);
   // Through a camera at the sensor's place it is the same.
   const auto full = measured([](int, int) { return 500.0; });
-  EXPECT_EQ(meam::projectedPixels(full, cameraAt(0.0), 10.0).points, meam::registeredPixels(full).points);
+  std::vector<int> all(full.size());
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(meam::projectedPixels(full, cameraAt(0.0), 10.0).points, all);
 }
 
 TEST(PixelMap, whatIsHiddenFromTheCameraHasNoPixel)
@@ -57,7 +59,7 @@ TEST(PixelMap, whatIsHiddenFromTheCameraHasNoPixel)
   const auto cloud = measured([](int column, int) { return column >= 8 && column <= 12 ? 400.0 : 500.0; });
   const meam::PixelMap map = meam::projectedPixels(cloud, cameraAt(20.0), 10.0);
   const int row = 10 * 21;
-  EXPECT_EQ(map.points[row + 2], row + 6);  // ground
+  EXPECT_EQ(map.points[row + 2], row + 6); // ground
   for (int k = 0; k < 5; ++k)
   {
     EXPECT_EQ(map.points[row + 3 + k], row + 8 + k); // the block; in pixel 3 the ground's column 7 is behind it
@@ -71,8 +73,9 @@ TEST(PixelMap, nothingShowsThroughHolesOfTheNearerSurface)
 {
   // A camera with twice the resolution: the block's points are two pixels apart, and one has no depth.
   const auto cloud = measured(
-    [](int column, int row)
-    { return column == 10 && row == 10 ? NAN : column >= 6 && column <= 14 ? 400.0 : 500.0; });
+    [](int column, int row) { return column == 10 && row == 10     ? NAN
+                                     : column >= 6 && column <= 14 ? 400.0
+                                                                   : 500.0; });
   meam::Camera camera = cameraAt(20.0);
   camera.width = camera.height = 41;
   camera.fx = camera.fy = 200.0;
@@ -111,13 +114,18 @@ TEST(PixelMap, theLensIsNotAskedForWhatTheImageDoesNotHave)
 TEST(PixelMap, anEdgePixelTakesTheNearerSurface)
 {
   const auto cloud = measured([](int column, int) { return column < 10 ? 400.0 : 500.0; });
-  const meam::PixelMap map = meam::registeredPixels(cloud);
-  EXPECT_EQ(meam::pointOfPixel(map, 3, 10, 1, 10.0), 3 * 21 + 9);
-  EXPECT_EQ(meam::pointOfPixel(map, 3, 10, 0, 10.0), 3 * 21 + 10);
-  EXPECT_EQ(meam::pointOfPixel(map, 3, 11, 1, 10.0), 3 * 21 + 11);
-  EXPECT_EQ(meam::pointOfPixel(map, 3, 10, 1, 200.0), 3 * 21 + 10); // 100 mm are no jump then
+  const meam::PixelMap map = meam::projectedPixels(cloud, cameraAt(0.0), 10.0);
+  const auto check = [&](int column, int radius, double jump, int expected)
+  {
+    EXPECT_EQ(meam::pointOfPixel(cloud, 3, column, radius, jump), 3 * 21 + expected);
+    EXPECT_EQ(meam::pointOfPixel(map, 3, column, radius, jump), 3 * 21 + expected);
+  };
+  check(10, 1, 10.0, 9);
+  check(10, 0, 10.0, 10);
+  check(11, 1, 10.0, 11);
+  check(10, 1, 200.0, 10); // 100 mm are no jump then
   const auto nothing = measured([](int, int) { return NAN; });
-  EXPECT_EQ(meam::pointOfPixel(meam::registeredPixels(nothing), 3, 10, 1, 10.0), -1);
+  EXPECT_EQ(meam::pointOfPixel(nothing, 3, 10, 1, 10.0), -1);
 }
 
 TEST(PixelMap, badInput)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/Random.h"
 #include "TestGrids.h"
+#include "base/Random.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 
 #include <gtest/gtest.h>
@@ -162,7 +162,8 @@ TEST(SceneEdgeExtraction, oneColourHasNoEdges)
 {
   for (const int value : { 0, 128, 255 })
   {
-    EXPECT_TRUE(meam::extractSceneEdges(plane(40, 30), greyImage(40, 30, static_cast<std::uint8_t>(value))).cloud.empty());
+    EXPECT_TRUE(
+      meam::extractSceneEdges(plane(40, 30), greyImage(40, 30, static_cast<std::uint8_t>(value))).cloud.empty());
   }
 }
 
@@ -309,8 +310,7 @@ TEST(SceneEdgeExtraction, onlyTheCamerasPlaceBesideTheSceneCounts)
 TEST(SceneEdgeExtraction, everyPointIsLabelledByItsSource)
 {
   // A step of brightness at column 20, a jump of depth at 40, a ridge at 60.
-  const auto cloud = grids::surface(
-    80, 40, [](int x, int) { return x < 40 ? 400.0 : 500.0 + std::abs(x - 60); });
+  const auto cloud = grids::surface(80, 40, [](int x, int) { return x < 40 ? 400.0 : 500.0 + std::abs(x - 60); });
   const meam::Image image = step(80, 40, 20);
   meam::SceneEdgeExtractionSettings settings;
   settings.imageEdges = false;

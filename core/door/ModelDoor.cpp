@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meam.h"
+#include "model/ModelFile.h"
+#include "model/TrainedModel.h"
+
+namespace meam
+{
+Model::Model(std::shared_ptr<const TrainedModel> trained)
+  : Trained(std::move(trained))
+{
+}
+
+double Model::diameter() const { return this->trained().diameter; }
+
+void Model::save(const std::string& path) const { writeModel(path, this->trained()); }
+
+const TrainedModel& Model::trained() const
+{
+  if (!this->Trained)
+  {
+    throw Error("The model is empty: train one, or load it from a file.");
+  }
+  return *this->Trained;
+}
+
+Model loadModel(const std::string& path) { return Model(std::make_shared<const TrainedModel>(readModel(path))); }
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/CameraFile.h"
+#include "io/PCDFile.h"
+#include "io/PLYFile.h"
+#include "io/parsing/FileBytes.h"
+#include "meam.h"
+#include "scene/CloudOrganization.h"
+
+namespace meam
+{
+namespace
+{
+/// What the file says of each point becomes the image.
+Scan scanOf(MeasuredCloud measured)
+{
+  Scan scan;
+  scan.width = measured.cloud.width;
+  scan.height = measured.cloud.height;
+  scan.points = std::move(measured.cloud.points);
+  if (!measured.colors.empty() || !measured.intensities.empty())
+  {
+    scan.image.width = scan.width;
+    scan.image.height = scan.height;
+    scan.image.channels = measured.intensities.empty() ? 3 : 1;
+    scan.image.pixels = measured.intensities.empty() ? std::move(measured.colors) : greyValues(measured.intensities);
+  }
+  return scan;
+}
+
+void scalePoints(Points& points, double scale, const std::string& path)
+{
+  if (!(scale > 0.0 && std::isfinite(scale)))
+  {
+    throw Error("The scale of '" + path + "' has to be a positive number: 1000 brings metres to mm.");
+  }
+  for (auto& point : points)
+  {
+    point *= static_cast<float>(scale);
+  }
+}
+}
+
+Scan loadScan(const std::string& path, const std::string& cameraFile, double scale)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".pcd")
+  {
+    MeasuredCloud measured = readPCD(path);
+    scalePoints(measured.cloud.points, scale, path);
+    return scanOf(std::move(measured));
+  }
+  if (extension == ".ply")
+  {
+    MeasuredCloud measured = readPLYCloud(path);
+    scalePoints(measured.cloud.points, scale, path);
+    if (!cameraFile.empty())
+    {
+      measured = organizeCloud(measured, readCamera(cameraFile).camera);
+    }
+    return scanOf(std::move(measured));
+  }
+  throw Error("The scan '" + path +
+              "' has an extension that is not known: give a .pcd or a .ply; depth images are "
+              "read by loadDepthImage().");
+}
+
+Camera loadCamera(const std::string& path) { return readCamera(path).camera; }
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/MeshFile.h"
+#include "meam.h"
+#include "mesh/preparation/MeshPreparation.h"
+#include "model/ModelTraining.h"
+
+namespace meam
+{
+namespace
+{
+constexpr double AfterPreparation = 0.2; // share of the work, for the progress
+}
+
+Model train(const Mesh& mesh, const TrainSettings& settings, const Progress& progress)
+{
+  MeshPreparationSettings preparation;
+  preparation.scale = settings.scale;
+  preparation.offset = settings.offset;
+  const PreparedMesh prepared =
+    prepareMesh({ mesh.vertices, mesh.triangles }, preparation, subProgress(progress, 0.0, AfterPreparation));
+  TrainingSettings steps = trainingSettings(settings.preset);
+  steps.sampling.seed = settings.seed;
+  return Model(std::make_shared<const TrainedModel>(
+    trainModel(prepared.mesh, steps, subProgress(progress, AfterPreparation, 1.0))));
+}
+
+Mesh loadMesh(const std::string& path)
+{
+  TriangleMesh mesh = readMesh(path);
+  return { std::move(mesh.vertices), std::move(mesh.triangles) };
+}
+}

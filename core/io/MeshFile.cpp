@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/MeshFile.h"
+
+#include "base/Error.h"
+#include "io/OFFFile.h"
+#include "io/PLYFile.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/TextLines.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+namespace meam
+{
+namespace
+{
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+  throw Error("The mesh file '" + path + "' " + what + ".");
+}
+
+/// The next three words of a line as a point.
+Eigen::Vector3f pointOf(const std::string& path, TextLines& lines)
+{
+  Eigen::Vector3d point; // what is next to 0 has no place in single precision
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!parseNumber(lines.word(), point[i]))
+    {
+      fail(path, "has a vertex that is not three numbers: it is cut off or damaged");
+    }
+  }
+  return point.cast<float>();
+}
+
+/// Every three vertices are a triangle.
+TriangleMesh soupOf(Points vertices)
+{
+  TriangleMesh mesh;
+  mesh.vertices = std::move(vertices);
+  for (int i = 0; i + 2 < static_cast<int>(mesh.vertices.size()); i += 3)
+  {
+    mesh.triangles.emplace_back(i, i + 1, i + 2);
+  }
+  return mesh;
+}
+
+TriangleMesh readTextSTL(const std::string& path, const std::string& bytes)
+{
+  Points vertices;
+  bool isWhole = false;
+  for (TextLines lines(bytes); lines.next();)
+  {
+    std::string word(lines.word());
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char letter) { return std::tolower(letter); });
+    if (word == "vertex")
+    {
+      vertices.push_back(pointOf(path, lines));
+    }
+    isWhole = word == "endsolid";
+  }
+  if (!isWhole || vertices.size() % 3 != 0)
+  {
+    fail(path, "is cut off or damaged: it does not end with endsolid after whole triangles");
+  }
+  return soupOf(std::move(vertices));
+}
+
+constexpr std::size_t STLHeader = 80;   // bytes, then the number of triangles
+constexpr std::size_t STLTriangle = 50; // bytes: normal, three corners, and two more
+constexpr std::size_t STLNormal = 12;
+
+TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes)
+{
+  std::uint32_t count = 0;
+  const std::size_t start = STLHeader + sizeof(count);
+  if (bytes.size() >= start)
+  {
+    std::memcpy(&count, bytes.data() + STLHeader, sizeof(count));
+  }
+  if (bytes.size() < start || (bytes.size() - start) / STLTriangle < count)
+  {
+    fail(path, "is cut off, or is no STL file");
+  }
+  Points vertices(std::size_t(3) * count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::memcpy(
+      vertices[3 * i].data(), bytes.data() + start + STLTriangle * i + STLNormal, 3 * sizeof(Eigen::Vector3f));
+  }
+  return soupOf(std::move(vertices));
+}
+
+TriangleMesh readSTL(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  // Some programs begin binary files with the word, too.
+  const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  const bool isText = bytes.compare(start, 5, "solid") == 0 && bytes.find('\0') == std::string::npos;
+  return isText ? readTextSTL(path, bytes) : readBinarySTL(path, bytes);
+}
+
+/// The vertex that a corner names: "7", "7/1/2", or "-1" for the last one.
+int cornerOf(const std::string& path, std::string_view word, int vertices)
+{
+  int number = 0;
+  const bool isNumber = parseNumber(word.substr(0, word.find('/')), number);
+  const int corner = number > 0 ? number - 1 : vertices + number;
+  if (!isNumber || number == 0 || corner < 0 || corner >= vertices)
+  {
+    fail(path, "has a face with the corner '" + std::string(word.substr(0, 40)) + "', which does not exist before it");
+  }
+  return corner;
+}
+
+TriangleMesh readOBJ(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  TriangleMesh mesh;
+  std::vector<int> corners;
+  for (TextLines lines(bytes); lines.next();)
+  {
+    const std::string_view word = lines.word();
+    if (word == "v")
+    {
+      mesh.vertices.push_back(pointOf(path, lines));
+    }
+    else if (word == "f")
+    {
+      corners.clear();
+      for (std::string_view corner = lines.word(); !corner.empty(); corner = lines.word())
+      {
+        corners.push_back(cornerOf(path, corner, static_cast<int>(mesh.vertices.size())));
+      }
+      for (std::size_t k = 2; k < corners.size(); ++k)
+      {
+        mesh.triangles.emplace_back(corners[0], corners[k - 1], corners[k]);
+      }
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh readKind(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".stl")
+  {
+    return readSTL(path);
+  }
+  if (extension == ".obj")
+  {
+    return readOBJ(path);
+  }
+  if (extension == ".ply")
+  {
+    return readPLYMesh(path);
+  }
+  if (extension == ".off")
+  {
+    return readOFF(path);
+  }
+  fail(path, "has an extension that is not known: give a .stl, .obj, .ply or .off");
+}
+}
+
+TriangleMesh readMesh(const std::string& path)
+{
+  TriangleMesh mesh = readKind(path);
+  if (mesh.triangles.empty())
+  {
+    fail(path, "has no faces: it holds no surface");
+  }
+  return mesh;
+}
+}

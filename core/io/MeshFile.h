@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/TriangleMesh.h"
+
+#include <string>
+
+namespace meam
+{
+/// Reads a mesh, in the file's own unit, by the file's extension: .stl (ascii or binary), .obj, .ply or .off. Polygons
+/// are cut into triangles; all but the shape is skipped. Throws Error, naming the file and what is wrong with it, also
+/// when it has no faces.
+TriangleMesh readMesh(const std::string& path);
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/parsing/FileBytes.h"
+
+#include "base/Error.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace meam
+{
+namespace fs = std::filesystem;
+
+namespace
+{
+std::string reason() { return errno != 0 ? std::string(": ") + std::strerror(errno) + "." : "."; }
+
+/// False, with errno set where the system gave a reason, unless every byte arrived.
+bool put(const std::string& path, const std::string& bytes)
+{
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  return static_cast<bool>(file);
+}
+}
+
+void writeFile(const std::string& path, const std::string& bytes)
+{
+  const std::string what = "The file '" + path + "' cannot be written";
+  std::error_code failure;
+  if (fs::exists(path, failure) && !fs::is_regular_file(path, failure))
+  {
+    // A device or a pipe must not be renamed over.
+    if (fs::is_directory(path, failure) || !put(path, bytes))
+    {
+      throw Error(what + (fs::is_directory(path, failure) ? ": it is a folder." : reason()));
+    }
+    return;
+  }
+  static std::atomic<unsigned> counter{ 0 };
+  const std::string temporary = path + "." + std::to_string(getpid()) + "-" + std::to_string(counter++) + ".part";
+  if (!put(temporary, bytes))
+  {
+    const std::string why = reason();
+    fs::remove(temporary, failure);
+    throw Error(what + why);
+  }
+  fs::rename(temporary, path, failure);
+  if (failure)
+  {
+    const std::string why = failure.message();
+    fs::remove(temporary, failure);
+    throw Error(what + ": " + why + ".");
+  }
+}
+
+std::string readFile(const std::string& path)
+{
+  const std::string what = "The file '" + path + "' cannot be read";
+  std::error_code failure;
+  if (fs::is_directory(path, failure))
+  {
+    throw Error(what + ": it is a folder.");
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
+  if (size < 0)
+  {
+    throw Error(what + reason());
+  }
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  file.seekg(0);
+  if (!file.read(bytes.data(), size))
+  {
+    throw Error(what + reason());
+  }
+  return bytes;
+}
+
+std::string extensionOf(const std::string& path)
+{
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+}

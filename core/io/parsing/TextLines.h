@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <string_view>
+
+namespace meam
+{
+/// Goes through the words of a text line by line; comments, from # on, and empty lines are skipped.
+class TextLines
+{
+public:
+  explicit TextLines(const std::string& bytes)
+    : Rest(bytes)
+  {
+  }
+
+  /// Goes to the next line that has a word; false at the end of the file.
+  bool next()
+  {
+    while (!this->Rest.empty())
+    {
+      const std::size_t end = std::min(this->Rest.find_first_of("\r\n"), this->Rest.size());
+      this->Line = this->Rest.substr(0, end);
+      this->Rest.remove_prefix(std::min(end + 1, this->Rest.size()));
+      this->Line = this->Line.substr(0, this->Line.find('#'));
+      if (this->Line.find_first_not_of(" \t") != std::string_view::npos)
+      {
+        return true;
+      }
+    }
+    this->Line = {};
+    return false;
+  }
+
+  /// The next word of the line; empty at its end.
+  std::string_view word()
+  {
+    this->Line.remove_prefix(std::min(this->Line.find_first_not_of(" \t"), this->Line.size()));
+    const std::size_t end = std::min(this->Line.find_first_of(" \t"), this->Line.size());
+    const std::string_view result = this->Line.substr(0, end);
+    this->Line.remove_prefix(end);
+    return result;
+  }
+
+  /// Bytes of the line and of all after it.
+  std::size_t left() const { return this->Line.size() + 1 + this->Rest.size(); }
+
+private:
+  std::string_view Rest;
+  std::string_view Line;
+};
+
+/// The number that a word is, whatever the locale.
+template <typename Number>
+bool parseNumber(std::string_view text, Number& value)
+{
+  if (text.size() > 1 && text[0] == '+')
+  {
+    text.remove_prefix(1);
+  }
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// PPF-MEAM: 6D poses of the copies of a part in a scan.
+///
+///     meam::Model model = meam::train(meam::loadMesh("part.stl"));   // once for each part; meam::train
+///     model.save("part.meam");
+///
+///     meam::Model model = meam::loadModel("part.meam");              // in the cell; meam::detect, no GPL in it
+///     for (const meam::DetectedPose& pose : meam::detect(model, meam::loadScan("scan.pcd")).poses) ...
+///
+/// Lengths are in mm. Every failure is a meam::Error whose message says what is wrong and what to do. The same input
+/// gives the same result, for any number of threads.
+#pragma once
+
+#include "base/Error.h"          // Error, Aborted, Progress
+#include "features/Preset.h"     // Preset
+#include "scene/Image.h"         // Image
+#include "scene/PinholeCamera.h" // Camera
+#include "scene/Sensor.h"        // Sensor
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#define MEAM_EXPORT __attribute__((visibility("default")))
+
+static_assert(alignof(Eigen::Isometry3d) <= 16,
+  "The library is built with Eigen's alignment of 16 bytes: leave -march=native and -mavx away, or define "
+  "EIGEN_MAX_STATIC_ALIGN_BYTES=16 in the files that include meam.h");
+
+namespace meam
+{
+struct TrainedModel;
+
+/// What training makes of a part and detection needs to know of it. Copies share it; it never changes, so that many
+/// threads may use it at once.
+class MEAM_EXPORT Model
+{
+public:
+  Model() = default; ///< no part
+  explicit Model(std::shared_ptr<const TrainedModel> trained);
+
+  explicit operator bool() const { return this->Trained != nullptr; }
+  double diameter() const; ///< mm, the largest distance between two points of the part
+
+  /// Writes one file, NAME.meam by custom; whole or not at all.
+  void save(const std::string& path) const;
+
+  /// For this library's own use. Throws Error when there is no part.
+  const TrainedModel& trained() const;
+
+private:
+  std::shared_ptr<const TrainedModel> Trained;
+};
+
+// ---------------------------------------------------------------------------------------------------------- detection
+// Library meam::detect.
+
+/// What a sensor saw, in its own frame (x right, y down, z the way it looks). The edges of the parts have to come from
+/// somewhere: an image, the cloud itself (DetectSettings), or `edges`.
+struct Scan
+{
+  int width = 0;                       ///< of the grid of points
+  int height = 1;                      ///< 1: the points are not organized, and `edges` have to be given
+  std::vector<Eigen::Vector3f> points; ///< mm, row by row from the top left; NaN where nothing was measured
+
+  Image image;                       ///< grey values or colours; a pixel for each point, or of `imageCamera`
+  std::optional<Camera> imageCamera; ///< a camera beside the sensor that took the image
+
+  std::vector<Eigen::Vector3f> edges; ///< mm, edge points, where they are known already
+  /// Where it was seen from. None: from the origin, along +z, when it is organized, otherwise from far above, along -z.
+  std::optional<Sensor> sensor;
+};
+
+struct DetectSettings
+{
+  Preset preset = Preset::Recommended;
+  int maximumPoses = 5;            ///< the best ones; 0: all
+  double minimumProbability = 0.0; ///< [0, 1], of each
+  /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
+  /// preset's
+  double referenceShare = 0.0;
+  bool imageEdges = true;  ///< edges from the image
+  bool depthEdges = false; ///< and where a surface ends in front of another one
+  bool creases = false;    ///< and where two flat pieces meet
+  unsigned seed = 1;       ///< of all random choices
+  int threads = 0;         ///< 0: one for each processor
+};
+
+/// A copy of the part.
+struct DetectedPose
+{
+  Eigen::Isometry3d T_scan_part = Eigen::Isometry3d::Identity(); ///< takes the part's coordinates (mm) to the scan's
+  double score = 0.0;           ///< [0, 1], share of what should be visible that is there
+  double probability = 0.0;     ///< [0, 1], that the pose is right
+  double certainty = 1.0;       ///< [0, 1], that no near-symmetry turns it: low when what breaks it is not in sight
+  double visibleFraction = 0.0; ///< [0, 1], share of the part's side towards the sensor that nothing hides
+  double residual = 0.0;        ///< mm, root mean square between the part and the scan
+};
+
+struct Detections
+{
+  std::vector<DetectedPose> poses; ///< best first
+  double seconds = 0.0;
+  std::string warning; ///< what may be wrong with the scan's unit of length; mostly empty
+};
+
+/// Finds the copies of a part in a scan.
+MEAM_EXPORT Detections detect(
+  const Model& model, const Scan& scan, const DetectSettings& settings = {}, const Progress& progress = {});
+
+/// Reads what Model::save() wrote.
+MEAM_EXPORT Model loadModel(const std::string& path);
+
+/// Reads a scan: a .pcd, or a .ply, which is organized only with the calibration of its camera. Colours or grey values
+/// become the image. `scale` brings lengths to mm: 1000 for metres.
+MEAM_EXPORT Scan loadScan(const std::string& path, const std::string& cameraFile = {}, double scale = 1.0);
+
+/// Reads a calibration of OpenCV (YAML, XML, JSON) or BOP (camera.json), for Scan::imageCamera.
+MEAM_EXPORT Camera loadCamera(const std::string& path);
+
+// ------------------------------------------------------------------------------------------------------------- images
+// Library meam::images, for those who have images as files. It links OpenCV's imgcodecs, which in Debian links GDAL and
+// with it Poppler, which is under the GPL.
+
+/// Reads a PNG, JPEG, BMP or TIFF image, for Scan::image.
+MEAM_EXPORT Image loadImage(const std::string& path);
+
+/// Reads a depth image of 16 bits, PNG or TIFF, with the calibration of its camera, whose `depth_scale` brings it to
+/// mm.
+MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& cameraFile);
+
+// ----------------------------------------------------------------------------------------------------------- training
+// Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.
+
+/// A part's surface. Corners of a triangle go counter-clockwise seen from outside; what is wrong with it is mended.
+struct Mesh
+{
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+struct TrainSettings
+{
+  Preset preset = Preset::Recommended;
+  double scale = 1.0; ///< factor on the mesh's coordinates, to bring them to mm: 1000 for metres
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< mm, added after the scale
+  unsigned seed = 1;                                ///< of all random choices
+};
+
+/// Learns how a part looks from all sides. Takes seconds, on all processors.
+MEAM_EXPORT Model train(const Mesh& mesh, const TrainSettings& settings = {}, const Progress& progress = {});
+
+/// Reads a mesh: .stl, .obj, .ply or .off, in the file's own unit.
+MEAM_EXPORT Mesh loadMesh(const std::string& path);
+}

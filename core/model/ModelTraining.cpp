@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/ModelTraining.h"
+
+#include "mesh/ConvexHull.h"
+#include "model/AppearanceModel.h"
+
+namespace meam
+{
+TrainingSettings trainingSettings(Preset preset)
+{
+  TrainingSettings settings;
+  if (preset == Preset::Paper)
+  {
+    settings.tangents = paperTangentSettings();
+    settings.hashing = paperHashingSettings();
+    settings.findSymmetries = false;
+  }
+  return settings;
+}
+
+TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress)
+{
+  const double partDiameter = diameter(mesh.vertices);
+  const PointCloud surface = sampleSurface(mesh, settings.sampling, subProgress(progress, 0.0, 0.1));
+  std::vector<AppearanceModel> models =
+    extractVisibility(surface, settings.visibility, &mesh, subProgress(progress, 0.1, 0.3));
+  models = extractBoundary(models, settings.boundary, &mesh, subProgress(progress, 0.3, 0.4));
+  models = estimateTangents(std::move(models), partDiameter, settings.tangents);
+  PartSurface part{ surface, partDiameter, {} };
+  if (settings.findSymmetries)
+  {
+    part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
+  }
+  return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
+}
+}

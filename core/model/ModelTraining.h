@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "features/Preset.h"
+#include "features/TangentEstimation.h"
+#include "mesh/SurfaceSampling.h"
+#include "mesh/SymmetryDetection.h"
+#include "mesh/TriangleMesh.h"
+#include "model/BoundaryExtraction.h"
+#include "model/MEAMHashing.h"
+#include "model/VisibilityExtraction.h"
+
+namespace meam
+{
+struct TrainingSettings
+{
+  SurfaceSamplingSettings sampling;
+  VisibilityExtractionSettings visibility;
+  BoundaryExtractionSettings boundary;
+  TangentEstimationSettings tangents;
+  bool findSymmetries = true;
+  SymmetryDetectionSettings symmetry;
+  MEAMHashingSettings hashing;
+};
+
+TrainingSettings trainingSettings(Preset preset);
+
+/// The offline phase, from a prepared mesh (mm) to the trained model.
+TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress = {});
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/PredictedVisibility.h"
+
+#include "base/AllVectors.h"
+#include "base/Frames.h"
+#include "model/TrainedModel.h"
+#include "scene/Sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meam
+{
+namespace
+{
+Eigen::Vector3f meanOf(const Points& points)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points)
+  {
+    sum += point.cast<double>();
+  }
+  return (sum / static_cast<double>(points.size())).cast<float>();
+}
+
+/// A depth buffer across the lines of sight.
+struct View
+{
+  Eigen::Matrix3f frame; ///< columns: towards the sensor, right, down
+  float half;            ///< mm from the middle to the border
+  float inverseCell;
+  int side; ///< cells
+};
+
+struct Projected
+{
+  std::vector<int> cells;
+  std::vector<float> heights; ///< towards the sensor, mm
+};
+
+MEAM_ALL_VECTORS
+void project(const View& view, const float* x, const float* y, const float* z, int count, int* cells, float* heights)
+{
+  const float hx = view.frame(0, 0), hy = view.frame(1, 0), hz = view.frame(2, 0);
+  const float ux = view.frame(0, 1), uy = view.frame(1, 1), uz = view.frame(2, 1);
+  const float vx = view.frame(0, 2), vy = view.frame(1, 2), vz = view.frame(2, 2);
+  const float half = view.half, scale = view.inverseCell;
+  const int side = view.side;
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const int u = static_cast<int>((ux * x[k] + uy * y[k] + uz * z[k] + half) * scale);
+    const int v = static_cast<int>((vx * x[k] + vy * y[k] + vz * z[k] + half) * scale);
+    cells[k] = std::min(std::max(v, 0), side - 1) * side + std::min(std::max(u, 0), side - 1);
+    heights[k] = hx * x[k] + hy * y[k] + hz * z[k];
+  }
+}
+
+/// Adds to heights what a surface of that slope may lie below its neighbours in a cell; surfaces seen too flatly sink
+/// below all others.
+MEAM_ALL_VECTORS
+void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float* ny, const float* nz, int count,
+  float cell, float grazingCosine, float* heights)
+{
+  const float hx = towards.x(), hy = towards.y(), hz = towards.z();
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const float cosine = nx[k] * hx + ny[k] * hy + nz[k] * hz;
+    const float bounded = std::min(std::max(cosine, grazingCosine), 1.0f);
+    const float slope = std::sqrt(1.0f - bounded * bounded) / bounded;
+    heights[k] = cosine > grazingCosine ? heights[k] + slope * cell : -std::numeric_limits<float>::max();
+  }
+}
+
+void raise(const Projected& points, std::vector<float>& buffer)
+{
+  for (std::size_t k = 0; k < points.cells.size(); ++k)
+  {
+    float& height = buffer[points.cells[k]];
+    height = std::max(height, points.heights[k]);
+  }
+}
+
+/// Sets `inSight` to `names[k]` (k itself without names) for each point not more than `tolerance` below the buffer.
+void keepInSight(const Projected& points, const std::vector<float>& buffer, float tolerance, const int* names,
+  std::vector<int>& inSight)
+{
+  const std::size_t count = points.cells.size();
+  inSight.resize(count);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    // Without a branch: half of them would be predicted wrongly.
+    inSight[found] = names ? names[k] : static_cast<int>(k);
+    found += points.heights[k] + tolerance >= buffer[points.cells[k]] ? 1 : 0;
+  }
+  inSight.resize(found);
+}
+}
+
+PredictedVisibility::PredictedVisibility(const TrainedModel& model, const PredictedVisibilitySettings& settings)
+  : Settings(settings)
+  , Diameter(model.diameter)
+  , ViewDirections(model.viewDirections)
+  , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
+  , VerificationIndices(model.verificationPoints)
+{
+  const auto relative = [&](const Points& points)
+  {
+    SoAPoints result;
+    result.resize(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      result.set(k, points[k] - this->Middle);
+    }
+    return result;
+  };
+  this->Surface = relative(model.surface.points);
+  this->Edges = relative(model.edges.points);
+  for (const int i : model.verificationPoints)
+  {
+    this->VerificationPoints.add(model.surface.points[i] - this->Middle, model.surface.normals[i]);
+  }
+}
+
+Eigen::Vector3f PredictedVisibility::towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
+{
+  const Eigen::Vector3d towards = sensor.towards(T_scene_model * this->Middle.cast<double>());
+  return (T_scene_model.linear().transpose() * towards).cast<float>();
+}
+
+int PredictedVisibility::view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
+{
+  const Eigen::Vector3f towards = this->towards(T_scene_model, sensor);
+  const Points& views = this->ViewDirections;
+  const auto nearer = [&](const auto& a, const auto& b) { return a.dot(towards) < b.dot(towards); };
+  return static_cast<int>(std::max_element(views.begin(), views.end(), nearer) - views.begin());
+}
+
+std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible(
+  const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
+{
+  // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged
+  // on the same points.
+  const Eigen::Vector3f direction = this->towards(T_scene_model, sensor);
+  Eigen::Vector3i steps = Eigen::Vector3i::Zero(); // of poses beyond all measure, too
+  if (direction.allFinite())
+  {
+    steps = (static_cast<float>(this->Settings.directionSteps) * direction).array().round().cast<int>();
+  }
+  const int range = 2 * this->Settings.directionSteps + 1;
+  const int key = (steps.z() * range + steps.y()) * range + steps.x();
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto cached = this->Cache.find(key);
+    if (cached != this->Cache.end())
+    {
+      return cached->second;
+    }
+  }
+  auto visible = std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized()));
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  if (this->Cache.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
+  {
+    this->Cache.clear();
+  }
+  return this->Cache.emplace(key, std::move(visible)).first->second;
+}
+
+PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards) const
+{
+  Visible visible{ towards, {}, {} };
+  const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
+  const float tolerance = static_cast<float>(this->Settings.tolerance * this->Diameter);
+  const float half = static_cast<float>(this->Diameter); // a point is never farther from the middle
+  const View across{ frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
+  const auto projected = [&](const SoAPoints& points, Projected& result)
+  {
+    result.cells.resize(points.x.size());
+    result.heights.resize(points.x.size());
+    project(across, points.x.data(), points.y.data(), points.z.data(), static_cast<int>(points.x.size()),
+      result.cells.data(), result.heights.data());
+  };
+  thread_local Projected surface, others; // of the size of the part, and there are hundreds of poses
+  thread_local std::vector<float> nearest;
+  nearest.assign(static_cast<std::size_t>(across.side) * across.side, -std::numeric_limits<float>::infinity());
+  projected(this->Surface, surface);
+  raise(surface, nearest);
+  projected(this->Edges, others);
+  keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, nullptr, visible.edges);
+  projected(this->VerificationPoints.points, others);
+  const SoAPoints& normals = this->VerificationPoints.directions;
+  allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
+    static_cast<float>(this->Settings.grazingCosine), others.heights.data());
+  keepInSight(others, nearest, tolerance, this->VerificationIndices.data(), visible.surface);
+  return visible;
+}
+}

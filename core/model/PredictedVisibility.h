@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/SoAPoints.h"
+
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+namespace meam
+{
+struct Sensor;
+struct TrainedModel;
+
+/// Lengths are shares of the part's diameter.
+struct PredictedVisibilitySettings
+{
+  double cell = 0.025;         ///< of the depth buffer across the line of sight; a little over the samples' spacing
+  double tolerance = 0.01;     ///< depth that a point may lie behind the nearest of its cell: that of rounded faces
+  double edgeSlope = 1.5;      ///< slope allowed for at an edge point, whose surface is not known
+  double grazingCosine = 0.15; ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
+  int directionSteps = 64;     ///< of each coordinate of the direction to the sensor from 0 to 1: 0.9 degrees
+  int cachedDirections = 1000;
+};
+
+/// Which points of a part the sensor should see from a direction, if nothing else were in the way: a depth buffer of
+/// its samples, cached by direction. Calls may run in parallel.
+class PredictedVisibility
+{
+public:
+  /// Needs no more of the model than its edges, surface, verification points, view directions and diameter.
+  explicit PredictedVisibility(const TrainedModel& model, const PredictedVisibilitySettings& settings = {});
+
+  /// Middle of the part's surface, model frame: the notch or lug that fixes a round part's turn hardly moves it.
+  const Eigen::Vector3f& middle() const { return this->Middle; }
+
+  /// The appearance model whose viewpoint is nearest to the sensor at a pose.
+  int view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+
+  /// Unit vector towards the sensor from the middle of a part at a pose, in the model's frame.
+  Eigen::Vector3f towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+
+  /// Indices of edge points and of verification points of the surface that face the sensor and are not behind other
+  /// points of the part.
+  struct Visible
+  {
+    Eigen::Vector3f from; ///< the direction to the sensor, rounded to a step, in the model's frame
+    std::vector<int> edges;
+    std::vector<int> surface;
+  };
+  std::shared_ptr<const Visible> visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+
+private:
+  Visible visibleFrom(const Eigen::Vector3f& towards) const;
+
+  PredictedVisibilitySettings Settings;
+  double Diameter;
+  Points ViewDirections;
+  Eigen::Vector3f Middle;
+  // Relative to the middle:
+  SoAPoints Surface;
+  SoAPoints Edges;
+  SoAOrientedPoints VerificationPoints;
+  std::vector<int> VerificationIndices; ///< of these in the model's surface
+
+  mutable std::mutex Mutex;
+  mutable std::unordered_map<int, std::shared_ptr<const Visible>> Cache; ///< by direction
+};
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/PoseSelection.h"
+
+#include "base/Parallel.h"
+#include "pose/verification/PoseVerification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace meam
+{
+namespace
+{
+/// Looks for the rotation of an instance, aligns it and scores it.
+class InstanceFinish
+{
+public:
+  InstanceFinish(const Scene& scene, const TrainedModel& model, const PoseSelectionSettings& settings,
+    const EvidenceCollector& collector, const PoseComparison& comparison)
+    : InScene(scene)
+    , Model(model)
+    , Settings(settings)
+    , Collector(collector)
+    , Comparison(comparison)
+    , Search(scene, model, settings.rotation)
+    , Rotated(settings.rotated)
+  {
+    this->Rotated.maximumDistance = settings.rotatedDistance * model.diameter;
+  }
+
+  void finish(Pose& pose, PoseClusters& clusters, int index) const
+  {
+    if (!this->Model.symmetries.near.empty())
+    {
+      PoseComparison::Contender asItIs = clusters.contender(index);
+      this->rotate(pose, asItIs);
+      this->decideNearSymmetry(pose, asItIs);
+    }
+    pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
+    const PoseEvidence evidence = this->Collector.collect(pose.T_scene_model);
+    scoreByEvidence(pose, evidence, this->Settings.evidence, this->InScene, this->Model);
+  }
+
+private:
+  /// Turns the pose about the axis of a nearly round part where another rotation fits better. `asItIs` is the pose as a
+  /// contender, and follows it.
+  void rotate(Pose& pose, PoseComparison::Contender& asItIs) const
+  {
+    for (const Eigen::Isometry3d& T : this->Search.better(pose.T_scene_model))
+    {
+      Pose rotated = pose;
+      rotated.T_scene_model = T;
+      rotated = refinePoses({ rotated }, this->InScene, this->Model, this->Rotated)[0];
+      if (this->Comparison.advantage(rotated.T_scene_model, asItIs, 0.0) > 0.0)
+      {
+        pose = rotated;
+        asItIs = this->Comparison.contender(pose.T_scene_model);
+      }
+    }
+  }
+
+  /// Of the pose and its turns by the part's near-symmetries takes the one that the scene speaks for.
+  void decideNearSymmetry(Pose& pose, const PoseComparison::Contender& asItIs) const
+  {
+    const Eigen::Isometry3d T = pose.T_scene_model;
+    const std::vector<NearSymmetry>& symmetries = this->Model.symmetries.near;
+    const double sure = this->Settings.sureAdvantage;
+    std::vector<double> advantages{ 0.0 };
+    for (const NearSymmetry& symmetry : symmetries)
+    {
+      advantages.push_back(this->Comparison.advantage(T * symmetry.T, asItIs, -this->Settings.negligible * sure));
+    }
+    const auto best = std::max_element(advantages.begin(), advantages.end());
+    double odds = 0.0; // of all turns against the best
+    for (const double advantage : advantages)
+    {
+      odds += std::exp((advantage - *best) / sure);
+    }
+    if (best != advantages.begin())
+    {
+      pose.T_scene_model = T * symmetries[best - advantages.begin() - 1].T;
+    }
+    pose.certainty = 1.0 / odds;
+  }
+
+  const Scene& InScene;
+  const TrainedModel& Model;
+  const PoseSelectionSettings& Settings;
+  const EvidenceCollector& Collector;
+  const PoseComparison& Comparison;
+  RotationSearch Search;
+  PoseRefinementSettings Rotated;
+};
+
+/// One for each instance, with its final pose; best first.
+Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedModel& model,
+  const PoseSelectionSettings& settings, const PoseClustersSettings& clustering, const Progress& progress)
+{
+  const EvidenceCollector collector(scene, model, settings.evidence);
+  const PoseComparison comparison(scene, model, settings.comparison);
+  Symmetries exact = model.symmetries;
+  exact.near.clear();
+  PoseClusters clusters(scored, exact, model, &collector, &comparison, clustering, settings.threads);
+  const std::vector<int> selected = clusters.select(subProgress(progress, 0.0, 0.3));
+  const InstanceFinish instance(scene, model, settings, collector, comparison);
+  Poses finished(selected.size());
+  parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),
+    [&](int begin, int end, int)
+    {
+      for (int k = begin; k < end; ++k)
+      {
+        finished[k] = scored[selected[k]];
+        instance.finish(finished[k], clusters, selected[k]);
+      }
+    });
+  std::stable_sort(
+    finished.begin(), finished.end(), [](const Pose& a, const Pose& b) { return rankingValue(a) > rankingValue(b); });
+  // Poses that were aligned may have come to the same place.
+  const double distance = clustering.distanceFor(model.diameter);
+  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
+  Poses distinct;
+  for (const Pose& pose : finished)
+  {
+    const bool isKnown = std::any_of(distinct.begin(), distinct.end(),
+      [&](const Pose& other) { return translationError(pose.T_scene_model, other.T_scene_model, middle) < distance; });
+    if (!isKnown)
+    {
+      distinct.push_back(pose);
+    }
+  }
+  return distinct;
+}
+
+/// The first of each cluster, up to the symmetries.
+Poses selectClusters(const Poses& scored, const TrainedModel& model, const PoseSelectionSettings& settings,
+  const PoseClustersSettings& clustering, const Progress& progress)
+{
+  const bool isForRefinement = settings.method == SelectionMethod::Alternatives;
+  Symmetries same = isForRefinement ? asIfRound(model.symmetries) : model.symmetries;
+  if (!isForRefinement)
+  {
+    same.near.clear();
+  }
+  PoseClusters clusters(scored, same, model, nullptr, nullptr, clustering, settings.threads);
+  Poses selected;
+  const double least = isForRefinement && !scored.empty() ? settings.leastRanking * rankingValue(scored.front()) : 0.0;
+  for (const int i : clusters.select(progress))
+  {
+    if (rankingValue(scored[i]) >= least)
+    {
+      selected.push_back(scored[i]);
+    }
+  }
+  return selected;
+}
+}
+
+Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
+  const PoseSelectionSettings& settings, const Progress& progress)
+{
+  PoseClustersSettings clustering = settings.clusters;
+  clustering.posesPerInstance = settings.method == SelectionMethod::Alternatives ? settings.alternatives : 1;
+  Poses selected = settings.method == SelectionMethod::Instances
+                     ? selectInstances(scored, scene, model, settings, clustering, progress)
+                     : selectClusters(scored, model, settings, clustering, progress);
+  selected.erase(std::remove_if(selected.begin(), selected.end(),
+                   [&](const Pose& pose) { return pose.probability < settings.minimumProbability; }),
+    selected.end());
+  if (settings.maximumPoses > 0 && selected.size() > static_cast<std::size_t>(settings.maximumPoses))
+  {
+    selected.resize(settings.maximumPoses);
+  }
+  report(progress, 1.0);
+  return selected;
+}
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Error.h"
+#include "pose/Pose.h"
+#include "pose/refinement/FinalAlignment.h"
+#include "pose/refinement/PoseRefinement.h"
+#include "pose/selection/PoseClusters.h"
+#include "pose/selection/PoseComparison.h"
+#include "pose/verification/PoseEvidence.h"
+#include "pose/verification/RotationSearch.h"
+
+namespace meam
+{
+enum class SelectionMethod
+{
+  Clusters,     ///< the best of each cluster, as in the paper
+  Alternatives, ///< some of each instance, to be refined: what an approximate symmetry makes equal is one
+  Instances ///< one of each instance: compared, turned where another rotation is right, aligned and scored once more
+};
+
+struct PoseSelectionSettings
+{
+  SelectionMethod method = SelectionMethod::Instances;
+  PoseClustersSettings clusters; ///< posesPerInstance is that of Alternatives; of the other methods it is 1
+  int alternatives = 2;          ///< of an instance (Alternatives)
+  /// Alternatives: poses whose ranking value is a smaller share of the best's are not worth refining.
+  double leastRanking = 0.001;
+  int maximumPoses = 0;            ///< of all the best; 0: no limit
+  double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
+  // Instances
+  EvidenceSettings evidence; ///< that poses are scored by once more
+  PoseComparisonSettings comparison;
+  RotationSearchSettings rotation;
+  PoseRefinementSettings rotated = afterRotation(); ///< of another rotation, which is nearly right
+  double rotatedDistance = 0.04;                    ///< of the diameter, its correspondences at the start
+  double sureAdvantage = 10.0;                      ///< points that make a rotation e times likelier than another
+  double negligible = 9.0;                          ///< times that: a rotation so unlikely is one in ten thousand
+  FinalAlignmentSettings alignment;
+  int threads = 0; ///< 0: one for each processor
+
+  static PoseRefinementSettings afterRotation()
+  {
+    PoseRefinementSettings settings;
+    settings.iterations = 6;
+    settings.threads = 1; // poses are worked on in parallel
+    return settings;
+  }
+};
+
+/// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
+///
+/// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is
+/// decided on the points that tell them apart. Then the pose is turned about the axis of a nearly round part, or by an
+/// approximate symmetry, where the scene speaks for it, which sets its certainty; it is aligned (alignRobustly) and
+/// scored.
+Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
+  const PoseSelectionSettings& settings = {}, const Progress& progress = {});
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/verification/PoseScreening.h"
+
+#include "base/Parallel.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace meam
+{
+namespace
+{
+/// Looks at the surface of poses alone, at few points.
+class SurfaceScreening
+{
+public:
+  SurfaceScreening(const Scene& scene, const TrainedModel& model, const PoseScreeningSettings& settings)
+    : InScene(scene)
+    , Model(model)
+    , Tolerance(static_cast<float>(settings.evidence.tolerance > 0.0 ? settings.evidence.tolerance
+                                                                     : settings.evidence.lengths.fits * model.diameter))
+    , FreeSpace(settings.evidence.freeSpace)
+  {
+    const std::vector<int>& points = model.verificationPoints;
+    for (std::size_t k = 0; k < points.size(); k += settings.pointStride)
+    {
+      this->Points.add(model.surface.points[points[k]], model.surface.normals[points[k]]);
+    }
+  }
+
+  /// Of the surface points that face the sensor and that nothing hides the share that is there, [0, 1]; of those where
+  /// nothing was measured half.
+  double share(const Eigen::Isometry3d& T_scene_model) const
+  {
+    const Eigen::Isometry3f T = T_scene_model.cast<float>();
+    const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
+    const auto& [x, y, z] = this->Points.directions;
+    const int size = static_cast<int>(this->Points.size());
+    DepthMap::Relation relations[SoABlock];
+    int matched = 0, violated = 0, unknown = 0;
+    for (int begin = 0; begin < size; begin += SoABlock)
+    {
+      const int count = std::min(SoABlock, size - begin);
+      this->InScene.depth.relations(T, this->Points.points, begin, count, this->Tolerance, relations);
+      for (int k = 0; k < count; ++k)
+      {
+        const bool isFacing =
+          x[begin + k] * towards.x() + y[begin + k] * towards.y() + z[begin + k] * towards.z() > 0.0f;
+        const DepthMap::Relation relation = relations[k];
+        matched += isFacing & (relation == DepthMap::Relation::OnSurface);
+        violated += isFacing & (relation == DepthMap::Relation::InFront);
+        unknown += isFacing & (relation == DepthMap::Relation::NoSurface);
+      }
+    }
+    if (!this->FreeSpace)
+    {
+      unknown += std::exchange(violated, 0);
+    }
+    const int inSight = matched + violated + unknown;
+    return inSight > 0 ? (matched + 0.5 * unknown) / inSight : 0.0;
+  }
+
+private:
+  const Scene& InScene;
+  const TrainedModel& Model;
+  float Tolerance;
+  bool FreeSpace;
+  SoAOrientedPoints Points;
+};
+
+/// The share of each pose's surface that is there; 1 without a surface.
+std::vector<double> surfaceShares(
+  const Poses& poses, const Scene& scene, const TrainedModel& model, const PoseScreeningSettings& settings)
+{
+  std::vector<double> shares(poses.size(), 1.0);
+  if (haveSurfaces(scene, model))
+  {
+    const SurfaceScreening screening(scene, model, settings);
+    parallelFor(static_cast<int>(poses.size()), settings.threads, {},
+      [&](int begin, int end, int)
+      {
+        for (int i = begin; i < end; ++i)
+        {
+          shares[i] = screening.share(poses[i].T_scene_model);
+        }
+      });
+  }
+  return shares;
+}
+}
+
+Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedModel& model,
+  const PoseScreeningSettings& settings, const Progress& progress)
+{
+  constexpr std::size_t posesPerReport = 256; // each is compared with all that stay: very many take long
+  const std::vector<double> shares = surfaceShares(candidates, scene, model, settings);
+  const double least = static_cast<int>(candidates.size()) > settings.enough ? settings.leastSurface : 0.0;
+  const double distance = settings.distance > 0.0 ? settings.distance : settings.distanceShare * model.diameter;
+  const Symmetries same = asIfRound(model.symmetries);
+  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
+  std::vector<int> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&](int a, int b) { return shares[a] * candidates[a].votes > shares[b] * candidates[b].votes; });
+  std::vector<int> kept;
+  for (const int i : order)
+  {
+    const Eigen::Isometry3d& T = candidates[i].T_scene_model;
+    const bool isDuplicate = std::any_of(kept.begin(), kept.end(),
+      [&](int k)
+      {
+        const Eigen::Isometry3d& other = candidates[k].T_scene_model;
+        return translationError(T, other, middle) < distance &&
+               rotationError(nearestEqual(T, other, same), other) < settings.angle;
+      });
+    if (!isDuplicate && shares[i] >= least)
+    {
+      kept.push_back(i);
+      if (kept.size() % posesPerReport == 0)
+      {
+        report(progress, 0.0);
+      }
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  Poses screened;
+  for (const int i : kept)
+  {
+    screened.push_back(candidates[i]);
+  }
+  const RotationSearch search(scene, model, settings.rotation);
+  parallelFor(static_cast<int>(screened.size()), settings.threads, progress,
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        screened[i].T_scene_model = search.likeliest(screened[i].T_scene_model);
+      }
+    });
+  report(progress, 1.0);
+  return screened;
+}
+}

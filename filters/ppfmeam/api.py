@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""train() and detect(): files or NumPy arrays in, NumPy arrays out. What goes wrong is raised as ppfmeam.Error; what may be
+wrong is a warning."""
+import os
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (vtkDataObject, vtkImageData, vtkPartitionedDataSetCollection, vtkPolyData,
+                                           vtkStructuredGrid)
+
+from . import Error, filters, scripting
+
+MODELS = (".meam", ".vtpc")
+DEPTH_IMAGES = (".png", ".tif", ".tiff")
+
+
+class Model:
+    """What training makes of a part and detection needs to know of it. `data` is the VTK data object."""
+
+    def __init__(self, data):
+        self.data = data
+
+    @property
+    def diameter(self):
+        """The largest distance between two points of the part, mm."""
+        return scripting.field(self.data, "Diameter")
+
+    def save(self, path):
+        """Writes NAME.meam, one file, which C++ and ParaView read; or NAME.vtpc."""
+        scripting.require_folder_of(path)
+        scripting.write_model(self.data, os.fspath(path))
+
+
+class Detections:
+    """The poses found, best first: `poses` (N x 4 x 4, each takes the part's coordinates to the scan's, mm), `scores` (the
+    share of what should be visible that is there), `probabilities` (that a pose is right), `certainties` (that no
+    near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without training. `data` is the VTK data
+    object with all that is known."""
+
+    def __init__(self, data):
+        def column(name, *shape):
+            array = data.GetPointData().GetArray(name)
+            return vtk_to_numpy(array).reshape(-1, *shape).copy() if array else numpy.zeros((0, *shape))
+
+        self.data = data
+        self.poses = column("Transform", 4, 4)
+        self.scores = column("Score")
+        self.probabilities = column("Probability")
+        self.certainties = column("Certainty")
+        self.visible_fractions = column("VisibleFraction")
+        self.seconds = scripting.field(data, "SecondsTotal") - scripting.field(data, "SecondsTraining")
+
+    def __len__(self):
+        return len(self.poses)
+
+    def save(self, path):
+        """Writes .csv (BOP results), .json, or .txt (4x4 matrices)."""
+        scripting.require_folder_of(path)
+        writer = filters.vtkMEAMPoseWriter()
+        writer.SetInputDataObject(self.data)
+        writer.SetFileName(os.fspath(path))
+        scripting.update(writer, "Write")
+
+
+def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended"):
+    """Learns how a part looks from all sides; takes seconds. `cad`: a .stl, .obj, .ply or .off file, or a vtkPolyData with
+    faces. `scale` brings its lengths to mm: 1000 for metres; `offset`, mm, is added after it."""
+    if isinstance(cad, vtkDataObject):
+        mesh = scripting.prepare_mesh(cad, offset, scale)
+    else:
+        mesh = scripting.read_mesh(os.fspath(cad), offset, scale)
+    return Model(scripting.train(mesh, chosen(preset)))
+
+
+def load(path):
+    """The model in a file that Model.save, or C++, wrote."""
+    return Model(scripting.read_model(os.fspath(path)))
+
+
+def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
+           probability=0.0, image_edges=True, depth_edges=False, creases=False, references=0.0, preset="recommended", seed=1,
+           threads=0):
+    """Finds the copies of a part in a scan.
+
+    part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm).
+    scan: a file (.pcd, .ply, or a depth image with its `camera`), an array H x W x 3 of points in the sensor's frame (x
+    right, y down, z the way it looks; NaN: not measured), an array N x 3 with a `boundary`, or VTK's data object.
+    image: a file or an array H x W (grey) or H x W x 3 (colours) of bytes, from the top; where the scan has none. It has a
+    pixel for each point, unless `image_camera`, a calibration file, says which other camera took it.
+    boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
+    camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
+    poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1.
+    image_edges, depth_edges, creases: where edges are looked for. references: the share of edge points that vote, 0: the
+    preset's. preset: recommended or paper. threads: 0 for all cores.
+    """
+    estimation = filters.vtkMEAMPoseEstimation()
+    estimation.SetInputDataObject(part_of(part, cad_scale))
+    estimation.SetInputDataObject(1, scan_of(scan, camera, scale))
+    if boundary is not None:
+        estimation.SetInputDataObject(2, points_of(boundary, scale, "boundary"))
+    if image is not None:
+        estimation.SetInputDataObject(3, image_of(image))
+    if image_camera is not None:
+        scripting.require_file(os.fspath(image_camera))
+        estimation.SetCameraFile(os.fspath(image_camera))
+    scripting.set_choice(estimation, "Preset", chosen(preset))
+    for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, ImageEdges=image_edges,
+                            DepthEdges=depth_edges, Creases=creases, ReferenceShare=references, Seed=seed,
+                            NumberOfThreads=threads).items():
+        getattr(estimation, "Set" + name)(value)
+    return Detections(scripting.update(estimation).GetOutput())
+
+
+def chosen(preset):
+    if preset not in ("recommended", "paper"):
+        raise Error(f"the preset has to be 'recommended' or 'paper', not {preset!r}")
+    return preset
+
+
+def part_of(part, scale):
+    """The trained model, or the clean mesh in mm."""
+    if isinstance(part, Model):
+        return part.data
+    if isinstance(part, vtkPartitionedDataSetCollection):
+        return part
+    if isinstance(part, vtkDataObject):
+        return scripting.prepare_mesh(part, scale=scale)
+    path = os.fspath(part)
+    if path.lower().endswith(MODELS):
+        return scripting.read_model(path)
+    return scripting.read_mesh(path, scale=scale)
+
+
+def scan_of(scan, camera, scale):
+    if isinstance(scan, (vtkDataObject, numpy.ndarray)):
+        return points_of(scan, scale, "scan")
+    path = os.fspath(scan)
+    camera = camera if camera is None else os.fspath(camera)
+    if path.lower().endswith(DEPTH_IMAGES):
+        if camera is None:
+            raise Error(f"{path}: a depth image needs the calibration of its camera")
+        return scripting.read_depth(path, camera)
+    return scripting.read_scan(path, scale, camera)
+
+
+def points_of(points, scale, what):
+    """Points as VTK has them: those of a grid, when the array has rows and columns."""
+    if isinstance(points, vtkDataObject):
+        return scripting.scaled(points, scale, f"the {what}")
+    if not isinstance(points, numpy.ndarray):
+        return scripting.read(os.fspath(points), scale)
+    if points.ndim not in (2, 3) or points.shape[-1] != 3 or points.dtype.kind != "f":
+        raise Error(f"the {what} has to be an array of floats, H x W x 3 or N x 3, not {points.dtype} with the shape "
+                    f"{points.shape}")
+    kind = numpy.float64 if points.dtype == numpy.float64 else numpy.float32
+    coordinates = vtkPoints()
+    coordinates.SetData(numpy_to_vtk(numpy.ascontiguousarray(points.reshape(-1, 3), kind), deep=True))
+    if points.ndim == 3:
+        data = vtkStructuredGrid()
+        data.SetDimensions(points.shape[1], points.shape[0], 1)
+    else:
+        data = vtkPolyData()
+    data.SetPoints(coordinates)
+    return scripting.scaled(data, scale, f"the {what}")
+
+
+def image_of(image):
+    if isinstance(image, vtkDataObject):
+        return image
+    if not isinstance(image, numpy.ndarray):
+        return scripting.read_image(os.fspath(image))
+    if image.dtype != numpy.uint8 or image.ndim not in (2, 3) or image.shape[2:] not in ((), (1,), (3,), (4,)):
+        raise Error(f"the image has to be an array of bytes, H x W or H x W x 3, not {image.dtype} with the shape "
+                    f"{image.shape}")
+    data = vtkImageData()
+    data.SetDimensions(image.shape[1], image.shape[0], 1)
+    pixels = numpy.ascontiguousarray(image[::-1]).reshape(image.shape[0] * image.shape[1], -1)  # VTK's rows go upwards
+    data.GetPointData().SetScalars(numpy_to_vtk(pixels, deep=True))
+    return data

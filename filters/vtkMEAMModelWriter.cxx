@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMModelWriter.h"
+
+#include "model/ModelFile.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMRun.h"
+
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+
+vtkStandardNewMacro(vtkMEAMModelWriter);
+
+vtkMEAMModelWriter::vtkMEAMModelWriter() = default;
+
+vtkMEAMModelWriter::~vtkMEAMModelWriter() { this->SetFileName(nullptr); }
+
+int vtkMEAMModelWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+void vtkMEAMModelWriter::WriteData()
+{
+  const int done = vtkMEAMRun(this,
+    [&]
+    {
+      if (!this->FileName || !*this->FileName)
+      {
+        throw meam::Error("No file is given: set the name of the file to write.");
+      }
+      meam::writeModel(this->FileName,
+        vtkMEAMConversion::toTrainedModel(vtkPartitionedDataSetCollection::SafeDownCast(this->GetInput())));
+    });
+  if (!done)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkMEAMModelWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}

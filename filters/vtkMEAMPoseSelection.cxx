@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPoseSelection.h"
+
+#include "pose/selection/PoseSelection.h"
+#include "vtkMEAMPoseWork.h"
+#include "vtkMEAMSettings.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkMEAMPoseSelection);
+
+vtkMEAMPoseSelection::vtkMEAMPoseSelection()
+  : Settings(new meam::PoseSelectionSettings)
+{
+}
+
+vtkMEAMPoseSelection::~vtkMEAMPoseSelection() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, Method, int, method, Clusters, Instances)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, ClusterDistance, double, clusters.distance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, ClusterAngle, double, clusters.angle, 0.0, 180.0)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, PosesPerInstance, int, alternatives, 1, VTK_INT_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, MinimumProbability, double, minimumProbability, 0.0, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, Tolerance, double, evidence.tolerance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMSettingMacro(vtkMEAMPoseSelection, SameVisibility, bool, comparison.sameVisibility)
+
+void vtkMEAMPoseSelection::SetFreeSpace(bool value)
+{
+  if (this->Settings->evidence.freeSpace != value)
+  {
+    this->Settings->evidence.freeSpace = value;
+    this->Settings->comparison.freeSpace = value;
+    this->Modified();
+  }
+}
+
+bool vtkMEAMPoseSelection::GetFreeSpace() { return this->Settings->evidence.freeSpace; }
+
+void vtkMEAMPoseSelection::SetEvidenceWeights(double edges, double surface, double explained)
+{
+  meam::EvidenceSettings& evidence = this->Settings->evidence;
+  if (evidence.edgeWeight != edges || evidence.surfaceWeight != surface || evidence.explainedWeight != explained)
+  {
+    evidence.edgeWeight = edges;
+    evidence.surfaceWeight = surface;
+    evidence.explainedWeight = explained;
+    this->Modified();
+  }
+}
+
+double* vtkMEAMPoseSelection::GetEvidenceWeights()
+{
+  const meam::EvidenceSettings& evidence = this->Settings->evidence;
+  this->Weights[0] = evidence.edgeWeight;
+  this->Weights[1] = evidence.surfaceWeight;
+  this->Weights[2] = evidence.explainedWeight;
+  return this->Weights;
+}
+
+void vtkMEAMPoseSelection::SetParametersToPaper()
+{
+  *this->Settings = {};
+  this->SetMethod(Clusters);
+  this->Modified();
+}
+
+void vtkMEAMPoseSelection::SetParametersToRecommended()
+{
+  *this->Settings = {};
+  this->Modified();
+}
+
+void vtkMEAMPoseSelection::Process(Work& work)
+{
+  this->Settings->threads = this->NumberOfThreads;
+  work.result = meam::selectPoses(work.poses, work.scene, work.model, *this->Settings, work.progress);
+}
+
+void vtkMEAMPoseSelection::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->GetMethod() << "\n";
+  os << indent << "ClusterDistance: " << this->GetClusterDistance() << "\n";
+  os << indent << "ClusterAngle: " << this->GetClusterAngle() << "\n";
+  os << indent << "PosesPerInstance: " << this->GetPosesPerInstance() << "\n";
+  os << indent << "MaximumNumberOfPoses: " << this->GetMaximumNumberOfPoses() << "\n";
+  os << indent << "MinimumProbability: " << this->GetMinimumProbability() << "\n";
+  os << indent << "Tolerance: " << this->GetTolerance() << "\n";
+  const double* weights = this->GetEvidenceWeights();
+  os << indent << "EvidenceWeights: " << weights[0] << " " << weights[1] << " " << weights[2] << "\n";
+  os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
+  os << indent << "SameVisibility: " << this->GetSameVisibility() << "\n";
+}

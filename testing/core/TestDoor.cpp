@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What meam.h declares, through the shared libraries; the core beside them makes the scenes.
+#include "TestFiles.h"
+#include "TestImages.h"
+#include "TestScene.h"
+#include "io/PCDFile.h"
+#include "meam.h"
+
+#include <cmath>
+
+namespace
+{
+meam::Model bracketModel() { return meam::Model(std::make_shared<const meam::TrainedModel>(scenes::bracket())); }
+
+meam::Mesh bracketMesh()
+{
+  const meam::TriangleMesh mesh = parts::lBracket();
+  return { mesh.vertices, mesh.triangles };
+}
+
+/// Three brackets seen from above, with their edges.
+meam::Scan scanOfThree()
+{
+  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
+  meam::Scan scan;
+  scan.points = scene.surface;
+  scan.width = static_cast<int>(scan.points.size());
+  scan.edges = scene.edges.points;
+  return scan;
+}
+
+/// A step of 20 mm between two planes, 500 mm in front of the sensor.
+meam::Scan step(int width = 60, int height = 40)
+{
+  meam::Scan scan;
+  scan.width = width;
+  scan.height = height;
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      scan.points.emplace_back(x - width / 2, y - height / 2, x < width / 2 ? 500 : 520);
+    }
+  }
+  return scan;
+}
+}
+
+TEST(Door, FindsWhatTheCoreFinds)
+{
+  meam::DetectSettings settings;
+  settings.maximumPoses = 3;
+  const meam::Detections found = meam::detect(bracketModel(), scanOfThree(), settings);
+  const meam::Poses poses = scenes::estimatePoses(scenes::bracket(), scenes::seenFromAbove(scenes::threeCopies()),
+    meam::detectionSettings(meam::Preset::Recommended, 3));
+  ASSERT_EQ(found.poses.size(), 3u);
+  ASSERT_EQ(poses.size(), 3u);
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(found.poses[i].T_scan_part.matrix(), poses[i].T_scene_model.matrix()) << i;
+    EXPECT_EQ(found.poses[i].score, poses[i].score) << i;
+    EXPECT_EQ(found.poses[i].probability, poses[i].probability) << i;
+    EXPECT_EQ(found.poses[i].certainty, poses[i].certainty) << i;
+    EXPECT_EQ(found.poses[i].visibleFraction, poses[i].visibleFraction) << i;
+    EXPECT_EQ(found.poses[i].residual, poses[i].fit.residual) << i;
+  }
+  EXPECT_GT(found.seconds, 0.0);
+  EXPECT_EQ(found.warning, "");
+}
+
+TEST(Door, SettingsReachTheSteps)
+{
+  meam::DetectSettings settings;
+  settings.maximumPoses = 1;
+  EXPECT_EQ(meam::detect(bracketModel(), scanOfThree(), settings).poses.size(), 1u);
+  settings.maximumPoses = 0;
+  settings.minimumProbability = 1.0;
+  EXPECT_TRUE(meam::detect(bracketModel(), scanOfThree(), settings).poses.empty());
+  settings = {};
+  const meam::Detections usual = meam::detect(bracketModel(), scanOfThree());
+  settings.threads = 1;
+  const meam::Detections oneThread = meam::detect(bracketModel(), scanOfThree(), settings);
+  ASSERT_EQ(usual.poses.size(), oneThread.poses.size());
+  EXPECT_EQ(usual.poses[0].T_scan_part.matrix(), oneThread.poses[0].T_scan_part.matrix());
+  // A sensor that looks from below sees the faces of which the scan knows nothing.
+  meam::Scan below = scanOfThree();
+  below.sensor = meam::Sensor{ false, { 0, 0, 0 }, { 0, 0, 2 } };
+  const meam::Detections wrong = meam::detect(bracketModel(), below);
+  EXPECT_LT(wrong.poses.empty() ? 0.0 : wrong.poses[0].probability, usual.poses[0].probability);
+  meam::Scan centimetres = scanOfThree();
+  for (auto* points : { &centimetres.points, &centimetres.edges })
+  {
+    for (auto& point : *points)
+    {
+      point /= 10.0f;
+    }
+  }
+  EXPECT_TRUE(files::contains(meam::detect(bracketModel(), centimetres).warning, "factor is 10"));
+}
+
+TEST(Door, TrainsSavesAndLoads)
+{
+  const files::Folder folder;
+  double done = 0.0;
+  const meam::Model model = meam::train(bracketMesh(), {},
+    [&](double share)
+    {
+      EXPECT_GE(share, done);
+      done = share;
+      return true;
+    });
+  EXPECT_DOUBLE_EQ(done, 1.0);
+  EXPECT_NEAR(model.diameter(), scenes::bracket().diameter, 1e-3);
+  model.save(folder.path("bracket.meam"));
+  const meam::Model loaded = meam::loadModel(folder.path("bracket.meam"));
+  const meam::Detections a = meam::detect(model, scanOfThree()), b = meam::detect(loaded, scanOfThree());
+  ASSERT_EQ(a.poses.size(), b.poses.size());
+  ASSERT_GE(a.poses.size(), 3u);
+  EXPECT_EQ(a.poses[0].T_scan_part.matrix(), b.poses[0].T_scan_part.matrix());
+  EXPECT_GT(a.poses[0].probability, 0.5);
+
+  meam::Mesh metres = bracketMesh();
+  for (auto& vertex : metres.vertices)
+  {
+    vertex /= 1000.0f;
+  }
+  meam::TrainSettings settings;
+  settings.scale = 1000.0;
+  EXPECT_NEAR(meam::train(metres, settings).diameter(), model.diameter(), 1e-3);
+}
+
+TEST(Door, CanBeStopped)
+{
+  const auto stop = [](double) { return false; };
+  EXPECT_THROW(meam::train(bracketMesh(), {}, stop), meam::Aborted);
+  EXPECT_THROW(meam::detect(bracketModel(), scanOfThree(), {}, stop), meam::Aborted);
+}
+
+TEST(Door, WhatIsWrongWithAScan)
+{
+  const meam::Model model = bracketModel();
+  const auto errorOf = [&](const meam::Scan& scan, const meam::DetectSettings& settings = {})
+  { return files::errorOf([&] { meam::detect(model, scan, settings); }); };
+  EXPECT_TRUE(files::contains(files::errorOf([] { meam::detect({}, scanOfThree()); }), "model is empty"));
+  EXPECT_TRUE(files::contains(errorOf({}), "0 points"));
+  meam::Scan scan = scanOfThree();
+  scan.width -= 1;
+  EXPECT_TRUE(files::contains(errorOf(scan), "a point for each"));
+  scan = scanOfThree();
+  scan.edges.clear();
+  EXPECT_TRUE(files::contains(errorOf(scan), "not organized"));
+  scan = scanOfThree();
+  scan.sensor = meam::Sensor{ false, { 0, 0, 0 }, { 0, 0, 0 } };
+  EXPECT_TRUE(files::contains(errorOf(scan), "direction is zero"));
+  EXPECT_TRUE(files::contains(errorOf(step()), "no image"));
+  scan = step();
+  scan.image = { 3, 2, 1, std::vector<std::uint8_t>(6) };
+  EXPECT_TRUE(files::contains(errorOf(scan), "3 x 2"));
+  scan = step();
+  for (auto& point : scan.points)
+  {
+    point.setConstant(NAN);
+  }
+  EXPECT_NE(errorOf(scan), "");
+}
+
+TEST(Door, EdgesOfTheCloudAlone)
+{
+  meam::DetectSettings settings;
+  settings.imageEdges = false;
+  settings.depthEdges = true;
+  EXPECT_NO_THROW(meam::detect(bracketModel(), step(), settings)); // no image is asked for
+}
+
+TEST(Door, ReadsScans)
+{
+  const files::Folder folder;
+  meam::PCDData data;
+  data.cloud = { 2, 2, { { 1, 2, 3 }, { 4, 5, 6 }, { 7, 8, 9 }, { 10, 11, 12 } } };
+  data.intensities = { 0, 100, 200, 255 };
+  meam::writePCD(folder.path("a.pcd"), data);
+  meam::Scan scan = meam::loadScan(folder.path("a.pcd"), {}, 1000.0);
+  EXPECT_EQ(scan.width, 2);
+  EXPECT_EQ(scan.height, 2);
+  EXPECT_EQ(scan.points[3], Eigen::Vector3f(10000, 11000, 12000));
+  EXPECT_EQ(scan.image.channels, 1);
+  EXPECT_EQ(scan.image.pixels, (std::vector<std::uint8_t>{ 0, 100, 200, 255 }));
+
+  const std::string ply =
+    folder.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+                          "z\nproperty uchar red\n"
+                          "property uchar green\nproperty uchar blue\nend_header\n10 0 100 1 2 3\n");
+  EXPECT_EQ(meam::loadScan(ply).height, 1);
+  const std::string camera = folder.write(
+    "camera.json", R"({"fx": 10, "fy": 10, "cx": 1, "cy": 1, "width": 4, "height": 3, "depth_scale": 0.5})");
+  EXPECT_EQ(meam::loadCamera(camera).width, 4);
+  scan = meam::loadScan(ply, camera);
+  EXPECT_EQ(scan.width, 4);
+  EXPECT_EQ(scan.height, 3);
+  EXPECT_EQ(scan.points[4 * 1 + 2], Eigen::Vector3f(10, 0, 100));
+  EXPECT_EQ(scan.image.channels, 3);
+
+  const cv::Mat depth(3, 4, CV_16UC1, cv::Scalar(200));
+  const std::string png = folder.write("depth.png", images::encoded(".png", depth));
+  scan = meam::loadDepthImage(png, camera);
+  EXPECT_EQ(scan.width, 4);
+  EXPECT_EQ(scan.points[4 * 1 + 1], Eigen::Vector3f(0, 0, 100));
+  EXPECT_EQ(
+    meam::loadImage(folder.write("grey.png", images::encoded(".png", cv::Mat(3, 4, CV_8UC1, cv::Scalar(7))))).pixels,
+    std::vector<std::uint8_t>(12, 7));
+
+  EXPECT_TRUE(files::contains(files::errorOf([&] { meam::loadScan(png, camera); }), "loadDepthImage"));
+  EXPECT_TRUE(files::contains(files::errorOf([&] { meam::loadScan(ply, {}, -1.0); }), "positive"));
+  EXPECT_THROW(meam::loadScan("missing.pcd"), meam::Error);
+  EXPECT_THROW(meam::loadModel("missing.meam"), meam::Error);
+  EXPECT_THROW(meam::loadMesh("missing.stl"), meam::Error);
+  EXPECT_THROW(meam::loadImage("missing.png"), meam::Error);
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/MeshFile.h"
+
+#include "TestFiles.h"
+#include "TestParts.h"
+
+#include <array>
+#include <sstream>
+
+namespace
+{
+/// Corner by corner, whatever the order of vertices and triangles is.
+std::vector<std::array<float, 9>> corners(const meam::TriangleMesh& mesh)
+{
+  std::vector<std::array<float, 9>> result;
+  for (const Eigen::Vector3i& triangle : mesh.triangles)
+  {
+    // From the least corner on, in the same sense.
+    std::array<Eigen::Vector3f, 3> points{ mesh.vertices[triangle[0]], mesh.vertices[triangle[1]],
+      mesh.vertices[triangle[2]] };
+    const auto isLess = [](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
+    { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); };
+    std::rotate(points.begin(), std::min_element(points.begin(), points.end(), isLess), points.end());
+    std::array<float, 9> values;
+    for (int i = 0; i < 9; ++i)
+    {
+      values[i] = points[i / 3][i % 3];
+    }
+    result.push_back(values);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::string asciiSTL(const meam::TriangleMesh& mesh)
+{
+  std::ostringstream text;
+  text << "solid part\n";
+  for (const Eigen::Vector3i& triangle : mesh.triangles)
+  {
+    text << "facet normal 0 0 0\nouter loop\n";
+    for (int i = 0; i < 3; ++i)
+    {
+      text << "vertex " << mesh.vertices[triangle[i]].transpose() << "\n";
+    }
+    text << "endloop\nendfacet\n";
+  }
+  text << "endsolid part\n";
+  return text.str();
+}
+
+std::string binarySTL(const meam::TriangleMesh& mesh)
+{
+  std::string bytes(80, ' ');
+  bytes += files::raw(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const Eigen::Vector3i& triangle : mesh.triangles)
+  {
+    bytes += std::string(12, '\0');
+    for (int i = 0; i < 9; ++i)
+    {
+      bytes += files::raw(mesh.vertices[triangle[i / 3]][i % 3]);
+    }
+    bytes += std::string(2, '\0');
+  }
+  return bytes;
+}
+
+std::string obj(const meam::TriangleMesh& mesh)
+{
+  std::ostringstream text;
+  for (const auto& vertex : mesh.vertices)
+  {
+    text << "v " << vertex.transpose() << "\n";
+  }
+  for (const auto& triangle : mesh.triangles)
+  {
+    text << "f " << triangle[0] + 1 << " " << triangle[1] + 1 << " " << triangle[2] + 1 << "\n";
+  }
+  return text.str();
+}
+
+std::string header(const meam::TriangleMesh& mesh, const std::string& format)
+{
+  return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+         std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+std::string asciiPLY(const meam::TriangleMesh& mesh)
+{
+  std::ostringstream text;
+  text << header(mesh, "ascii");
+  for (const auto& vertex : mesh.vertices)
+  {
+    text << vertex.transpose() << "\n";
+  }
+  for (const auto& triangle : mesh.triangles)
+  {
+    text << "3 " << triangle.transpose() << "\n";
+  }
+  return text.str();
+}
+
+std::string binaryPLY(const meam::TriangleMesh& mesh)
+{
+  std::string bytes = header(mesh, "binary_little_endian");
+  for (const auto& vertex : mesh.vertices)
+  {
+    bytes += files::raw(vertex.x()) + files::raw(vertex.y()) + files::raw(vertex.z());
+  }
+  for (const auto& triangle : mesh.triangles)
+  {
+    bytes += '\3' + files::raw(triangle[0]) + files::raw(triangle[1]) + files::raw(triangle[2]);
+  }
+  return bytes;
+}
+
+std::string off(const meam::TriangleMesh& mesh)
+{
+  std::ostringstream text;
+  text << "OFF\n" << mesh.vertices.size() << " " << mesh.triangles.size() << " 0\n";
+  for (const auto& vertex : mesh.vertices)
+  {
+    text << vertex.transpose() << "\n";
+  }
+  for (const auto& triangle : mesh.triangles)
+  {
+    text << "3 " << triangle.transpose() << "\n";
+  }
+  return text.str();
+}
+}
+
+TEST(MeshFile, TheSameMeshInEveryForm)
+{
+  const files::Folder folder;
+  const meam::TriangleMesh part = parts::lBracket();
+  const std::vector<std::pair<std::string, std::string>> forms = { { "text.stl", asciiSTL(part) },
+    { "binary.STL", binarySTL(part) }, { "a.obj", obj(part) }, { "text.ply", asciiPLY(part) },
+    { "binary.ply", binaryPLY(part) }, { "a.off", off(part) } };
+  for (const auto& [name, bytes] : forms)
+  {
+    EXPECT_EQ(corners(meam::readMesh(folder.write(name, bytes))), corners(part)) << name;
+  }
+}
+
+TEST(MeshFile, ASolidWordDoesNotMakeTheFileText)
+{
+  const files::Folder folder;
+  const meam::TriangleMesh part = parts::lBracket();
+  std::string bytes = binarySTL(part);
+  bytes.replace(0, 10, "solid part"); // as some programs write it
+  EXPECT_EQ(corners(meam::readMesh(folder.write("a.stl", bytes))), corners(part));
+}
+
+TEST(MeshFile, TrianglesThatShareAnEdgeWithTwoOthersStay)
+{
+  const files::Folder folder;
+  meam::TriangleMesh fan;
+  fan.vertices = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { -1, 1, 0 }, { -1, -1, 0 } };
+  fan.triangles = { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 } };
+  for (const auto& [name, bytes] :
+    { std::pair("a.stl", binarySTL(fan)), std::pair("a.obj", obj(fan)), std::pair("a.ply", binaryPLY(fan)) })
+  {
+    EXPECT_EQ(corners(meam::readMesh(folder.write(name, bytes))), corners(fan)) << name;
+  }
+}
+
+TEST(MeshFile, PolygonsBecomeTriangles)
+{
+  const files::Folder folder;
+  const std::string path = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  EXPECT_EQ(meam::readMesh(path).triangles.size(), 2u);
+}
+
+TEST(MeshFile, WhatIsWrongWithAFile)
+{
+  const files::Folder folder;
+  const meam::TriangleMesh part = parts::lBracket();
+  const auto errorOf = [&](const std::string& name, const std::string& bytes)
+  {
+    const std::string path = folder.write(name, bytes);
+    const std::string error = files::errorOf([&] { meam::readMesh(path); });
+    EXPECT_TRUE(files::contains(error, path)) << name << ": " << error;
+    return error;
+  };
+  EXPECT_TRUE(files::contains(errorOf("a.step", "ISO-10303-21;"), ".stl, .obj, .ply or .off"));
+  EXPECT_TRUE(files::contains(errorOf("a.stl", ""), "cut off"));
+  EXPECT_TRUE(files::contains(errorOf("a.stl", binarySTL(part).substr(0, 500)), "cut off"));
+  EXPECT_TRUE(files::contains(errorOf("a.stl", "solid part\nfacet\nendsolid part\n"), "no faces"));
+  EXPECT_NE(errorOf("a.ply", "no mesh at all"), "");
+  EXPECT_NE(errorOf("a.ply", asciiPLY({}) /* cannot have faces */), "");
+  EXPECT_TRUE(files::contains(errorOf("a.obj", "v 0 0 0\nv 1 0 0\n"), "no faces"));
+  EXPECT_NE(files::errorOf([&] { meam::readMesh(folder.path("missing.obj")); }), "");
+  EXPECT_NE(files::errorOf([&] { meam::readMesh(folder.path("missing.stl")); }), "");
+}

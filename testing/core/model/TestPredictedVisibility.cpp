@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/PredictedVisibility.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace
+{
+/// The bracket turned by so many degrees from a pose in which a sensor above sees its upper side.
+Eigen::Isometry3d turned(double degrees)
+{
+  return Eigen::Isometry3d(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d(1, 2, 0).normalized()));
+}
+
+meam::Sensor fromAbove()
+{
+  meam::Sensor sensor;
+  sensor.perspective = false;
+  sensor.direction = -Eigen::Vector3d::UnitZ();
+  return sensor;
+}
+
+constexpr int CubeSteps = 20; // points along an edge of the cube, less one
+
+/// A cube of 20 mm about the origin, points 1 mm apart. Side 2a faces down along axis a, side 2a + 1 up; each has
+/// CubeSteps * CubeSteps points. Of the edges 4a to 4a + 3 lie along axis a; the next axis is down on 4a and 4a + 2,
+/// the one after it on 4a and 4a + 1.
+meam::TrainedModel cube()
+{
+  constexpr float half = 0.5f * CubeSteps;
+  meam::TrainedModel model;
+  model.diameter = 2.0 * half * std::sqrt(3.0);
+  for (int side = 0; side < 6; ++side)
+  {
+    const int axis = side / 2;
+    const float sign = side % 2 ? 1.0f : -1.0f;
+    for (int k = 0; k < CubeSteps * CubeSteps; ++k)
+    {
+      Eigen::Vector3f point;
+      point[axis] = sign * half;
+      point[(axis + 1) % 3] = 0.5f + static_cast<float>(k % CubeSteps) - half;
+      point[(axis + 2) % 3] = 0.5f + static_cast<float>(k / CubeSteps) - half;
+      model.verificationPoints.push_back(static_cast<int>(model.surface.size()));
+      model.surface.points.push_back(point);
+      model.surface.normals.push_back(sign * Eigen::Vector3f::Unit(axis));
+    }
+  }
+  for (int edge = 0; edge < 12; ++edge)
+  {
+    for (int k = 0; k <= CubeSteps; ++k)
+    {
+      Eigen::Vector3f point;
+      point[edge / 4] = static_cast<float>(k) - half;
+      point[(edge / 4 + 1) % 3] = edge % 2 ? half : -half;
+      point[(edge / 4 + 2) % 3] = edge % 4 / 2 ? half : -half;
+      model.edges.points.push_back(point);
+    }
+  }
+  return model;
+}
+
+/// The sides of the cube that are visible, and nothing of another: -1 stands for a side of which a part is.
+std::set<int> sidesSeen(const meam::PredictedVisibility::Visible& visible)
+{
+  std::vector<int> points(6);
+  for (const int i : visible.surface)
+  {
+    ++points[i / (CubeSteps * CubeSteps)];
+  }
+  std::set<int> sides;
+  for (int side = 0; side < 6; ++side)
+  {
+    if (points[side] > 0)
+    {
+      sides.insert(points[side] == CubeSteps * CubeSteps ? side : -1);
+    }
+  }
+  return sides;
+}
+}
+
+TEST(PredictedVisibility, PosesThatHardlyDifferPredictTheSamePoints)
+{
+  const meam::PredictedVisibility view(scenes::bracket());
+  const auto visible = view.visible(turned(10.0), fromAbove());
+  EXPECT_EQ(view.visible(turned(10.001), fromAbove()), visible) << "seen from the same direction nothing is looked up";
+  EXPECT_FALSE(visible->edges.empty());
+  EXPECT_NE(view.visible(turned(60.0), fromAbove())->surface, visible->surface);
+  // The direction is rounded to within a degree.
+  const Eigen::Vector3f towards = turned(10.0).linear().transpose().cast<float>() * Eigen::Vector3f::UnitZ();
+  EXPECT_GT(visible->from.dot(towards), std::cos(M_PI / 180.0));
+}
+
+TEST(PredictedVisibility, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
+{
+  // More directions than are cached.
+  const meam::PredictedVisibility one(scenes::bracket()), other(scenes::bracket());
+  const auto first = one.visible(turned(10.0), fromAbove());
+  for (int k = 0; k < 1500; ++k)
+  {
+    const Eigen::Isometry3d T(
+      Eigen::AngleAxisd(0.07 * k, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(2.4 * k, Eigen::Vector3d::UnitZ()));
+    const auto visible = one.visible(T, fromAbove());
+    if (k % 100 == 0)
+    {
+      EXPECT_EQ(visible->edges, other.visible(T, fromAbove())->edges) << k;
+      EXPECT_EQ(visible->surface, other.visible(T, fromAbove())->surface) << k;
+    }
+  }
+  EXPECT_EQ(one.visible(turned(10.0), fromAbove())->edges, first->edges);
+  EXPECT_EQ(one.visible(turned(10.0), fromAbove())->surface, first->surface);
+}
+
+TEST(PredictedVisibility, OfACubeTheSidesThatFaceTheSensorAreVisible)
+{
+  const meam::TrainedModel model = cube();
+  const meam::PredictedVisibility predicted(model);
+  meam::Sensor sensor = fromAbove();
+  EXPECT_EQ(sidesSeen(*predicted.visible(turned(0.0), sensor)), std::set<int>({ 5 }));
+  sensor.direction = Eigen::Vector3d(1, 1, -1).normalized();
+  const auto corner = predicted.visible(turned(0.0), sensor);
+  EXPECT_EQ(sidesSeen(*corner), std::set<int>({ 0, 2, 5 }));
+  std::vector<int> points(12);
+  for (const int i : corner->edges)
+  {
+    ++points[i / (CubeSteps + 1)];
+  }
+  for (int edge = 0; edge < 12; ++edge)
+  {
+    // Three are hidden but for their ends on the outline: those that meet in the corner on the other side.
+    const bool hidden = edge == 1 || edge == 6 || edge == 11;
+    EXPECT_TRUE(hidden ? points[edge] <= 3 : points[edge] == CubeSteps + 1) << edge << ": " << points[edge];
+  }
+}
+
+TEST(PredictedVisibility, APoseFarAwayShowsTheSideThatFacesTheSensor)
+{
+  const meam::TrainedModel model = cube();
+  const meam::PredictedVisibility predicted(model);
+  const meam::Sensor sensor; // in the origin
+  for (const double away : { 1e3, 1e39 })
+  {
+    const Eigen::Isometry3d T(Eigen::Translation3d(away, 0, 0));
+    EXPECT_EQ(sidesSeen(*predicted.visible(T, sensor)), std::set<int>({ 0 })) << away;
+  }
+  const Eigen::Isometry3d beyondMeasure(Eigen::Translation3d(1e200, 0, 0)); // there is no direction to the sensor
+  EXPECT_TRUE(predicted.visible(beyondMeasure, sensor)->surface.empty());
+}

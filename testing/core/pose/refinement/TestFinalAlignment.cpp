@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/refinement/FinalAlignment.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+const scenes::Seen& seen()
+{
+  static const scenes::Seen copies = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  return copies;
+}
+
+const meam::Scene& scene()
+{
+  static const meam::Scene copies = scenes::prepared(seen());
+  return copies;
+}
+
+/// The upper faces alone, in which a part may slide, and the edge points of these indices.
+meam::Scene upperFaces(const std::vector<int>& edges)
+{
+  scenes::Seen faces = seen();
+  const auto isLow = [](const Eigen::Vector3f& point) { return point.z() <= 14.5f; };
+  faces.surface.erase(std::remove_if(faces.surface.begin(), faces.surface.end(), isLow), faces.surface.end());
+  faces.edges = faces.edges.subset(edges);
+  return scenes::prepared(faces);
+}
+}
+
+TEST(FinalAlignment, APoseComesToOnePlaceWhereverItComesFrom)
+{
+  const meam::Poses right = scenes::disturbedCopies(0.0, 0.0);
+  const meam::Poses near = scenes::disturbedCopies(0.05, 0.1);
+  ASSERT_EQ(near.size(), 3u);
+  for (std::size_t i = 0; i < near.size(); ++i)
+  {
+    const meam::Pose aligned = scenes::align(near[i], scene(), scenes::bracket());
+    EXPECT_EQ(aligned.score, near[i].score);
+    EXPECT_EQ(aligned.fit.constrained, 6);
+    const Eigen::Isometry3d other = scenes::align(right[i], scene(), scenes::bracket()).T_scene_model;
+    EXPECT_LT(meam::translationError(aligned.T_scene_model, other), 1e-3);
+    EXPECT_LT(meam::rotationError(aligned.T_scene_model, other), 1e-3);
+    const Eigen::Isometry3d& truth = scenes::threeCopies()[i];
+    EXPECT_LT(meam::translationError(aligned.T_scene_model, truth), 0.15) << i;
+    EXPECT_LT(meam::rotationError(aligned.T_scene_model, truth), 0.25) << i;
+    EXPECT_NEAR(aligned.T_scene_model.linear().determinant(), 1.0, 1e-9);
+  }
+}
+
+TEST(FinalAlignment, APoseComesToTheSamePlaceOfASceneThatIsMoved)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
+  const meam::Poses near = scenes::disturbedCopies(0.05, 0.1);
+  std::mt19937 random(8);
+  for (int k = 0; k < 5; ++k)
+  {
+    const Eigen::Isometry3d T = parts::motion(random, 200.0);
+    scenes::Seen moved = seen();
+    moved.edges = parts::moved(seen().edges, T);
+    moved.surface = parts::moved(seen().surface, T);
+    moved.sensor.position = T * moved.sensor.position;
+    moved.sensor.direction = T.linear() * moved.sensor.direction;
+    const meam::Scene elsewhere = scenes::prepared(moved);
+    for (const meam::Pose& pose : near)
+    {
+      const Eigen::Isometry3d expected = T * scenes::align(pose, scene(), model).T_scene_model;
+      const Eigen::Isometry3d found = scenes::align(meam::moved(pose, T), elsewhere, model).T_scene_model;
+      EXPECT_LT(meam::translationError(found, expected, middle), 1e-3);
+      EXPECT_LT(meam::rotationError(found, expected), 1e-3);
+    }
+  }
+}
+
+TEST(FinalAlignment, WhereTheSceneLeavesAFreedomAPoseStays)
+{
+  const meam::Scene face = upperFaces({ 0 });
+  const meam::Pose pose = scenes::disturbedCopies(0.3, 0.5)[0];
+  const meam::Pose stays = scenes::align(pose, face, scenes::bracket());
+  EXPECT_TRUE(stays.T_scene_model.isApprox(pose.T_scene_model, 1e-12));
+  EXPECT_EQ(stays.fit.constrained, 3) << "how well the scene fixes the pose is said all the same";
+}
+
+TEST(FinalAlignment, WhereTheSceneFixesAPoseWeaklyItIsAligned)
+{
+  std::vector<int> few;
+  for (int k = 0; k < static_cast<int>(seen().edges.size()); k += 8)
+  {
+    few.push_back(k);
+  }
+  const meam::Scene face = upperFaces(few);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const meam::Pose one = scenes::align(scenes::disturbedCopies(0.1, 0.2)[i], face, scenes::bracket());
+    const meam::Pose other = scenes::align(scenes::disturbedCopies(0.05, 0.1)[i], face, scenes::bracket());
+    EXPECT_EQ(one.fit.constrained, 5) << "less than a hundredth of what corresponds speaks for the sixth";
+    EXPECT_LT(meam::translationError(one.T_scene_model, other.T_scene_model), 1e-3);
+    EXPECT_LT(meam::rotationError(one.T_scene_model, other.T_scene_model), 1e-3);
+  }
+}
+
+TEST(FinalAlignment, APoseThatIsLedFartherAwayStays)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const meam::Scene& in = scene();
+  const meam::Poses near = meam::toLocalFrame(scenes::disturbedCopies(0.3, 0.5), in.T_local_scene(), model.symmetries);
+  for (const meam::Pose& pose : near)
+  {
+    meam::FinalAlignmentSettings settings;
+    const meam::Pose aligned = meam::alignRobustly(pose, in, model, settings);
+    const double turn = meam::rotationError(aligned.T_scene_model, pose.T_scene_model);
+    EXPECT_GT(turn, 0.1) << "it is led somewhere";
+    settings.mostTurned = 0.5 * turn;
+    EXPECT_TRUE(meam::alignRobustly(pose, in, model, settings).T_scene_model.matrix() == pose.T_scene_model.matrix());
+    settings = {};
+    settings.farthest = 1e-5;
+    EXPECT_TRUE(meam::alignRobustly(pose, in, model, settings).T_scene_model.matrix() == pose.T_scene_model.matrix());
+  }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/PoseClusters.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+/// With the middle of the part at x (mm), turned by so many degrees about it.
+meam::Pose at(double x, double degrees = 0.0)
+{
+  const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
+  meam::Pose pose;
+  pose.T_scene_model = Eigen::Translation3d(Eigen::Vector3d(x, 0, 0) - middle) *
+                       meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, middle);
+  return pose;
+}
+
+using Indices = std::vector<int>;
+
+/// Of poses, best first, those that stay; the first of an instance decides.
+Indices staying(const meam::Poses& poses, meam::PoseClustersSettings settings = {}, const meam::Symmetries& same = {})
+{
+  settings.distance = 10.0;
+  meam::PoseClusters clusters(poses, same, scenes::bracket(), nullptr, nullptr, settings, 2);
+  const Indices all = clusters.select({});
+  settings.allCompared = 0; // each is compared with those that stay alone
+  EXPECT_EQ(meam::PoseClusters(poses, same, scenes::bracket(), nullptr, nullptr, settings, 2).select({}), all);
+  return all;
+}
+}
+
+TEST(PoseClusters, OfAnInstanceTheFirstStays)
+{
+  EXPECT_EQ(staying({}), Indices{});
+  EXPECT_EQ(staying({ at(0), at(9), at(11) }), (Indices{ 0, 2 }));
+  EXPECT_EQ(staying({ at(9), at(0), at(18) }), (Indices{ 0 })) << "both are near to the first";
+  EXPECT_EQ(staying({ at(0), at(9), at(18), at(27) }), (Indices{ 0, 2 })) << "the second takes no one's place";
+  EXPECT_EQ(staying({ at(0, 90), at(5) }), (Indices{ 0 })) << "however it is turned";
+}
+
+TEST(PoseClusters, AlternativesOfAnInstanceAreTurned)
+{
+  meam::PoseClustersSettings settings;
+  settings.posesPerInstance = 2;
+  const meam::Poses poses{ at(0), at(1, 14), at(2, 16), at(3, 90), at(50), at(51, 90) };
+  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 2, 4, 5 }));
+  settings.angle = 20.0;
+  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 3, 4, 5 }));
+  settings.posesPerInstance = 3;
+  settings.angle = 15.0;
+  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 2, 3, 4, 5 }));
+}
+
+TEST(PoseClusters, WhatASymmetryMakesEqualIsNoAlternative)
+{
+  const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
+  const auto quarters = [&](int turns)
+  { return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2.0, middle); };
+  meam::PoseClustersSettings settings;
+  settings.posesPerInstance = 2;
+  const meam::Poses poses{ at(0), at(1, 180), at(2, 90), at(3, 45) };
+  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 1 }));
+  meam::Symmetries half;
+  half.discrete = { quarters(2) };
+  EXPECT_EQ(staying(poses, settings, half), (Indices{ 0, 2 }));
+  meam::Symmetries nearQuarters;
+  nearQuarters.near = { { quarters(1) }, { quarters(2) }, { quarters(3) } };
+  EXPECT_EQ(staying(poses, settings, nearQuarters), (Indices{ 0, 3 })) << "approximate ones as well";
+}

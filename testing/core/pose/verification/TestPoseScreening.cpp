@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/verification/PoseScreening.h"
+
+#include "TestScene.h"
+#include "mesh/TriangleMesh.h"
+#include "pose/verification/PoseVerification.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+const scenes::Seen& seen()
+{
+  static const scenes::Seen copies = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  return copies;
+}
+
+const meam::Scene& scene()
+{
+  static const meam::Scene copies = scenes::prepared(seen());
+  return copies;
+}
+
+meam::Pose at(const Eigen::Isometry3d& T) { return scenes::displaced(T); }
+
+/// Of one candidate alone.
+meam::PoseScreeningSettings noneEnough()
+{
+  meam::PoseScreeningSettings settings;
+  settings.enough = 0;
+  settings.evidence.tolerance = 3.0;
+  return settings;
+}
+
+/// The share of its surface that is there: the most that may be asked of the pose so that it stays.
+double surfaceShare(
+  const meam::Scene& in, const Eigen::Isometry3d& T, meam::PoseScreeningSettings settings = noneEnough())
+{
+  double low = 0.0, high = 1.0;
+  for (int step = 0; step < 30; ++step)
+  {
+    settings.leastSurface = 0.5 * (low + high);
+    const bool stays = !scenes::screen({ at(T) }, in, scenes::bracket(), settings).empty();
+    (stays ? low : high) = settings.leastSurface;
+  }
+  return low;
+}
+
+/// A gear of which a sensor sees the upper side, turned by so many degrees.
+Eigen::Isometry3d turned(double degrees)
+{
+  return Eigen::Translation3d(40, -20, 7) *
+         meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
+}
+
+const meam::TrainedModel& gear() { return scenes::trained<parts::gear>(); }
+
+/// It lies as turned(0).
+const meam::Scene& gearScene()
+{
+  static const meam::Scene alone = scenes::prepared(
+    scenes::withTangents(scenes::seenFromAbove({ scenes::Copy{ parts::gear(), turned(0) } }), gear().diameter),
+    gear().diameter);
+  return alone;
+}
+}
+
+TEST(PoseScreening, CandidatesWithoutTheirSurfaceGoWhereThereAreEnough)
+{
+  meam::Poses poses;
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    poses.push_back(at(T));
+    poses.push_back(at(Eigen::Translation3d(0, 0, 40) * T)); // in front of all that was measured
+  }
+  meam::PoseScreeningSettings settings;
+  settings.enough = 5;
+  const meam::Poses kept = scenes::screen(poses, scene(), scenes::bracket(), settings);
+  ASSERT_EQ(kept.size(), 3u);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    EXPECT_TRUE(kept[i].T_scene_model.isApprox(scenes::threeCopies()[i], 1e-9)) << "in the order they came";
+  }
+  settings.enough = 6;
+  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 6u) << "all may stay";
+}
+
+TEST(PoseScreening, WhatWasNotMeasuredMayBeThereOrNot)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const double whole = surfaceShare(scene(), T);
+  EXPECT_GT(whole, 0.9);
+  EXPECT_NEAR(surfaceShare(scene(), Eigen::Translation3d(500, 0, 0) * T), 0.5, 1e-8) << "nothing was measured";
+  scenes::Seen part = seen();
+  const float middle = static_cast<float>((T * scenes::bracket().surfaceDistance.middle().cast<double>()).x());
+  const auto gone =
+    std::remove_if(part.surface.begin(), part.surface.end(), [&](const auto& p) { return p.x() > middle; });
+  part.surface.erase(gone, part.surface.end());
+  const meam::Scene half = scenes::prepared(part);
+  EXPECT_GT(surfaceShare(half, T), 0.6);
+  EXPECT_LT(surfaceShare(half, T), whole - 0.1);
+}
+
+TEST(PoseScreening, WithoutFreeSpaceWhatTheSensorLookedPastMayBeThereOrNot)
+{
+  const Eigen::Isometry3d lifted = Eigen::Translation3d(0, 0, 40) * scenes::threeCopies()[0];
+  meam::PoseScreeningSettings settings = noneEnough();
+  EXPECT_NEAR(surfaceShare(scene(), lifted, settings), 0.0, 1e-8);
+  settings.evidence.freeSpace = false;
+  EXPECT_NEAR(surfaceShare(scene(), lifted, settings), 0.5, 1e-8);
+}
+
+TEST(PoseScreening, OfDuplicatesMoreVotesDoNotMakeUpForSurfaceThatIsNotThere)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[1];
+  const double above = 0.035 * scenes::bracket().diameter; // more than fits, and less than tells two poses apart
+  meam::Poses poses{ at(Eigen::Translation3d(0, 0, above) * T), at(T) };
+  poses[0].votes = 120;
+  poses[1].votes = 100;
+  const meam::Poses kept = scenes::screen(poses, scene(), scenes::bracket());
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_LT(meam::translationError(kept[0].T_scene_model, T), 1e-6);
+}
+
+TEST(PoseScreening, OfDuplicatesWithoutASurfaceTheOneWithMostVotesStays)
+{
+  scenes::Seen bare = seen();
+  bare.surface.clear();
+  const meam::Scene edgesOnly = scenes::prepared(bare);
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const double apart = 0.04 * scenes::bracket().diameter;
+  meam::Poses poses{ at(T), scenes::displaced(T, 0.9 * apart), scenes::displaced(T, 1.5 * apart),
+    scenes::displaced(T, 500.0) };
+  const int votes[] = { 10, 12, 3, 1 };
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    poses[i].votes = votes[i];
+  }
+  meam::PoseScreeningSettings settings;
+  settings.enough = 0;
+  const meam::Poses kept = scenes::screen(poses, edgesOnly, scenes::bracket(), settings);
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0].votes, 12) << "it is near to the first and to the third";
+  EXPECT_EQ(kept[1].votes, 1) << "no surface is asked for";
+}
+
+TEST(PoseScreening, OfDistanceAndAngleBothTellCandidatesApart)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
+  const auto turnedInPlace = [&](double degrees)
+  { return at(T * meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, middle)); };
+  const auto left = [](const meam::Poses& poses, const meam::PoseScreeningSettings& settings)
+  { return scenes::screen(poses, scene(), scenes::bracket(), settings).size(); };
+  meam::PoseScreeningSettings settings;
+  const double apart = settings.distanceShare * scenes::bracket().diameter;
+  EXPECT_EQ(left({ at(T), scenes::displaced(T, 0.99 * apart) }, settings), 1u);
+  EXPECT_EQ(left({ at(T), scenes::displaced(T, 1.01 * apart) }, settings), 2u);
+  EXPECT_EQ(left({ at(T), turnedInPlace(0.99 * settings.angle) }, settings), 1u);
+  EXPECT_EQ(left({ at(T), turnedInPlace(1.01 * settings.angle) }, settings), 2u);
+  settings.distance = 1.0; // mm
+  EXPECT_EQ(left({ at(T), scenes::displaced(T, 0.99) }, settings), 1u);
+  EXPECT_EQ(left({ at(T), scenes::displaced(T, 1.01) }, settings), 2u);
+}
+
+TEST(PoseScreening, AModelWithoutASurfaceIsScreenedForDuplicatesAlone)
+{
+  meam::TrainedModel model = scenes::bracket();
+  model.surface = {};
+  model.deriveFields();
+  meam::Poses poses;
+  for (int k = 0; k < 8; ++k)
+  {
+    poses.push_back(scenes::displaced(scenes::threeCopies()[0], 12.0 * (k / 2), 0.0)); // each twice
+  }
+  meam::PoseScreeningSettings settings;
+  settings.enough = 0;
+  EXPECT_EQ(scenes::screen(poses, scene(), model, settings).size(), 4u);
+}
+
+TEST(PoseScreening, CandidatesThatATurnMakesTheSameTakeOnePlace)
+{
+  meam::Poses candidates;
+  for (const double degrees : { 0.0, 18.0, 36.0, 100.0 })
+  {
+    candidates.push_back(at(turned(degrees)));
+  }
+  candidates.push_back(at(turned(0) * Eigen::AngleAxisd(M_PI / 6.0, Eigen::Vector3d::UnitX()))); // tilted
+  const meam::Poses kept = scenes::screen(candidates, gearScene(), gear());
+  ASSERT_EQ(kept.size(), 2u);
+  const auto tilt = [&](int k) { return std::acos(std::abs(kept[k].T_scene_model.linear()(2, 2))) * 180.0 / M_PI; };
+  EXPECT_NEAR(tilt(0), 0.0, 0.1);
+  EXPECT_NEAR(tilt(1), 30.0, 0.1) << "the other place is the tilted one's";
+}
+
+TEST(PoseScreening, CandidatesAreTurnedByTheLikeliestNearSymmetry)
+{
+  const meam::Pose wrong = at(turned(108));
+  const meam::Poses verified = scenes::verify({ wrong }, gearScene(), gear());
+  ASSERT_EQ(verified.size(), 1u);
+  EXPECT_TRUE(verified[0].T_scene_model.isApprox(turned(108), 1e-9)) << "a pose that is only scored stays";
+  const meam::Poses screened = scenes::screen({ wrong }, gearScene(), gear());
+  ASSERT_EQ(screened.size(), 1u);
+  EXPECT_LT(meam::rotationError(screened[0].T_scene_model, turned(0)), 1.0);
+}
+
+TEST(PoseScreening, ThreadsDoNotMatterAndAbortStops)
+{
+  meam::Poses poses;
+  for (int k = 0; k < 300; ++k)
+  {
+    poses.push_back(scenes::displaced(scenes::threeCopies()[k % 3], 3.5 * (k / 3 % 10), 13.0 * (k / 30)));
+  }
+  meam::PoseScreeningSettings settings;
+  settings.threads = 1;
+  const meam::Poses one = scenes::screen(poses, scene(), scenes::bracket(), settings);
+  settings.threads = 3;
+  const meam::Poses three = scenes::screen(poses, scene(), scenes::bracket(), settings);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_EQ(one[i].T_scene_model.matrix(), three[i].T_scene_model.matrix());
+  }
+  EXPECT_TRUE(scenes::screen({}, scene(), scenes::bracket()).empty());
+  EXPECT_THROW(scenes::screen(poses, scene(), scenes::bracket(), {}, [](double) { return false; }), meam::Aborted);
+}

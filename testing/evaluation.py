@@ -1,0 +1,388 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures the tables of docs/evaluation.md and writes them there, each with its commands, date, commit and machine.
+
+  . build/release/env.sh; testing/evaluation.py [--only NAME,...] [--quick]
+
+Tables that are not measured in a run stay as they are, under their own stamp. All together take hours: name them one at a
+time, or take the --quick ones. Data are looked for in $PPFMEAM_DATA (tohoku/, cad/, rings/ and scanner/); bins are simulated
+once and kept in build/evaluation. The tables `voting`, `decisions`, `slopes` and `scene-edges` need the target
+meamBenchmarks. A figure that stands in README.md comes from here, too."""
+import argparse
+import csv
+import datetime
+import json
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+DATA = os.environ.get("PPFMEAM_DATA", "")
+KEPT = os.path.join(ROOT, "build", "evaluation")
+BENCHMARKS = os.path.join(ROOT, "build", "release", "bin", "meamBenchmarks")
+DOCUMENT, README = os.path.join(ROOT, "docs", "evaluation.md"), os.path.join(ROOT, "README.md")
+HEAD = """# Evaluation
+
+What was measured, table by table; each is written by `testing/evaluation.py --only NAME` from the commands above it, and says when, with which commit and on which machine. `DATA` is the folder that `PPFMEAM_DATA` names, `OUT` one for files in between. Times are those of a machine that may have had other work (see the load); rates and errors come out the same again.
+
+- *strict*: right poses / poses asked for, five a scene; each true instance counts once, a missing pose is wrong. Right is within 10 % of D and 5 degrees.
+- *first*: scenes whose first pose is right.
+- *recall*, *AP*: of the instances that are at least half visible, by all poses that come out.
+- *mm*, *degrees* (*deg*): median errors of the right poses.
+
+"""
+PAPER = {1: 96.7, 2: 97.3, 3: 100.0}  # Liu et al., Table 7, %
+BIN_PARTS = {  # of the bins: the CAD file, and its factor to mm
+    "ridged_disc": ("examples/parts/ridged_disc.stl", 1), "arc_lever": ("examples/parts/arc_lever.stl", 1),
+    "flap": ("examples/parts/flap.stl", 1), "hole_plate": ("examples/parts/hole_plate.stl", 1),
+    "gear": ("DATA/cad/gear.ply", 1), "regulator": ("DATA/cad/assembly_regulator_collision.stl", 1000),
+    "lug": ("DATA/cad/small.ply", 1000)}
+BINS = 20  # of each part
+README_COLUMNS = ("", "strict", "first", "recall", "mm", "degrees", "ms a scene, 2 threads", "in the paper (Table 7)")
+
+
+class Failure(Exception):
+    """Why a table could not be measured."""
+
+
+class Commands:
+    """Runs commands and remembers them as a reader would type them."""
+
+    def __init__(self):
+        self.lines = []
+
+    def run(self, *words):
+        """The output of a script of examples/, or of the benchmarks; DATA/ and OUT/ in the words are folders."""
+        name, *arguments = words
+        is_script = name.endswith(".py")
+        self.lines.append(" ".join(["examples/run.sh" if is_script else "build/release/bin/meamBenchmarks"]
+                                   + ([name] if is_script else []) + [f"'{word}'" if re.search(r"[|()*]", word) else word
+                                                                     for word in arguments]))
+        if is_script:
+            program = [sys.executable, os.path.join(ROOT, "examples", name)]
+            if name == "real_scans.py" and not os.environ.get("DISPLAY"):
+                program = ["xvfb-run", "-a", *program]
+        else:
+            program = [BENCHMARKS]
+        print(self.lines[-1], file=sys.stderr, flush=True)
+        done = subprocess.run(program + [path_of(word) for word in arguments], stdout=subprocess.PIPE, text=True, cwd=ROOT,
+                              check=False)
+        if done.returncode:
+            raise Failure(f"{self.lines[-1]} ended with {done.returncode}")
+        return done.stdout
+
+
+def path_of(word):
+    return re.sub(r"\bOUT(?=/|$)", KEPT, re.sub(r"\bDATA(?=/|$)", DATA, word))
+
+
+def table(head, rows):
+    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+                     + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+# The tables: each function returns Markdown.
+
+def tohoku_rows(commands, *arguments):
+    """The figures of each part."""
+    commands.run("evaluate.py", "tohoku", "DATA/tohoku", *arguments, "--out", "OUT/tohoku")
+    with open(path_of("OUT/tohoku/tohoku.csv"), encoding="utf-8") as file:
+        return {int(row["part"]): {name: float(value) for name, value in row.items()} for row in csv.DictReader(file)}
+
+
+def tohoku(commands):
+    two = tohoku_rows(commands, "--threads", "2")
+    one = tohoku_rows(commands, "--threads", "1")
+    paper = tohoku_rows(commands, "--threads", "2", "--preset", "paper")
+    rates = [[f"Part {part}", f"{row['strict']:.0f} %", f"{row['top1']:.0f} %", f"{row['recall']:.1f} %",
+              f"{row['AP']:.1f} %", f"{row['mm']:.3f}", f"{row['deg']:.3f}", f"{row['ms']:.0f}", f"{one[part]['ms']:.0f}",
+              f"{paper[part]['strict']:.0f} %", f"{PAPER[part]} %"] for part, row in two.items()]
+    stages = [name for name in one[1] if name.endswith("_ms")]
+    times = [[f"Part {part}"] + [f"{row[stage]:.1f}" for stage in stages] for part, row in one.items()]
+    return "\n\n".join((
+        table(("", "strict", "first", "recall", "AP", "mm", "degrees", "ms a scene, 2 threads", "1 thread",
+               "preset `Paper`: strict", "in the paper (Table 7)"), rates),
+        "The paper counts right poses among those that came out, on 30 scenes a part. Its preset here takes the text literally and "
+        "one P_ref (5 %) for all parts. Median ms of each stage, one thread:",
+        table(["", *(stage.removesuffix("_ms").lower() for stage in stages)], times)))
+
+
+def noise(commands):
+    levels = ("0", "0.3", "0.5", "1%")
+    found = [tohoku_rows(commands, "--noise", level) for level in levels]
+    rows = [[f"Part {part}"] + [f"{rows[part]['strict']:.0f} % ({rows[part]['recall']:.1f} %) {rows[part]['mm']:.2f}, "
+                                f"{rows[part]['deg']:.2f}" for rows in found] for part in found[0]]
+    return ("Normal noise on every coordinate of surface and edge points: strict (recall) mm, degrees.\n\n"
+            + table(("", "none", "0.3 mm", "0.5 mm", "1 % of D"), rows))
+
+
+def ablation(commands):
+    return ("Each row differs from the first one in what its name says.\n\n"
+            + commands.run("ablation.py", "DATA/tohoku").strip())
+
+
+def ablation_noise(commands):
+    return ("The same with normal noise of 1 % of D on every coordinate.\n\n" + commands.run(
+        "ablation.py", "DATA/tohoku", "--noise", "1%", "--only",
+        "none,tiles,signs,one-turn,near,own-visibility,edges-score,surface-score,no-unexplained,no-free-space,edges").strip())
+
+
+def models(commands):
+    return ("Each row differs from the first one in what its name says; [models.md](models.md) explains the choices. *pairs*, "
+            "*MB*: entries and size of the table; *training*: from the clean mesh to the model, symmetries included.\n\n"
+            + commands.run("compare_models.py", "--tohoku", "DATA/tohoku").strip())
+
+
+def models_20(commands):
+    return commands.run("compare_models.py", "--tohoku", "DATA/tohoku", "--scenes", "20", "--only",
+                        "preset,mesh-visibility,mesh-edges,mesh-both,views-14").strip()
+
+
+def models_paper(commands):
+    return commands.run("compare_models.py", "--tohoku", "DATA/tohoku", "--preset", "paper", "--only",
+                        "preset,mesh-edges,separate,whole").strip()
+
+
+def calibration(commands):
+    return ("All poses that come out, by their probability; below each table the logistic regression that fits these scenes "
+            "best, with its mean logarithmic loss.\n\n" + commands.run("calibration.py", "DATA/tohoku").strip())
+
+
+def calibration_bins(commands):
+    make_bins(commands)
+    return commands.run("calibration.py", "--bop", ",".join(f"OUT/bins/{name}" for name in BIN_PARTS)).strip()
+
+
+def make_bins(commands):
+    for name, (cad, scale) in BIN_PARTS.items():
+        words = ["simulate.py", "--cad", cad, *(("--cad-scale", str(scale)) if scale != 1 else ()), "--copies", "20",
+                 "--scenes", str(BINS), "--out"]
+        folder = path_of(f"OUT/bins/{name}")
+        if not os.path.exists(folder):
+            shutil.rmtree(folder + ".part", ignore_errors=True)
+            commands.run(*words, f"OUT/bins/{name}.part")
+            commands.lines.pop()
+            os.rename(folder + ".part", folder)
+        commands.lines.append(" ".join(["examples/run.sh", *words, f"OUT/bins/{name}"]))
+
+
+def bin_figures(commands, name, *arguments):
+    """Figures by the words of evaluate.py's heads."""
+    lines = commands.run("evaluate.py", "bop", f"OUT/bins/{name}", *arguments, "--out", f"OUT/{name}.csv").splitlines()
+    numbers = [re.findall(r"-?\d+\.?\d*|nan", line) for line in lines]
+    at = next(k for k, line in enumerate(lines) if line.startswith("obj."))
+    measures = next(k for k, line in enumerate(lines) if line.startswith("obj.") and "recall of" in line)
+    figures = dict(zip(("scenes", "poses", "paper", "strict", "top1", "recall", "AP", "mm", "deg", "axis", "roll", "ms"),
+                       numbers[at + 1][1:]))
+    figures.update(zip(lines[measures].split("recall of")[1].split(), numbers[measures + 1][1:]))
+    return figures
+
+
+def bins(commands):
+    make_bins(commands)
+    columns = {"strict": "strict, %", "top1": "first, %", "recall": "recall, %", "AP": "AP, %", "mm": "mm", "deg": "degrees",
+               "ms": "ms a scan"}
+    rows = []
+    for name in BIN_PARTS:
+        figures = bin_figures(commands, name)
+        measures = [key for key in figures if key.isupper() and key != "AP"]
+        rows.append([name] + [figures[key] for key in (*columns, *measures)])
+    return (f"{BINS} bins of 20 copies each, seeds 1 to {BINS}, the sensor's defaults, edges from its own image. The "
+            "benchmark's measures are of all copies of which at least a tenth is visible, by all poses that come out; ADD "
+            "and ADI at a tenth of D.\n\n" + table(["part", *columns.values(), *measures], rows))
+
+
+def references(commands):
+    make_bins(commands)
+    shares = ("0.03", "0.06", "0.1", "0.2")
+    rows = []
+    for name in BIN_PARTS:
+        found = [bin_figures(commands, name, "--references", share, "--threads", "2") for share in shares]
+        rows.append([name] + [f"{row['recall']} %, {row['ms']} ms" for row in found])
+    return ("Recall and median ms a scan on two threads, edges included, by the share P_ref of the edge points that are "
+            "reference points.\n\n" + table(["part", *shares], rows))
+
+
+def robustness(commands):
+    parts = list(BIN_PARTS)[:4]  # those of our own
+    found = {}
+    for name in parts:
+        commands.run("robustness.py", "--cad", BIN_PARTS[name][0], "--scenes", "5", "--out", f"OUT/robustness_{name}.csv")
+        with open(path_of(f"OUT/robustness_{name}.csv"), encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                level = (f"{row['depth_noise_mm']} mm", f"{row['image_noise']}, {row['image_blur_px']} pixels", row["edges"])
+                found.setdefault(level, {})[name] = (f"{float(row['strict']):.0f} % ({float(row['recall']):.0f} %) "
+                                                     f"{float(row['mm']):.2f}, {float(row['deg']):.2f}")
+    return ("Five bins of 20 copies, seeds 1 to 5: first the depth gets noisier (standard deviation at 1 m), then the image "
+            "worse (noise in grey values, blur); edges from the image, the depth, too, and those without the bin's walls. "
+            "strict (recall) mm, degrees. One pose of the best five is 4 %.\n\n"
+            + table(["depth noise", "image noise, blur", "edges", *parts],
+                    [[*level, *(row[name] for name in parts)] for level, row in found.items()]))
+
+
+def rings(commands):
+    rows = []
+    for edges in (("image",), ("image", "depth"), ("image", "depth", "creases"), ("depth", "creases")):
+        told = commands.run("real_scans.py", "DATA", "--seeds", "20", "--edges", *edges, "--out", "OUT")
+        once = re.search(r"flips are wrong: (\d+) of (\d+) .*median error ([\d.]+) mm, ([\d.]+) degrees", told)
+        seeds = re.search(r"20 seeds: ([\d.]+) met on average, (\d+) to (\d+)", told)
+        rows.append([", ".join(edges), f"{once[1]} of {once[2]}", f"{once[3]} mm, {once[4]} degrees", seeds[1],
+                     f"{seeds[2]} to {seeds[3]}"])
+    return ("Ten rings on a plate, a real scan; the true poses were made by ICP.\n\n"
+            + table(("edges", "met with the default seed", "median error", "met on average of 20 seeds", "least to most"), rows))
+
+
+def benchmarks(commands, names, repetitions):
+    """Medians and rates of benchmarks."""
+    if not os.path.exists(BENCHMARKS):
+        raise Failure(f"there is no {BENCHMARKS}: cmake/build.sh release meamBenchmarks")
+    told = commands.run("benchmarks", f"--benchmark_filter=^({names})(/|$)", f"--benchmark_repetitions={repetitions}",
+                        "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=true",
+                        "--benchmark_format=json")
+    rows = []
+    for run in json.loads(told)["benchmarks"]:
+        if run.get("aggregate_name") == "median":
+            rates = [f"{value / 1e6:.0f} million {name}" for name, value in run.items() if name.endswith("/s")]
+            rows.append([f"`{run['run_name'].replace('/real_time', '')}`", f"{run['real_time']:.{0 if run['real_time'] >= 100 else 2}f} {run['time_unit']}",
+                         ", ".join(rates)])
+    if not rows:
+        raise Failure("no benchmark was measured: do the names still fit?")
+    return f"Medians of {repetitions} runs in random order.\n\n" + table(("benchmark", "time", "rate"), sorted(rows))
+
+
+def voting(commands):
+    return ("`ReadEntries` and `Increments` are the limits: entries of the table read in order, and bins of the accumulator "
+            "increased, nothing else. `CastVotes` has the votes alone, `Voting` features and peaks, too; `VotingByHashMap` is "
+            "the same by a hash map of structs. `bracket` is a simulated scene, `tohoku` scene 0 of Part 1; a number is "
+            "threads. " + benchmarks(commands, "ReadEntries|Increments|IncrementsInFirstCache|CastVotes|Voting|"
+                                     "VotingByHashMap|Peaks|PairKeys|PairKeysOneByOne", 9))
+
+
+def decisions(commands):
+    return ("What decisions of the online phase cost: Part 1, scene 0, one thread. "
+            + benchmarks(commands, "Decision", 5))
+
+
+def scene_edges(commands):
+    return ("Scans of 1280 x 1024 points; the first number is the noise in tenths of a millimetre, the second threads. "
+            + benchmarks(commands, "ImageEdges|ImageEdgesTangentsOfPoints|ImageOfAnotherCamera|DepthEdgesAndCreases|"
+                         "BackgroundRemoval", 5))
+
+
+def slopes(commands):
+    if not os.path.exists(BENCHMARKS):
+        raise Failure(f"there is no {BENCHMARKS}: cmake/build.sh release meamBenchmarks")
+    told = commands.run("benchmarks", "--benchmark_filter=By.*Points/", "--benchmark_format=json")
+    commands.lines[-1] += " | testing/benchmarks/slopes.py"
+    fitted = subprocess.run([sys.executable, os.path.join(ROOT, "testing", "benchmarks", "slopes.py")], input=told,
+                            stdout=subprocess.PIPE, text=True, check=True).stdout
+    return "How the time grows: time = c points^slope, one thread.\n\n```\n" + fitted.strip() + "\n```"
+
+
+TABLES = {  # name: the heading, what makes it, whether it takes a few minutes at most
+    "tohoku": ("Tohoku dataset", tohoku, True),
+    "noise": ("Tohoku dataset with noise", noise, True),
+    "ablation": ("Each decision switched off", ablation, False),
+    "ablation-noise": ("Decisions switched off, with noise", ablation_noise, False),
+    "models": ("Which model to train", models, False),
+    "models-20": ("Which model to train: candidates for the default, all scenes", models_20, False),
+    "models-paper": ("Which model to train, with the paper's parameters", models_paper, False),
+    "calibration": ("How likely a pose is right", calibration, False),
+    "calibration-bins": ("How likely a pose is right in simulated bins", calibration_bins, False),
+    "bins": ("Simulated bins", bins, False),
+    "references": ("Reference points in simulated bins", references, False),
+    "robustness": ("Noise and image quality in simulated bins", robustness, False),
+    "rings": ("A real scan: rings", rings, False),
+    "voting": ("Speed of voting", voting, False),
+    "decisions": ("What decisions cost", decisions, False),
+    "scene-edges": ("Speed of scene edges", scene_edges, False),
+    "slopes": ("How the time grows", slopes, False),
+}
+
+
+def stamp():
+    """Date, commit and machine."""
+    def git(*words):
+        return subprocess.run(["git", "-C", ROOT, *words], stdout=subprocess.PIPE, text=True, check=False).stdout.strip()
+
+    commit = git("rev-parse", "--short", "HEAD") or "unknown"
+    changed = " with changes" if git("status", "--porcelain", "--", "core", "filters", "examples") else ""
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        model = re.search(r"model name\s*: (.*)", file.read())
+    return (f"*{datetime.date.today()}, commit {commit}{changed}; {model[1].strip() if model else platform.machine()}, "
+            f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} at the start*")
+
+
+def sections_of(document):
+    """The sections of the file by name."""
+    if not os.path.exists(document):
+        return {}
+    with open(document, encoding="utf-8") as file:
+        parts = re.split(r'^<a id="([^"]+)"></a>\n', file.read(), flags=re.MULTILINE)
+    return {name: text.strip() for name, text in zip(parts[1::2], parts[2::2])}
+
+
+def write(document, sections):
+    with open(document, "w", encoding="utf-8") as file:
+        file.write(HEAD)
+        file.write("\n\n".join(f'<a id="{name}"></a>\n' + sections.get(
+            name, f"## {TABLES[name][0]}\nNot measured yet.") for name in TABLES) + "\n")
+
+
+def write_readme(section):
+    """Some columns of the first table of the section take the place of the table in README.md."""
+    with open(README, encoding="utf-8") as file:
+        text = file.read()
+    lines = re.search(r"^\|.*?(?=\n\n)", section, flags=re.MULTILINE | re.DOTALL)[0].splitlines()
+    head, _, *rows = ([cell.strip() for cell in line.strip("| \n").split("|")] for line in lines)
+    head = [""] * (len(rows[0]) - len(head)) + head  # the first has no words
+    chosen = [k for k, words in enumerate(head) if words in README_COLUMNS]
+    short = table([head[k] for k in chosen], [[row[k] for k in chosen] for row in rows])
+    new, count = re.subn(r"(<!-- evaluation: tohoku -->\n)\|.*?(?=\n\n)", lambda match: match[1] + short, text,
+                         flags=re.DOTALL)
+    if count != 1:
+        raise Failure("README.md has no table after <!-- evaluation: tohoku -->")
+    with open(README, "w", encoding="utf-8") as file:
+        file.write(new)
+
+
+def measure(name):
+    title, make, _ = TABLES[name]
+    commands, made = Commands(), stamp()
+    body = make(commands)
+    return f"## {title}\n{made}\n```\n" + "\n".join(commands.lines) + f"\n```\n{body}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", type=lambda text: text.split(","), metavar="NAME,...",
+                        help=f"tables to measure (default: all: {', '.join(TABLES)})")
+    parser.add_argument("--quick", action="store_true", help="only tables that take a few minutes at most")
+    options = parser.parse_args()
+    names = options.only or list(TABLES)
+    unknown = [name for name in names if name not in TABLES]
+    if unknown:
+        parser.error(f"unknown tables: {', '.join(unknown)}; there are {', '.join(TABLES)}")
+    if not os.path.isdir(os.path.join(DATA, "tohoku")):
+        parser.error("PPFMEAM_DATA has to name a folder that holds tohoku/")
+    os.makedirs(KEPT, exist_ok=True)
+    failed = []
+    for name in names:
+        if options.quick and not TABLES[name][2]:
+            continue
+        try:
+            section = measure(name)
+            write(DOCUMENT, {**sections_of(DOCUMENT), name: section})
+            if name == "tohoku":
+                write_readme(section)
+        except Failure as failure:
+            print(f"{name}: {failure}", file=sys.stderr)
+            failed.append(name)
+    if failed:
+        sys.exit(f"not measured: {', '.join(failed)}")
+
+
+main()

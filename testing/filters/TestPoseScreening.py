@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Duplicates go, and what has no surface; what stays is turned where the edges speak for it."""
+import math
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from ppfmeam.filters import vtkMEAMPoseScreening, vtkMEAMTangentEstimation
+from meamtest import (MovedView, Trained, bracket, check, cloud, connect, fails, field, image, is_empty, poses, prints, run,
+                      tuples)
+
+trained = Trained(bracket())
+model = run(trained.model)
+diameter = field(model, "Diameter")[0][0]
+scene = MovedView(trained)
+edges = run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
+
+
+def shifted(x=0.0, y=0.0, z=0.0, turned=False):
+    """The true pose, moved; `turned`: upside down about the middle of the part (y -> 25 - y, z -> 15 - z)."""
+    t = list(scene.transform)
+    for row in range(3) if turned else ():
+        t[4 * row + 3] += 25 * t[4 * row + 1] + 15 * t[4 * row + 2]
+        t[4 * row + 1] *= -1
+        t[4 * row + 2] *= -1
+    for k, d in zip((3, 7, 11), (x, y, z)):
+        t[k] += d
+    return tuple(t)
+
+
+def screening(candidates, surface=scene.surface, **properties):
+    filter = connect(vtkMEAMPoseScreening(), candidates, model, edges)
+    if surface:
+        filter.SetInputDataObject(3, surface)
+    for name, value in {"ViewDirection": scene.looking, **properties}.items():
+        getattr(filter, "Set" + name)(value)
+    return filter
+
+
+def kept(*args, **properties):
+    return tuples(run(screening(*args, **properties)), "Transform")
+
+
+past = shifted(*(-40 * c for c in scene.looking))  # nearer to the sensor: it saw past the part
+near = shifted(0.3, 0.3, 0.3)
+candidates = poses(past, near, shifted(), shifted(turned=True))
+check(len(kept(candidates)) == 3, "of few candidates only the duplicate goes")
+check(len(kept(candidates, Enough=0)) == 2, "what has no surface goes")
+check(past[3] not in [t[3] for t in kept(candidates, Enough=0)], "it is the one that the sensor saw past")
+check(len(kept(candidates, None, Enough=0)) == 3, "without a surface only the duplicate goes")
+check(len(kept(candidates, Enough=0, LeastSurface=0)) == 3, "no surface asked for")
+check(len(kept(candidates, Distance=0.1)) == 4, "0.5 mm apart are two")
+check(len(kept(candidates, Angle=0)) == 4, "the same only when not turned at all")
+
+# Of duplicates that with more votes stays.
+voted = cloud([t[3::4][:3] for t in (shifted(), near)], Transform=[shifted(), near], Votes=[10, 20])
+check(all(abs(a - b) < 1e-9 for a, b in zip(kept(voted)[0], near)), "more votes stay")
+check(field(run(screening(candidates)), "Diameter") == [(diameter,)], "the diameter travels along")
+for threads in (1, 2):
+    check(kept(candidates, NumberOfThreads=threads) == kept(candidates), f"{threads} threads")
+check(is_empty(run(screening(vtkPolyData()))), "no poses, no error")
+
+fails(screening(poses(shifted(math.nan))), "pose 0")
+fails(screening(cloud([(0, 0, 0)])), "Transform")
+fails(screening(image()), "vtkPolyData")
+prints(screening(candidates), "LeastSurface", "Enough", "Distance", "Angle", "Tolerance", "FreeSpace", "Projection")

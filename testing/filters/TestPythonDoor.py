@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""ppfmeam.train and ppfmeam.detect: files and NumPy arrays in, NumPy arrays out, exceptions and nothing on the console; the
+files of a trained model hold the same."""
+import os
+import shutil
+import sys
+import tempfile
+import warnings
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOGeometry import vtkSTLWriter
+
+import ppfmeam
+from ppfmeam.filters import (
+    vtkMEAMBinSceneSource,
+    vtkMEAMModelReader,
+    vtkMEAMModelWriter,
+    vtkMEAMSamplePartSource,
+    vtkMEAMSceneEdgeExtraction,
+)
+from meamtest import check, connect, fails, field, partitions, prints, run, tuples
+
+WIDTH, HEIGHT, COPIES = 640, 480, 3
+FIELDS = ("Diameter", "Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "LeafSize",
+          "CoVisibilityDirections", "ViewDirections", "NumberOfPairs", "FormatVersion", "SymmetriesDiscrete",
+          "SymmetriesContinuous", "NearSymmetries", "NearSymmetryOverlap", "NearSymmetryDeviation")
+
+
+class Quiet:
+    """Fails when anything is printed on the console, also by C++."""
+
+    def __enter__(self):
+        sys.stdout.flush()
+        sys.stderr.flush()
+        self.file = tempfile.TemporaryFile()
+        self.before = [os.dup(descriptor) for descriptor in (1, 2)]
+        for descriptor in (1, 2):
+            os.dup2(self.file.fileno(), descriptor)
+
+    def __exit__(self, *error):
+        sys.stdout.flush()
+        sys.stderr.flush()
+        for descriptor, before in zip((1, 2), self.before):
+            os.dup2(before, descriptor)
+            os.close(before)
+        self.file.seek(0)
+        text = self.file.read()
+        check(not text, f"the console shows {text}")
+
+
+def raises(words, function, *arguments, **options):
+    """The call must raise ppfmeam.Error with these words."""
+    try:
+        with Quiet():
+            function(*arguments, **options)
+    except ppfmeam.Error as error:
+        check(words.lower() in str(error).lower(), f"the error does not say '{words}': {error}")
+    else:
+        check(False, f"no error: {words}")
+
+
+def same_model(a, b):
+    """All that a trained model holds, bit by bit."""
+    check([name for name, _ in partitions(a)] == [name for name, _ in partitions(b)], "other partitions")
+    for (name, one), (_, other) in zip(partitions(a), partitions(b)):
+        check(one.GetNumberOfPoints() == other.GetNumberOfPoints(), f"{name} has another length")
+        if one.IsA("vtkPolyData"):
+            check((vtk_to_numpy(one.GetPoints().GetData()) == vtk_to_numpy(other.GetPoints().GetData())).all(), name)
+        data = one.GetPointData()
+        check(data.GetNumberOfArrays() == other.GetPointData().GetNumberOfArrays(), f"{name} has other arrays")
+        for i in range(data.GetNumberOfArrays()):
+            array, twin = data.GetArray(i), other.GetPointData().GetArray(data.GetArrayName(i))
+            check((vtk_to_numpy(array) == vtk_to_numpy(twin)).all(), f"{name}: {data.GetArrayName(i)} differs")
+    for name in FIELDS:
+        check(field(a, name) == field(b, name), f"{name} differs")
+    digests = [model.GetFieldData().GetAbstractArray("Digest").GetValue(0) for model in (a, b)]
+    check(digests[0] == digests[1] != "", f"the digests are {digests}")
+
+
+def same(a, b):
+    check(len(a) == len(b) > 0 and (a.poses == b.poses).all() and (a.probabilities == b.probabilities).all(),
+          "the poses differ")
+
+
+part = vtkMEAMSamplePartSource()
+source = vtkMEAMBinSceneSource()
+source.SetInputData(run(part))
+source.SetCopies(COPIES)
+source.SetWidth(WIDTH)
+source.SetHeight(HEIGHT)
+scan = run(source)
+truth = [numpy.array(row).reshape(4, 4) for row in tuples(source.GetOutputDataObject(1), "Transform")]
+points = vtk_to_numpy(scan.GetPoints().GetData()).reshape(HEIGHT, WIDTH, 3)
+grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).reshape(HEIGHT, WIDTH)
+
+folder = tempfile.mkdtemp()
+os.chdir(folder)
+try:
+    writer = vtkSTLWriter()
+    writer.SetInputConnection(part.GetOutputPort())
+    writer.SetFileName("part.stl")
+    writer.Write()
+
+    with Quiet():
+        model = ppfmeam.train("part.stl")
+        found = ppfmeam.detect(model, points, grey)
+    check(abs(model.diameter - 81) < 1, f"the diameter is {model.diameter}")
+    check(found.poses.shape == (len(found), 4, 4) and found.poses.dtype == numpy.float64, f"{found.poses.shape}")
+    for column in (found.scores, found.probabilities, found.certainties, found.visible_fractions):
+        check(column.shape == (len(found),) and (column >= 0).all() and (column <= 1).all(), f"{column}")
+    check(found.seconds > 0, "no time")
+    nearest = min(numpy.linalg.norm(found.poses[0, :3, 3] - T[:3, 3]) for T in truth)
+    print(f"the best of {len(found)} poses is {nearest:.2f} mm from a true one, probability {found.probabilities[0]:.2f}")
+    check(nearest < 1 and found.probabilities[0] > 0.5, "the best pose is wrong")
+
+    # The model comes back from both kinds of file as it was.
+    for name in ("model.meam", "model.vtpc"):
+        model.save(name)
+        same_model(ppfmeam.load(name).data, model.data)
+    for mine, other in (("model.meam", scan), ("model.vtpc", scan), (ppfmeam.load("model.meam"), points)):
+        same(ppfmeam.detect(mine, other, grey if other is points else None), found)
+    ppfmeam.train("part.stl", preset="paper").save("paper.meam")
+    ppfmeam.load("paper.meam").save("paper.vtpc")
+    same_model(ppfmeam.load("paper.vtpc").data, ppfmeam.load("paper.meam").data)
+    reader = vtkMEAMModelReader()
+    check(reader.CanReadFile("model.meam") == 1 and reader.CanReadFile("part.stl") == 0, "CanReadFile")
+    prints(reader, "FileName")
+    prints(vtkMEAMModelWriter(), "FileName")
+
+    # Other ways to give the same.
+    same(ppfmeam.detect(model, points.astype(numpy.float64) / 1000, numpy.repeat(grey[..., None], 3, axis=2), scale=1000,
+                        poses=1), ppfmeam.detect(model, points.astype(numpy.float64) / 1000 * 1000, grey, poses=1))
+    check(len(ppfmeam.detect("part.stl", scan, poses=2)) == 2, "a CAD in the model's place")
+    check(len(ppfmeam.detect(part.GetOutput(), scan, poses=1, preset="paper")) == 1, "a mesh in the model's place")
+    check(len(ppfmeam.detect(model, scan, poses=0, probability=0.99, threads=1)) <= COPIES, "likely ones only")
+    edges = vtk_to_numpy(run(connect(vtkMEAMSceneEdgeExtraction(), scan)).GetPoints().GetData())
+    cloudy = ppfmeam.detect(model, points.reshape(-1, 3), boundary=edges, poses=1)
+    check(len(cloudy) == 1, "points that are not organized, with their edges")
+
+    # Results as files.
+    found.save("poses.txt")
+    matrices = numpy.loadtxt("poses.txt", comments="#").reshape(-1, 4, 4)
+    check((matrices == found.poses).all(), "the matrices in the file")
+
+    # What is wrong is an exception, what may be wrong a warning.
+    flat = points.reshape(-1, 3)
+    raises("no such file", ppfmeam.train, "missing.stl")
+    raises("unknown kind of file", ppfmeam.train, __file__)
+    raises("positive", ppfmeam.train, "part.stl", scale=-1)
+    raises("preset", ppfmeam.train, "part.stl", preset="best")
+    raises("no such file", ppfmeam.load, "missing.meam")
+    raises("no such file", ppfmeam.detect, "missing.meam", scan)
+    raises("no such file", ppfmeam.detect, model, "missing.pcd")
+    raises("calibration", ppfmeam.detect, model, "depth.png")
+    raises("H x W x 3", ppfmeam.detect, model, points[..., :2])
+    raises("H x W", ppfmeam.detect, model, points, grey / 255)
+    raises("no image", ppfmeam.detect, model, points)
+    raises("not organized", ppfmeam.detect, model, flat)
+    raises("640", ppfmeam.detect, model, points, grey[:-1])
+    raises("ends in .meam", model.save, "model.stl")
+    raises("no such folder", model.save, "no/model.meam")
+    raises("extension", found.save, "poses.png")
+    with open("model.meam", "rb") as whole, open("cut.meam", "wb") as file:
+        file.write(whole.read()[:-100])
+    raises("train the model again", ppfmeam.load, "cut.meam")
+    reader.SetFileName("cut.meam")
+    fails(reader, "cut off")
+    fails(vtkMEAMModelReader(), "no file")
+    fails_to_write = connect(vtkMEAMModelWriter(), model.data)
+    fails_to_write.SetFileName("no/model.meam")
+    check(fails_to_write.Write() == 0, "written to a folder that is not there")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        with Quiet():
+            ppfmeam.detect(model, points / 10, grey, poses=1)
+    check(any("factor" in str(warning.message) for warning in caught), f"{[str(w.message) for w in caught]}")
+finally:
+    os.chdir("/")
+    shutil.rmtree(folder)

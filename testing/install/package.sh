@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# A new user's program: the installed tree is found by find_package wherever it lies, examples/cpp is built against it, and
+# finds parts in a scan. Usage: package.sh SOURCE_DIR BUILD_DIR PYTHON_DIR PYTHON CXX
+set -euo pipefail
+source=$1 build=$2 python_dir=$3 python=$4
+export CXX=$5
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cmake --install "$build" --prefix "$folder/first" >"$folder/log"
+mv "$folder/first" "$folder/moved" # nothing may depend on the place
+prefix=$folder/moved
+if grep -rlF -e "$source" -e "$build" -e "$folder/first" "$prefix/lib/cmake/PPFMEAM" "$prefix/include"; then
+  echo "^ installed files that name folders of the build"; exit 1
+fi
+if grep -rhE '#include' "$prefix/include/meam" | grep -vE '#include (<(Eigen/.*|[a-z_]+)>|"(base|scene)/.*")'; then
+  echo "^ meam.h includes more than Eigen and its own headers"; exit 1
+fi
+bash "$here/libraries.sh" "$prefix/lib/libmeam"{Detect,Images,Train}.so
+
+configure() { # FOLDER SOURCE
+  cmake -S "$2" -B "$1" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" >"$1.log" 2>&1 &&
+    cmake --build "$1" >>"$1.log" 2>&1 || { cat "$1.log"; exit 1; }
+}
+cp -r "$source/examples/cpp" "$folder/cpp"
+configure "$folder/cpp-build" "$folder/cpp"
+cp -r "$here/module" "$folder/module"
+configure "$folder/module-build" "$folder/module"
+
+export PYTHONPATH=$prefix/$python_dir${PYTHONPATH:+:$PYTHONPATH}
+"$python" "$here/scan.py" make "$folder"
+"$folder/module-build/read_scan" "$folder/scan.pcd"
+"$folder/cpp-build/find_parts" "$folder/part.stl" "$folder/scan.pcd" "$folder/part.meam" >"$folder/found.txt"
+"$folder/cpp-build/cell" "$folder/part.meam" "$folder/scan.pcd" >"$folder/cell.txt"
+"$python" "$here/scan.py" check "$folder"
+ldd "$folder/cpp-build/cell" | grep -E 'meamTrain|gmp|mpfr|OpenMesh|vtk|poppler' && { echo "^ a cell links what only training needs"; exit 1; }
+for wrong in missing.pcd part.stl; do
+  if "$folder/cpp-build/cell" "$folder/part.meam" "$folder/$wrong" 2>"$folder/errors.txt"; then echo "no error: $wrong"; exit 1; fi
+  grep -qF "$wrong" "$folder/errors.txt" || { cat "$folder/errors.txt"; exit 1; }
+done

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""make FOLDER: a part (part.stl), a simulated scan of a bin of them (scan.pcd) and the true poses (truth.txt).
+check FOLDER: what the C++ programs found (found.txt, cell.txt) is true, and the same that Python finds with the model that
+C++ trained (part.meam)."""
+import os
+import sys
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOGeometry import vtkSTLWriter
+
+import ppfmeam
+from ppfmeam.filters import vtkMEAMBinSceneSource
+
+WIDTH, HEIGHT, COPIES = 640, 480, 5
+MILLIMETRES = 1.0
+
+
+def make():
+    source = vtkMEAMBinSceneSource()
+    source.SetWidth(WIDTH)
+    source.SetHeight(HEIGHT)
+    source.SetCopies(COPIES)
+    source.Update()
+    scan, truth, part, _ = (source.GetOutputDataObject(port) for port in range(4))
+    writer = vtkSTLWriter()
+    writer.SetInputData(part)
+    writer.SetFileName("part.stl")
+    writer.SetFileTypeToBinary()
+    writer.Write()
+    rows = numpy.empty((WIDTH * HEIGHT, 4), numpy.float32)
+    rows[:, :3] = vtk_to_numpy(scan.GetPoints().GetData())
+    rows[:, 3] = vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
+    with open("scan.pcd", "wb") as file:
+        file.write(f"VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH {WIDTH}\n"
+                   f"HEIGHT {HEIGHT}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(rows)}\nDATA binary\n".encode())
+        file.write(rows.tobytes())
+    numpy.savetxt("truth.txt", vtk_to_numpy(truth.GetPointData().GetArray("Transform")))
+
+
+def printed(name):
+    """Probabilities and poses as the examples print them: a line, and four of the matrix."""
+    with open(name, encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    probabilities = [float(line.split()[1]) for line in lines[::5]]
+    poses = [[[float(word) for word in line.split()] for line in lines[k + 1:k + 5]] for k in range(0, len(lines), 5)]
+    return numpy.array(probabilities), numpy.array(poses)
+
+
+def check():
+    truth = numpy.loadtxt("truth.txt").reshape(-1, 4, 4)
+    model = ppfmeam.load("part.meam")
+    for name, options in (("found.txt", {}), ("cell.txt", {"poses": 0, "probability": 0.5})):
+        probabilities, poses = printed(name)
+        assert len(poses) >= 2, f"{name}: {len(poses)} poses"
+        nearest = [min(numpy.linalg.norm(pose[:3, 3] - T[:3, 3]) for T in truth) for pose in poses]
+        print(f"{name}: {len(poses)} poses, {sum(d < MILLIMETRES for d in nearest)} of them true")
+        assert nearest[0] < MILLIMETRES and probabilities[0] > 0.5, f"{name}: {nearest}, {probabilities}"
+        found = ppfmeam.detect(model, "scan.pcd", **options)
+        assert len(found) == len(poses), f"{name}: Python finds {len(found)} poses"
+        assert numpy.allclose(found.poses, poses, rtol=1e-5, atol=1e-3), f"{name}: Python finds others"  # as printed
+
+
+os.chdir(sys.argv[2])
+{"make": make, "check": check}[sys.argv[1]]()
