@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scripts of examples/ that measure, on a dataset of one scene: evaluate.py, compare_models.py, ablation.py,
+calibration.py. With --long more of their choices."""
+import csv
+import math
+import os
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+from ppfmeam.filters import vtkMEAMPoseWriter, vtkMEAMSceneEdgeExtraction
+from meamtest import LONG, check, connect, points, poses, run, tuples
+from scripttest import read, refuses, scan_of_bin, script, works, write_pcd, write_stl
+
+scan, truth, mesh = scan_of_bin()
+places = vtk_to_numpy(scan.GetPoints().GetData())
+true = numpy.array(tuples(truth, "Transform")).reshape(-1, 4, 4)
+
+# evaluate.py: the dataset is seen from above, z up. The second scene is missing.
+up = numpy.diag((1.0, -1.0, -1.0, 1.0))
+edges = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
+os.makedirs("data/Part_1/Scenes")
+os.makedirs("data/Part_1/Results")
+write_stl("data/Part_1/Part_1.STL", mesh)
+surface = places[numpy.isfinite(places).all(axis=1)][::5] @ up[:3, :3]
+write_pcd("data/Part_1/Scenes/Scene0.pcd", surface, len(surface), 1, "x y z")
+outline = numpy.array(points(edges)) @ up[:3, :3]
+write_pcd("data/Part_1/Scenes/Scene_boundary0.pcd", outline, len(outline), 1, "x y z")
+writer = connect(vtkMEAMPoseWriter(), poses(*[tuple((up @ t).ravel()) for t in true]))
+writer.SetFileName("data/Part_1/Results/trans0.txt")
+writer.Write()
+text = works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--out", "result")
+check(len(read("result/Part_1/trans0.txt").split()) == 32, "two matrices are written")
+row, = csv.DictReader(read("result/tohoku.csv").splitlines())
+check(row["part"] == "1" and float(row["strict"]) >= 50 and float(row["ms"]) > 0, f"the row is {row}")
+check(f"{float(row['strict']):.1f}" in text, "the table shows the same")
+result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0,1", "--poses", "2", "--out", "result")
+check(result.returncode == 1 and "scene 1: cannot read" in result.stderr and "1 failed, see above" in result.stderr, result.stderr)
+rows = list(csv.DictReader(read("result/tohoku.csv").splitlines()))
+check(math.isclose(float(rows[0]["strict"]), float(row["strict"]) / 2), "the missing scene counts")
+check(os.listdir("result/Part_1") == ["trans0.txt"], "there is no file for the missing scene")
+# Noise: the same again with the same one.
+noisy = [works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--noise", noise,
+               "--out", "noisy") and read("noisy/Part_1/trans0.txt") for noise in ("0.2", "0.2", "0.1%")]
+check(noisy[0] == noisy[1] != noisy[2], "the noise is not what was asked for")
+check(noisy[0] != read("result/Part_1/trans0.txt"), "there is no noise")
+for noise in ("loud", "-1", "nan", "inf", "%"):
+    for name in (("evaluate.py", "tohoku"), ("ablation.py",)):
+        result = script(*name, "data", "--noise", noise)
+        check(result.returncode == 2 and result.stderr.rstrip().endswith(f"0 or more, not {noise}"), result.stderr)
+
+# compare_models.py: a row for each model, the same scenes for all.
+text = works("compare_models.py", "--tohoku", "data", "--parts", "1", "--scenes", "1", "--simulated", "1", "--copies", "2",
+             "--poses", "2", "--only", "whole,mesh-both" if LONG else "mesh-both", "--out", "models.md")
+check(text.strip() == read("models.md").strip() and text.count("###") == 2, f"two tables: {text}")
+rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if "MEAM |" in line or "mesh edges |" in line]
+check(len(rows) == (4 if LONG else 2) and all(float(row[1].rstrip(" %")) >= 50 and float(row[5]) > 1000 for row in rows), f"{text}")
+
+# ablation.py: a row for each decision, with a time where the online phase is as it was.
+choices = {"none": "nothing", "near": "no near-symmetries", "edges": "edges alone, no surface", "no-refinement": "no refinement"}
+choices = choices if LONG else {key: choices[key] for key in ("none", "no-refinement")}
+text = works("ablation.py", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--only", ",".join(choices))
+rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()[4:] if line]
+check([row[0] for row in rows] == list(choices.values()), text)
+check(all(float(row[1].rstrip(" %")) >= 50 for row in rows), text)
+check([row[5] == "-" for row in rows] == [key in ("edges", "no-refinement") for key in choices], text)
+
+# calibration.py: every pose is in one row; by edges and surface right poses are likely.
+text = works("calibration.py", "data", "--parts", "1", "--scenes", "0", "--noise", "0")
+tables = [[[cell.strip(" %") for cell in line.strip("|").split("|")] for line in table.splitlines()[4:] if line.startswith("|")]
+          for table in text.split("### ")[1:]]
+totals = [int(table.split("poses: ")[1].split()[0]) for table in text.split("### ")[1:]]
+check([sum(int(row[1]) for row in table) for table in tables] == totals and len(totals) == 2 and totals[0] > 0, text)
+check(float(tables[0][-1][2]) >= 50 and text.count("log(Certainty)") == 2, text)
+
+# Bad input.
+refuses("cannot read nowhere", "ablation.py", "nowhere")
+refuses("cannot read nowhere", "compare_models.py", "--tohoku", "nowhere", "--out", "o.md")
+result = script("evaluate.py", "tohoku", "nowhere", "--out", "o")
+check(result.returncode == 1 and "cannot read nowhere" in result.stderr and not os.path.exists("o"), result.stderr)

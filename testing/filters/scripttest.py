@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of examples/ share: a temporary folder to work in, a scan of a bin, scripts in processes of their own. Not
+a test."""
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy
+from vtkmodules.vtkIOGeometry import vtkSTLWriter
+
+from ppfmeam.filters import vtkMEAMBinSceneSource
+from meamtest import check, connect, run
+
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+
+
+def script(name, *arguments):
+    environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
+    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], env=environment,
+                          capture_output=True, text=True)
+
+
+def works(name, *arguments):
+    result = script(name, *arguments)
+    check(result.returncode == 0, f"{name} {arguments}: {result.stderr}")
+    check(result.stderr == "", f"{name} {arguments} says {result.stderr}")
+    return result.stdout
+
+
+def refuses(word, name, *arguments):
+    """Exit status 1, one message with the word, no file."""
+    before = sorted(os.listdir())
+    result = script(name, *arguments)
+    what = f"{name} {' '.join(arguments)}: status {result.returncode}, {result.stderr}"
+    check(result.returncode == 1 and word.lower() in result.stderr.lower(), f"expected '{word}': {what}")
+    check(result.stderr.count("\n") == 1 and result.stderr.startswith(name), f"more than a message: {what}")
+    check(sorted(os.listdir()) == before, f"left files behind: {what}")
+
+
+def write_pcd(path, columns, width, height, fields):
+    """Binary, floats."""
+    count = len(fields.split())
+    with open(path, "wb") as file:
+        file.write(f"VERSION .7\nFIELDS {fields}\nSIZE{' 4' * count}\nTYPE{' F' * count}\nCOUNT{' 1' * count}\n"
+                   f"WIDTH {width}\nHEIGHT {height}\nPOINTS {width * height}\nDATA binary\n".encode())
+        file.write(numpy.ascontiguousarray(columns, dtype="<f4").tobytes())
+
+
+def read(path):
+    with open(path) as file:
+        return file.read()
+
+
+def write_stl(path, mesh):
+    writer = connect(vtkSTLWriter(), mesh)
+    writer.SetFileName(path)
+    writer.SetFileTypeToBinary()
+    writer.Write()
+
+
+W, H = 640, 480
+
+
+def scan_of_bin():
+    """Of four copies of the sample part: the scan, the true poses, the part."""
+    source = vtkMEAMBinSceneSource()
+    source.SetCopies(4)
+    source.SetWidth(W)
+    source.SetHeight(H)
+    run(source)
+    return [source.GetOutputDataObject(port) for port in range(3)]
