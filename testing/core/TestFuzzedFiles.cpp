@@ -396,7 +396,7 @@ TEST_P(FuzzedFiles, modelsInfo)
   fuzz(folder.path("models_info.json"), { modelsInfo }, [](const std::string& path) { meam::readModelsInfo(path, 1); });
 }
 
-TEST(FuzzedFiles, trainedModel)
+TEST_P(FuzzedFiles, trainedModel)
 {
   const files::Folder folder(place());
   const std::string path = folder.path("a.meam");
@@ -406,7 +406,7 @@ TEST(FuzzedFiles, trainedModel)
     withChecksum);
 }
 
-TEST(FuzzedFiles, mesh)
+TEST_P(FuzzedFiles, mesh)
 {
   const files::Folder folder(place());
   const std::string facet =
