@@ -28,7 +28,7 @@ count = found.GetNumberOfPoints()
 check(100 < count <= math.ceil(0.8 * edges.GetNumberOfPoints()), f"{count} candidates")
 good = [pose_error(t, scene.transform) for t in transforms]
 right = sum(mm < 0.1 * diameter and degrees < 15 for mm, degrees in good)
-check(right > 0.1 * count, f"{right} of {count} candidates are near the motion")
+check(right > 0.9 * count, f"{right} of {count} candidates are near the motion")
 check(field(found, "Diameter") == [(diameter,)], "the diameter travels along")
 check(tuples(found, "Rank") == [(i + 1,) for i in range(count)], "ranks count from 1")
 check(all(v > 0 for v, in votes) and all(0 <= v < 6 for v, in tuples(found, "ViewId")), "votes and views")

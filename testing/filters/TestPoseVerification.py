@@ -57,7 +57,7 @@ for method in (0, 1):
         check(pose_error(transforms[0], scene.transform)[0] < 1.0, f"method {method}: the best is {transforms[0]}")
         check(pose_error(transforms[0], scene.transform)[1] < 1.0, f"method {method}: the best is {transforms[0]}")
         check(scores == sorted(scores, reverse=True), "best first")
-        check(scores[0] > 0.7 and scores[0] <= 1.0, f"method {method}: the true pose has a score of {scores[0]}")
+        check(scores[0] > 0.85 and scores[0] <= 1.0, f"method {method}: the true pose has a score of {scores[0]}")
         check(scores[-1] < 0.5 * scores[0], f"method {method}: the worst pose has a score of {scores[-1]}")
         check(best.GetNumberOfPoints() == 4, "every pose is scored")
         check(tuples(best, "Rank") == [(i + 1,) for i in range(4)], "ranks count from 1")
