@@ -13,14 +13,18 @@
 
 namespace scenes
 {
-/// Trained once for all tests of the executable.
+/// Trained once for all tests of the executable, when the first one asks for it.
 inline const meam::TrainedModel& bracket(meam::Preset preset = meam::Preset::Recommended)
 {
+  if (preset == meam::Preset::Paper)
+  {
+    static const meam::TrainedModel paper =
+      meam::trainModel(parts::lBracket(), meam::trainingSettings(meam::Preset::Paper));
+    return paper;
+  }
   static const meam::TrainedModel recommended =
     meam::trainModel(parts::lBracket(), meam::trainingSettings(meam::Preset::Recommended));
-  static const meam::TrainedModel paper =
-    meam::trainModel(parts::lBracket(), meam::trainingSettings(meam::Preset::Paper));
-  return preset == meam::Preset::Paper ? paper : recommended;
+  return recommended;
 }
 
 /// Another part, trained once as well.

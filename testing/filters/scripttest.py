@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of examples/ share: a temporary folder to work in, a scan of a bin, scripts in processes of their own. Not
 a test."""
+import json
 import os
 import subprocess
 import sys
@@ -15,12 +16,17 @@ from meamtest import check, connect, run
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
+server = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "scriptserver.py")],
+                          env={k: v for k, v in os.environ.items() if k != "DISPLAY"}, stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE, text=True)
 
 
 def script(name, *arguments):
-    environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
-    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], env=environment,
-                          capture_output=True, text=True)
+    """Runs it without a display, in a process of its own."""
+    print(json.dumps([os.path.join(EXAMPLES, name), *arguments]), file=server.stdin, flush=True)
+    answer = server.stdout.readline()
+    check(answer, f"{name} {arguments}: the server of scripts has ended")
+    return subprocess.CompletedProcess((name, *arguments), *json.loads(answer))
 
 
 def works(name, *arguments):
