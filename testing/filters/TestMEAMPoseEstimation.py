@@ -3,22 +3,23 @@
 import math
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
-from vtkmodules.vtkCommonTransforms import vtkTransform
-from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 
 from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
     vtkMEAMPoseEstimation,
     vtkMEAMPoseEvaluation,
+    vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
 )
 from meamtest import (Errors, Trained, check, cloud, collection, connect, fails, field, image, is_empty, points, prints, run,
-                      tuples)
+                      scaled, tuples)
 
 STAGES = ["Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Total"]
 
-source = vtkMEAMBinSceneSource()
+plate = vtkMEAMSamplePartSource()  # soon trained
+plate.SetPartToHolePlate()
+source = connect(vtkMEAMBinSceneSource(), plate)
 source.SetCopies(4)
 source.SetWidth(640)
 source.SetHeight(480)
@@ -39,14 +40,6 @@ def found(filter):
 
 def seconds(filter, stage):
     return field(filter.GetOutput(), "Seconds" + stage)[0][0]
-
-
-def scaled(data, factor):
-    transform = vtkTransform()
-    transform.Scale(factor, factor, factor)
-    filter = connect(vtkTransformFilter(), data)
-    filter.SetTransform(transform)
-    return run(filter)
 
 
 filter = estimation(part, scan, MaximumNumberOfPoses=2)

@@ -11,6 +11,7 @@ from ppfmeam.filters import (
     vtkMEAMPoseEstimation,
     vtkMEAMPoseEvaluation,
     vtkMEAMPoseInstances,
+    vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
 )
 from meamtest import Errors, Trained, check, connect, field, pose_error, run, tuples
@@ -46,8 +47,12 @@ class Series(VTKPythonAlgorithmBase):
         return 1
 
 
+plate = vtkMEAMSamplePartSource()  # soon trained
+plate.SetPartToHolePlate()
+
+
 def bin_of(seed):
-    source = vtkMEAMBinSceneSource()
+    source = connect(vtkMEAMBinSceneSource(), plate)
     source.SetCopies(3)
     source.SetWidth(480)
     source.SetHeight(360)

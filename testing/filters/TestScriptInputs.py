@@ -3,9 +3,6 @@
 import csv
 import json
 import os
-import subprocess
-import sys
-import tempfile
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -13,25 +10,8 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkBMPWriter, vtkPNGWriter, vtkTIFFWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 
-from ppfmeam.filters import vtkMEAMBinSceneSource
-from meamtest import check, connect, pose_error, run, tuples
-
-EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
-folder = tempfile.TemporaryDirectory()
-os.chdir(folder.name)
-
-
-def script(name, *arguments):
-    environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
-    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], env=environment,
-                          capture_output=True, text=True)
-
-
-def works(name, *arguments):
-    result = script(name, *arguments)
-    check(result.returncode == 0 and result.stderr == "", f"{name} {arguments}: {result.stderr}")
-    return result.stdout
-
+from meamtest import check, connect, pose_error, tuples
+from scripttest import H, W, scan_of_bin, script, works
 
 def refuses(word, name, *arguments, status=1):
     result = script(name, *arguments)
@@ -76,19 +56,15 @@ def all_true(found, what, count=2, distance=1, angle=2):
         check(any(d < distance and a < angle for d, a in errors), f"{what}: {pose} is not a true pose, {min(errors)}")
 
 
-W, H, SCALE = 640, 480, 0.05
-source = vtkMEAMBinSceneSource()
-source.SetCopies(4)
-source.SetWidth(W)
-source.SetHeight(H)
-scan = run(source)
-true = tuples(source.GetOutputDataObject(1), "Transform")
+SCALE = 0.05
+scan, truth, mesh = scan_of_bin()
+true = tuples(truth, "Transform")
 points = vtk_to_numpy(scan.GetPoints().GetData())
 grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
 valid = numpy.isfinite(points).all(axis=1)
 fx, _, cx, _, fy, cy, *_ = scan.GetFieldData().GetArray("CameraMatrix").GetTuple(0)
 depth = numpy.rint(numpy.nan_to_num(points[:, 2]) / SCALE).astype(numpy.uint16).reshape(H, W)
-part = connect(vtkPLYWriter(), source.GetOutputDataObject(2))
+part = connect(vtkPLYWriter(), mesh)
 part.SetFileName("part.ply")
 part.Write()
 write_image("depth.png", depth)
@@ -133,7 +109,7 @@ for scene in (2, 5):
 write_json("set/test/000002/scene_gt.json", {
     "7": [{"obj_id": 3, "cam_R_m2c": r, "cam_t_m2c": [t[3], t[7], t[11]]} for r, t in zip(R, true)]})
 write_json("set/test/000002/scene_gt_info.json", {
-    "7": [{"visib_fract": f} for f, in tuples(source.GetOutputDataObject(1), "VisibleFraction")]})
+    "7": [{"visib_fract": f} for f, in tuples(truth, "VisibleFraction")]})
 os.makedirs("set/models")
 for number in (3, 8):
     os.link("part.ply", f"set/models/obj_{number:06d}.ply")

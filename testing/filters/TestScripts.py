@@ -9,11 +9,10 @@ import re
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
 from ppfmeam.filters import vtkMEAMBinSceneSource
-from meamtest import box, check, connect, run, tuples
+from meamtest import box, bracket, check, connect, run, scaled, tuples
 from scripttest import EXAMPLES, H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
 SUBCOMMANDS = {"evaluate.py": ("tohoku", "bop")}
@@ -32,6 +31,8 @@ helps()
 
 scan, truth, mesh = scan_of_bin()
 write_stl("part.stl", mesh)
+large_bracket = scaled(bracket(), 2)  # soon trained
+write_stl("bracket.stl", large_bracket)
 places = vtk_to_numpy(scan.GetPoints().GetData())
 grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
 write_pcd("scan.pcd", numpy.column_stack((places, grey)), W, H, "x y z intensity")
@@ -61,7 +62,8 @@ works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "2
 check(read("c.txt") == read("a.txt"), "with the trained model the poses differ")
 works("detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "image.png", "--poses", "2", "--matrices", "b.txt")
 check(read("b.txt") == read("a.txt"), "with the image of the file the poses differ")
-works("train.py", "--cad", "part.stl", "--out", "model.vtpc")  # again, over the old one
+works("train.py", "--cad", "bracket.stl", "--out", "over.vtpc")
+works("train.py", "--cad", "bracket.stl", "--out", "over.vtpc")  # again, over the old one
 # What is known of a part's symmetries, also with the preset that does without; a box has three half turns.
 write_stl("box.stl", box(30, 20, 10))
 for preset in ("recommended", "paper"):
@@ -73,7 +75,7 @@ for preset in ("recommended", "paper"):
 os.mkdir("mine")
 with open(os.path.join("mine", "drawing.step"), "w") as file:
     file.write("precious")
-refuses("other files", "train.py", "--cad", "part.stl", "--out", "mine.vtpc")
+refuses("other files", "train.py", "--cad", "bracket.stl", "--out", "mine.vtpc")
 check(read(os.path.join("mine", "drawing.step")) == "precious", "the folder of the user is gone")
 os.remove(os.path.join("mine", "drawing.step"))
 os.rmdir("mine")
@@ -85,19 +87,17 @@ for moved in numpy.array(read("d.txt").split(), float).reshape(-1, 4, 4):
     check(shift < 0.2, f"the offset part is {shift} mm away")
 
 # Two types of part: the left half of a bin of one, the right half of a bin of the other, seen by the same camera.
-plate = vtkSTLReader()
-plate.SetFileName(os.path.join(EXAMPLES, "parts", "hole_plate.stl"))
-bins = {"1": vtkMEAMBinSceneSource(), "2": connect(vtkMEAMBinSceneSource(), plate)}
+bins = {"1": connect(vtkMEAMBinSceneSource(), mesh), "2": connect(vtkMEAMBinSceneSource(), large_bracket)}
 halves = numpy.arange(W * H) % W < W // 2
 columns = []
 for half in bins.values():
-    for name, value in (("Copies", 6), ("Seed", 2), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
+    for name, value in (("Copies", 6), ("Seed", 5), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
         getattr(half, "Set" + name)(value)
     data = run(half)
     columns.append(numpy.column_stack((vtk_to_numpy(data.GetPoints().GetData()),
                                        vtk_to_numpy(data.GetPointData().GetArray("Intensity")))))
 write_pcd("two.pcd", numpy.where(halves[:, None], *columns), W, H, "x y z intensity")
-text = works("detect.py", "--cad", "part.stl", "--cad", plate.GetFileName(), "--scene", "two.pcd", "--poses", "4",
+text = works("detect.py", "--cad", "part.stl", "--cad", "bracket.stl", "--scene", "two.pcd", "--poses", "4",
              "--out", "two.csv", "--json", "two.json", "--matrices", "two.txt")
 check(text.startswith("rank  part  score") and "\npart 2 time" in text, f"a table with parts: {text}")
 rows = list(csv.DictReader(read("two.csv").splitlines()))
@@ -162,7 +162,7 @@ refuses("junk.vtpc", "detect.py", "--model", "junk.vtpc", "--scene", "scan.pcd",
 refuses("cannot write", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--out", "no/such/folder.csv")
 refuses("display", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--picture", "o.png", *out)
 refuses("no faces", "train.py", "--cad", "points.ply", "--out", "o.vtpc")
-refuses(".vtpc", "train.py", "--cad", "part.stl", "--out", "o.model")
+refuses(".vtpc", "train.py", "--cad", "bracket.stl", "--out", "o.model")
 refuses("cannot write", "train.py", "--cad", "part.stl", "--out", "o.vtpc", "--models-info", "no/such/folder.json")
 refuses("display", "simulated_bin.py", "--picture", "o.png")
 os.remove("model/model_0_0.vtp")

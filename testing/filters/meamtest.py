@@ -155,6 +155,15 @@ def bracket():
     return mesh(corners, faces)
 
 
+def scaled(data, factor):
+    """Data in another unit."""
+    transform = vtkTransform()
+    transform.Scale(factor, factor, factor)
+    filter = connect(vtkTransformFilter(), data)
+    filter.SetTransform(transform)
+    return run(filter)
+
+
 def connect(algorithm, *inputs):
     """Connects the output of each input to the port of its place."""
     for port, source in enumerate(inputs):

@@ -10,7 +10,7 @@ import tempfile
 import numpy
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
-from ppfmeam.filters import vtkMEAMBinSceneSource
+from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMSamplePartSource
 from meamtest import check, connect, run
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
@@ -71,8 +71,10 @@ W, H = 640, 480
 
 
 def scan_of_bin():
-    """Of four copies of the sample part: the scan, the true poses, the part."""
-    source = vtkMEAMBinSceneSource()
+    """Of four copies of the plate, which is trained in a third of the sample part's time: the scan, the true poses, the part."""
+    plate = vtkMEAMSamplePartSource()
+    plate.SetPartToHolePlate()
+    source = connect(vtkMEAMBinSceneSource(), plate)
     source.SetCopies(4)
     source.SetWidth(W)
     source.SetHeight(H)
