@@ -83,11 +83,11 @@ struct DetectSettings
   /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
   /// preset's
   double referenceShare = 0.0;
-  bool imageEdges = true;  ///< edges from the image
-  bool depthEdges = false; ///< and where a surface ends in front of another one
-  bool creases = false;    ///< and where two flat pieces meet
-  unsigned seed = 1;       ///< of all random choices
-  int threads = 0;         ///< 0: one for each processor
+  bool imageEdges = true; ///< edges from the image
+  bool depthEdges = true; ///< and where a surface ends in front of another one; not with the preset Paper
+  bool creases = true;    ///< and where two flat pieces meet; not with the preset Paper
+  unsigned seed = 1;      ///< of all random choices
+  int threads = 0;        ///< 0: one for each processor
 };
 
 /// A copy of the part.

@@ -43,6 +43,7 @@ meam::Poses toPoses(vtkPolyData* input)
   vtkDataArray* fractions = pointArray(input, "VisibleFraction", 1);
   vtkDataArray* certainties = pointArray(input, "Certainty", 1);
   vtkDataArray* probabilities = pointArray(input, "Probability", 1);
+  vtkDataArray* evidence = pointArray(input, "Evidence", 1);
   vtkDataArray* residuals = pointArray(input, "Residual", 1);
   vtkDataArray* iterations = pointArray(input, "Iterations", 1);
   vtkDataArray* covariances = pointArray(input, "Covariance", 36);
@@ -72,6 +73,7 @@ meam::Poses toPoses(vtkPolyData* input)
     pose.visibleFraction = fractions ? fractions->GetComponent(i, 0) : 0.0;
     pose.certainty = certainties ? certainties->GetComponent(i, 0) : 1.0;
     pose.probability = probabilities ? probabilities->GetComponent(i, 0) : 0.0;
+    pose.evidence = evidence ? evidence->GetComponent(i, 0) : 0.0;
     if (residuals && iterations && covariances && constrained && axes)
     {
       pose.fit.residual = residuals->GetComponent(i, 0);
@@ -109,6 +111,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
   double* quaternion = doubles("Quaternion", 4);
   double* score = doubles("Score", 1);
   double* probability = doubles("Probability", 1);
+  double* evidence = doubles("Evidence", 1);
   int* votes = integers("Votes");
   int* view = integers("ViewId");
   double* fraction = doubles("VisibleFraction", 1);
@@ -134,6 +137,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
     fraction[i] = pose.visibleFraction;
     certainty[i] = pose.certainty;
     probability[i] = pose.probability;
+    evidence[i] = pose.evidence;
     rank[i] = static_cast<int>(i) + 1;
     points->SetPoint(i, pose.T_scene_model.translation().data());
   }

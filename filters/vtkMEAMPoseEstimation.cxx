@@ -180,11 +180,10 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
         meam::requirePoints(cloud.points, "The scene");
-        meam::SceneEdgeExtractionSettings extraction;
+        meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(static_cast<meam::Preset>(this->Preset));
         extraction.imageEdges = this->ImageEdges;
-        extraction.depthEdges = this->DepthEdges;
-        extraction.creases = this->Creases;
-        extraction.tangents = this->Preset == Recommended;
+        extraction.depthEdges &= this->DepthEdges;
+        extraction.creases &= this->Creases;
         extraction.threads = this->NumberOfThreads;
         meam::Image pixels;
         if (this->ImageEdges)

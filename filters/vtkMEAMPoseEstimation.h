@@ -97,7 +97,8 @@ public:
   ///@}
 
   ///@{
-  /** Which edges of the scene to look for, as in vtkMEAMSceneEdgeExtraction. Default: those of the image alone. */
+  /** Which edges of the scene to look for, as in vtkMEAMSceneEdgeExtraction. Default: all; the preset Paper takes those
+   * of the image alone. */
   vtkSetMacro(ImageEdges, bool);
   vtkGetMacro(ImageEdges, bool);
   vtkBooleanMacro(ImageEdges, bool);
@@ -149,8 +150,8 @@ private:
   double ReferenceShare = 0.0;
   int Seed = 1;
   bool ImageEdges = true;
-  bool DepthEdges = false;
-  bool Creases = false;
+  bool DepthEdges = true;
+  bool Creases = true;
   char* CameraFile = nullptr;
   double CADScale = 1.0;
   double CADOffset[3] = { 0.0, 0.0, 0.0 };

@@ -37,27 +37,6 @@ void vtkMEAMPoseSelection::SetFreeSpace(bool value)
 
 bool vtkMEAMPoseSelection::GetFreeSpace() { return this->Settings->evidence.freeSpace; }
 
-void vtkMEAMPoseSelection::SetEvidenceWeights(double edges, double surface, double explained)
-{
-  meam::EvidenceSettings& evidence = this->Settings->evidence;
-  if (evidence.edgeWeight != edges || evidence.surfaceWeight != surface || evidence.explainedWeight != explained)
-  {
-    evidence.edgeWeight = edges;
-    evidence.surfaceWeight = surface;
-    evidence.explainedWeight = explained;
-    this->Modified();
-  }
-}
-
-double* vtkMEAMPoseSelection::GetEvidenceWeights()
-{
-  const meam::EvidenceSettings& evidence = this->Settings->evidence;
-  this->Weights[0] = evidence.edgeWeight;
-  this->Weights[1] = evidence.surfaceWeight;
-  this->Weights[2] = evidence.explainedWeight;
-  return this->Weights;
-}
-
 void vtkMEAMPoseSelection::SetParametersToPaper()
 {
   *this->Settings = {};
@@ -87,8 +66,6 @@ void vtkMEAMPoseSelection::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfPoses: " << this->GetMaximumNumberOfPoses() << "\n";
   os << indent << "MinimumProbability: " << this->GetMinimumProbability() << "\n";
   os << indent << "Tolerance: " << this->GetTolerance() << "\n";
-  const double* weights = this->GetEvidenceWeights();
-  os << indent << "EvidenceWeights: " << weights[0] << " " << weights[1] << " " << weights[2] << "\n";
   os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
   os << indent << "SameVisibility: " << this->GetSameVisibility() << "\n";
 }

@@ -99,15 +99,6 @@ public:
 
   ///@{
   /**
-   * Instances: what counts in the score, as in vtkMEAMPoseVerification. Default: 0.4, 0.4, 0.2.
-   */
-  virtual void SetEvidenceWeights(double edges, double surface, double explained);
-  virtual void SetEvidenceWeights(const double values[3]) { this->SetEvidenceWeights(values[0], values[1], values[2]); }
-  virtual double* GetEvidenceWeights() VTK_SIZEHINT(3);
-  ///@}
-
-  ///@{
-  /**
    * Instances: surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing
    * was measured. Default: true.
    */
@@ -141,7 +132,6 @@ private:
   void operator=(const vtkMEAMPoseSelection&) = delete;
 
   std::unique_ptr<meam::PoseSelectionSettings> Settings;
-  double Weights[3]; ///< what GetEvidenceWeights() hands out
 };
 
 #endif

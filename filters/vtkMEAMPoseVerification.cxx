@@ -23,27 +23,6 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PointStride, int, pointStrid
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, MinimumScore, double, minimumScore, 0.0, 1.0)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PosesPerView, int, posesPerView, 0, VTK_INT_MAX)
 
-void vtkMEAMPoseVerification::SetEvidenceWeights(double edges, double surface, double explained)
-{
-  meam::EvidenceSettings& evidence = this->Settings->evidence;
-  if (evidence.edgeWeight != edges || evidence.surfaceWeight != surface || evidence.explainedWeight != explained)
-  {
-    evidence.edgeWeight = edges;
-    evidence.surfaceWeight = surface;
-    evidence.explainedWeight = explained;
-    this->Modified();
-  }
-}
-
-double* vtkMEAMPoseVerification::GetEvidenceWeights()
-{
-  const meam::EvidenceSettings& evidence = this->Settings->evidence;
-  this->Weights[0] = evidence.edgeWeight;
-  this->Weights[1] = evidence.surfaceWeight;
-  this->Weights[2] = evidence.explainedWeight;
-  return this->Weights;
-}
-
 void vtkMEAMPoseVerification::SetParametersToPaper()
 {
   *this->Settings = meam::paperVerificationSettings();
@@ -67,8 +46,6 @@ void vtkMEAMPoseVerification::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->GetMethod() << "\n";
   os << indent << "Tolerance: " << this->GetTolerance() << "\n";
-  const double* weights = this->GetEvidenceWeights();
-  os << indent << "EvidenceWeights: " << weights[0] << " " << weights[1] << " " << weights[2] << "\n";
   os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
   os << indent << "PointStride: " << this->GetPointStride() << "\n";
   os << indent << "MinimumScore: " << this->GetMinimumScore() << "\n";

@@ -5,13 +5,14 @@
  *
  * Section 5.2 of the paper. EdgeCoverage is the paper's score: the share of the edge appearance model of the pose that
  * has a scene edge point near. VisibleEvidence, the recommended one, asks of each edge and surface point that should be
- * visible at the pose whether the sensor saw it, saw something in front of it (which says nothing) or saw past it
- * (which speaks against the pose), and which scene edges on the part stay unexplained. Where nothing was measured, as
- * in glare, the surface says nothing.
+ * visible at the pose whether the sensor saw it and it faces the right way, saw something in front of it or saw past
+ * it, and whether the surface goes on beyond the part's outline. The more independent places tell the same, the more it
+ * says; edges count as far as this scan's edges can be trusted, which is measured on the poses of the input.
  *
  * Input ports: as vtkMEAMPoseAlgorithm has them.
- * Output port 0: vtkPolyData, every pose but those below MinimumScore, best first, with `Score` (share of what should
- * be visible that is there), `Probability` (that the pose is right) and `VisibleFraction` (without a surface 1: nothing
+ * Output port 0: vtkPolyData, every pose but those below MinimumScore, best first, with `Evidence` (logarithm of
+ * the odds that the pose is right), `Probability` (the same as a probability), `Score` (share of the surface that
+ * nothing hides that is there; without a surface, of the edges) and `VisibleFraction` (without a surface 1: nothing
  * tells what hides), all in [0, 1], `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection.
  */
 #ifndef vtkMEAMPoseVerification_h
@@ -54,17 +55,6 @@ public:
    */
   virtual void SetTolerance(double value);
   virtual double GetTolerance();
-  ///@}
-
-  ///@{
-  /**
-   * What edges, surface, and that scene edges on the part are explained count in the score: three numbers of 0 or more,
-   * not all 0. Where a part is printed on, edges are there that its model does not explain: then the third is better 0.
-   * Without a surface edges alone count. `Probability` is calibrated for the defaults. Default: 0.4, 0.4, 0.2.
-   */
-  virtual void SetEvidenceWeights(double edges, double surface, double explained);
-  virtual void SetEvidenceWeights(const double values[3]) { this->SetEvidenceWeights(values[0], values[1], values[2]); }
-  virtual double* GetEvidenceWeights() VTK_SIZEHINT(3);
   ///@}
 
   ///@{
@@ -116,7 +106,6 @@ private:
   void operator=(const vtkMEAMPoseVerification&) = delete;
 
   std::unique_ptr<meam::PoseVerificationSettings> Settings;
-  double Weights[3]; ///< what GetEvidenceWeights() hands out
 };
 
 #endif

@@ -7,7 +7,7 @@
  * the edge belongs to the surface that is nearer to the camera, and a pixel without depth takes its
  * neighbour's. The image is registered with the organized cloud, or comes from a camera beside the sensor
  * whose calibration is known: then the cloud tells what that camera sees, and what is hidden from it gets no
- * edge. Where the image is poor, the cloud's own depth jumps and creases may be added.
+ * edge. The cloud's own depth jumps and creases are added: smooth parts have few in the image.
  *
  * Input port 0: the scene, a vtkStructuredGrid of W x H x 1 points in the sensor's frame (mm); points
  * without depth are blanked or NaN. Without the second input it needs the point array `Intensity` (1) or
@@ -46,14 +46,14 @@ public:
   ///@}
 
   ///@{
-  /** Points at which the surface ends in front of another one, from the cloud alone. Default: false. */
+  /** Points at which the surface ends in front of another one, from the cloud alone. Default: true. */
   vtkSetMacro(DepthEdges, bool);
   vtkGetMacro(DepthEdges, bool);
   vtkBooleanMacro(DepthEdges, bool);
   ///@}
 
   ///@{
-  /** Points at which two pieces of the surface meet at an angle, from the cloud alone. Default: false. */
+  /** Points at which two pieces of the surface meet at an angle, from the cloud alone. Default: true. */
   vtkSetMacro(Creases, bool);
   vtkGetMacro(Creases, bool);
   vtkBooleanMacro(Creases, bool);
@@ -139,8 +139,8 @@ private:
   void operator=(const vtkMEAMSceneEdgeExtraction&) = delete;
 
   bool ImageEdges = true;
-  bool DepthEdges = false;
-  bool Creases = false;
+  bool DepthEdges = true;
+  bool Creases = true;
   double CreaseAngle = 30.0;
   bool ImageTangents = true;
   char* CameraFile = nullptr;

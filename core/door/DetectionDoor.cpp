@@ -60,17 +60,16 @@ LocalCloud edgesOf(const Scan& scan, const DetectSettings& settings, const Progr
     edges.points = scan.edges;
     return toLocalCloud(edges, settings.threads);
   }
-  SceneEdgeExtractionSettings extraction;
+  SceneEdgeExtractionSettings extraction = sceneEdgeSettings(settings.preset);
   extraction.imageEdges = settings.imageEdges;
-  extraction.depthEdges = settings.depthEdges;
-  extraction.creases = settings.creases;
+  extraction.depthEdges &= settings.depthEdges;
+  extraction.creases &= settings.creases;
   extraction.camera = scan.imageCamera;
-  extraction.tangents = settings.preset == Preset::Recommended;
   extraction.threads = settings.threads;
   if (settings.imageEdges && scan.image.pixels.empty())
   {
-    throw Error("The scan has no image: give one, registered or with its camera, or look for depthEdges and creases "
-                "instead of imageEdges.");
+    throw Error("The scan has no image: give one, registered or with its camera, or turn imageEdges off to "
+                "look for depthEdges and creases alone.");
   }
   LocalCloud edges =
     toLocalCloud(extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress).cloud,

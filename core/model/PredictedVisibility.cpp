@@ -74,6 +74,36 @@ void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float*
   }
 }
 
+/// The middles of the cells two off the border of what is seen, at the depth of the farthest of its cells beside them.
+Points outsideOf(const std::vector<float>& buffer, const View& view)
+{
+  constexpr float nothing = -std::numeric_limits<float>::infinity();
+  const int side = view.side;
+  const int steps[] = { -1, 1, -side, side };
+  Points outside;
+  for (int v = 2; v + 2 < side; ++v)
+  {
+    for (int u = 2; u + 2 < side; ++u)
+    {
+      const float* const cell = &buffer[static_cast<std::size_t>(v) * side + u];
+      float height = std::numeric_limits<float>::infinity();
+      for (const int step : steps)
+      {
+        if (cell[step] == nothing && cell[2 * step] != nothing)
+        {
+          height = std::min(height, cell[2 * step]);
+        }
+      }
+      if (*cell == nothing && height < std::numeric_limits<float>::infinity())
+      {
+        const float right = (u + 0.5f) / view.inverseCell - view.half, down = (v + 0.5f) / view.inverseCell - view.half;
+        outside.push_back(view.frame * Eigen::Vector3f(height, right, down));
+      }
+    }
+  }
+  return outside;
+}
+
 void raise(const Projected& points, std::vector<float>& buffer)
 {
   for (std::size_t k = 0; k < points.cells.size(); ++k)
@@ -83,9 +113,8 @@ void raise(const Projected& points, std::vector<float>& buffer)
   }
 }
 
-/// Sets `inSight` to `names[k]` (k itself without names) for each point not more than `tolerance` below the buffer.
-void keepInSight(const Projected& points, const std::vector<float>& buffer, float tolerance, const int* names,
-  std::vector<int>& inSight)
+/// Sets `inSight` to the places of the points not more than `tolerance` below the buffer.
+void keepInSight(const Projected& points, const std::vector<float>& buffer, float tolerance, std::vector<int>& inSight)
 {
   const std::size_t count = points.cells.size();
   inSight.resize(count);
@@ -93,7 +122,7 @@ void keepInSight(const Projected& points, const std::vector<float>& buffer, floa
   for (std::size_t k = 0; k < count; ++k)
   {
     // Without a branch: half of them would be predicted wrongly.
-    inSight[found] = names ? names[k] : static_cast<int>(k);
+    inSight[found] = static_cast<int>(k);
     found += points.heights[k] + tolerance >= buffer[points.cells[k]] ? 1 : 0;
   }
   inSight.resize(found);
@@ -171,7 +200,7 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
 
 PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards) const
 {
-  Visible visible{ towards, {}, {} };
+  Visible visible{ towards, {}, {}, {}, {} };
   const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
   const float tolerance = static_cast<float>(this->Settings.tolerance * this->Diameter);
   const float half = static_cast<float>(this->Diameter); // a point is never farther from the middle
@@ -188,13 +217,27 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   nearest.assign(static_cast<std::size_t>(across.side) * across.side, -std::numeric_limits<float>::infinity());
   projected(this->Surface, surface);
   raise(surface, nearest);
+  visible.outside = outsideOf(nearest, across);
+  for (Eigen::Vector3f& point : visible.outside)
+  {
+    point += this->Middle;
+  }
   projected(this->Edges, others);
-  keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, nullptr, visible.edges);
+  keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, visible.edges);
   projected(this->VerificationPoints.points, others);
   const SoAPoints& normals = this->VerificationPoints.directions;
   allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
     static_cast<float>(this->Settings.grazingCosine), others.heights.data());
-  keepInSight(others, nearest, tolerance, this->VerificationIndices.data(), visible.surface);
+  thread_local std::vector<int> inSight;
+  keepInSight(others, nearest, tolerance, inSight);
+  constexpr float nothing = -std::numeric_limits<float>::infinity();
+  for (const int k : inSight)
+  {
+    const float* const seen = &nearest[others.cells[k]];
+    visible.surface.push_back(this->VerificationIndices[k]);
+    visible.isInner.push_back(
+      seen[-1] > nothing && seen[1] > nothing && seen[-across.side] > nothing && seen[across.side] > nothing);
+  }
   return visible;
 }
 }

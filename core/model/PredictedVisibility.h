@@ -47,7 +47,13 @@ public:
     Eigen::Vector3f from; ///< the direction to the sensor, rounded to a step, in the model's frame
     std::vector<int> edges;
     std::vector<int> surface;
+    std::vector<char> isInner; ///< of these, whether they lie a cell or more inside the part's outline
+    /// Beside the part's outline, outside, at the depth of its border: points two cells off, a cell apart, mm, in the
+    /// model's frame.
+    Points outside;
   };
+  /// mm, of the depth buffer.
+  double cellSize() const { return this->Settings.cell * this->Diameter; }
   std::shared_ptr<const Visible> visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
 private:

@@ -48,6 +48,14 @@ double TrainedModel::votingLeaf() const
   return this->settings.leafSize > 0.0 ? this->settings.leafSize : VotingLeafShare * this->diameter;
 }
 
+double TrainedModel::verificationArea() const
+{
+  // A plane of any direction meets 1.5 cubes for each square of their side, on average.
+  constexpr double cubesOfSquare = 1.5;
+  const double leaf = VerificationLeafShare * this->diameter;
+  return leaf * leaf / cubesOfSquare;
+}
+
 PointCloud TrainedModel::edgesOfView(int view) const
 {
   std::vector<int> members;

@@ -94,5 +94,7 @@ struct TrainedModel
   PointCloud edgesOfView(int view) const;
   /// Side of the cubes of which one edge point makes pairs, mm; 0: all do.
   double votingLeaf() const;
+  /// Of the part's surface for which one verification point stands, mm^2, on average.
+  double verificationArea() const;
 };
 }

@@ -27,6 +27,9 @@ struct Pose
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm
   double score = 0.0;       ///< [0, 1], share of what should be visible that is there; 0 until the pose is verified
   double probability = 0.0; ///< [0, 1], that the pose is right; 0 until it is verified
+  /// Logarithm of the odds that the pose is right, by all that was measured of it: what poses of one scene are ordered
+  /// by.
+  double evidence = 0.0;
   /// [0, 1], how sure it is that the part is not turned by one of its near-symmetries: low when what breaks them is
   /// not in sight.
   double certainty = 1.0;
@@ -60,8 +63,8 @@ Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
 /// The probability, or the score where none is known, [0, 1]: what poses of different scenes are compared by.
 inline double probabilityOrScore(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
 
-/// What poses of one scene are ordered by, [0, 1]: likely ones that nothing hides come first, for they can be grasped.
-inline double rankingValue(const Pose& pose) { return probabilityOrScore(pose) * std::sqrt(pose.visibleFraction); }
+/// Whether `a` comes before `b` among the poses of one scene.
+inline bool isBetter(const Pose& a, const Pose& b) { return a.evidence > b.evidence; }
 
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);

@@ -377,6 +377,41 @@ void DepthMap::meansAt(const SoAPoints& points, int begin, int count, Seen& seen
   }
 }
 
+Eigen::Vector3f DepthMap::normalAt(const Eigen::Vector3f& point) const
+{
+  // The eight cells about one, in order: two that follow each other make a triangle with the one in the middle.
+  constexpr int right[] = { 1, 1, 0, -1, -1, -1, 0, 1, 1 }, down[] = { 0, 1, 1, 1, 0, -1, -1, -1, 0 };
+  const int place = this->placeOf(point).cell;
+  if (place < 0 || !(this->Cells[place].nearest < NothingSeen))
+  {
+    return Eigen::Vector3f::Zero();
+  }
+  const Cell& cell = this->Cells[place];
+  const float layer = static_cast<float>(LayerCells * this->CellSize);
+  const int row = place / this->Width, column = place % this->Width;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero(), last = Eigen::Vector3f::Zero();
+  bool isLastThere = false;
+  int beside_ = 0;
+  for (int k = 0; k < 9; ++k)
+  {
+    const int v = row + down[k], u = column + right[k];
+    const Cell* const beside = v >= 0 && v < this->Height && u >= 0 && u < this->Width
+                                 ? &this->Cells[static_cast<std::size_t>(v) * this->Width + u]
+                                 : nullptr;
+    const bool isThere = beside && !beside->isGap && std::abs(beside->nearest - cell.nearest) <= layer;
+    beside_ += isThere && k < 8;
+    const Eigen::Vector3f edge = isThere ? Eigen::Vector3f(beside->mean - cell.mean) : Eigen::Vector3f::Zero();
+    if (isThere && isLastThere)
+    {
+      sum += edge.cross(last);
+    }
+    last = edge;
+    isLastThere = isThere;
+  }
+  const float length = sum.norm();
+  return beside_ >= 4 && length > 0.0f ? Eigen::Vector3f(sum / length) : Eigen::Vector3f::Zero();
+}
+
 Points DepthMap::fillRows(const Points& surface, const std::vector<Run>& runs, float layer, int firstRow, int lastRow)
 {
   const Projection projection{ this->Axes, this->Eye, this->IsPerspective };
@@ -504,5 +539,6 @@ void DepthMap::fillGap(int row, int column, const std::uint8_t* seen, std::size_
     }
   }
   cell.weight = std::min(1.0f, weights);
+  cell.isGap = true;
 }
 }

@@ -37,7 +37,25 @@ public:
     return relationTo(place.cell < 0 ? nothing() : this->Cells[place.cell], place.depth, tolerance);
   }
 
-  /// The same of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
+  /// The same by what was measured at that very place: with the mean depth of the nearest layer, and without what gaps
+  /// of one cell are taken for.
+  Relation relationToMean(const Eigen::Vector3f& point, float tolerance) const
+  {
+    const Place place = this->placeOf(point);
+    const Cell& cell = this->Cells[place.cell < 0 ? this->Cells.size() - 1 : place.cell];
+    if (!(cell.nearest < NothingSeen) || cell.isGap)
+    {
+      return Relation::NoSurface;
+    }
+    const float behind = place.depth - this->Axes.row(2).dot(cell.mean - this->Eye);
+    return std::abs(behind) <= tolerance ? Relation::OnSurface : behind > 0.0f ? Relation::Hidden : Relation::InFront;
+  }
+
+  /// Unit normal, towards the sensor, of the nearest layer at the line of sight through a point; zero where the sensor
+  /// saw too little about it.
+  Eigen::Vector3f normalAt(const Eigen::Vector3f& point) const;
+
+  /// The relation of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
   void relations(const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, float tolerance,
     Relation* relations) const;
 
@@ -64,6 +82,7 @@ private:
     float farthest;
     Eigen::Vector3f mean;
     float weight; ///< of the mean: [0, 1], less where all its points lie at the cell's border
+    bool isGap;   ///< nothing was measured in it, but beside it
   };
   static Relation relationTo(const Cell& cell, float depth, float tolerance)
   {
@@ -126,7 +145,7 @@ private:
   static Cell nothing()
   {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    return { infinity, -infinity, Eigen::Vector3f::Zero(), 0.0f };
+    return { infinity, -infinity, Eigen::Vector3f::Zero(), 0.0f, false };
   }
 
   bool IsPerspective;

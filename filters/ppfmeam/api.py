@@ -79,7 +79,7 @@ def load(path):
 
 
 def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
-           probability=0.0, image_edges=True, depth_edges=False, creases=False, references=0.0, preset="recommended", seed=1,
+           probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended", seed=1,
            threads=0):
     """Finds the copies of a part in a scan.
 
@@ -91,7 +91,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
     poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1.
-    image_edges, depth_edges, creases: where edges are looked for. references: the share of edge points that vote, 0: the
+    image_edges, depth_edges, creases: where edges are looked for, the last two not with preset paper. references: the share of edge points that vote, 0: the
     preset's. preset: recommended or paper. threads: 0 for all cores.
     """
     estimation = filters.vtkMEAMPoseEstimation()

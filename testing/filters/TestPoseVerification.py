@@ -56,7 +56,8 @@ for method in (0, 1):
         transforms, scores = tuples(best, "Transform"), [s for s, in tuples(best, "Score")]
         check(pose_error(transforms[0], scene.transform)[0] < 1.0, f"method {method}: the best is {transforms[0]}")
         check(pose_error(transforms[0], scene.transform)[1] < 1.0, f"method {method}: the best is {transforms[0]}")
-        check(scores == sorted(scores, reverse=True), "best first")
+        evidence = [e for e, in tuples(best, "Evidence")]
+        check(evidence == sorted(evidence, reverse=True) and evidence[0] > evidence[-1], "best first")
         check(scores[0] > 0.85 and scores[0] <= 1.0, f"method {method}: the true pose has a score of {scores[0]}")
         check(scores[-1] < 0.5 * scores[0], f"method {method}: the worst pose has a score of {scores[-1]}")
         check(best.GetNumberOfPoints() == 4, "every pose is scored")
@@ -77,21 +78,19 @@ def score(*args, **properties):
     return of_truth("Score", *args, **properties)
 
 
-# The score is the mean of what counts.
-by = [score(scene.surface, EvidenceWeights=weights) for weights in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0.3, 0.2))]
-check(abs(by[3] - (0.5 * by[0] + 0.3 * by[1] + 0.2 * by[2])) < 1e-9, f"scores of kinds of evidence: {by}")
-
 # On one side the sensor saw past the part: that speaks against the pose, where nothing was measured says nothing.
 side = [x > sum(x for x, *_ in points(scene.surface)) / scene.surface.GetNumberOfPoints() for x, *_ in points(scene.surface)]
 past = cloud([[c + 40 * d * beyond for c, d in zip(p, scene.looking)] for p, beyond in zip(points(scene.surface), side)])
 gone = cloud([p for p, beyond in zip(points(scene.surface), side) if not beyond])
 
 
-check(score(past, EvidenceWeights=(0, 1, 0)) < 0.8 * by[1], "the surface counts")
 check(score(past) < score(scene.surface) - 0.1, f"the sensor saw past half of the part: {score(past)}")
-check(score(past, FreeSpace=False) > score(past) + 0.1, f"that says nothing: {score(past, FreeSpace=False)}")
-check(score(gone) > score(past) + 0.1, f"half of the part was not measured: {score(gone)}")
-check(score(gone) > 0.95 * score(scene.surface), f"that says nothing: {score(gone)}")
+evidence = {name: of_truth("Evidence", surface) for name, surface in (("all", scene.surface), ("past", past), ("gone", gone))}
+check(abs(of_truth("Evidence", past, FreeSpace=False) - evidence["gone"]) < 0.3, "what the sensor saw past says nothing")
+check(evidence["past"] < evidence["gone"] - 2, f"half of the part was not measured: {evidence}")
+check(evidence["gone"] < evidence["all"] - 1, f"less speaks for it: {evidence}")
+for one, name in ((scene.surface, "all"), (past, "past")):
+    check(abs(of_truth("Probability", one) - 1 / (1 + math.exp(-evidence[name]))) < 1e-12, f"probability of {name}")
 check(visible(gone) > 0.9, "what was not measured is not hidden")
 
 views = [view for view, in tuples(run(verification(candidates)), "ViewId")]
@@ -142,8 +141,6 @@ check(is_rotation(tuples(rounded, "Transform")[0]), "the rotation of few decimal
 fails(verification(poses(tuple(2 * c for c in scene.transform))), "pose 0", "rotation")
 fails(verification(poses(shifted(math.nan))), "pose 0")
 fails(verification(cloud([(0, 0, 0)])), "Transform")
-for weights in ((0, 0, 0), (1, -1, 1), (math.nan, 1, 1)):
-    fails(verification(candidates, EvidenceWeights=weights), "weights of edges, surface")
 fails(verification(candidates, edges=vtkPolyData()), "no points")
 fails(verification(candidates, edges=scene.edges), "Tangent", "TangentEstimation")
 fails(verification(candidates, cloud([(math.nan, 0, 0)] * 4)), "surface", "NaN")
@@ -159,5 +156,5 @@ fails(connect(vtkMEAMPoseVerification(), candidates, model), "port 2")
 filter = vtkMEAMPoseVerification()
 filter.SetParametersToPaper()
 check((filter.GetMethod(), filter.GetTolerance(), filter.GetPosesPerView()) == (0, 1.0, 5), "the paper's parameters")
-prints(filter, "Method", "Tolerance", "EvidenceWeights", "FreeSpace", "PointStride", "MinimumScore", "PosesPerView", "Projection",
+prints(filter, "Method", "Tolerance", "FreeSpace", "PointStride", "MinimumScore", "PosesPerView", "Projection",
        "ViewDirection", "SensorPosition", "NumberOfThreads")

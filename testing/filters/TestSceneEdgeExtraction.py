@@ -127,7 +127,7 @@ for threads in (1, 3):
     check(points(run(edges_of(scan(step), NumberOfThreads=threads))) == points(edges), f"{threads} threads")
 
 fails(vtkMEAMSceneEdgeExtraction())
-fails(edges_of(scan(step), ImageEdges=False), "No edges")
+fails(edges_of(scan(step), ImageEdges=False, DepthEdges=False, Creases=False), "No edges")
 fails(edges_of(vtkStructuredGrid()), "no points")
 fails(edges_of(scan(step, lambda x, y: math.nan)), "NaN")
 fails(edges_of(scan()), "no image", "Intensity")

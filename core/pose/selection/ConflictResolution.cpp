@@ -161,8 +161,8 @@ std::vector<PartPose> resolveConflicts(
       kept.push_back(&claim);
     }
   }
-  std::stable_sort(kept.begin(), kept.end(),
-    [](const Claim* a, const Claim* b) { return rankingValue(a->pose.pose) > rankingValue(b->pose.pose); });
+  std::stable_sort(
+    kept.begin(), kept.end(), [](const Claim* a, const Claim* b) { return isBetter(a->pose.pose, b->pose.pose); });
   if (settings.maximumPoses > 0 && kept.size() > static_cast<std::size_t>(settings.maximumPoses))
   {
     kept.resize(settings.maximumPoses);

@@ -177,7 +177,11 @@ void PoseClusters::choose(int k, const std::vector<int>& before, std::vector<cha
     const bool isBest =
       this->Comparison &&
       std::all_of(alternatives.begin(), alternatives.end(),
-        [&](int other) { return this->Comparison->advantage(this->contender(k), this->contender(other)) > 0.0; });
+        [&](int other)
+        {
+          return this->InPoses[k].evidence > this->InPoses[other].evidence - this->Settings.equalEvidence &&
+                 this->Comparison->advantage(this->contender(k), this->contender(other)) > 0.0;
+        });
     if (!isBest)
     {
       return;

@@ -17,11 +17,12 @@ class InstanceFinish
 {
 public:
   InstanceFinish(const Scene& scene, const TrainedModel& model, const PoseSelectionSettings& settings,
-    const EvidenceCollector& collector, const PoseComparison& comparison)
+    const EvidenceCollector& collector, const EdgeRates& rates, const PoseComparison& comparison)
     : InScene(scene)
     , Model(model)
     , Settings(settings)
     , Collector(collector)
+    , Rates(rates)
     , Comparison(comparison)
     , Search(scene, model, settings.rotation)
     , Rotated(settings.rotated)
@@ -39,7 +40,7 @@ public:
     }
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
     const PoseEvidence evidence = this->Collector.collect(pose.T_scene_model);
-    scoreByEvidence(pose, evidence, this->Settings.evidence, this->InScene, this->Model);
+    scoreByEvidence(pose, evidence, this->Rates, this->Settings.evidence, this->InScene, this->Model);
   }
 
 private:
@@ -88,10 +89,64 @@ private:
   const TrainedModel& Model;
   const PoseSelectionSettings& Settings;
   const EvidenceCollector& Collector;
+  EdgeRates Rates;
   const PoseComparison& Comparison;
   RotationSearch Search;
   PoseRefinementSettings Rotated;
 };
+
+/// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
+/// come to the same place, and what others explain speaks for no more.
+Poses withoutShared(const Poses& poses, const EvidenceCollector& collector, const TrainedModel& model,
+  const PoseClustersSettings& settings, int threads)
+{
+  const double near = settings.sharedDistance * model.diameter;
+  const double distance = settings.distanceFor(model.diameter);
+  std::vector<Points> matched(poses.size());
+  parallelFor(static_cast<int>(poses.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int k = begin; k < end; ++k)
+      {
+        matched[k] = collector.collect(poses[k].T_scene_model).matched();
+      }
+    });
+  struct Kept
+  {
+    Eigen::Vector3d middle;
+    PointGrid matched;
+  };
+  std::vector<Kept> kept;
+  Poses distinct;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    const Eigen::Vector3d middle = poses[k].T_scene_model * model.visibility->middle().cast<double>();
+    bool isTaken = false;
+    std::vector<const PointGrid*> beside;
+    for (const Kept& other : kept)
+    {
+      const double apart = (middle - other.middle).norm();
+      isTaken |= apart < distance;
+      if (apart < model.diameter)
+      {
+        beside.push_back(&other.matched);
+      }
+    }
+    const auto isClaimed = [&](const Eigen::Vector3f& point)
+    {
+      return std::any_of(
+        beside.begin(), beside.end(), [&](const PointGrid* claimed) { return claimed->nearest(point, near) >= 0; });
+    };
+    isTaken |= std::count_if(matched[k].begin(), matched[k].end(), isClaimed) >
+               settings.shared * static_cast<double>(matched[k].size());
+    if (!isTaken)
+    {
+      kept.push_back({ middle, PointGrid(matched[k], near) });
+      distinct.push_back(poses[k]);
+    }
+  }
+  return distinct;
+}
 
 /// One for each instance, with its final pose; best first.
 Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedModel& model,
@@ -103,7 +158,8 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   exact.near.clear();
   PoseClusters clusters(scored, exact, model, &collector, &comparison, clustering, settings.threads);
   const std::vector<int> selected = clusters.select(subProgress(progress, 0.0, 0.3));
-  const InstanceFinish instance(scene, model, settings, collector, comparison);
+  const EdgeRates rates = edgeRatesOf(scored, collector, settings.evidence, settings.rateStride, settings.threads);
+  const InstanceFinish instance(scene, model, settings, collector, rates, comparison);
   Poses finished(selected.size());
   parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),
     [&](int begin, int end, int)
@@ -114,22 +170,8 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
         instance.finish(finished[k], clusters, selected[k]);
       }
     });
-  std::stable_sort(
-    finished.begin(), finished.end(), [](const Pose& a, const Pose& b) { return rankingValue(a) > rankingValue(b); });
-  // Poses that were aligned may have come to the same place.
-  const double distance = clustering.distanceFor(model.diameter);
-  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
-  Poses distinct;
-  for (const Pose& pose : finished)
-  {
-    const bool isKnown = std::any_of(distinct.begin(), distinct.end(),
-      [&](const Pose& other) { return translationError(pose.T_scene_model, other.T_scene_model, middle) < distance; });
-    if (!isKnown)
-    {
-      distinct.push_back(pose);
-    }
-  }
-  return distinct;
+  std::stable_sort(finished.begin(), finished.end(), isBetter);
+  return withoutShared(finished, collector, model, clustering, settings.threads);
 }
 
 /// The first of each cluster, up to the symmetries.
@@ -144,13 +186,17 @@ Poses selectClusters(const Poses& scored, const TrainedModel& model, const PoseS
   }
   PoseClusters clusters(scored, same, model, nullptr, nullptr, clustering, settings.threads);
   Poses selected;
-  const double least = isForRefinement && !scored.empty() ? settings.leastRanking * rankingValue(scored.front()) : 0.0;
+  const double least = isForRefinement && !scored.empty() ? settings.leastScore * scored.front().score : 0.0;
   for (const int i : clusters.select(progress))
   {
-    if (rankingValue(scored[i]) >= least)
+    if (scored[i].score >= least)
     {
       selected.push_back(scored[i]);
     }
+  }
+  if (isForRefinement && settings.mostRefined > 0 && selected.size() > static_cast<std::size_t>(settings.mostRefined))
+  {
+    selected.resize(settings.mostRefined);
   }
   return selected;
 }

@@ -4,7 +4,9 @@
 #include "base/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numeric>
 
 namespace meam
 {
@@ -14,43 +16,57 @@ int count(const std::vector<PointState>& states, PointState state)
 {
   return static_cast<int>(std::count(states.begin(), states.end(), state));
 }
-
-/// matched / (matched + violated), 0 when there is neither.
-double share(const std::vector<PointState>& states)
-{
-  const int matched = count(states, PointState::Matched);
-  const int violated = count(states, PointState::Violated);
-  return matched > 0 ? static_cast<double>(matched) / (matched + violated) : 0.0;
-}
 }
 
-void requireWeights(const EvidenceSettings& settings)
+double EvidenceCounts::ofSurface(const EvidenceWeights& weights) const
 {
-  const Eigen::Array3d weights(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight);
-  if (!(weights.allFinite() && weights.minCoeff() >= 0.0 && weights.sum() > 0.0))
+  return weights.there * this->there + weights.unclear * this->unclear + weights.turned * this->turned +
+         weights.past * this->past + weights.hidden * this->hidden + weights.unmeasured * this->unmeasured;
+}
+
+double EvidenceCounts::sum(const EvidenceWeights& weights, const EdgeRates& rates) const
+{
+  const double edges = this->edgesFound * std::log(rates.found / rates.chance) +
+                       this->edgesMissing * std::log((1.0 - rates.found) / (1.0 - rates.chance));
+  return this->ofSurface(weights) + weights.goesOn * this->goesOn + weights.edge * edges;
+}
+
+EdgeRates edgeRates(
+  const std::vector<EvidenceCounts>& candidates, const EvidenceWeights& weights, const EdgeRatesSettings& settings)
+{
+  std::vector<int> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<double> ofSurface;
+  for (const EvidenceCounts& counts : candidates)
   {
-    throw Error(
-      "The weights of edges, surface and explained scene edges must be 0 or more, and one of them more than 0.");
+    ofSurface.push_back(counts.ofSurface(weights));
   }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return ofSurface[a] > ofSurface[b]; });
+  const auto rate = [&](std::size_t best, double usual)
+  {
+    double found = settings.usualPoints * usual, all = settings.usualPoints;
+    for (std::size_t k = 0; k < best; ++k)
+    {
+      const EvidenceCounts& counts = candidates[order[k]];
+      found += counts.edgesFound;
+      all += counts.edgesFound + counts.edgesMissing;
+    }
+    return found / all;
+  };
+  const double gain = settings.leastGain;
+  EdgeRates rates;
+  rates.chance = std::min(rate(candidates.size(), settings.usual.chance), 1.0 - 2.0 * gain);
+  rates.found =
+    rate(static_cast<std::size_t>(std::ceil(settings.supportedShare * candidates.size())), settings.usual.found);
+  rates.found = std::clamp(rates.found, rates.chance + gain, 1.0 - gain);
+  return rates;
 }
 
-double PoseEvidence::score(const EvidenceSettings& settings) const
+double PoseEvidence::score() const
 {
-  const int near = this->explained + this->unexplained;
-  const double clean = near > 0 ? static_cast<double>(this->explained) / near : 0.0;
-  if (this->surface.empty())
-  {
-    return share(this->edgeStates);
-  }
-  // The surface has a say as far as it was measured: one point that fits in a gap of the scan is no whole surface.
-  const int unknown = count(this->surfaceStates, PointState::Unknown);
-  const int inSight = static_cast<int>(this->surfaceStates.size()) - count(this->surfaceStates, PointState::Hidden);
-  const double measured = unknown > 0 ? 1.0 - static_cast<double>(unknown) / inSight : 1.0;
-  const double surfaceWeight = settings.surfaceWeight * measured;
-  const double sum = settings.edgeWeight + surfaceWeight + settings.explainedWeight;
-  const double there = settings.edgeWeight * share(this->edgeStates) + surfaceWeight * share(this->surfaceStates) +
-                       settings.explainedWeight * clean;
-  return sum > 0.0 ? there / sum : 0.0;
+  const auto& states = this->surface.empty() ? this->edgeStates : this->surfaceStates;
+  const int inSight = static_cast<int>(states.size()) - count(states, PointState::Hidden);
+  return inSight > 0 ? static_cast<double>(count(states, PointState::Matched)) / inSight : 0.0;
 }
 
 double PoseEvidence::visibleFraction() const
@@ -82,7 +98,6 @@ EvidenceCollector::EvidenceCollector(const Scene& scene, const TrainedModel& mod
   , Tolerance(
       static_cast<float>(settings.tolerance > 0.0 ? settings.tolerance : settings.lengths.fits * model.diameter))
 {
-  requireWeights(settings);
 }
 
 bool EvidenceCollector::nearEdge(const Eigen::Vector3f& point) const
@@ -108,6 +123,8 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     const PointState state = matched                                                          ? PointState::Matched
                              : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
                                                                                               : PointState::Violated;
+    evidence.counts.edgesFound += matched ? stride : 0.0;
+    evidence.counts.edgesMissing += state == PointState::Violated ? stride : 0.0;
     evidence.edges.push_back(point);
     evidence.edgeStates.push_back(state);
   }
@@ -115,50 +132,64 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   {
     return evidence;
   }
-  SoAPoints surface;
-  surface.resize((visible->surface.size() + stride - 1) / stride);
-  evidence.surface.reserve(surface.size());
-  evidence.surfaceStates.reserve(surface.size());
-  for (std::size_t k = 0; k < surface.size(); ++k)
+  const EvidenceSettings& settings = this->Settings;
+  const auto stateOf = [&](DepthMap::Relation relation)
   {
-    const Eigen::Vector3f& point = model.surface.points[visible->surface[k * stride]];
-    surface.set(k, point);
-    evidence.surface.push_back(T * point);
-  }
-  std::vector<DepthMap::Relation> relations(surface.size());
-  depth.relations(T, surface, 0, static_cast<int>(surface.size()), tolerance, relations.data());
-  std::transform(relations.begin(), relations.end(), std::back_inserter(evidence.surfaceStates),
-    [this](DepthMap::Relation relation)
-    {
-      return relation == DepthMap::Relation::OnSurface                                ? PointState::Matched
-             : relation == DepthMap::Relation::Hidden                                 ? PointState::Hidden
-             : relation == DepthMap::Relation::NoSurface || !this->Settings.freeSpace ? PointState::Unknown
-                                                                                      : PointState::Violated;
-    });
-  // Scene edges on the part's surface: those that no edge of the part explains speak against the pose.
-  const Eigen::Isometry3f toModel = T.inverse();
-  const PointGrid& sceneEdges = this->InScene.edgeGrid();
+    return relation == DepthMap::Relation::OnSurface                          ? PointState::Matched
+           : relation == DepthMap::Relation::Hidden                           ? PointState::Hidden
+           : relation == DepthMap::Relation::NoSurface || !settings.freeSpace ? PointState::Unknown
+                                                                              : PointState::Violated;
+  };
+  EvidenceCounts& counts = evidence.counts;
+  const double patch = settings.weights.patch * model.diameter;
+  const double area = stride * model.verificationArea() / (patch * patch);
   const Eigen::Vector3f middle = T * model.surfaceDistance.middle();
-  const float radius = model.surfaceDistance.radius();
-  // Distances beyond the truncation are not told.
-  const float truncation = static_cast<float>(TrainedModel::TruncationDistance * model.diameter);
-  const float onSurface = std::min(static_cast<float>(this->Settings.onSurface) * tolerance, truncation);
-  const float onEdge = std::min(tolerance, truncation);
-  sceneEdges.forEachBlock(middle, radius,
-    [&](int begin, int count)
+  const Eigen::Vector3f towards = this->InScene.sensor.towards(middle.cast<double>()).cast<float>();
+  const float flattest = static_cast<float>(settings.flattest), facing = static_cast<float>(settings.facing);
+  const std::size_t size = (visible->surface.size() + stride - 1) / stride;
+  evidence.surface.reserve(size);
+  evidence.surfaceStates.reserve(size);
+  for (std::size_t k = 0; k < visible->surface.size(); k += stride)
+  {
+    const int i = visible->surface[k];
+    const Eigen::Vector3f point = T * model.surface.points[i];
+    const Eigen::Vector3f normal = T.linear() * model.surface.normals[i];
+    const float cosine = normal.dot(towards);
+    // At the outline sensors mix what is before and behind.
+    const double seen = visible->isInner[k] ? area * std::max(cosine, 0.0f) : 0.0;
+    PointState state = PointState::Violated;
+    switch (depth.relationToMean(point, tolerance / std::max(cosine, flattest)))
     {
-      float fromSurface[SoABlock], fromEdges[SoABlock];
-      model.surfaceDistance.at(toModel, sceneEdges.sorted(), begin, count, fromSurface);
-      model.edgeDistance.at(toModel, sceneEdges.sorted(), begin, count, fromEdges);
-      for (int k = 0; k < count; ++k)
+      case DepthMap::Relation::OnSurface:
       {
-        // Blocks reach beyond the ball about the part.
-        if (fromSurface[k] < onSurface && (sceneEdges.sorted()[begin + k] - middle).norm() <= radius)
-        {
-          ++(fromEdges[k] < onEdge ? evidence.explained : evidence.unexplained);
-        }
+        const Eigen::Vector3f measured = depth.normalAt(point);
+        const bool isTurned = !measured.isZero() && measured.dot(normal) < facing;
+        (isTurned ? counts.turned : measured.isZero() ? counts.unclear : counts.there) += seen;
+        state = isTurned ? PointState::Turned : PointState::Matched;
+        break;
       }
-    });
+      case DepthMap::Relation::Hidden:
+        counts.hidden += seen;
+        state = PointState::Hidden;
+        break;
+      case DepthMap::Relation::NoSurface:
+        state = stateOf(depth.relation(point, tolerance)); // what is beside a gap of one cell
+        counts.unmeasured += state == PointState::Unknown ? seen : 0.0;
+        break;
+      case DepthMap::Relation::InFront:
+        (settings.freeSpace ? counts.past : counts.unmeasured) += seen;
+        state = stateOf(DepthMap::Relation::InFront);
+        break;
+    }
+    evidence.surface.push_back(point);
+    evidence.surfaceStates.push_back(state);
+  }
+  const float beside = static_cast<float>(settings.outlineTolerance) * tolerance;
+  for (std::size_t k = 0; k < visible->outside.size(); k += stride)
+  {
+    const bool goesOn = depth.relationToMean(T * visible->outside[k], beside) == DepthMap::Relation::OnSurface;
+    counts.goesOn += goesOn ? stride * model.visibility->cellSize() / patch : 0.0;
+  }
   return evidence;
 }
 }

@@ -4,7 +4,7 @@
 #include "base/Parallel.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 namespace meam
 {
@@ -18,6 +18,7 @@ void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollecto
     std::count_if(viewEdges.begin(), viewEdges.end(), [&](const auto& point) { return collector.nearEdge(T * point); });
   pose.score = viewEdges.empty() ? 0.0 : static_cast<double>(fitted) / viewEdges.size();
   pose.probability = pose.score;
+  pose.evidence = std::log(pose.score / (1.0 - pose.score)); // infinite when all or nothing fits
   pose.visibleFraction = pose.score;
 }
 }
@@ -37,15 +38,31 @@ int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model)
   return isNamed ? pose.viewId : model.visibility->view(pose.T_scene_model, scene.sensor);
 }
 
-void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceSettings& settings, const Scene& scene,
-  const TrainedModel& model)
+void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EdgeRates& rates, const EvidenceSettings& settings,
+  const Scene& scene, const TrainedModel& model)
 {
   pose.viewId = model.visibility->view(pose.T_scene_model, scene.sensor);
   pose.visibleFraction = evidence.visibleFraction();
-  pose.score = evidence.score(settings);
+  pose.score = evidence.score();
   const ProbabilityCalibration& calibration = settings.calibration;
-  pose.probability = (haveSurfaces(scene, model) ? calibration.withSurface : calibration.edgesAlone)
-                       .probability(pose.score, pose.certainty);
+  pose.evidence = (haveSurfaces(scene, model) ? calibration.withSurface : calibration.edgesAlone)
+                    .logOdds(evidence.counts.sum(settings.weights, rates), pose.certainty);
+  pose.probability = probabilityOf(pose.evidence);
+}
+
+EdgeRates edgeRatesOf(const Poses& candidates, const EvidenceCollector& collector, const EvidenceSettings& settings,
+  std::size_t stride, int threads)
+{
+  std::vector<EvidenceCounts> counts(candidates.size());
+  parallelFor(static_cast<int>(candidates.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        counts[i] = collector.collect(candidates[i].T_scene_model, stride).counts;
+      }
+    });
+  return edgeRates(counts, settings.weights);
 }
 
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
@@ -63,6 +80,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     viewEdges.push_back(model.edgesOfView(static_cast<int>(v)).points);
   }
   Poses scored = poses;
+  std::vector<PoseEvidence> evidence(byEvidence ? poses.size() : 0);
   parallelFor(static_cast<int>(scored.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
@@ -70,8 +88,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
       {
         if (byEvidence)
         {
-          const PoseEvidence evidence = collector.collect(scored[i].T_scene_model, settings.pointStride);
-          scoreByEvidence(scored[i], evidence, settings.evidence, scene, model);
+          evidence[i] = collector.collect(scored[i].T_scene_model, settings.pointStride);
         }
         else
         {
@@ -80,8 +97,20 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
         }
       }
     });
-  std::stable_sort(
-    scored.begin(), scored.end(), [](const Pose& a, const Pose& b) { return rankingValue(a) > rankingValue(b); });
+  if (byEvidence)
+  {
+    std::vector<EvidenceCounts> counts;
+    for (const PoseEvidence& ofOne : evidence)
+    {
+      counts.push_back(ofOne.counts);
+    }
+    const EdgeRates rates = edgeRates(counts, settings.evidence.weights);
+    for (std::size_t i = 0; i < scored.size(); ++i)
+    {
+      scoreByEvidence(scored[i], evidence[i], rates, settings.evidence, scene, model);
+    }
+  }
+  std::stable_sort(scored.begin(), scored.end(), isBetter);
   std::vector<int> ofView(TrainedModel::MaximumViews, 0);
   Poses kept;
   for (const Pose& pose : scored)

@@ -34,7 +34,12 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
 /// The appearance model of a pose: its own, when it names one, otherwise the nearest to the sensor.
 int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);
 
-/// Sets what the evidence says of a pose: score, probability (by its certainty, too), visible fraction and view.
-void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceSettings& settings, const Scene& scene,
-  const TrainedModel& model);
+/// Sets what the evidence says of a pose: score, evidence and probability (by its certainty, too), visible fraction and
+/// view.
+void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EdgeRates& rates, const EvidenceSettings& settings,
+  const Scene& scene, const TrainedModel& model);
+
+/// The rates of a scene by candidates of a part, every `stride`-th point of each.
+EdgeRates edgeRatesOf(const Poses& candidates, const EvidenceCollector& collector, const EvidenceSettings& settings,
+  std::size_t stride, int threads);
 }

@@ -5,8 +5,10 @@
 
 namespace meam
 {
-double LogisticRegression::probability(double poseScore, double poseCertainty) const
+double LogisticRegression::logOdds(double sum, double poseCertainty) const
 {
-  return 1.0 / (1.0 + std::exp(-this->constant - this->score * poseScore) * std::pow(poseCertainty, -this->certainty));
+  return this->constant + this->counted * sum + this->certainty * std::log(poseCertainty);
 }
+
+double probabilityOf(double logOdds) { return 1.0 / (1.0 + std::exp(-logOdds)); }
 }

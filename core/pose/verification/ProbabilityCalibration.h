@@ -3,23 +3,26 @@
 
 namespace meam
 {
-/// Logistic regression of whether a pose is right on its score and certainty.
+/// Logistic regression of whether a pose is right on what was counted for it and its certainty.
 struct LogisticRegression
 {
   double constant;
-  double score;
+  double counted;   ///< of EvidenceCounts::sum
   double certainty; ///< of its logarithm
 
-  /// That a pose is right, [0, 1].
-  double probability(double poseScore, double poseCertainty) const;
+  /// Logarithm of the odds that a pose is right.
+  double logOdds(double sum, double poseCertainty) const;
 };
 
-/// What turns scores into probabilities. Fitted by examples/calibration.py, with the default weights of evidence, on
-/// all poses that come out of the Tohoku dataset: scenes 0 to 19 of parts 1 to 3, exact boundaries, without noise and
-/// with 0.5 mm. Probabilities of these scenes are those of the data they were fitted on.
+/// What turns counts into probabilities, with the default weights of evidence. `withSurface` was fitted on what comes
+/// out of simulated bins of this project's own parts, by two sensors; `edgesAlone` on the Tohoku dataset without its
+/// surface. How it holds for other parts and sensors: docs/evaluation.md.
 struct ProbabilityCalibration
 {
-  LogisticRegression withSurface{ -18.9, 26.4, 5.8 };
-  LogisticRegression edgesAlone{ -4.1, 15.0, 1.7 }; ///< on the same scenes without their surface
+  LogisticRegression withSurface{ -0.16, 0.225, 5.4 };
+  LogisticRegression edgesAlone{ 2.9, 0.08, 1.0 }; ///< of scenes without a surface
 };
+
+/// [0, 1], from the logarithm of odds.
+double probabilityOf(double logOdds);
 }

@@ -165,6 +165,7 @@ Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const
   {
     throw Error("At least one peak of each reference point is needed.");
   }
+  const int least = sceneEdges.fromScan ? settings.leastScanReferences : settings.leastReferences;
   const double angleStep = model.settings.angleStep * M_PI / 180.0;
   for (Eigen::Vector3f& tangent : edges.tangents)
   {
@@ -174,7 +175,7 @@ Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const
   std::vector<int> references;
   PointCloud referred;
   inParallel(settings.threads,
-    { [&] { references = chooseShare(edges.points, referenceShare, settings.leastReferences, cell, settings.seed); },
+    { [&] { references = chooseShare(edges.points, referenceShare, least, cell, settings.seed); },
       [&]
       {
         referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));

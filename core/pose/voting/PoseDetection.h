@@ -15,8 +15,9 @@ struct PoseDetectionSettings
   double boundaryReferenceShare = 0.03; ///< P_ref of an exact boundary
   /// P_ref of edges found in a scan, by its image or its depth: many are not the part's, and some are displaced, so
   /// fewer references lead to a candidate (docs/evaluation.md).
-  double scanReferenceShare = 0.1;
-  int leastReferences = 100; ///< that a few copies are found by in a small scene
+  double scanReferenceShare = 0.2;
+  int leastReferences = 100;      ///< that a few copies are found by in a small scene
+  int leastScanReferences = 2000; ///< the same of edges found in a scan
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;

@@ -242,6 +242,13 @@ SceneEdges withTangents(const EdgePoints& found, const OrganizedCloud& cloud,
 }
 }
 
+SceneEdgeExtractionSettings sceneEdgeSettings(Preset preset)
+{
+  SceneEdgeExtractionSettings settings;
+  settings.depthEdges = settings.creases = settings.tangents = preset == Preset::Recommended;
+  return settings;
+}
+
 SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   const SceneEdgeExtractionSettings& settings, const Progress& progress)
 {

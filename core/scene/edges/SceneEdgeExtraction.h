@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "base/Error.h"
+#include "features/Preset.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
 #include "scene/edges/ImageEdges.h"
@@ -30,6 +31,10 @@ struct SceneEdgeExtractionSettings
   bool tangents = true;      ///< from the edge's direction and the local surface; points without it are left out
   int threads = 0;           ///< 0: one for each processor
 };
+
+/// What a preset looks for: Paper edges of the image, whose tangents are estimated later (Algorithm 1); Recommended
+/// those of the cloud as well: smooth parts on parts of the same color have hardly any in the image.
+SceneEdgeExtractionSettings sceneEdgeSettings(Preset preset);
 
 struct SceneEdges
 {

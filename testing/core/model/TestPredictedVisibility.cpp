@@ -136,6 +136,40 @@ TEST(PredictedVisibility, OfACubeTheSidesThatFaceTheSensorAreVisible)
   }
 }
 
+TEST(PredictedVisibility, TheOutlineOfACubeFromAboveIsASquare)
+{
+  const meam::TrainedModel model = cube();
+  meam::PredictedVisibilitySettings settings;
+  settings.cell = 0.06; // 2.1 mm
+  const meam::PredictedVisibility visibility(model, settings);
+  const auto visible = visibility.visible(Eigen::Isometry3d::Identity(), fromAbove());
+  const double cell = visibility.cellSize();
+  EXPECT_NEAR(cell, 0.06 * 20.0 * std::sqrt(3.0), 1e-9);
+  // Four sides of 20 mm, of cells that begin anywhere.
+  EXPECT_NEAR(visible->outside.size(), 4 * 20.0 / cell, 6.0);
+  for (const Eigen::Vector3f& point : visible->outside)
+  {
+    const float off = point.head<2>().cwiseAbs().maxCoeff() - 10.0f; // from the square
+    EXPECT_GT(off, 0.5 * cell);
+    EXPECT_LT(off, 2.5 * cell);
+    EXPECT_LT(point.head<2>().cwiseAbs().minCoeff(), 10.0 + cell);
+    EXPECT_NEAR(point.z(), 10.0f, 0.6f) << "at the depth of the upper side";
+  }
+  ASSERT_EQ(visible->isInner.size(), visible->surface.size());
+  for (std::size_t k = 0; k < visible->surface.size(); ++k)
+  {
+    const float inside = 10.0f - model.surface.points[visible->surface[k]].head<2>().cwiseAbs().maxCoeff();
+    if (inside < 0.4)
+    {
+      EXPECT_FALSE(visible->isInner[k]) << inside;
+    }
+    if (inside > 2.0 * cell)
+    {
+      EXPECT_TRUE(visible->isInner[k]) << inside;
+    }
+  }
+}
+
 TEST(PredictedVisibility, APoseFarAwayShowsTheSideThatFacesTheSensor)
 {
   const meam::TrainedModel model = cube();

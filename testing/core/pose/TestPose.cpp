@@ -104,14 +104,16 @@ TEST(Pose, AMotionTurnsACovariance)
   EXPECT_TRUE(meam::moved(pose, quarter).fit.covariance.diagonal().isApprox(expected, 1e-12));
 }
 
-TEST(Pose, LikelyOnesThatNothingHidesComeFirst)
+TEST(Pose, ThoseThatMoreSpeaksForComeFirst)
 {
-  meam::Pose pose;
+  meam::Pose pose, other;
   pose.score = 0.8;
-  pose.visibleFraction = 0.25;
   EXPECT_EQ(meam::probabilityOrScore(pose), 0.8) << "no probability is known";
-  EXPECT_DOUBLE_EQ(meam::rankingValue(pose), 0.4);
   pose.probability = 0.5;
   EXPECT_EQ(meam::probabilityOrScore(pose), 0.5);
-  EXPECT_DOUBLE_EQ(meam::rankingValue(pose), 0.25);
+  pose.evidence = -1.0;
+  other.evidence = -2.0;
+  EXPECT_TRUE(meam::isBetter(pose, other));
+  EXPECT_FALSE(meam::isBetter(other, pose));
+  EXPECT_FALSE(meam::isBetter(pose, pose));
 }

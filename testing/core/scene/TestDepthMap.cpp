@@ -59,6 +59,54 @@ TEST(DepthMap, TellsHowAPointLiesToTheSurface)
   EXPECT_EQ(map.relation({ NAN, 3, 0.0f }, 0.5f), Relation::NoSurface);
 }
 
+TEST(DepthMap, ByTheMeanOnlyWhatWasMeasuredAtThePlaceCounts)
+{
+  using Relation = meam::DepthMap::Relation;
+  meam::Points points;
+  for (int x = 0; x < 7; ++x)
+  {
+    for (int y = 0; y < 7; ++y)
+    {
+      if (x != 3 || y != 3) // a gap of one cell
+      {
+        points.push_back({ 2.0f * x, 2.0f * y, 0.0f });
+        points.push_back({ 2.0f * x + 0.1f, 2.0f * y, 1.0f });
+      }
+    }
+  }
+  const meam::DepthMap map(points, fromAbove(), 2.0);
+  EXPECT_EQ(map.relation({ 4, 4, 1.2f }, 0.3f), Relation::OnSurface) << "near the nearest point";
+  EXPECT_EQ(map.relationToMean({ 4, 4, 1.2f }, 0.3f), Relation::InFront);
+  EXPECT_EQ(map.relationToMean({ 4, 4, 0.6f }, 0.3f), Relation::OnSurface);
+  EXPECT_EQ(map.relationToMean({ 4, 4, 0.0f }, 0.3f), Relation::Hidden);
+  EXPECT_EQ(map.relation({ 6, 6, 0.8f }, 0.3f), Relation::OnSurface) << "filled";
+  EXPECT_EQ(map.relationToMean({ 6, 6, 0.5f }, 0.3f), Relation::NoSurface);
+  EXPECT_EQ(map.relationToMean({ 40, 6, 0.5f }, 0.3f), Relation::NoSurface);
+}
+
+TEST(DepthMap, TellsWhichWayTheSurfaceFaces)
+{
+  const Eigen::Vector3f normal = Eigen::Vector3f(1.0f, -2.0f, 4.0f).normalized();
+  meam::Points slope;
+  for (int x = 0; x < 40; ++x)
+  {
+    for (int y = 0; y < 40; ++y)
+    {
+      slope.push_back({ 0.5f * x, 0.5f * y, (2.0f * y - x) / 8.0f });
+    }
+  }
+  const meam::DepthMap map(slope, fromAbove(), 2.0);
+  EXPECT_TRUE(map.normalAt({ 10, 10, 0 }).isApprox(normal, 1e-3f)) << map.normalAt({ 10, 10, 0 }).transpose();
+  EXPECT_TRUE(map.normalAt({ 60, 10, 0 }).isZero()) << "nothing was seen";
+  // Beside a jump the near side alone counts; of a single spot nothing can be told.
+  meam::Points points = step();
+  const meam::DepthMap jump(points, fromAbove(), 1.0);
+  EXPECT_TRUE(jump.normalAt({ 8.0f, 10.0f, 8.0f }).isApprox(Eigen::Vector3f::UnitZ(), 1e-5f));
+  EXPECT_TRUE(jump.normalAt({ 7.0f, 10.0f, 0.0f }).isApprox(Eigen::Vector3f::UnitZ(), 1e-5f));
+  const meam::DepthMap spot({ { 5, 5, 0 } }, fromAbove(), 1.0);
+  EXPECT_TRUE(spot.normalAt({ 5, 5, 0 }).isZero());
+}
+
 TEST(DepthMap, MeansAreOfTheNearestLayer)
 {
   // Four points of one cell on a slope, two far below them.

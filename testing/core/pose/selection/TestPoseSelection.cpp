@@ -30,21 +30,22 @@ meam::Poses selected(const meam::Poses& poses, const meam::PoseSelectionSettings
   return scenes::select(scenes::verify(poses, in, model), in, model, settings);
 }
 
-/// Of an instance two, however much less likely the second is.
+/// Of an instance two.
 meam::PoseSelectionSettings alternatives()
 {
   meam::PoseSelectionSettings settings;
   settings.method = meam::SelectionMethod::Alternatives;
-  settings.leastRanking = 0.0;
+  settings.leastScore = 0.0;
   return settings;
 }
 
-/// A pose whose ranking value is that number.
+/// A pose that is so likely.
 meam::Pose ranked(double value, const Eigen::Isometry3d& T)
 {
   meam::Pose pose = displaced(T);
   pose.score = 1.0;
   pose.probability = value;
+  pose.evidence = std::log(value / (1.0 - value));
   pose.visibleFraction = 1.0;
   return pose;
 }
@@ -277,10 +278,10 @@ TEST(PoseSelection, TurnsOfANearlyRoundPartAreOneAlternative)
 TEST(PoseSelection, AlternativesThatAreNotWorthRefiningGo)
 {
   meam::PoseSelectionSettings settings = alternatives();
-  settings.leastRanking = 0.25;
+  settings.mostRefined = 3;
   const meam::Poses poses{ ranked(0.8, place(0)), ranked(0.5, place(1)), ranked(0.2, place(2)), ranked(0.1, place(3)) };
   const meam::Poses kept = scenes::select(poses, scene(), scenes::bracket(), settings);
-  ASSERT_EQ(kept.size(), 3u) << "a quarter of the best's ranking value is enough";
+  ASSERT_EQ(kept.size(), 3u) << "the best";
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
     EXPECT_EQ(kept[i].probability, poses[i].probability);

@@ -2,46 +2,98 @@
 #include "pose/verification/PoseEvidence.h"
 
 #include "TestScene.h"
-#include "base/Error.h"
 
 #include <gtest/gtest.h>
 
-#include <tuple>
+#include <cmath>
+#include <utility>
 
-TEST(PoseEvidence, TheScoreIsTheWeightedMeanOfWhatIsThere)
+TEST(PoseEvidence, TheScoreIsTheShareOfWhatNothingHidesThatIsThere)
 {
   using meam::PointState;
   meam::PoseEvidence evidence;
+  EXPECT_EQ(evidence.score(), 0.0);
   evidence.edges.resize(3);
-  evidence.edgeStates = { PointState::Matched, PointState::Violated, PointState::Hidden }; // 1 / 2
-  evidence.surface.resize(5);
-  evidence.surfaceStates = { PointState::Matched, PointState::Matched, PointState::Violated, PointState::Matched,
-    PointState::Unknown }; // 3 / 4, of 4 / 5
-  evidence.explained = 1;
-  evidence.unexplained = 3;
-  const auto score = [&](double edges, double surface, double explained)
+  evidence.edgeStates = { PointState::Matched, PointState::Violated, PointState::Hidden };
+  EXPECT_DOUBLE_EQ(evidence.score(), 0.5) << "edges alone";
+  evidence.surface.resize(6);
+  evidence.surfaceStates = { PointState::Matched, PointState::Matched, PointState::Violated, PointState::Turned,
+    PointState::Unknown, PointState::Hidden };
+  EXPECT_DOUBLE_EQ(evidence.score(), 0.4);
+  evidence.surfaceStates.assign(6, PointState::Hidden);
+  EXPECT_EQ(evidence.score(), 0.0);
+}
+
+TEST(PoseEvidence, CountsAddUpByTheirWeights)
+{
+  meam::EvidenceCounts counts;
+  counts.there = 10.0;
+  counts.unclear = 2.0;
+  counts.turned = 1.0;
+  counts.past = 0.5;
+  counts.hidden = 4.0;
+  counts.unmeasured = 7.0;
+  counts.goesOn = 3.0;
+  counts.edgesFound = 20.0;
+  counts.edgesMissing = 10.0;
+  meam::EvidenceWeights weights;
+  weights.there = 1.0;
+  weights.unclear = 0.5;
+  weights.turned = -1.0;
+  weights.past = -4.0;
+  weights.hidden = -0.25;
+  weights.unmeasured = 0.1;
+  weights.goesOn = -2.0;
+  weights.edge = 0.5;
+  EXPECT_NEAR(counts.ofSurface(weights), 10.0 + 1.0 - 1.0 - 2.0 - 1.0 + 0.7, 1e-12);
+  // An edge found is twice as likely where the part is, one that is missing half as likely.
+  EXPECT_NEAR(counts.sum(weights, { 2.0 / 3.0, 1.0 / 3.0 }), 7.7 - 6.0 + 0.5 * (20.0 - 10.0) * std::log(2.0), 1e-12);
+  EXPECT_NEAR(counts.sum(weights, { 0.4, 0.4 }), 1.7, 1e-12) << "edges that tell nothing have no say";
+}
+
+TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
+{
+  // Of twenty candidates the surface speaks for two: they find nine edges of ten, the others one of ten.
+  std::vector<meam::EvidenceCounts> candidates(20);
+  for (std::size_t k = 0; k < candidates.size(); ++k)
   {
-    meam::EvidenceSettings settings;
-    std::tie(settings.edgeWeight, settings.surfaceWeight, settings.explainedWeight) =
-      std::tie(edges, surface, explained);
-    return evidence.score(settings);
-  };
-  EXPECT_NEAR(evidence.score(), (0.4 * 0.5 + 0.32 * 0.75 + 0.2 * 0.25) / 0.92, 1e-12);
-  EXPECT_NEAR(score(1, 0, 0), 0.5, 1e-12);
-  EXPECT_NEAR(score(0, 1, 0), 0.75, 1e-12);
-  EXPECT_NEAR(score(0.5, 0.5, 0), (0.5 * 0.5 + 0.4 * 0.75) / 0.9, 1e-12);
-  EXPECT_NEAR(score(2, 0, 2), 0.375, 1e-12);
-  evidence.surfaceStates[4] = PointState::Hidden;
-  EXPECT_NEAR(evidence.score(), 0.4 * 0.5 + 0.4 * 0.75 + 0.2 * 0.25, 1e-12) << "all in sight was measured";
-  evidence.surfaceStates = { PointState::Matched, PointState::Unknown, PointState::Unknown, PointState::Unknown,
-    PointState::Hidden };
-  EXPECT_NEAR(evidence.score(), (0.2 + 0.1 + 0.05) / 0.7, 1e-12) << "a quarter was measured, all of it is there";
-  evidence.surfaceStates[0] = PointState::Unknown;
-  EXPECT_NEAR(evidence.score(), (0.2 + 0.05) / 0.6, 1e-12) << "nothing was measured";
-  EXPECT_EQ(score(0, 1, 0), 0.0) << "and nothing else counts";
-  evidence.surface.clear();
-  evidence.surfaceStates.clear();
-  EXPECT_NEAR(score(0, 1, 0), 0.5, 1e-12) << "edges alone";
+    const bool isRight = k == 3 || k == 11;
+    candidates[k].there = isRight ? 20.0 : 1.0 + 0.1 * k;
+    candidates[k].edgesFound = isRight ? 900.0 : 100.0;
+    candidates[k].edgesMissing = isRight ? 100.0 : 900.0;
+  }
+  meam::EdgeRatesSettings settings;
+  settings.usualPoints = 30.0;
+  const meam::EdgeRates rates = meam::edgeRates(candidates, {}, settings);
+  EXPECT_NEAR(rates.found, (1800.0 + 30.0 * 0.75) / 2030.0, 1e-12);
+  EXPECT_NEAR(rates.chance, (1800.0 + 18 * 100.0 + 30.0 * 0.3) / 20030.0, 1e-12);
+  const meam::EdgeRates usual = meam::edgeRates({}, {});
+  EXPECT_DOUBLE_EQ(usual.found, 0.75);
+  EXPECT_DOUBLE_EQ(usual.chance, 0.3);
+  // Edges that are found where the part is no more often than elsewhere never speak against it.
+  for (meam::EvidenceCounts& counts : candidates)
+  {
+    std::swap(counts.edgesFound, counts.edgesMissing);
+  }
+  const meam::EdgeRates misleading = meam::edgeRates(candidates, {});
+  EXPECT_GT(misleading.found, misleading.chance);
+  EXPECT_LT(misleading.found - misleading.chance, 0.03);
+}
+
+TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)
+{
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  const Eigen::Isometry3d right = scene.T_local_scene() * scenes::threeCopies()[0];
+  const meam::EvidenceCounts counts = collector.collect(right).counts;
+  EXPECT_GT(counts.there, 20.0 * (counts.turned + counts.past));
+  EXPECT_LT(counts.goesOn, 2.0);
+  // Shifted along its upper face the surface goes on where the outline should be.
+  Eigen::Isometry3d shifted = scenes::threeCopies()[0];
+  shifted.translation().x() += 0.15 * scenes::bracket().diameter;
+  const meam::EvidenceCounts beside = collector.collect(scene.T_local_scene() * shifted).counts;
+  EXPECT_GT(beside.goesOn, counts.goesOn + 1.0);
+  EXPECT_LT(beside.edgesFound, 0.8 * counts.edgesFound);
 }
 
 TEST(PoseEvidence, MatchedAreThoseOfTheSurfaceAndWithoutOneOfTheEdges)
@@ -56,20 +108,6 @@ TEST(PoseEvidence, MatchedAreThoseOfTheSurfaceAndWithoutOneOfTheEdges)
   evidence.surfaceStates = { PointState::Violated, PointState::Matched, PointState::Unknown, PointState::Hidden };
   EXPECT_EQ(evidence.matched(), (meam::Points{ { 0, 2, 0 } }));
   EXPECT_DOUBLE_EQ(evidence.visibleFraction(), 0.75);
-}
-
-TEST(PoseEvidence, WeightsThatMakeNoScoreAreAnError)
-{
-  EXPECT_NO_THROW(meam::requireWeights({}));
-  meam::EvidenceSettings settings;
-  settings.surfaceWeight = -0.1;
-  EXPECT_THROW(meam::requireWeights(settings), meam::Error);
-  settings.surfaceWeight = NAN;
-  EXPECT_THROW(meam::requireWeights(settings), meam::Error);
-  settings.edgeWeight = settings.surfaceWeight = settings.explainedWeight = 0.0;
-  EXPECT_THROW(meam::requireWeights(settings), meam::Error);
-  settings.explainedWeight = 0.1;
-  EXPECT_NO_THROW(meam::requireWeights(settings));
 }
 
 TEST(PoseEvidence, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)

@@ -116,7 +116,7 @@ TEST(PoseVerification, PosesComeBestFirstForAnyNumberOfThreads)
   {
     EXPECT_EQ(one[i].T_scene_model.matrix(), three[i].T_scene_model.matrix());
     EXPECT_EQ(one[i].score, three[i].score);
-    EXPECT_TRUE(i == 0 || meam::rankingValue(one[i - 1]) >= meam::rankingValue(one[i]));
+    EXPECT_TRUE(i == 0 || one[i - 1].evidence >= one[i].evidence);
   }
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -132,7 +132,7 @@ TEST(PoseVerification, PosesWithLessThanTheMinimumScoreGo)
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
   const meam::Poses poses{ scenes::displaced(T, 8.0), at(T) };
   meam::PoseVerificationSettings settings;
-  settings.minimumScore = 0.75;
+  settings.minimumScore = 0.95;
   const meam::Poses kept = scenes::verify(poses, scene(), scenes::bracket(), settings);
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_TRUE(kept[0].T_scene_model.isApprox(T, 1e-9));
@@ -203,9 +203,6 @@ TEST(PoseVerification, BadInput)
   EXPECT_TRUE(scenes::verify({}, scene(), scenes::bracket()).empty());
   meam::PoseVerificationSettings settings;
   settings.pointStride = 0;
-  EXPECT_THROW(scenes::verify(poses, scene(), scenes::bracket(), settings), meam::Error);
-  settings = {};
-  settings.evidence.edgeWeight = -0.1;
   EXPECT_THROW(scenes::verify(poses, scene(), scenes::bracket(), settings), meam::Error);
   EXPECT_THROW(scenes::verify(poses, scene(), scenes::bracket(), {}, [](double) { return false; }), meam::Aborted);
 }

@@ -5,11 +5,14 @@
 
 #include <cmath>
 
-TEST(ProbabilityCalibration, IsLogisticInTheScoreAndTheLogarithmOfTheCertainty)
+TEST(ProbabilityCalibration, IsLogisticInWhatWasCountedAndTheLogarithmOfTheCertainty)
 {
   const meam::LogisticRegression regression{ -4.0, 8.0, 2.0 };
-  EXPECT_DOUBLE_EQ(regression.probability(0.5, 1.0), 0.5);
-  EXPECT_DOUBLE_EQ(regression.probability(0.75, 1.0), 1.0 / (1.0 + std::exp(-2.0)));
-  EXPECT_DOUBLE_EQ(regression.probability(0.5, 0.5), 0.2) << "a quarter of the odds";
-  EXPECT_EQ(regression.probability(1.0, 0.0), 0.0);
+  const auto probability = [&](double counted, double certainty)
+  { return meam::probabilityOf(regression.logOdds(counted, certainty)); };
+  EXPECT_DOUBLE_EQ(regression.logOdds(0.75, 1.0), 2.0);
+  EXPECT_DOUBLE_EQ(probability(0.5, 1.0), 0.5);
+  EXPECT_DOUBLE_EQ(probability(0.75, 1.0), 1.0 / (1.0 + std::exp(-2.0)));
+  EXPECT_DOUBLE_EQ(probability(0.5, 0.5), 0.2) << "a quarter of the odds";
+  EXPECT_EQ(probability(1.0, 0.0), 0.0);
 }

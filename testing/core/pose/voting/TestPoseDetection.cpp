@@ -161,7 +161,7 @@ TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
   meam::LocalCloud edges = meam::toLocalCloud(modelEdges(Eigen::Isometry3d::Identity()));
   const std::size_t count = edges.cloud.size();
   meam::PoseDetectionSettings settings;
-  settings.leastReferences = 1;
+  settings.leastReferences = settings.leastScanReferences = 1;
   settings.boundaryReferenceShare = 0.25;
   settings.scanReferenceShare = 0.5;
   const auto candidates = [&] { return meam::detectPoses(edges, scenes::bracket(), settings).size(); };
