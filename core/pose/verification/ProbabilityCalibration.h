@@ -15,11 +15,11 @@ struct LogisticRegression
 };
 
 /// What turns counts into probabilities, with the default weights of evidence. `withSurface` was fitted on what comes
-/// out of simulated bins of this project's own parts, by two sensors; `edgesAlone` on the Tohoku dataset without its
-/// surface. How it holds for other parts and sensors: docs/evaluation.md.
+/// out of simulated bins of this project's own parts, by two sensors, with the part in them or not; `edgesAlone` on the
+/// Tohoku dataset without its surface. How it holds for other parts and sensors: docs/evaluation.md.
 struct ProbabilityCalibration
 {
-  LogisticRegression withSurface{ -0.16, 0.225, 5.4 };
+  LogisticRegression withSurface{ -0.39, 0.228, 5.3 };
   LogisticRegression edgesAlone{ 2.9, 0.08, 1.0 }; ///< of scenes without a surface
 };
 

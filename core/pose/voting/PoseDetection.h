@@ -17,7 +17,7 @@ struct PoseDetectionSettings
   /// fewer references lead to a candidate (docs/evaluation.md).
   double scanReferenceShare = 0.2;
   int leastReferences = 100;      ///< that a few copies are found by in a small scene
-  int leastScanReferences = 2000; ///< the same of edges found in a scan
+  int leastScanReferences = 3000; ///< the same of edges found in a scan
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;
