@@ -105,7 +105,7 @@ struct Detections
 {
   std::vector<DetectedPose> poses; ///< best first
   double seconds = 0.0;
-  std::string warning; ///< what may be wrong with the scan's unit of length; mostly empty
+  std::string warning; ///< that nothing sure was found, and what may be wrong with the scan's unit; mostly empty
 };
 
 /// Finds the copies of a part in a scan.

@@ -4,8 +4,8 @@
 
 The scenes are those of the Tohoku University 6D Pose Estimation Dataset, DIR/Part_P, or of datasets in the form of the BOP
 benchmark such as simulate.py writes (--bop), with edges of their images; all poses that come out of them count.
-Under each table is the logistic regression that fits best: probability = 1 / (1 + exp(-constant - a * Score - b *
-log(Certainty))), with its mean logarithmic loss and that of the probabilities as they came.
+Under each table is the logistic regression that fits best: probability = 1 / (1 + exp(-constant - a * Evidence - b *
+log(Certainty))), with its mean logarithmic loss and that of the probabilities as they came; constant 0, a 1 and b 0 are those.
 """
 import argparse
 
@@ -15,7 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from ppfmeam import dataset, evaluation, scripting
 
 LIMITS = (0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.99, 1)
-ARRAYS = ("Probability", "Score", "Certainty")
+ARRAYS = ("Probability", "Evidence", "Certainty")
 
 
 def judged(folder, part, scenes, noises, with_surface, threads):
@@ -90,7 +90,7 @@ def main():
             for part in options.parts] for name, with_surface in (("edges and surface", True), ("edges alone", False))}
     for name, judge in sets.items():
         poses = numpy.concatenate(judge())
-        right, probability, score, certainty = poses.T
+        right, probability, evidence, certainty = poses.T
         print(f"### {name}; poses: {len(poses)}\n\n| probability | poses | right | mean probability |\n|---|---|---|---|")
         for low, high in zip(LIMITS, LIMITS[1:]):
             these = (probability >= low) & ((probability < high) | (high == 1))
@@ -98,8 +98,8 @@ def main():
                 print(f"| {low} to {high} | {these.sum()} | {100 * right[these].mean():.1f} % |"
                       f" {100 * probability[these].mean():.1f} % |")
         weights, better = fitted(right, numpy.column_stack(
-            (numpy.ones(len(poses)), score, numpy.log(numpy.maximum(certainty, 1e-6)))))
-        print("\nconstant {:.2f}, Score {:.2f}, log(Certainty) {:.2f};".format(*weights),
+            (numpy.ones(len(poses)), evidence, numpy.log(numpy.maximum(certainty, 1e-6)))))
+        print("\nconstant {:.2f}, Evidence {:.2f}, log(Certainty) {:.2f};".format(*weights),
               f"loss {loss(right, better):.4f}, as they came {loss(right, probability):.4f}\n", flush=True)
 
 

@@ -14,6 +14,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,6 +142,14 @@ void setFieldValue(vtkDataObject* output, const char* name, double value)
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+void setFieldText(vtkDataObject* output, const char* name, const std::string& text)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(text);
   output->GetFieldData()->AddArray(array);
 }
 }

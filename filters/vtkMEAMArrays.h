@@ -48,6 +48,8 @@ double diameterOf(vtkDataObject* input);
 void setDiameter(vtkDataObject* output, double diameter);
 /// A number as field data; replaces an array of that name.
 void setFieldValue(vtkDataObject* output, const char* name, double value);
+/// The same of a text.
+void setFieldText(vtkDataObject* output, const char* name, const std::string& text);
 }
 
 #endif

@@ -8,10 +8,8 @@
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 
 vtkStandardNewMacro(vtkMEAMMeshPreparation);
 
@@ -44,10 +42,7 @@ int vtkMEAMMeshPreparation::RequestData(
     const meam::PreparedMesh prepared = meam::prepareMesh(toMesh(input), settings, progressOf(this));
     fromMesh(prepared.mesh, output);
     const meam::MeshReport& report = prepared.report;
-    vtkNew<vtkStringArray> text;
-    text->SetName("Report");
-    text->InsertNextValue(meam::describe(report));
-    output->GetFieldData()->AddArray(text);
+    setFieldText(output, "Report", meam::describe(report));
     setFieldValue(output, "InputVertices", report.inputVertices);
     setFieldValue(output, "InputTriangles", report.inputTriangles);
     setFieldValue(output, "Vertices", report.vertices);

@@ -76,14 +76,6 @@ void setFieldInteger(vtkDataObject* output, const char* name, std::size_t value)
   output->GetFieldData()->AddArray(array);
 }
 
-void setFieldText(vtkDataObject* output, const char* name, const std::string& value)
-{
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
-}
-
 std::string fieldText(vtkDataObject* input, const char* name)
 {
   auto* array = vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray(name));

@@ -216,10 +216,13 @@ int vtkMEAMPoseEstimation::RequestData(
       meam::StageTimes times;
       const meam::Poses poses =
         meam::estimatePoses(*model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
-      const std::string warning = meam::unitsWarning(scene.edges.cloud.points, model->diameter);
-      if (!warning.empty())
+      for (const std::string& warning :
+        { meam::unitsWarning(scene.edges.cloud.points, model->diameter), meam::doubtsOf(poses) })
       {
-        vtkWarningMacro(<< warning);
+        if (!warning.empty())
+        {
+          vtkWarningMacro(<< warning);
+        }
       }
 
       if (boundary)
@@ -232,6 +235,7 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       fromPoses(poses, output);
       setDiameter(output, model->diameter);
+      setFieldText(output, "Report", meam::describe(poses));
       setFieldValue(output, "SecondsTraining", trained - loaded);
       setFieldValue(output, "SecondsSceneEdges", extracted - start);
       setFieldValue(output, "SecondsTangents", times.tangents);

@@ -18,6 +18,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <utility>
 
 vtkStandardNewMacro(vtkMEAMPoseInstances);
 
@@ -33,7 +34,7 @@ constexpr unsigned char RankColors[6][3] = {
 };
 
 /// The same values for all points or cells of an instance.
-void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, double score)
+void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, const meam::Pose& pose)
 {
   vtkNew<vtkIntArray> ranks;
   ranks->SetName("Rank");
@@ -41,11 +42,14 @@ void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, doubl
   ranks->FillValue(rank);
   attributes->AddArray(ranks);
 
-  vtkNew<vtkDoubleArray> scores;
-  scores->SetName("Score");
-  scores->SetNumberOfTuples(count);
-  scores->FillValue(score);
-  attributes->AddArray(scores);
+  for (const auto& [name, value] : { std::pair("Score", pose.score), std::pair("Probability", pose.probability) })
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(name);
+    values->SetNumberOfTuples(count);
+    values->FillValue(value);
+    attributes->AddArray(values);
+  }
 
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetName("RankColor");
@@ -85,6 +89,10 @@ int vtkMEAMPoseInstances::RequestData(
       for (std::size_t k = 0; k < copies; ++k)
       {
         meam::report(progress, static_cast<double>(k) / copies);
+        if (poses[k].probability > 0.0 && poses[k].probability < this->MinimumProbability)
+        {
+          continue;
+        }
         const Eigen::Isometry3f T_scene_model = poses[k].T_scene_model.cast<float>();
         vtkNew<vtkPoints> moved;
         moved->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
@@ -98,11 +106,11 @@ int vtkMEAMPoseInstances::RequestData(
         instance->SetPoints(moved);
         const int place = static_cast<int>(k) + 1;
         const int rank = ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : place;
-        describe(instance->GetPointData(), instance->GetNumberOfPoints(), rank, poses[k].score);
-        describe(instance->GetCellData(), instance->GetNumberOfCells(), rank, poses[k].score);
+        describe(instance->GetPointData(), instance->GetNumberOfPoints(), rank, poses[k]);
+        describe(instance->GetCellData(), instance->GetNumberOfCells(), rank, poses[k]);
         append->AddInputDataObject(instance);
       }
-      if (copies > 0)
+      if (append->GetNumberOfInputConnections(0) > 0)
       {
         append->Update();
         output->CopyStructure(append->GetOutput());
@@ -117,4 +125,5 @@ void vtkMEAMPoseInstances::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumNumberOfInstances: " << this->MaximumNumberOfInstances << "\n";
+  os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
 }

@@ -4,12 +4,12 @@
  * @brief Puts a copy of the CAD mesh at every pose, coloured by rank, to look at.
  *
  * Input port 0: poses, best first, a vtkPolyData with the point array `Transform` (16, row-major
- * T_scene_model) and, where they are there, `Score` and `Rank`.
+ * T_scene_model) and, where they are there, `Score`, `Probability` and `Rank`.
  * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; MeshPreparation gives it.
  *
  * Output port 0: a vtkPolyData with all copies, best first. Point and cell arrays:
  * - `Rank`: 1 for the best; that of the poses, so that those of one part (a threshold of `PartId`) keep theirs;
- * - `Score`: [0, 1];
+ * - `Score`, `Probability`: [0, 1];
  * - `RankColor` (3, unsigned char), the active scalars: red, green, blue, yellow and pink for the ranks
  *   1 to 5, grey for the others.
  */
@@ -35,6 +35,15 @@ public:
   vtkGetMacro(MaximumNumberOfInstances, int);
   ///@}
 
+  ///@{
+  /**
+   * Poses that are less likely to be right get no copy; poses whose probability is not known (0), such as true ones,
+   * do. Default: 0.5, those that are more likely right than wrong.
+   */
+  vtkSetClampMacro(MinimumProbability, double, 0.0, 1.0);
+  vtkGetMacro(MinimumProbability, double);
+  ///@}
+
 protected:
   vtkMEAMPoseInstances();
   ~vtkMEAMPoseInstances() override = default;
@@ -46,6 +55,7 @@ private:
   void operator=(const vtkMEAMPoseInstances&) = delete;
 
   int MaximumNumberOfInstances = 0;
+  double MinimumProbability = 0.5;
 };
 
 #endif

@@ -75,7 +75,7 @@ public:
 
   ///@{
   /**
-   * Poses kept of all, the best ones; 0: no limit. Default: 0.
+   * Poses kept of all, the best ones; 0: no limit, or 200 alternatives. Default: 0.
    */
   virtual void SetMaximumNumberOfPoses(int value);
   virtual int GetMaximumNumberOfPoses();

@@ -17,7 +17,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 
 #include <algorithm>
 
@@ -58,10 +57,7 @@ int vtkMEAMSymmetryDetection::RequestData(
     output->ShallowCopy(input);
     setSymmetries(output, found);
     const double partDiameter = diameterOf(input) > 0.0 ? diameterOf(input) : meam::diameter(surface.points);
-    vtkNew<vtkStringArray> entry;
-    entry->SetName("ModelsInfo");
-    entry->InsertNextValue(meam::modelsInfo(found, partDiameter, meam::bounds(surface.points)));
-    output->GetFieldData()->AddArray(entry);
+    setFieldText(output, "ModelsInfo", meam::modelsInfo(found, partDiameter, meam::bounds(surface.points)));
     std::vector<float> deviation(surface.size(), 0.0f);
     if (this->ShownNearSymmetry < static_cast<int>(found.near.size()))
     {

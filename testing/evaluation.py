@@ -127,7 +127,7 @@ def ablation(commands):
 def ablation_noise(commands):
     return ("The same with normal noise of 1 % of D on every coordinate.\n\n" + commands.run(
         "ablation.py", "DATA/tohoku", "--noise", "1%", "--only",
-        "none,tiles,signs,one-turn,near,own-visibility,edges-score,surface-score,no-unexplained,no-free-space,edges").strip())
+        "none,tiles,signs,one-turn,near,own-visibility,no-free-space,edges").strip())
 
 
 def models(commands):

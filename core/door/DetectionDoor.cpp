@@ -100,12 +100,14 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
 
   Detections result;
   const Progress ofPoses = subProgress(progress, AfterSceneEdges, 1.0);
-  for (const Pose& pose : estimatePoses(trained, input, steps, nullptr, ofPoses))
+  const Poses poses = estimatePoses(trained, input, steps, nullptr, ofPoses);
+  for (const Pose& pose : poses)
   {
     result.poses.push_back(
       { pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction, pose.fit.residual });
   }
-  result.warning = unitsWarning(input.edges.cloud.points, trained.diameter);
+  const std::string ofUnits = unitsWarning(input.edges.cloud.points, trained.diameter), doubts = doubtsOf(poses);
+  result.warning = ofUnits + (ofUnits.empty() || doubts.empty() ? "" : " ") + doubts;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -24,6 +24,9 @@ Eigen::Vector3f meanOf(const Points& points)
   return (sum / static_cast<double>(points.size())).cast<float>();
 }
 
+/// What the depth buffer has where there is nothing.
+constexpr float Nothing = -std::numeric_limits<float>::infinity();
+
 /// A depth buffer across the lines of sight.
 struct View
 {
@@ -74,10 +77,16 @@ void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float*
   }
 }
 
+/// Whether something is seen in all four cells beside one.
+bool isInside(const std::vector<float>& buffer, int side, int cell)
+{
+  return cell >= side && cell + side < static_cast<int>(buffer.size()) && buffer[cell - 1] > Nothing &&
+         buffer[cell + 1] > Nothing && buffer[cell - side] > Nothing && buffer[cell + side] > Nothing;
+}
+
 /// The middles of the cells two off the border of what is seen, at the depth of the farthest of its cells beside them.
 Points outsideOf(const std::vector<float>& buffer, const View& view)
 {
-  constexpr float nothing = -std::numeric_limits<float>::infinity();
   const int side = view.side;
   const int steps[] = { -1, 1, -side, side };
   Points outside;
@@ -89,12 +98,12 @@ Points outsideOf(const std::vector<float>& buffer, const View& view)
       float height = std::numeric_limits<float>::infinity();
       for (const int step : steps)
       {
-        if (cell[step] == nothing && cell[2 * step] != nothing)
+        if (cell[step] == Nothing && cell[2 * step] != Nothing)
         {
           height = std::min(height, cell[2 * step]);
         }
       }
-      if (*cell == nothing && height < std::numeric_limits<float>::infinity())
+      if (*cell == Nothing && height < std::numeric_limits<float>::infinity())
       {
         const float right = (u + 0.5f) / view.inverseCell - view.half, down = (v + 0.5f) / view.inverseCell - view.half;
         outside.push_back(view.frame * Eigen::Vector3f(height, right, down));
@@ -214,7 +223,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   };
   thread_local Projected surface, others; // of the size of the part, and there are hundreds of poses
   thread_local std::vector<float> nearest;
-  nearest.assign(static_cast<std::size_t>(across.side) * across.side, -std::numeric_limits<float>::infinity());
+  nearest.assign(static_cast<std::size_t>(across.side) * across.side, Nothing);
   projected(this->Surface, surface);
   raise(surface, nearest);
   visible.outside = outsideOf(nearest, across);
@@ -230,13 +239,10 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
     static_cast<float>(this->Settings.grazingCosine), others.heights.data());
   thread_local std::vector<int> inSight;
   keepInSight(others, nearest, tolerance, inSight);
-  constexpr float nothing = -std::numeric_limits<float>::infinity();
   for (const int k : inSight)
   {
-    const float* const seen = &nearest[others.cells[k]];
     visible.surface.push_back(this->VerificationIndices[k]);
-    visible.isInner.push_back(
-      seen[-1] > nothing && seen[1] > nothing && seen[-across.side] > nothing && seen[across.side] > nothing);
+    visible.isInner.push_back(isInside(nearest, across.side, others.cells[k]));
   }
   return visible;
 }

@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meam
@@ -44,6 +45,32 @@ Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
     T = nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);
   }
   return result;
+}
+
+std::string describe(const Poses& poses, double likely)
+{
+  if (poses.empty())
+  {
+    return "No part was found.";
+  }
+  const auto count = std::count_if(
+    poses.begin(), poses.end(), [likely](const Pose& pose) { return probabilityOrScore(pose) >= likely; });
+  const std::string of = " of " + std::to_string(poses.size()) + (poses.size() == 1 ? " pose" : " poses");
+  if (count > 0)
+  {
+    return std::to_string(count) + of + (count == 1 ? " is" : " are") + " more likely right than wrong.";
+  }
+  const auto best = std::max_element(poses.begin(), poses.end(),
+    [](const Pose& a, const Pose& b) { return probabilityOrScore(a) < probabilityOrScore(b); });
+  return "Nothing sure was found: the likeliest" + of + " is right with a probability of " +
+         std::to_string(std::lround(100.0 * probabilityOrScore(*best))) + " %.";
+}
+
+std::string doubtsOf(const Poses& poses, double likely)
+{
+  const bool isSure =
+    std::any_of(poses.begin(), poses.end(), [likely](const Pose& pose) { return probabilityOrScore(pose) >= likely; });
+  return isSure ? std::string() : describe(poses, likely);
 }
 
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)

@@ -24,6 +24,7 @@ constexpr double StrayShare = 0.001;   // of the points, at each end of each axi
 constexpr double MiddleShare = 0.49;   // as that leaves next to the medians
 constexpr double FarDepths = 1.9;      // times the mean depth: farther than any point of a bin
 constexpr double LayerCells = 2.0;     // depth of the layer that is averaged: a slope of 63 degrees across a cell
+constexpr int FewestNeighbours = 4;    // cells about one that tell which way the surface faces
 constexpr int RunLength = 64;          // points that are looked at together; a longer run comes to more rows of the map
 
 /// Where a map's cells lie across the lines of sight.
@@ -379,7 +380,7 @@ void DepthMap::meansAt(const SoAPoints& points, int begin, int count, Seen& seen
 
 Eigen::Vector3f DepthMap::normalAt(const Eigen::Vector3f& point) const
 {
-  // The eight cells about one, in order: two that follow each other make a triangle with the one in the middle.
+  // The cells about one, in order, the first once more: two that follow each other make a triangle with the one amid.
   constexpr int right[] = { 1, 1, 0, -1, -1, -1, 0, 1, 1 }, down[] = { 0, 1, 1, 1, 0, -1, -1, -1, 0 };
   const int place = this->placeOf(point).cell;
   if (place < 0 || !(this->Cells[place].nearest < NothingSeen))
@@ -390,26 +391,25 @@ Eigen::Vector3f DepthMap::normalAt(const Eigen::Vector3f& point) const
   const float layer = static_cast<float>(LayerCells * this->CellSize);
   const int row = place / this->Width, column = place % this->Width;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero(), last = Eigen::Vector3f::Zero();
-  bool isLastThere = false;
-  int beside_ = 0;
+  int neighbours = 0;
   for (int k = 0; k < 9; ++k)
   {
     const int v = row + down[k], u = column + right[k];
-    const Cell* const beside = v >= 0 && v < this->Height && u >= 0 && u < this->Width
-                                 ? &this->Cells[static_cast<std::size_t>(v) * this->Width + u]
-                                 : nullptr;
-    const bool isThere = beside && !beside->isGap && std::abs(beside->nearest - cell.nearest) <= layer;
-    beside_ += isThere && k < 8;
-    const Eigen::Vector3f edge = isThere ? Eigen::Vector3f(beside->mean - cell.mean) : Eigen::Vector3f::Zero();
-    if (isThere && isLastThere)
+    Eigen::Vector3f edge = Eigen::Vector3f::Zero(); // stays so where there is no neighbour
+    if (v >= 0 && v < this->Height && u >= 0 && u < this->Width)
     {
-      sum += edge.cross(last);
+      const Cell& beside = this->Cells[static_cast<std::size_t>(v) * this->Width + u];
+      if (!beside.isGap && std::abs(beside.nearest - cell.nearest) <= layer)
+      {
+        edge = beside.mean - cell.mean;
+        neighbours += k < 8 ? 1 : 0;
+      }
     }
+    sum += edge.cross(last);
     last = edge;
-    isLastThere = isThere;
   }
   const float length = sum.norm();
-  return beside_ >= 4 && length > 0.0f ? Eigen::Vector3f(sum / length) : Eigen::Vector3f::Zero();
+  return neighbours >= FewestNeighbours && length > 0.0f ? Eigen::Vector3f(sum / length) : Eigen::Vector3f::Zero();
 }
 
 Points DepthMap::fillRows(const Points& surface, const std::vector<Run>& runs, float layer, int firstRow, int lastRow)

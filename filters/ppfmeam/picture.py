@@ -277,17 +277,17 @@ def of_part(poses, number):
 
 
 def legend(copies_made, poses):
-    """The best poses in a row: rank and score on the colour of the rank."""
-    ranks = vtk_to_numpy(copies_made.GetPointData().GetArray("Rank")) if poses.GetNumberOfPoints() else ()
-    shown = min(poses.GetNumberOfPoints(), 6)
+    """The best of the poses that are shown in a row: rank and score on the colour of the rank."""
+    ranks = vtk_to_numpy(copies_made.GetPointData().GetArray("Rank")) if copies_made.GetNumberOfPoints() else ()
+    shown = [i for i in range(poses.GetNumberOfPoints()) if i + 1 in ranks][:6]
     labels = []
-    for i in range(max(shown, 1)):
+    for place, i in enumerate(shown or [None]):
         label = vtkTextActor()
-        label.SetPosition(MARGIN + i * WIDTH // 6, MARGIN)
+        label.SetPosition(MARGIN + place * WIDTH // 6, MARGIN)
         style = label.GetTextProperty()
         style.SetFontSize(26)
-        if shown == 0:
-            label.SetInput("no part found")
+        if i is None:
+            label.SetInput("nothing sure found" if poses.GetNumberOfPoints() else "no part found")
         else:
             score = poses.GetPointData().GetArray("Score").GetValue(i)
             label.SetInput(f" rank {i + 1}:  {score:.2f} ")

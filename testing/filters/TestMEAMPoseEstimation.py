@@ -11,8 +11,8 @@ from ppfmeam.filters import (
     vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
 )
-from meamtest import (Errors, Trained, check, cloud, collection, connect, fails, field, image, is_empty, points, prints, run,
-                      scaled, tuples)
+from meamtest import (Errors, Trained, Warnings, check, cloud, collection, connect, fails, field, image, is_empty,
+                      points, prints, run, scaled, tuples)
 
 STAGES = ["Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Total"]
@@ -55,6 +55,11 @@ parts = [seconds(filter, stage) for stage in STAGES]
 check(all(s >= 0 for s in parts) and 0.97 * parts[-1] <= sum(parts[:-1]) <= parts[-1] * 1.001,
       f"the stages add up to the total: {parts}")
 check(field(poses, "Diameter") == field(truth, "Diameter"), "the diameter travels along")
+report = poses.GetFieldData().GetAbstractArray("Report").GetValue(0)
+check(report == "2 of 2 poses are more likely right than wrong.", f"in words: {report}")
+doubtful = estimation(part, scan, MinimumProbability=1.0)
+warnings = Warnings(doubtful)
+check(is_empty(run(doubtful)) and "No part was found." in str(warnings), f"no part without a word: {warnings}")
 edges = filter.GetOutputDataObject(1)
 check(field(poses, "SceneEdgePoints") == [(edges.GetNumberOfPoints(),)], "the edges are the second output")
 check(field(poses, "ScenePoints")[0][0] > 0.9 * 640 * 480, "points are counted")

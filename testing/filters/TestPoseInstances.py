@@ -39,6 +39,16 @@ check([tuples(run(connect(vtkMEAMPoseInstances(), ranked, part)), name)[i] for i
 filter.SetMaximumNumberOfInstances(3)
 check({r for r, in tuples(run(filter), "Rank")} == {1, 2, 3}, "only the best")
 
+# Poses that are more likely wrong than right are left out of the picture; those of unknown probability are not.
+doubtful = cloud([(0, 0, 0)] * 4, Transform=[at(i) for i in range(4)], Probability=[0.9, 0.4, 0.0, 0.51])
+filter = connect(vtkMEAMPoseInstances(), doubtful, part)
+for least, ranks in ((0.5, [1, 3, 4]), (0.6, [1, 3]), (0.0, [1, 2, 3, 4])):
+    check(filter.GetMinimumProbability() == 0.5 or least != 0.5, "those more likely than not")
+    filter.SetMinimumProbability(least)
+    copies = run(filter)
+    check([r for r, in tuples(copies, "Rank")][::8] == ranks, f"likelier than {least}: {tuples(copies, 'Rank')[::8]}")
+check(close([p for p, in tuples(copies, "Probability")][::8], (0.9, 0.4, 0.0, 0.51)), "the probability is there")
+
 check(run(connect(vtkMEAMPoseInstances(), poses(), part)).GetNumberOfPoints() == 0, "no poses, no copies")
 points_only = run(connect(vtkMEAMPoseInstances(), found, cloud([(0, 0, 0), (1, 0, 0)])))
 check(points_only.GetNumberOfVerts() == 4, "a part of points is fine")
@@ -47,4 +57,4 @@ fails(connect(vtkMEAMPoseInstances(), found, vtkPolyData()), "CAD mesh", "no poi
 fails(connect(vtkMEAMPoseInstances(), part, part), "Transform")
 fails(connect(vtkMEAMPoseInstances(), poses((float("nan"),) * 16), part), "not a rotation")
 fails(connect(vtkMEAMPoseInstances(), found))
-prints(filter, "MaximumNumberOfInstances")
+prints(filter, "MaximumNumberOfInstances", "MinimumProbability")

@@ -91,7 +91,7 @@ bins = {"1": connect(vtkMEAMBinSceneSource(), mesh), "2": connect(vtkMEAMBinScen
 halves = numpy.arange(W * H) % W < W // 2
 columns = []
 for half in bins.values():
-    for name, value in (("Copies", 6), ("Seed", 5), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
+    for name, value in (("Copies", 6), ("Seed", 2), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
         getattr(half, "Set" + name)(value)
     data = run(half)
     columns.append(numpy.column_stack((vtk_to_numpy(data.GetPoints().GetData()),

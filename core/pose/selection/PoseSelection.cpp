@@ -30,7 +30,8 @@ public:
     this->Rotated.maximumDistance = settings.rotatedDistance * model.diameter;
   }
 
-  void finish(Pose& pose, PoseClusters& clusters, int index) const
+  /// Returns what it matched.
+  Points finish(Pose& pose, PoseClusters& clusters, int index) const
   {
     if (!this->Model.symmetries.near.empty())
     {
@@ -41,6 +42,7 @@ public:
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
     const PoseEvidence evidence = this->Collector.collect(pose.T_scene_model);
     scoreByEvidence(pose, evidence, this->Rates, this->Settings.evidence, this->InScene, this->Model);
+    return evidence.matched();
   }
 
 private:
@@ -95,22 +97,19 @@ private:
   PoseRefinementSettings Rotated;
 };
 
+/// A pose and what it matched.
+struct Finished
+{
+  Pose pose;
+  Points matched;
+};
+
 /// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
 /// come to the same place, and what others explain speaks for no more.
-Poses withoutShared(const Poses& poses, const EvidenceCollector& collector, const TrainedModel& model,
-  const PoseClustersSettings& settings, int threads)
+Poses withoutShared(const std::vector<Finished>& found, const TrainedModel& model, const PoseClustersSettings& settings)
 {
   const double near = settings.sharedDistance * model.diameter;
   const double distance = settings.distanceFor(model.diameter);
-  std::vector<Points> matched(poses.size());
-  parallelFor(static_cast<int>(poses.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        matched[k] = collector.collect(poses[k].T_scene_model).matched();
-      }
-    });
   struct Kept
   {
     Eigen::Vector3d middle;
@@ -118,9 +117,9 @@ Poses withoutShared(const Poses& poses, const EvidenceCollector& collector, cons
   };
   std::vector<Kept> kept;
   Poses distinct;
-  for (std::size_t k = 0; k < poses.size(); ++k)
+  for (const auto& [pose, matched] : found)
   {
-    const Eigen::Vector3d middle = poses[k].T_scene_model * model.visibility->middle().cast<double>();
+    const Eigen::Vector3d middle = pose.T_scene_model * model.visibility->middle().cast<double>();
     bool isTaken = false;
     std::vector<const PointGrid*> beside;
     for (const Kept& other : kept)
@@ -137,12 +136,11 @@ Poses withoutShared(const Poses& poses, const EvidenceCollector& collector, cons
       return std::any_of(
         beside.begin(), beside.end(), [&](const PointGrid* claimed) { return claimed->nearest(point, near) >= 0; });
     };
-    isTaken |= std::count_if(matched[k].begin(), matched[k].end(), isClaimed) >
-               settings.shared * static_cast<double>(matched[k].size());
-    if (!isTaken)
+    if (!isTaken && std::count_if(matched.begin(), matched.end(), isClaimed) <=
+                      settings.shared * static_cast<double>(matched.size()))
     {
-      kept.push_back({ middle, PointGrid(matched[k], near) });
-      distinct.push_back(poses[k]);
+      kept.push_back({ middle, PointGrid(matched, near) });
+      distinct.push_back(pose);
     }
   }
   return distinct;
@@ -160,18 +158,19 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   const std::vector<int> selected = clusters.select(subProgress(progress, 0.0, 0.3));
   const EdgeRates rates = edgeRatesOf(scored, collector, settings.evidence, settings.rateStride, settings.threads);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison);
-  Poses finished(selected.size());
+  std::vector<Finished> finished(selected.size());
   parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),
     [&](int begin, int end, int)
     {
       for (int k = begin; k < end; ++k)
       {
-        finished[k] = scored[selected[k]];
-        instance.finish(finished[k], clusters, selected[k]);
+        finished[k].pose = scored[selected[k]];
+        finished[k].matched = instance.finish(finished[k].pose, clusters, selected[k]);
       }
     });
-  std::stable_sort(finished.begin(), finished.end(), isBetter);
-  return withoutShared(finished, collector, model, clustering, settings.threads);
+  std::stable_sort(
+    finished.begin(), finished.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
+  return withoutShared(finished, model, clustering);
 }
 
 /// The first of each cluster, up to the symmetries.
@@ -194,10 +193,6 @@ Poses selectClusters(const Poses& scored, const TrainedModel& model, const PoseS
       selected.push_back(scored[i]);
     }
   }
-  if (isForRefinement && settings.mostRefined > 0 && selected.size() > static_cast<std::size_t>(settings.mostRefined))
-  {
-    selected.resize(settings.mostRefined);
-  }
   return selected;
 }
 }
@@ -213,9 +208,11 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
   selected.erase(std::remove_if(selected.begin(), selected.end(),
                    [&](const Pose& pose) { return pose.probability < settings.minimumProbability; }),
     selected.end());
-  if (settings.maximumPoses > 0 && selected.size() > static_cast<std::size_t>(settings.maximumPoses))
+  const int usual = settings.method == SelectionMethod::Alternatives ? settings.mostRefined : 0;
+  const int most = settings.maximumPoses > 0 ? settings.maximumPoses : usual;
+  if (most > 0 && selected.size() > static_cast<std::size_t>(most))
   {
-    selected.resize(settings.maximumPoses);
+    selected.resize(most);
   }
   report(progress, 1.0);
   return selected;

@@ -25,8 +25,8 @@ struct PoseSelectionSettings
   PoseClustersSettings clusters;   ///< posesPerInstance is that of Alternatives; of the other methods it is 1
   int alternatives = 2;            ///< of an instance (Alternatives)
   double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
-  int mostRefined = 200;           ///< Alternatives: of all the best, that are worth refining; 0: no limit
-  int maximumPoses = 0;            ///< of all the best; 0: no limit
+  int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives:
+  int mostRefined = 200;           ///< so many are worth refining; 0: no limit
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
   EvidenceSettings evidence; ///< that poses are scored by once more
@@ -35,8 +35,8 @@ struct PoseSelectionSettings
   PoseRefinementSettings rotated = afterRotation(); ///< of another rotation, which is nearly right
   double rotatedDistance = 0.04;                    ///< of the diameter, its correspondences at the start
   double sureAdvantage = 10.0;                      ///< points that make a rotation e times likelier than another
-  int rateStride = 2;      ///< of the points that tell the scan's rates of edges one of so many
-  double negligible = 9.0; ///< times that: a rotation so unlikely is one in ten thousand
+  double negligible = 9.0;                          ///< times that: a rotation so unlikely is one in ten thousand
+  int rateStride = 2; ///< of the points that tell the scan's rates of edges one of so many
   FinalAlignmentSettings alignment;
   int threads = 0; ///< 0: one for each processor
 

@@ -143,8 +143,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   EvidenceCounts& counts = evidence.counts;
   const double patch = settings.weights.patch * model.diameter;
   const double area = stride * model.verificationArea() / (patch * patch);
-  const Eigen::Vector3f middle = T * model.surfaceDistance.middle();
-  const Eigen::Vector3f towards = this->InScene.sensor.towards(middle.cast<double>()).cast<float>();
+  const Eigen::Vector3f towards = T.linear() * model.visibility->towards(T_scene_model, this->InScene.sensor);
   const float flattest = static_cast<float>(settings.flattest), facing = static_cast<float>(settings.facing);
   const std::size_t size = (visible->surface.size() + stride - 1) / stride;
   evidence.surface.reserve(size);

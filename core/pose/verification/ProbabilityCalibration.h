@@ -15,8 +15,9 @@ struct LogisticRegression
 };
 
 /// What turns counts into probabilities, with the default weights of evidence. `withSurface` was fitted on what comes
-/// out of simulated bins of this project's own parts, by two sensors, with the part in them or not; `edgesAlone` on the
-/// Tohoku dataset without its surface. How it holds for other parts and sensors: docs/evaluation.md.
+/// out of simulated bins of examples/parts, seen by structured light and with depths made as coarse as active stereo
+/// has them, with the part in them or not; `edgesAlone` on the Tohoku dataset without its surface.
+/// examples/calibration.py tells how they hold for other scenes.
 struct ProbabilityCalibration
 {
   LogisticRegression withSurface{ -0.39, 0.228, 5.3 };
