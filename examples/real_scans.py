@@ -149,10 +149,11 @@ def save_pictures(folder, name, scene, edges, poses, mesh, box=None):
     instances = filters.vtkMEAMPoseInstances()
     instances.SetInputDataObject(0, poses)
     instances.SetInputDataObject(1, mesh)
+    instances.SetMinimumProbability(0.0)  # what is doubtful is told by the labels
     copies = picture.copies(scripting.update(instances))
     ranks, colors = (vtk_to_numpy(instances.GetOutput().GetPointData().GetArray(array)) for array in ("Rank", "RankColor"))
-    scores = vtk_to_numpy(poses.GetPointData().GetArray("Score"))
-    labels = [(f"rank {i + 1}: score {score:.2f}", tuple(colors[numpy.argmax(ranks == i + 1)] / 255.0))
+    scores, sure = (vtk_to_numpy(poses.GetPointData().GetArray(array)) for array in ("Score", "Probability"))
+    labels = [(f"rank {i + 1}: score {score:.2f}, {100 * sure[i]:.0f} %", tuple(colors[numpy.argmax(ranks == i + 1)] / 255.0))
               for i, score in enumerate(scores[:5])]
     save("poses", [scan, copies], labels or [("no part found", None)])
 
