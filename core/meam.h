@@ -12,7 +12,7 @@
 #pragma once
 
 #include "base/Error.h"          // Error, Aborted, Progress
-#include "features/Preset.h"     // Preset
+#include "features/Preset.h"     // Preset, Features
 #include "scene/Image.h"         // Image
 #include "scene/PinholeCamera.h" // Camera
 #include "scene/Sensor.h"        // Sensor
@@ -78,8 +78,9 @@ struct Scan
 struct DetectSettings
 {
   Preset preset = Preset::Recommended;
-  int maximumPoses = 5;            ///< the best ones; 0: all
-  double minimumProbability = 0.0; ///< [0, 1], of each
+  Features features = Features::Both; ///< by which poses are looked for; with the preset Paper edges alone
+  int maximumPoses = 5;               ///< the best ones; 0: all
+  double minimumProbability = 0.0;    ///< [0, 1], of each
   /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
   /// preset's
   double referenceShare = 0.0;
@@ -146,7 +147,8 @@ struct Mesh
 struct TrainSettings
 {
   Preset preset = Preset::Recommended;
-  double scale = 1.0; ///< factor on the mesh's coordinates, to bring them to mm: 1000 for metres
+  Features features = Features::Both; ///< that the model holds; with the preset Paper edges alone
+  double scale = 1.0;                 ///< factor on the mesh's coordinates, to bring them to mm: 1000 for metres
   Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< mm, added after the scale
   unsigned seed = 1;                                ///< of all random choices
 };

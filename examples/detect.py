@@ -34,6 +34,7 @@ def options_of_user():
                         help="poses wanted, the best ones; 0: all that reach --probability (default: %(default)s)")
     parser.add_argument("--probability", type=scripting.share, metavar="P",
                         help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with --poses 0)")
+    scripting.add_features_argument(parser)
     scripting.add_reference_argument(parser)
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
@@ -66,6 +67,7 @@ def estimate(options, part, scene, poses):
         estimation.SetInputDataObject(3, scripting.read_image(options.image))
         estimation.SetCameraFile(options.image_camera)
     scripting.set_choice(estimation, "Preset", options.preset)
+    scripting.set_choice(estimation, "Features", options.features)
     estimation.SetMaximumNumberOfPoses(poses)
     estimation.SetMinimumProbability(options.probability)
     estimation.SetReferenceShare(options.references)
@@ -97,7 +99,7 @@ def main():
         poses = estimate(options, parts[0], scene, options.poses).GetOutput()
         found = [poses]
     else:
-        models = parts if options.model else [scripting.train(mesh, options.preset) for mesh in meshes]
+        models = parts if options.model else [scripting.train(mesh, options.preset, options.features) for mesh in meshes]
         poses, found = estimate_several(options, models, scene)
     scripting.print_poses(poses)
     for number, of_part in enumerate(found, 1):

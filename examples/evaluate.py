@@ -31,8 +31,9 @@ ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6
 
 def run_part(part, options):
     """Trains, runs every scene and returns the row of the table, and how many scenes failed."""
-    model = scripting.train(evaluation.tohoku_mesh(options.folder, part), options.preset)
-    run = evaluation.Evaluation(model, options.preset, options.poses, options.threads, options.references)
+    model = scripting.train(evaluation.tohoku_mesh(options.folder, part), options.preset, options.features)
+    run = evaluation.Evaluation(
+        model, options.preset, options.poses, options.threads, options.references, options.features)
     deviation = options.noise(scripting.field(model, "Diameter"))
     failed = 0
     if options.out:
@@ -97,8 +98,9 @@ def bop(options):
     data = dataset.Dataset(options.folder, options.split)
     runs, benchmark = {}, {}
     for number in options.objects or data.objects():
-        model = data.train(number, options.preset)
-        runs[number] = evaluation.Evaluation(model, options.preset, options.poses, options.threads, options.references)
+        model = data.train(number, options.preset, options.features)
+        runs[number] = evaluation.Evaluation(
+            model, options.preset, options.poses, options.threads, options.references, options.features)
         benchmark[number] = dataset.BOPFigures(data.mesh(number), model)
     judged, failures = dict.fromkeys(runs, 0), 0
     with open(options.out, "w", encoding="utf-8", newline="") as file:
@@ -143,6 +145,7 @@ def main():
     shared.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
     shared.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
+    scripting.add_features_argument(shared)
     scripting.add_reference_argument(shared)
     shared.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)

@@ -16,6 +16,7 @@ def main():
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s); paper trains without symmetries")
+    scripting.add_features_argument(parser)
     parser.add_argument("--out", required=True, help="the trained model to write: NAME.meam, or NAME.vtpc with a folder NAME beside")
     parser.add_argument("--models-info", metavar="FILE",
                         help="write diameter, bounds and symmetries as a BOP models_info.json; the part is object 1")
@@ -23,13 +24,13 @@ def main():
 
     scripting.require_folder_of(options.out, options.models_info)
     training = scripting.Training(
-        scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale), options.preset)
+        scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale), options.preset, options.features)
     start = time.time()
     model = training.model()
     seconds = time.time() - start
     scripting.write_model(model, options.out)
     print(f"{options.out}: {scripting.field(model, 'NumberOfEdgePoints'):.0f} edge points, "
-          f"{scripting.field(model, 'NumberOfPairs'):.0f} pairs in {scripting.field(model, 'TableBytes') / 1e6:.1f} MB, "
+          f"{scripting.field(model, 'NumberOfPairs') + scripting.field(model, 'NumberOfSurfacePairs'):.0f} pairs in {scripting.field(model, 'TableBytes') / 1e6:.1f} MB, "
           f"part of {scripting.field(model, 'Diameter'):.1f} mm, trained in {seconds:.1f} s")
     samples = training.symmetric_samples()
     for line in scripting.symmetry_words(samples):

@@ -37,6 +37,10 @@ void vtkMEAMHashing::SetParametersToRecommended() { this->SetParameters({}); }
 
 void vtkMEAMHashing::SetParameters(const meam::MEAMHashingSettings& settings)
 {
+  this->Features = static_cast<int>(settings.features);
+  this->SurfaceDistanceStep = settings.surface.distanceStep;
+  this->SurfaceAngleStep = settings.surface.angleStep;
+  this->SurfaceLeafSize = settings.surface.leafSize;
   this->Feature = static_cast<int>(settings.feature);
   this->DistanceStep = settings.distanceStep;
   this->AngleStep = settings.angleStep;
@@ -66,6 +70,10 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
   const auto work = [&]
   {
     meam::MEAMHashingSettings settings;
+    settings.features = static_cast<meam::Features>(this->Features);
+    settings.surface.distanceStep = this->SurfaceDistanceStep;
+    settings.surface.angleStep = this->SurfaceAngleStep;
+    settings.surface.leafSize = this->SurfaceLeafSize;
     settings.feature = static_cast<meam::PairFeatureKind>(this->Feature);
     settings.distanceStep = this->DistanceStep;
     settings.angleStep = this->AngleStep;
@@ -95,6 +103,11 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
 void vtkMEAMHashing::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const char* const features[] = { "Edges", "Surface", "Both" };
+  os << indent << "Features: " << features[this->Features] << "\n";
+  os << indent << "SurfaceDistanceStep: " << this->SurfaceDistanceStep << "\n";
+  os << indent << "SurfaceAngleStep: " << this->SurfaceAngleStep << "\n";
+  os << indent << "SurfaceLeafSize: " << this->SurfaceLeafSize << "\n";
   os << indent << "Feature: " << (this->Feature == Paper ? "Paper" : "Oriented") << "\n";
   os << indent << "DistanceStep: " << this->DistanceStep << "\n";
   os << indent << "AngleStep: " << this->AngleStep << "\n";

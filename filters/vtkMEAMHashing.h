@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMEAMHashing
- * @brief Trains the model of a part: all pairs of its edge points, sorted by their feature.
+ * @brief Trains the model of a part: the pairs of its edge and surface points, sorted by their feature.
  *
  * Sections 3 and 4 of the paper. Every ordered pair of edge points that can be seen together is described by
  * B2B-TL (the distance, and the angles of the two tangent lines to it and to each other), the feature is cut
- * into steps, and the pair is stored once under the resulting key. The result can be saved and loaded with
+ * into steps, and the pair is stored once under the resulting key. Pairs of surface points with normals (Drost et al.,
+ * the paper's [12]) have a table of their own. The result can be saved and loaded with
  * VTK's own XML writer and reader for partitioned dataset collections; use the data mode `Binary`.
  *
  * Input port 0: vtkPartitionedDataSetCollection of edge appearance models with `Tangent`
@@ -24,9 +25,11 @@
  * - `PairTableBuckets`: a row of values `Offset`: the entries of key k are [Offset[k], Offset[k + 1]).
  * - `PairTableEntries`: a row of values `Reference`, `Referred` (points of `Edges`), `Angle` (radians, of the
  *   referred point about the reference's tangent) and `ViewBits`.
+ * - `SurfacePairPoints` with `Normals`, `SurfacePairTableBuckets`, `SurfacePairTableEntries`: the same of surface
+ * points.
  * - Field data: `FormatVersion`, `Units`, `Digest` (of the surface, the edges and the parameters), `Diameter`,
  *   `ViewDirections`, the parameters by their names, and `NumberOfViews`, `NumberOfEdgePoints`,
- *   `NumberOfSurfacePoints`, `NumberOfPairs`.
+ *   `NumberOfSurfacePoints`, `NumberOfPairs`, `NumberOfSurfacePairPoints`, `NumberOfSurfacePairs`.
  */
 #ifndef vtkMEAMHashing_h
 #define vtkMEAMHashing_h
@@ -48,7 +51,14 @@ public:
   vtkTypeMacro(vtkMEAMHashing, vtkPartitionedDataSetCollectionAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum Features
+  enum FeatureChoices
+  {
+    Edges = 0,
+    Surface = 1,
+    Both = 2
+  };
+
+  enum EdgeFeatures
   {
     Paper = 0,
     Oriented = 1
@@ -63,9 +73,42 @@ public:
 
   ///@{
   /**
-   * Paper (0): the distance and three acute angles, Equation (1). Oriented (1): both tangents are turned
-   * along the pair, so the third angle is full and mirror images differ: fewer wrong votes.
-   * Default: Oriented.
+   * Which points make pairs. Edges (0): edge points with tangents, which carry flat, thin and ribbed parts. Surface
+   * (1): surface points with normals, which carry smooth, round and thick ones; needs the samples of the surface. Both
+   * (2). Default: Both.
+   */
+  vtkSetClampMacro(Features, int, Edges, Both);
+  vtkGetMacro(Features, int);
+  void SetFeaturesToEdges() { this->SetFeatures(Edges); }
+  void SetFeaturesToSurface() { this->SetFeatures(Surface); }
+  void SetFeaturesToBoth() { this->SetFeatures(Both); }
+  ///@}
+
+  ///@{
+  /** Of surface points: step of distances as a share of the part's diameter, in (0, 1]. Default: 0.05. */
+  vtkSetClampMacro(SurfaceDistanceStep, double, 0.001, 1.0);
+  vtkGetMacro(SurfaceDistanceStep, double);
+  ///@}
+
+  ///@{
+  /** Of surface points: step of angles in degrees, 1 to 90; also of the votes' turn about the normal. Default: 12. */
+  vtkSetClampMacro(SurfaceAngleStep, double, 1.0, 90.0);
+  vtkGetMacro(SurfaceAngleStep, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of the surface points in a cube of this side, a share of the part's diameter, one makes pairs and votes, in the
+   * model as in a scene. Default: 0.05.
+   */
+  vtkSetClampMacro(SurfaceLeafSize, double, 0.001, 1.0);
+  vtkGetMacro(SurfaceLeafSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of edge points. Paper (0): the distance and three acute angles, Equation (1). Oriented (1): both tangents are
+   * turned along the pair, so the third angle is full and mirror images differ: fewer wrong votes. Default: Oriented.
    */
   vtkSetClampMacro(Feature, int, Paper, Oriented);
   vtkGetMacro(Feature, int);
@@ -143,6 +186,10 @@ private:
 
   void SetParameters(const meam::MEAMHashingSettings& settings);
 
+  int Features;
+  double SurfaceDistanceStep;
+  double SurfaceAngleStep;
+  double SurfaceLeafSize;
   int Feature;
   double DistanceStep;
   double AngleStep;

@@ -175,7 +175,8 @@ public:
     this->readEdges(model);
     this->readViews(model);
     this->readSurface(model);
-    this->readTable(model);
+    model.table = this->table("", this->count("NumberOfPairs"), model.quantizer().numberOfKeys());
+    this->readSurfacePairs(model);
     model.symmetries = symmetriesOf(this->Input);
     requireModel(model);
     model.deriveFields();
@@ -233,6 +234,10 @@ private:
 
   void readSettings(meam::MEAMHashingSettings& settings) const
   {
+    settings.features = static_cast<meam::Features>(this->choice("Features", 3));
+    settings.surface.distanceStep = this->number("SurfaceDistanceStep");
+    settings.surface.angleStep = this->number("SurfaceAngleStep");
+    settings.surface.leafSize = this->number("SurfaceLeafSize");
     settings.feature = static_cast<meam::PairFeatureKind>(this->choice("Feature", 2));
     settings.distanceStep = this->number("DistanceStep");
     settings.angleStep = this->number("AngleStep");
@@ -340,20 +345,31 @@ private:
     }
   }
 
-  void readTable(meam::TrainedModel& model) const
+  void readSurfacePairs(meam::TrainedModel& model) const
   {
-    const std::int64_t keys = model.quantizer().numberOfKeys();
-    meam::PairTable& table = model.table;
-    table.offsets = this->values<std::uint32_t>(this->piece("PairTableBuckets", keys + 1), "Offset");
-    const vtkIdType entries = this->count("NumberOfPairs");
+    const vtkIdType points = this->count("NumberOfSurfacePairPoints");
+    if (points > 0)
+    {
+      model.surfacePairPoints = toCloud(vtkPointSet::SafeDownCast(this->piece("SurfacePairPoints", points)));
+    }
+    model.surfaceTable =
+      this->table("Surface", this->count("NumberOfSurfacePairs"), model.surfaceQuantizer().numberOfKeys());
+  }
+
+  /// `name` stands before those of the pieces.
+  meam::PairTable table(const std::string& name, vtkIdType entries, std::int64_t keys) const
+  {
+    meam::PairTable table;
+    table.offsets = this->values<std::uint32_t>(this->piece(name + "PairTableBuckets", keys + 1), "Offset");
     if (entries > 0)
     {
-      vtkDataSet* data = this->piece("PairTableEntries", entries);
+      vtkDataSet* data = this->piece(name + "PairTableEntries", entries);
       table.references = this->values<std::uint32_t>(data, "Reference");
       table.referreds = this->values<std::uint32_t>(data, "Referred");
       table.angles = this->values<float>(data, "Angle");
       table.viewBits = this->values<std::uint32_t>(data, "ViewBits");
     }
+    return table;
   }
 
   vtkPartitionedDataSetCollection* Input;
@@ -454,14 +470,9 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   edges->GetPointData()->AddArray(fromValues("VisibleBits", model.edgeVisible));
   vtkNew<vtkPolyData> surface;
   fromCloud(model.surface, surface);
-  const auto buckets = newRow(model.table.offsets.size(), model.edges.points.front(), model.diameter);
-  buckets->GetPointData()->AddArray(fromValues("Offset", model.table.offsets));
-  const auto entries = newRow(model.table.size(), model.edges.points.front(), model.diameter);
-  entries->GetPointData()->AddArray(fromValues("Reference", model.table.references));
-  entries->GetPointData()->AddArray(fromValues("Referred", model.table.referreds));
-  entries->GetPointData()->AddArray(fromValues("Angle", model.table.angles));
-  entries->GetPointData()->AddArray(fromValues("ViewBits", model.table.viewBits));
-  const auto add = [&](const char* name, vtkDataSet* data)
+  vtkNew<vtkPolyData> surfacePairPoints;
+  fromCloud(model.surfacePairPoints, surfacePairPoints);
+  const auto add = [&](const std::string& name, vtkDataSet* data)
   {
     if (data->GetNumberOfPoints() > 0) // an empty piece does not come back from a file
     {
@@ -471,13 +482,30 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   };
   add("Edges", edges);
   add("Surface", surface);
-  add("PairTableBuckets", buckets);
-  add("PairTableEntries", entries);
+  add("SurfacePairPoints", surfacePairPoints);
+  const auto addTable = [&](const std::string& table, const meam::PairTable& pairs)
+  {
+    const auto buckets = newRow(pairs.offsets.size(), model.edges.points.front(), model.diameter);
+    buckets->GetPointData()->AddArray(fromValues("Offset", pairs.offsets));
+    add(table + "PairTableBuckets", buckets);
+    const auto entries = newRow(pairs.size(), model.edges.points.front(), model.diameter);
+    entries->GetPointData()->AddArray(fromValues("Reference", pairs.references));
+    entries->GetPointData()->AddArray(fromValues("Referred", pairs.referreds));
+    entries->GetPointData()->AddArray(fromValues("Angle", pairs.angles));
+    entries->GetPointData()->AddArray(fromValues("ViewBits", pairs.viewBits));
+    add(table + "PairTableEntries", entries);
+  };
+  addTable("", model.table);
+  addTable("Surface", model.surfaceTable);
 
   setFieldInteger(output, "FormatVersion", meam::TrainedModel::FormatVersion);
   setFieldText(output, "Units", "mm");
   setFieldText(output, "Digest", model.digest);
   setDiameter(output, model.diameter);
+  setFieldInteger(output, "Features", static_cast<std::size_t>(model.settings.features));
+  setFieldValue(output, "SurfaceDistanceStep", model.settings.surface.distanceStep);
+  setFieldValue(output, "SurfaceAngleStep", model.settings.surface.angleStep);
+  setFieldValue(output, "SurfaceLeafSize", model.settings.surface.leafSize);
   setFieldInteger(output, "Feature", static_cast<std::size_t>(model.settings.feature));
   setFieldValue(output, "DistanceStep", model.settings.distanceStep);
   setFieldValue(output, "AngleStep", model.settings.angleStep);
@@ -490,7 +518,9 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   setFieldInteger(output, "NumberOfEdgePoints", model.edges.size());
   setFieldInteger(output, "NumberOfSurfacePoints", model.surface.size());
   setFieldInteger(output, "NumberOfPairs", model.table.size());
-  setFieldValue(output, "TableBytes", static_cast<double>(model.table.bytes()));
+  setFieldInteger(output, "NumberOfSurfacePairPoints", model.surfacePairPoints.size());
+  setFieldInteger(output, "NumberOfSurfacePairs", model.surfaceTable.size());
+  setFieldValue(output, "TableBytes", static_cast<double>(model.table.bytes() + model.surfaceTable.bytes()));
   setSymmetries(output, model.symmetries);
 }
 }

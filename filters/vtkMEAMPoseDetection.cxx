@@ -2,9 +2,11 @@
 #include "vtkMEAMPoseDetection.h"
 
 #include "pose/voting/PoseDetection.h"
+#include "scene/Scene.h"
 #include "scene/Units.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
+#include "vtkMEAMSceneTime.h"
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSharedData.h"
 
@@ -19,6 +21,7 @@ vtkStandardNewMacro(vtkMEAMPoseDetection);
 struct vtkMEAMPoseDetection::SharedData
 {
   std::shared_ptr<const meam::TrainedModel> Model;
+  std::shared_ptr<const meam::Scene> Scene;
   std::shared_ptr<const meam::LocalPoses> Poses;
 };
 
@@ -26,11 +29,12 @@ vtkMEAMPoseDetection::vtkMEAMPoseDetection()
   : Shared(new SharedData)
   , Settings(new meam::PoseDetectionSettings)
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
 vtkMEAMPoseDetection::~vtkMEAMPoseDetection() = default;
 
+vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, Features, int, features, Edges, Both)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, ReferenceShare, double, referenceShare, 0.0, 1.0)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, ReferredShare, double, referredShare, 1e-6, 1.0)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, PeaksPerReference, int, peaksPerReference, 1, 100)
@@ -52,7 +56,19 @@ void vtkMEAMPoseDetection::SetParametersToRecommended()
 
 int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkPartitionedDataSetCollection");
+  const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPointSet" };
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMEAMPoseDetection::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 2, 0 }, outputVector);
   return 1;
 }
 
@@ -62,15 +78,17 @@ int vtkMEAMPoseDetection::RequestData(
   using namespace vtkMEAMConversion;
   vtkPolyData* edges = vtkPolyData::GetData(inputVector[0]);
   auto* trained = vtkPartitionedDataSetCollection::GetData(inputVector[1]);
+  vtkPointSet* surface = vtkPointSet::GetData(inputVector[2]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
     this->Settings->threads = this->NumberOfThreads;
     const auto model = sharedModel(trained);
-    const meam::LocalCloud scene = edgesOf(edges, this->NumberOfThreads);
-    meam::Poses poses = meam::detectPoses(scene, *model, *this->Settings, progressOf(this));
-    *this->Shared = { model, sharePoses({ scene.T_local_scene, std::move(poses) }, *model, output) };
-    const std::string warning = meam::unitsWarning(scene.cloud.points, model->diameter);
+    const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
+    const auto scene = sharedScene(edges, surface, sensor, model->diameter, this->NumberOfThreads);
+    meam::Poses poses = meam::detectPoses(*scene, *model, *this->Settings, progressOf(this));
+    *this->Shared = { model, scene, sharePoses({ scene->T_local_scene(), std::move(poses) }, *model, output) };
+    const std::string warning = meam::unitsWarning(scene->edgePoints().points, model->diameter);
     if (!warning.empty())
     {
       vtkWarningMacro(<< warning);
@@ -82,11 +100,12 @@ int vtkMEAMPoseDetection::RequestData(
 void vtkMEAMPoseDetection::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const char* const features[] = { "Edges", "Surface", "Both" };
+  os << indent << "Features: " << features[this->GetFeatures()] << "\n";
   os << indent << "ReferenceShare: " << this->GetReferenceShare() << "\n";
   os << indent << "ReferredShare: " << this->GetReferredShare() << "\n";
   os << indent << "PeaksPerReference: " << this->GetPeaksPerReference() << "\n";
   os << indent << "SignedTangents: " << this->GetSignedTangents() << "\n";
   os << indent << "SmoothPeaks: " << this->GetSmoothPeaks() << "\n";
   os << indent << "Seed: " << this->GetSeed() << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }

@@ -3,25 +3,26 @@
  * @class vtkMEAMPoseDetection
  * @brief Finds raw candidates of the part's poses by voting.
  *
- * Section 5.1 of the paper. A share of the scene's edge points are reference points. Each is paired with the
- * referred points within the part's diameter; the pairs of the model with the same feature vote for which
- * point of the model the reference point is, and for the turn about its tangent. The peak of the votes gives
- * one candidate for each reference point. Candidates are not verified: many are wrong.
+ * Section 5.1 of the paper. A share of the scene's edge points, and of its surface's, are reference points. Each is
+ * paired with the referred points within the part's diameter; the pairs of the model with the same feature vote for
+ * which point of the model the reference point is, and for the turn about its tangent or normal. The peak of the votes
+ * gives one candidate for each reference point. Candidates are not verified: many are wrong.
  *
  * Input port 0: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation); those found in a
  * scan have `EdgeSource` (vtkMEAMSceneEdgeExtraction). Input port 1: vtkPartitionedDataSetCollection, the trained model
- * (vtkMEAMHashing).
+ * (vtkMEAMHashing). Input port 2, optional: vtkPointSet, all points the sensor measured, in mm: an organized cloud
+ * (vtkStructuredGrid, invalid points NaN or blanked) or any cloud. Without it only edges vote.
  *
  * Output port 0: vtkPolyData, one vertex for each candidate where the part's origin lies, in the order of the
- * reference points: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Votes`, `ViewId` (the
- * appearance model), `Rank` (from 1); `Score` and `VisibleFraction` stay 0 until the poses are verified.
+ * reference points, those of edges first: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Votes`,
+ * `ViewId` (the appearance model), `Rank` (from 1); `Score` and `VisibleFraction` stay 0 until the poses are verified.
  * Field data `Diameter` (mm, of the part).
  */
 #ifndef vtkMEAMPoseDetection_h
 #define vtkMEAMPoseDetection_h
 
 #include "ppfmeamFiltersModule.h"
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkMEAMSensorAlgorithm.h"
 
 #include <memory>
 
@@ -30,18 +31,37 @@ namespace meam
 struct PoseDetectionSettings;
 }
 
-class PPFMEAMFILTERS_EXPORT vtkMEAMPoseDetection : public vtkPolyDataAlgorithm
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseDetection : public vtkMEAMSensorAlgorithm
 {
 public:
   static vtkMEAMPoseDetection* New();
-  vtkTypeMacro(vtkMEAMPoseDetection, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkMEAMPoseDetection, vtkMEAMSensorAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum FeatureChoices
+  {
+    Edges = 0,
+    Surface = 1,
+    Both = 2
+  };
 
   ///@{
   /**
-   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref), but at least 100. More finds more of
-   * the hidden copies and takes longer. 0: 0.1 of edges found in a scan (with `EdgeSource`), 0.03 of others. Default:
-   * 0.
+   * Which points of the scene vote, of those that the model holds pairs of (vtkMEAMHashing). Default: Both.
+   */
+  virtual void SetFeatures(int value);
+  virtual int GetFeatures();
+  void SetFeaturesToEdges() { this->SetFeatures(Edges); }
+  void SetFeaturesToSurface() { this->SetFeatures(Surface); }
+  void SetFeaturesToBoth() { this->SetFeatures(Both); }
+  ///@}
+
+  ///@{
+  /**
+   * Share of the scene's edge points, and of its surface points, that are reference points, in [0, 1] (P_ref). More
+   * finds more of the hidden copies and takes longer. 0: in a scan (edges with `EdgeSource`) 0.2 of the edges, at least
+   * 3000, and 0.07 of the surface, at least 300; beside an exact boundary 0.03, at least 100, and 0.01, at least 50.
+   * Default: 0.
    */
   virtual void SetReferenceShare(double value);
   virtual double GetReferenceShare();
@@ -85,12 +105,6 @@ public:
   virtual int GetSeed();
   ///@}
 
-  ///@{
-  /** Threads to work with; 0: one for each processor. The poses do not depend on it. Default: 0. */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
   /** The parameters of the paper, Section 6. The number of threads stays. */
   void SetParametersToPaper();
   /** The parameters that measure better: the defaults. The number of threads stays. */
@@ -100,6 +114,7 @@ protected:
   vtkMEAMPoseDetection();
   ~vtkMEAMPoseDetection() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
@@ -109,7 +124,6 @@ private:
   struct SharedData;
   std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
   std::unique_ptr<meam::PoseDetectionSettings> Settings;
-  int NumberOfThreads = 0;
 };
 
 #endif

@@ -46,7 +46,7 @@ class vtkMEAMPoseEstimation::Training
 {
 public:
   /// What of the filter's settings the model depends on.
-  using Settings = std::tuple<int, int, double, double, double, double>;
+  using Settings = std::tuple<int, int, int, double, double, double, double>;
 
   std::shared_ptr<const meam::TrainedModel> modelOf(
     vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
@@ -71,14 +71,17 @@ private:
   static meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
   {
     meam::MeshPreparationSettings preparation;
-    int preset = 0;
-    int seed = 0;
+    int preset = 0, features = 0, seed = 0;
     Eigen::Vector3d& offset = preparation.offset;
-    std::tie(preset, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
+    std::tie(preset, features, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
     const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(vtkPolyData::SafeDownCast(part));
     const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
     meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
     training.sampling.seed = static_cast<unsigned>(seed);
+    if (preset != Paper)
+    {
+      training.hashing.features = static_cast<meam::Features>(features);
+    }
     return meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0));
   }
 
@@ -202,13 +205,18 @@ int vtkMEAMPoseEstimation::RequestData(
       const double loaded = vtkTimerLog::GetUniversalTime();
 
       const auto model = this->Trained->modelOf(part,
-        { this->Preset, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1], this->CADOffset[2] },
+        { this->Preset, this->Features, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1],
+          this->CADOffset[2] },
         meam::subProgress(progress, AfterSceneEdges, AfterTraining));
       const double trained = vtkTimerLog::GetUniversalTime();
 
       meam::DetectionSettings settings = meam::detectionSettings(static_cast<meam::Preset>(this->Preset),
         this->MaximumNumberOfPoses, this->NumberOfThreads, this->MinimumProbability);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
+      if (this->Preset != Paper)
+      {
+        settings.detection.features = static_cast<meam::Features>(this->Features);
+      }
       if (this->ReferenceShare > 0.0)
       {
         settings.detection.referenceShare = this->ReferenceShare;
@@ -257,6 +265,8 @@ void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Preset: " << (this->Preset == Paper ? "Paper" : "Recommended") << "\n";
+  const char* const features[] = { "Edges", "Surface", "Both" };
+  os << indent << "Features: " << features[this->Features] << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
   os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
   os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";

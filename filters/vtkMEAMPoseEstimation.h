@@ -69,6 +69,26 @@ public:
   void SetPresetToRecommended() { this->SetPreset(Recommended); }
   ///@}
 
+  enum FeatureChoices
+  {
+    Edges = 0,
+    Surface = 1,
+    Both = 2
+  };
+
+  ///@{
+  /**
+   * By which points the part is trained, and poses are looked for. Edges (0): edge points with tangents, which carry
+   * flat, thin and ribbed parts. Surface (1): surface points with normals, which carry smooth, round and thick ones.
+   * Both (2). The preset Paper takes edges alone. Default: Both.
+   */
+  vtkSetClampMacro(Features, int, Edges, Both);
+  vtkGetMacro(Features, int);
+  void SetFeaturesToEdges() { this->SetFeatures(Edges); }
+  void SetFeaturesToSurface() { this->SetFeatures(Surface); }
+  void SetFeaturesToBoth() { this->SetFeatures(Both); }
+  ///@}
+
   ///@{
   /** Poses wanted, the best ones; 0 for all. Default: 5. */
   vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
@@ -83,9 +103,9 @@ public:
 
   ///@{
   /**
-   * Share of the scene's edge points that are reference points, in [0, 1] (P_ref, Section 5.1); 0: the preset's, of the
-   * recommended one 0.1 of edges found in a scan (with `EdgeSource`) and 0.03 of others. More finds more of the hidden
-   * copies and takes longer. Default: 0.
+   * Share of the scene's edge points, and of its surface points, that are reference points, in [0, 1] (P_ref, Section
+   * 5.1); 0: the preset's, as vtkMEAMPoseDetection has them. More finds more of the hidden copies and takes longer.
+   * Default: 0.
    */
   vtkSetClampMacro(ReferenceShare, double, 0.0, 1.0);
   vtkGetMacro(ReferenceShare, double);
@@ -146,6 +166,7 @@ private:
   std::unique_ptr<Training> Trained;
 
   int Preset = Recommended;
+  int Features = Both;
   int MaximumNumberOfPoses = 5;
   double MinimumProbability = 0.0;
   double ReferenceShare = 0.0;

@@ -93,6 +93,10 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   DetectionSettings steps =
     detectionSettings(settings.preset, settings.maximumPoses, settings.threads, settings.minimumProbability);
   steps.detection.seed = settings.seed;
+  if (settings.preset != Preset::Paper)
+  {
+    steps.detection.features = settings.features;
+  }
   if (settings.referenceShare > 0.0)
   {
     steps.detection.referenceShare = settings.referenceShare;

@@ -20,6 +20,10 @@ Model train(const Mesh& mesh, const TrainSettings& settings, const Progress& pro
     prepareMesh({ mesh.vertices, mesh.triangles }, preparation, subProgress(progress, 0.0, AfterPreparation));
   TrainingSettings steps = trainingSettings(settings.preset);
   steps.sampling.seed = settings.seed;
+  if (settings.preset != Preset::Paper)
+  {
+    steps.hashing.features = settings.features;
+  }
   return Model(std::make_shared<const TrainedModel>(
     trainModel(prepared.mesh, steps, subProgress(progress, AfterPreparation, 1.0))));
 }

@@ -3,7 +3,7 @@
 
 namespace meam
 {
-Eigen::Isometry3d alignFrames(const TangentFrame& model, const TangentFrame& scene, bool flip, double alpha)
+Eigen::Isometry3d alignFrames(const PairFrame& model, const PairFrame& scene, bool flip, double alpha)
 {
   // A half turn about y reverses the tangent (x) and the sense of angles about it: beta becomes -beta.
   const Eigen::Matrix3d turn =

@@ -8,21 +8,26 @@
 
 namespace meam
 {
-/// How a pair of edge points with tangent lines is described.
+/// How a pair of points with directions is described: edge points with tangent lines, or surface points with normals.
 enum class PairFeatureKind
 {
-  Paper,   ///< Equation (1): the distance and three acute angles
-  Oriented ///< both tangents turned along d: the third angle is full, and mirror images differ
+  Paper,    ///< of tangents, Equation (1): the distance and three acute angles
+  Oriented, ///< of tangents, both turned along d: the third angle is full, and mirror images differ
+  Surface   ///< of normals (Drost et al. 2010, the paper's [12]): the distance and three full angles
 };
 
-/// B2B-TL, the boundary-to-boundary feature using tangent lines (paper, Section 3). The same for both
-/// signs of each tangent and under any rigid motion. Lengths in mm, angles in radians.
+/// Whether the directions are lines: a tangent has no sign, a normal has.
+constexpr bool isOfLines(PairFeatureKind kind) { return kind != PairFeatureKind::Surface; }
+
+/// Of edge points B2B-TL, the boundary-to-boundary feature using tangent lines (paper, Section 3), the same for both
+/// signs of each tangent; of surface points the pair feature of [12]. The same under any rigid motion. Lengths in mm,
+/// angles in radians.
 struct PairFeature
 {
   float distance;       ///< f1 = |d|, d from the reference to the referred point
-  float referenceAngle; ///< f2 in [0, pi/2], tangent at the reference point against d
-  float referredAngle;  ///< f3 in [0, pi/2], tangent at the referred point against d
-  float tangentAngle;   ///< f4, between the tangents: [0, pi/2] (Paper) or [0, pi] (Oriented)
+  float referenceAngle; ///< f2, direction at the reference point against d: [0, pi/2], of normals [0, pi]
+  float referredAngle;  ///< f3, direction at the referred point against d: the same
+  float betweenAngle;   ///< f4, between the directions: [0, pi/2] (Paper) or [0, pi]
   bool rightHanded;     ///< sign of det[t_r, t_i, d] with both tangents along d (Oriented)
 };
 
@@ -46,7 +51,7 @@ inline float fullAngle(float cosine)
   return cosine < 0.0f ? static_cast<float>(M_PI) - acute : acute;
 }
 
-/// The feature of reference point `pr` with unit tangent `tr` and referred point `pi` with `ti`.
+/// The feature of reference point `pr` with unit direction `tr` and referred point `pi` with `ti`.
 inline PairFeature pairFeature(PairFeatureKind kind, const Eigen::Vector3f& pr, const Eigen::Vector3f& tr,
   const Eigen::Vector3f& pi, const Eigen::Vector3f& ti)
 {
@@ -57,17 +62,26 @@ inline PairFeature pairFeature(PairFeatureKind kind, const Eigen::Vector3f& pr, 
   const float between = tr.dot(ti);
   PairFeature feature;
   feature.distance = length;
+  if (!isOfLines(kind))
+  {
+    const auto angle = [](float cosine) { return fullAngle(std::min(std::max(cosine, -1.0f), 1.0f)); };
+    feature.referenceAngle = length > 0.0f ? angle(alongReference / length) : 0.0f;
+    feature.referredAngle = length > 0.0f ? angle(alongReferred / length) : 0.0f;
+    feature.betweenAngle = angle(between);
+    feature.rightHanded = false;
+    return feature;
+  }
   feature.referenceAngle = length > 0.0f ? acuteAngle(std::min(std::abs(alongReference) / length, 1.0f)) : 0.0f;
   feature.referredAngle = length > 0.0f ? acuteAngle(std::min(std::abs(alongReferred) / length, 1.0f)) : 0.0f;
   if (kind == PairFeatureKind::Paper)
   {
-    feature.tangentAngle = acuteAngle(std::min(std::abs(between), 1.0f));
+    feature.betweenAngle = acuteAngle(std::min(std::abs(between), 1.0f));
     feature.rightHanded = false;
   }
   else
   {
     const float sign = (alongReference < 0.0f) != (alongReferred < 0.0f) ? -1.0f : 1.0f;
-    feature.tangentAngle = fullAngle(std::min(std::max(sign * between, -1.0f), 1.0f));
+    feature.betweenAngle = fullAngle(std::min(std::max(sign * between, -1.0f), 1.0f));
     feature.rightHanded = sign * tr.cross(ti).dot(d) > 0.0f;
   }
   return feature;
@@ -85,15 +99,15 @@ public:
     , InverseAngle(static_cast<float>(1.0 / angleStep))
     , Longest(static_cast<float>(maximumDistance * (1.0 + Rounding)))
     , Distances(static_cast<int>(std::min(1e9, std::floor(maximumDistance / distanceStep))) + 1)
-    , Acute(static_cast<int>(std::ceil(M_PI_2 / angleStep - 1e-6)))
-    , Between(kind == PairFeatureKind::Paper ? this->Acute : static_cast<int>(std::ceil(M_PI / angleStep - 1e-6)))
+    , Along(static_cast<int>(std::ceil((isOfLines(kind) ? M_PI_2 : M_PI) / angleStep - 1e-6)))
+    , Between(kind == PairFeatureKind::Paper ? this->Along : static_cast<int>(std::ceil(M_PI / angleStep - 1e-6)))
   {
   }
 
   PairFeatureKind kind() const { return this->Kind; }
   std::int64_t numberOfKeys() const
   {
-    return static_cast<std::int64_t>(this->Distances) * this->Acute * this->Acute * this->Between *
+    return static_cast<std::int64_t>(this->Distances) * this->Along * this->Along * this->Between *
            (this->Kind == PairFeatureKind::Oriented ? 2 : 1);
   }
   /// The key in [0, numberOfKeys()), or -1 for a pair longer than d_max. Keys are int: tables of more are
@@ -106,8 +120,8 @@ public:
     const int distance =
       static_cast<int>(std::min(feature.distance * this->InverseDistance, static_cast<float>(this->Distances - 1)));
     // The sums do not wait for each other.
-    const int acute = bin(feature.referenceAngle, this->Acute) * this->Acute + bin(feature.referredAngle, this->Acute);
-    int key = (distance * this->Acute * this->Acute + acute) * this->Between + bin(feature.tangentAngle, this->Between);
+    const int along = bin(feature.referenceAngle, this->Along) * this->Along + bin(feature.referredAngle, this->Along);
+    int key = (distance * this->Along * this->Along + along) * this->Between + bin(feature.betweenAngle, this->Between);
     const int oriented = 2 * key + (feature.rightHanded ? 1 : 0);
     key = this->Kind == PairFeatureKind::Oriented ? oriented : key;
     return feature.distance <= this->Longest ? key : -1;
@@ -121,26 +135,27 @@ private:
   float InverseAngle = 1.0f;
   float Longest = 0.0f;
   int Distances = 1;
-  int Acute = 1;
+  int Along = 1;
   int Between = 1;
 };
 
-/// The local frame of an edge point (paper, Figure 7): T_{m->g} takes the point to the origin and its
-/// tangent to the x axis. The rotation about x is fixed by the tangent alone.
-struct TangentFrame
+/// The local frame of a point with a direction, an edge point's tangent (paper, Figure 7) or a surface point's normal:
+/// T_{m->g} takes the point to the origin and its direction to the x axis. The rotation about x is fixed by the
+/// direction alone.
+struct PairFrame
 {
-  TangentFrame(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent)
+  PairFrame(const Eigen::Vector3f& point, const Eigen::Vector3f& direction)
     : Origin(point)
-    , Axes(frameAround(tangent))
+    , Axes(frameAround(direction))
   {
   }
-  /// The angle of a point about the tangent, in (-pi, pi].
+  /// The angle of a point about the direction, in (-pi, pi].
   float angleOf(const Eigen::Vector3f& point) const
   {
     const Eigen::Vector3f d = point - this->Origin;
     return std::atan2(this->Axes.col(2).dot(d), this->Axes.col(1).dot(d));
   }
-  /// True when d points against the stored tangent.
+  /// True when d points against the stored direction.
   bool against(const Eigen::Vector3f& point) const { return this->Axes.col(0).dot(point - this->Origin) < 0.0f; }
 
   Eigen::Vector3f Origin;
@@ -148,6 +163,6 @@ struct TangentFrame
 };
 
 /// T_scene_model that lays the model's frame on the scene's after a turn by `alpha` (radians) about
-/// the tangent (Equation (3)); `flip` turns the model's tangent the other way round first.
-Eigen::Isometry3d alignFrames(const TangentFrame& model, const TangentFrame& scene, bool flip, double alpha);
+/// their direction (Equation (3)); `flip` turns the model's tangent the other way round first.
+Eigen::Isometry3d alignFrames(const PairFrame& model, const PairFrame& scene, bool flip, double alpha);
 }

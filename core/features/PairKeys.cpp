@@ -32,22 +32,23 @@ inline PairTurn turnOf(float sine, float cosine)
 /// What one reference is to all of its pairs.
 struct Reference
 {
-  Eigen::Vector3f point, tangent, second, third;
+  Eigen::Vector3f point, direction, second, third;
 };
 
 constexpr int Lanes = BlockedPoints::Size;
 constexpr float FarAway = 1e15f; // its square is finite
 
-MEAM_ALL_VECTORS
-void computeKeys(const Reference& reference, const SoAPoints& referred, const SoAPoints& tangents, const int* blocks,
-  int count, const PairFeatureQuantizer& quantizer, int* keys, PairTurn* turns)
+template <bool OfLines>
+[[gnu::always_inline]] inline void computeKeys(const Reference& reference, const SoAPoints& referred,
+  const SoAPoints& directions, const int* blocks, int count, const PairFeatureQuantizer& quantizer, int* keys,
+  PairTurn* turns)
 {
   const float px = reference.point.x(), py = reference.point.y(), pz = reference.point.z();
-  const float rx = reference.tangent.x(), ry = reference.tangent.y(), rz = reference.tangent.z();
+  const float rx = reference.direction.x(), ry = reference.direction.y(), rz = reference.direction.z();
   const float ux = reference.second.x(), uy = reference.second.y(), uz = reference.second.z();
   const float vx = reference.third.x(), vy = reference.third.y(), vz = reference.third.z();
   const float *x = referred.x.data(), *y = referred.y.data(), *z = referred.z.data();
-  const float *tangentX = tangents.x.data(), *tangentY = tangents.y.data(), *tangentZ = tangents.z.data();
+  const float *directionX = directions.x.data(), *directionY = directions.y.data(), *directionZ = directions.z.data();
   const bool oriented = quantizer.kind() == PairFeatureKind::Oriented;
   const PairFeatureQuantizer cut = quantizer;
   for (int block = 0; block < count; ++block)
@@ -60,7 +61,7 @@ void computeKeys(const Reference& reference, const SoAPoints& referred, const So
     {
       const int k = begin + lane;
       const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
-      const float tx = tangentX[k], ty = tangentY[k], tz = tangentZ[k];
+      const float tx = directionX[k], ty = directionY[k], tz = directionZ[k];
       const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
       const float inverse = 1.0f / std::max(length, 1e-30f);
       const float alongReference = rx * dx + ry * dy + rz * dz;
@@ -68,39 +69,65 @@ void computeKeys(const Reference& reference, const SoAPoints& referred, const So
       const float between = rx * tx + ry * ty + rz * tz;
       PairFeature feature;
       feature.distance = length;
-      feature.referenceAngle = acuteAngle(std::min(std::abs(alongReference) * inverse, 1.0f));
-      feature.referredAngle = acuteAngle(std::min(std::abs(alongReferred) * inverse, 1.0f));
-      const float sign = (alongReference < 0.0f) != (alongReferred < 0.0f) ? -1.0f : 1.0f;
-      const float cosine = oriented ? sign * between : std::abs(between);
-      feature.tangentAngle = fullAngle(std::min(std::max(cosine, -1.0f), 1.0f));
-      const float determinant = (ry * tz - rz * ty) * dx + (rz * tx - rx * tz) * dy + (rx * ty - ry * tx) * dz;
-      feature.rightHanded = sign * determinant > 0.0f;
+      PairTurn against = 0u;
+      if constexpr (OfLines)
+      {
+        feature.referenceAngle = acuteAngle(std::min(std::abs(alongReference) * inverse, 1.0f));
+        feature.referredAngle = acuteAngle(std::min(std::abs(alongReferred) * inverse, 1.0f));
+        const float sign = (alongReference < 0.0f) != (alongReferred < 0.0f) ? -1.0f : 1.0f;
+        const float cosine = oriented ? sign * between : std::abs(between);
+        feature.betweenAngle = fullAngle(std::min(std::max(cosine, -1.0f), 1.0f));
+        const float determinant = (ry * tz - rz * ty) * dx + (rz * tx - rx * tz) * dy + (rx * ty - ry * tx) * dz;
+        feature.rightHanded = sign * determinant > 0.0f;
+        against = alongReference < 0.0f ? 1u << TurnBits : 0u;
+      }
+      else
+      {
+        feature.referenceAngle = fullAngle(std::min(std::max(alongReference * inverse, -1.0f), 1.0f));
+        feature.referredAngle = fullAngle(std::min(std::max(alongReferred * inverse, -1.0f), 1.0f));
+        feature.betweenAngle = fullAngle(std::min(std::max(between, -1.0f), 1.0f));
+        feature.rightHanded = false;
+      }
       toKeys[lane] = length > 0.0f ? cut.key(feature) : -1;
-      const PairTurn against = alongReference < 0.0f ? 1u << TurnBits : 0u;
       toTurns[lane] = turnOf(vx * dx + vy * dy + vz * dz, ux * dx + uy * dy + uz * dz) | against;
     }
   }
 }
+
+MEAM_ALL_VECTORS
+void computeKeysOfTangents(const Reference& reference, const SoAPoints& referred, const SoAPoints& tangents,
+  const int* blocks, int count, const PairFeatureQuantizer& quantizer, int* keys, PairTurn* turns)
+{
+  computeKeys<true>(reference, referred, tangents, blocks, count, quantizer, keys, turns);
 }
 
-PairKeys::PairKeys(const PointCloud& referred, const PairFeatureQuantizer& quantizer)
+MEAM_ALL_VECTORS
+void computeKeysOfNormals(const Reference& reference, const SoAPoints& referred, const SoAPoints& normals,
+  const int* blocks, int count, const PairFeatureQuantizer& quantizer, int* keys, PairTurn* turns)
+{
+  computeKeys<false>(reference, referred, normals, blocks, count, quantizer, keys, turns);
+}
+}
+
+PairKeys::PairKeys(const Points& referred, const Points& directions, const PairFeatureQuantizer& quantizer)
   : Quantizer(quantizer)
 {
   for (std::size_t i = 0; i < referred.size(); ++i)
   {
-    this->Referred.add(referred.points[i]);
-    this->Tangents.add(referred.tangents[i]);
+    this->Referred.add(referred[i]);
+    this->Directions.add(directions[i]);
   }
   while (this->Referred.size() % Lanes != 0)
   {
     this->Referred.add(Eigen::Vector3f::Constant(FarAway));
-    this->Tangents.add(Eigen::Vector3f::UnitX());
+    this->Directions.add(Eigen::Vector3f::UnitX());
   }
 }
 
-void PairKeys::compute(const TangentFrame& reference, const int* blocks, int count, int* keys, PairTurn* turns) const
+void PairKeys::compute(const PairFrame& reference, const int* blocks, int count, int* keys, PairTurn* turns) const
 {
-  computeKeys({ reference.Origin, reference.Axes.col(0), reference.Axes.col(1), reference.Axes.col(2) }, this->Referred,
-    this->Tangents, blocks, count, this->Quantizer, keys, turns);
+  const auto compute = isOfLines(this->Quantizer.kind()) ? computeKeysOfTangents : computeKeysOfNormals;
+  compute({ reference.Origin, reference.Axes.col(0), reference.Axes.col(1), reference.Axes.col(2) }, this->Referred,
+    this->Directions, blocks, count, this->Quantizer, keys, turns);
 }
 }

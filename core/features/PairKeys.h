@@ -8,12 +8,12 @@
 
 namespace meam
 {
-/// Angles about a tangent as whole numbers: a full turn is 2^15, so sums wrap by a mask.
+/// Angles about a direction as whole numbers: a full turn is 2^15, so sums wrap by a mask.
 constexpr int TurnBits = 15;
 constexpr std::uint32_t TurnMask = (1u << TurnBits) - 1;
 
-/// How a referred point lies to a reference: its angle about the reference's tangent in the low TurnBits bits, and
-/// the bit above them when d runs against that tangent.
+/// How a referred point lies to a reference: its angle about the reference's direction in the low TurnBits bits, and
+/// the bit above them when d runs against a tangent.
 using PairTurn = std::uint32_t;
 
 /// Votes that are computed at once.
@@ -43,16 +43,16 @@ constexpr std::uint32_t withoutSense(std::uint32_t entry)
 class PairKeys
 {
 public:
-  /// Points with tangents, in blocks of BlockedPoints::Size; `quantizer` cuts their features.
-  PairKeys(const PointCloud& referred, const PairFeatureQuantizer& quantizer);
+  /// Points with unit directions, in blocks of BlockedPoints::Size; `quantizer` cuts their features.
+  PairKeys(const Points& referred, const Points& directions, const PairFeatureQuantizer& quantizer);
 
   /// For the referred points of `count` blocks, BlockedPoints::Size of each: the keys, -1 for a pair longer than d_max
   /// or without length and where the last block has no point; and the turns.
-  void compute(const TangentFrame& reference, const int* blocks, int count, int* keys, PairTurn* turns) const;
+  void compute(const PairFrame& reference, const int* blocks, int count, int* keys, PairTurn* turns) const;
 
 private:
   PairFeatureQuantizer Quantizer;
   SoAPoints Referred;
-  SoAPoints Tangents;
+  SoAPoints Directions;
 };
 }

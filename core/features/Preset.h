@@ -9,4 +9,14 @@ enum class Preset
   Paper,      ///< Liu et al., Sensors 2018, Section 6
   Recommended ///< what measures better
 };
+
+/// Which points of a part make pairs.
+enum class Features
+{
+  Edges,   ///< edge points with tangents (B2B-TL): flat, thin and ribbed parts
+  Surface, ///< surface points with normals (Drost et al., the paper's [12]): smooth, round and thick parts
+  Both
+};
+constexpr bool hasEdges(Features features) { return features != Features::Surface; }
+constexpr bool hasSurface(Features features) { return features != Features::Edges; }
 }

@@ -22,6 +22,7 @@ namespace
 constexpr std::size_t MostEntries = 50000000; // 2 GB while it is made
 constexpr double DefaultVoxelShare = 0.015;   // of the diameter
 constexpr double SurfaceLeafShare = 0.015;    // of the diameter, for verification
+constexpr float GrazingCosine = 0.1f;         // of 84 degrees: flatter a sensor sees no surface
 constexpr float ParallelTangents = 0.94f;     // cosine of 20 degrees: the same edge in two views
 
 /// Collects the edge points of all views.
@@ -159,15 +160,6 @@ struct CodePairHash
   }
 };
 
-struct Entry
-{
-  std::uint32_t key;
-  std::uint32_t reference;
-  std::uint32_t referred;
-  float angle;
-  std::uint32_t views;
-};
-
 /// Takes one edge point of each cube to the front; returns how many these are.
 int bringVotersForward(TrainedModel& model)
 {
@@ -195,13 +187,22 @@ int bringVotersForward(TrainedModel& model)
   return voters;
 }
 
+void requireRoom(const std::vector<PairEntry>& entries, const char* what, const char* leaf)
+{
+  if (entries.size() == MostEntries)
+  {
+    throw Error("The pair table would have more than 50 million entries: thin the " + std::string(what) +
+                " points with a larger " + leaf + ".");
+  }
+}
+
 /// Of the pairs among the first `count` edge points.
 void buildTable(TrainedModel& model, int count, double voxelSize, const Progress& progress)
 {
   const PointCloud& edges = model.edges;
   const PairFeatureQuantizer quantizer = model.quantizer();
   const ViewMerging merging = model.settings.merging;
-  std::vector<TangentFrame> frames;
+  std::vector<PairFrame> frames;
   frames.reserve(count);
   for (int i = 0; i < count; ++i)
   {
@@ -211,7 +212,7 @@ void buildTable(TrainedModel& model, int count, double voxelSize, const Progress
     merging == ViewMerging::VoxelCodes ? voxelCodes(edges.points, voxelSize) : std::vector<std::uint64_t>();
   const std::vector<bool> isReference = representatives(edges.points, model.symmetries, voxelSize);
   std::unordered_map<std::pair<std::uint64_t, std::uint64_t>, std::size_t, CodePairHash> entryOf;
-  std::vector<Entry> entries;
+  std::vector<PairEntry> entries;
   for (int r = 0; r < count; ++r)
   {
     if (r % 64 == 0)
@@ -238,41 +239,85 @@ void buildTable(TrainedModel& model, int count, double voxelSize, const Progress
       {
         // The same physical pair in another view: saved once, seen in both.
         const auto [known, isNew] = entryOf.try_emplace({ codes[r], codes[i] }, entries.size());
-        if (!isNew && (entries[known->second].views & views) == 0)
+        if (!isNew && (entries[known->second].viewBits & views) == 0)
         {
-          entries[known->second].views |= views;
+          entries[known->second].viewBits |= views;
           continue;
         }
       }
-      if (entries.size() == MostEntries)
-      {
-        throw Error("The pair table would have more than 50 million entries: thin the edge points with a larger leaf "
-                    "size.");
-      }
+      requireRoom(entries, "edge", "leaf size");
       entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(i),
         frames[r].angleOf(edges.points[i]), views });
     }
   }
-  PairTable& table = model.table;
-  table.offsets.assign(quantizer.numberOfKeys() + 1, 0);
-  for (const Entry& entry : entries)
+  model.table = makePairTable(entries, quantizer.numberOfKeys());
+}
+
+/// Of the directions that show a surface point those that it faces: hidden point removal lets some of the back through.
+std::uint32_t facedOf(std::uint32_t visible, const Eigen::Vector3f& normal, const Points& towards)
+{
+  for (std::size_t c = 0; c < towards.size(); ++c)
   {
-    ++table.offsets[entry.key + 1];
+    visible &= normal.dot(towards[c]) > GrazingCosine ? ~0u : ~(1u << c);
   }
-  std::partial_sum(table.offsets.begin(), table.offsets.end(), table.offsets.begin());
-  std::vector<std::uint32_t> next(table.offsets.begin(), table.offsets.end() - 1);
-  table.references.resize(entries.size());
-  table.referreds.resize(entries.size());
-  table.angles.resize(entries.size());
-  table.viewBits.resize(entries.size());
-  for (const Entry& entry : entries)
+  return visible;
+}
+
+/// Of the pairs of surface points, one in each cube, that are visible together from a direction. `visible`: bits of
+/// these directions; without directions all pairs are (Drost et al. [12]).
+void buildSurfaceTable(TrainedModel& model, const PointCloud& surface, const std::vector<std::uint32_t>& visible,
+  double voxelSize, const Progress& progress)
+{
+  const bool haveDirections = model.settings.coVisibilityDirections > 0;
+  const Points towards = haveDirections ? viewDirections(model.settings.coVisibilityDirections) : Points();
+  std::vector<int> seen;
+  std::vector<std::uint32_t> faced; // of these
+  for (std::size_t i = 0; i < surface.size(); ++i)
   {
-    const std::uint32_t place = next[entry.key]++;
-    table.references[place] = entry.reference;
-    table.referreds[place] = entry.referred;
-    table.angles[place] = entry.angle;
-    table.viewBits[place] = entry.views;
+    const std::uint32_t bits = facedOf(visible[i], surface.normals[i], towards);
+    if (!haveDirections || bits != 0)
+    {
+      seen.push_back(static_cast<int>(i));
+      faced.push_back(bits);
+    }
   }
+  PointCloud& points = model.surfacePairPoints;
+  std::vector<std::uint32_t> views;
+  const Points candidates = surface.subset(seen).points;
+  for (const int k : thinPoints(candidates, model.settings.surface.leafSize * model.diameter))
+  {
+    points.points.push_back(surface.points[seen[k]]);
+    points.normals.push_back(surface.normals[seen[k]]);
+    views.push_back(faced[k]);
+  }
+  const PairFeatureQuantizer quantizer = model.surfaceQuantizer();
+  const std::vector<bool> isReference = representatives(points.points, model.symmetries, voxelSize);
+  const int count = static_cast<int>(points.size());
+  std::vector<PairEntry> entries;
+  for (int r = 0; r < count; ++r)
+  {
+    if (r % 64 == 0)
+    {
+      report(progress, static_cast<double>(r) / count);
+    }
+    const PairFrame frame(points.points[r], points.normals[r]);
+    for (int i = 0; i < count && isReference[r]; ++i)
+    {
+      if (i == r || (haveDirections && (views[r] & views[i]) == 0))
+      {
+        continue;
+      }
+      const int key = quantizer.key(pairFeature(
+        PairFeatureKind::Surface, points.points[r], points.normals[r], points.points[i], points.normals[i]));
+      if (key >= 0)
+      {
+        requireRoom(entries, "surface", "SurfaceLeafSize");
+        entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r),
+          static_cast<std::uint32_t>(i), frame.angleOf(points.points[i]), 0u });
+      }
+    }
+  }
+  model.surfaceTable = makePairTable(entries, quantizer.numberOfKeys());
 }
 
 /// FNV-1a over the bytes of what was trained on.
@@ -318,6 +363,7 @@ private:
 MEAMHashingSettings paperHashingSettings()
 {
   MEAMHashingSettings settings;
+  settings.features = Features::Edges;
   settings.feature = PairFeatureKind::Paper;
   settings.angleStep = 3.6;
   settings.merging = ViewMerging::VoxelCodes;
@@ -339,12 +385,25 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   {
     throw Error("The distance step must be in (0, 1] of the diameter and the angle step in [1, 90] degrees.");
   }
+  if (!(settings.surface.distanceStep > 0.0 && settings.surface.distanceStep <= 1.0) ||
+      !(settings.surface.angleStep >= 1.0 && settings.surface.angleStep <= 90.0) ||
+      !(settings.surface.leafSize > 0.0 && settings.surface.leafSize <= 1.0))
+  {
+    throw Error(
+      "Of pairs of surface points the distance step and the leaf size must be in (0, 1] of the diameter and the "
+      "angle step in [1, 90] degrees.");
+  }
   if (surface.normals.size() != surface.size())
   {
     throw Error("The part's surface has no normals: sample the surface of a mesh first.");
   }
+  if (!hasEdges(settings.features) && surface.empty())
+  {
+    throw Error("Pairs of surface points need samples of the part's surface: give them, or set Features to Edges.");
+  }
   TrainedModel model;
   model.settings = settings;
+  model.settings.features = surface.empty() ? Features::Edges : settings.features;
   model.symmetries = part.symmetries;
   Points everything = surface.points;
   for (const AppearanceModel& view : edgeModels)
@@ -358,7 +417,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   }
   model.diameter = part.diameter > 0.0 ? part.diameter : diameter(everything);
   const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : DefaultVoxelShare * model.diameter;
-  if (model.quantizer().numberOfKeys() > TrainedModel::MostKeys)
+  if (std::max(model.quantizer().numberOfKeys(), model.surfaceQuantizer().numberOfKeys()) > TrainedModel::MostKeys)
   {
     throw Error("The pair table would have more than 50 million keys: enlarge the distance step or the angle step.");
   }
@@ -377,7 +436,16 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     model.surface.points.push_back(surface.points[i]);
     model.surface.normals.push_back(surface.normals[i]);
   }
-  buildTable(model, voters, voxelSize, subProgress(progress, 0.7, 1.0));
+  model.table.offsets.assign(model.quantizer().numberOfKeys() + 1, 0);
+  if (hasEdges(settings.features))
+  {
+    buildTable(model, voters, voxelSize, subProgress(progress, 0.7, 0.9));
+  }
+  model.surfaceTable.offsets.assign(model.surfaceQuantizer().numberOfKeys() + 1, 0);
+  if (hasSurface(model.settings.features))
+  {
+    buildSurfaceTable(model, surface, surfaceBits, voxelSize, subProgress(progress, 0.9, 1.0));
+  }
   model.deriveFields();
   Digest digest;
   digest.add(surface.points);
@@ -395,6 +463,10 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   {
     digest.add(symmetry.T.matrix());
   }
+  digest.add(settings.features);
+  digest.add(settings.surface.distanceStep);
+  digest.add(settings.surface.angleStep);
+  digest.add(settings.surface.leafSize);
   digest.add(settings.feature);
   digest.add(settings.distanceStep);
   digest.add(settings.angleStep);

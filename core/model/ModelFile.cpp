@@ -133,11 +133,35 @@ PointCloud cloudOf(const NamedArrays& arrays, const std::string& name)
   return cloud;
 }
 
+void setTable(NamedArrays& arrays, const std::string& name, const PairTable& table)
+{
+  arrays.set(name + "Offsets", table.offsets);
+  arrays.set(name + "References", table.references);
+  arrays.set(name + "Referreds", table.referreds);
+  arrays.set(name + "Angles", table.angles);
+  arrays.set(name + "ViewBits", table.viewBits);
+}
+
+PairTable tableOf(const NamedArrays& arrays, const std::string& name)
+{
+  PairTable table;
+  table.offsets = arrays.get<std::uint32_t>(name + "Offsets");
+  table.references = arrays.get<std::uint32_t>(name + "References");
+  table.referreds = arrays.get<std::uint32_t>(name + "Referreds");
+  table.angles = arrays.get<float>(name + "Angles");
+  table.viewBits = arrays.get<std::uint32_t>(name + "ViewBits");
+  return table;
+}
+
 NamedArrays arraysOf(const TrainedModel& model)
 {
   NamedArrays arrays;
   arrays.set("Digest", model.digest);
   arrays.set("Diameter", Numbers{ model.diameter });
+  arrays.set("Features", std::vector<std::int32_t>{ static_cast<std::int32_t>(model.settings.features) });
+  arrays.set("SurfaceDistanceStep", Numbers{ model.settings.surface.distanceStep });
+  arrays.set("SurfaceAngleStep", Numbers{ model.settings.surface.angleStep });
+  arrays.set("SurfaceLeafSize", Numbers{ model.settings.surface.leafSize });
   arrays.set("Feature", std::vector<std::int32_t>{ static_cast<std::int32_t>(model.settings.feature) });
   arrays.set("DistanceStep", Numbers{ model.settings.distanceStep });
   arrays.set("AngleStep", Numbers{ model.settings.angleStep });
@@ -151,11 +175,9 @@ NamedArrays arraysOf(const TrainedModel& model)
   arrays.set("VisibleBits", model.edgeVisible);
   setCloud(arrays, "Surface", model.surface);
   setSymmetries(arrays, model.symmetries);
-  arrays.set("TableOffsets", model.table.offsets);
-  arrays.set("TableReferences", model.table.references);
-  arrays.set("TableReferreds", model.table.referreds);
-  arrays.set("TableAngles", model.table.angles);
-  arrays.set("TableViewBits", model.table.viewBits);
+  setTable(arrays, "Table", model.table);
+  setCloud(arrays, "SurfacePair", model.surfacePairPoints);
+  setTable(arrays, "SurfaceTable", model.surfaceTable);
   return arrays;
 }
 
@@ -175,6 +197,10 @@ TrainedModel modelOf(const NamedArrays& arrays)
   TrainedModel model;
   model.digest = arrays.text("Digest");
   model.diameter = arrays.value<double>("Diameter");
+  model.settings.features = static_cast<Features>(choiceOf(arrays, "Features", 3));
+  model.settings.surface.distanceStep = arrays.value<double>("SurfaceDistanceStep");
+  model.settings.surface.angleStep = arrays.value<double>("SurfaceAngleStep");
+  model.settings.surface.leafSize = arrays.value<double>("SurfaceLeafSize");
   model.settings.feature = static_cast<PairFeatureKind>(choiceOf(arrays, "Feature", 2));
   model.settings.distanceStep = arrays.value<double>("DistanceStep");
   model.settings.angleStep = arrays.value<double>("AngleStep");
@@ -188,11 +214,9 @@ TrainedModel modelOf(const NamedArrays& arrays)
   model.edgeVisible = arrays.get<std::uint32_t>("VisibleBits");
   model.surface = cloudOf(arrays, "Surface");
   model.symmetries = symmetriesOf(arrays);
-  model.table.offsets = arrays.get<std::uint32_t>("TableOffsets");
-  model.table.references = arrays.get<std::uint32_t>("TableReferences");
-  model.table.referreds = arrays.get<std::uint32_t>("TableReferreds");
-  model.table.angles = arrays.get<float>("TableAngles");
-  model.table.viewBits = arrays.get<std::uint32_t>("TableViewBits");
+  model.table = tableOf(arrays, "Table");
+  model.surfacePairPoints = cloudOf(arrays, "SurfacePair");
+  model.surfaceTable = tableOf(arrays, "SurfaceTable");
   return model;
 }
 }

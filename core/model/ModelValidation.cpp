@@ -114,17 +114,16 @@ void requireSymmetries(const Symmetries& symmetries)
   }
 }
 
-void requireTable(const TrainedModel& model)
+/// `what` names the points that make the pairs.
+void requireTable(const PairTable& table, std::size_t points, std::int64_t numberOfKeys, const char* what)
 {
-  const PairTable& table = model.table;
-  const auto isEdge = [&](std::uint32_t index) { return index < model.edges.size(); };
+  const auto isPoint = [&](std::uint32_t index) { return index < points; };
   bool sound =
-    table.offsets.size() == static_cast<std::size_t>(model.quantizer().numberOfKeys()) + 1 &&
-    table.referreds.size() == table.size() && table.angles.size() == table.size() &&
-    table.viewBits.size() == table.size() && table.offsets.front() == 0 && table.offsets.back() == table.size() &&
-    std::is_sorted(table.offsets.begin(), table.offsets.end()) &&
-    std::all_of(table.references.begin(), table.references.end(), isEdge) &&
-    std::all_of(table.referreds.begin(), table.referreds.end(), isEdge) &&
+    table.offsets.size() == static_cast<std::size_t>(numberOfKeys) + 1 && table.referreds.size() == table.size() &&
+    table.angles.size() == table.size() && table.viewBits.size() == table.size() && table.offsets.front() == 0 &&
+    table.offsets.back() == table.size() && std::is_sorted(table.offsets.begin(), table.offsets.end()) &&
+    std::all_of(table.references.begin(), table.references.end(), isPoint) &&
+    std::all_of(table.referreds.begin(), table.referreds.end(), isPoint) &&
     std::all_of(table.angles.begin(), table.angles.end(), [](float angle) { return std::abs(angle) < MostAngle; });
   const auto sortedWithin = [&](std::uint32_t begin, std::uint32_t end)
   { return std::is_sorted(table.references.begin() + begin, table.references.begin() + end); };
@@ -134,8 +133,22 @@ void requireTable(const TrainedModel& model)
   }
   if (!sound)
   {
-    refuseModel("is damaged: its pair table does not fit its edge points.");
+    refuseModel("is damaged: its pair table does not fit its " + std::string(what) + " points.");
   }
+}
+
+/// Those that make pairs.
+void requireSurfacePairs(const TrainedModel& model)
+{
+  const PointCloud& points = model.surfacePairPoints;
+  if (points.normals.size() != points.size() || points.size() > TrainedModel::MostEdges)
+  {
+    refuseModel("is damaged: its surface points that make pairs have no normals, or are too many.");
+  }
+  requireFinite(points.points, "surface points");
+  requireFinite(points.normals, "normals");
+  requireExtent(points.points, model.diameter, "surface points");
+  requireTable(model.surfaceTable, points.size(), model.surfaceQuantizer().numberOfKeys(), "surface");
 }
 }
 
@@ -168,11 +181,17 @@ void requireModelSettings(const TrainedModel& model)
   {
     refuseModel("has a distance step or an angle step that is out of range.");
   }
+  const SurfacePairSettings& surface = settings.surface;
+  if (!(surface.distanceStep > 0.0 && surface.distanceStep <= 1.0) ||
+      !(surface.angleStep >= 1.0 && surface.angleStep <= 90.0) || !(surface.leafSize > 0.0 && surface.leafSize <= 1.0))
+  {
+    refuseModel("has a distance step, an angle step or a leaf size of surface points that is out of range.");
+  }
   if (!std::isfinite(settings.voxelSize) || !std::isfinite(settings.leafSize))
   {
     refuseModel("has a voxel size or a leaf size that is not a number.");
   }
-  if (model.quantizer().numberOfKeys() > TrainedModel::MostKeys)
+  if (std::max(model.quantizer().numberOfKeys(), model.surfaceQuantizer().numberOfKeys()) > TrainedModel::MostKeys)
   {
     refuseModel("has a distance step or an angle step that is too small.");
   }
@@ -185,6 +204,7 @@ void requireModel(const TrainedModel& model)
   requireViews(model);
   requireSurface(model);
   requireSymmetries(model.symmetries);
-  requireTable(model);
+  requireTable(model.table, model.edges.size(), model.quantizer().numberOfKeys(), "edge");
+  requireSurfacePairs(model);
 }
 }

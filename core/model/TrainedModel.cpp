@@ -16,27 +16,6 @@ constexpr double SurfaceSpacing = 0.018; // a little over that of the surface po
 constexpr double EdgeSpacing = 0.03;
 constexpr double VotingLeafShare = 0.04;
 constexpr double VerificationLeafShare = 0.03;
-
-void deriveVotes(const PointCloud& edges, PairTable& pairs)
-{
-  pairs.votes.assign(pairs.size() + VoteBlock, 0);
-  pairs.mostOfOne = 1;
-  for (std::size_t bucket = 0; bucket + 1 < pairs.offsets.size(); ++bucket)
-  {
-    std::uint32_t last = UINT32_MAX;
-    int ofOne = 0;
-    for (std::uint32_t k = pairs.offsets[bucket]; k < pairs.offsets[bucket + 1]; ++k)
-    {
-      const std::uint32_t reference = pairs.references[k];
-      const Eigen::Vector3f d = edges.points[pairs.referreds[k]] - edges.points[reference];
-      const auto turn = static_cast<PairTurn>(std::lround(pairs.angles[k] * (1 << TurnBits) / (2.0 * M_PI)));
-      pairs.votes[k] = voteEntry(reference, edges.tangents[reference].dot(d) < 0.0f, turn);
-      ofOne = reference == last ? ofOne + 1 : 1; // entries are sorted by reference
-      last = reference;
-      pairs.mostOfOne = std::max(pairs.mostOfOne, ofOne);
-    }
-  }
-}
 }
 
 double TrainedModel::votingLeaf() const
@@ -75,15 +54,17 @@ PairFeatureQuantizer TrainedModel::quantizer() const
     this->settings.angleStep * M_PI / 180.0, this->diameter);
 }
 
+PairFeatureQuantizer TrainedModel::surfaceQuantizer() const
+{
+  return PairFeatureQuantizer(PairFeatureKind::Surface, this->settings.surface.distanceStep * this->diameter,
+    this->settings.surface.angleStep * M_PI / 180.0, this->diameter);
+}
+
 void TrainedModel::deriveFields()
 {
-  this->votingEdges = 0;
-  for (const auto* indices : { &this->table.references, &this->table.referreds })
-  {
-    const auto last = std::max_element(indices->begin(), indices->end());
-    this->votingEdges = std::max(this->votingEdges, last == indices->end() ? 0 : static_cast<int>(*last) + 1);
-  }
-  deriveVotes(this->edges, this->table);
+  this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
+  this->surfaceTable.deriveVotes(
+    this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
   this->verificationPoints = thinPoints(this->surface.points, VerificationLeafShare * this->diameter);
   const double reach = TruncationDistance * this->diameter;
   const double cell = CellShare * this->diameter;

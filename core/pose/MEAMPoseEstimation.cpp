@@ -68,7 +68,7 @@ Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const De
   spent.tangents = watch.lap();
   const Scene scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene);
   spent.scene = watch.lap();
-  Poses poses = detectPoses(scene.edges, model, settings.detection, subProgress(progress, 0.1, 0.5));
+  Poses poses = detectPoses(scene, model, settings.detection, subProgress(progress, 0.1, 0.5));
   spent.detection = watch.lap();
   if (settings.screening)
   {

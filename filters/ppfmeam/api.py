@@ -12,6 +12,8 @@ from vtkmodules.vtkCommonDataModel import (vtkDataObject, vtkImageData, vtkParti
 from . import Error, filters, scripting
 
 MODELS = (".meam", ".vtpc")
+PRESETS = ("recommended", "paper")
+FEATURES = ("edges", "surface", "both")
 DEPTH_IMAGES = (".png", ".tif", ".tiff")
 
 
@@ -63,14 +65,15 @@ class Detections:
         scripting.update(writer, "Write")
 
 
-def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended"):
+def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended", features="both"):
     """Learns how a part looks from all sides; takes seconds. `cad`: a .stl, .obj, .ply or .off file, or a vtkPolyData with
-    faces. `scale` brings its lengths to mm: 1000 for metres; `offset`, mm, is added after it."""
+    faces. `scale` brings its lengths to mm: 1000 for metres; `offset`, mm, is added after it. features: which points make pairs, edges
+    (flat, thin and ribbed parts), surface (smooth, round and thick ones), or both."""
     if isinstance(cad, vtkDataObject):
         mesh = scripting.prepare_mesh(cad, offset, scale)
     else:
         mesh = scripting.read_mesh(os.fspath(cad), offset, scale)
-    return Model(scripting.train(mesh, chosen(preset)))
+    return Model(scripting.train(mesh, chosen("preset", preset, PRESETS), chosen("features", features, FEATURES)))
 
 
 def load(path):
@@ -79,8 +82,8 @@ def load(path):
 
 
 def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
-           probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended", seed=1,
-           threads=0):
+           probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended",
+           features="both", seed=1, threads=0):
     """Finds the copies of a part in a scan.
 
     part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm).
@@ -91,8 +94,9 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
     poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1.
-    image_edges, depth_edges, creases: where edges are looked for, the last two not with preset paper. references: the share of edge points that vote, 0: the
-    preset's. preset: recommended or paper. threads: 0 for all cores.
+    image_edges, depth_edges, creases: where edges are looked for, the last two not with preset paper. references: the share
+    of points that vote, 0: the preset's. preset: recommended or paper. features: edges, surface or both, as train() has them;
+    with preset paper edges. threads: 0 for all cores.
     """
     estimation = filters.vtkMEAMPoseEstimation()
     estimation.SetInputDataObject(part_of(part, cad_scale))
@@ -104,7 +108,8 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     if image_camera is not None:
         scripting.require_file(os.fspath(image_camera))
         estimation.SetCameraFile(os.fspath(image_camera))
-    scripting.set_choice(estimation, "Preset", chosen(preset))
+    scripting.set_choice(estimation, "Preset", chosen("preset", preset, PRESETS))
+    scripting.set_choice(estimation, "Features", chosen("features", features, FEATURES))
     for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, ImageEdges=image_edges,
                             DepthEdges=depth_edges, Creases=creases, ReferenceShare=references, Seed=seed,
                             NumberOfThreads=threads).items():
@@ -112,10 +117,10 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     return Detections(scripting.update(estimation).GetOutput())
 
 
-def chosen(preset):
-    if preset not in ("recommended", "paper"):
-        raise Error(f"the preset has to be 'recommended' or 'paper', not {preset!r}")
-    return preset
+def chosen(name, value, choices):
+    if value not in choices:
+        raise Error(f"{name} has to be one of {', '.join(map(repr, choices))}, not {value!r}")
+    return value
 
 
 def part_of(part, scale):

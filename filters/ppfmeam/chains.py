@@ -55,13 +55,14 @@ class Detection:
     def set_scene(self, edges, surface):
         """The edge points of a scene, and what its sensor measured, or None."""
         connect(self.tangents, 0, edges)
+        connect(self.detection, 2, None if self.detection in self.without_surface else surface)
         for step in self.on_poses:
             connect(step, 3, None if step in self.without_surface else surface)
 
     def set_sensor(self, projection="Automatic", view_direction=(0, 0, -1), position=(0, 0, 0)):
         """Where the scene is seen from, for all steps that ask."""
         self.tangents.SetViewDirection(view_direction)
-        for step in self.on_poses:
+        for step in (self.detection, *self.on_poses):
             getattr(step, "SetProjectionTo" + projection)()
             step.SetViewDirection(view_direction)
             step.SetSensorPosition(position)

@@ -57,9 +57,9 @@ class Dataset:
         """The mesh of an object."""
         return scripting.read_mesh(os.path.join(self.path, "models", f"obj_{number:06d}.ply"))
 
-    def train(self, number, preset):
+    def train(self, number, preset, features="both"):
         """The trained model of an object, with the symmetries of models_info.json where that knows it."""
-        training = scripting.Training(self.mesh(number), preset)
+        training = scripting.Training(self.mesh(number), preset, features)
         info = os.path.join(self.path, "models", "models_info.json")
         if str(number) in (scripting.read_json(info) if os.path.exists(info) else ()):
             training.symmetries.SetModelsInfoFile(info)

@@ -94,10 +94,11 @@ def tohoku_scene(folder, part, scene, model, deviation=0):
 class Evaluation:
     """Finds the poses of scene after scene with a trained model and compares them with the true ones."""
 
-    def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0, references=0):
+    def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0, references=0, features="both"):
         self.estimation = filters.vtkMEAMPoseEstimation()
         self.estimation.SetInputDataObject(model)
         scripting.set_choice(self.estimation, "Preset", preset)
+        scripting.set_choice(self.estimation, "Features", features)
         self.estimation.SetMaximumNumberOfPoses(0)  # those beyond the poses asked for matter for recall and AP
         self.estimation.SetNumberOfThreads(threads)
         self.estimation.SetReferenceShare(references)

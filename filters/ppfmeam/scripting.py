@@ -82,8 +82,14 @@ def share(text):
 
 def add_reference_argument(parser):
     parser.add_argument("--references", type=share, default=0, metavar="SHARE",
-                        help="share of the scene's edge points that are reference points, more finds more of the hidden "
-                             "copies and takes longer (default: the preset's; recommended: 0.1, of a boundary cloud 0.03)")
+                        help="share of the scene's points that are reference points, more finds more of the hidden "
+                             "copies and takes longer (default: the preset's; recommended: 0.2, of a boundary cloud 0.03)")
+
+
+def add_features_argument(parser):
+    parser.add_argument("--features", choices=("edges", "surface", "both"), default="both",
+                        help="points that vote: of edges with tangents, of the surface with normals, or both; with preset "
+                             "paper edges (default: %(default)s)")
 
 
 def add_bin_arguments(parser, scenes):
@@ -228,7 +234,7 @@ def read_model(path):
 class Training:
     """The steps from a clean mesh to the trained model, connected; parameters may be changed before model()."""
 
-    def __init__(self, mesh, preset="recommended"):
+    def __init__(self, mesh, preset="recommended", features="both"):
         self.surface = filters.vtkMEAMSurfaceSampling()
         self.views = filters.vtkMEAMVisibilityExtraction()
         self.boundary = filters.vtkMEAMBoundaryExtraction()
@@ -237,6 +243,8 @@ class Training:
         self.hashing = filters.vtkMEAMHashing()
         for step in (self.tangents, self.hashing):
             set_choice(step, "Parameters", preset)
+        if preset != "paper":
+            set_choice(self.hashing, "Features", features)
         steps = (self.surface, self.views, self.boundary, self.tangents, self.hashing)
         self.surface.SetInputDataObject(mesh)
         for before, step in zip(steps, steps[1:]):
@@ -256,9 +264,9 @@ class Training:
         return update(self.symmetries).GetOutput()
 
 
-def train(mesh, preset="recommended"):
+def train(mesh, preset="recommended", features="both"):
     """The trained model of a mesh."""
-    return Training(mesh, preset).model()
+    return Training(mesh, preset, features).model()
 
 
 def resolve_conflicts(found, models, scene, edges, preset="recommended", poses=0, threads=0):

@@ -74,7 +74,8 @@ void Increments(benchmark::State& state, SearchOf searchOf)
   {
     return scenes::skip(state);
   }
-  increment(state, search->model.votingEdges * static_cast<std::size_t>(2 * 360.0 / search->model.settings.angleStep));
+  increment(
+    state, search->model.table.votingPoints * static_cast<std::size_t>(2 * 360.0 / search->model.settings.angleStep));
 }
 BENCHMARK_CAPTURE(Increments, bracket, scenes::bracketSearch)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Increments, tohoku, scenes::tohokuSearch)->Unit(benchmark::kMicrosecond);

@@ -26,7 +26,7 @@ void run(benchmark::State& state, const meam::PointCloud& edges, Compute&& compu
   {
     for (int r = 0; r < count; r += ReferenceStride)
     {
-      const meam::TangentFrame frame(edges.points[r], edges.tangents[r]);
+      const meam::PairFrame frame(edges.points[r], edges.tangents[r]);
       for (int begin = 0; begin < count; begin += Block)
       {
         compute(frame, begin, std::min(count, begin + Block), keys, turns);
@@ -42,11 +42,11 @@ void run(benchmark::State& state, const meam::PointCloud& edges, Compute&& compu
 
 void computeKeys(benchmark::State& state, const scenes::Search& search)
 {
-  const meam::PairKeys pairs(search.edges().cloud, search.model.quantizer());
+  const meam::PairKeys pairs(search.edges().cloud.points, search.edges().cloud.tangents, search.model.quantizer());
   std::vector<int> blocks((search.edges().cloud.size() + meam::BlockedPoints::Size - 1) / meam::BlockedPoints::Size);
   std::iota(blocks.begin(), blocks.end(), 0);
   run(state, search.edges().cloud,
-    [&](const meam::TangentFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)
+    [&](const meam::PairFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)
     {
       constexpr int size = meam::BlockedPoints::Size;
       pairs.compute(frame, blocks.data() + begin / size, (end - begin + size - 1) / size, keys, turns);
@@ -70,7 +70,7 @@ void PairKeysOneByOne(benchmark::State& state)
   const meam::PointCloud& edges = search.edges().cloud;
   const meam::PairFeatureQuantizer quantizer = search.model.quantizer();
   run(state, edges,
-    [&](const meam::TangentFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)
+    [&](const meam::PairFrame& frame, int begin, int end, int* keys, meam::PairTurn* turns)
     {
       const Eigen::Vector3f tangent = frame.Axes.col(0);
       for (int i = begin; i < end; ++i)
@@ -84,7 +84,7 @@ void PairKeysOneByOne(benchmark::State& state)
         feature.distance = length;
         feature.referenceAngle = std::acos(std::min(std::abs(reference) / length, 1.0f));
         feature.referredAngle = std::acos(std::min(std::abs(referred) / length, 1.0f));
-        feature.tangentAngle = std::acos(std::clamp(sign * tangent.dot(edges.tangents[i]), -1.0f, 1.0f));
+        feature.betweenAngle = std::acos(std::clamp(sign * tangent.dot(edges.tangents[i]), -1.0f, 1.0f));
         feature.rightHanded = sign * tangent.cross(edges.tangents[i]).dot(d) > 0.0f;
         keys[i - begin] = length > 0.0f ? quantizer.key(feature) : -1;
         const double turn = frame.angleOf(edges.points[i]) * (1 << meam::TurnBits) / (2.0 * M_PI);

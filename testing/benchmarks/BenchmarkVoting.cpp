@@ -27,20 +27,21 @@ public:
     , Referred(this->References.subset(meam::thinPoints(this->References.points, search.model.votingLeaf())))
     , Grid(this->Referred.points, 0.25 * search.model.diameter)
     , Blocks(this->Referred.points)
-    , Keys(this->Referred.subset(this->Blocks.order()), search.model.quantizer())
+    , Keys(this->Referred.subset(this->Blocks.order()).points, this->Referred.subset(this->Blocks.order()).tangents,
+        search.model.quantizer())
   {
   }
 
   const meam::PointCloud& references() const { return this->References; }
   const meam::PointCloud& referred() const { return this->Referred; }
 
-  meam::TangentFrame reference(std::size_t r) const
+  meam::PairFrame reference(std::size_t r) const
   {
     return { this->References.points[r], this->References.tangents[r] };
   }
 
   template <typename Visitor>
-  void forEach(const meam::TangentFrame& reference, Visitor&& visit) const
+  void forEach(const meam::PairFrame& reference, Visitor&& visit) const
   {
     this->Grid.forEachRange(reference.Origin, this->Searched.model.diameter,
       [&](int begin, int end)
@@ -52,7 +53,7 @@ public:
       });
   }
 
-  Votes of(const meam::TangentFrame& reference) const
+  Votes of(const meam::PairFrame& reference) const
   {
     Votes votes;
     const std::vector<int> blocks = this->Blocks.within(reference.Origin, this->Searched.model.diameter);
@@ -141,7 +142,7 @@ void VotingByModelPoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
   detect(state, search, 1);
-  scenes::growsWith(state, search.model.votingEdges);
+  scenes::growsWith(state, search.model.table.votingPoints);
 }
 BENCHMARK(VotingByModelPoints)->ArgsProduct({ scenes::Leaves })->UseRealTime()->Unit(benchmark::kMillisecond);
 
@@ -181,8 +182,8 @@ void VotingByHashMap(benchmark::State& state, SearchOf searchOf)
   {
     for (std::size_t r = 0; r < references.size(); ++r)
     {
-      counts.assign(model.votingEdges * 2 * turns, 0);
-      const meam::TangentFrame frame = pairs.reference(r);
+      counts.assign(model.table.votingPoints * 2 * turns, 0);
+      const meam::PairFrame frame = pairs.reference(r);
       pairs.forEach(frame,
         [&](int i)
         {
@@ -229,7 +230,7 @@ void CastVotes(benchmark::State& state, SearchOf searchOf)
     cast += numberOf(votes.back());
   }
   const meam::PairTable& table = search->model.table;
-  meam::VoteAccumulator accumulator(search->model.votingEdges, angleStep(*search));
+  meam::VoteAccumulator accumulator(search->model.table.votingPoints, angleStep(*search));
   for (auto _ : state)
   {
     for (const Votes& ofOne : votes)
@@ -249,13 +250,13 @@ void findPeaks(benchmark::State& state, const scenes::Search& search, int peaks)
   const Pairs pairs(search);
   const Votes votes = pairs.of(pairs.reference(0));
   const meam::PairTable& table = search.model.table;
-  meam::VoteAccumulator accumulator(search.model.votingEdges, angleStep(search));
+  meam::VoteAccumulator accumulator(search.model.table.votingPoints, angleStep(search));
   accumulator.vote(table.votes.data(), votes.data(), static_cast<int>(votes.size()), table.mostOfOne);
   for (auto _ : state)
   {
     benchmark::DoNotOptimize(accumulator.peaks(peaks));
   }
-  const double bins = search.model.votingEdges * 2.0 * 2.0 * M_PI / angleStep(search);
+  const double bins = search.model.table.votingPoints * 2.0 * 2.0 * M_PI / angleStep(search);
   state.counters["bins/s"] =
     benchmark::Counter(bins * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
@@ -277,7 +278,7 @@ void PeaksByModelPoints(benchmark::State& state)
 {
   const scenes::Search search = scenes::searchOfThinned(static_cast<int>(state.range(0)));
   findPeaks(state, search, 1);
-  scenes::growsWith(state, search.model.votingEdges);
+  scenes::growsWith(state, search.model.table.votingPoints);
 }
 BENCHMARK(PeaksByModelPoints)->ArgsProduct({ scenes::Leaves })->Unit(benchmark::kMicrosecond);
 }

@@ -4,12 +4,14 @@
 #include "base/BlockedPoints.h"
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "features/NormalEstimation.h"
 #include "pose/voting/VoteAccumulator.h"
 #include "scene/Units.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 namespace meam
@@ -54,29 +56,60 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
   return indices;
 }
 
+/// Points with unit directions: edge points with tangents, or surface points with normals.
+struct DirectedPoints
+{
+  Points points;
+  Points directions;
+
+  DirectedPoints subset(const std::vector<int>& indices) const
+  {
+    DirectedPoints result;
+    for (const int i : indices)
+    {
+      result.points.push_back(this->points[i]);
+      result.directions.push_back(this->directions[i]);
+    }
+    return result;
+  }
+};
+
+/// The pairs of a part that a scene's pairs are looked up among.
+struct PartPairs
+{
+  const Points& points;
+  const Points& directions;
+  const PairTable& table;
+  PairFeatureQuantizer quantizer;
+  double angleStep;          ///< of the votes' turn, radians
+  double diameter;           ///< of the part, mm
+  std::size_t longestBucket; ///< entries; a pair that fits more of the part's tells nothing
+};
+
 /// Votes of the scene's pairs, reference by reference.
 class Voting
 {
 public:
-  Voting(const TrainedModel& model, const PointCloud& referred, const PoseDetectionSettings& settings)
-    : Model(model)
+  Voting(const PartPairs& part, const DirectedPoints& referred, const PoseDetectionSettings& settings)
+    : Part(part)
     , Blocks(referred.points, settings.threads)
-    , Pairs(referred.subset(this->Blocks.order()), model.quantizer())
+    , Pairs(
+        referred.subset(this->Blocks.order()).points, referred.subset(this->Blocks.order()).directions, part.quantizer)
     , TurnsUsed(settings.signedTangents ? ~PairTurn{ 0 } : PairTurn{ TurnMask })
   {
     if (!settings.signedTangents)
     {
-      const std::vector<std::uint32_t>& votes = model.table.votes;
+      const std::vector<std::uint32_t>& votes = part.table.votes;
       std::transform(votes.begin(), votes.end(), std::back_inserter(this->OwnVotes), withoutSense);
     }
   }
 
   /// All pairs of one reference point vote.
-  void vote(const TangentFrame& reference, VoteAccumulator& accumulator) const
+  void vote(const PairFrame& reference, VoteAccumulator& accumulator) const
   {
     int keys[MostPairs];
     PairTurn turns[MostPairs];
-    const std::vector<int> blocks = this->Blocks.within(reference.Origin, this->Model.diameter);
+    const std::vector<int> blocks = this->Blocks.within(reference.Origin, this->Part.diameter);
     const int most = MostPairs / BlockedPoints::Size;
     for (int begin = 0; begin < static_cast<int>(blocks.size()); begin += most)
     {
@@ -93,7 +126,7 @@ private:
   void cast(int* keys, PairTurn* turns, int count, VoteAccumulator& accumulator) const
   {
     // Passes, so that what the next one reads is on its way: where buckets are, votes.
-    const PairTable& table = this->Model.table;
+    const PairTable& table = this->Part.table;
     const std::uint32_t* offsets = table.offsets.data();
     const std::uint32_t* votes = this->OwnVotes.empty() ? table.votes.data() : this->OwnVotes.data();
     int pairs = 0;
@@ -110,28 +143,103 @@ private:
     {
       buckets[filled] = { offsets[keys[k]], offsets[keys[k] + 1], turns[k] & this->TurnsUsed };
       __builtin_prefetch(votes + buckets[filled].begin);
-      filled += buckets[filled].begin < buckets[filled].end ? 1 : 0;
+      const std::size_t length = buckets[filled].end - buckets[filled].begin;
+      filled += length > 0 && length <= this->Part.longestBucket ? 1 : 0;
     }
     accumulator.vote(votes, buckets, filled, table.mostOfOne);
   }
 
-  const TrainedModel& Model;
+  const PartPairs& Part;
   BlockedPoints Blocks;
   PairKeys Pairs;
   PairTurn TurnsUsed;                  ///< bits of a scene pair's turn
   std::vector<std::uint32_t> OwnVotes; ///< in place of the table's, when senses are ignored
 };
 
-/// The pose that lays the frame of the peak's model point on `scene`.
-Pose poseOf(const VotePeak& peak, const TrainedModel& model, const TangentFrame& scene)
+/// A pose by the vote of a reference point, and the part's point that it was taken for.
+struct Candidate
 {
-  const TangentFrame part(model.edges.points[peak.modelPoint], model.edges.tangents[peak.modelPoint]);
   Pose pose;
-  pose.T_scene_model = alignFrames(part, scene, peak.flip, peak.alpha);
-  pose.T_scene_model = nearestEqual(pose.T_scene_model, Eigen::Isometry3d::Identity(), model.symmetries);
-  pose.votes = peak.votes;
-  pose.viewId = __builtin_ctz(model.edgeViews[peak.modelPoint]);
-  return pose;
+  int modelPoint = -1;
+};
+
+/// One or more for each reference point that found pairs, in their order.
+std::vector<Candidate> candidatesOf(const PartPairs& part, const DirectedPoints& references,
+  const DirectedPoints& referred, const Symmetries& symmetries, const PoseDetectionSettings& settings,
+  const Progress& progress)
+{
+  const int count = static_cast<int>(references.points.size());
+  if (count == 0 || part.table.votingPoints == 0)
+  {
+    return {};
+  }
+  const Voting voting(part, referred, settings);
+  const int threads = std::min(numberOfThreads(settings.threads), count);
+  std::vector<VoteAccumulator> accumulators(
+    threads, VoteAccumulator(part.table.votingPoints, part.angleStep, settings.smoothPeaks));
+  std::vector<std::vector<Candidate>> found(count);
+  parallelFor(count, threads, progress,
+    [&](int begin, int end, int thread)
+    {
+      VoteAccumulator& accumulator = accumulators[thread];
+      for (int r = begin; r < end; ++r)
+      {
+        const PairFrame scene(references.points[r], references.directions[r]);
+        accumulator.clear();
+        voting.vote(scene, accumulator);
+        for (const VotePeak& peak : accumulator.peaks(settings.peaksPerReference))
+        {
+          const PairFrame model(part.points[peak.modelPoint], part.directions[peak.modelPoint]);
+          Candidate candidate{ {}, peak.modelPoint };
+          candidate.pose.T_scene_model =
+            nearestEqual(alignFrames(model, scene, peak.flip, peak.alpha), Eigen::Isometry3d::Identity(), symmetries);
+          candidate.pose.votes = peak.votes;
+          found[r].push_back(candidate);
+        }
+      }
+    });
+  std::vector<Candidate> all;
+  for (const std::vector<Candidate>& ofOne : found)
+  {
+    all.insert(all.end(), ofOne.begin(), ofOne.end());
+  }
+  return all;
+}
+
+void requireSettings(const PoseDetectionSettings& settings)
+{
+  const auto isShare = [](double share) { return share > 0.0 && share <= 1.0; };
+  if (!(settings.referenceShare >= 0.0 && settings.referenceShare <= 1.0) || !isShare(settings.referredShare) ||
+      !isShare(settings.boundaryReferenceShare) || !isShare(settings.scanReferenceShare) ||
+      !isShare(settings.surfaceReferenceShare) || !isShare(settings.boundarySurfaceShare))
+  {
+    throw Error("The shares of reference and referred points must be in (0, 1].");
+  }
+  if (settings.peaksPerReference < 1)
+  {
+    throw Error("At least one peak of each reference point is needed.");
+  }
+}
+
+/// Points of the scene's surface, one in a cube, that have a normal.
+DirectedPoints surfacePointsOf(const Scene& scene, double leaf, const PoseDetectionSettings& settings)
+{
+  const Points& means = scene.depth.means();
+  const std::vector<int> thinned = thinPoints(means, leaf);
+  NormalEstimationSettings estimation = settings.normals;
+  estimation.threads = settings.threads;
+  const Points normals =
+    estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, estimation).normals;
+  DirectedPoints result;
+  for (std::size_t k = 0; k < thinned.size(); ++k)
+  {
+    if (!normals[k].isZero())
+    {
+      result.points.push_back(means[thinned[k]]);
+      result.directions.push_back(normals[k]);
+    }
+  }
+  return result;
 }
 }
 
@@ -140,6 +248,7 @@ PoseDetectionSettings paperDetectionSettings()
   PoseDetectionSettings settings;
   settings.referenceShare = 0.05;
   settings.referredShare = 0.2;
+  settings.features = Features::Edges;
   return settings;
 }
 
@@ -151,63 +260,82 @@ Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const
   {
     throw Error("The scene's edge points have no tangents: estimate them before detection.");
   }
-  PointCloud edges = finitePoints(sceneEdges.cloud);
-  requireSameUnits(edges.points, model.diameter);
-  const double referenceShare = settings.referenceShare > 0.0 ? settings.referenceShare
-                                : sceneEdges.fromScan         ? settings.scanReferenceShare
-                                                              : settings.boundaryReferenceShare;
-  if (!(referenceShare > 0.0 && referenceShare <= 1.0) ||
-      !(settings.referredShare > 0.0 && settings.referredShare <= 1.0))
-  {
-    throw Error("The shares of reference and referred points must be in (0, 1].");
-  }
-  if (settings.peaksPerReference < 1)
-  {
-    throw Error("At least one peak of each reference point is needed.");
-  }
+  const PointCloud finite = finitePoints(sceneEdges.cloud);
+  requireSameUnits(finite.points, model.diameter);
+  requireSettings(settings);
+  const double share = settings.referenceShare > 0.0 ? settings.referenceShare
+                       : sceneEdges.fromScan         ? settings.scanReferenceShare
+                                                     : settings.boundaryReferenceShare;
   const int least = sceneEdges.fromScan ? settings.leastScanReferences : settings.leastReferences;
-  const double angleStep = model.settings.angleStep * M_PI / 180.0;
-  for (Eigen::Vector3f& tangent : edges.tangents)
+  DirectedPoints edges{ finite.points, finite.tangents };
+  for (Eigen::Vector3f& tangent : edges.directions)
   {
     tangent = tangent.x() < 0.0f ? Eigen::Vector3f(-tangent) : tangent; // the sign is that of the first axis
   }
   const double cell = settings.choiceCell * model.diameter;
-  std::vector<int> references;
-  PointCloud referred;
+  DirectedPoints references, referred;
   inParallel(settings.threads,
-    { [&] { references = chooseShare(edges.points, referenceShare, least, cell, settings.seed); },
+    { [&] { references = edges.subset(chooseShare(edges.points, share, least, cell, settings.seed)); },
       [&]
       {
         referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
         referred = referred.subset(chooseShare(referred.points, settings.referredShare, 1, cell, settings.seed + 1));
       } });
-  const Voting voting(model, referred, settings);
-
-  const int threads = std::min(numberOfThreads(settings.threads), static_cast<int>(references.size()));
-  std::vector<VoteAccumulator> accumulators(
-    threads, VoteAccumulator(model.votingEdges, angleStep, settings.smoothPeaks));
-  std::vector<Poses> found(references.size());
-  parallelFor(static_cast<int>(references.size()), threads, progress,
-    [&](int begin, int end, int thread)
-    {
-      VoteAccumulator& accumulator = accumulators[thread];
-      for (int r = begin; r < end; ++r)
-      {
-        const TangentFrame scene(edges.points[references[r]], edges.tangents[references[r]]);
-        accumulator.clear();
-        voting.vote(scene, accumulator);
-        for (const VotePeak& peak : accumulator.peaks(settings.peaksPerReference))
-        {
-          found[r].push_back(poseOf(peak, model, scene));
-        }
-      }
-    });
-
+  const PartPairs part{ model.edges.points, model.edges.tangents, model.table, model.quantizer(),
+    model.settings.angleStep * M_PI / 180.0, model.diameter, std::numeric_limits<std::size_t>::max() };
   Poses poses;
-  poses.reserve(found.size());
-  for (const Poses& ofOne : found)
+  for (const Candidate& candidate : candidatesOf(part, references, referred, model.symmetries, settings, progress))
   {
-    poses.insert(poses.end(), ofOne.begin(), ofOne.end());
+    poses.push_back(candidate.pose);
+    poses.back().viewId = __builtin_ctz(model.edgeViews[candidate.modelPoint]);
+  }
+  report(progress, 1.0);
+  return poses;
+}
+
+Poses detectPoses(
+  const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings, const Progress& progress)
+{
+  requireSettings(settings);
+  const bool withEdges = hasEdges(settings.features) && hasEdges(model.settings.features);
+  const bool haveSurface = hasSurface(settings.features) && hasSurface(model.settings.features);
+  if (!withEdges && !haveSurface)
+  {
+    throw Error(
+      "The model holds pairs of " + std::string(hasEdges(model.settings.features) ? "edge" : "surface") +
+      " points alone, and poses are looked for by the others: set Features to Both, or train the model again.");
+  }
+  const bool withSurface = haveSurface && scene.hasSurface();
+  if (!withEdges && !withSurface)
+  {
+    throw Error("Poses are looked for by surface points alone, and the scene has no surface: give the points that the "
+                "sensor measured, or set Features to Both.");
+  }
+  Poses poses;
+  if (withEdges)
+  {
+    poses = detectPoses(scene.edges, model, settings, subProgress(progress, 0.0, withSurface ? 0.6 : 1.0));
+  }
+  if (withSurface)
+  {
+    const DirectedPoints surface = surfacePointsOf(scene, model.settings.surface.leafSize * model.diameter, settings);
+    requireSameUnits(surface.points, model.diameter);
+    const bool isScan = scene.edges.fromScan;
+    const double share = settings.referenceShare > 0.0 ? settings.referenceShare
+                         : isScan                      ? settings.surfaceReferenceShare
+                                                       : settings.boundarySurfaceShare;
+    const int least = isScan ? settings.leastSurfaceReferences : settings.leastBoundarySurface;
+    const DirectedPoints references = surface.subset(
+      chooseShare(surface.points, share, least, settings.choiceCell * model.diameter, settings.seed + 2));
+    const PartPairs part{ model.surfacePairPoints.points, model.surfacePairPoints.normals, model.surfaceTable,
+      model.surfaceQuantizer(), model.settings.surface.angleStep * M_PI / 180.0, model.diameter,
+      static_cast<std::size_t>(settings.longestBucket * model.surfaceTable.votingPoints) };
+    for (const Candidate& candidate :
+      candidatesOf(part, references, surface, model.symmetries, settings, subProgress(progress, 0.6, 1.0)))
+    {
+      poses.push_back(candidate.pose);
+      poses.back().viewId = model.visibility->view(candidate.pose.T_scene_model, scene.sensor);
+    }
   }
   report(progress, 1.0);
   return poses;

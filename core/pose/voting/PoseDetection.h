@@ -3,14 +3,18 @@
 
 #include "base/Error.h"
 #include "base/LocalCloud.h"
+#include "features/NormalEstimation.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
+#include "scene/Scene.h"
 
 namespace meam
 {
 struct PoseDetectionSettings
 {
-  /// P_ref: share of the scene's edge points used as reference points; 0: by where the edges come from.
+  Features features = Features::Both; ///< of those that the model holds
+  /// P_ref: share of the scene's edge points, and of its surface points, used as reference points; 0: by where the
+  /// edges come from.
   double referenceShare = 0.0;
   double boundaryReferenceShare = 0.03; ///< P_ref of an exact boundary
   /// P_ref of edges found in a scan, by its image or its depth: many are not the part's, and some are displaced, so
@@ -21,7 +25,17 @@ struct PoseDetectionSettings
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;
-  int peaksPerReference = 1; ///< candidates of one reference point; more find more hidden parts, at a cost
+  /// P_ref of the surface of a scan: of its points, one in a cube of the model's leaf size (SurfacePairSettings); all
+  /// are referred points.
+  double surfaceReferenceShare = 0.07;
+  int leastSurfaceReferences = 300;
+  double boundarySurfaceShare = 0.01; ///< the same beside an exact boundary, which tells most by itself
+  int leastBoundarySurface = 50;
+  /// Buckets of the table of surface points with more entries for each of the model's points tell nothing: pairs on a
+  /// plane.
+  double longestBucket = 2.0;
+  NormalEstimationSettings normals{}; ///< of the scene's surface
+  int peaksPerReference = 1;          ///< candidates of one reference point; more find more hidden parts, at a cost
   /// The sense of d along a tangent tells which way round it lies; else stored signs are taken for right, which is
   /// wrong for half of the references.
   bool signedTangents = true;
@@ -40,5 +54,10 @@ PoseDetectionSettings paperDetectionSettings();
 /// order of the reference points, in the local frame of `edges`, the scene's edge points with tangents. The same for
 /// any number of threads. Throws Error when the scene is empty, has no tangents, or is in another unit than the model.
 Poses detectPoses(const LocalCloud& edges, const TrainedModel& model, const PoseDetectionSettings& settings = {},
+  const Progress& progress = {});
+
+/// The same by a scene's edge points, and then by the points of its surface, as far as the model holds pairs of both. A
+/// model of surface points alone needs a scene with a surface.
+Poses detectPoses(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings = {},
   const Progress& progress = {});
 }

@@ -28,7 +28,21 @@ TEST(PairFeature, ByHand)
   EXPECT_FLOAT_EQ(feature.distance, 5.0f);
   EXPECT_NEAR(feature.referenceAngle, 90 * Degree, 1e-6);
   EXPECT_NEAR(feature.referredAngle, std::acos(0.8), 1e-6);
-  EXPECT_NEAR(feature.tangentAngle, 90 * Degree, 1e-6);
+  EXPECT_NEAR(feature.betweenAngle, 90 * Degree, 1e-6);
+}
+
+TEST(PairFeature, OfNormalsByHand)
+{
+  // d = (0, 3, 4); the normals make acos(-4 / 5) and acos(3 / 5) with it, and a right angle with each other.
+  const PairFeature feature =
+    meam::pairFeature(PairFeatureKind::Surface, { 1, 1, 1 }, { 0, 0, -1 }, { 1, 4, 5 }, { 0, 1, 0 });
+  EXPECT_FLOAT_EQ(feature.distance, 5.0f);
+  EXPECT_NEAR(feature.referenceAngle, std::acos(-0.8), 1e-6);
+  EXPECT_NEAR(feature.referredAngle, std::acos(0.6), 1e-6);
+  EXPECT_NEAR(feature.betweenAngle, 90 * Degree, 1e-6);
+  const PairFeature turned =
+    meam::pairFeature(PairFeatureKind::Surface, { 1, 1, 1 }, { 0, 0, 1 }, { 1, 4, 5 }, { 0, 1, 0 });
+  EXPECT_NEAR(turned.referenceAngle, std::acos(0.8), 1e-6) << "a normal has a sign";
 }
 
 TEST(PairFeature, OrientedTellsObtuseAnglesAndMirrorImages)
@@ -37,14 +51,14 @@ TEST(PairFeature, OrientedTellsObtuseAnglesAndMirrorImages)
   // of them turned to +z the three vectors have a hand.
   const float s = std::sqrt(0.5f);
   const auto apart = meam::pairFeature(PairFeatureKind::Oriented, { 0, 0, 0 }, { s, s, 0 }, { 2, 0, 0 }, { s, -s, 0 });
-  EXPECT_NEAR(apart.tangentAngle, 90 * Degree, 1e-3);
+  EXPECT_NEAR(apart.betweenAngle, 90 * Degree, 1e-3);
   // Steep tangents to both sides: 160 degrees apart when oriented, 20 when folded.
   const float c = std::cos(80 * Degree);
   const float n = std::sin(80 * Degree);
   const auto wide = meam::pairFeature(PairFeatureKind::Oriented, { 0, 0, 0 }, { c, n, 0 }, { 2, 0, 0 }, { c, -n, 0 });
-  EXPECT_NEAR(wide.tangentAngle, 160 * Degree, 1e-4);
+  EXPECT_NEAR(wide.betweenAngle, 160 * Degree, 1e-4);
   const auto folded = meam::pairFeature(PairFeatureKind::Paper, { 0, 0, 0 }, { c, n, 0 }, { 2, 0, 0 }, { c, -n, 0 });
-  EXPECT_NEAR(folded.tangentAngle, 20 * Degree, 1e-4);
+  EXPECT_NEAR(folded.betweenAngle, 20 * Degree, 1e-4);
 
   const auto left = meam::pairFeature(PairFeatureKind::Oriented, { 0, 0, 0 }, { s, s, 0 }, { 2, 0, 0 }, { s, 0, s });
   const auto right = meam::pairFeature(PairFeatureKind::Oriented, { 0, 0, 0 }, { s, s, 0 }, { 2, 0, 0 }, { s, 0, -s });
@@ -75,7 +89,7 @@ TEST(PairFeature, NeitherMotionNorTheSignOfATangentChangesIt)
         const Eigen::Vector3f d = (pi - pr).normalized();
         if (std::abs(tr.dot(d)) > 1e-3f && std::abs(ti.dot(d)) > 1e-3f)
         {
-          EXPECT_NEAR(found.tangentAngle, expected.tangentAngle, 2e-3);
+          EXPECT_NEAR(found.betweenAngle, expected.betweenAngle, 2e-3);
           if (std::abs(tr.cross(ti).dot(d)) > 1e-3f)
           {
             EXPECT_EQ(found.rightHanded, expected.rightHanded);
@@ -83,6 +97,23 @@ TEST(PairFeature, NeitherMotionNorTheSignOfATangentChangesIt)
         }
       }
     }
+  }
+}
+
+TEST(PairFeature, NoMotionChangesThatOfNormals)
+{
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const Eigen::Vector3f pr = 50.0f * unit(random), pi = 50.0f * unit(random), nr = unit(random), ni = unit(random);
+    const Eigen::Isometry3f T = parts::motion(random, 100.0).cast<float>();
+    const PairFeature expected = meam::pairFeature(PairFeatureKind::Surface, pr, nr, pi, ni);
+    const PairFeature found =
+      meam::pairFeature(PairFeatureKind::Surface, T * pr, T.linear() * nr, T * pi, T.linear() * ni);
+    EXPECT_NEAR(found.distance, expected.distance, 1e-4);
+    EXPECT_NEAR(found.referenceAngle, expected.referenceAngle, 2e-3);
+    EXPECT_NEAR(found.referredAngle, expected.referredAngle, 2e-3);
+    EXPECT_NEAR(found.betweenAngle, expected.betweenAngle, 2e-3);
   }
 }
 
@@ -103,6 +134,10 @@ TEST(PairFeature, QuantizerCutsAtTheSteps)
   const meam::PairFeatureQuantizer oriented(PairFeatureKind::Oriented, 7.0, 10 * Degree, 100.0);
   EXPECT_EQ(oriented.numberOfKeys(), 15 * 9 * 9 * 18 * 2);
   EXPECT_EQ(oriented.key({ 20.0f, angle(25), angle(35), angle(175), true }), (((2 * 9 + 2) * 9 + 3) * 18 + 17) * 2 + 1);
+
+  const meam::PairFeatureQuantizer surface(PairFeatureKind::Surface, 7.0, 10 * Degree, 100.0);
+  EXPECT_EQ(surface.numberOfKeys(), 15 * 18 * 18 * 18);
+  EXPECT_EQ(surface.key({ 20.0f, angle(125), angle(35), angle(175), false }), ((2 * 18 + 12) * 18 + 3) * 18 + 17);
 }
 
 TEST(PairFeature, FramesAndAnglesGiveThePoseBack)
@@ -116,8 +151,8 @@ TEST(PairFeature, FramesAndAnglesGiveThePoseBack)
     const Eigen::Isometry3d T = parts::motion(random, 100.0);
     const Eigen::Isometry3f Tf = T.cast<float>();
     const Eigen::Vector3f ts = (trial % 2 == 0 ? 1.0f : -1.0f) * (Tf.linear() * tm);
-    const meam::TangentFrame model(mr, tm);
-    const meam::TangentFrame scene(Tf * mr, ts);
+    const meam::PairFrame model(mr, tm);
+    const meam::PairFrame scene(Tf * mr, ts);
     const Eigen::Vector3f si = Tf * mi;
     if (std::abs(tm.dot((mi - mr).normalized())) < 1e-3f || (mi - mr).cross(tm).norm() < 1.0f)
     {

@@ -38,10 +38,11 @@ TEST(PairKeys, AnglesOfCosines)
 TEST(PairKeys, AreThoseOfTheFeatures)
 {
   const meam::PointCloud points = cloud(501); // no multiple of any vector's width
-  for (const auto kind : { meam::PairFeatureKind::Paper, meam::PairFeatureKind::Oriented })
+  for (const auto kind :
+    { meam::PairFeatureKind::Paper, meam::PairFeatureKind::Oriented, meam::PairFeatureKind::Surface })
   {
     const meam::PairFeatureQuantizer quantizer(kind, 7.0, 7.2 * M_PI / 180.0, 100.0);
-    const meam::PairKeys pairs(points, quantizer);
+    const meam::PairKeys pairs(points.points, points.tangents, quantizer);
     std::vector<int> blocks(32);
     std::iota(blocks.begin(), blocks.end(), 0);
     std::vector<int> keys(512);
@@ -50,7 +51,7 @@ TEST(PairKeys, AreThoseOfTheFeatures)
     int tooLong = 0;
     for (int r = 0; r < 100; ++r)
     {
-      const meam::TangentFrame frame(points.points[r], points.tangents[r]);
+      const meam::PairFrame frame(points.points[r], points.tangents[r]);
       pairs.compute(frame, blocks.data(), 32, keys.data(), turns.data());
       for (int i = 0; i < static_cast<int>(points.size()); ++i)
       {
@@ -63,7 +64,7 @@ TEST(PairKeys, AreThoseOfTheFeatures)
           meam::pairFeature(kind, points.points[r], points.tangents[r], points.points[i], points.tangents[i]));
         differ += key == keys[i] ? 0 : 1; // rounding may carry a feature over the border of its bin
         tooLong += key < 0 ? 1 : 0;
-        EXPECT_EQ((turns[i] >> meam::TurnBits) == 1, frame.against(points.points[i]));
+        EXPECT_EQ((turns[i] >> meam::TurnBits) == 1, meam::isOfLines(kind) && frame.against(points.points[i]));
         const double exact = frame.angleOf(points.points[i]) * (1 << meam::TurnBits) / (2.0 * M_PI);
         const int apart = static_cast<int>((turns[i] - std::lround(exact) + 1) & meam::TurnMask);
         EXPECT_LE(apart, 2) << "a turn of " << exact;
@@ -79,8 +80,8 @@ TEST(PairKeys, BlocksAreComputedInAnyOrder)
 {
   const meam::PointCloud points = cloud(97);
   const meam::PairFeatureQuantizer quantizer(meam::PairFeatureKind::Oriented, 7.0, 0.1, 200.0);
-  const meam::PairKeys pairs(points, quantizer);
-  const meam::TangentFrame frame(points.points[5], points.tangents[5]);
+  const meam::PairKeys pairs(points.points, points.tangents, quantizer);
+  const meam::PairFrame frame(points.points[5], points.tangents[5]);
   constexpr int size = meam::BlockedPoints::Size;
   const int all[] = { 0, 1, 2, 3, 4, 5, 6 };
   const int some[] = { 6, 2, 3 };

@@ -102,6 +102,68 @@ TEST(MEAMHashing, PairsThatOnlyADirectionShowsAreNotTakenForOneAnother)
   EXPECT_GE(model.table.size(), 6u);
 }
 
+TEST(MEAMHashing, SurfacePairsAreThoseThatADirectionShowsTogether)
+{
+  // Both faces of a thin plate, 20 mm wide, with normals apart: a pair has both points on one face.
+  meam::PointCloud surface;
+  for (const float side : { 1.0f, -1.0f })
+  {
+    for (int x = 0; x <= 20; ++x)
+    {
+      for (int y = 0; y <= 20; ++y)
+      {
+        surface.points.emplace_back(x, y, side);
+        surface.normals.push_back(side * Eigen::Vector3f::UnitZ());
+      }
+    }
+  }
+  const meam::Points corners = { { 0, 0, 1 }, { 20, 0, 1 }, { 0, 20, 1 } };
+  MEAMHashingSettings thin = settings(true);
+  thin.surface.leafSize = 0.25; // of 40 mm
+  thin.coVisibilityDirections = 26;
+  const auto trained = [&](meam::Features features)
+  {
+    thin.features = features;
+    return meam::hashModels({ view("one", corners) }, { surface, 40.0, {} }, thin);
+  };
+  const meam::TrainedModel both = trained(meam::Features::Both);
+  const meam::PointCloud& points = both.surfacePairPoints;
+  ASSERT_GT(points.size(), 8u);
+  std::size_t above = 0, below = 0;
+  for (const Eigen::Vector3f& point : points.points)
+  {
+    ++(point.z() > 0.0f ? above : below);
+  }
+  EXPECT_EQ(both.surfaceTable.size(), above * (above - 1) + below * (below - 1)) << "each with each on its face";
+  for (std::size_t k = 0; k < both.surfaceTable.size(); ++k)
+  {
+    EXPECT_EQ(points.points[both.surfaceTable.references[k]].z(), points.points[both.surfaceTable.referreds[k]].z());
+  }
+  EXPECT_GT(both.table.size(), 0u);
+  const meam::TrainedModel edges = trained(meam::Features::Edges), alone = trained(meam::Features::Surface);
+  EXPECT_EQ(edges.surfaceTable.size(), 0u);
+  EXPECT_EQ(edges.table.size(), both.table.size());
+  EXPECT_EQ(alone.table.size(), 0u);
+  EXPECT_EQ(alone.surfaceTable.size(), both.surfaceTable.size());
+  EXPECT_NE(edges.digest, both.digest);
+  thin.coVisibilityDirections = 0;
+  const meam::TrainedModel every = trained(meam::Features::Surface);
+  const std::size_t count = every.surfacePairPoints.size();
+  EXPECT_EQ(every.surfaceTable.size(), count * (count - 1)) << "without directions all pairs";
+}
+
+TEST(MEAMHashing, WithoutASurfaceTheModelHoldsEdgesAlone)
+{
+  MEAMHashingSettings choice = settings(true);
+  EXPECT_EQ(
+    meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, choice).settings.features, meam::Features::Edges);
+  choice.features = meam::Features::Surface;
+  EXPECT_THROW(meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, choice), meam::Error);
+  choice.features = meam::Features::Both;
+  choice.surface.angleStep = 0.5;
+  EXPECT_THROW(meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, choice), meam::Error);
+}
+
 TEST(MEAMHashing, SeparateTablesKeepThePairsOfEachView)
 {
   MEAMHashingSettings separate = settings(true);
@@ -155,15 +217,15 @@ TEST(MEAMHashing, EveryBucketHoldsThePairsOfItsKey)
                   quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i])),
         key);
       ASSERT_FLOAT_EQ(
-        model.table.angles[k], meam::TangentFrame(edges.points[r], edges.tangents[r]).angleOf(edges.points[i]));
+        model.table.angles[k], meam::PairFrame(edges.points[r], edges.tangents[r]).angleOf(edges.points[i]));
       ++stored;
     }
   }
   // Brute force: all ordered pairs that some view or direction shows together.
   std::size_t expected = 0;
-  for (int r = 0; r < model.votingEdges; ++r)
+  for (int r = 0; r < model.table.votingPoints; ++r)
   {
-    for (int i = 0; i < model.votingEdges; ++i)
+    for (int i = 0; i < model.table.votingPoints; ++i)
     {
       expected +=
         r != i && model.edges.points[r] != model.edges.points[i] &&
@@ -192,12 +254,12 @@ TEST(MEAMHashing, OneEdgePointOfACubeVotes)
   };
   const meam::TrainedModel thin = trained(4.0);
   EXPECT_EQ(thin.edges.size(), 40u) << "poses are verified on all";
-  EXPECT_EQ(thin.votingEdges, 10);
+  EXPECT_EQ(thin.table.votingPoints, 10);
   EXPECT_EQ(thin.table.size(), 90u);
   const meam::Points voting(thin.edges.points.begin(), thin.edges.points.begin() + 10);
   EXPECT_EQ(meam::thinPoints(voting, 4.0).size(), 10u) << "in different cubes";
   const meam::TrainedModel whole = trained(0.5);
-  EXPECT_EQ(whole.votingEdges, 40);
+  EXPECT_EQ(whole.table.votingPoints, 40);
   EXPECT_NE(whole.digest, thin.digest);
 }
 

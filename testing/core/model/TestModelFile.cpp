@@ -14,6 +14,15 @@ bool same(const std::vector<Eigen::Isometry3d>& a, const std::vector<Eigen::Isom
                                    [](const auto& one, const auto& other) { return one.matrix() == other.matrix(); });
 }
 
+void expectSame(const meam::PairTable& a, const meam::PairTable& b)
+{
+  EXPECT_EQ(a.offsets, b.offsets);
+  EXPECT_EQ(a.references, b.references);
+  EXPECT_EQ(a.referreds, b.referreds);
+  EXPECT_EQ(a.angles, b.angles);
+  EXPECT_EQ(a.viewBits, b.viewBits);
+}
+
 void expectSame(const meam::PointCloud& a, const meam::PointCloud& b)
 {
   EXPECT_EQ(a.points, b.points);
@@ -28,6 +37,10 @@ void expectSame(const meam::TrainedModel& a, const meam::TrainedModel& b)
 {
   EXPECT_EQ(a.diameter, b.diameter);
   EXPECT_EQ(a.digest, b.digest);
+  EXPECT_EQ(a.settings.features, b.settings.features);
+  EXPECT_EQ(a.settings.surface.distanceStep, b.settings.surface.distanceStep);
+  EXPECT_EQ(a.settings.surface.angleStep, b.settings.surface.angleStep);
+  EXPECT_EQ(a.settings.surface.leafSize, b.settings.surface.leafSize);
   EXPECT_EQ(a.settings.feature, b.settings.feature);
   EXPECT_EQ(a.settings.distanceStep, b.settings.distanceStep);
   EXPECT_EQ(a.settings.angleStep, b.settings.angleStep);
@@ -40,11 +53,9 @@ void expectSame(const meam::TrainedModel& a, const meam::TrainedModel& b)
   EXPECT_EQ(a.edgeViews, b.edgeViews);
   EXPECT_EQ(a.edgeVisible, b.edgeVisible);
   expectSame(a.surface, b.surface);
-  EXPECT_EQ(a.table.offsets, b.table.offsets);
-  EXPECT_EQ(a.table.references, b.table.references);
-  EXPECT_EQ(a.table.referreds, b.table.referreds);
-  EXPECT_EQ(a.table.angles, b.table.angles);
-  EXPECT_EQ(a.table.viewBits, b.table.viewBits);
+  expectSame(a.table, b.table);
+  expectSame(a.surfacePairPoints, b.surfacePairPoints);
+  expectSame(a.surfaceTable, b.surfaceTable);
   EXPECT_TRUE(same(a.symmetries.discrete, b.symmetries.discrete));
   ASSERT_EQ(a.symmetries.continuous.size(), b.symmetries.continuous.size());
   for (std::size_t i = 0; i < a.symmetries.continuous.size(); ++i)
@@ -191,6 +202,12 @@ TEST(ModelFile, AModelThatIsNotSoundIsNotWritten)
     { "pair table", [](auto& model) { model.table.referreds[7] = 4000000000u; } },
     { "pair table", [](auto& model) { model.table.angles[7] = NAN; } },
     { "pair table", [](auto& model) { model.table.viewBits.pop_back(); } },
+    { "surface points", [](auto& model) { model.surfaceTable.offsets.pop_back(); } },
+    { "surface points", [](auto& model) { model.surfaceTable.references[7] = 4000000000u; } },
+    { "surface points", [](auto& model) { model.surfacePairPoints.normals.pop_back(); } },
+    { "not numbers", [](auto& model) { model.surfacePairPoints.points[0].x() = NAN; } },
+    { "surface points", [](auto& model) { model.settings.surface.leafSize = 0.0; } },
+    { "surface points", [](auto& model) { model.settings.surface.angleStep = NAN; } },
   };
   int number = 0;
   for (const auto& [words, damage] : damages)

@@ -151,7 +151,7 @@ TEST(MEAMPoseEstimation, AModelOfTheWholePartWithoutVisibilityFindsThemToo)
   const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
   EXPECT_EQ(model.edgeViews, std::vector<std::uint32_t>(model.edges.size(), 1u));
   // Every pair that the table reaches is there: also of points that are never seen together.
-  EXPECT_EQ(static_cast<int>(model.table.size()), model.votingEdges * (model.votingEdges - 1));
+  EXPECT_EQ(static_cast<int>(model.table.size()), model.table.votingPoints * (model.table.votingPoints - 1));
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
   const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
   EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);

@@ -44,14 +44,14 @@ struct SlowPeak
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
 
-SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& referred, const meam::TangentFrame& scene,
+SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& referred, const meam::PairFrame& scene,
   const Eigen::Vector3f& tangent, const meam::PoseDetectionSettings& settings)
 {
   constexpr int bins = 50; // of 7.2 degrees
   const auto framed = [&](std::uint32_t point)
-  { return meam::TangentFrame(model.edges.points[point], model.edges.tangents[point]); };
+  { return meam::PairFrame(model.edges.points[point], model.edges.tangents[point]); };
   const meam::PairFeatureQuantizer quantizer = model.quantizer();
-  std::vector<std::array<int, bins>> counts(2 * model.votingEdges, std::array<int, bins>{});
+  std::vector<std::array<int, bins>> counts(2 * model.table.votingPoints, std::array<int, bins>{});
   for (std::size_t i = 0; i < referred.size(); ++i)
   {
     const meam::PairFeature feature =
@@ -65,7 +65,7 @@ SlowPeak slowPeak(const meam::TrainedModel& model, const meam::PointCloud& refer
     {
       const std::uint32_t point = model.table.references[k];
       const Eigen::Vector3f& other = model.edges.points[model.table.referreds[k]];
-      const meam::TangentFrame part = framed(point);
+      const meam::PairFrame part = framed(point);
       const bool flip = settings.signedTangents && part.against(other) != scene.against(referred.points[i]);
       const double angle = scene.angleOf(referred.points[i]);
       const double turns = (flip ? angle + part.angleOf(other) : angle - part.angleOf(other)) / (2.0 * M_PI) + 2.0;
@@ -173,6 +173,55 @@ TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
   EXPECT_EQ(candidates(), of(0.75)) << "whatever they come from";
 }
 
+TEST(PoseDetection, ByTheSurfaceAlone)
+{
+  // Tilted, so that the sensor sees three faces of each: pairs on one plane tell nothing.
+  std::vector<Eigen::Isometry3d> copies;
+  for (int copy = 0; copy < 3; ++copy)
+  {
+    copies.push_back(Eigen::Translation3d(120.0 * copy, 0, 0) *
+                     Eigen::AngleAxisd(1.1 * copy, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(0.7 + 0.1 * copy, Eigen::Vector3d(1, 0.6, 0).normalized()));
+  }
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(copies)));
+  meam::PoseDetectionSettings settings;
+  const auto candidates = [&](meam::Features features)
+  {
+    settings.features = features;
+    return meam::toSceneFrame(
+      meam::detectPoses(scene, scenes::bracket(), settings), scene.T_local_scene(), scenes::bracket().symmetries);
+  };
+  const meam::Poses edges = candidates(meam::Features::Edges), surface = candidates(meam::Features::Surface);
+  EXPECT_EQ(candidates(meam::Features::Both).size(), edges.size() + surface.size());
+  for (const auto& T : copies)
+  {
+    EXPECT_GE(right(surface, { T }, 6.0, 12.0), 1);
+  }
+  settings.threads = 1;
+  const meam::Poses one = candidates(meam::Features::Surface);
+  settings.threads = 3;
+  const meam::Poses three = candidates(meam::Features::Surface);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
+  }
+}
+
+TEST(PoseDetection, SaysWhatTheModelOrTheSceneHasNot)
+{
+  scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  meam::TrainedModel edges = scenes::bracket();
+  edges.settings.features = meam::Features::Edges;
+  meam::PoseDetectionSettings settings;
+  settings.features = meam::Features::Surface;
+  EXPECT_THROW(meam::detectPoses(scenes::prepared(seen), edges, settings), meam::Error);
+  seen.surface.clear();
+  EXPECT_THROW(meam::detectPoses(scenes::prepared(seen), scenes::bracket(), settings), meam::Error);
+  settings.features = meam::Features::Both;
+  EXPECT_FALSE(meam::detectPoses(scenes::prepared(seen), scenes::bracket(), settings).empty()) << "by its edges";
+}
+
 class PoseDetectionVotes : public testing::TestWithParam<std::pair<bool, bool>>
 {
 };
@@ -195,7 +244,7 @@ TEST_P(PoseDetectionVotes, CountsTheVotesOfAllPairs)
   {
     const Eigen::Vector3f& stored = edges.tangents[r];
     const Eigen::Vector3f tangent = stored.x() < 0.0f ? Eigen::Vector3f(-stored) : stored;
-    const SlowPeak peak = slowPeak(model, referred, meam::TangentFrame(edges.points[r], tangent), tangent, settings);
+    const SlowPeak peak = slowPeak(model, referred, meam::PairFrame(edges.points[r], tangent), tangent, settings);
     // Rounding may carry a vote over the border of its bin, which turns a pose of 30 votes by up to half a degree.
     EXPECT_NEAR(poses[r].votes, peak.votes, 2) << r;
     exact += poses[r].votes == peak.votes ? 1 : 0;

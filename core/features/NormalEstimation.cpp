@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "features/NormalEstimation.h"
+
+#include "base/PCLConversion.h"
+#include "base/Parallel.h"
+
+#include <pcl/features/normal_3d.h>
+
+namespace meam
+{
+SurfaceNormals estimateNormals(const Points& points, const PointGrid& surface, const std::vector<int>& indices,
+  const Sensor& sensor, double partDiameter, const NormalEstimationSettings& settings)
+{
+  const PCLCloud::Ptr cloud = toPCL(points);
+  const double radius = settings.radius * partDiameter;
+  const int count = static_cast<int>(indices.size());
+  SurfaceNormals result{ Points(count, Eigen::Vector3f::Zero()), std::vector<float>(count, 0.0f) };
+  parallelFor(count, settings.threads, {},
+    [&](int begin, int end, int)
+    {
+      pcl::Indices neighbours;
+      for (int k = begin; k < end; ++k)
+      {
+        const Eigen::Vector3f& point = points[indices[k]];
+        neighbours.clear();
+        surface.forEachWithin(point, radius, [&](int index, float) { neighbours.push_back(index); });
+        Eigen::Vector4f plane;
+        float curvature = 0.0f;
+        if (static_cast<int>(neighbours.size()) >= settings.fewestNeighbours &&
+            pcl::computePointNormal(*cloud, neighbours, plane, curvature))
+        {
+          const Eigen::Vector3f normal = plane.head<3>();
+          const bool isAway = sensor.towards(point.cast<double>()).cast<float>().dot(normal) < 0.0f;
+          result.normals[k] = isAway ? Eigen::Vector3f(-normal) : normal;
+          result.curvatures[k] = curvature;
+        }
+      }
+    });
+  return result;
+}
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "features/NormalEstimation.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+namespace
+{
+std::vector<int> all(const meam::Points& points)
+{
+  std::vector<int> indices(points.size());
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+meam::SurfaceNormals normalsOf(const meam::Points& points, const meam::Sensor& sensor, int threads = 1)
+{
+  meam::NormalEstimationSettings settings;
+  settings.threads = threads;
+  return meam::estimateNormals(points, meam::PointGrid(points, 5.0), all(points), sensor, 100.0, settings);
+}
+
+/// Every mm of z = slope * x.
+meam::Points plane(float slope)
+{
+  meam::Points points;
+  for (int x = -20; x <= 20; ++x)
+  {
+    for (int y = -20; y <= 20; ++y)
+    {
+      points.emplace_back(x, y, slope * x + 500.0f);
+    }
+  }
+  return points;
+}
+}
+
+TEST(NormalEstimation, OfAPlaneTowardsTheSensor)
+{
+  meam::Sensor above; // at the origin, looks along +z
+  const meam::SurfaceNormals found = normalsOf(plane(0.75f), above);
+  for (std::size_t i = 0; i < found.normals.size(); ++i)
+  {
+    EXPECT_LT((found.normals[i] - Eigen::Vector3f(0.6f, 0.0f, -0.8f)).norm(), 1e-3f);
+    EXPECT_LT(found.curvatures[i], 1e-4f);
+  }
+  meam::Sensor below;
+  below.perspective = false;
+  below.direction = -Eigen::Vector3d::UnitZ();
+  EXPECT_LT((normalsOf(plane(0.75f), below).normals[0] - Eigen::Vector3f(-0.6f, 0.0f, 0.8f)).norm(), 1e-3f);
+}
+
+TEST(NormalEstimation, OfASphereOutwards)
+{
+  meam::Points points;
+  std::mt19937 random(1);
+  std::normal_distribution<float> normal;
+  const Eigen::Vector3f middle(0, 0, 500);
+  while (points.size() < 4000)
+  {
+    const Eigen::Vector3f direction = Eigen::Vector3f(normal(random), normal(random), normal(random)).normalized();
+    if (direction.z() < -0.2f)
+    {
+      points.push_back(middle + 40.0f * direction);
+    }
+  }
+  const meam::SurfaceNormals found = normalsOf(points, {});
+  int off = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    off += found.normals[i].dot((points[i] - middle).normalized()) < std::cos(0.15f) ? 1 : 0;
+    EXPECT_GT(found.curvatures[i], 0.0f);
+  }
+  EXPECT_LT(off, 40) << "at the border a few lean outwards";
+}
+
+TEST(NormalEstimation, NoneWhereTooLittleWasMeasured)
+{
+  const meam::Points points = { { 0, 0, 500 }, { 1, 0, 500 }, { 0, 1, 500 }, { 80, 0, 500 } };
+  for (const Eigen::Vector3f& normal : normalsOf(points, {}).normals)
+  {
+    EXPECT_TRUE(normal.isZero());
+  }
+}
+
+TEST(NormalEstimation, TheSameForAnyNumberOfThreads)
+{
+  const meam::Points points = plane(0.3f);
+  EXPECT_EQ(normalsOf(points, {}, 1).normals, normalsOf(points, {}, 3).normals);
+}
