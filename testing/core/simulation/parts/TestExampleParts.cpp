@@ -2,7 +2,7 @@
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
-#include "simulation/ExampleParts.h"
+#include "simulation/parts/ExampleParts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/ExampleParts.h"
+#include "simulation/parts/ExampleParts.h"
 
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
-#include "simulation/ColumnMesh.h"
+#include "simulation/parts/ColumnMesh.h"
 
 #include <algorithm>
 #include <cmath>
