@@ -9,15 +9,17 @@ import argparse
 import math
 import os
 
-from ppfmeam import bop, filters, scripting
+from ppfmeam import bop, filters, scripting, simulation
 
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     scripting.add_bin_arguments(parser, scenes=1)
-    parser.add_argument("--noise", type=float, default=0.3, metavar="MM",
+    simulation.add_sensor_argument(parser)
+    parser.add_argument("--noise", type=float, metavar="MM",
                         help="standard deviation of the depth at a distance of 1 m, in mm; it grows with the square "
-                             "of the distance (default: %(default)s)")
+                             "of the distance (default: the sensor's, 0.3 of structured light; the others have noise of "
+                             "their own, to which this is added)")
     parser.add_argument("--camera", choices=("registered", "beside"), default="registered",
                         help="the image is the sensor's, or that of a camera beside it (default: %(default)s)")
     parser.add_argument("--baseline", type=float, default=150, metavar="MM",
@@ -27,7 +29,7 @@ def options_of_user():
     options = parser.parse_args()
     if options.copies < 1 or options.scenes < 1:
         parser.error("--copies and --scenes have to be 1 or more")
-    if not 0 <= options.noise < math.inf or not 0 < options.baseline < math.inf:
+    if (options.noise is not None and not 0 <= options.noise < math.inf) or not 0 < options.baseline < math.inf:
         parser.error("--noise has to be 0 or more, --baseline positive, in mm")
     return options
 
@@ -44,7 +46,9 @@ def main():
     source.SetColored(options.colored)
     if options.camera == "beside":
         source.SetBaseline(options.baseline)
-    source.SetDepthNoise(options.noise)
+    simulation.set_sensor(source, options.sensor)
+    if options.noise is not None:
+        source.SetDepthNoise(options.noise)
     for scene in range(options.scenes):
         source.SetSeed(options.seed + scene)
         scripting.update(source)

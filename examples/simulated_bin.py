@@ -29,7 +29,9 @@ def main():
     scene.SetSeed(options.seed)
     scripting.update(scene)
     scan, truth, mesh = (scene.GetOutputDataObject(port) for port in range(3))
-    print(f"a bin of {truth.GetNumberOfPoints()} copies, scanned with {scene.GetWidth()} x {scene.GetHeight()} points")
+    size = [0, 0, 0]
+    scan.GetDimensions(size)
+    print(f"a bin of {truth.GetNumberOfPoints()} copies, scanned with {size[0]} x {size[1]} points")
 
     estimation = filters.vtkMEAMPoseEstimation()
     estimation.SetInputConnection(scene.GetOutputPort(2))

@@ -4,7 +4,7 @@
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/BinScene.h"
-#include "simulation/SamplePart.h"
+#include "simulation/parts/SamplePart.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMPoseConversion.h"
@@ -66,6 +66,13 @@ void addMasks(const std::vector<meam::BinInstance>& copies, vtkPolyData* truth)
   truth->GetFieldData()->AddArray(arrayOf<vtkUnsignedCharArray>("Silhouettes", 1, silhouettes));
 }
 
+/// A value of the user's in place of the sensor's, unless it is negative.
+template <typename Value>
+void choose(Value chosen, Value& value)
+{
+  value = chosen < 0 ? value : chosen;
+}
+
 void addCamera(const meam::Camera& camera, vtkDataObject* data)
 {
   const std::array<double, 9> matrix{ camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0 };
@@ -99,7 +106,10 @@ int vtkMEAMBinSceneSource::FillOutputPortInformation(int port, vtkInformation* i
 int vtkMEAMBinSceneSource::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  const int extent[6] = { 0, this->Width - 1, 0, this->Height - 1, 0, 0 };
+  meam::BinSceneSettings settings = meam::binSettings(static_cast<meam::SensorKind>(this->Sensor));
+  choose(this->Width, settings.width);
+  choose(this->Height, settings.height);
+  const int extent[6] = { 0, settings.width - 1, 0, settings.height - 1, 0, 0 };
   for (const int port : { 0, 3 })
   {
     outputVector->GetInformationObject(port)->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
@@ -121,22 +131,32 @@ int vtkMEAMBinSceneSource::RequestData(
     [&]
     {
       const meam::TriangleMesh mesh = input ? toMesh(input) : meam::makeSamplePart();
-      meam::BinSceneSettings settings;
+      meam::BinSceneSettings settings = meam::binSettings(static_cast<meam::SensorKind>(this->Sensor));
       settings.copies = this->Copies;
       settings.seed = static_cast<unsigned>(this->Seed);
       settings.binSize = this->BinSize;
       settings.sensorHeight = this->SensorHeight;
-      settings.width = this->Width;
-      settings.height = this->Height;
+      choose(this->Width, settings.width);
+      choose(this->Height, settings.height);
       settings.colored = this->Colored;
       settings.baseline = this->Baseline;
-      settings.quality.depthNoise = this->DepthNoise;
-      settings.quality.depthStep = this->DepthStep;
-      settings.quality.dropout = this->Dropout;
-      settings.quality.jumpDropout = this->JumpDropout;
-      settings.quality.matchingWindow = this->MatchingWindow;
-      settings.quality.imageNoise = this->ImageNoise;
-      settings.quality.imageBlur = this->ImageBlur;
+      meam::SensorQuality& quality = settings.quality;
+      choose(this->DepthNoise, quality.depthNoise);
+      choose(this->DepthStep, quality.depthStep);
+      choose(this->Dropout, quality.dropout);
+      choose(this->JumpDropout, quality.jumpDropout);
+      choose(this->MatchingWindow, quality.matchingWindow);
+      choose(this->GlareAngle, quality.glareAngle);
+      choose(this->NoiseWindow, quality.noiseWindow);
+      choose(this->StereoBaseline, quality.stereoBaseline);
+      choose(this->DisparityNoise, quality.disparityNoise);
+      choose(this->DisparityStep, quality.disparityStep);
+      choose(this->SmoothingWindow, quality.smoothingWindow);
+      choose(this->RangeNoise, quality.rangeNoise);
+      choose(this->PixelBlur, quality.pixelBlur);
+      choose(this->Multipath, quality.multipath);
+      choose(this->ImageNoise, quality.imageNoise);
+      choose(this->ImageBlur, quality.imageBlur);
       const meam::BinScene scene = meam::simulateBin(mesh, settings, progressOf(this));
 
       fromOrganizedCloud(scene.cloud, scan);
@@ -173,6 +193,7 @@ void vtkMEAMBinSceneSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "BinSize: " << this->BinSize << " mm\n";
   os << indent << "SensorHeight: " << this->SensorHeight << " mm\n";
+  os << indent << "Sensor: " << this->Sensor << "\n";
   os << indent << "Width: " << this->Width << " pixels\n";
   os << indent << "Height: " << this->Height << " pixels\n";
   os << indent << "Colored: " << this->Colored << "\n";
@@ -182,6 +203,15 @@ void vtkMEAMBinSceneSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Dropout: " << this->Dropout << "\n";
   os << indent << "JumpDropout: " << this->JumpDropout << "\n";
   os << indent << "MatchingWindow: " << this->MatchingWindow << " pixels\n";
+  os << indent << "GlareAngle: " << this->GlareAngle << " degrees\n";
+  os << indent << "NoiseWindow: " << this->NoiseWindow << " pixels\n";
+  os << indent << "StereoBaseline: " << this->StereoBaseline << " mm\n";
+  os << indent << "DisparityNoise: " << this->DisparityNoise << " pixels\n";
+  os << indent << "DisparityStep: " << this->DisparityStep << " pixels\n";
+  os << indent << "SmoothingWindow: " << this->SmoothingWindow << " pixels\n";
+  os << indent << "RangeNoise: " << this->RangeNoise << " mm\n";
+  os << indent << "PixelBlur: " << this->PixelBlur << " pixels\n";
+  os << indent << "Multipath: " << this->Multipath << "\n";
   os << indent << "ImageNoise: " << this->ImageNoise << "\n";
   os << indent << "ImageBlur: " << this->ImageBlur << " pixels\n";
 }

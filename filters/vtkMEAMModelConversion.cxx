@@ -175,8 +175,14 @@ public:
     this->readEdges(model);
     this->readViews(model);
     this->readSurface(model);
-    model.table = this->table("", this->count("NumberOfPairs"), model.quantizer().numberOfKeys());
-    this->readSurfacePairs(model);
+    if (hasEdges(model.settings.features))
+    {
+      model.table = this->table("", this->count("NumberOfPairs"), model.quantizer().numberOfKeys());
+    }
+    if (hasSurface(model.settings.features))
+    {
+      this->readSurfacePairs(model);
+    }
     model.symmetries = symmetriesOf(this->Input);
     requireModel(model);
     model.deriveFields();

@@ -3,8 +3,8 @@
 
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
-#include "simulation/ExampleParts.h"
-#include "simulation/SamplePart.h"
+#include "simulation/parts/ExampleParts.h"
+#include "simulation/parts/SamplePart.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMRun.h"

@@ -436,12 +436,10 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     model.surface.points.push_back(surface.points[i]);
     model.surface.normals.push_back(surface.normals[i]);
   }
-  model.table.offsets.assign(model.quantizer().numberOfKeys() + 1, 0);
   if (hasEdges(settings.features))
   {
     buildTable(model, voters, voxelSize, subProgress(progress, 0.7, 0.9));
   }
-  model.surfaceTable.offsets.assign(model.surfaceQuantizer().numberOfKeys() + 1, 0);
   if (hasSurface(model.settings.features))
   {
     buildSurfaceTable(model, surface, surfaceBits, voxelSize, subProgress(progress, 0.9, 1.0));

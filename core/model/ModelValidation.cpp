@@ -148,7 +148,27 @@ void requireSurfacePairs(const TrainedModel& model)
   requireFinite(points.points, "surface points");
   requireFinite(points.normals, "normals");
   requireExtent(points.points, model.diameter, "surface points");
-  requireTable(model.surfaceTable, points.size(), model.surfaceQuantizer().numberOfKeys(), "surface");
+}
+
+/// Tables are there of those features that the model holds.
+void requireTables(const TrainedModel& model)
+{
+  const auto require =
+    [](bool isHeld, const PairTable& table, const PointCloud& points, std::int64_t keys, const char* what)
+  {
+    if (isHeld)
+    {
+      requireTable(table, points.size(), keys, what);
+    }
+    else if (table.size() > 0 || !table.offsets.empty())
+    {
+      refuseModel("is damaged: it has a pair table of " + std::string(what) + " points, which it does not hold.");
+    }
+  };
+  const Features features = model.settings.features;
+  require(hasEdges(features), model.table, model.edges, model.quantizer().numberOfKeys(), "edge");
+  require(hasSurface(features), model.surfaceTable, model.surfacePairPoints, model.surfaceQuantizer().numberOfKeys(),
+    "surface");
 }
 }
 
@@ -204,7 +224,7 @@ void requireModel(const TrainedModel& model)
   requireViews(model);
   requireSurface(model);
   requireSymmetries(model.symmetries);
-  requireTable(model.table, model.edges.size(), model.quantizer().numberOfKeys(), "edge");
   requireSurfacePairs(model);
+  requireTables(model);
 }
 }

@@ -77,30 +77,46 @@ void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float*
   }
 }
 
-/// Whether something is seen in all four cells beside one.
-bool isInside(const std::vector<float>& buffer, int side, int cell)
+/// Whether something is seen in all cells up to `border` off one, along the rows and columns.
+bool isInside(const std::vector<float>& buffer, int side, int cell, int border)
 {
-  return cell >= side && cell + side < static_cast<int>(buffer.size()) && buffer[cell - 1] > Nothing &&
-         buffer[cell + 1] > Nothing && buffer[cell - side] > Nothing && buffer[cell + side] > Nothing;
+  bool isSeen = cell >= border * side && cell + border * side < static_cast<int>(buffer.size());
+  for (int off = 1; isSeen && off <= border; ++off)
+  {
+    isSeen = buffer[cell - off] > Nothing && buffer[cell + off] > Nothing && buffer[cell - off * side] > Nothing &&
+             buffer[cell + off * side] > Nothing;
+  }
+  return isSeen;
 }
 
-/// The middles of the cells two off the border of what is seen, at the depth of the farthest of its cells beside them.
-Points outsideOf(const std::vector<float>& buffer, const View& view)
+/// The middles of the cells `border` + 1 off what is seen, at the depth of the farthest of its cells that far from
+/// them.
+Points outsideOf(const std::vector<float>& buffer, const View& view, int border)
 {
   const int side = view.side;
   const int steps[] = { -1, 1, -side, side };
-  Points outside;
-  for (int v = 2; v + 2 < side; ++v)
+  const auto isEmpty = [&](const float* cell, int step)
   {
-    for (int u = 2; u + 2 < side; ++u)
+    bool empty = true;
+    for (int off = 1; empty && off <= border; ++off)
+    {
+      empty = cell[off * step] == Nothing;
+    }
+    return empty;
+  };
+  Points outside;
+  for (int v = border + 1; v + border + 1 < side; ++v)
+  {
+    for (int u = border + 1; u + border + 1 < side; ++u)
     {
       const float* const cell = &buffer[static_cast<std::size_t>(v) * side + u];
       float height = std::numeric_limits<float>::infinity();
       for (const int step : steps)
       {
-        if (cell[step] == Nothing && cell[2 * step] != Nothing)
+        const float beyond = cell[(border + 1) * step];
+        if (beyond != Nothing && isEmpty(cell, step))
         {
-          height = std::min(height, cell[2 * step]);
+          height = std::min(height, beyond);
         }
       }
       if (*cell == Nothing && height < std::numeric_limits<float>::infinity())
@@ -178,7 +194,7 @@ int PredictedVisibility::view(const Eigen::Isometry3d& T_scene_model, const Sens
 }
 
 std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible(
-  const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
+  const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double border) const
 {
   // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged
   // on the same points.
@@ -189,7 +205,9 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
     steps = (static_cast<float>(this->Settings.directionSteps) * direction).array().round().cast<int>();
   }
   const int range = 2 * this->Settings.directionSteps + 1;
-  const int key = (steps.z() * range + steps.y()) * range + steps.x();
+  const int borderCells =
+    static_cast<int>(std::clamp(std::ceil(border / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
+  const int key = ((borderCells * range + steps.z()) * range + steps.y()) * range + steps.x();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const auto cached = this->Cache.find(key);
@@ -198,7 +216,7 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
       return cached->second;
     }
   }
-  auto visible = std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized()));
+  auto visible = std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized(), borderCells));
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (this->Cache.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
   {
@@ -207,7 +225,7 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
   return this->Cache.emplace(key, std::move(visible)).first->second;
 }
 
-PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards) const
+PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards, int borderCells) const
 {
   Visible visible{ towards, {}, {}, {}, {} };
   const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
@@ -226,7 +244,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   nearest.assign(static_cast<std::size_t>(across.side) * across.side, Nothing);
   projected(this->Surface, surface);
   raise(surface, nearest);
-  visible.outside = outsideOf(nearest, across);
+  visible.outside = outsideOf(nearest, across, borderCells);
   for (Eigen::Vector3f& point : visible.outside)
   {
     point += this->Middle;
@@ -242,7 +260,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   for (const int k : inSight)
   {
     visible.surface.push_back(this->VerificationIndices[k]);
-    visible.isInner.push_back(isInside(nearest, across.side, others.cells[k]));
+    visible.isInner.push_back(isInside(nearest, across.side, others.cells[k], borderCells));
   }
   return visible;
 }

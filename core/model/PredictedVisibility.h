@@ -20,6 +20,7 @@ struct PredictedVisibilitySettings
   double edgeSlope = 1.5;      ///< slope allowed for at an edge point, whose surface is not known
   double grazingCosine = 0.15; ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
   int directionSteps = 64;     ///< of each coordinate of the direction to the sensor from 0 to 1: 0.9 degrees
+  int widestBorder = 4;        ///< cells
   int cachedDirections = 1000;
 };
 
@@ -47,17 +48,19 @@ public:
     Eigen::Vector3f from; ///< the direction to the sensor, rounded to a step, in the model's frame
     std::vector<int> edges;
     std::vector<int> surface;
-    std::vector<char> isInner; ///< of these, whether they lie a cell or more inside the part's outline
-    /// Beside the part's outline, outside, at the depth of its border: points two cells off, a cell apart, mm, in the
-    /// model's frame.
+    std::vector<char> isInner; ///< of these, whether they lie further than the border inside the part's outline
+    /// Beside the part's outline, outside, at the depth of its border: points a cell further off than the border, a
+    /// cell apart, mm, in the model's frame.
     Points outside;
   };
   /// mm, of the depth buffer.
   double cellSize() const { return this->Settings.cell * this->Diameter; }
-  std::shared_ptr<const Visible> visible(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
+  /// `border`: mm on both sides of the outline, within which a sensor mixes what is before and behind; a cell at least.
+  std::shared_ptr<const Visible> visible(
+    const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double border = 0.0) const;
 
 private:
-  Visible visibleFrom(const Eigen::Vector3f& towards) const;
+  Visible visibleFrom(const Eigen::Vector3f& towards, int borderCells) const;
 
   PredictedVisibilitySettings Settings;
   double Diameter;

@@ -333,6 +333,8 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
     this->Means.insert(this->Means.end(), some->begin(), some->end());
   }
   this->fillGaps(layer, threads);
+  const auto gaps = std::count_if(this->Cells.begin(), this->Cells.end(), [](const Cell& cell) { return cell.isGap; });
+  this->Pitch = cellSize * std::sqrt(static_cast<double>(this->Means.size() + gaps) / static_cast<double>(all.count));
 }
 
 void DepthMap::findPlaces(

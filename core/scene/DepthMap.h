@@ -30,6 +30,10 @@ public:
   /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
   double cellSize() const { return this->CellSize; }
 
+  /// Distance between neighbouring measured points across the lines of sight at the middle of the scene, mm, by how
+  /// many there are on the surface seen; 0 without any.
+  double pitch() const { return this->Pitch; }
+
   /// `tolerance` in mm along the line of sight.
   Relation relation(const Eigen::Vector3f& point, float tolerance) const
   {
@@ -152,6 +156,7 @@ private:
   Eigen::Vector3f Eye;  ///< the sensor's position, or anywhere
   Eigen::Matrix3f Axes; ///< rows: right, down, depth
   double CellSize;
+  double Pitch = 0.0;
   float InverseCell = 1.0f;
   Eigen::Vector2f Low = Eigen::Vector2f::Zero();
   int Width = 0;

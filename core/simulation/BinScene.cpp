@@ -90,6 +90,23 @@ Camera cameraBeside(const Camera& sensor, double baseline, double floor)
 }
 }
 
+BinSceneSettings binSettings(SensorKind kind)
+{
+  BinSceneSettings settings;
+  settings.quality = sensorQuality(kind);
+  if (kind == SensorKind::ActiveStereo)
+  {
+    settings.width = 1280;
+    settings.height = 720;
+  }
+  else if (kind == SensorKind::TimeOfFlight)
+  {
+    settings.width = 640;
+    settings.height = 480;
+  }
+  return settings;
+}
+
 BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings, const Progress& progress)
 {
   requireMesh(part);

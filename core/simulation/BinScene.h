@@ -21,6 +21,11 @@ struct BinSceneSettings
   SensorQuality quality{};
 };
 
+/// A bin that a sensor of a kind sees, with as many pixels as it has: structured light 960 x 768, active stereo
+/// 1280 x 720 (Intel RealSense D415), time of flight 640 x 480 (Sony IMX556, the chip of many industrial cameras). The
+/// view is narrower than that of most such sensors, for the bin fills it from three times its side away.
+BinSceneSettings binSettings(SensorKind kind);
+
 /// One copy of the part in the bin.
 struct BinInstance
 {

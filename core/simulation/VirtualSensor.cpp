@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/VirtualSensor.h"
 
+#include "simulation/StereoMatching.h"
+#include "simulation/TimeOfFlight.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -28,9 +31,11 @@ public:
   {
     for (std::size_t i = 0; i < view.depths.size(); ++i)
     {
-      this->Places.push_back((view.depths[i] * Vector3d((static_cast<double>(i % camera.width) - camera.cx) / camera.fx,
-                                                 (static_cast<double>(i / camera.width) - camera.cy) / camera.fy, 1.0))
-                               .cast<float>());
+      const int column = static_cast<int>(i % camera.width);
+      const int row = static_cast<int>(i / camera.width);
+      this->Places.push_back(
+        (view.depths[i] * Vector3d((column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0))
+          .cast<float>());
       this->Normals.push_back(view.normals[i].normalized().cast<float>());
       this->Reaches.push_back(static_cast<float>(PatchDepth * view.depths[i] / camera.fx));
     }
@@ -61,24 +66,113 @@ private:
   Points Normals;
   std::vector<float> Reaches;
 };
+
+/// The numbers that are drawn for each pixel, always the same ones: a quality changes no other pixel's noise.
+struct Draws
+{
+  std::vector<double> noise; ///< normal
+  std::vector<double> drop;  ///< uniform
+  std::vector<double> jump;  ///< uniform
+
+  Draws(std::size_t pixels, Random& random)
+  {
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      this->noise.push_back(random.normal());
+      this->drop.push_back(random.uniform());
+      this->jump.push_back(random.uniform());
+    }
+  }
+};
+
+/// Depths by way of disparities; `hidden` from the second eye are those that it gives none.
+std::vector<double> stereoDepths(const std::vector<double>& depths, const Camera& camera, const SensorQuality& quality,
+  const std::vector<double>& noise, std::vector<bool>& hidden)
+{
+  const double scale = camera.fx * quality.stereoBaseline;
+  std::vector<double> disparities;
+  disparities.reserve(depths.size());
+  for (const double depth : depths)
+  {
+    disparities.push_back(scale / depth);
+  }
+  hidden = halfOccluded(disparities, camera.width);
+  disparities = boxMeans(disparities, camera.width, camera.height, quality.smoothingWindow);
+  std::vector<double> measured;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+  {
+    double disparity = disparities[i] + quality.disparityNoise * noise[i];
+    if (quality.disparityStep > 0.0)
+    {
+      disparity = quality.disparityStep * std::round(disparity / quality.disparityStep);
+    }
+    hidden[i] = hidden[i] || !(disparity > 0.0);
+    measured.push_back(scale / disparity);
+  }
+  return measured;
+}
+}
+
+SensorQuality sensorQuality(SensorKind kind)
+{
+  SensorQuality quality;
+  if (kind == SensorKind::ActiveStereo)
+  {
+    quality.depthNoise = quality.depthStep = quality.jumpDropout = 0.0;
+    quality.dropout = 0.005;
+    quality.matchingWindow = 7;
+    quality.glareAngle = 2.0;
+    quality.noiseWindow = 5;
+    quality.stereoBaseline = 55.0;
+    quality.disparityNoise = 0.08;
+    quality.disparityStep = 1.0 / 32.0;
+    quality.smoothingWindow = 5;
+  }
+  else if (kind == SensorKind::TimeOfFlight)
+  {
+    quality.depthNoise = quality.depthStep = 0.0;
+    quality.matchingWindow = 1;
+    quality.rangeNoise = 1.0;
+    quality.pixelBlur = 0.7;
+    quality.multipath = 0.2;
+  }
+  return quality;
 }
 
 void requireQuality(const SensorQuality& quality)
 {
-  const auto valid = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  if (!valid(quality.depthNoise) || !valid(quality.depthStep) || !valid(quality.imageNoise) ||
-      !valid(quality.imageBlur))
+  for (const double value : { quality.depthNoise, quality.depthStep, quality.glareAngle, quality.stereoBaseline,
+         quality.disparityNoise, quality.disparityStep, quality.rangeNoise, quality.imageNoise })
   {
-    throw Error("Noise, steps and blur of a simulated sensor must be 0 or more.");
+    if (!(value >= 0.0 && std::isfinite(value)))
+    {
+      throw Error("Noise, steps, angles and lengths of a simulated sensor must be 0 or more.");
+    }
   }
-  if (!(quality.dropout >= 0.0 && quality.dropout <= 1.0) ||
-      !(quality.jumpDropout >= 0.0 && quality.jumpDropout <= 1.0))
+  for (const double value : { quality.dropout, quality.jumpDropout, quality.multipath })
   {
-    throw Error("Dropouts of a simulated sensor must be shares from 0 to 1.");
+    if (!(value >= 0.0 && value <= 1.0))
+    {
+      throw Error("Dropouts and multipath of a simulated sensor must be shares from 0 to 1.");
+    }
   }
-  if (quality.matchingWindow < 1 || quality.matchingWindow > 101 || quality.imageBlur > 50.0)
+  if (quality.matchingWindow < 1 || quality.matchingWindow > 101)
   {
-    throw Error("The matching window of a simulated sensor must be 1 to 101 pixels, its blur at most 50.");
+    throw Error("The matching window of a simulated sensor must be 1 to 101 pixels.");
+  }
+  for (const int window : { quality.noiseWindow, quality.smoothingWindow })
+  {
+    if (window < 1 || window > 101 || window % 2 == 0)
+    {
+      throw Error("Windows of noise and smoothing of a simulated sensor must be odd, 1 to 101 pixels.");
+    }
+  }
+  for (const double blur : { quality.pixelBlur, quality.imageBlur })
+  {
+    if (!(blur >= 0.0 && blur <= 50.0))
+    {
+      throw Error("The blur of a simulated sensor must be 0 to 50 pixels.");
+    }
   }
 }
 
@@ -87,6 +181,27 @@ OrganizedCloud measureDepth(
 {
   const Patches patches(view, camera);
   const int radius = quality.matchingWindow / 2;
+  Draws draws(view.depths.size(), random);
+  if (quality.noiseWindow > 1)
+  {
+    draws.noise = correlated(draws.noise, camera.width, camera.height, quality.noiseWindow);
+  }
+  std::vector<double> depths = view.depths;
+  std::vector<bool> hidden(depths.size(), false);
+  if (quality.multipath > 0.0)
+  {
+    depths = multipathDepths(view, camera, returnedLight(view, camera), quality.multipath);
+  }
+  if (quality.pixelBlur > 0.0)
+  {
+    depths = mixedDepths(depths, returnedLight(view, camera), camera, quality.pixelBlur);
+  }
+  if (quality.stereoBaseline > 0.0)
+  {
+    depths = stereoDepths(depths, camera, quality, draws.noise, hidden);
+  }
+  const double mirror = quality.glareAngle > 0.0 ? std::cos(quality.glareAngle * M_PI / 180.0) : 2.0;
+
   OrganizedCloud cloud;
   cloud.width = camera.width;
   cloud.height = camera.height;
@@ -99,20 +214,20 @@ OrganizedCloud measureDepth(
     {
       report(progress, static_cast<double>(row) / camera.height);
     }
-    // The same numbers are drawn for every pixel: a quality changes no other pixel's noise.
-    const double noise = random.normal();
-    const double drop = random.uniform();
-    const double jump = random.uniform();
     const Vector3d ray((column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0);
     const double cosine = std::abs(view.normals[i].dot(ray)) / (view.normals[i].norm() * ray.norm());
-    if (drop < quality.dropout || cosine < GrazingCosine ||
+    if (draws.drop[i] < quality.dropout || hidden[i] || cosine < GrazingCosine || cosine > mirror ||
         (radius > 0 && patches.share(column, row, radius, radius > 3 ? 2 : 1) < 0.5) ||
-        (jump < quality.jumpDropout && patches.share(column, row, 1, 1) < 1.0))
+        (draws.jump[i] < quality.jumpDropout && patches.share(column, row, 1, 1) < 1.0))
     {
       continue;
     }
     const double metres = view.depths[i] / 1000.0;
-    double depth = view.depths[i] + quality.depthNoise * metres * metres * noise;
+    double depth = depths[i] + quality.depthNoise * metres * metres * draws.noise[i];
+    if (quality.rangeNoise > 0.0)
+    {
+      depth += quality.rangeNoise * metres / std::sqrt(cosine) * draws.noise[i]; // along the ray, at that range
+    }
     if (quality.depthStep > 0.0)
     {
       depth = quality.depthStep * std::round(depth / quality.depthStep);

@@ -7,7 +7,8 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
 from ppfmeam import filters, scripting
 
-PARTS = {"RidgedDisc": "ridged_disc", "ArcLever": "arc_lever", "Flap": "flap", "HolePlate": "hole_plate"}
+PARTS = {"RidgedDisc": "ridged_disc", "ArcLever": "arc_lever", "Flap": "flap", "HolePlate": "hole_plate",
+         "PipeElbow": "pipe_elbow", "Cap": "cap", "Knob": "knob", "Handle": "handle"}
 
 
 def main():

@@ -108,6 +108,12 @@ class Evaluation:
         self.judge.SetInputDataObject(2, model)  # its symmetries
         self.times = []
 
+    def forget(self):
+        """Leaves out all scenes so far."""
+        for port in range(2):
+            self.judge.RemoveAllInputConnections(port)
+        self.times.clear()
+
     def find(self, surface, edges=None, image=None, camera=None):
         """The poses in a scene, best first; without edges those of its image, or of an image that a camera beside
         the sensor took, with that camera's calibration file."""
@@ -125,9 +131,13 @@ class Evaluation:
         self.judge.AddInputDataObject(0, poses)
         self.judge.AddInputDataObject(1, truth)
 
+    def judged(self, name):
+        """A column of vtkMEAMPoseEvaluation, of each pose, scene by scene."""
+        return vtk_to_numpy(scripting.update(self.judge).GetOutput().GetColumnByName(name))
+
     def right(self):
         """Whether each pose is right, 1 or 0, scene by scene."""
-        return vtk_to_numpy(scripting.update(self.judge).GetOutput().GetColumnByName("Right"))
+        return self.judged("Right")
 
     def figures(self):
         """Over all scenes: how many poses were judged, FIGURES, and the median ms of a scene and its stages."""

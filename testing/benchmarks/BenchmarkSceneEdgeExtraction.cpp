@@ -7,7 +7,7 @@
 #include "scene/BackgroundRemoval.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "simulation/BinScene.h"
-#include "simulation/SamplePart.h"
+#include "simulation/parts/SamplePart.h"
 
 #include <benchmark/benchmark.h>
 

@@ -93,5 +93,26 @@ source.SetBinSize(5)
 fails(source, "fit")
 check(is_empty(truth) and is_empty(mesh), "no truth without a scene")
 fails(bin_of(part, SensorHeight=10), "raise")
-prints(source, "Copies", "Seed", "BinSize", "SensorHeight", "Width", "Height", "Colored", "Baseline", "DepthNoise",
-       "DepthStep", "Dropout", "JumpDropout", "MatchingWindow", "ImageNoise", "ImageBlur")
+prints(source, "Copies", "Seed", "BinSize", "SensorHeight", "Sensor", "Width", "Height", "Colored", "Baseline", "DepthNoise",
+       "DepthStep", "Dropout", "JumpDropout", "MatchingWindow", "GlareAngle", "NoiseWindow", "StereoBaseline",
+       "DisparityNoise", "DisparityStep", "SmoothingWindow", "RangeNoise", "PixelBlur", "Multipath", "ImageNoise", "ImageBlur")
+
+
+# Kinds of sensors: the same bin, and what is chosen wins over what the kind has.
+def depths_of(**properties):
+    data = run(bin_of(MatchingWindow=1, **properties))
+    return tuples(data, "Instance"), [p[2] for p in points(data)]
+
+
+bins = [depths_of(Sensor=kind) for kind in range(3)]
+check(bins[0][0] == bins[1][0] == bins[2][0], "another bin")
+check(len({str(depths) for _, depths in bins}) == 3, "kinds of sensors that measure the same")
+other = depths_of(Sensor=2, RangeNoise=0, PixelBlur=0, Multipath=0, DepthNoise=0.3, DepthStep=0.05)
+check(str(other) == str(bins[0]), "time of flight with the quality of structured light is that")
+sizes = []
+for choice in ("StructuredLight", "ActiveStereo", "TimeOfFlight"):
+    source = bin_of(Copies=1, Width=-1, Height=-1, MatchingWindow=1)
+    getattr(source, "SetSensorTo" + choice)()
+    run(source).GetDimensions(size)
+    sizes.append(tuple(size[:2]))
+check(sizes == [(960, 768), (1280, 720), (640, 480)], f"{sizes}")

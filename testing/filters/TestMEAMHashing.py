@@ -84,7 +84,7 @@ check([name for name, _ in partitions(merged)] == ["View 0", "View 1", "Edges", 
 for v, (_, edges) in enumerate(partitions(merged)[:2]):
     check(edges.GetNumberOfPoints() == 2 and len(tuples(edges, "Tangent")) == 2, "a view shows its edges")
     check(close(field(edges, "ViewDirection")[0], ((0, 0, 1), (1, 0, 0))[v]), "and knows its direction")
-expected = {"FormatVersion": 3, "Diameter": 10.0, "Feature": 0, "DistanceStep": 0.1, "AngleStep": 10.0, "ViewMerging": 0,
+expected = {"FormatVersion": 4, "Features": 0, "Diameter": 10.0, "Feature": 0, "DistanceStep": 0.1, "AngleStep": 10.0, "ViewMerging": 0,
             "VoxelSize": 0.0, "LeafSize": 0.0, "CoVisibilityDirections": 0, "NumberOfViews": 2, "NumberOfEdgePoints": 2,
             "NumberOfSurfacePoints": 0, "NumberOfPairs": 2}
 for name, value in expected.items():

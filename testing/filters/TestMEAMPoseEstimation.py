@@ -49,8 +49,8 @@ check(len(expected) == 2, f"{len(expected)} poses")
 evaluation = connect(vtkMEAMPoseEvaluation(), poses, truth)
 evaluation.SetPosesAskedFor(2)
 check(field(run(evaluation), "StrictRate") == [(100,)], "both poses are right")
-(first,), (second,) = tuples(poses, "Score")
-check(tuples(poses, "Rank") == [(1,), (2,)] and 1 >= first >= second > 0.5, f"scores {first}, {second}")
+(first,), (second,) = tuples(poses, "Evidence")
+check(tuples(poses, "Rank") == [(1,), (2,)] and first >= second > 0, f"evidence {first}, {second}")
 parts = [seconds(filter, stage) for stage in STAGES]
 check(all(s >= 0 for s in parts) and 0.97 * parts[-1] <= sum(parts[:-1]) <= parts[-1] * 1.001,
       f"the stages add up to the total: {parts}")
@@ -97,12 +97,22 @@ paper.SetPresetToPaper()
 check(run(paper).GetNumberOfPoints() > 0 and found(paper) != expected, "the paper's preset")
 
 # The preset's share of reference points follows where the edges come from; another one leads to other candidates.
-check(found(estimation(model, scan, MaximumNumberOfPoses=0, ReferenceShare=0.1))
-      == found(estimation(model, scan, MaximumNumberOfPoses=0)), "of edges of an image")
+check(found(estimation(model, scan, MaximumNumberOfPoses=0, ReferenceShare=1))
+      != found(estimation(model, scan, MaximumNumberOfPoses=0)), "of a scan")
 elsewhere = cloud(points(ready), Tangent=tuples(ready, "Tangent"))
-few = found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0))
-check(few == found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, ReferenceShare=0.03)), "of edges from elsewhere")
-check(few != found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, ReferenceShare=0.5)), "another share")
+few = found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0))
+check(few == found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0, ReferenceShare=0.03)),
+      "of edges from elsewhere")
+check(few != found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0, ReferenceShare=0.5)), "another share")
+
+# Both features find the parts; a model of one alone says what it has not.
+for features in (0, 1):
+    evaluation = connect(vtkMEAMPoseEvaluation(), run(estimation(part, scan, MaximumNumberOfPoses=2, Features=features)), truth)
+    evaluation.SetPosesAskedFor(2)
+    check(field(run(evaluation), "Top1Rate") == [(100,)], f"the first pose by features {features} is right")
+edges_alone = Trained(part).model
+edges_alone.SetFeaturesToEdges()
+fails(estimation(run(edges_alone), scan, Features=1), "edge points alone", "Features")
 
 # Asked to stop, it stops without an error and works again.
 filter = estimation(model, scan, MaximumNumberOfPoses=2)
@@ -132,4 +142,4 @@ sideways = estimation(model, surface, ready, ViewDirection=(0, 0, 0))
 fails(sideways, "view direction")
 fails(estimation(part, scan, CADScale=0.0), "scale")
 fails(estimation(model, image()), "vtkStructuredGrid")
-prints(filter, "Preset", "MaximumNumberOfPoses", "MinimumProbability", "ReferenceShare", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")
+prints(filter, "Preset", "MaximumNumberOfPoses", "MinimumProbability", "ReferenceShare", "Features", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")

@@ -77,7 +77,8 @@ model = run(trained.model)
 diameter = field(model, "Diameter")[0][0]
 check(abs(diameter - math.sqrt(40**2 + 25**2 + 15**2)) < 1e-3, f"the diameter is {diameter}")
 names = [name for name, _ in partitions(model)]
-expected = [f"View {v}" for v in range(6)] + ["Edges", "Surface", "PairTableBuckets", "PairTableEntries"]
+expected = [f"View {v}" for v in range(6)] + ["Edges", "Surface", "SurfacePairPoints", "PairTableBuckets", "PairTableEntries",
+                                              "SurfacePairTableBuckets", "SurfacePairTableEntries"]
 check(names == expected, f"the partitions are {names}")
 check(field(model, "NumberOfPairs")[0][0] == dict(partitions(model))["PairTableEntries"].GetNumberOfPoints() > 1000,
       "pairs")
@@ -155,7 +156,7 @@ try:
         result.GetFieldData().AddArray(array)
         return result
 
-    fails(detection(changed("FormatVersion", 99)), "version 99", "version 3", "train the model again")
+    fails(detection(changed("FormatVersion", 99)), "version 99", "version 4", "train the model again")
     fails(detection(changed("NumberOfPairs", 17)), "PairTableEntries")
     fails(detection(changed("NumberOfViews", 5)), "view")
     fails(detection(changed("DistanceStep", 1)), "PairTableBuckets")

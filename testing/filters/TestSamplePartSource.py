@@ -11,7 +11,8 @@ from meamtest import check, close, connect, field, prints, run
 EXAMPLES = os.path.join(os.path.dirname(__file__), "..", "..", "examples")
 FILES = {"RibbedFlange": ("data/ribbed_flange.stl", 80.5), "RidgedDisc": ("parts/ridged_disc.stl", 92.0),
          "ArcLever": ("parts/arc_lever.stl", 112.7), "Flap": ("parts/flap.stl", 153.9),
-         "HolePlate": ("parts/hole_plate.stl", 84.5)}
+         "HolePlate": ("parts/hole_plate.stl", 84.5), "PipeElbow": ("parts/pipe_elbow.stl", 107.9),
+         "Cap": ("parts/cap.stl", 69.5), "Knob": ("parts/knob.stl", 49.8), "Handle": ("parts/handle.stl", 117.0)}
 for number, (name, (path, diameter)) in enumerate(FILES.items()):
     source = vtkMEAMSamplePartSource()
     getattr(source, "SetPartTo" + name)()

@@ -106,7 +106,7 @@ check([pose["obj_id"] for pose in json.loads(read("two.json"))["poses"]] == [int
 for row, found in zip(rows, numpy.array(read("two.txt").split(), float).reshape(-1, 4, 4)):
     here = bins[row["obj_id"]].GetOutputDataObject(1)
     miss = min(numpy.abs(found - t).max() for t in numpy.array(tuples(here, "Transform")).reshape(-1, 4, 4))
-    check(miss < 1, f"{miss} mm from a true pose of part {row['obj_id']}: {found}")
+    check(miss < 2, f"{miss} mm from a true pose of part {row['obj_id']}: {found}")
 result = script("detect.py", "--cad", "part.stl", "--cad", "box.stl", "--model", "model.vtpc", "--scene", "two.pcd")
 check(result.returncode == 2 and "a --cad for each --model" in result.stderr, result.stderr)
 

@@ -109,6 +109,12 @@ calibration = load("beside/image_camera.json")
 T = numpy.reshape(calibration["T_camera_scene"]["data"], (4, 4))
 check(close([numpy.linalg.norm(T[:3, 3])], [90]), f"{T}")
 
+# Another sensor: the same bin with as many pixels as that has.
+done = simulate("--cad", PART, "--copies", str(COPIES), "--seed", "5", "--sensor", "time-of-flight", "--out", "flight")
+check(done.returncode == 0, done.stderr)
+check((load("flight/camera.json")["width"], load("flight/camera.json")["height"]) == (640, 480), "pixels of the sensor")
+check(load("flight/test/000000/scene_gt.json") == load("plates/test/000000/scene_gt.json"), "the same bin")
+
 for arguments in (["--out", "plates"], ["--out", "new", "--copies", "0"], ["--out", "new", "--noise", "-1"]):
     done = simulate("--cad", PART, *arguments)
     check(done.returncode != 0 and "Traceback" not in done.stderr and done.stderr, f"{arguments}: {done.stderr}")

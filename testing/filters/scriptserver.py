@@ -12,6 +12,8 @@ import ppfmeam.bop  # noqa: F401
 import ppfmeam.chains  # noqa: F401
 import ppfmeam.evaluation  # noqa: F401
 import ppfmeam.picture  # noqa: F401
+import ppfmeam.simulation  # noqa: F401
+import ppfmeam.world  # noqa: F401
 
 for line in sys.stdin:
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:

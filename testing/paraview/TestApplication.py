@@ -21,11 +21,11 @@ def build_and_show():
     model = simple.MEAMHashing(Input=tangents, Surface=symmetries)
     edges = simple.SceneEdgeExtraction(Input=simple.OutputPort(scene, 0))
     edges = simple.TangentEstimation(Input=simple.OutputPort(edges, 0), Model=model)
-    candidates = simple.PoseDetection(Input=edges, Model=model)
+    candidates = simple.PoseDetection(Input=edges, Model=model, SceneSurface=simple.OutputPort(scene, 0))
     scan = simple.OutputPort(scene, 0)
     scene = {"Model": model, "SceneEdges": edges, "SceneSurface": scan}
     screened = simple.PoseScreening(Input=candidates, **scene)
-    verified = simple.PoseVerification(Input=screened, **scene)
+    verified = simple.PoseVerification(Input=screened, PointStride=2, **scene)
     alternatives = simple.PoseSelection(Input=verified, Method="Alternatives", **scene)
     refined = simple.PoseRefinement(Input=alternatives, **scene)
     scored = simple.PoseVerification(Input=refined, **scene)

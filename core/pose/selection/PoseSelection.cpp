@@ -208,12 +208,14 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
   selected.erase(std::remove_if(selected.begin(), selected.end(),
                    [&](const Pose& pose) { return pose.probability < settings.minimumProbability; }),
     selected.end());
-  const int usual = settings.method == SelectionMethod::Alternatives ? settings.mostRefined : 0;
-  const int most = settings.maximumPoses > 0 ? settings.maximumPoses : usual;
-  if (most > 0 && selected.size() > static_cast<std::size_t>(most))
+  std::size_t most = settings.maximumPoses > 0 ? settings.maximumPoses : selected.size();
+  if (settings.maximumPoses == 0 && settings.method == SelectionMethod::Alternatives && settings.mostRefined > 0)
   {
-    selected.resize(most);
+    const auto likely =
+      std::count_if(selected.begin(), selected.end(), [](const Pose& pose) { return pose.probability > 0.5; });
+    most = std::max<std::size_t>(settings.mostRefined, likely);
   }
+  selected.resize(std::min(selected.size(), most));
   report(progress, 1.0);
   return selected;
 }

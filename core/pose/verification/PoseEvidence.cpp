@@ -36,12 +36,6 @@ EdgeRates edgeRates(
 {
   std::vector<int> order(candidates.size());
   std::iota(order.begin(), order.end(), 0);
-  std::vector<double> ofSurface;
-  for (const EvidenceCounts& counts : candidates)
-  {
-    ofSurface.push_back(counts.ofSurface(weights));
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return ofSurface[a] > ofSurface[b]; });
   const auto rate = [&](std::size_t best, double usual)
   {
     double found = settings.usualPoints * usual, all = settings.usualPoints;
@@ -56,9 +50,19 @@ EdgeRates edgeRates(
   const double gain = settings.leastGain;
   EdgeRates rates;
   rates.chance = std::min(rate(candidates.size(), settings.usual.chance), 1.0 - 2.0 * gain);
-  rates.found =
-    rate(static_cast<std::size_t>(std::ceil(settings.supportedShare * candidates.size())), settings.usual.found);
-  rates.found = std::clamp(rates.found, rates.chance + gain, 1.0 - gain);
+  rates.found = std::min(std::max(settings.firstGain * rates.chance, rates.chance + gain), 1.0 - gain);
+  std::vector<double> sums(candidates.size());
+  for (int step = 0; step < settings.steps; ++step)
+  {
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+    {
+      sums[k] = candidates[k].sum(weights, rates);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sums[a] > sums[b]; });
+    rates.found =
+      rate(static_cast<std::size_t>(std::ceil(settings.supportedShare * candidates.size())), settings.usual.found);
+    rates.found = std::clamp(rates.found, rates.chance + gain, 1.0 - gain);
+  }
   return rates;
 }
 
@@ -110,7 +114,8 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const TrainedModel& model = this->Model;
   const DepthMap& depth = this->InScene.depth;
-  const auto visible = model.visibility->visible(T_scene_model, this->InScene.sensor);
+  const auto visible =
+    model.visibility->visible(T_scene_model, this->InScene.sensor, this->Settings.border * this->InScene.depth.pitch());
   const float tolerance = this->Tolerance;
   PoseEvidence evidence;
   for (std::size_t k = 0; k < visible->edges.size(); k += stride * this->Settings.edgeStride)
@@ -154,7 +159,6 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     const Eigen::Vector3f point = T * model.surface.points[i];
     const Eigen::Vector3f normal = T.linear() * model.surface.normals[i];
     const float cosine = normal.dot(towards);
-    // At the outline sensors mix what is before and behind.
     const double seen = visible->isInner[k] ? area * std::max(cosine, 0.0f) : 0.0;
     PointState state = PointState::Violated;
     switch (depth.relationToMean(point, tolerance / std::max(cosine, flattest)))

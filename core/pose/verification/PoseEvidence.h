@@ -43,6 +43,7 @@ struct EvidenceSettings
   bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
   double facing = 0.8;   ///< cosine between the part's normal and the measured one, from which on the surface fits
   double flattest = 0.3; ///< cosine: the tolerance along the line of sight grows up to surfaces seen so flatly
+  double border = 2.0; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double outlineTolerance = 1.5;      ///< times the tolerance: a surface beyond the outline that goes on
   int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same
   ProbabilityCalibration calibration; ///< of these weights
@@ -59,7 +60,9 @@ struct EdgeRatesSettings
 {
   EdgeRates usual;
   double usualPoints = 500.0;  ///< so many edge points the usual rates count: of few candidates nothing can be told
-  double supportedShare = 0.1; ///< of the candidates, those that the surface speaks for most
+  double supportedShare = 0.1; ///< of the candidates, those that most speaks for
+  double firstGain = 3.0;      ///< times the chance: found where the part is, before anything is known
+  int steps = 2;               ///< of what speaks for which candidates, and what that says of the edges
   double leastGain = 0.02;     ///< that an edge is found more often where the part is
 };
 
@@ -78,8 +81,8 @@ struct EvidenceCounts
   double sum(const EvidenceWeights& weights, const EdgeRates& rates) const;
 };
 
-/// The rates of a scan, from what was counted of its candidates: those that the surface speaks for are mostly right,
-/// of all most are not.
+/// The rates of a scan, from what was counted of its candidates, in turns (expectation maximization): of all candidates
+/// most are wrong; those that most speaks for, by the rates of the turn before, are mostly right.
 EdgeRates edgeRates(const std::vector<EvidenceCounts>& candidates, const EvidenceWeights& weights,
   const EdgeRatesSettings& settings = {});
 

@@ -297,6 +297,7 @@ Poses detectPoses(
   const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings, const Progress& progress)
 {
   requireSettings(settings);
+  requireSameUnits(scene.edgePoints().points, model.diameter);
   const bool withEdges = hasEdges(settings.features) && hasEdges(model.settings.features);
   const bool haveSurface = hasSurface(settings.features) && hasSurface(model.settings.features);
   if (!withEdges && !haveSurface)
@@ -319,7 +320,6 @@ Poses detectPoses(
   if (withSurface)
   {
     const DirectedPoints surface = surfacePointsOf(scene, model.settings.surface.leafSize * model.diameter, settings);
-    requireSameUnits(surface.points, model.diameter);
     const bool isScan = scene.edges.fromScan;
     const double share = settings.referenceShare > 0.0 ? settings.referenceShare
                          : isScan                      ? settings.surfaceReferenceShare

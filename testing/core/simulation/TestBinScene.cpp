@@ -2,7 +2,7 @@
 #include "simulation/BinScene.h"
 
 #include "mesh/TriangleMesh.h"
-#include "simulation/SamplePart.h"
+#include "simulation/parts/SamplePart.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <numeric>
+#include <set>
 
 using namespace meam::test;
 
@@ -43,6 +45,28 @@ double noiseAt(double z, double depthNoise)
     squares += (point.z() - z) * (point.z() - z);
   }
   return std::sqrt(squares / cloud.size());
+}
+
+/// A plate that fills the view, tilted about the vertical axis.
+meam::Body wall(const meam::TriangleMesh& mesh, double z, double tilt = 0.0)
+{
+  meam::Body body = at(mesh, 0.0, z, tilt);
+  body.T_scene_model.linear() *= 10.0;
+  return body;
+}
+
+/// A sensor with a second eye that makes no errors.
+meam::SensorQuality stereo(double baseline)
+{
+  meam::SensorQuality quality = perfect();
+  quality.stereoBaseline = baseline;
+  return quality;
+}
+
+bool same(const meam::OrganizedCloud& a, const meam::OrganizedCloud& b)
+{
+  return a.points.size() == b.points.size() &&
+         std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(a.points[0])) == 0;
 }
 
 int missing(const meam::OrganizedCloud& cloud)
@@ -142,6 +166,148 @@ TEST(VirtualSensor, thinRidgesAreLostAndWideOnesAreNot)
   EXPECT_FALSE(std::isnan(cloud.points[Middle - 10 * 101].z()));
 }
 
+TEST(VirtualSensor, stereoLosesABandOnOneSideOfAJump)
+{
+  const meam::TriangleMesh mesh = plate();
+  // Disparities 100 * 35 / 500 and 100 * 35 / 1000 differ by 3.5 pixels.
+  const meam::OrganizedCloud cloud = measure({ at(mesh, 0.0, 500.0) }, stereo(35.0));
+  for (int column = 0; column < 101; ++column)
+  {
+    EXPECT_EQ(std::isnan(cloud.points[50 * 101 + column].z()), column >= 37 && column < 40) << column;
+  }
+  EXPECT_EQ(missing(cloud), 3 * 21);
+}
+
+TEST(VirtualSensor, stepsOfDisparityGrowWithTheSquareOfTheDistance)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = stereo(50.0);
+  quality.disparityStep = 1.0 / 32.0;
+  for (const double z : { 500.0, 900.0 })
+  {
+    std::set<float> depths;
+    for (const auto& point : measure({ wall(mesh, z, 0.1) }, quality).points)
+    {
+      depths.insert(point.z());
+    }
+    ASSERT_GT(depths.size(), 5u);
+    // depth = 100 * 50 / disparity: 1.56 mm at 500 mm, 5.06 mm at 900 mm.
+    for (auto next = std::next(depths.begin()); next != depths.end(); ++next)
+    {
+      EXPECT_NEAR(*next - *std::prev(next), *next * *std::prev(next) / 32.0 / 5000.0, 1e-3);
+    }
+  }
+}
+
+TEST(VirtualSensor, smoothedDisparitiesRoundEdgesAndLeavePlanes)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = stereo(1.0);
+  quality.smoothingWindow = 5;
+  const std::vector<meam::Body> plane{ wall(mesh, 600.0, 0.5) };
+  const meam::OrganizedCloud smooth = measure(plane, quality);
+  const meam::OrganizedCloud sharp = measure(plane, perfect());
+  for (std::size_t i = 0; i < sharp.size(); ++i)
+  {
+    EXPECT_NEAR(smooth.points[i].z(), sharp.points[i].z(), 1e-3);
+  }
+  // Beside the right border of a plate: the mean of disparities 0.2 and 0.1.
+  const meam::OrganizedCloud jump = measure({ at(mesh, 0.0, 500.0) }, quality);
+  const double disparities[] = { 0.2, 0.18, 0.16, 0.14, 0.12, 0.1 };
+  for (int k = 0; k < 6; ++k)
+  {
+    EXPECT_NEAR(jump.points[Middle + 8 + k].z(), 100.0 / disparities[k], 1e-2);
+  }
+}
+
+TEST(VirtualSensor, disparityNoiseIsAlikeNearbyAndGrowsWithTheSquareOfTheDistance)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = stereo(50.0);
+  quality.disparityNoise = 0.02;
+  quality.noiseWindow = 5;
+  double squares = 0.0;
+  double products = 0.0;
+  const meam::OrganizedCloud cloud = measure({ wall(mesh, 900.0) }, quality);
+  for (std::size_t i = 1; i < cloud.size(); ++i)
+  {
+    squares += std::pow(cloud.points[i].z() - 900.0, 2);
+    products += (cloud.points[i].z() - 900.0) * (cloud.points[i - 1].z() - 900.0);
+  }
+  EXPECT_NEAR(std::sqrt(squares / cloud.size()), 0.02 * 900.0 * 900.0 / 5000.0, 0.2);
+  EXPECT_NEAR(products / squares, 0.8, 0.05);
+}
+
+TEST(VirtualSensor, whatFacesTheSensorGlares)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = perfect();
+  quality.glareAngle = 2.0;
+  // A plane across the axis: pixels within 100 * tan(2 degrees) = 3.49 of the middle.
+  const meam::OrganizedCloud cloud = measure({ wall(mesh, 900.0) }, quality);
+  EXPECT_TRUE(std::isnan(cloud.points[Middle + 3].z()));
+  EXPECT_FALSE(std::isnan(cloud.points[Middle + 4].z()));
+  EXPECT_EQ(missing(cloud), 37);
+  EXPECT_FALSE(std::isnan(measure({ wall(mesh, 900.0, 0.1) }, quality).points[Middle].z()));
+}
+
+TEST(VirtualSensor, rangeNoiseGrowsWithTheDistanceAndIncidence)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = perfect();
+  quality.rangeNoise = 2.0;
+  for (const auto& [z, tilt] : { std::pair(500.0, 0.0), std::pair(900.0, 0.0), std::pair(700.0, 0.9) })
+  {
+    const meam::OrganizedCloud noisy = measure({ wall(mesh, z, tilt) }, quality);
+    const meam::OrganizedCloud clean = measure({ wall(mesh, z, tilt) }, perfect());
+    double squares = 0.0;
+    int pixels = 0;
+    for (int row = 0; row < 101; ++row)
+    {
+      for (int column = 40; column <= 60; ++column, ++pixels)
+      {
+        const std::size_t i = row * 101 + column;
+        squares += (noisy.points[i] - clean.points[i]).squaredNorm() / clean.points[i].squaredNorm();
+      }
+    }
+    EXPECT_NEAR(std::sqrt(squares / pixels), 0.002 / std::sqrt(std::cos(tilt)), 0.0003);
+  }
+}
+
+TEST(VirtualSensor, flyingPixelsLieBetweenBothSurfaces)
+{
+  const meam::TriangleMesh mesh = plate();
+  meam::SensorQuality quality = perfect();
+  quality.pixelBlur = 0.7;
+  const meam::OrganizedCloud cloud = measure({ at(mesh, 0.0, 500.0) }, quality);
+  int flying = 0;
+  for (const auto& point : cloud.points)
+  {
+    EXPECT_TRUE(point.z() > 499.99f && point.z() < 1000.01f);
+    flying += point.z() > 510.0f && point.z() < 990.0f;
+  }
+  // The border of a square of 21 x 21 pixels and the pixels around it, at least.
+  EXPECT_GE(flying, 4 * 20 + 4 * 21);
+}
+
+TEST(VirtualSensor, kindsOfSensors)
+{
+  const meam::TriangleMesh mesh = plate();
+  const std::vector<meam::Body> bodies{ at(mesh, 0.0, 500.0, 0.3) };
+  std::vector<meam::OrganizedCloud> clouds;
+  for (int kind = 0; kind < meam::SensorKinds; ++kind)
+  {
+    const meam::SensorQuality quality = meam::sensorQuality(static_cast<meam::SensorKind>(kind));
+    meam::requireQuality(quality);
+    clouds.push_back(measure(bodies, quality));
+    EXPECT_TRUE(same(clouds.back(), measure(bodies, quality)));
+    EXPECT_LT(missing(clouds.back()), 1500);
+  }
+  EXPECT_TRUE(same(clouds[0], measure(bodies, {})));
+  EXPECT_FALSE(same(clouds[0], clouds[1]));
+  EXPECT_FALSE(same(clouds[0], clouds[2]));
+}
+
 TEST(VirtualSensor, anImageIsNoisyAndBlurred)
 {
   std::vector<Eigen::Vector3f> light(101 * 101, Eigen::Vector3f(0.6f, 0.4f, 0.2f));
@@ -189,6 +355,12 @@ TEST(VirtualSensor, badInput)
   fails([](auto& q) { q.jumpDropout = -0.1; });
   fails([](auto& q) { q.matchingWindow = 0; });
   fails([](auto& q) { q.imageBlur = 1e9; });
+  fails([](auto& q) { q.stereoBaseline = -1.0; });
+  fails([](auto& q) { q.disparityNoise = std::nan(""); });
+  fails([](auto& q) { q.smoothingWindow = 4; });
+  fails([](auto& q) { q.noiseWindow = 0; });
+  fails([](auto& q) { q.multipath = 1.5; });
+  fails([](auto& q) { q.pixelBlur = -0.1; });
   const meam::View view = meam::rasterize({}, Floor, camera());
   meam::Random random(1);
   EXPECT_THROW(

@@ -2,7 +2,7 @@
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
-#include "simulation/ExampleParts.h"
+#include "simulation/parts/ExampleParts.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST_P(ExampleParts, areClosedAndFaceOutward)
 TEST_P(ExampleParts, haveTheirSize)
 {
   const meam::TriangleMesh part = meam::makeExamplePart(static_cast<meam::ExamplePart>(GetParam()));
-  const double sizes[] = { 92.0, 112.7, 153.9, 84.5 };
+  const double sizes[] = { 92.0, 112.7, 153.9, 84.5, 107.9, 69.5, 49.8, 117.0 };
   EXPECT_NEAR(meam::diameter(part.vertices), sizes[GetParam()], 0.5);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/SamplePart.h"
+#include "simulation/parts/SamplePart.h"
 
-#include "simulation/ColumnMesh.h"
+#include "simulation/parts/ColumnMesh.h"
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "io/parsing/FileBytes.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
-#include "simulation/SamplePart.h"
+#include "simulation/parts/SamplePart.h"
 
 #include <gtest/gtest.h>
 
@@ -90,9 +90,10 @@ TEST(SamplePart, hasItsSizeAndFeatures)
 //   PPFMEAM_REGENERATE=1 meamCoreTests --gtest_filter=SamplePart.isTheFileOfTheExamples
 TEST(SamplePart, isTheFileOfTheExamples)
 {
-  const std::string path = (std::filesystem::path(__FILE__).parent_path() / "../../../examples/data/ribbed_flange.stl")
-                             .lexically_normal()
-                             .string();
+  const std::string path =
+    (std::filesystem::path(__FILE__).parent_path() / "../../../../examples/data/ribbed_flange.stl")
+      .lexically_normal()
+      .string();
   const std::string bytes = stl(meam::makeSamplePart());
   if (std::getenv("PPFMEAM_REGENERATE"))
   {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/ExampleParts.h"
+#include "simulation/parts/ExampleParts.h"
 
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
-#include "simulation/ColumnMesh.h"
+#include "simulation/parts/ColumnMesh.h"
+#include "simulation/parts/CurvedParts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -183,23 +184,31 @@ Features holePlate()
 
 TriangleMesh makeExamplePart(ExamplePart part)
 {
-  const auto features = [part]
+  const auto withFeatures = [](const Features& features)
   {
-    switch (part)
-    {
-      case ExamplePart::RidgedDisc:
-        return ridgedDisc();
-      case ExamplePart::ArcLever:
-        return arcLever();
-      case ExamplePart::Flap:
-        return flap();
-      default:
-        return holePlate();
-    }
+    // The outlines of one layer cut the faces of the others: without these cuts.
+    MeshPreparationSettings settings;
+    settings.maximumError = 0.01;
+    return prepareMesh(featureMesh(features), settings).mesh;
   };
-  // The outlines of one layer cut the faces of the others: without these cuts.
-  MeshPreparationSettings settings;
-  settings.maximumError = 0.01;
-  return prepareMesh(featureMesh(features()), settings).mesh;
+  switch (part)
+  {
+    case ExamplePart::RidgedDisc:
+      return withFeatures(ridgedDisc());
+    case ExamplePart::ArcLever:
+      return withFeatures(arcLever());
+    case ExamplePart::Flap:
+      return withFeatures(flap());
+    case ExamplePart::HolePlate:
+      return withFeatures(holePlate());
+    case ExamplePart::PipeElbow:
+      return pipeElbow();
+    case ExamplePart::Cap:
+      return cap();
+    case ExamplePart::Knob:
+      return knob();
+    default:
+      return handle();
+  }
 }
 }

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What was found in bins of many parts and sensors: files that a killed run leaves whole, and the table of it."""
+import csv
+import os
+
+import numpy
+
+from . import scripting
+
+BIN = ("part", "sensor", "seed", "copies", "bin")  # `bin`: the part that lies in it
+# `right`, `mm` and `degrees` are of the poses asked for.
+ROW = (*BIN, "half_visible", "half_visible_found", "poses", "asked", "right", "mm", "degrees", "ms", "failure")
+POSE = (*BIN, "rank", "probability", "right", "mm", "degrees")
+CLASS = 100  # poses whose probabilities are compared with a rate
+HEAD = ("| part | sensor | best five right | recall | mm | degrees | claim - rate | without the part | ms | failed |\n"
+        "|---|---|---|---|---|---|---|---|---|---|")
+
+
+class Lines:
+    """A CSV file that grows by whole lines: what an earlier run left of the last one is dropped."""
+
+    def __init__(self, path, columns, keep=lambda row: True):
+        self.path, self.rows = path, []
+        if os.path.exists(path):
+            with open(path, encoding="utf-8", newline="") as file:
+                whole = [line for line in file if line.endswith("\n")]
+            self.rows = [row for row in csv.DictReader(whole) if keep(row)]
+            if whole and next(csv.reader(whole[:1])) != list(columns):
+                raise scripting.Failure(f"{path} is not of this version: remove it, or choose another folder")
+        # Anew, under another name first.
+        with open(path + ".part", "w", encoding="utf-8", newline="") as file:
+            self.write(file, columns, self.rows, head=True)
+        os.replace(path + ".part", path)
+        self.columns = columns
+
+    @staticmethod
+    def write(file, columns, rows, head=False):
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        if head:
+            writer.writeheader()
+        writer.writerows(rows)
+
+    def add(self, rows):
+        with open(self.path, "a", encoding="utf-8", newline="") as file:
+            self.write(file, self.columns, rows)
+        self.rows += [{name: str(value) for name, value in row.items()} for row in rows]
+
+
+def bin_of(row):
+    return tuple(str(row[name]) for name in BIN)
+
+
+class Record:
+    """The bins that are done: DIR/world.csv, a row for each; DIR/poses.csv, the poses found in them; DIR/world.md."""
+
+    def __init__(self, folder):
+        try:
+            os.makedirs(folder, exist_ok=True)
+        except OSError as error:
+            raise scripting.Failure(f"cannot write {folder}: {error.strerror}") from None
+        self.folder = folder
+        self.bins = Lines(os.path.join(folder, "world.csv"), ROW)
+        done = set(map(bin_of, self.bins.rows))
+        self.poses = Lines(os.path.join(folder, "poses.csv"), POSE, lambda row: bin_of(row) in done)
+        self.done = done
+
+    def add(self, row, poses):
+        """A bin and its poses; the bin's row last, with it the bin is done."""
+        self.poses.add(poses)
+        self.bins.add([row])
+        self.done.add(bin_of(row))
+
+    def table(self, bins):
+        """Of these bins the table in Markdown, which is also written."""
+        rows = [row for row in self.bins.rows if bin_of(row) in bins]
+        poses = [row for row in self.poses.rows if bin_of(row) in bins]
+        kinds = dict.fromkeys((row["part"], row["sensor"]) for row in rows)
+        lines = [HEAD]
+        for kind in kinds:
+            lines.append(line(kind, *([row for row in each if (row["part"], row["sensor"]) == kind] for each in (rows, poses))))
+        if len(kinds) > 1:
+            lines.append(line(("all", ""), rows, poses))
+        text = "\n".join(lines) + "\n\n" + largest_gap(poses) + "\n"
+        with open(os.path.join(self.folder, "world.md"), "w", encoding="utf-8") as file:
+            file.write(text)
+        return text
+
+
+def values(rows, name):
+    """A column as numbers, without what is empty."""
+    return numpy.array([float(row[name]) for row in rows if row[name] != ""])
+
+
+def line(kind, rows, poses):
+    """A line of the table: bins that hold the part, but for the probabilities, which are of all."""
+    def share(part, whole):
+        return f"{100 * part.sum() / whole.sum():.1f} %" if whole.sum() else "-"
+
+    def median(column, digits):
+        return f"{numpy.median(column):.{digits}f}" if column.size else "-"
+
+    there = [row for row in rows if row["bin"] == row["part"]]
+    asked = {bin_of(row): int(row["asked"]) or int(row["poses"] or 0) for row in rows}
+    right = [row for row in poses if row["right"] == "1" and int(row["rank"]) <= asked[bin_of(row)]]
+    claims = values(poses, "probability")
+    absent = values([row for row in poses if row["bin"] != row["part"]], "probability")
+    cells = (*kind, share(values(there, "right"), values(there, "asked")),
+             share(values(there, "half_visible_found"), values(there, "half_visible")),
+             median(values(right, "mm"), 3), median(values(right, "degrees"), 3),
+             f"{100 * (claims.mean() - values(poses, 'right').mean()):+.1f} %" if claims.size else "-",
+             f"{100 * absent.max():.0f} %" if absent.size else "-", median(values(there, "ms"), 0),
+             sum(row["failure"] != "" for row in rows))
+    return "| " + " | ".join(map(str, cells)) + " |"
+
+
+def largest_gap(poses):
+    """Of the poses in the order of their probabilities, a hundred at a time, those whose rate is farthest from them."""
+    claims, right = values(poses, "probability"), values(poses, "right")
+    if not claims.size:
+        return "No poses."
+    order = numpy.argsort(claims, kind="stable")
+    classes = [order[start:start + CLASS] for start in range(0, max(len(order) - CLASS, 0) + 1, CLASS)]
+    worst = max(classes, key=lambda these: abs(claims[these].mean() - right[these].mean()))
+    return (f"{len(order)} poses. Of classes of {CLASS} the one with the largest gap claims {100 * claims[worst].mean():.1f} %, "
+            f"and {100 * right[worst].mean():.1f} % of it are right.")
