@@ -75,7 +75,8 @@ public:
 
   ///@{
   /**
-   * Poses kept of all, the best ones; 0: no limit, or 200 alternatives. Default: 0.
+   * Poses kept of all, the best ones; 0: no limit; of alternatives 60 and all
+   * others whose probability is above 0.02. Default: 0.
    */
   virtual void SetMaximumNumberOfPoses(int value);
   virtual int GetMaximumNumberOfPoses();

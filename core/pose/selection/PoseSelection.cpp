@@ -209,11 +209,11 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
                    [&](const Pose& pose) { return pose.probability < settings.minimumProbability; }),
     selected.end());
   std::size_t most = settings.maximumPoses > 0 ? settings.maximumPoses : selected.size();
-  if (settings.maximumPoses == 0 && settings.method == SelectionMethod::Alternatives && settings.mostRefined > 0)
+  if (settings.maximumPoses == 0 && settings.method == SelectionMethod::Alternatives)
   {
-    const auto likely =
-      std::count_if(selected.begin(), selected.end(), [](const Pose& pose) { return pose.probability > 0.5; });
-    most = std::max<std::size_t>(settings.mostRefined, likely);
+    const auto worth = std::count_if(
+      selected.begin(), selected.end(), [&](const Pose& pose) { return pose.probability > settings.worthRefining; });
+    most = std::max<std::size_t>(settings.leastRefined, worth);
   }
   selected.resize(std::min(selected.size(), most));
   report(progress, 1.0);

@@ -22,12 +22,12 @@ enum class SelectionMethod
 struct PoseSelectionSettings
 {
   SelectionMethod method = SelectionMethod::Instances;
-  PoseClustersSettings clusters; ///< posesPerInstance is that of Alternatives; of the other methods it is 1
-  int alternatives = 2;          ///< of an instance (Alternatives)
-  double leastScore = 0.05;      ///< Alternatives: times the score of the best; less is not worth refining
-  int maximumPoses = 0;          ///< of all the best; 0: no limit, or of Alternatives:
-  /// So many, and all others that are more likely right than wrong, are worth refining; 0: no limit.
-  int mostRefined = 200;
+  PoseClustersSettings clusters;   ///< posesPerInstance is that of Alternatives; of the other methods it is 1
+  int alternatives = 2;            ///< of an instance (Alternatives)
+  double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
+  int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives
+  int leastRefined = 60;           ///< so many, and all others that are so likely to be right, are worth refining
+  double worthRefining = 0.02;     ///< probability
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
   EvidenceSettings evidence; ///< that poses are scored by once more

@@ -278,7 +278,8 @@ TEST(PoseSelection, TurnsOfANearlyRoundPartAreOneAlternative)
 TEST(PoseSelection, AlternativesThatAreNotWorthRefiningGo)
 {
   meam::PoseSelectionSettings settings = alternatives();
-  settings.mostRefined = 3;
+  settings.leastRefined = 1;
+  settings.worthRefining = 0.15;
   const meam::Poses poses{ ranked(0.8, place(0)), ranked(0.5, place(1)), ranked(0.2, place(2)), ranked(0.1, place(3)) };
   const meam::Poses kept = scenes::select(poses, scene(), scenes::bracket(), settings);
   ASSERT_EQ(kept.size(), 3u) << "the best";
@@ -287,6 +288,9 @@ TEST(PoseSelection, AlternativesThatAreNotWorthRefiningGo)
     EXPECT_EQ(kept[i].probability, poses[i].probability);
     EXPECT_TRUE(kept[i].T_scene_model.isApprox(poses[i].T_scene_model, 1e-9)) << "as it came";
   }
+  settings.leastRefined = 4;
+  EXPECT_EQ(scenes::select(poses, scene(), scenes::bracket(), settings).size(), 4u) << "so many at least";
+  settings.leastRefined = 1;
   settings.method = meam::SelectionMethod::Clusters;
   EXPECT_EQ(scenes::select(poses, scene(), scenes::bracket(), settings).size(), 4u) << "asked of alternatives alone";
 }
