@@ -254,7 +254,8 @@ TEST(MEAMPoseEstimation, MoreThanAHundredCopiesComeOut)
   const scenes::Seen scene = scenes::seenFromAbove(copies);
   const meam::Poses poses =
     scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5));
-  EXPECT_GT(instancesFound(poses, copies, 1.0, 1.0), 0.95 * copies.size());
+  // Of some copies the likeliest pose is a little off, or less likely than not.
+  EXPECT_GE(instancesFound(poses, copies, 1.0, 1.0), copies.size() - (SmallData ? 1 : 5));
   EXPECT_LE(poses.size(), copies.size());
 }
 
