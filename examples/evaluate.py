@@ -6,7 +6,7 @@ tohoku: the Tohoku University 6D Pose Estimation Dataset (simulation), DIR/Part_
 bop: a dataset in the form of the BOP benchmark, DIR/{models, test/SSSSSS}, such as simulate.py writes; without true
 poses only the results are written.
 world: simulated bins of the sample parts, each seen by each kind of sensor, and for each as many bins of the next part, in
-which the part is not. DIR/world.csv gets a row for each bin and DIR/poses.csv one for each pose as they come; a run that was
+which the part is not; by each choice of features. DIR/world.csv gets a row for each search and DIR/poses.csv one for each pose as they come; a run that was
 stopped goes on from there (bins that failed are done, too). The table, also in DIR/world.md: strict (best five right) and
 recall as below, median errors, by how much the mean probability of all poses is above the share of the right ones, the
 highest probability of a pose where the part is not; and how far at most a hundred poses of like probability are from it.
@@ -37,16 +37,15 @@ ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6
        "  {mm:16.3f}  {deg:7.3f} ({axis_deg:.3f} {roll_deg:.3f})  {ms:8.0f}")
 
 
-def evaluation_of(model, options):
+def evaluation_of(model, options, features):
     """What finds and judges poses, as the options have it."""
-    return evaluation.Evaluation(
-        model, options.preset, options.poses, options.threads, options.references, options.features)
+    return evaluation.Evaluation(model, options.preset, options.poses, options.threads, options.references, features)
 
 
 def run_part(part, options):
     """Trains, runs every scene and returns the row of the table, and how many scenes failed."""
     model = scripting.train(evaluation.tohoku_mesh(options.folder, part), options.preset, options.features)
-    run = evaluation_of(model, options)
+    run = evaluation_of(model, options, options.features)
     deviation = options.noise(scripting.field(model, "Diameter"))
     failed = 0
     if options.out:
@@ -112,7 +111,7 @@ def bop(options):
     runs, benchmark = {}, {}
     for number in options.objects or data.objects():
         model = data.train(number, options.preset, options.features)
-        runs[number] = evaluation_of(model, options)
+        runs[number] = evaluation_of(model, options, options.features)
         benchmark[number] = dataset.BOPFigures(data.mesh(number), model)
     judged, failures = dict.fromkeys(runs, 0), 0
     with open(options.out, "w", encoding="utf-8", newline="") as file:
@@ -153,7 +152,6 @@ def bop(options):
 
 def find_in_bin(run, bins, row):
     """Finds a part in a bin, completes the bin's row and returns a row for each pose."""
-    run.forget()
     scan, truth = bins.scene(row["bin"], row["sensor"], row["seed"])
     if row["bin"] != row["part"]:
         truth = vtkPolyData()
@@ -180,35 +178,37 @@ def find_in_bin(run, bins, row):
 
 
 def world_bins(options):
-    """The bins to run, a bin of each part after the other, so that each is simulated for two of them."""
+    """The searches to make, those in a bin one after the other: it is simulated for the next part, too."""
     for sensor in options.sensors:
         for seed in range(options.seed, options.seed + options.bins):
             for part in options.parts:
                 for lies in (part, simulation.PARTS[(simulation.PARTS.index(part) + 1) % len(simulation.PARTS)]):
-                    yield dict(zip(world.BIN, (part, sensor, seed, options.copies, lies)))
+                    for features in options.features:
+                        yield dict(zip(world.BIN, (part, features, sensor, seed, options.copies, lies)))
 
 
 def run_world(options):
-    """Bin by bin; returns how many failed."""
+    """Bin by bin; returns how many searches failed."""
     record, bins = world.Record(options.out), simulation.Bins(options.copies, options.scenes)
     planned = list(world_bins(options))
     todo = [row for row in planned if world.bin_of(row) not in record.done]
-    runs, start = {}, time.time()
+    models, start = {}, time.time()
     for count, row in enumerate(todo):
         part = row["part"]
-        if part not in runs:
+        if part not in models:
             print(f"training {part}", file=sys.stderr, flush=True)
-            runs[part] = evaluation_of(scripting.train(simulation.part_mesh(part), options.preset, options.features), options)
+            models[part] = scripting.train(simulation.part_mesh(part), options.preset)
         row = {**dict.fromkeys(world.ROW, ""), **row, "asked": options.poses, "right": 0}
         poses = []
         try:
-            poses = find_in_bin(runs[part], bins, row)
+            poses = find_in_bin(evaluation_of(models[part], options, row["features"]), bins, row)
         except scripting.Failure as failure:
             row["failure"] = str(failure)
         record.add(row, poses)
         left = (time.time() - start) / (count + 1) * (len(todo) - count - 1)
-        print(f"{len(planned) - len(todo) + count + 1} of {len(planned)}: {part}, {row['sensor']}, a bin of {row['bin']}: "
-              f"{row['failure'] or str(row['right']) + ' right'}; {left / 60:.0f} min left", file=sys.stderr, flush=True)
+        print(f"{len(planned) - len(todo) + count + 1} of {len(planned)}: {part} by {row['features']}, {row['sensor']}, a bin of "
+              f"{row['bin']}: {row['failure'] or str(row['right']) + ' right'}; {left / 60:.0f} min left", file=sys.stderr,
+              flush=True)
     wanted = set(map(world.bin_of, planned))
     print(record.table(wanted), end="")
     return sum(row["failure"] != "" for row in record.bins.rows if world.bin_of(row) in wanted)
@@ -230,7 +230,6 @@ def main():
     shared.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
     shared.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
-    scripting.add_features_argument(shared)
     scripting.add_reference_argument(shared)
     shared.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -238,6 +237,7 @@ def main():
 
     stored = argparse.ArgumentParser(add_help=False)
     stored.add_argument("folder", metavar="DIR", help="where the dataset is")
+    scripting.add_features_argument(stored)
     one = datasets.add_parser("tohoku", parents=[stored, shared])
     one.set_defaults(run=tohoku)
     one.add_argument("--parts", type=evaluation.numbers, default=[1, 2, 3], help="such as 1,3 (default: 1,2,3)")
@@ -262,6 +262,8 @@ def main():
                      help=f"(default: {','.join(simulation.PARTS)})")
     one.add_argument("--sensors", type=names_of(simulation.SENSORS), default=simulation.SENSORS, metavar="SENSOR,...",
                      help=f"(default: {','.join(simulation.SENSORS)})")
+    one.add_argument("--features", type=names_of(scripting.FEATURES), default=scripting.FEATURES, metavar="FEATURES,...",
+                     help=f"points that vote (default: {','.join(scripting.FEATURES)})")
     one.add_argument("--bins", type=scripting.count, default=5,
                      help="of each part and sensor, and as many without the part (default: %(default)s)")
     one.add_argument("--seed", type=scripting.count, default=1,

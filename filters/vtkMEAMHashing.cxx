@@ -103,8 +103,7 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
 void vtkMEAMHashing::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const features[] = { "Edges", "Surface", "Both" };
-  os << indent << "Features: " << features[this->Features] << "\n";
+  os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->Features)) << "\n";
   os << indent << "SurfaceDistanceStep: " << this->SurfaceDistanceStep << "\n";
   os << indent << "SurfaceAngleStep: " << this->SurfaceAngleStep << "\n";
   os << indent << "SurfaceLeafSize: " << this->SurfaceLeafSize << "\n";

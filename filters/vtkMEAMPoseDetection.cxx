@@ -100,8 +100,7 @@ int vtkMEAMPoseDetection::RequestData(
 void vtkMEAMPoseDetection::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const features[] = { "Edges", "Surface", "Both" };
-  os << indent << "Features: " << features[this->GetFeatures()] << "\n";
+  os << indent << "Features: " << meam::nameOf(this->Settings->features) << "\n";
   os << indent << "ReferenceShare: " << this->GetReferenceShare() << "\n";
   os << indent << "ReferredShare: " << this->GetReferredShare() << "\n";
   os << indent << "PeaksPerReference: " << this->GetPeaksPerReference() << "\n";

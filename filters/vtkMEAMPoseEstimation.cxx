@@ -265,8 +265,7 @@ void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Preset: " << (this->Preset == Paper ? "Paper" : "Recommended") << "\n";
-  const char* const features[] = { "Edges", "Surface", "Both" };
-  os << indent << "Features: " << features[this->Features] << "\n";
+  os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->Features)) << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
   os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
   os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";

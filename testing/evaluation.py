@@ -226,8 +226,8 @@ def robustness(commands):
 def world(commands):
     if os.path.exists(path_of("OUT/world/world.csv")):
         os.remove(path_of("OUT/world/world.csv"))  # of another version; the bins are the same
-    return ("Bins of 20 copies, seeds 1 to 5, of each part and each kind of sensor, edges from its own image, and as many of the "
-            "next part, in which the part is not. *claim - rate*: mean probability of all poses less the share of the right "
+    return ("Bins of 20 copies, seeds 1 to 5, of each part and each kind of sensor, by edges, by the surface and by both, with "
+            "the image of the sensor, and as many of the next part, in which the part is not. *claim - rate*: mean probability of all poses less the share of the right "
             "ones; *without the part*: the highest probability of a pose there.\n\n"
             + commands.run("evaluate.py", "world", "--scenes", "OUT/world/scenes", "--out", "OUT/world").strip())
 

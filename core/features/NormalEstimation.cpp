@@ -8,13 +8,13 @@
 
 namespace meam
 {
-SurfaceNormals estimateNormals(const Points& points, const PointGrid& surface, const std::vector<int>& indices,
+Points estimateNormals(const Points& points, const PointGrid& surface, const std::vector<int>& indices,
   const Sensor& sensor, double partDiameter, const NormalEstimationSettings& settings)
 {
   const PCLCloud::Ptr cloud = toPCL(points);
   const double radius = settings.radius * partDiameter;
   const int count = static_cast<int>(indices.size());
-  SurfaceNormals result{ Points(count, Eigen::Vector3f::Zero()), std::vector<float>(count, 0.0f) };
+  Points normals(count, Eigen::Vector3f::Zero());
   parallelFor(count, settings.threads, {},
     [&](int begin, int end, int)
     {
@@ -31,11 +31,10 @@ SurfaceNormals estimateNormals(const Points& points, const PointGrid& surface, c
         {
           const Eigen::Vector3f normal = plane.head<3>();
           const bool isAway = sensor.towards(point.cast<double>()).cast<float>().dot(normal) < 0.0f;
-          result.normals[k] = isAway ? Eigen::Vector3f(-normal) : normal;
-          result.curvatures[k] = curvature;
+          normals[k] = isAway ? Eigen::Vector3f(-normal) : normal;
         }
       }
     });
-  return result;
+  return normals;
 }
 }

@@ -6,13 +6,6 @@
 
 namespace meam
 {
-/// Normals of a measured surface.
-struct SurfaceNormals
-{
-  Points normals;                ///< unit, towards the sensor; zero where too little was measured
-  std::vector<float> curvatures; ///< surface variation, [0, 1/3]: smallest eigenvalue over the sum of all; 0 of a plane
-};
-
 struct NormalEstimationSettings
 {
   double radius = 0.06;     ///< of the neighbourhood, share of the part's diameter
@@ -20,9 +13,9 @@ struct NormalEstimationSettings
   int threads = 0;          ///< 0: one for each processor
 };
 
-/// Normals of the planes that fit the surface about some of its points best (PCL: principal components of the
-/// neighbourhood; Rusu 2010). `surface`: grid of all points of the surface, `points`. The same for any number of
-/// threads.
-SurfaceNormals estimateNormals(const Points& points, const PointGrid& surface, const std::vector<int>& indices,
+/// Unit normals, towards the sensor, of the planes that fit a measured surface best about some of its points (PCL:
+/// principal components of the neighbourhood; Rusu 2010); zero where too little was measured. `surface`: grid of all
+/// points of the surface, `points`. The same for any number of threads.
+Points estimateNormals(const Points& points, const PointGrid& surface, const std::vector<int>& indices,
   const Sensor& sensor, double partDiameter, const NormalEstimationSettings& settings = {});
 }

@@ -28,7 +28,7 @@ void PairTable::deriveVotes(const Points& points, const Points& directions, Pair
       const bool against = isOfLines(kind) && directions[reference].dot(d) < 0.0f;
       const auto turn = static_cast<PairTurn>(std::lround(this->angles[k] * (1 << TurnBits) / (2.0 * M_PI)));
       this->votes[k] = voteEntry(reference, against, turn);
-      ofOne = reference == last ? ofOne + 1 : 1;
+      ofOne = reference == last ? ofOne + 1 : 1; // entries are sorted by reference
       this->mostOfOne = std::max(this->mostOfOne, ofOne);
       last = reference;
     }

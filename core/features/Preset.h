@@ -17,6 +17,10 @@ enum class Features
   Surface, ///< surface points with normals (Drost et al., the paper's [12]): smooth, round and thick parts
   Both
 };
+constexpr const char* nameOf(Features features)
+{
+  return features == Features::Edges ? "Edges" : features == Features::Surface ? "Surface" : "Both";
+}
 constexpr bool hasEdges(Features features) { return features != Features::Surface; }
 constexpr bool hasSurface(Features features) { return features != Features::Edges; }
 }

@@ -206,7 +206,7 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
   }
   const int range = 2 * this->Settings.directionSteps + 1;
   const int borderCells =
-    static_cast<int>(std::clamp(std::ceil(border / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
+    static_cast<int>(std::clamp(std::round(border / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
   const int key = ((borderCells * range + steps.z()) * range + steps.y()) * range + steps.x();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);

@@ -55,7 +55,8 @@ public:
   };
   /// mm, of the depth buffer.
   double cellSize() const { return this->Settings.cell * this->Diameter; }
-  /// `border`: mm on both sides of the outline, within which a sensor mixes what is before and behind; a cell at least.
+  /// `border`: mm on both sides of the outline, within which a sensor mixes what is before and behind; whole cells, one
+  /// at least.
   std::shared_ptr<const Visible> visible(
     const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double border = 0.0) const;
 

@@ -174,8 +174,7 @@ std::vector<Eigen::Vector3f> illuminate(const View& view, const Camera& camera, 
   std::vector<Eigen::Vector3f> colors(view.depths.size());
   for (std::size_t i = 0; i < colors.size(); ++i)
   {
-    const Vector3d ray((static_cast<double>(i % camera.width) - camera.cx) / camera.fx,
-      (static_cast<double>(i / camera.width) - camera.cy) / camera.fy, 1.0);
+    const Vector3d ray = rayThrough(i, camera);
     const Vector3d point = T_scene_camera * (view.depths[i] * ray);
     Vector3d normal = view.normals[i].normalized();
     if (normal.dot(T_scene_camera.linear() * ray) > 0.0)

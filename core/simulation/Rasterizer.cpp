@@ -113,8 +113,7 @@ View rasterize(const std::vector<Facet>& facets, double floor, const Camera& cam
   const Eigen::Isometry3d T_scene_camera = camera.T_camera_scene.inverse();
   for (std::size_t i = 0; i < pixels; ++i)
   {
-    const Vector3d ray((static_cast<double>(i % camera.width) - camera.cx) / camera.fx,
-      (static_cast<double>(i / camera.width) - camera.cy) / camera.fy, 1.0);
+    const Vector3d ray = rayThrough(i, camera);
     const double slope = T_scene_camera.linear().row(2).dot(ray);
     view.depths[i] = (floor - T_scene_camera.translation().z()) / slope;
   }

@@ -36,6 +36,14 @@ struct View
   std::vector<int> bodies;              ///< -1: the floor
 };
 
+/// The ray through the middle of a pixel, counted row by row, up to z = 1.
+inline Eigen::Vector3d rayThrough(std::size_t pixel, const Camera& camera)
+{
+  const int column = static_cast<int>(pixel % camera.width);
+  const int row = static_cast<int>(pixel / camera.width);
+  return { (column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0 };
+}
+
 /// Renders facets above an endless floor, the plane z = `floor` of the scene (mm). The camera has no distortion.
 /// Throws Error when something is not in front of the camera.
 View rasterize(const std::vector<Facet>& facets, double floor, const Camera& camera);

@@ -16,13 +16,6 @@ using Eigen::Vector3d;
 constexpr int Reach = 28;
 constexpr int Step = 4;
 
-Vector3d rayOf(std::size_t pixel, const Camera& camera)
-{
-  const int column = static_cast<int>(pixel % camera.width);
-  const int row = static_cast<int>(pixel / camera.width);
-  return { (column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0 };
-}
-
 /// A piece of surface that throws light on.
 struct Reflector
 {
@@ -38,7 +31,7 @@ std::vector<double> returnedLight(const View& view, const Camera& camera)
   std::vector<double> light;
   for (std::size_t i = 0; i < view.depths.size(); ++i)
   {
-    const Vector3d ray = rayOf(i, camera);
+    const Vector3d ray = rayThrough(i, camera);
     const double cosine = std::abs(view.normals[i].dot(ray)) / (view.normals[i].norm() * ray.norm());
     light.push_back(1e6 * cosine / (view.depths[i] * view.depths[i] * ray.squaredNorm()));
   }
@@ -55,7 +48,7 @@ std::vector<double> multipathDepths(
     for (int column = 0; column < camera.width; column += Step)
     {
       const std::size_t i = static_cast<std::size_t>(row) * camera.width + column;
-      const Vector3d ray = rayOf(i, camera);
+      const Vector3d ray = rayThrough(i, camera);
       const Vector3d normal = view.normals[i].normalized() * (view.normals[i].dot(ray) > 0.0 ? -1.0 : 1.0);
       const double z = view.depths[i];
       // A pixel's share of a slanted surface; as flat a view as the sensor measures at most.
@@ -68,7 +61,7 @@ std::vector<double> multipathDepths(
   {
     const int column = static_cast<int>(i % camera.width);
     const int row = static_cast<int>(i / camera.width);
-    const Vector3d ray = rayOf(i, camera);
+    const Vector3d ray = rayThrough(i, camera);
     const Vector3d place = view.depths[i] * ray;
     const Vector3d normal = view.normals[i].normalized() * (view.normals[i].dot(ray) > 0.0 ? -1.0 : 1.0);
     double sum = 0.0; // of light that came over a reflector

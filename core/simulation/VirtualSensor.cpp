@@ -31,11 +31,7 @@ public:
   {
     for (std::size_t i = 0; i < view.depths.size(); ++i)
     {
-      const int column = static_cast<int>(i % camera.width);
-      const int row = static_cast<int>(i / camera.width);
-      this->Places.push_back(
-        (view.depths[i] * Vector3d((column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0))
-          .cast<float>());
+      this->Places.push_back((view.depths[i] * rayThrough(i, camera)).cast<float>());
       this->Normals.push_back(view.normals[i].normalized().cast<float>());
       this->Reaches.push_back(static_cast<float>(PatchDepth * view.depths[i] / camera.fx));
     }
@@ -188,13 +184,11 @@ OrganizedCloud measureDepth(
   }
   std::vector<double> depths = view.depths;
   std::vector<bool> hidden(depths.size(), false);
-  if (quality.multipath > 0.0)
+  if (quality.multipath > 0.0 || quality.pixelBlur > 0.0)
   {
-    depths = multipathDepths(view, camera, returnedLight(view, camera), quality.multipath);
-  }
-  if (quality.pixelBlur > 0.0)
-  {
-    depths = mixedDepths(depths, returnedLight(view, camera), camera, quality.pixelBlur);
+    const std::vector<double> light = returnedLight(view, camera);
+    depths = quality.multipath > 0.0 ? multipathDepths(view, camera, light, quality.multipath) : depths;
+    depths = quality.pixelBlur > 0.0 ? mixedDepths(depths, light, camera, quality.pixelBlur) : depths;
   }
   if (quality.stereoBaseline > 0.0)
   {
@@ -214,7 +208,7 @@ OrganizedCloud measureDepth(
     {
       report(progress, static_cast<double>(row) / camera.height);
     }
-    const Vector3d ray((column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0);
+    const Vector3d ray = rayThrough(i, camera);
     const double cosine = std::abs(view.normals[i].dot(ray)) / (view.normals[i].norm() * ray.norm());
     if (draws.drop[i] < quality.dropout || hidden[i] || cosine < GrazingCosine || cosine > mirror ||
         (radius > 0 && patches.share(column, row, radius, radius > 3 ? 2 : 1) < 0.5) ||

@@ -13,7 +13,6 @@ from . import Error, filters, scripting
 
 MODELS = (".meam", ".vtpc")
 PRESETS = ("recommended", "paper")
-FEATURES = ("edges", "surface", "both")
 DEPTH_IMAGES = (".png", ".tif", ".tiff")
 
 
@@ -73,7 +72,7 @@ def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended", features
         mesh = scripting.prepare_mesh(cad, offset, scale)
     else:
         mesh = scripting.read_mesh(os.fspath(cad), offset, scale)
-    return Model(scripting.train(mesh, chosen("preset", preset, PRESETS), chosen("features", features, FEATURES)))
+    return Model(scripting.train(mesh, chosen("preset", preset, PRESETS), chosen("features", features, scripting.FEATURES)))
 
 
 def load(path):
@@ -109,7 +108,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
         scripting.require_file(os.fspath(image_camera))
         estimation.SetCameraFile(os.fspath(image_camera))
     scripting.set_choice(estimation, "Preset", chosen("preset", preset, PRESETS))
-    scripting.set_choice(estimation, "Features", chosen("features", features, FEATURES))
+    scripting.set_choice(estimation, "Features", chosen("features", features, scripting.FEATURES))
     for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, ImageEdges=image_edges,
                             DepthEdges=depth_edges, Creases=creases, ReferenceShare=references, Seed=seed,
                             NumberOfThreads=threads).items():

@@ -108,12 +108,6 @@ class Evaluation:
         self.judge.SetInputDataObject(2, model)  # its symmetries
         self.times = []
 
-    def forget(self):
-        """Leaves out all scenes so far."""
-        for port in range(2):
-            self.judge.RemoveAllInputConnections(port)
-        self.times.clear()
-
     def find(self, surface, edges=None, image=None, camera=None):
         """The poses in a scene, best first; without edges those of its image, or of an image that a camera beside
         the sensor took, with that camera's calibration file."""

@@ -86,8 +86,11 @@ def add_reference_argument(parser):
                              "copies and takes longer (default: the preset's; recommended: 0.2, of a boundary cloud 0.03)")
 
 
+FEATURES = ("edges", "surface", "both")
+
+
 def add_features_argument(parser):
-    parser.add_argument("--features", choices=("edges", "surface", "both"), default="both",
+    parser.add_argument("--features", choices=FEATURES, default="both",
                         help="points that vote: of edges with tangents, of the surface with normals, or both; with preset "
                              "paper edges (default: %(default)s)")
 

@@ -7,13 +7,14 @@ import numpy
 
 from . import scripting
 
-BIN = ("part", "sensor", "seed", "copies", "bin")  # `bin`: the part that lies in it
+BIN = ("part", "features", "sensor", "seed", "copies", "bin")  # a search; `bin`: the part that lies in it
+KIND = ("part", "sensor", "features")  # that a line of the table is of
 # `right`, `mm` and `degrees` are of the poses asked for.
 ROW = (*BIN, "half_visible", "half_visible_found", "poses", "asked", "right", "mm", "degrees", "ms", "failure")
 POSE = (*BIN, "rank", "probability", "right", "mm", "degrees")
 CLASS = 100  # poses whose probabilities are compared with a rate
-HEAD = ("| part | sensor | best five right | recall | mm | degrees | claim - rate | without the part | ms | failed |\n"
-        "|---|---|---|---|---|---|---|---|---|---|")
+HEAD = ("| part | sensor | features | best five right | recall | mm | degrees | claim - rate | without the part | ms | failed |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|")
 
 
 class Lines:
@@ -74,13 +75,24 @@ class Record:
         """Of these bins the table in Markdown, which is also written."""
         rows = [row for row in self.bins.rows if bin_of(row) in bins]
         poses = [row for row in self.poses.rows if bin_of(row) in bins]
-        kinds = dict.fromkeys((row["part"], row["sensor"]) for row in rows)
         lines = [HEAD]
-        for kind in kinds:
-            lines.append(line(kind, *([row for row in each if (row["part"], row["sensor"]) == kind] for each in (rows, poses))))
-        if len(kinds) > 1:
-            lines.append(line(("all", ""), rows, poses))
-        text = "\n".join(lines) + "\n\n" + largest_gap(poses) + "\n"
+
+        def add(names, words):
+            """A line for each of the kinds that differ in `names`."""
+            def kind_of(row):
+                return tuple(row[name] for name in names)
+            for kind in dict.fromkeys(map(kind_of, rows)):
+                of_kind = ([row for row in each if kind_of(row) == kind] for each in (rows, poses))
+                lines.append(line((*words, *kind), *of_kind))
+
+        add(KIND, ())
+        if len(lines) > 2:
+            add(KIND[1:], ("all",))
+            add(KIND[2:], ("all", "all"))
+        gaps = []
+        for features in dict.fromkeys(row["features"] for row in rows):
+            gaps.append(f"Features {features}: " + largest_gap([row for row in poses if row["features"] == features]))
+        text = "\n".join(lines) + "\n\n" + "\n".join(gaps) + "\n"
         with open(os.path.join(self.folder, "world.md"), "w", encoding="utf-8") as file:
             file.write(text)
         return text

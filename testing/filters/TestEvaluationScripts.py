@@ -75,11 +75,11 @@ check(float(tables[0][-1][2]) >= 50 and text.count("log(Certainty)") == 2, text)
 
 # evaluate.py world: a bin with the part and one without; a run that was stopped goes on.
 WORLD = ("evaluate.py", "world", "--parts", "hole_plate", "--sensors", "time-of-flight", "--bins", "1", "--copies", "3",
-         "--poses", "2", "--scenes", "bins", "--out", "world")
+         "--poses", "2", "--features", "both", "--scenes", "bins", "--out", "world")
 result = script(*WORLD)
-check(result.returncode == 0 and result.stderr.count("training") == 1 and "2 of 2: hole_plate" in result.stderr, result.stderr)
+check(result.returncode == 0 and result.stderr.count("training") == 1 and "2 of 2: hole_plate by both" in result.stderr, result.stderr)
 table, rows = result.stdout, list(csv.DictReader(read("world/world.csv").splitlines()))
-check(read("world/world.md") == table and "| hole_plate | time-of-flight |" in table, table)
+check(read("world/world.md") == table and "| hole_plate | time-of-flight | both |" in table, table)
 check([row["bin"] for row in rows] == ["hole_plate", "pipe_elbow"] and all(row["failure"] == "" for row in rows), f"{rows}")
 check(int(rows[0]["right"]) >= 1 and 0 < float(rows[0]["mm"]) < 5 and float(rows[0]["ms"]) > 0, f"{rows[0]}")
 check(rows[1]["right"] == "0" and rows[1]["mm"] == "", f"{rows[1]}")
@@ -94,8 +94,8 @@ before = read("world/poses.csv")
 result = script(*WORLD)
 check(result.returncode == 0 and "2 of 2" in result.stderr and "1 of 2" not in result.stderr, result.stderr)
 check(read("world/poses.csv") == before, "the same poses again, from the bins that were kept")
-check([line.split(",")[:12] for line in read("world/world.csv").splitlines()]
-      == [line.split(",")[:12] for line in whole.splitlines()], "the same rows again, but for the times")
+check([line.split(",")[:13] for line in read("world/world.csv").splitlines()]
+      == [line.split(",")[:13] for line in whole.splitlines()], "the same rows again, but for the times")
 result = script(*WORLD)
 check(result.returncode == 0 and result.stderr == "" and result.stdout == read("world/world.md"), "nothing is left to do")
 for extension in (".vts", ".vtp"):  # a bin that cannot be read
@@ -107,7 +107,7 @@ check(result.returncode == 1 and "1 failed" in result.stderr, result.stderr)
 check("hole_plate" in failed["failure"] and failed["right"] == "0" and absent["failure"] == "", f"{failed}")
 
 # Bad input.
-for arguments, word in ((("--parts", "nothing"), "there is no nothing"), (("--sensors", "eye"), "there is no eye")):
+for arguments, word in ((("--parts", "nothing"), "there is no nothing"), (("--sensors", "eye"), "there is no eye"), (("--features", "ears"), "there is no ears")):
     result = script("evaluate.py", "world", *arguments, "--out", "o")
     check(result.returncode == 2 and word in result.stderr and not os.path.exists("o"), result.stderr)
 refuses("cannot read nowhere", "ablation.py", "nowhere")

@@ -91,7 +91,7 @@ bins = {"1": connect(vtkMEAMBinSceneSource(), mesh), "2": connect(vtkMEAMBinScen
 halves = numpy.arange(W * H) % W < W // 2
 columns = []
 for half in bins.values():
-    for name, value in (("Copies", 6), ("Seed", 2), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
+    for name, value in (("Copies", 6), ("Seed", 5), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
         getattr(half, "Set" + name)(value)
     data = run(half)
     columns.append(numpy.column_stack((vtk_to_numpy(data.GetPoints().GetData()),
@@ -106,7 +106,7 @@ check([pose["obj_id"] for pose in json.loads(read("two.json"))["poses"]] == [int
 for row, found in zip(rows, numpy.array(read("two.txt").split(), float).reshape(-1, 4, 4)):
     here = bins[row["obj_id"]].GetOutputDataObject(1)
     miss = min(numpy.abs(found - t).max() for t in numpy.array(tuples(here, "Transform")).reshape(-1, 4, 4))
-    check(miss < 2, f"{miss} mm from a true pose of part {row['obj_id']}: {found}")
+    check(miss < 1, f"{miss} mm from a true pose of part {row['obj_id']}: {found}")
 result = script("detect.py", "--cad", "part.stl", "--cad", "box.stl", "--model", "model.vtpc", "--scene", "two.pcd")
 check(result.returncode == 2 and "a --cad for each --model" in result.stderr, result.stderr)
 

@@ -24,11 +24,15 @@ double EvidenceCounts::ofSurface(const EvidenceWeights& weights) const
          weights.past * this->past + weights.hidden * this->hidden + weights.unmeasured * this->unmeasured;
 }
 
+double EvidenceCounts::ofEdges(const EvidenceWeights& weights, const EdgeRates& rates) const
+{
+  return weights.edge * (this->edgesFound * std::log(rates.found / rates.chance) +
+                          this->edgesMissing * std::log((1.0 - rates.found) / (1.0 - rates.chance)));
+}
+
 double EvidenceCounts::sum(const EvidenceWeights& weights, const EdgeRates& rates) const
 {
-  const double edges = this->edgesFound * std::log(rates.found / rates.chance) +
-                       this->edgesMissing * std::log((1.0 - rates.found) / (1.0 - rates.chance));
-  return this->ofSurface(weights) + weights.goesOn * this->goesOn + weights.edge * edges;
+  return this->ofSurface(weights) + weights.goesOn * this->goesOn + this->ofEdges(weights, rates);
 }
 
 EdgeRates edgeRates(
@@ -50,13 +54,15 @@ EdgeRates edgeRates(
   const double gain = settings.leastGain;
   EdgeRates rates;
   rates.chance = std::min(rate(candidates.size(), settings.usual.chance), 1.0 - 2.0 * gain);
-  rates.found = std::min(std::max(settings.firstGain * rates.chance, rates.chance + gain), 1.0 - gain);
+  rates.found = std::max(std::min(settings.firstGain * rates.chance, settings.usual.found), rates.chance + gain);
   std::vector<double> sums(candidates.size());
   for (int step = 0; step < settings.steps; ++step)
   {
     for (std::size_t k = 0; k < candidates.size(); ++k)
     {
-      sums[k] = candidates[k].sum(weights, rates);
+      const double edges = candidates[k].ofEdges(weights, rates);
+      sums[k] =
+        candidates[k].sum(weights, rates) - edges + std::clamp(edges, -settings.mostOfEdges, settings.mostOfEdges);
     }
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sums[a] > sums[b]; });
     rates.found =

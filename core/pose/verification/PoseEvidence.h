@@ -43,7 +43,7 @@ struct EvidenceSettings
   bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
   double facing = 0.8;   ///< cosine between the part's normal and the measured one, from which on the surface fits
   double flattest = 0.3; ///< cosine: the tolerance along the line of sight grows up to surfaces seen so flatly
-  double border = 2.0; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
+  double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double outlineTolerance = 1.5;      ///< times the tolerance: a surface beyond the outline that goes on
   int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same
   ProbabilityCalibration calibration; ///< of these weights
@@ -61,7 +61,8 @@ struct EdgeRatesSettings
   EdgeRates usual;
   double usualPoints = 500.0;  ///< so many edge points the usual rates count: of few candidates nothing can be told
   double supportedShare = 0.1; ///< of the candidates, those that most speaks for
-  double firstGain = 3.0;      ///< times the chance: found where the part is, before anything is known
+  double firstGain = 3.0;      ///< times the chance, but no more than usual: found, before anything is known
+  double mostOfEdges = 10.0;   ///< that edges say for or against a candidate here: what is to be found has no last word
   int steps = 2;               ///< of what speaks for which candidates, and what that says of the edges
   double leastGain = 0.02;     ///< that an edge is found more often where the part is
 };
@@ -77,6 +78,8 @@ struct EvidenceCounts
 
   /// What the surface says.
   double ofSurface(const EvidenceWeights& weights) const;
+  /// What the edges say.
+  double ofEdges(const EvidenceWeights& weights, const EdgeRates& rates) const;
   /// All together.
   double sum(const EvidenceWeights& weights, const EdgeRates& rates) const;
 };

@@ -93,8 +93,7 @@ public:
   Voting(const PartPairs& part, const DirectedPoints& referred, const PoseDetectionSettings& settings)
     : Part(part)
     , Blocks(referred.points, settings.threads)
-    , Pairs(
-        referred.subset(this->Blocks.order()).points, referred.subset(this->Blocks.order()).directions, part.quantizer)
+    , Pairs(keysOf(referred.subset(this->Blocks.order()), part.quantizer))
     , TurnsUsed(settings.signedTangents ? ~PairTurn{ 0 } : PairTurn{ TurnMask })
   {
     if (!settings.signedTangents)
@@ -121,6 +120,11 @@ public:
 
 private:
   static constexpr int MostPairs = 512; ///< whose keys are computed at once
+
+  static PairKeys keysOf(const DirectedPoints& points, const PairFeatureQuantizer& quantizer)
+  {
+    return { points.points, points.directions, quantizer };
+  }
 
   /// Votes of `count` pairs. Leaves in `keys` and `turns` what it pleases.
   void cast(int* keys, PairTurn* turns, int count, VoteAccumulator& accumulator) const
@@ -228,8 +232,7 @@ DirectedPoints surfacePointsOf(const Scene& scene, double leaf, const PoseDetect
   const std::vector<int> thinned = thinPoints(means, leaf);
   NormalEstimationSettings estimation = settings.normals;
   estimation.threads = settings.threads;
-  const Points normals =
-    estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, estimation).normals;
+  const Points normals = estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, estimation);
   DirectedPoints result;
   for (std::size_t k = 0; k < thinned.size(); ++k)
   {
@@ -310,7 +313,7 @@ Poses detectPoses(
   if (!withEdges && !withSurface)
   {
     throw Error("Poses are looked for by surface points alone, and the scene has no surface: give the points that the "
-                "sensor measured, or set Features to Both.");
+                "sensor measured, or a model of edge points, too, with Features set to Both.");
   }
   Poses poses;
   if (withEdges)

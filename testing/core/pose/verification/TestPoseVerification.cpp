@@ -160,7 +160,7 @@ TEST(PoseVerification, OfEachViewTheBestStay)
   {
     const auto& truth = scenes::threeCopies();
     EXPECT_TRUE(std::any_of(truth.begin(), truth.begin() + 2,
-      [&](const Eigen::Isometry3d& T) { return meam::translationError(pose.T_scene_model, T) < 1.5; }));
+      [&](const Eigen::Isometry3d& T) { return meam::translationError(pose.T_scene_model, T) < 1e-6; }));
   }
 }
 
