@@ -91,8 +91,8 @@ FEATURES = ("edges", "surface", "both")
 
 def add_features_argument(parser):
     parser.add_argument("--features", choices=FEATURES, default="both",
-                        help="points that vote: of edges with tangents, of the surface with normals, or both; with preset "
-                             "paper edges (default: %(default)s)")
+                        help="points that vote: of edges, which carry flat, thin and ribbed parts; of the surface, which "
+                             "carry smooth, round and thick ones; or both. Preset paper takes edges (default: %(default)s)")
 
 
 def add_bin_arguments(parser, scenes):

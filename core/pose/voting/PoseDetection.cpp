@@ -305,9 +305,11 @@ Poses detectPoses(
   const bool haveSurface = hasSurface(settings.features) && hasSurface(model.settings.features);
   if (!withEdges && !haveSurface)
   {
-    throw Error(
-      "The model holds pairs of " + std::string(hasEdges(model.settings.features) ? "edge" : "surface") +
-      " points alone, and poses are looked for by the others: set Features to Both, or train the model again.");
+    const bool holdsEdges = hasEdges(model.settings.features);
+    throw Error("The model holds pairs of " + std::string(holdsEdges ? "edge" : "surface") +
+                " points alone, and poses are looked for by " + (holdsEdges ? "surface" : "edge") +
+                " points: train it with Features set to Both, or set Features to Both here (the preset Paper takes edge "
+                "points alone).");
   }
   const bool withSurface = haveSurface && scene.hasSurface();
   if (!withEdges && !withSurface)
