@@ -306,10 +306,11 @@ Poses detectPoses(
   if (!withEdges && !haveSurface)
   {
     const bool holdsEdges = hasEdges(model.settings.features);
-    throw Error("The model holds pairs of " + std::string(holdsEdges ? "edge" : "surface") +
-                " points alone, and poses are looked for by " + (holdsEdges ? "surface" : "edge") +
-                " points: train it with Features set to Both, or set Features to Both here (the preset Paper takes edge "
-                "points alone).");
+    throw Error(
+      "The model holds pairs of " + std::string(holdsEdges ? "edge" : "surface") +
+      " points alone, and poses are looked for by " + (holdsEdges ? "surface" : "edge") +
+      " points: train it with Features set to Both, or set Features to Both here (the preset Paper takes edge "
+      "points alone).");
   }
   const bool withSurface = haveSurface && scene.hasSurface();
   if (!withEdges && !withSurface)
