@@ -138,6 +138,18 @@ void raise(const Projected& points, std::vector<float>& buffer)
   }
 }
 
+/// Whether the part hides a contour: seen right outside of it there is something before it. On the contour itself the
+/// part falls off too steeply for cells to tell.
+bool isHidden(const std::vector<float>& buffer, const View& view, const Eigen::Vector3f& point,
+  const Eigen::Vector3f& outward, float tolerance)
+{
+  int cell;
+  float height;
+  const Eigen::Vector3f beside = point + outward;
+  project(view, &beside.x(), &beside.y(), &beside.z(), 1, &cell, &height);
+  return buffer[cell] > view.frame.col(0).dot(point) + tolerance;
+}
+
 /// Sets `inSight` to the places of the points not more than `tolerance` below the buffer.
 void keepInSight(const Projected& points, const std::vector<float>& buffer, float tolerance, std::vector<int>& inSight)
 {
@@ -172,7 +184,19 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, const Predic
     return result;
   };
   this->Surface = relative(model.surface.points);
-  this->Edges = relative(model.edges.points);
+  std::vector<bool> areContours(model.edges.size());
+  if (!model.surface.empty() && model.edgeViews.size() == model.edges.size())
+  {
+    this->Contours = OccludingContours(model.surface, settings.surfaceSpacing * model.diameter);
+    areContours = this->Contours.areContours(model.edges.points, model.edgeViews, model.viewDirections);
+  }
+  for (std::size_t i = 0; i < model.edges.size(); ++i)
+  {
+    if (!areContours[i])
+    {
+      this->SharpEdges.add(model.edges.points[i] - this->Middle, model.edges.tangents[i]);
+    }
+  }
   for (const int i : model.verificationPoints)
   {
     this->VerificationPoints.add(model.surface.points[i] - this->Middle, model.surface.normals[i]);
@@ -194,7 +218,7 @@ int PredictedVisibility::view(const Eigen::Isometry3d& T_scene_model, const Sens
 }
 
 std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible(
-  const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double border) const
+  const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double pitch) const
 {
   // The part is small against its distance: lines of sight are taken as parallel. Poses that hardly differ are judged
   // on the same points.
@@ -205,9 +229,10 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
     steps = (static_cast<float>(this->Settings.directionSteps) * direction).array().round().cast<int>();
   }
   const int range = 2 * this->Settings.directionSteps + 1;
-  const int borderCells =
-    static_cast<int>(std::clamp(std::round(border / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
-  const int key = ((borderCells * range + steps.z()) * range + steps.y()) * range + steps.x();
+  const double pitchStep = this->Settings.pitchStep * this->Diameter;
+  const int pitchSteps =
+    static_cast<int>(std::clamp(std::round(pitch / pitchStep), 0.0, 1.0 * this->Settings.pitchSteps));
+  const int key = ((pitchSteps * range + steps.z()) * range + steps.y()) * range + steps.x();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const auto cached = this->Cache.find(key);
@@ -216,7 +241,8 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
       return cached->second;
     }
   }
-  auto visible = std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized(), borderCells));
+  auto visible =
+    std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized(), pitchSteps * pitchStep));
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (this->Cache.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
   {
@@ -225,8 +251,11 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
   return this->Cache.emplace(key, std::move(visible)).first->second;
 }
 
-PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards, int borderCells) const
+PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards, double pitch) const
 {
+  const int borderCells = static_cast<int>(
+    std::clamp(std::round(this->Settings.border * pitch / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
+  const double inset = this->Settings.inset * pitch;
   Visible visible{ towards, {}, {}, {}, {} };
   const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
   const float tolerance = static_cast<float>(this->Settings.tolerance * this->Diameter);
@@ -249,13 +278,25 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   {
     point += this->Middle;
   }
-  projected(this->Edges, others);
-  keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, visible.edges);
+  thread_local std::vector<int> inSight;
+  projected(this->SharpEdges.points, others);
+  keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, inSight);
+  for (const int k : inSight)
+  {
+    visible.edges.add(this->SharpEdges.points[k] + this->Middle, this->SharpEdges.directions[k]);
+  }
+  const float outward = static_cast<float>(this->Settings.outward * cell + inset);
+  for (const OccludingContours::Point& contour : this->Contours.from(towards, inset))
+  {
+    if (!isHidden(nearest, across, contour.point - this->Middle, outward * contour.normal, tolerance))
+    {
+      visible.edges.add(contour.point, contour.tangent);
+    }
+  }
   projected(this->VerificationPoints.points, others);
   const SoAPoints& normals = this->VerificationPoints.directions;
   allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
     static_cast<float>(this->Settings.grazingCosine), others.heights.data());
-  thread_local std::vector<int> inSight;
   keepInSight(others, nearest, tolerance, inSight);
   for (const int k : inSight)
   {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/SoAPoints.h"
+#include "mesh/OccludingContours.h"
 
 #include <memory>
 #include <mutex>
@@ -15,12 +16,18 @@ struct TrainedModel;
 /// Lengths are shares of the part's diameter.
 struct PredictedVisibilitySettings
 {
-  double cell = 0.025;         ///< of the depth buffer across the line of sight; a little over the samples' spacing
-  double tolerance = 0.01;     ///< depth that a point may lie behind the nearest of its cell: that of rounded faces
-  double edgeSlope = 1.5;      ///< slope allowed for at an edge point, whose surface is not known
-  double grazingCosine = 0.15; ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
-  int directionSteps = 64;     ///< of each coordinate of the direction to the sensor from 0 to 1: 0.9 degrees
-  int widestBorder = 4;        ///< cells
+  double cell = 0.025;           ///< of the depth buffer across the line of sight; a little over the samples' spacing
+  double tolerance = 0.01;       ///< depth that a point may lie behind the nearest of its cell: that of rounded faces
+  double edgeSlope = 1.5;        ///< slope allowed for at an edge point, whose surface is not known
+  double grazingCosine = 0.15;   ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
+  double surfaceSpacing = 0.018; ///< of the surface's samples, a little over it
+  double outward = 1.5;          ///< cells from a contour to where the buffer tells whether the part hides it
+  int directionSteps = 64;       ///< of each coordinate of the direction to the sensor from 0 to 1: 0.9 degrees
+  int widestBorder = 4;          ///< cells
+  double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
+  double inset = 0.5;  ///< of them: where a smooth surface ends the last point is measured so far inside
+  double pitchStep = 0.0005; ///< to which point distances are rounded
+  int pitchSteps = 200;      ///< at most
   int cachedDirections = 1000;
 };
 
@@ -41,27 +48,25 @@ public:
   /// Unit vector towards the sensor from the middle of a part at a pose, in the model's frame.
   Eigen::Vector3f towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
 
-  /// Indices of edge points and of verification points of the surface that face the sensor and are not behind other
-  /// points of the part.
+  /// What faces the sensor and is not behind other points of the part, in the model's frame.
   struct Visible
   {
-    Eigen::Vector3f from; ///< the direction to the sensor, rounded to a step, in the model's frame
-    std::vector<int> edges;
-    std::vector<int> surface;
+    Eigen::Vector3f from;      ///< the direction to the sensor, rounded to a step
+    SoAOrientedPoints edges;   ///< with tangents: those of sharp edges, then of the contours that this direction makes
+    std::vector<int> surface;  ///< indices of verification points
     std::vector<char> isInner; ///< of these, whether they lie further than the border inside the part's outline
     /// Beside the part's outline, outside, at the depth of its border: points a cell further off than the border, a
-    /// cell apart, mm, in the model's frame.
+    /// cell apart, mm.
     Points outside;
   };
   /// mm, of the depth buffer.
   double cellSize() const { return this->Settings.cell * this->Diameter; }
-  /// `border`: mm on both sides of the outline, within which a sensor mixes what is before and behind; whole cells, one
-  /// at least.
+  /// `pitch`: mm between neighbouring points of the scan (DepthMap::pitch); 0: not known, and very fine.
   std::shared_ptr<const Visible> visible(
-    const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double border = 0.0) const;
+    const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double pitch = 0.0) const;
 
 private:
-  Visible visibleFrom(const Eigen::Vector3f& towards, int borderCells) const;
+  Visible visibleFrom(const Eigen::Vector3f& towards, double pitch) const;
 
   PredictedVisibilitySettings Settings;
   double Diameter;
@@ -69,7 +74,8 @@ private:
   Eigen::Vector3f Middle;
   // Relative to the middle:
   SoAPoints Surface;
-  SoAPoints Edges;
+  SoAOrientedPoints SharpEdges; ///< with tangents
+  OccludingContours Contours;   ///< in the model's frame
   SoAOrientedPoints VerificationPoints;
   std::vector<int> VerificationIndices; ///< of these in the model's surface
 

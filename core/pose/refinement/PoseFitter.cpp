@@ -77,25 +77,26 @@ PoseFit PoseFitter::fitAt(const Pose& pose, double limit) const
 
 bool PoseFitter::update(VisiblePart& part, const Pose& pose, int stride) const
 {
-  const auto visible = this->Model.visibility->visible(pose.T_scene_model, this->InScene.sensor);
+  const auto visible =
+    this->Model.visibility->visible(pose.T_scene_model, this->InScene.sensor, this->InScene.depth.pitch());
   if (part.visible && visible->from == part.visible->from)
   {
     return false;
   }
   part.visible = visible;
-  const TrainedModel& model = this->Model;
-  const auto take = [stride](const std::vector<int>& indices, const Points& points, const Points& directions)
+  const PointCloud& surface = this->Model.surface;
+  const std::size_t step = stride;
+  part.edges.resize((visible->edges.size() + step - 1) / step);
+  for (std::size_t k = 0; k < part.edges.size(); ++k)
   {
-    SoAOrientedPoints columns;
-    columns.resize((indices.size() + stride - 1) / stride);
-    for (std::size_t k = 0; k < columns.size(); ++k)
-    {
-      columns.set(k, points[indices[k * stride]], directions[indices[k * stride]]);
-    }
-    return columns;
-  };
-  part.edges = take(visible->edges, model.edges.points, model.edges.tangents);
-  part.surface = take(visible->surface, model.surface.points, model.surface.normals);
+    part.edges.set(k, visible->edges.points[k * step], visible->edges.directions[k * step]);
+  }
+  part.surface.resize((visible->surface.size() + step - 1) / step);
+  for (std::size_t k = 0; k < part.surface.size(); ++k)
+  {
+    const int i = visible->surface[k * step];
+    part.surface.set(k, surface.points[i], surface.normals[i]);
+  }
   return true;
 }
 

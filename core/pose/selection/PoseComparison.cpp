@@ -41,18 +41,13 @@ PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_
   const TrainedModel& model = this->Model;
   const float far = this->Unexplained;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const auto visible = this->Model.visibility->visible(T_scene_model, this->InScene.sensor);
-  SoAPoints points;
+  const auto visible =
+    this->Model.visibility->visible(T_scene_model, this->InScene.sensor, this->InScene.depth.pitch());
   std::vector<DepthMap::Relation> relations;
-  const auto those = [&](const std::vector<int>& indices, const Points& of, DepthMap::Relation wanted)
+  const auto those = [&](const SoAPoints& points, DepthMap::Relation wanted)
   {
-    const int count = static_cast<int>(indices.size());
-    points.resize(indices.size());
-    for (int k = 0; k < count; ++k)
-    {
-      points.set(k, of[indices[k]]);
-    }
-    relations.resize(indices.size());
+    const int count = static_cast<int>(points.size());
+    relations.resize(points.size());
     this->InScene.depth.relations(T, points, 0, count, far, relations.data());
     SoAPoints found;
     for (int k = 0; k < count; ++k)
@@ -64,9 +59,13 @@ PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_
     }
     return found;
   };
-  return { this->Settings.freeSpace ? those(visible->surface, model.surface.points, DepthMap::Relation::InFront)
-                                    : SoAPoints{},
-    those(visible->edges, model.edges.points, DepthMap::Relation::OnSurface) };
+  SoAPoints surface;
+  surface.resize(this->Settings.freeSpace ? visible->surface.size() : 0);
+  for (std::size_t k = 0; k < surface.size(); ++k)
+  {
+    surface.set(k, model.surface.points[visible->surface[k]]);
+  }
+  return { those(surface, DepthMap::Relation::InFront), those(visible->edges.points, DepthMap::Relation::OnSurface) };
 }
 
 PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const

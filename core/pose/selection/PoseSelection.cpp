@@ -12,6 +12,13 @@ namespace meam
 {
 namespace
 {
+PoseRefinementSettings rotatedSettings(const PoseSelectionSettings& settings, const TrainedModel& model)
+{
+  PoseRefinementSettings rotated = settings.rotated;
+  rotated.maximumDistance = settings.rotatedDistance * model.diameter;
+  return rotated;
+}
+
 /// Looks for the rotation of an instance, aligns it and scores it.
 class InstanceFinish
 {
@@ -25,9 +32,9 @@ public:
     , Rates(rates)
     , Comparison(comparison)
     , Search(scene, model, settings.rotation)
-    , Rotated(settings.rotated)
+    , Rotated(rotatedSettings(settings, model))
+    , Decision(scene, model, comparison, Rotated, settings.decision)
   {
-    this->Rotated.maximumDistance = settings.rotatedDistance * model.diameter;
   }
 
   /// Returns what it matched.
@@ -37,7 +44,7 @@ public:
     {
       PoseComparison::Contender asItIs = clusters.contender(index);
       this->rotate(pose, asItIs);
-      this->decideNearSymmetry(pose, asItIs);
+      this->Decision.decide(pose, asItIs);
     }
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
     const PoseEvidence evidence = this->Collector.collect(pose.T_scene_model);
@@ -63,30 +70,6 @@ private:
     }
   }
 
-  /// Of the pose and its turns by the part's near-symmetries takes the one that the scene speaks for.
-  void decideNearSymmetry(Pose& pose, const PoseComparison::Contender& asItIs) const
-  {
-    const Eigen::Isometry3d T = pose.T_scene_model;
-    const std::vector<NearSymmetry>& symmetries = this->Model.symmetries.near;
-    const double sure = this->Settings.sureAdvantage;
-    std::vector<double> advantages{ 0.0 };
-    for (const NearSymmetry& symmetry : symmetries)
-    {
-      advantages.push_back(this->Comparison.advantage(T * symmetry.T, asItIs, -this->Settings.negligible * sure));
-    }
-    const auto best = std::max_element(advantages.begin(), advantages.end());
-    double odds = 0.0; // of all turns against the best
-    for (const double advantage : advantages)
-    {
-      odds += std::exp((advantage - *best) / sure);
-    }
-    if (best != advantages.begin())
-    {
-      pose.T_scene_model = T * symmetries[best - advantages.begin() - 1].T;
-    }
-    pose.certainty = 1.0 / odds;
-  }
-
   const Scene& InScene;
   const TrainedModel& Model;
   const PoseSelectionSettings& Settings;
@@ -95,6 +78,7 @@ private:
   const PoseComparison& Comparison;
   RotationSearch Search;
   PoseRefinementSettings Rotated;
+  RotationDecision Decision;
 };
 
 /// A pose and what it matched.

@@ -7,6 +7,7 @@
 #include "pose/refinement/PoseRefinement.h"
 #include "pose/selection/PoseClusters.h"
 #include "pose/selection/PoseComparison.h"
+#include "pose/selection/RotationDecision.h"
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
 
@@ -27,7 +28,7 @@ struct PoseSelectionSettings
   double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
   int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives
   int leastRefined = 60;           ///< so many, and all others that are so likely to be right, are worth refining
-  double worthRefining = 0.02;     ///< probability
+  double worthRefining = 0.0006;   ///< probability, of poses that are not refined yet
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
   EvidenceSettings evidence; ///< that poses are scored by once more
@@ -35,8 +36,7 @@ struct PoseSelectionSettings
   RotationSearchSettings rotation;
   PoseRefinementSettings rotated = afterRotation(); ///< of another rotation, which is nearly right
   double rotatedDistance = 0.04;                    ///< of the diameter, its correspondences at the start
-  double sureAdvantage = 10.0;                      ///< points that make a rotation e times likelier than another
-  double negligible = 9.0;                          ///< times that: a rotation so unlikely is one in ten thousand
+  RotationDecisionSettings decision;
   int rateStride = 2; ///< of the points that tell the scan's rates of edges one of so many
   FinalAlignmentSettings alignment;
   int threads = 0; ///< 0: one for each processor

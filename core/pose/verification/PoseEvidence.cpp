@@ -120,15 +120,13 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const TrainedModel& model = this->Model;
   const DepthMap& depth = this->InScene.depth;
-  const auto visible =
-    model.visibility->visible(T_scene_model, this->InScene.sensor, this->Settings.border * this->InScene.depth.pitch());
+  const auto visible = model.visibility->visible(T_scene_model, this->InScene.sensor, depth.pitch());
   const float tolerance = this->Tolerance;
   PoseEvidence evidence;
   for (std::size_t k = 0; k < visible->edges.size(); k += stride * this->Settings.edgeStride)
   {
-    const int i = visible->edges[k];
-    const Eigen::Vector3f point = T * model.edges.points[i];
-    const Eigen::Vector3f tangent = T.linear() * model.edges.tangents[i];
+    const Eigen::Vector3f point = T * visible->edges.points[k];
+    const Eigen::Vector3f tangent = T.linear() * visible->edges.directions[k];
     const bool matched = this->InScene.edgeIndex.nearest(point, tangent, tolerance).edge >= 0;
     // Also where no surface was measured: beside parts on no ground nothing else speaks against a pose.
     const PointState state = matched                                                          ? PointState::Matched

@@ -43,7 +43,6 @@ struct EvidenceSettings
   bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
   double facing = 0.8;   ///< cosine between the part's normal and the measured one, from which on the surface fits
   double flattest = 0.3; ///< cosine: the tolerance along the line of sight grows up to surfaces seen so flatly
-  double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double outlineTolerance = 1.5;      ///< times the tolerance: a surface beyond the outline that goes on
   int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same
   ProbabilityCalibration calibration; ///< of these weights

@@ -45,8 +45,8 @@ void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EdgeRates& 
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.score();
   const ProbabilityCalibration& calibration = settings.calibration;
-  pose.evidence = (haveSurfaces(scene, model) ? calibration.withSurface : calibration.edgesAlone)
-                    .logOdds(evidence.counts.sum(settings.weights, rates), pose.certainty);
+  const LogisticRegression& ofPlace = haveSurfaces(scene, model) ? calibration.withSurface : calibration.edgesAlone;
+  pose.evidence = withCertainty(ofPlace.logOdds(evidence.counts.sum(settings.weights, rates)), pose.certainty);
   pose.probability = probabilityOf(pose.evidence);
 }
 
@@ -100,6 +100,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
   if (byEvidence)
   {
     std::vector<EvidenceCounts> counts;
+    counts.reserve(evidence.size());
     for (const PoseEvidence& ofOne : evidence)
     {
       counts.push_back(ofOne.counts);

@@ -5,9 +5,10 @@
 
 namespace meam
 {
-double LogisticRegression::logOdds(double sum, double poseCertainty) const
+double withCertainty(double logOdds, double certainty)
 {
-  return this->constant + this->counted * sum + this->certainty * std::log(poseCertainty);
+  // p = c / (1 + exp(-x)), so that p / (1 - p) = c / (1 - c + exp(-x)).
+  return certainty < 1.0 ? std::log(certainty) - std::log(1.0 - certainty + std::exp(-logOdds)) : logOdds;
 }
 
 double probabilityOf(double logOdds) { return 1.0 / (1.0 + std::exp(-logOdds)); }

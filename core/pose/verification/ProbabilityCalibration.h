@@ -3,26 +3,27 @@
 
 namespace meam
 {
-/// Logistic regression of whether a pose is right on what was counted for it and its certainty.
+/// Logistic regression of whether a pose is right, but for a turn by a near-symmetry, on what was counted for it.
 struct LogisticRegression
 {
   double constant;
-  double counted;   ///< of EvidenceCounts::sum
-  double certainty; ///< of its logarithm
+  double counted; ///< of EvidenceCounts::sum
 
-  /// Logarithm of the odds that a pose is right.
-  double logOdds(double sum, double poseCertainty) const;
+  double logOdds(double sum) const { return this->constant + this->counted * sum; }
 };
 
 /// What turns counts into probabilities, with the default weights of evidence. `withSurface` was fitted on what comes
-/// out of simulated bins of examples/parts, seen by structured light and with depths made as coarse as active stereo
-/// has them, with the part in them or not; `edgesAlone` on the Tohoku dataset without its surface.
-/// examples/calibration.py tells how they hold for other scenes.
+/// out of simulated bins of all parts, seen by each kind of sensor, with the part in them or not; `edgesAlone` on the
+/// Tohoku dataset without its surface. examples/calibration.py tells how they hold for other scenes.
 struct ProbabilityCalibration
 {
-  LogisticRegression withSurface{ -0.39, 0.228, 5.3 };
-  LogisticRegression edgesAlone{ 2.9, 0.08, 1.0 }; ///< of scenes without a surface
+  LogisticRegression withSurface{ -1.5, 0.381 };
+  LogisticRegression edgesAlone{ 2.9, 0.08 }; ///< of scenes without a surface
 };
+
+/// Logarithm of the odds that a pose is right: those of its place, where it has a part, and the certainty of its
+/// rotation there, [0, 1].
+double withCertainty(double logOdds, double certainty);
 
 /// [0, 1], from the logarithm of odds.
 double probabilityOf(double logOdds);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/OccludingContours.h"
+
+#include "base/PointGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+float cosineOf(double degrees) { return static_cast<float>(std::cos(degrees * M_PI / 180.0)); }
+}
+
+OccludingContours::OccludingContours(
+  const PointCloud& surface, double spacing, const OccludingContoursSettings& settings)
+  : Spacing(spacing)
+  , Settings(settings)
+{
+  this->Surface.points = surface.points;
+  this->Surface.normals = surface.normals;
+  const Points &points = surface.points, &normals = surface.normals;
+  const float flat = cosineOf(settings.flattest), sharp = cosineOf(settings.sharpest);
+  const PointGrid grid(points, settings.neighbour * spacing);
+  this->First.push_back(0);
+  for (int i = 0; i < static_cast<int>(points.size()); ++i)
+  {
+    grid.forEachWithin(points[i], settings.neighbour * spacing,
+      [&](int k, float)
+      {
+        const float cosine = normals[i].dot(normals[k]);
+        const bool isRound = (normals[k] - normals[i]).dot(points[k] - points[i]) > 0.0f;
+        if (cosine < flat && cosine > sharp && isRound)
+        {
+          this->Neighbours.push_back(k);
+        }
+      });
+    std::sort(this->Neighbours.begin() + this->First.back(), this->Neighbours.end());
+    this->First.push_back(static_cast<int>(this->Neighbours.size()));
+  }
+}
+
+std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vector3f& towards, double inset) const
+{
+  std::vector<Point> contour;
+  const Points &points = this->Surface.points, &normals = this->Surface.normals;
+  const float least = static_cast<float>(this->Settings.seenLast), most = static_cast<float>(this->Settings.seenFirst);
+  const float steepest = static_cast<float>(std::sin(this->Settings.sharpest * M_PI / 180.0)); // and neighbours away
+  thread_local std::vector<float> cosines; // there are hundreds of directions
+  cosines.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    cosines[i] = normals[i].dot(towards);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (cosines[i] < 0.0f || cosines[i] > steepest)
+    {
+      continue;
+    }
+    // Of the crossings from this sample on the nearest.
+    float nearest = 1.0f;
+    int across = -1;
+    for (int n = this->First[i]; n < this->First[i + 1]; ++n)
+    {
+      const int k = this->Neighbours[n];
+      const float share = cosines[k] < 0.0f ? cosines[i] / (cosines[i] - cosines[k]) : 1.0f;
+      if (share < nearest)
+      {
+        nearest = share;
+        across = k;
+      }
+    }
+    if (across >= 0)
+    {
+      const Eigen::Vector3f normal = ((1.0f - nearest) * normals[i] + nearest * normals[across]).normalized();
+      const Eigen::Vector3f end = (1.0f - nearest) * points[i] + nearest * points[across];
+      // On the circle that the surface bends in between both, by the cosine at which it is measured last.
+      const Eigen::Vector3f bend = normals[across] - normals[i];
+      const float radius = bend.dot(points[across] - points[i]) / bend.squaredNorm();
+      const float off = std::min(static_cast<float>(inset) / radius, 1.0f);
+      const float cosine = std::clamp(std::sqrt(off * (2.0f - off)), least, most);
+      const float inward = 1.0f - std::sqrt(1.0f - cosine * cosine);
+      contour.push_back(
+        { end + radius * (cosine * towards - inward * normal), normal, normal.cross(towards).normalized() });
+    }
+  }
+  return contour;
+}
+
+std::vector<bool> OccludingContours::areContours(
+  const Points& edges, const std::vector<std::uint32_t>& views, const Points& viewDirections) const
+{
+  const float smooth = cosineOf(0.5 * this->Settings.sharpest);
+  const double near = this->Settings.neighbour * this->Spacing;
+  const PointGrid grid(this->Surface.points, near);
+  std::vector<bool> result(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    std::vector<int> about;
+    grid.forEachWithin(edges[i], near, [&](int k, float) { about.push_back(k); });
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    for (const int k : about)
+    {
+      normal += this->Surface.normals[k];
+    }
+    normal.normalize();
+    bool isContour = !about.empty();
+    for (const int k : about)
+    {
+      isContour = isContour && this->Surface.normals[k].dot(normal) > smooth;
+    }
+    for (std::size_t v = 0; v < viewDirections.size(); ++v)
+    {
+      const bool isSeen = views[i] >> v & 1u;
+      isContour = isContour && !(isSeen && std::abs(viewDirections[v].dot(normal)) > this->Settings.grazing);
+    }
+    result[i] = isContour;
+  }
+  return result;
+}
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/RotationDecision.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+/// Share of the part's surface that a turn takes to its surface.
+double overlapAfter(const Eigen::Isometry3d& turn, const TrainedModel& model, double tolerance)
+{
+  const Eigen::Isometry3f T = turn.cast<float>();
+  const auto fits = [&](const Eigen::Vector3f& point)
+  { return model.surfaceDistance.at(T * point) < static_cast<float>(tolerance); };
+  const Points& points = model.surface.points;
+  return static_cast<double>(std::count_if(points.begin(), points.end(), fits)) / points.size();
+}
+}
+
+RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
+  const PoseRefinementSettings& rotated, const RotationDecisionSettings& settings)
+  : InScene(scene)
+  , Model(model)
+  , Comparison(comparison)
+  , Rotated(rotated)
+  , Settings(settings)
+{
+  for (const NearSymmetry& symmetry : model.symmetries.near)
+  {
+    this->Turns.push_back(symmetry.T);
+  }
+  const double tolerance = FitLengths{}.explained * model.diameter;
+  const double step = settings.step * M_PI / 180.0;
+  const int steps = static_cast<int>(std::lround(2.0 * M_PI / step));
+  for (const ContinuousSymmetry& axis : nearlyRoundAxes(model.symmetries))
+  {
+    for (int k = 1; k < steps && !model.surface.empty(); ++k)
+    {
+      const Eigen::Isometry3d turn = turnAbout(axis.axis, k * step, axis.point);
+      const auto isSame = [&](const NearSymmetry& near)
+      {
+        const Eigen::Matrix3d between = near.T.linear().transpose() * turn.linear();
+        return Eigen::AngleAxisd(between).angle() < 0.5 * step;
+      };
+      const auto& near = model.symmetries.near;
+      if (std::none_of(near.begin(), near.end(), isSame) && overlapAfter(turn, model, tolerance) >= settings.overlap)
+      {
+        this->Turns.push_back(turn);
+      }
+    }
+  }
+}
+
+void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) const
+{
+  const double sure = this->Settings.sureAdvantage;
+  const std::size_t nearSymmetries = this->Model.symmetries.near.size();
+  const std::size_t turns = pose.probability < this->Settings.worthAsking ? nearSymmetries : this->Turns.size();
+  for (int round = 0; round < this->Settings.rounds; ++round)
+  {
+    std::vector<double> advantages{ 0.0 };
+    for (std::size_t k = 0; k < turns; ++k)
+    {
+      advantages.push_back(
+        this->Comparison.advantage(pose.T_scene_model * this->Turns[k], asItIs, -this->Settings.negligible * sure));
+    }
+    const auto best = std::max_element(advantages.begin(), advantages.end());
+    double odds = 0.0; // of all turns against the best
+    for (const double advantage : advantages)
+    {
+      odds += std::exp((advantage - *best) / sure);
+    }
+    pose.certainty = 1.0 / odds;
+    if (best == advantages.begin())
+    {
+      return;
+    }
+    const std::size_t turn = best - advantages.begin() - 1;
+    Pose turned = pose;
+    turned.T_scene_model = pose.T_scene_model * this->Turns[turn];
+    if (turn >= nearSymmetries)
+    {
+      turned = refinePoses({ turned }, this->InScene, this->Model, this->Rotated)[0];
+      turned.certainty = pose.certainty;
+    }
+    asItIs = this->Comparison.contender(turned.T_scene_model);
+    pose = turned;
+  }
+}
+}
