@@ -8,6 +8,7 @@
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMInstanceConversion.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
@@ -21,8 +22,10 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
@@ -54,12 +57,15 @@ public:
     if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(part))
     {
       this->Part = nullptr;
-      return this->Model = vtkMEAMConversion::sharedModel(collection);
+      this->Model = vtkMEAMConversion::sharedModel(collection);
+      this->Shape->Initialize();
+      vtkMEAMConversion::fromCloud(this->Model->surface, this->Shape);
+      return this->Model;
     }
     if (this->Part != part || this->Time != part->GetMTime() || this->Made != settings)
     {
       this->Part = nullptr; // until the new one is there
-      this->Model = std::make_shared<const meam::TrainedModel>(train(part, settings, progress));
+      this->Model = std::make_shared<const meam::TrainedModel>(this->train(part, settings, progress));
       this->Part = part;
       this->Time = part->GetMTime();
       this->Made = settings;
@@ -67,8 +73,11 @@ public:
     return this->Model;
   }
 
+  /// What the part looks like: its prepared mesh or, of a trained model, points of its surface.
+  vtkPolyData* shape() const { return this->Shape; }
+
 private:
-  static meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
+  meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
   {
     meam::MeshPreparationSettings preparation;
     int preset = 0, features = 0, seed = 0;
@@ -76,6 +85,8 @@ private:
     std::tie(preset, features, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
     const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(vtkPolyData::SafeDownCast(part));
     const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
+    this->Shape->Initialize();
+    vtkMEAMConversion::fromMesh(prepared.mesh, this->Shape);
     meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
     training.sampling.seed = static_cast<unsigned>(seed);
     if (preset != Paper)
@@ -86,6 +97,7 @@ private:
   }
 
   std::shared_ptr<const meam::TrainedModel> Model;
+  vtkNew<vtkPolyData> Shape;
   vtkWeakPointer<vtkDataObject> Part;
   vtkMTimeType Time = 0;
   Settings Made;
@@ -95,7 +107,7 @@ vtkMEAMPoseEstimation::vtkMEAMPoseEstimation()
   : Trained(new Training)
 {
   this->SetNumberOfInputPorts(4);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() { this->SetCameraFile(nullptr); }
@@ -152,6 +164,7 @@ int vtkMEAMPoseEstimation::RequestData(
   auto* image = vtkImageData::GetData(inputVector[3]);
   auto* output = vtkPolyData::GetData(outputVector, 0);
   auto* edges = vtkPolyData::GetData(outputVector, 1);
+  auto* parts = vtkPolyData::GetData(outputVector, 2);
   return vtkMEAMRun(
     this,
     [&]
@@ -242,6 +255,10 @@ int vtkMEAMPoseEstimation::RequestData(
         fromSceneEdges(found, edges);
       }
       fromPoses(poses, output);
+      output->GetPointData()->SetActiveScalars("Rank");
+      addLabels(poses, output);
+      fromInstances(
+        this->Trained->shape(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, {}, {}, parts);
       setDiameter(output, model->diameter);
       setFieldText(output, "Report", meam::describe(poses));
       setFieldValue(output, "SecondsTraining", trained - loaded);
@@ -258,7 +275,7 @@ int vtkMEAMPoseEstimation::RequestData(
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model->edges.size()));
       setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
     },
-    output, edges);
+    output, edges, parts);
 }
 
 void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)

@@ -62,6 +62,11 @@ warnings = Warnings(doubtful)
 check(is_empty(run(doubtful)) and "No part was found." in str(warnings), f"no part without a word: {warnings}")
 edges = filter.GetOutputDataObject(1)
 check(field(poses, "SceneEdgePoints") == [(edges.GetNumberOfPoints(),)], "the edges are the second output")
+copies = filter.GetOutputDataObject(2)
+check(copies.GetNumberOfPolys() == 2 * part.GetNumberOfPolys(), "the third output has the part at each pose")
+check([r for r, in tuples(copies, "Rank")[::part.GetNumberOfPoints()]] == [1, 2], "in the order of the poses")
+labels = [poses.GetPointData().GetAbstractArray("Label").GetValue(i) for i in range(2)]
+check(labels == [f"{i + 1}: {round(100 * p)} %" for i, (p,) in enumerate(tuples(poses, "Probability"))], f"labels {labels}")
 check(field(poses, "ScenePoints")[0][0] > 0.9 * 640 * 480, "points are counted")
 
 # Training is not done again for another scene or other settings of the detection; it is for another seed.
@@ -75,7 +80,10 @@ check(seconds(filter, "Training") > 0.2 * parts[0], "another seed has to be trai
 
 # The same poses with the trained model, on one thread, and with the edges as input.
 model = run(Trained(part).model)
-check(found(estimation(model, scan, MaximumNumberOfPoses=2)) == expected, "the trained model")
+filter = estimation(model, scan, MaximumNumberOfPoses=2)
+check(found(filter) == expected, "the trained model")
+copies = filter.GetOutputDataObject(2)
+check(copies.GetNumberOfVerts() == copies.GetNumberOfPoints() > 200, "points of its surface at each pose")
 check(found(estimation(model, scan, MaximumNumberOfPoses=2, NumberOfThreads=1)) == expected, "one thread")
 ready = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
 check(found(estimation(model, scan, ready, MaximumNumberOfPoses=2)) == expected, "ready-made edges")
