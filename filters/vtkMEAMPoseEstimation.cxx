@@ -124,10 +124,7 @@ int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* in
       info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
     }
   }
-  if (port >= 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
   return 1;
 }
 
@@ -169,6 +166,7 @@ int vtkMEAMPoseEstimation::RequestData(
     this,
     [&]
     {
+      requireInputs(this, { "Part", "Scan" });
       const meam::Progress progress = progressOf(this);
       const double start = vtkTimerLog::GetUniversalTime();
 

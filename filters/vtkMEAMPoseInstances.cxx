@@ -6,6 +6,7 @@
 #include "vtkMEAMRun.h"
 
 #include "vtkDataArray.h"
+#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -17,6 +18,13 @@ vtkStandardNewMacro(vtkMEAMPoseInstances);
 
 vtkMEAMPoseInstances::vtkMEAMPoseInstances() { this->SetNumberOfInputPorts(2); }
 
+int vtkMEAMPoseInstances::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
 int vtkMEAMPoseInstances::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -27,6 +35,7 @@ int vtkMEAMPoseInstances::RequestData(
     this,
     [&]
     {
+      vtkMEAMConversion::requireInputs(this, { "Poses", "Part" });
       const meam::Progress progress = vtkMEAMConversion::progressOf(this);
       const meam::Poses poses = vtkMEAMConversion::toPoses(posesInput);
       vtkDataArray* ranks = posesInput->GetPointData()->GetArray("Rank");

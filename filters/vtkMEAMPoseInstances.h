@@ -48,6 +48,7 @@ protected:
   vtkMEAMPoseInstances();
   ~vtkMEAMPoseInstances() override = default;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
