@@ -33,6 +33,11 @@ constexpr unsigned char RankColors[6][3] = {
   { 150, 150, 150 }, // the others
 };
 
+bool isDrawn(const meam::Pose& pose, double minimumProbability)
+{
+  return !(pose.probability > 0.0) || pose.probability >= minimumProbability;
+}
+
 /// The same values for all points or cells of an instance.
 void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, const meam::Pose& pose)
 {
@@ -76,7 +81,7 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
   for (std::size_t k = 0; k < copies; ++k)
   {
     meam::report(progress, static_cast<double>(k) / copies);
-    if (poses[k].probability > 0.0 && poses[k].probability < settings.minimumProbability)
+    if (!isDrawn(poses[k], settings.minimumProbability))
     {
       continue;
     }
@@ -105,14 +110,14 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
   }
 }
 
-void addLabels(const meam::Poses& poses, vtkPolyData* output)
+void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output)
 {
   vtkNew<vtkStringArray> labels;
   labels->SetName("Label");
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    std::string label = std::to_string(k + 1);
-    if (poses[k].probability > 0.0)
+    std::string label = isDrawn(poses[k], minimumProbability) ? std::to_string(k + 1) : "";
+    if (!label.empty() && poses[k].probability > 0.0)
     {
       label += ": " + std::to_string(std::lround(100.0 * poses[k].probability)) + " %";
     }

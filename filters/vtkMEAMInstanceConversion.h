@@ -27,8 +27,9 @@ struct InstanceSettings
 void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
   const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output);
 
-/// The text `Label` for each pose: its rank and, where it is known, its probability, as in "1: 98 %".
-void addLabels(const meam::Poses& poses, vtkPolyData* output);
+/// The text `Label` for each pose: its rank and, where it is known, its probability, as in "1: 98 %"; nothing for a
+/// pose that is less likely, which gets no copy.
+void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output);
 }
 
 #endif

@@ -254,9 +254,10 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       fromPoses(poses, output);
       output->GetPointData()->SetActiveScalars("Rank");
-      addLabels(poses, output);
+      const InstanceSettings drawn;
+      addLabels(poses, drawn.minimumProbability, output);
       fromInstances(
-        this->Trained->shape(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, {}, {}, parts);
+        this->Trained->shape(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
       setDiameter(output, model->diameter);
       setFieldText(output, "Report", meam::describe(poses));
       setFieldValue(output, "SecondsTraining", trained - loaded);

@@ -23,9 +23,9 @@
  *
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
- * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability in words), and those that
- * vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether parts were found and how
- * sure that is; where nothing is, a warning says so, too), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`,
+ * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on port 2), and those
+ * that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether parts were found and
+ * how sure that is; where nothing is, a warning says so, too), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`,
  * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
  * `SecondsSelection`, which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and
  * `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the

@@ -80,9 +80,8 @@ def check_proxy(group, element):
     check(documentation is not None and (documentation.text or "").strip() and documentation.get("short_help")
           and documentation.get("long_help"), f"{name}: no documentation, short_help or long_help")
     if group in ("filters", "sources"):
-        menu = element.find("Hints/ShowInMenu")
         check(element.find("Hints/ReaderFactory") is not None
-              or (menu is not None and menu.get("category") == "Pose Estimation"),
+              or (element.find("Hints/ShowInMenu") is not None and (group, name) in in_menus),
               f"{name}: not in the menu Pose Estimation")
     instance = getattr(ppfmeam.filters, class_name)()
     keys = proxy.NewPropertyIterator()
@@ -109,6 +108,8 @@ def is_abstract(kind):
     return False
 
 
+in_menus = {(p.get("group"), p.get("name")) for file in sys.argv[1:]
+            for p in ElementTree.parse(file).getroot().iterfind("*/Category/Proxy")}
 seen = set()
 manager = servermanager.ProxyManager().SMProxyManager
 for file in sys.argv[1:]:
