@@ -19,6 +19,7 @@ WITHOUT_DEFAULT = {
     "vtkSMProperty": "a button",
     "SetInputArrayToProcess": "an array selection",
 }
+MANY = 6  # properties of a filter, which have to be in groups
 
 
 def check(condition, message):
@@ -93,6 +94,8 @@ def check_proxy(group, element):
         check_property(name, keys.GetKey(), keys.GetProperty(), instance)
         keys.Next()
     declared = {p.get("name") for p in element if p.tag.endswith("Property")}
+    if len([p for p in element if p.tag.endswith("VectorProperty")]) >= MANY or name.startswith("BinScene"):
+        check(proxy.GetNumberOfPropertyGroups() >= 2 or group == "writers", f"{name}: its properties are in no groups")
     check(declared <= found, f"{name}: not made: {declared - found}")
     # And the other way round: what can be set on an instance of ours can be set in the panel.
     ours = {m for kind in type(instance).__mro__ if kind.__name__.startswith("vtkMEAM") for m in vars(kind)}
