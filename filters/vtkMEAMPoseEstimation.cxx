@@ -19,6 +19,8 @@
 #include "vtkMEAMSceneTime.h"
 #include "vtkMEAMSharedData.h"
 
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -28,10 +30,13 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTable.h"
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
 
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -107,7 +112,7 @@ vtkMEAMPoseEstimation::vtkMEAMPoseEstimation()
   : Trained(new Training)
 {
   this->SetNumberOfInputPorts(4);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(5);
 }
 
 vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() { this->SetCameraFile(nullptr); }
@@ -125,6 +130,12 @@ int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* in
     }
   }
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMPoseEstimation::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port < 3 ? "vtkPolyData" : "vtkTable");
   return 1;
 }
 
@@ -162,6 +173,8 @@ int vtkMEAMPoseEstimation::RequestData(
   auto* output = vtkPolyData::GetData(outputVector, 0);
   auto* edges = vtkPolyData::GetData(outputVector, 1);
   auto* parts = vtkPolyData::GetData(outputVector, 2);
+  auto* scores = vtkTable::GetData(outputVector, 3);
+  auto* stages = vtkTable::GetData(outputVector, 4);
   return vtkMEAMRun(
     this,
     [&]
@@ -260,21 +273,39 @@ int vtkMEAMPoseEstimation::RequestData(
         this->Trained->shape(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
       setDiameter(output, model->diameter);
       setFieldText(output, "Report", meam::describe(poses));
-      setFieldValue(output, "SecondsTraining", trained - loaded);
-      setFieldValue(output, "SecondsSceneEdges", extracted - start);
-      setFieldValue(output, "SecondsTangents", times.tangents);
-      setFieldValue(output, "SecondsScene", loaded - extracted + times.scene);
-      setFieldValue(output, "SecondsDetection", times.detection);
-      setFieldValue(output, "SecondsScreening", times.screening);
-      setFieldValue(output, "SecondsVerification", times.verification);
-      setFieldValue(output, "SecondsRefinement", times.refinement);
-      setFieldValue(output, "SecondsSelection", times.selection);
+      const std::pair<const char*, double> seconds[] = { { "Training", trained - loaded },
+        { "SceneEdges", extracted - start }, { "Scene", loaded - extracted + times.scene },
+        { "Tangents", times.tangents }, { "Detection", times.detection }, { "Screening", times.screening },
+        { "Verification", times.verification }, { "Refinement", times.refinement }, { "Selection", times.selection } };
+      vtkNew<vtkStringArray> names;
+      names->SetName("Stage");
+      vtkNew<vtkDoubleArray> durations;
+      durations->SetName("Seconds");
+      for (const auto& [name, duration] : seconds)
+      {
+        setFieldValue(output, (std::string("Seconds") + name).c_str(), duration);
+        names->InsertNextValue(name);
+        durations->InsertNextValue(duration);
+      }
+      stages->AddColumn(names);
+      stages->AddColumn(durations);
+      vtkNew<vtkStringArray> ranks;
+      ranks->SetName("Pose");
+      for (std::size_t k = 1; k <= poses.size(); ++k)
+      {
+        ranks->InsertNextValue(std::to_string(k));
+      }
+      scores->AddColumn(ranks);
+      for (const char* name : { "Probability", "Score", "VisibleFraction", "Certainty" })
+      {
+        scores->AddColumn(output->GetPointData()->GetArray(name));
+      }
       setFieldValue(output, "ScenePoints", static_cast<double>(measured));
       setFieldValue(output, "SceneEdgePoints", static_cast<double>(edgePoints));
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model->edges.size()));
       setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
     },
-    output, edges, parts);
+    output, edges, parts, scores, stages);
 }
 
 void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)

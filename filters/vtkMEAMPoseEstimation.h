@@ -30,7 +30,9 @@
  * `SecondsSelection`, which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and
  * `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the
  * preset Recommended `Tangent`, unless they came in. Output port 2: the part at each pose that is more likely right
- * than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its surface.
+ * than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a vtkTable with
+ * a row for each pose, to plot: `Pose` (its rank, as a text), `Probability`, `Score`, `VisibleFraction`, `Certainty`.
+ * Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h
@@ -156,6 +158,7 @@ protected:
   ~vtkMEAMPoseEstimation() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
