@@ -3,9 +3,11 @@
 
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
 #include "vtkSetGet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersion.h"
 
 #include <string>
@@ -34,6 +36,20 @@ meam::Progress progressOf(vtkAlgorithm* filter)
     return filter->GetAbortExecute() == 0;
 #endif
   };
+}
+
+bool isLaterPiece(vtkAlgorithm* filter)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkInformation* output = filter->GetOutputInformation(port);
+    if (output && output->Has(Pipeline::UPDATE_PIECE_NUMBER()) && output->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 void requireInputs(vtkAlgorithm* filter, std::initializer_list<const char*> names)

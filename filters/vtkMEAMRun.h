@@ -17,6 +17,10 @@ namespace vtkMEAMConversion
 /// Progress and abort of a filter as the core asks for them.
 meam::Progress progressOf(vtkAlgorithm* filter);
 
+/// Whether the filter is asked for another piece than the first: of a parallel run one process does all the work, and
+/// the data of the others are empty.
+bool isLaterPiece(vtkAlgorithm* filter);
+
 /// Throws Error, which names the inputs that are not connected, of those that the filter cannot do without: of each
 /// port its name, null where it may stay open. To VTK all of them are optional, because its own errors do not say what
 /// to do.
@@ -35,6 +39,11 @@ void reportError(vtkAlgorithm* filter, const char* message, bool failsRequest);
 template <typename Work, typename... Outputs>
 int vtkMEAMRun(vtkAlgorithm* self, Work&& work, Outputs*... outputs)
 {
+  if (sizeof...(outputs) > 0 && vtkMEAMConversion::isLaterPiece(self))
+  {
+    (outputs->Initialize(), ...);
+    return 1;
+  }
   try
   {
     work();
