@@ -192,8 +192,10 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       if (!boundary && size[1] <= 1)
       {
-        throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
-                          "points as the boundary, or an organized scan (a grid of width x height points).");
+        throw meam::Error(
+          "The scene is not organized, so that its edges cannot be taken from an image: give its edge "
+          "points, the boundary, to Boundary, or an organized scan (a grid of width x height points) to "
+          "Scene.");
       }
       meam::SceneInput scene;
       scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);

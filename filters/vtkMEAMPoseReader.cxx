@@ -69,7 +69,7 @@ int vtkMEAMPoseReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
     {
       if (!this->FileName || !*this->FileName)
       {
-        throw meam::Error("No file is given: set the name of a pose file.");
+        throw meam::Error("No file is given: set FileName to the name of a pose file.");
       }
       const std::vector<meam::PoseRow> rows = meam::readPoses(this->FileName);
       meam::Poses poses;

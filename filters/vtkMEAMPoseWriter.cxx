@@ -57,7 +57,7 @@ void vtkMEAMPoseWriter::WriteData()
     {
       if (!this->FileName || !*this->FileName)
       {
-        throw meam::Error("No file is given: set the name of the file to write.");
+        throw meam::Error("No file is given: set FileName to the name of the file to write.");
       }
       const int format = this->Format == BY_EXTENSION ? formatOf(this->FileName) : this->Format;
       vtkDataArray* seconds = input->GetFieldData()->GetArray("SecondsTotal");

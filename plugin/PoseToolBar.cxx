@@ -20,6 +20,7 @@
 #include <QDialog>
 #include <QEvent>
 #include <QIcon>
+#include <QLabel>
 #include <QMainWindow>
 #include <QMessageBox>
 #include <QRadioButton>
@@ -107,6 +108,7 @@ public:
       const bool stepOfPoses = dialog->findChild<QRadioButton*>("SceneSurface") && dialog->findChild<QRadioButton*>("Model");
       rename(dialog, "Scene", wholeMethod, "Scan");
       rename(dialog, "Input", wholeMethod, "Part");
+      rename(dialog, "Boundary", wholeMethod, "Edge Points");
       rename(dialog, "SceneSurface", stepOfPoses, "Scan");
     }
     return false;
@@ -118,6 +120,11 @@ private:
     if (auto* button = ours ? dialog->findChild<QRadioButton*>(name) : nullptr)
     {
       button->setText(shown);
+      auto* chosen = dialog->findChild<QLabel*>("selectInputLabel");
+      if (chosen && button->isChecked())
+      {
+        chosen->setText(QString("Select <b>%1</b>").arg(shown));
+      }
     }
   }
 };

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The first four clicks in the application: a CAD is opened, a scan is opened, MEAM Pose Estimation, Apply. ParaView's own
-player clicks; the state that it saves then is opened by pvpython, which looks at it.
+player clicks; the state that it saves then is opened by pvpython, which looks at it. The dialog of the menu names its inputs.
 
 Usage: TestFirstContact.py XVFB-RUN PARAVIEW PVPYTHON
 """
@@ -19,6 +19,10 @@ CLICKS = """<?xml version="1.0" ?>
   <pqevent object="pqClientMainWindow/propertiesDock/propertiesPanel/Accept" command="activate" arguments="" />
   <pqevent object="pqClientMainWindow/menubar/menu_File" command="activate" arguments="actionFileSaveServerState" />
   <pqevent object="pqClientMainWindow/FileSaveServerStateDialog" command="filesSelected" arguments="{folder}/state.pvsm" />
+  <pqevent object="pqClientMainWindow/menubar/menuFilters/PoseEstimation" command="activate" arguments="MEAMPoseEstimation" />
+  <pqcheck object="pqClientMainWindow/SelectInputDialog/buttonFrame/Input" property="text" arguments="Part" />
+  <pqcheck object="pqClientMainWindow/SelectInputDialog/buttonFrame/Scene" property="text" arguments="Scan" />
+  <pqevent object="pqClientMainWindow/SelectInputDialog/buttonBox/1QPushButton1" command="activate" arguments="" />
 </pqevents>
 """
 RED, GREEN = (220, 30, 30), (40, 170, 50)
@@ -64,7 +68,7 @@ def click(xvfb, paraview, folder):
     """Plays the clicks with the settings of a new user."""
     environment = dict(os.environ, HOME=folder, XDG_CONFIG_HOME=os.path.join(folder, "config"))
     run = subprocess.run([xvfb, "-a", "-s", "-screen 0 1280x900x24", paraview, "--dr", "--exit",
-                          f"--test-script={folder}/clicks.xml"], env=environment, capture_output=True, text=True, timeout=300)
+                          f"--test-script={folder}/clicks.xml"], env=environment, capture_output=True, text=True, timeout=120)
     check(os.path.exists(os.path.join(folder, "state.pvsm")), f"the clicks led nowhere: {run.stdout[-3000:]} {run.stderr[-3000:]}")
     said = [line for line in (run.stdout + run.stderr).splitlines() if "ERR|" in line or "critical" in line]
     check(not said, f"ParaView says {said}")
