@@ -11,7 +11,7 @@ set(vtk_components
   CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem CommonTransforms
   FiltersCore IOCore vtksys Python WrapPython WrapHierarchy)
 if(PPFMEAM_USE_PARAVIEW)
-  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingClientServerStream ProcessXML WrapClientServer)
+  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager RemotingClientServerStream ProcessXML WrapClientServer)
 endif()
 find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components})
 message(STATUS "VTK ${VTK_VERSION} from ${VTK_DIR}")

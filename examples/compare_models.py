@@ -142,7 +142,7 @@ def main():
                 failed += 1
         tell("")
     if options.out:
-        with open(options.out, "w", encoding="utf-8") as file:
+        with scripting.written(options.out) as file:
             file.write("\n".join(lines))
     if failed:
         raise scripting.Failure(f"{failed} models could not be compared")

@@ -86,7 +86,7 @@ def tohoku(options):
         print(ROW.format(**row), flush=True)
     print_stages(rows)
     if options.out:
-        with open(os.path.join(options.out, "tohoku.csv"), "w", newline="") as file:
+        with scripting.written(os.path.join(options.out, "tohoku.csv"), newline="") as file:
             writer = csv.DictWriter(file, list(rows[0]))
             writer.writeheader()
             writer.writerows(rows)
@@ -114,7 +114,7 @@ def bop(options):
         runs[number] = evaluation_of(model, options, options.features)
         benchmark[number] = dataset.BOPFigures(data.mesh(number), model)
     judged, failures = dict.fromkeys(runs, 0), 0
-    with open(options.out, "w", encoding="utf-8", newline="") as file:
+    with scripting.written(options.out, newline="") as file:
         results = dataset.Results(file)
         for scene in map(data.scene, options.scenes or data.scenes()):
             for step in scene.steps:

@@ -162,7 +162,7 @@ def read_scan(path, scale, camera):
     """The cloud on the pixels of its camera."""
     with tempfile.TemporaryDirectory() as folder:
         calibration = os.path.join(folder, "camera.json")
-        with open(calibration, "w", encoding="utf-8") as file:
+        with scripting.written(calibration) as file:
             json.dump(camera, file)
         return scripting.read_scan(path, scale, calibration)
 

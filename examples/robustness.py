@@ -111,7 +111,7 @@ def main():
     for level in levels():
         print(words(*level) + "   {strict:4.0f} %   {recall:4.0f} %  {mm:5.3f}  {deg:5.3f}".format(**table[level]))
     if options.out:
-        with open(options.out, "w", encoding="utf-8", newline="") as file:
+        with scripting.written(options.out, newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(("depth_noise_mm", "image_noise", "image_blur_px", "edges", *FIGURES))
             for level, figures in table.items():

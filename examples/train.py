@@ -37,7 +37,7 @@ def main():
         print(f"symmetry: {line}")
     if options.models_info:
         entry = json.loads(samples.GetFieldData().GetAbstractArray("ModelsInfo").GetValue(0))
-        with open(options.models_info, "w", encoding="utf-8") as file:
+        with scripting.written(options.models_info) as file:
             json.dump({"1": entry}, file, indent=2)
             file.write("\n")
 

@@ -52,10 +52,7 @@ int vtkMEAMBOPEvaluation::FillInputPortInformation(int port, vtkInformation* inf
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port < 3    ? "vtkPolyData"
                                                       : port == 3 ? "vtkStructuredGrid"
                                                                   : "vtkDataObject");
-  if (port == 4)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
   return 1;
 }
 
@@ -75,6 +72,7 @@ int vtkMEAMBOPEvaluation::RequestData(
     this,
     [&]
     {
+      requireInputs(this, { "Poses", "True Poses", "Mesh", "Scan" });
       auto* part = vtkDataObject::GetData(inputVector[4]);
       const meam::BOPEvaluation evaluation(
         toMesh(vtkPolyData::GetData(inputVector[2])), symmetriesOf(part), part ? diameterOf(part) : 0.0);

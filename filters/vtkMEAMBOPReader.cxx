@@ -92,7 +92,7 @@ int vtkMEAMBOPReader::RequestInformation(vtkInformation*, vtkInformationVector**
   {
     if (!this->FileName || !*this->FileName)
     {
-      throw meam::Error("No file is given: set the folder of a BOP dataset or of one of its scenes.");
+      throw meam::Error("No file is given: set FileName to the folder of a BOP dataset or of one of its scenes.");
     }
     this->Listed->all = meam::listBOPImages(this->FileName, this->Split ? this->Split : "");
     this->Listed->size = meam::readBOPSize(this->Listed->all.front());

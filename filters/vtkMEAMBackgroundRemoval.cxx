@@ -36,7 +36,7 @@ Eigen::AlignedBox3f boxOf(const double region[6])
     if (!(low <= high))
     {
       throw meam::Error(
-        "The region's least value along an axis is above its greatest one: give xmin, xmax, ymin, ymax, "
+        "The region's least value along an axis is above its greatest one: set Region to xmin, xmax, ymin, ymax, "
         "zmin, zmax.");
     }
     if (low < high)

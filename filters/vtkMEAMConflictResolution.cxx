@@ -72,10 +72,7 @@ int vtkMEAMConflictResolution::FillInputPortInformation(int port, vtkInformation
   {
     info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   }
-  if (port == 3)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
   return 1;
 }
 
@@ -97,6 +94,7 @@ int vtkMEAMConflictResolution::RequestData(
     this,
     [&]
     {
+      requireInputs(this, { "Poses", "Models", "Scene Edges" });
       const int count = inputVector[0]->GetNumberOfInformationObjects();
       const int models = inputVector[1]->GetNumberOfInformationObjects();
       if (count != models)

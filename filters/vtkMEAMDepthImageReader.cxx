@@ -59,7 +59,7 @@ int vtkMEAMDepthImageReader::RequestData(vtkInformation*, vtkInformationVector**
   {
     if (!this->FileName || !*this->FileName)
     {
-      throw meam::Error("No file is given: set the name of a depth image.");
+      throw meam::Error("No file is given: set FileName to the name of a depth image.");
     }
     const meam::CameraFile calibration =
       vtkMEAMConversion::calibrationOf(this->CameraFile, this->FocalLength, this->PrincipalPoint);

@@ -24,7 +24,7 @@ int vtkMEAMModelReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
   {
     if (!this->FileName || !*this->FileName)
     {
-      throw meam::Error("No file is given: set the name of a trained model's file.");
+      throw meam::Error("No file is given: set FileName to the name of a trained model's file.");
     }
     vtkMEAMConversion::fromTrainedModel(meam::readModel(this->FileName), output);
   };

@@ -29,7 +29,7 @@ void vtkMEAMModelWriter::WriteData()
     {
       if (!this->FileName || !*this->FileName)
       {
-        throw meam::Error("No file is given: set the name of the file to write.");
+        throw meam::Error("No file is given: set FileName to the name of the file to write.");
       }
       meam::writeModel(this->FileName,
         vtkMEAMConversion::toTrainedModel(vtkPartitionedDataSetCollection::SafeDownCast(this->GetInput())));

@@ -25,7 +25,7 @@ int vtkMEAMOFFReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
   {
     if (!this->FileName || !*this->FileName)
     {
-      throw meam::Error("No file is given: set the name of an OFF file.");
+      throw meam::Error("No file is given: set FileName to the name of an OFF file.");
     }
     const meam::TriangleMesh mesh = meam::readOFF(this->FileName, vtkMEAMConversion::progressOf(this));
     if (mesh.triangles.empty())

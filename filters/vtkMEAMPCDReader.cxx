@@ -90,7 +90,7 @@ int vtkMEAMPCDReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
     {
       if (!this->FileName || !*this->FileName)
       {
-        throw meam::Error("No file is given: set the name of a PCD file.");
+        throw meam::Error("No file is given: set FileName to the name of a PCD file.");
       }
       meam::PCDData data = meam::readPCD(this->FileName, vtkMEAMConversion::progressOf(this));
       meam::requirePoints(data.cloud.points, std::string("The PCD file '") + this->FileName + "'");

@@ -93,7 +93,7 @@ int vtkMEAMPLYReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
   {
     if (!this->FileName || !*this->FileName)
     {
-      throw meam::Error("No file is given: set the name of a PLY file.");
+      throw meam::Error("No file is given: set FileName to the name of a PLY file.");
     }
     const meam::Progress progress = vtkMEAMConversion::progressOf(this);
     const bool organized = this->IsOrganized();

@@ -31,10 +31,7 @@ int vtkMEAMPoseAlgorithm::FillInputPortInformation(int port, vtkInformation* inf
 {
   const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkPointSet" };
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
-  if (port == 3)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
   return 1;
 }
 
@@ -56,6 +53,7 @@ int vtkMEAMPoseAlgorithm::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
+    requireInputs(this, { "Poses", "Model", "Scene Edges" });
     const auto model = sharedModel(trained);
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
     const auto scene = sharedScene(edges, surface, sensor, model->diameter, this->NumberOfThreads);

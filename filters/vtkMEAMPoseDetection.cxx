@@ -58,10 +58,7 @@ int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* inf
 {
   const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPointSet" };
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
   return 1;
 }
 
@@ -82,6 +79,7 @@ int vtkMEAMPoseDetection::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
+    requireInputs(this, { "Scene Edges", "Model" });
     this->Settings->threads = this->NumberOfThreads;
     const auto model = sharedModel(trained);
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);

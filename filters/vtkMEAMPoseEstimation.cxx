@@ -8,6 +8,7 @@
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMInstanceConversion.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
@@ -18,17 +19,24 @@
 #include "vtkMEAMSceneTime.h"
 #include "vtkMEAMSharedData.h"
 
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTable.h"
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
 
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -54,12 +62,15 @@ public:
     if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(part))
     {
       this->Part = nullptr;
-      return this->Model = vtkMEAMConversion::sharedModel(collection);
+      this->Model = vtkMEAMConversion::sharedModel(collection);
+      this->Shape->Initialize();
+      vtkMEAMConversion::fromCloud(this->Model->surface, this->Shape);
+      return this->Model;
     }
     if (this->Part != part || this->Time != part->GetMTime() || this->Made != settings)
     {
       this->Part = nullptr; // until the new one is there
-      this->Model = std::make_shared<const meam::TrainedModel>(train(part, settings, progress));
+      this->Model = std::make_shared<const meam::TrainedModel>(this->train(part, settings, progress));
       this->Part = part;
       this->Time = part->GetMTime();
       this->Made = settings;
@@ -67,8 +78,11 @@ public:
     return this->Model;
   }
 
+  /// What the part looks like: its prepared mesh or, of a trained model, points of its surface.
+  vtkPolyData* shape() const { return this->Shape; }
+
 private:
-  static meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
+  meam::TrainedModel train(vtkDataObject* part, const Settings& settings, const meam::Progress& progress)
   {
     meam::MeshPreparationSettings preparation;
     int preset = 0, features = 0, seed = 0;
@@ -76,6 +90,8 @@ private:
     std::tie(preset, features, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
     const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(vtkPolyData::SafeDownCast(part));
     const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
+    this->Shape->Initialize();
+    vtkMEAMConversion::fromMesh(prepared.mesh, this->Shape);
     meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
     training.sampling.seed = static_cast<unsigned>(seed);
     if (preset != Paper)
@@ -86,6 +102,7 @@ private:
   }
 
   std::shared_ptr<const meam::TrainedModel> Model;
+  vtkNew<vtkPolyData> Shape;
   vtkWeakPointer<vtkDataObject> Part;
   vtkMTimeType Time = 0;
   Settings Made;
@@ -95,7 +112,7 @@ vtkMEAMPoseEstimation::vtkMEAMPoseEstimation()
   : Trained(new Training)
 {
   this->SetNumberOfInputPorts(4);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(5);
 }
 
 vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() { this->SetCameraFile(nullptr); }
@@ -112,10 +129,13 @@ int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* in
       info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
     }
   }
-  if (port >= 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMPoseEstimation::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port < 3 ? "vtkPolyData" : "vtkTable");
   return 1;
 }
 
@@ -152,10 +172,14 @@ int vtkMEAMPoseEstimation::RequestData(
   auto* image = vtkImageData::GetData(inputVector[3]);
   auto* output = vtkPolyData::GetData(outputVector, 0);
   auto* edges = vtkPolyData::GetData(outputVector, 1);
+  auto* parts = vtkPolyData::GetData(outputVector, 2);
+  auto* scores = vtkTable::GetData(outputVector, 3);
+  auto* stages = vtkTable::GetData(outputVector, 4);
   return vtkMEAMRun(
     this,
     [&]
     {
+      requireInputs(this, { "Part", "Scan" });
       const meam::Progress progress = progressOf(this);
       const double start = vtkTimerLog::GetUniversalTime();
 
@@ -168,8 +192,10 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       if (!boundary && size[1] <= 1)
       {
-        throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
-                          "points as the boundary, or an organized scan (a grid of width x height points).");
+        throw meam::Error(
+          "The scene is not organized, so that its edges cannot be taken from an image: give its edge "
+          "points, the boundary, to Boundary, or an organized scan (a grid of width x height points) to "
+          "Scene.");
       }
       meam::SceneInput scene;
       scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
@@ -242,23 +268,46 @@ int vtkMEAMPoseEstimation::RequestData(
         fromSceneEdges(found, edges);
       }
       fromPoses(poses, output);
+      output->GetPointData()->SetActiveScalars("Rank");
+      const InstanceSettings drawn;
+      addLabels(poses, drawn.minimumProbability, output);
+      fromInstances(
+        this->Trained->shape(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
       setDiameter(output, model->diameter);
       setFieldText(output, "Report", meam::describe(poses));
-      setFieldValue(output, "SecondsTraining", trained - loaded);
-      setFieldValue(output, "SecondsSceneEdges", extracted - start);
-      setFieldValue(output, "SecondsTangents", times.tangents);
-      setFieldValue(output, "SecondsScene", loaded - extracted + times.scene);
-      setFieldValue(output, "SecondsDetection", times.detection);
-      setFieldValue(output, "SecondsScreening", times.screening);
-      setFieldValue(output, "SecondsVerification", times.verification);
-      setFieldValue(output, "SecondsRefinement", times.refinement);
-      setFieldValue(output, "SecondsSelection", times.selection);
+      const std::pair<const char*, double> seconds[] = { { "Training", trained - loaded },
+        { "SceneEdges", extracted - start }, { "Scene", loaded - extracted + times.scene },
+        { "Tangents", times.tangents }, { "Detection", times.detection }, { "Screening", times.screening },
+        { "Verification", times.verification }, { "Refinement", times.refinement }, { "Selection", times.selection } };
+      vtkNew<vtkStringArray> names;
+      names->SetName("Stage");
+      vtkNew<vtkDoubleArray> durations;
+      durations->SetName("Seconds");
+      for (const auto& [name, duration] : seconds)
+      {
+        setFieldValue(output, (std::string("Seconds") + name).c_str(), duration);
+        names->InsertNextValue(name);
+        durations->InsertNextValue(duration);
+      }
+      stages->AddColumn(names);
+      stages->AddColumn(durations);
+      vtkNew<vtkStringArray> ranks;
+      ranks->SetName("Pose");
+      for (std::size_t k = 1; k <= poses.size(); ++k)
+      {
+        ranks->InsertNextValue(std::to_string(k));
+      }
+      scores->AddColumn(ranks);
+      for (const char* name : { "Probability", "Score", "VisibleFraction", "Certainty" })
+      {
+        scores->AddColumn(output->GetPointData()->GetArray(name));
+      }
       setFieldValue(output, "ScenePoints", static_cast<double>(measured));
       setFieldValue(output, "SceneEdgePoints", static_cast<double>(edgePoints));
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model->edges.size()));
       setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
     },
-    output, edges);
+    output, edges, parts, scores, stages);
 }
 
 void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)

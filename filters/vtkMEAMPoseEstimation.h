@@ -23,12 +23,16 @@
  *
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
- * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, and those that vtkMEAMPoseRefinement adds; field data:
- * `Diameter` (mm), `Report` (in a sentence whether parts were found and how sure that is; where nothing is, a warning
- * says so, too), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`,
- * `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, which add up to `SecondsTotal`,
- * and the counts `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as
- * extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in.
+ * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on port 2), and those
+ * that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether parts were found and
+ * how sure that is; where nothing is, a warning says so, too), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`,
+ * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
+ * `SecondsSelection`, which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and
+ * `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the
+ * preset Recommended `Tangent`, unless they came in. Output port 2: the part at each pose that is more likely right
+ * than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a vtkTable with
+ * a row for each pose, to plot: `Pose` (its rank, as a text), `Probability`, `Score`, `VisibleFraction`, `Certainty`.
+ * Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h
@@ -154,6 +158,7 @@ protected:
   ~vtkMEAMPoseEstimation() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;

@@ -72,6 +72,7 @@ int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* in
   }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
   return 1;
 }
 
@@ -91,6 +92,7 @@ int vtkMEAMPoseEvaluation::RequestData(
     this,
     [&]
     {
+      requireInputs(this, { "Poses", "True Poses" });
       const int scenes = inputVector[0]->GetNumberOfInformationObjects();
       if (inputVector[1]->GetNumberOfInformationObjects() != scenes)
       {

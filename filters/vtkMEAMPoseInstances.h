@@ -8,10 +8,10 @@
  * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; MeshPreparation gives it.
  *
  * Output port 0: a vtkPolyData with all copies, best first. Point and cell arrays:
- * - `Rank`: 1 for the best; that of the poses, so that those of one part (a threshold of `PartId`) keep theirs;
- * - `Score`, `Probability`: [0, 1];
- * - `RankColor` (3, unsigned char), the active scalars: red, green, blue, yellow and pink for the ranks
- *   1 to 5, grey for the others.
+ * - `Rank`, the active scalars: 1 for the best; that of the poses, so that those of one part (a threshold of `PartId`)
+ *   keep theirs;
+ * - `Score`, `Probability`, `Certainty`, `VisibleFraction`: [0, 1], of the pose;
+ * - `RankColor` (3, unsigned char): red, green, blue, yellow and pink for the ranks 1 to 5, grey for the others.
  */
 #ifndef vtkMEAMPoseInstances_h
 #define vtkMEAMPoseInstances_h
@@ -48,6 +48,7 @@ protected:
   vtkMEAMPoseInstances();
   ~vtkMEAMPoseInstances() override = default;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

@@ -21,7 +21,7 @@ namespace
 int formatOf(const std::string& fileName)
 {
   const std::string extension = vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(fileName));
-  if (extension == ".csv")
+  if (extension == ".csv" || extension == ".bop")
   {
     return vtkMEAMPoseWriter::BOP_CSV;
   }
@@ -29,13 +29,13 @@ int formatOf(const std::string& fileName)
   {
     return vtkMEAMPoseWriter::JSON;
   }
-  if (extension == ".txt")
+  if (extension == ".txt" || extension == ".poses")
   {
     return vtkMEAMPoseWriter::MATRICES;
   }
   throw meam::Error("The file '" + fileName +
-                    "' was not written: poses go to .csv (BOP results), .json or .txt (4x4 "
-                    "matrices); choose one of these extensions, or set the format.");
+                    "' was not written: poses go to .csv or .bop (BOP results), .json, .txt or .poses (4x4 "
+                    "matrices); choose one of these extensions, or set Format.");
 }
 }
 
@@ -57,12 +57,13 @@ void vtkMEAMPoseWriter::WriteData()
     {
       if (!this->FileName || !*this->FileName)
       {
-        throw meam::Error("No file is given: set the name of the file to write.");
+        throw meam::Error("No file is given: set FileName to the name of the file to write.");
       }
       const int format = this->Format == BY_EXTENSION ? formatOf(this->FileName) : this->Format;
       vtkDataArray* seconds = input->GetFieldData()->GetArray("SecondsTotal");
       const double measured = seconds && seconds->GetNumberOfValues() == 1 ? seconds->GetComponent(0, 0) : -1.0;
       vtkDataArray* parts = input->GetPointData()->GetArray("PartId");
+      vtkDataArray* ranks = input->GetPointData()->GetArray("Rank");
       const auto known = [&](const char* name) { return input->GetPointData()->HasArray(name) == 1; };
       std::vector<meam::PoseRow> rows;
       meam::Poses poses = vtkMEAMConversion::toPoses(input);
@@ -79,7 +80,7 @@ void vtkMEAMPoseWriter::WriteData()
         row.T_scene_model = pose.T_scene_model;
         row.score = meam::probabilityOrScore(pose);
         row.time = this->Time >= 0.0 ? this->Time : measured;
-        row.rank = static_cast<int>(rows.size()) + 1;
+        row.rank = ranks ? static_cast<int>(ranks->GetComponent(rows.size(), 0)) : static_cast<int>(rows.size()) + 1;
         row.viewId = pose.viewId;
         if (known("Votes"))
         {
@@ -88,6 +89,14 @@ void vtkMEAMPoseWriter::WriteData()
         if (known("VisibleFraction"))
         {
           row.visibleFraction = pose.visibleFraction;
+        }
+        if (pose.probability > 0.0)
+        {
+          row.probability = pose.probability;
+        }
+        if (known("Certainty"))
+        {
+          row.certainty = pose.certainty;
         }
         rows.push_back(row);
       }

@@ -7,8 +7,10 @@
  * Write() returns 0 when it did not.
  *
  * Input port 0: poses, a vtkPolyData with the point array `Transform` (16) and, where it is there,
- * `Score`, `Votes`, `ViewId` and `VisibleFraction`; the field data `SecondsTotal` becomes the time. Where there is
- * `PartId` (vtkMEAMConflictResolution), the parts are numbered from ObjectId on.
+ * `Score`, `Probability`, `Certainty`, `Votes`, `ViewId`, `VisibleFraction` and `Rank`; a pose's score in the file is
+ * its probability, by which poses of all scenes can be ordered, or, where that is not known, `Score`. The field data
+ * `SecondsTotal` becomes the time. Where there is `PartId` (vtkMEAMConflictResolution), the parts are numbered from
+ * ObjectId on.
  */
 #ifndef vtkMEAMPoseWriter_h
 #define vtkMEAMPoseWriter_h
@@ -38,7 +40,7 @@ public:
   };
   ///@{
   /**
-   * 0: by the file's extension, csv, json or txt; 1: scene_id,im_id,obj_id,score,R,t,time; 2: JSON with
+   * 0: by the file's extension, csv or bop, json, txt or poses; 1: scene_id,im_id,obj_id,score,R,t,time; 2: JSON with
    * all that is known of a pose; 3: row-major 4x4 blocks. Default: 0.
    */
   vtkSetClampMacro(Format, int, BY_EXTENSION, MATRICES);

@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMRun.h"
 
+#include "vtkCommand.h"
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkObject.h"
+#include "vtkSetGet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersion.h"
+
+#include <string>
 
 namespace vtkMEAMConversion
 {
+namespace
+{
+/// Takes one error of an executive from the console.
+class NextError : public vtkCommand
+{
+public:
+  static NextError* New() { return new NextError; }
+  void Execute(vtkObject* executive, unsigned long, void*) override { executive->RemoveObserver(this); }
+};
+}
+
 meam::Progress progressOf(vtkAlgorithm* filter)
 {
   return [filter](double share)
@@ -16,5 +36,47 @@ meam::Progress progressOf(vtkAlgorithm* filter)
     return filter->GetAbortExecute() == 0;
 #endif
   };
+}
+
+bool isLaterPiece(vtkAlgorithm* filter)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkInformation* output = filter->GetOutputInformation(port);
+    if (output && output->Has(Pipeline::UPDATE_PIECE_NUMBER()) && output->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void requireInputs(vtkAlgorithm* filter, std::initializer_list<const char*> names)
+{
+  std::string missing;
+  int port = 0;
+  for (const char* name : names)
+  {
+    if (name && filter->GetNumberOfInputConnections(port) == 0)
+    {
+      missing += (missing.empty() ? "" : ", ") + std::string(name);
+    }
+    ++port;
+  }
+  if (!missing.empty())
+  {
+    throw meam::Error("Nothing is connected to the input " + missing + ": choose what it gets (change the input).");
+  }
+}
+
+void reportError(vtkAlgorithm* filter, const char* message, bool failsRequest)
+{
+  vtkErrorWithObjectMacro(filter, << message);
+  if (failsRequest)
+  {
+    vtkNew<NextError> next;
+    filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, next);
+  }
 }
 }

@@ -9,13 +9,26 @@
 #include "base/Error.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkObject.h"
-#include "vtkSetGet.h"
+
+#include <initializer_list>
 
 namespace vtkMEAMConversion
 {
 /// Progress and abort of a filter as the core asks for them.
 meam::Progress progressOf(vtkAlgorithm* filter);
+
+/// Whether the filter is asked for another piece than the first: of a parallel run one process does all the work, and
+/// the data of the others are empty.
+bool isLaterPiece(vtkAlgorithm* filter);
+
+/// Throws Error, which names the inputs that are not connected, of those that the filter cannot do without: of each
+/// port its name, null where it may stay open. To VTK all of them are optional, because its own errors do not say what
+/// to do.
+void requireInputs(vtkAlgorithm* filter, std::initializer_list<const char*> names);
+
+/// An error on VTK's channel. Where a request fails by it, the executive's own error about that is left out: it says no
+/// more.
+void reportError(vtkAlgorithm* filter, const char* message, bool failsRequest);
 }
 
 /**
@@ -26,6 +39,11 @@ meam::Progress progressOf(vtkAlgorithm* filter);
 template <typename Work, typename... Outputs>
 int vtkMEAMRun(vtkAlgorithm* self, Work&& work, Outputs*... outputs)
 {
+  if (sizeof...(outputs) > 0 && vtkMEAMConversion::isLaterPiece(self))
+  {
+    (outputs->Initialize(), ...);
+    return 1;
+  }
   try
   {
     work();
@@ -39,7 +57,7 @@ int vtkMEAMRun(vtkAlgorithm* self, Work&& work, Outputs*... outputs)
   catch (const std::exception& error)
   {
     (outputs->Initialize(), ...);
-    vtkErrorWithObjectMacro(self, << error.what());
+    vtkMEAMConversion::reportError(self, error.what(), sizeof...(outputs) > 0);
     return 0;
   }
 }

@@ -211,7 +211,7 @@ meam::Image imageOfCloud(vtkStructuredGrid* input)
   if (!pixels)
   {
     throw Error(
-      "The scene has no image: it needs the point array 'Intensity' or 'RGB', or connect the sensor's image.");
+      "The scene has no image: it needs the point array 'Intensity' or 'RGB', or connect the sensor's as Image.");
   }
   image.pixels = toPixels(pixels, image.channels);
   return image;

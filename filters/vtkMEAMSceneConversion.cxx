@@ -37,7 +37,8 @@ meam::Sensor sensorOf(
   const Eigen::Vector3d direction(viewDirection[0], viewDirection[1], viewDirection[2]);
   if (!direction.allFinite() || !(direction.norm() > 0.0))
   {
-    throw Error("The view direction is zero: give the way the sensor looks, in the scene's coordinates.");
+    throw Error(
+      "The view direction is zero: set ViewDirection to the way the sensor looks, in the scene's coordinates.");
   }
   sensor.perspective = projection == PerspectiveProjection;
   sensor.direction = direction.normalized();

@@ -2,12 +2,15 @@
 #include "io/PoseFile.h"
 
 #include "io/parsing/FileBytes.h"
+#include "io/parsing/JSONFile.h"
+#include "io/parsing/TextLines.h"
 
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 namespace meam
 {
@@ -15,6 +18,7 @@ namespace
 {
 // The entries of a rotation that was printed with few digits.
 constexpr double RotationTolerance = 1e-3;
+constexpr double MostIds = 1e9; // of scenes, images, objects, ranks
 
 /// The shortest text that reads back as the same number, in any locale.
 std::string number(double value)
@@ -49,6 +53,158 @@ std::string values(const Eigen::Isometry3d& pose, int firstColumn, int columns)
   }
   return text;
 }
+}
+
+namespace
+{
+constexpr std::string_view BOPHeader = "scene_id,im_id,obj_id,score,R,t,time";
+
+bool isPose(const Eigen::Matrix4d& matrix)
+{
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  const double skew = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return skew < RotationTolerance && rotation.determinant() > 0.0 && // false for NaN
+         matrix.row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
+}
+
+Eigen::Isometry3d requirePose(const Eigen::Matrix4d& matrix, const std::string& what, std::size_t place)
+{
+  if (!isPose(matrix))
+  {
+    throw Error(what + "has a matrix that is not a rotation and a translation: number " + std::to_string(place) + ".");
+  }
+  Eigen::Isometry3d pose;
+  pose.matrix() = matrix;
+  return pose;
+}
+
+/// The numbers of a text, between blanks.
+std::vector<double> numbersIn(std::string_view text, const std::string& what)
+{
+  constexpr std::string_view blanks = " \t\r";
+  std::vector<double> numbers;
+  for (std::size_t at = text.find_first_not_of(blanks); at < text.size(); at = text.find_first_not_of(blanks, at))
+  {
+    const std::size_t end = std::min(text.find_first_of(blanks, at), text.size());
+    double value = 0.0;
+    const auto [stop, failure] = std::from_chars(text.data() + at, text.data() + end, value);
+    if (failure != std::errc() || stop != text.data() + end || !std::isfinite(value))
+    {
+      throw Error(what + "has a value that is not a number: '" + std::string(text.substr(at, 40)) + "'.");
+    }
+    numbers.push_back(value);
+    at = end;
+  }
+  return numbers;
+}
+
+int idIn(double value, const std::string& what)
+{
+  if (!(std::abs(value) <= MostIds) || value != std::floor(value))
+  {
+    throw Error(
+      what + "has a number of a scene, an image or an object that is not a whole one: " + number(value) + ".");
+  }
+  return static_cast<int>(value);
+}
+
+std::vector<PoseRow> readBOP(const std::string& bytes, const std::string& what)
+{
+  std::vector<PoseRow> poses;
+  TextLines lines(bytes);
+  lines.next(); // the header
+  while (lines.next())
+  {
+    std::vector<double> fields[7];
+    std::string_view rest = lines.line();
+    for (int k = 0; k < 7; ++k)
+    {
+      const std::size_t end = std::min(rest.find(','), rest.size());
+      fields[k] = numbersIn(rest.substr(0, end), what);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+      if (fields[k].size() != (k == 4 ? 9u : k == 5 ? 3u : 1u))
+      {
+        throw Error(what + "has a row that is not " + std::string(BOPHeader) + ": row " +
+                    std::to_string(poses.size() + 1) + ". It is cut off or damaged.");
+      }
+    }
+    PoseRow row;
+    row.sceneId = idIn(fields[0][0], what);
+    row.imageId = idIn(fields[1][0], what);
+    row.objectId = idIn(fields[2][0], what);
+    row.score = fields[3][0];
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.topLeftCorner<3, 3>() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fields[4].data());
+    matrix.topRightCorner<3, 1>() = Eigen::Map<const Eigen::Vector3d>(fields[5].data());
+    row.T_scene_model = requirePose(matrix, what, poses.size() + 1);
+    row.time = fields[6][0];
+    poses.push_back(row);
+  }
+  return poses;
+}
+
+std::vector<PoseRow> readJSON(const std::string& bytes, const std::string& path, const std::string& what)
+{
+  const nlohmann::json file = parseJSON(path, bytes);
+  if (!file.is_object() || !file.contains("poses") || !file["poses"].is_array())
+  {
+    throw Error(what + "has no list 'poses'.");
+  }
+  std::vector<PoseRow> poses;
+  for (const nlohmann::json& json : file["poses"])
+  {
+    const auto numbers = [&](const char* name)
+    { return json.is_object() && json.contains(name) ? numbersOf(json[name], path, name) : std::vector<double>(); };
+    const auto value = [&](const char* name, double unknown)
+    {
+      const std::vector<double> found = numbers(name);
+      return found.size() == 1 ? found.front() : unknown;
+    };
+    const std::vector<double> matrix = numbers("matrix");
+    if (matrix.size() != 16)
+    {
+      throw Error(what + "has a pose without a 4x4 'matrix': number " + std::to_string(poses.size() + 1) + ".");
+    }
+    PoseRow row;
+    row.T_scene_model = requirePose(
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix.data()), what, poses.size() + 1);
+    row.sceneId = idIn(value("scene_id", row.sceneId), what);
+    row.imageId = idIn(value("im_id", row.imageId), what);
+    row.objectId = idIn(value("obj_id", row.objectId), what);
+    row.rank = idIn(value("rank", row.rank), what);
+    row.votes = idIn(value("votes", row.votes), what);
+    row.viewId = idIn(value("view", row.viewId), what);
+    row.score = value("score", row.score);
+    row.time = value("time", row.time);
+    row.visibleFraction = value("visible_fraction", row.visibleFraction);
+    row.probability = value("probability", row.probability);
+    row.certainty = value("certainty", row.certainty);
+    poses.push_back(row);
+  }
+  return poses;
+}
+}
+
+std::vector<PoseRow> readPoses(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  const std::string what = "The pose file '" + path + "' ";
+  const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  if (bytes.compare(first, 1, "{") == 0)
+  {
+    return readJSON(bytes, path, what);
+  }
+  if (bytes.compare(first, BOPHeader.size(), BOPHeader) == 0)
+  {
+    return readBOP(bytes, what);
+  }
+  std::vector<PoseRow> poses;
+  for (const Eigen::Isometry3d& T_scene_model : readMatrices(path))
+  {
+    poses.emplace_back();
+    poses.back().T_scene_model = T_scene_model;
+  }
+  return poses;
 }
 
 std::vector<Eigen::Isometry3d> readMatrices(const std::string& path)
@@ -91,17 +247,7 @@ std::vector<Eigen::Isometry3d> readMatrices(const std::string& path)
   for (std::size_t i = 0; i < numbers.size(); i += 16)
   {
     const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&numbers[i]);
-    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-    const double skew = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-    if (!(skew < RotationTolerance) || rotation.determinant() < 0.0 ||
-        matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
-    {
-      throw Error(
-        what + "has a matrix that is not a rotation and a translation: number " + std::to_string(i / 16 + 1) + ".");
-    }
-    Eigen::Isometry3d pose;
-    pose.matrix() = matrix;
-    poses.push_back(pose);
+    poses.push_back(requirePose(matrix, what, i / 16 + 1));
   }
   return poses;
 }
@@ -127,7 +273,7 @@ void writeMatrices(const std::string& path, const std::vector<PoseRow>& poses)
 void writeBOP(const std::string& path, const std::vector<PoseRow>& poses)
 {
   requireFinite(path, poses);
-  std::string text = "scene_id,im_id,obj_id,score,R,t,time\n";
+  std::string text = std::string(BOPHeader) + "\n";
   for (const PoseRow& pose : poses)
   {
     text += std::to_string(pose.sceneId) + "," + std::to_string(pose.imageId) + "," + std::to_string(pose.objectId) +
@@ -165,6 +311,14 @@ void writeJSON(const std::string& path, const std::vector<PoseRow>& poses)
     if (std::isfinite(row.visibleFraction))
     {
       json["visible_fraction"] = row.visibleFraction;
+    }
+    if (std::isfinite(row.probability))
+    {
+      json["probability"] = row.probability;
+    }
+    if (std::isfinite(row.certainty))
+    {
+      json["certainty"] = row.certainty;
     }
     if (row.time >= 0.0)
     {

@@ -21,7 +21,12 @@ struct PoseRow
   int votes = -1;
   int viewId = -1;
   double visibleFraction = std::numeric_limits<double>::quiet_NaN();
+  double probability = std::numeric_limits<double>::quiet_NaN(); ///< that the pose is right
+  double certainty = std::numeric_limits<double>::quiet_NaN();   ///< that no near-symmetry turns it
 };
+
+/// Reads poses in any of the forms below, whatever the file's name is. Throws Error, naming the file and what is wrong.
+std::vector<PoseRow> readPoses(const std::string& path);
 
 /// Reads blocks of row-major 4x4 matrices T_scene_model; '#' starts a comment, line breaks do not
 /// matter. A file without numbers gives no poses. Throws Error, naming the file, for a wrong count,

@@ -17,7 +17,7 @@ SCALES = [step * 10.0 ** power for power in range(-3, 3) for step in (1, 2, 5)] 
 
 def write_json(path, data):
     """An object as JSON; of a dictionary each entry in a line of its own."""
-    with open(path, "w", encoding="utf-8") as file:
+    with scripting.written(path) as file:
         lines = ",\n".join(f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in data.items())
         file.write("{\n" + lines + "\n}\n")
 

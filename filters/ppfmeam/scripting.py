@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts of examples/ share: files by extension, errors as exceptions, tables and pictures."""
+import contextlib
 import json
 import math
 import os
 import re
+import signal
 import sys
 import tempfile
 import warnings
@@ -28,12 +30,79 @@ STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening
           "Total")
 
 
+class Interruption:
+    """Ctrl-C in a script. Python looks at signals between its own steps alone, so what works in VTK is asked to stop whenever
+    it tells of its progress."""
+
+    def __init__(self):
+        self.asked = self.watched = False
+
+    def ask(self, *_):
+        self.asked = True
+        if not self.watched:
+            raise KeyboardInterrupt
+
+    def watch(self, step, algorithm, *arguments):
+        """Calls the step, with the filters before the algorithm watched as well."""
+        ours = signal.getsignal(signal.SIGINT) == self.ask  # a program of others has its own
+        watched = [(a, a.AddObserver("ProgressEvent", self.stop)) for a in upstream(algorithm)] if ours else []
+        self.watched = True
+        try:
+            step(*arguments)
+        finally:
+            self.watched = False
+            for filter, observer in watched:
+                filter.RemoveObserver(observer)
+        if self.asked:
+            raise KeyboardInterrupt
+
+    def stop(self, filter, event):
+        if self.asked:
+            filter.AbortExecuteOn()
+
+
+interruption = Interruption()
+
+
+def upstream(algorithm):
+    """The algorithm and all that feed it."""
+    found = {}
+
+    def visit(filter):
+        if filter is not None and id(filter) not in found:
+            found[id(filter)] = filter
+            for port in range(filter.GetNumberOfInputPorts()):
+                for connection in range(filter.GetNumberOfInputConnections(port)):
+                    visit(filter.GetInputAlgorithm(port, connection))
+
+    visit(algorithm)
+    return list(found.values())
+
+
+@contextlib.contextmanager
+def written(path, newline=None):
+    """A text file to write, which appears whole or not at all."""
+    part = f"{path}.{os.getpid()}.part"
+    try:
+        with open(part, "w", encoding="utf-8", newline=newline) as file:
+            yield file
+        os.replace(part, path)
+    finally:
+        if os.path.exists(part):
+            os.remove(part)
+
+
 def run(main):
-    """Runs a script's main function; a Failure is one message and exit status 1, a warning is a line on stderr."""
+    """Runs a script's main function; a Failure is one message and exit status 1, a warning is a line on stderr, and Ctrl-C ends
+    it within a second, with whole files alone left behind."""
     warnings.simplefilter("always", UserWarning)
     warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
+    signal.signal(signal.SIGINT, interruption.ask)
     try:
         sys.exit(main())
+    except KeyboardInterrupt:
+        print(f"{os.path.basename(sys.argv[0])}: stopped", file=sys.stderr)
+        sys.exit(128 + signal.SIGINT)
     except Failure as failure:
         sys.exit(f"{os.path.basename(sys.argv[0])}: {failure}")
     except BrokenPipeError:  # the reader of the output, such as head, has seen enough
@@ -48,7 +117,7 @@ def update(algorithm, step="Update", *arguments):
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     vtkOutputWindow.SetInstance(window)
     try:
-        getattr(algorithm, step)(*arguments)
+        interruption.watch(getattr(algorithm, step), algorithm, *arguments)
     finally:
         vtkOutputWindow.SetInstance(before)
         vtkLogger.SetStderrVerbosity(verbosity)

@@ -93,7 +93,7 @@ class Record:
         for features in dict.fromkeys(row["features"] for row in rows):
             gaps.append(f"Features {features}: " + largest_gap([row for row in poses if row["features"] == features]))
         text = "\n".join(lines) + "\n\n" + "\n".join(gaps) + "\n"
-        with open(os.path.join(self.folder, "world.md"), "w", encoding="utf-8") as file:
+        with scripting.written(os.path.join(self.folder, "world.md")) as file:
             file.write(text)
         return text
 

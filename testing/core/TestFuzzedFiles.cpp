@@ -332,7 +332,14 @@ TEST_P(FuzzedFiles, poses)
   const files::Folder folder(place());
   fuzz(folder.path("a.txt"),
     { "# poses\n0 -1 0 1.5\n1 0 0 -2\n0 0 1 +1e-1\n0 0 0 1\n\n1 0 0 7 0 1 0 8 0 0 1 9 0 0 0 1" },
-    [](const std::string& path) { meam::readMatrices(path); });
+    [](const std::string& path) { meam::readPoses(path); });
+  fuzz(folder.path("a.csv"),
+    { "scene_id,im_id,obj_id,score,R,t,time\n3,7,2,0.75,0 -1 0 1 0 0 0 0 1,0.1 -2.5 3e-1,0.5\n",
+      "scene_id,im_id,obj_id,score,R,t,time\n" },
+    [](const std::string& path) { meam::readPoses(path); });
+  fuzz(folder.path("a.json"),
+    { R"({"poses": [{"rank": 1, "obj_id": 2, "score": 0.5, "matrix": [[1,0,0,4],[0,1,0,5],[0,0,1,6],[0,0,0,1]]}]})" },
+    [](const std::string& path) { meam::readPoses(path); });
 }
 
 TEST_P(FuzzedFiles, cameraInJSON)

@@ -124,7 +124,7 @@ fails(resolution(found, models, edges=scan("edges")), "Tangent", "TangentEstimat
 fails(resolution(found, [models[0], run(trained[0].tangents)]), "not a trained model")
 fails(resolution([found[0], surface], models), "Transform")
 fails(resolution([found[0], image()], models), "vtkPolyData")
-fails(resolution(found, []), "port 1")
+fails(resolution(found, []), "the input Models")
 metres = cloud([tuple(1e-3 * c for c in p) for p in points(edges)], Tangent=tuples(edges, "Tangent"))
 fails(resolution(found, models, None, metres), "units differ")
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The whole chain in one filter on a simulated bin: with the CAD or its trained model, an image or ready-made edges."""
 import math
+import os
+import tempfile
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 
@@ -8,6 +10,7 @@ from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
     vtkMEAMPoseEstimation,
     vtkMEAMPoseEvaluation,
+    vtkMEAMPoseWriter,
     vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
 )
@@ -62,7 +65,31 @@ warnings = Warnings(doubtful)
 check(is_empty(run(doubtful)) and "No part was found." in str(warnings), f"no part without a word: {warnings}")
 edges = filter.GetOutputDataObject(1)
 check(field(poses, "SceneEdgePoints") == [(edges.GetNumberOfPoints(),)], "the edges are the second output")
+copies = filter.GetOutputDataObject(2)
+check(copies.GetNumberOfPolys() == 2 * part.GetNumberOfPolys(), "the third output has the part at each pose")
+check([r for r, in tuples(copies, "Rank")[::part.GetNumberOfPoints()]] == [1, 2], "in the order of the poses")
+labels = [poses.GetPointData().GetAbstractArray("Label").GetValue(i) for i in range(2)]
+check(labels == [f"{i + 1}: {round(100 * p)} %" for i, (p,) in enumerate(tuples(poses, "Probability"))], f"labels {labels}")
+scores, stages = filter.GetOutputDataObject(3), filter.GetOutputDataObject(4)
+check([scores.GetValueByName(i, "Pose").ToString() for i in range(scores.GetNumberOfRows())] == ["1", "2"], "rows of poses")
+check(scores.GetValueByName(1, "Probability").ToDouble() == tuples(poses, "Probability")[1][0], "probabilities to plot")
+check([(stages.GetValueByName(i, "Stage").ToString(), stages.GetValueByName(i, "Seconds").ToDouble())
+       for i in range(stages.GetNumberOfRows())] == list(zip(STAGES, parts))[:-1], "the stages to plot")
 check(field(poses, "ScenePoints")[0][0] > 0.9 * 640 * 480, "points are counted")
+
+# One column orders poses: their ranks, and their scores in files, follow it.
+everything = run(estimation(part, scan, MaximumNumberOfPoses=0))
+evidence = [e for e, in tuples(everything, "Evidence")]
+likely = [p for p, in tuples(everything, "Probability")]
+check(len(evidence) > 2 and evidence == sorted(evidence, reverse=True), f"evidence {evidence}")
+check(likely == sorted(likely, reverse=True), f"probabilities {likely}")
+check([r for r, in tuples(everything, "Rank")] == list(range(1, len(evidence) + 1)), "ranks")
+with tempfile.TemporaryDirectory() as folder:
+    writer = connect(vtkMEAMPoseWriter(), everything)
+    writer.SetFileName(os.path.join(folder, "poses.csv"))
+    writer.Write()
+    with open(writer.GetFileName()) as file:
+        check([float(row.split(",")[3]) for row in file.readlines()[1:]] == likely, "scores in the file")
 
 # Training is not done again for another scene or other settings of the detection; it is for another seed.
 filter.SetMaximumNumberOfPoses(1)
@@ -75,7 +102,10 @@ check(seconds(filter, "Training") > 0.2 * parts[0], "another seed has to be trai
 
 # The same poses with the trained model, on one thread, and with the edges as input.
 model = run(Trained(part).model)
-check(found(estimation(model, scan, MaximumNumberOfPoses=2)) == expected, "the trained model")
+filter = estimation(model, scan, MaximumNumberOfPoses=2)
+check(found(filter) == expected, "the trained model")
+copies = filter.GetOutputDataObject(2)
+check(copies.GetNumberOfVerts() == copies.GetNumberOfPoints() > 200, "points of its surface at each pose")
 check(found(estimation(model, scan, MaximumNumberOfPoses=2, NumberOfThreads=1)) == expected, "one thread")
 ready = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
 check(found(estimation(model, scan, ready, MaximumNumberOfPoses=2)) == expected, "ready-made edges")

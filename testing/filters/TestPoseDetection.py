@@ -76,7 +76,7 @@ fails(detection(scene.edges), "Tangent", "TangentEstimation")
 fails(detection(model=run(trained.tangents)), "not a trained model", "MEAMHashing")
 fails(detection(image()), "vtkPolyData")
 fails(detection(model=image()), "vtkPartitionedDataSetCollection")
-fails(connect(vtkMEAMPoseDetection(), edges), "port 1", "0 connections")
+fails(connect(vtkMEAMPoseDetection(), edges), "the input Model")
 
 filter = vtkMEAMPoseDetection()
 filter.SetParametersToPaper()

@@ -20,7 +20,7 @@ check(all(close(a, (20 - y, x, z)) for a, (x, y, z) in zip(points(copies)[8:], p
 check(tuples(copies, "Rank") == [(1,)] * 8 + [(2,)] * 8, "points know their rank")
 cells = copies.GetCellData()
 check([cells.GetArray("Rank").GetValue(i) for i in range(24)] == [1] * 12 + [2] * 12, "cells know their rank")
-check(copies.GetPointData().GetScalars().GetName() == "RankColor" == cells.GetScalars().GetName(), "colours are active")
+check(copies.GetPointData().GetScalars().GetName() == "Rank" == cells.GetScalars().GetName(), "ranks are active")
 check(field(copies, "Diameter") == [(3.7,)], "field data travel along")
 check(points(part) == points(box(1, 2, 3)), "the mesh is not changed")
 
@@ -40,14 +40,17 @@ filter.SetMaximumNumberOfInstances(3)
 check({r for r, in tuples(run(filter), "Rank")} == {1, 2, 3}, "only the best")
 
 # Poses that are more likely wrong than right are left out of the picture; those of unknown probability are not.
-doubtful = cloud([(0, 0, 0)] * 4, Transform=[at(i) for i in range(4)], Probability=[0.9, 0.4, 0.0, 0.51])
+doubtful = cloud([(0, 0, 0)] * 4, Transform=[at(i) for i in range(4)], Probability=[0.9, 0.4, 0.0, 0.51],
+                 Certainty=[1, 0.25, 0.5, 0.75], VisibleFraction=[0.1, 0.2, 0.3, 0.4])
 filter = connect(vtkMEAMPoseInstances(), doubtful, part)
 for least, ranks in ((0.5, [1, 3, 4]), (0.6, [1, 3]), (0.0, [1, 2, 3, 4])):
     check(filter.GetMinimumProbability() == 0.5 or least != 0.5, "those more likely than not")
     filter.SetMinimumProbability(least)
     copies = run(filter)
     check([r for r, in tuples(copies, "Rank")][::8] == ranks, f"likelier than {least}: {tuples(copies, 'Rank')[::8]}")
-check(close([p for p, in tuples(copies, "Probability")][::8], (0.9, 0.4, 0.0, 0.51)), "the probability is there")
+for name in ("Probability", "Certainty", "VisibleFraction"):
+    check(tuples(copies, name)[::8] == tuples(doubtful, name), f"{name} of points is that of the pose")
+    check(copies.GetCellData().GetArray(name).GetValue(12) == tuples(doubtful, name)[1][0], f"{name} of cells, too")
 
 check(run(connect(vtkMEAMPoseInstances(), poses(), part)).GetNumberOfPoints() == 0, "no poses, no copies")
 points_only = run(connect(vtkMEAMPoseInstances(), found, cloud([(0, 0, 0), (1, 0, 0)])))

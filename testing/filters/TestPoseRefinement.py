@@ -82,7 +82,7 @@ fails(refinement(start, cloud([(math.nan, 0, 0)] * 4)), "surface", "NaN")
 fails(refinement(start, model=run(trained.tangents)), "not a trained model")
 fails(refinement(start, ViewDirection=(0, 0, 0)), "view direction is zero")
 fails(refinement(image()), "vtkPolyData")
-fails(connect(vtkMEAMPoseRefinement(), start), "port 1")
+fails(connect(vtkMEAMPoseRefinement(), start), "the input Model, Scene Edges")
 
 filter = vtkMEAMPoseRefinement()
 filter.SetParametersToPaper()

@@ -151,7 +151,7 @@ metres = cloud([tuple(1e-3 * c for c in p) for p in points(edges)], Tangent=tupl
 fails(verification(candidates, edges=metres), "units differ")
 fails(verification(image()), "vtkPolyData")
 fails(verification(candidates, image()), "vtkPointSet")
-fails(connect(vtkMEAMPoseVerification(), candidates, model), "port 2")
+fails(connect(vtkMEAMPoseVerification(), candidates, model), "the input Scene Edges")
 
 filter = vtkMEAMPoseVerification()
 filter.SetParametersToPaper()

@@ -69,9 +69,24 @@ first.SetFormatToMatrices()
 check(first.Write() == 1 and tuples(run(reader("first.dat")), "Transform") == [QUARTER], "the best pose alone")
 check(writer(poses(), "empty.csv").Write() == 1 and text("empty.csv").count("\n") == 1, "no poses: only the header")
 
+# What goes to a file comes back, whatever its form; a rank that poses have, as after a threshold, is kept.
+known = dict(Score=[0.5, 0.25], Probability=[0.9, 0.4], Certainty=[1, 0.5], VisibleFraction=[0.5, 0.75], Votes=[7, 3],
+             ViewId=[2, 3], Rank=[2, 5])
+data = set_fields(cloud([(0, 0, 0)] * 2, Transform=[QUARTER, IDENTITY], **known), SecondsTotal=0.25)
+for name in ("all.bop", "all.json", "all.poses", "all.csv", "all.txt"):
+    check(writer(data, name, SceneId=3, ImageId=4, ObjectId=5).Write() == 1, f"{name} is written")
+    check(vtkMEAMPoseReader().CanReadFile(path(name)) == 1, f"{name} can be read")
+    read = run(reader(name))
+    check(tuples(read, "Transform") == [QUARTER, IDENTITY], f"{name}: the same poses")
+    if name.endswith(("bop", "csv", "json")):
+        check([tuples(read, key)[1] for key in ("SceneId", "ImageId", "ObjectId")] == [(3,), (4,), (5,)], f"{name}: of what")
+        check(tuples(read, "Score") == [(0.9,), (0.4,)], f"{name}: the score is the probability")
+for key in ("Probability", "Certainty", "VisibleFraction", "Votes", "ViewId", "Rank"):
+    check([v for v, in tuples(run(reader("all.json")), key)] == known[key], f"JSON loses {key}")
+
 # What cannot be written leaves the old file, and no other.
 before = sorted(os.listdir(folder.name))
-refuses(writer(data, "poses.xyz"), "poses.xyz", ".csv")
+refuses(writer(data, "poses.xyz"), "poses.xyz", ".csv", "set Format")
 refuses(writer(box(1, 1, 1), "poses.csv"), "Transform")
 refuses(writer(poses((2,) + QUARTER[1:]), "poses.csv"), "not a rotation")
 refuses(writer(data, "no/such/folder.csv"), "folder.csv")

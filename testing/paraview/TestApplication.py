@@ -41,12 +41,8 @@ def build_and_show():
         colours = list(simple.Show(step, view).ColorArrayName)
         assert colours == ["POINTS", array], f"{step} is coloured by {colours}"
         simple.Hide(step, view)
-    simple.ColorBy(simple.Show(scan, view), None)  # grey: the only colours are those of the ranks
-    display = simple.Show(chain, view)
-    simple.ColorBy(display, ("CELLS", "RankColor"))
-    display.MapScalars = 0
-    view.ResetActiveCameraToPositiveZ()
-    simple.ResetCamera(view)
+    simple.Show(scan, view)  # grey: the only colours are those of the ranks
+    simple.Show(chain, view)
     simple.GetActiveCamera().Dolly(1.6)  # the bin fills the view
     simple.Render(view)
     picture = os.path.join(tempfile.mkdtemp(), "found.png")

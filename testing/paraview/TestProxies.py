@@ -19,6 +19,7 @@ WITHOUT_DEFAULT = {
     "vtkSMProperty": "a button",
     "SetInputArrayToProcess": "an array selection",
 }
+MANY = 6  # properties of a filter, which have to be in groups
 
 
 def check(condition, message):
@@ -80,9 +81,8 @@ def check_proxy(group, element):
     check(documentation is not None and (documentation.text or "").strip() and documentation.get("short_help")
           and documentation.get("long_help"), f"{name}: no documentation, short_help or long_help")
     if group in ("filters", "sources"):
-        menu = element.find("Hints/ShowInMenu")
         check(element.find("Hints/ReaderFactory") is not None
-              or (menu is not None and menu.get("category") == "Pose Estimation"),
+              or (element.find("Hints/ShowInMenu") is not None and (group, name) in in_menus),
               f"{name}: not in the menu Pose Estimation")
     instance = getattr(ppfmeam.filters, class_name)()
     keys = proxy.NewPropertyIterator()
@@ -94,6 +94,8 @@ def check_proxy(group, element):
         check_property(name, keys.GetKey(), keys.GetProperty(), instance)
         keys.Next()
     declared = {p.get("name") for p in element if p.tag.endswith("Property")}
+    if len([p for p in element if p.tag.endswith("VectorProperty")]) >= MANY or name.startswith("BinScene"):
+        check(proxy.GetNumberOfPropertyGroups() >= 2 or group == "writers", f"{name}: its properties are in no groups")
     check(declared <= found, f"{name}: not made: {declared - found}")
     # And the other way round: what can be set on an instance of ours can be set in the panel.
     ours = {m for kind in type(instance).__mro__ if kind.__name__.startswith("vtkMEAM") for m in vars(kind)}
@@ -109,11 +111,13 @@ def is_abstract(kind):
     return False
 
 
+in_menus = {(p.get("group"), p.get("name")) for file in sys.argv[1:]
+            for p in ElementTree.parse(file).getroot().iterfind("*/Category/Proxy")}
 seen = set()
 manager = servermanager.ProxyManager().SMProxyManager
 for file in sys.argv[1:]:
     for group in ElementTree.parse(file).getroot().iter("ProxyGroup"):
-        if group.get("name") != "meam_base":
+        if group.get("name") not in ("meam_base", "representations"):  # not of our classes
             for element in group:
                 seen.add(element.get("class"))
                 check_proxy(group.get("name"), element)

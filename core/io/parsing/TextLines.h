@@ -35,6 +35,9 @@ public:
     return false;
   }
 
+  /// What is left of the line.
+  std::string_view line() const { return this->Line; }
+
   /// The next word of the line; empty at its end.
   std::string_view word()
   {

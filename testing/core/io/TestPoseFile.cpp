@@ -134,3 +134,67 @@ TEST(PoseFile, writersLeaveTheOldFileWhenTheyFail)
   EXPECT_THROW(meam::writeBOP("/no/such/folder/poses.csv", {}), meam::Error);
   EXPECT_THROW(meam::writeBOP(folder.path.string(), {}), meam::Error);
 }
+
+TEST(PoseFile, whatIsWrittenIsReadAgain)
+{
+  const Folder folder;
+  meam::PoseRow row = quarterTurn();
+  row.sceneId = 3;
+  row.imageId = 7;
+  row.objectId = 2;
+  row.time = 0.5;
+  row.rank = 4;
+  row.votes = 120;
+  row.viewId = 5;
+  row.visibleFraction = 0.25;
+  row.probability = 0.75;
+  row.certainty = 0.125;
+  const auto expectRow = [&](const meam::PoseRow& read)
+  {
+    EXPECT_EQ(read.T_scene_model.matrix(), row.T_scene_model.matrix());
+    EXPECT_EQ(read.sceneId, 3);
+    EXPECT_EQ(read.imageId, 7);
+    EXPECT_EQ(read.objectId, 2);
+    EXPECT_EQ(read.score, 0.75);
+    EXPECT_EQ(read.time, 0.5);
+  };
+  meam::writeBOP(folder.file(), { row, {} });
+  std::vector<meam::PoseRow> poses = meam::readPoses(folder.file());
+  ASSERT_EQ(poses.size(), 2u);
+  expectRow(poses[0]);
+  EXPECT_EQ(poses[1].time, -1.0);
+
+  meam::writeJSON(folder.file(), { row, {} });
+  poses = meam::readPoses(folder.file());
+  ASSERT_EQ(poses.size(), 2u);
+  expectRow(poses[0]);
+  EXPECT_EQ(poses[0].rank, 4);
+  EXPECT_EQ(poses[0].votes, 120);
+  EXPECT_EQ(poses[0].viewId, 5);
+  EXPECT_EQ(poses[0].visibleFraction, 0.25);
+  EXPECT_EQ(poses[0].probability, 0.75);
+  EXPECT_EQ(poses[0].certainty, 0.125);
+  EXPECT_TRUE(std::isnan(poses[1].probability));
+
+  meam::writeMatrices(folder.file(), { row });
+  poses = meam::readPoses(folder.file());
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_EQ(poses[0].T_scene_model.matrix(), row.T_scene_model.matrix());
+  meam::writeBOP(folder.file(), {});
+  EXPECT_TRUE(meam::readPoses(folder.file()).empty());
+}
+
+TEST(PoseFile, damagedFilesAreRefused)
+{
+  const Folder folder;
+  const std::string header = "scene_id,im_id,obj_id,score,R,t,time\n";
+  for (const std::string& text :
+    { header + "0,0,1,0.5,1 0 0 0 1 0 0 0 1,0 0", header + "0,0,1,0.5,1 0 0 0 1 0 0 0,0 0 0,-1",
+      header + "0,0,1.5,0.5,1 0 0 0 1 0 0 0 1,0 0 0,-1", header + "0,0,1,high,1 0 0 0 1 0 0 0 1,0 0 0,-1",
+      header + "0,0,1,0.5,2 0 0 0 1 0 0 0 1,0 0 0,-1", std::string("{}"), std::string("{\"poses\": [{}]}"),
+      std::string("{\"poses\": [{\"matrix\": [1, 2]}]}"), std::string("{\"poses\": ["), std::string("a,b,c\n1,2,3") })
+  {
+    meam::writeFile(folder.file(), text);
+    EXPECT_THROW(meam::readPoses(folder.file()), meam::Error) << text;
+  }
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Copies of a part where its poses are, to look at. Not wrapped.
+ */
+#ifndef vtkMEAMInstanceConversion_h
+#define vtkMEAMInstanceConversion_h
+
+#include "base/Error.h"
+#include "pose/Pose.h"
+
+#include <cstddef>
+#include <functional>
+
+class vtkPolyData;
+
+namespace vtkMEAMConversion
+{
+/// Which poses get a copy.
+struct InstanceSettings
+{
+  std::size_t most = 0;            ///< the best so many; 0: all
+  double minimumProbability = 0.5; ///< those less likely to be right get none; those of unknown probability (0) do
+};
+
+/// A copy of the part at each pose, best first, with the arrays that vtkMEAMPoseInstances documents, for points and
+/// for cells. `rankOf` tells the rank of the pose at an index.
+void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
+  const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output);
+
+/// The text `Label` for each pose: its rank and, where it is known, its probability, as in "1: 98 %"; nothing for a
+/// pose that is less likely, which gets no copy.
+void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output);
+}
+
+#endif

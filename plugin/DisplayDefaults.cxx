@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DisplayDefaults.h"
+
+#include "Legends.h"
+#include "RankColors.h"
+#include "ShownData.h"
+
+#include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMInputProperty.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyManager.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMSettings.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkWeakPointer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace
+{
+constexpr double SettingsPriority = 0.5;                     // above ParaView's own, below a user's
+constexpr const char* SeenFromSensor = "PPFMEAM.FromSensor"; // annotation of a view whose camera has been placed once
+
+/// Draws a scan behind what lies on its surface, such as a part at its pose, by a shift of its depth alone: a share of
+/// what lies between the near and the far end of the view.
+constexpr const char* BehindParts = R"([{ "type": "fragment", "original": "//VTK::Depth::Impl", "replacement":
+  "//VTK::Depth::Impl\n  gl_FragDepth = min(1.0, gl_FragCoord.z + 0.005);\n" }])";
+
+void hide(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source, unsigned int port)
+{
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->Hide(source, static_cast<int>(port), view);
+}
+
+/// What the representation is colored by; null when it has one color.
+vtkPVArrayInformation* colorArray(vtkSMProxy* representation, vtkPVDataInformation* data)
+{
+  if (!representation->GetProperty("ColorArrayName"))
+  {
+    return nullptr;
+  }
+  const vtkSMPropertyHelper color(representation, "ColorArrayName");
+  const char* name = color.GetInputArrayNameToProcess();
+  return name ? data->GetArrayInformation(name, color.GetInputArrayAssociation()) : nullptr;
+}
+
+/// From where the sensor is, which looks along z with y down, and near enough that the data fill the view.
+void lookFromSensor(vtkSMRenderViewProxy* view, const double bounds[6])
+{
+  const double position[3] = { 0.0, 0.0, 0.0 }, focus[3] = { 0.0, 0.0, 1.0 }, up[3] = { 0.0, -1.0, 0.0 };
+  vtkSMPropertyHelper(view, "CameraPosition").Set(position, 3);
+  vtkSMPropertyHelper(view, "CameraFocalPoint").Set(focus, 3);
+  vtkSMPropertyHelper(view, "CameraViewUp").Set(up, 3);
+  view->UpdateVTKObjects();
+  view->ResetCamera(bounds);
+  view->SetAnnotation(SeenFromSensor, "1");
+}
+
+/// A scan: the gray values or colors of its image as they are, not through a color map and without light.
+void showScan(vtkSMProxy* representation, vtkPVDataInformation* data)
+{
+  if (!isOrganized(data) || !representation->GetProperty("ShaderReplacements"))
+  {
+    return;
+  }
+  vtkSMPropertyHelper(representation, "UseShaderReplacements").Set(1);
+  vtkSMPropertyHelper(representation, "ShaderReplacements").Set(BehindParts);
+  vtkPVArrayInformation* colors = colorArray(representation, data);
+  if (colors && colors->GetDataType() == VTK_UNSIGNED_CHAR)
+  {
+    vtkSMPropertyHelper(representation, "MapScalars").Set(0);
+    vtkSMPropertyHelper(representation, "Ambient").Set(1.0);
+    vtkSMPropertyHelper(representation, "Diffuse").Set(0.0);
+  }
+  representation->UpdateVTKObjects();
+}
+
+/// A mesh of a single solid: the numbers that VTK's STL reader gives to solids are no colors.
+void showPlain(vtkSMProxy* representation, vtkPVDataInformation* data)
+{
+  vtkPVArrayInformation* colors = colorArray(representation, data);
+  if (colors && std::strcmp(colors->GetName(), "STLSolidLabeling") == 0 &&
+      colors->GetComponentRange(0)[0] == colors->GetComponentRange(0)[1])
+  {
+    vtkSMPVRepresentationProxy::SetScalarColoring(representation, nullptr, vtkDataObject::CELL);
+  }
+}
+
+/// Hides the part that was searched, which lies where the sensor is, when its poses are shown.
+void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
+{
+  for (const char* name : { "Input", "Mesh" })
+  {
+    auto* input = vtkSMInputProperty::SafeDownCast(source->GetProperty(name));
+    auto* part = input && input->GetNumberOfProxies() == 1 ? vtkSMSourceProxy::SafeDownCast(input->GetProxy(0)) : nullptr;
+    const unsigned int port = part ? input->GetOutputPortForConnection(0) : 0;
+    if (part && !isInScene(part->GetDataInformation(port)))
+    {
+      hide(view, part, port);
+    }
+  }
+}
+
+/// Hides what stands between the sensor and the scan, such as a CAD in its own coordinates.
+void hideInFront(vtkSMRenderViewProxy* view, double nearest)
+{
+  const vtkSMPropertyHelper representations(view, "Representations");
+  for (unsigned int k = 0; k < representations.GetNumberOfElements(); ++k)
+  {
+    const ShownData shown(representations.GetAsProxy(k));
+    if (shown.source)
+    {
+      double bounds[6];
+      shown.data()->GetBounds(bounds);
+      if (bounds[4] <= bounds[5] && bounds[5] < nearest)
+      {
+        hide(view, shown.source, shown.port);
+      }
+    }
+  }
+}
+
+/// Listens for what is added to views.
+class DisplayDefaults
+{
+public:
+  void listen()
+  {
+    vtkSMProxyManager* proxies = vtkSMProxyManager::GetProxyManager();
+    proxies->AddObserver(vtkCommand::RegisterEvent, this, &DisplayDefaults::onRegistered);
+  }
+
+private:
+  void onRegistered(vtkObject*, unsigned long, void* data)
+  {
+    const auto* information = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
+    auto* view = vtkSMRenderViewProxy::SafeDownCast(information->Proxy);
+    if (view && std::strcmp(information->GroupName, "views") == 0)
+    {
+      view->AddObserver(vtkCommand::PropertyModifiedEvent, this, &DisplayDefaults::onViewModified);
+    }
+  }
+
+  void onViewModified(vtkObject* caller, unsigned long, void* data)
+  {
+    auto* view = vtkSMRenderViewProxy::SafeDownCast(caller);
+    if (!view || !data || std::strcmp(static_cast<const char*>(data), "Representations") != 0)
+    {
+      return;
+    }
+    this->Seen.erase(std::remove(this->Seen.begin(), this->Seen.end(), nullptr), this->Seen.end());
+    const vtkSMPropertyHelper representations(view, "Representations");
+    for (unsigned int k = 0; k < representations.GetNumberOfElements(); ++k)
+    {
+      vtkSMProxy* representation = representations.GetAsProxy(k);
+      if (representation && std::find(this->Seen.begin(), this->Seen.end(), representation) == this->Seen.end())
+      {
+        this->Seen.emplace_back(representation);
+        if (!view->GetSessionProxyManager()->GetInLoadXMLState()) // a state brings its own
+        {
+          this->onAdded(view, representation);
+        }
+      }
+    }
+  }
+
+  void onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* representation)
+  {
+    if (std::strcmp(representation->GetXMLName(), "ScalarBarWidgetRepresentation") == 0)
+    {
+      this->InViews.onAdded(view, representation);
+      return;
+    }
+    const ShownData shown(representation);
+    if (!shown.source)
+    {
+      return;
+    }
+    showPlain(representation, shown.data());
+    if (!shown.isOurs())
+    {
+      return;
+    }
+    showScan(representation, shown.data());
+    if (isInScene(shown.data()))
+    {
+      hidePart(view, shown.source);
+      if (!view->HasAnnotation(SeenFromSensor) && comesFromScan(shown.source, shown.port))
+      {
+        double bounds[6];
+        shown.data()->GetBounds(bounds);
+        hideInFront(view, bounds[4]);
+        lookFromSensor(view, bounds);
+      }
+    }
+  }
+
+  std::vector<vtkWeakPointer<vtkSMProxy>> Seen;
+  Legends InViews;
+};
+}
+
+void setMEAMDisplayDefaults()
+{
+  vtkSMSettings::GetInstance()->AddCollectionFromString(RankColors, SettingsPriority);
+  static DisplayDefaults defaults;
+  defaults.listen();
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkWeakPointer.h"
+
+#include <utility>
+#include <vector>
+
+class vtkObject;
+class vtkSMProxy;
+class vtkSMRenderViewProxy;
+
+/// The legends of views: that of the ranks is small, and colors that need no map, such as gray values, have none.
+class Legends
+{
+public:
+  void onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend);
+
+private:
+  void onModified(vtkObject* caller, unsigned long, void* data);
+  void hideUnused(vtkSMProxy* legend);
+
+  std::vector<std::pair<vtkWeakPointer<vtkSMRenderViewProxy>, vtkWeakPointer<vtkSMProxy>>> Known;
+};

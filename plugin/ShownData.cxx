@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ShownData.h"
+
+#include "vtkDataObject.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMInputProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMPropertyIterator.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSmartPointer.h"
+
+#include <cstring>
+
+ShownData::ShownData(vtkSMProxy* representation)
+{
+  if (representation && representation->GetProperty("Input"))
+  {
+    const vtkSMPropertyHelper input(representation, "Input");
+    if (input.GetNumberOfElements() == 1)
+    {
+      this->source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy(0));
+      this->port = input.GetOutputPort(0);
+    }
+  }
+}
+
+vtkPVDataInformation* ShownData::data() const { return this->source->GetDataInformation(this->port); }
+
+bool ShownData::isOurs() const
+{
+  const char* name = this->source ? this->source->GetVTKClassName() : nullptr;
+  return name && std::strncmp(name, "vtkMEAM", std::strlen("vtkMEAM")) == 0;
+}
+
+bool isOrganized(vtkPVDataInformation* data)
+{
+  const int* extent = data->GetExtent();
+  return data->DataSetTypeIsA("vtkStructuredGrid") && extent[1] > extent[0] && extent[3] > extent[2] &&
+         extent[5] == extent[4];
+}
+
+bool comesFromScan(vtkSMSourceProxy* source, unsigned int port)
+{
+  if (isOrganized(source->GetDataInformation(port)))
+  {
+    return true;
+  }
+  auto iterator = vtkSmartPointer<vtkSMPropertyIterator>::Take(source->NewPropertyIterator());
+  for (iterator->Begin(); !iterator->IsAtEnd(); iterator->Next())
+  {
+    auto* input = vtkSMInputProperty::SafeDownCast(iterator->GetProperty());
+    for (unsigned int k = 0; input && k < input->GetNumberOfProxies(); ++k)
+    {
+      auto* producer = vtkSMSourceProxy::SafeDownCast(input->GetProxy(k));
+      if (producer && comesFromScan(producer, input->GetOutputPortForConnection(k)))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool isInScene(vtkPVDataInformation* data)
+{
+  const auto has = [&](const char* name) { return data->GetArrayInformation(name, vtkDataObject::POINT) != nullptr; };
+  return isOrganized(data) || has("Transform") || has("RankColor") || has("EdgeSource");
+}

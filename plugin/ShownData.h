@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+class vtkPVDataInformation;
+class vtkSMProxy;
+class vtkSMSourceProxy;
+
+/// What a representation shows: an output of a source or filter. Null when it shows no data, as a legend.
+struct ShownData
+{
+  vtkSMSourceProxy* source = nullptr;
+  unsigned int port = 0;
+
+  explicit ShownData(vtkSMProxy* representation);
+
+  vtkPVDataInformation* data() const;
+  /// Whether the source is one of this plugin.
+  bool isOurs() const;
+};
+
+/// An organized cloud, which is in its sensor's frame.
+bool isOrganized(vtkPVDataInformation* data);
+/// Whether the output, or what it was made of, is an organized cloud.
+bool comesFromScan(vtkSMSourceProxy* source, unsigned int port);
+/// Whether data of this plugin lie in the scene, not in the part's frame.
+bool isInScene(vtkPVDataInformation* data);

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An input that is forgotten is told in one sentence, which names it, on the console as well."""
+import subprocess
+
+import ppfmeam.filters
+from meamtest import Errors, check, is_empty
+
+INPUTS = {
+    "vtkMEAMPoseEstimation": ("Part", "Scan"),
+    "vtkMEAMPoseDetection": ("Scene Edges", "Model"),
+    "vtkMEAMPoseScreening": ("Poses", "Model", "Scene Edges"),
+    "vtkMEAMPoseVerification": ("Poses", "Model", "Scene Edges"),
+    "vtkMEAMPoseSelection": ("Poses", "Model", "Scene Edges"),
+    "vtkMEAMPoseRefinement": ("Poses", "Model", "Scene Edges"),
+    "vtkMEAMConflictResolution": ("Poses", "Models", "Scene Edges"),
+    "vtkMEAMPoseInstances": ("Poses", "Part"),
+    "vtkMEAMPoseEvaluation": ("Poses", "True Poses"),
+    "vtkMEAMBOPEvaluation": ("Poses", "True Poses", "Mesh", "Scan"),
+}
+for name, inputs in INPUTS.items():
+    filter = getattr(ppfmeam.filters, name)()
+    errors = Errors(filter)
+    filter.Update()
+    check(f"Nothing is connected to the input {', '.join(inputs)}: choose" in errors.messages[0], f"{name}: {errors}")
+    check(is_empty(filter.GetOutputDataObject(0)), f"{name} has an output")
+
+# Without observers it is all that is written.
+run = subprocess.run(["/usr/bin/python3", "-c", "import ppfmeam.filters as f; f.vtkMEAMPoseEstimation().Update()"],
+                     stderr=subprocess.PIPE, text=True)
+lines = [line for line in run.stderr.splitlines() if line.strip()]
+check(len(lines) <= 2 and "the input Part, Scan: choose" in lines[-1], f"on the console: {run.stderr}")

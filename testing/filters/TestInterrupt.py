@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Ctrl-C in scripts: they end within a second, without a traceback, and leave no file that is not whole."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from meamtest import check
+
+root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+part = os.path.join(root, "examples", "data", "ribbed_flange.stl")
+
+
+def interrupted(after, folder, *command):
+    """Starts a script, sends Ctrl-C after so many seconds, and returns what is in the folder then."""
+    process = subprocess.Popen([sys.executable, os.path.join(root, "examples", command[0]), *command[1:]],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    time.sleep(after)
+    check(process.poll() is None, f"{command[0]} has ended before it was stopped")
+    start = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=30)
+    took = time.monotonic() - start
+    check(took < 1.0, f"{command[0]} took {took:.1f} s to stop")
+    check(process.returncode == 130 and errors == f"{command[0]}: stopped\n", f"{process.returncode}: {errors}")
+    return [os.path.join(place, name) for place, _, names in os.walk(folder) for name in names]
+
+
+with tempfile.TemporaryDirectory() as folder:
+    model = os.path.join(folder, "part.meam")
+    for after in (0.6, 1.2):
+        check(not interrupted(after, folder, "train.py", "--cad", part, "--out", model), "train.py leaves a file")
+    bins = os.path.join(folder, "bins")
+    left = interrupted(1.5, bins, "simulate.py", "--cad", part, "--scenes", "50", "--out", bins)
+    check(not [name for name in left if name.endswith(".part")] and all(map(os.path.getsize, left)), f"left: {left}")

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What ParaView shows without a word from the user: poses in the colours of their ranks, a grey scan, both seen from the
+sensor, and nothing in front."""
+import os
+import tempfile
+
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+# In the colours of RankColor.
+RANKS = {"red": (220, 30, 30), "green": (40, 170, 50), "blue": (40, 90, 220), "yellow": (245, 205, 30),
+         "pink": (240, 120, 190)}
+folder = tempfile.TemporaryDirectory()
+controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
+
+
+def check(condition, message):
+    if not condition:
+        raise AssertionError(message)
+
+
+def pixels(view):
+    path = os.path.join(folder.name, "view.png")
+    simple.SaveScreenshot(path, view, ImageResolution=[400, 300])
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(float)
+
+
+def share(image, color):
+    """Share of the pixels whose hue is that of the colour."""
+    level = image.max(axis=1)
+    near = sum(abs(image[:, c] / level.clip(1) - color[c] / max(color)) for c in range(3)) < 0.35
+    return (near & (level - image.min(axis=1) > 40)).mean()
+
+
+def shown_by_default(source):
+    """Ports that are shown when the source is applied for the first time."""
+    view = simple.GetActiveView().SMProxy
+    return [port for port in range(source.SMProxy.GetNumberOfOutputPorts())
+            if controller.ShowInPreferredView(source.SMProxy, port, view) is not None]
+
+
+# Seven poses in a row, red, green, blue, yellow, pink and grey twice.
+poses = os.path.join(folder.name, "poses.txt")
+with open(poses, "w") as file:
+    for i in range(7):
+        file.write(f"1 0 0 {1.2 * i - 3.6}  0 1 0 0  0 0 1 10  0 0 0 1\n")
+view = simple.CreateRenderView()
+view.OrientationAxesVisibility = 0
+mesh = simple.Sphere(ThetaResolution=32, PhiResolution=32)
+part = simple.Show(mesh, view)
+instances = simple.PoseInstances(Input=simple.PoseReader(FileName=poses), Mesh=mesh)
+display = simple.Show(instances, view)
+check(list(display.ColorArrayName) == ["POINTS", "Rank"], f"coloured by {display.ColorArrayName}")
+check(part.Visibility == 0, "the part itself is still shown")
+simple.ResetCamera(view)
+picture = pixels(view)
+for name, color in RANKS.items():
+    check(share(picture, color) > 0.005, f"no {name}: {share(picture, color)}")
+grey = (abs(picture - picture.mean(axis=1, keepdims=True)).max(axis=1) < 3) & (picture[:, 0] > 50)
+check(grey.mean() > 0.004, f"no grey: {grey.mean()}")
+
+# By cells the same; the colours are those of the array RankColor.
+simple.ColorBy(display, ("CELLS", "Rank"))
+picture = pixels(view)
+check(all(share(picture, color) > 0.005 for color in RANKS.values()), "cells have other colours")
+table = simple.GetColorTransferFunction("Rank")
+colors = instances.GetClientSideObject().GetOutputDataObject(0).GetCellData().GetArray("RankColor")
+cells = colors.GetNumberOfTuples() // 7
+for rank in range(5):
+    channels = [round(255 * c) for c in table.IndexedColors[3 * rank:3 * rank + 3]]
+    check(channels == list(colors.GetTuple(cells * rank)), f"rank {rank + 1}: {channels}")
+
+# The legend has the five, and is small.
+display.SetScalarBarVisibility(view, True)
+bar = simple.GetScalarBar(table, view)
+check(bar.Visibility == 1 and bar.ScalarBarLength < 0.3, "the legend of the ranks")
+
+# A scan: grey, from where the sensor is; what stands in front of it is hidden.
+view = simple.CreateRenderView()
+view.OrientationAxesVisibility = 0
+cad = simple.Show(simple.Sphere(Radius=20.0), view)
+scene = simple.BinSceneSource(Copies=2, Width=160, Height=120)
+check(shown_by_default(scene) == [0], f"ports {shown_by_default(scene)} are shown")
+scan = simple.Show(simple.OutputPort(scene, 0), view)
+check(list(scan.ColorArrayName) == ["POINTS", "Intensity"] and scan.MapScalars == 0, "the grey values of the image")
+check(cad.Visibility == 0, "the CAD stands between the sensor and the scan")
+
+
+def check_camera():
+    forward = [f - p for f, p in zip(view.CameraFocalPoint, view.CameraPosition)]
+    check(tuple(view.CameraViewUp) == (0, -1, 0) and forward[2] > 0 and abs(forward[0]) + abs(forward[1]) < 1e-6,
+          f"the camera: {view.CameraPosition} {view.CameraFocalPoint} {view.CameraViewUp}")
+
+
+check_camera()
+simple.Render(view)
+check_camera()
+view.Background, view.UseColorPaletteForBackground = [0.5, 0.5, 0.5], 0
+picture = pixels(view)
+check((picture.max(axis=1) - picture.min(axis=1)).max() < 3, "the scan is not grey")
+check(picture.std() > 10, "the scan is not in sight")
+scan.SetScalarBarVisibility(view, True)
+check(simple.GetScalarBar(simple.GetColorTransferFunction("Intensity"), view).Visibility == 0, "a legend of grey values")
+
+# The camera is the user's from then on, and the scan stays when poses are shown.
+view.CameraViewUp = [0, 1, 0]
+found = simple.PoseInstances(Input=simple.OutputPort(scene, 1), Mesh=simple.OutputPort(scene, 2))
+simple.Show(found, view)
+check(tuple(view.CameraViewUp) == (0, 1, 0), "the camera is moved again")
+check(scan.Visibility == 1, "the scan is gone")
+check(found.SMProxy.GetHints().FindNestedElementByName("Visibility"), "inputs are hidden")
+check(max(share(pixels(view), RANKS[name]) for name in ("red", "green")) > 0.01, "no parts over the scan")
+
+# A scan with colours shows them.
+view = simple.CreateRenderView()
+scan = simple.Show(simple.OutputPort(simple.BinSceneSource(Copies=2, Width=160, Height=120, Colored=1), 0), view)
+check(list(scan.ColorArrayName) == ["POINTS", "RGB"] and scan.MapScalars == 0, "the colours of the image")

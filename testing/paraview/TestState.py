@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""examples/paraview: the trace runs, and the state beside it has the same filters, gives the same poses, and looks the same.
+The argument is the folder of the examples."""
+import os
+import runpy
+import sys
+import tempfile
+
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+folder = tempfile.TemporaryDirectory()
+examples = sys.argv[1]
+
+
+def check(condition, message):
+    if not condition:
+        raise AssertionError(message)
+
+
+def pipeline():
+    """Name and kind of all sources and filters, and the poses at the end."""
+    sources = sorted((name, source.GetXMLName()) for (name, _), source in simple.GetSources().items())
+    poses = simple.FindSource("Poses")
+    poses.UpdatePipeline()
+    array = poses.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Transform")
+    return sources, [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+
+
+def pixels(name):
+    reader = vtkPNGReader()
+    reader.SetFileName(os.path.join(folder.name, name))
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
+
+
+sys.argv = ["pipeline.py", "--picture", os.path.join(folder.name, "trace.png")]
+runpy.run_path(os.path.join(examples, "pipeline.py"))
+sources, poses = pipeline()
+check(len(poses) == 5, f"{len(poses)} poses")
+view = simple.GetActiveView()
+size = list(view.ViewSize)
+simple.ResetSession()
+simple.LoadState(os.path.join(examples, "pipeline.pvsm"))
+of_state = pipeline()
+check(of_state[0] == sources, f"pipeline.pvsm is not of pipeline.py: {set(sources) ^ set(of_state[0])}; save it again")
+check(of_state[1] == poses, "the state has other poses")
+view = simple.GetViews()[0]
+view.ViewSize = size
+simple.Render(view)
+simple.SaveScreenshot(os.path.join(folder.name, "state.png"), view, ImageResolution=[1200, 900])
+trace, state = pixels("trace.png"), pixels("state.png")
+red = (trace[:, 0] > 80) & (trace[:, 1:].max(axis=1) < trace[:, 0] // 2)
+check(red.mean() > 0.005, "no red part in the trace's picture")
+check((abs(trace - state).max(axis=1) > 40).mean() < 0.01, "the state looks different")
