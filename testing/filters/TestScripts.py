@@ -91,17 +91,17 @@ bins = {"1": connect(vtkMEAMBinSceneSource(), mesh), "2": connect(vtkMEAMBinScen
 halves = numpy.arange(W * H) % W < W // 2
 columns = []
 for half in bins.values():
-    for name, value in (("Copies", 6), ("Seed", 5), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
+    for name, value in (("Copies", 6), ("Seed", 7), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
         getattr(half, "Set" + name)(value)
     data = run(half)
     columns.append(numpy.column_stack((vtk_to_numpy(data.GetPoints().GetData()),
                                        vtk_to_numpy(data.GetPointData().GetArray("Intensity")))))
 write_pcd("two.pcd", numpy.where(halves[:, None], *columns), W, H, "x y z intensity")
-text = works("detect.py", "--cad", "part.stl", "--cad", "bracket.stl", "--scene", "two.pcd", "--poses", "3",
+text = works("detect.py", "--cad", "part.stl", "--cad", "bracket.stl", "--scene", "two.pcd", "--poses", "4",
              "--out", "two.csv", "--json", "two.json", "--matrices", "two.txt")
 check(text.startswith("rank  part  score") and "\npart 2 time" in text, f"a table with parts: {text}")
 rows = list(csv.DictReader(read("two.csv").splitlines()))
-check(len(rows) == 3 and {row["obj_id"] for row in rows} == {"1", "2"}, f"both types are found: {rows}")
+check(len(rows) == 4 and {row["obj_id"] for row in rows} == {"1", "2"}, f"both types are found: {rows}")
 check([pose["obj_id"] for pose in json.loads(read("two.json"))["poses"]] == [int(row["obj_id"]) for row in rows], "JSON")
 for row, found in zip(rows, numpy.array(read("two.txt").split(), float).reshape(-1, 4, 4)):
     here = bins[row["obj_id"]].GetOutputDataObject(1)
