@@ -9,6 +9,9 @@ function(meam_add_script_test name labels)
   add_test(NAME ${name} COMMAND ${ARGN})
   set_tests_properties(${name} PROPERTIES
     LABELS "${labels}" ENVIRONMENT "${PPFMEAM_ENVIRONMENT}" SKIP_RETURN_CODE 77 TIMEOUT 600)
+  if("render" IN_LIST labels)
+    set_tests_properties(${name} PROPERTIES RESOURCE_LOCK display) # two virtual displays that start together may collide
+  endif()
 endfunction()
 
 # NAME.py under the plain interpreter and, with ParaView's VTK, under pvpython with the plugin loaded. ONLY_PYTHON3 is for
