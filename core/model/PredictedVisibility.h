@@ -16,14 +16,13 @@ struct TrainedModel;
 /// Lengths are shares of the part's diameter.
 struct PredictedVisibilitySettings
 {
-  double cell = 0.025;           ///< of the depth buffer across the line of sight; a little over the samples' spacing
-  double tolerance = 0.01;       ///< depth that a point may lie behind the nearest of its cell: that of rounded faces
-  double edgeSlope = 1.5;        ///< slope allowed for at an edge point, whose surface is not known
-  double grazingCosine = 0.15;   ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
-  double surfaceSpacing = 0.018; ///< of the surface's samples, a little over it
-  double outward = 1.5;          ///< cells from a contour to where the buffer tells whether the part hides it
-  int directionSteps = 64;       ///< of each coordinate of the direction to the sensor from 0 to 1: 0.9 degrees
-  int widestBorder = 4;          ///< cells
+  double cell = 0.025;         ///< of the depth buffer across the line of sight; a little over the samples' spacing
+  double tolerance = 0.01;     ///< depth that a point may lie behind the nearest of its cell: that of rounded faces
+  double edgeSlope = 1.5;      ///< slope allowed for at an edge point, whose surface is not known
+  double grazingCosine = 0.15; ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
+  double outward = 1.5;        ///< cells from a contour to where the buffer tells whether the part hides it
+  int directionSteps = 64;     ///< of each coordinate of the direction to the sensor from 0 to 1: 0.9 degrees
+  int widestBorder = 4;        ///< cells
   double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double inset = 0.5;  ///< of them: where a smooth surface ends the last point is measured so far inside
   double pitchStep = 0.0005; ///< to which point distances are rounded

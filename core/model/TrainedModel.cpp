@@ -12,7 +12,6 @@ namespace
 {
 // Shares of the diameter.
 constexpr double CellShare = 0.0075;
-constexpr double SurfaceSpacing = 0.018; // a little over that of the surface points
 constexpr double EdgeSpacing = 0.03;
 constexpr double VotingLeafShare = 0.04;
 constexpr double VerificationLeafShare = 0.03;

@@ -79,6 +79,7 @@ struct TrainedModel
   DistanceField edgeDistance;
   std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
   static constexpr double TruncationDistance = 0.03;
+  static constexpr double SurfaceSpacing = 0.018; ///< of the diameter, a little over that of the surface points
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
   void deriveFields();

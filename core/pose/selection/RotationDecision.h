@@ -31,15 +31,12 @@ public:
   /// all. `asItIs` is the pose as a contender.
   void decide(Pose& pose, PoseComparison::Contender asItIs) const;
 
-  /// In the part's frame, without the identity; the near-symmetries first.
-  const std::vector<Eigen::Isometry3d>& turns() const { return this->Turns; }
-
 private:
   const Scene& InScene;
   const TrainedModel& Model;
   const PoseComparison& Comparison;
   const PoseRefinementSettings& Rotated;
   RotationDecisionSettings Settings;
-  std::vector<Eigen::Isometry3d> Turns;
+  std::vector<Eigen::Isometry3d> Turns; ///< in the part's frame, without the identity; the near-symmetries first
 };
 }

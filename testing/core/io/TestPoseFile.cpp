@@ -38,6 +38,17 @@ meam::PoseRow quarterTurn()
   return row;
 }
 
+/// The same, with what it is of.
+meam::PoseRow identified()
+{
+  meam::PoseRow row = quarterTurn();
+  row.sceneId = 3;
+  row.imageId = 7;
+  row.objectId = 2;
+  row.time = 0.5;
+  return row;
+}
+
 std::vector<Eigen::Isometry3d> read(const std::string& text)
 {
   const Folder folder;
@@ -81,11 +92,7 @@ TEST(PoseFile, matricesKeepEveryDigit)
 TEST(PoseFile, bopRows)
 {
   const Folder folder;
-  meam::PoseRow row = quarterTurn();
-  row.sceneId = 3;
-  row.imageId = 7;
-  row.objectId = 2;
-  row.time = 0.5;
+  meam::PoseRow row = identified();
   meam::writeBOP(folder.file(), { row, {} });
   EXPECT_EQ(meam::readFile(folder.file()), "scene_id,im_id,obj_id,score,R,t,time\n"
                                            "3,7,2,0.75,0 -1 0 1 0 0 0 0 1,0.1 -2.5 0.3333333333333333,0.5\n"
@@ -138,11 +145,7 @@ TEST(PoseFile, writersLeaveTheOldFileWhenTheyFail)
 TEST(PoseFile, whatIsWrittenIsReadAgain)
 {
   const Folder folder;
-  meam::PoseRow row = quarterTurn();
-  row.sceneId = 3;
-  row.imageId = 7;
-  row.objectId = 2;
-  row.time = 0.5;
+  meam::PoseRow row = identified();
   row.rank = 4;
   row.votes = 120;
   row.viewId = 5;

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/RotationDecision.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+/// Of 20 mm radius and 10 mm height; beyond x = `flat` it is cut off.
+meam::TriangleMesh disc(float flat)
+{
+  std::vector<Eigen::Vector2f> outline;
+  for (int k = 0; k < 72; ++k)
+  {
+    const double angle = 2.0 * M_PI * k / 72.0;
+    outline.emplace_back(std::min(20.0f * static_cast<float>(std::cos(angle)), flat), 20.0 * std::sin(angle));
+  }
+  return parts::prism(outline, 10.0f);
+}
+
+meam::TriangleMesh cutDisc() { return disc(17.0f); }
+
+const meam::TrainedModel& model() { return scenes::trained<cutDisc>(); }
+
+Eigen::Isometry3d turned(double degrees)
+{
+  return meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
+}
+
+/// The pose after the decision in a scene in which a part lies as turned(0).
+meam::Pose decided(const meam::TriangleMesh& part, double degrees, double probability = 0.9)
+{
+  const meam::Scene scene = scenes::prepared(
+    scenes::withTangents(
+      scenes::seenFromAbove({ scenes::Copy{ part, Eigen::Isometry3d::Identity() } }), model().diameter),
+    model().diameter);
+  const meam::PoseComparison comparison(scene, model());
+  meam::PoseRefinementSettings rotated;
+  rotated.maximumDistance = 0.04 * model().diameter;
+  const meam::RotationDecision decision(scene, model(), comparison, rotated, {});
+  meam::Pose pose = scenes::displaced(scene.T_local_scene() * turned(degrees));
+  pose.probability = probability;
+  decision.decide(pose, comparison.contender(pose.T_scene_model));
+  pose.T_scene_model = scene.T_local_scene().inverse() * pose.T_scene_model;
+  return pose;
+}
+}
+
+TEST(RotationDecision, ANearlyRoundPartIsTurnedToWhereItsFlatIs)
+{
+  for (const double degrees : { 0.0, 10.0, 40.0, 170.0 })
+  {
+    const meam::Pose found = decided(cutDisc(), degrees);
+    EXPECT_LT(meam::rotationError(found.T_scene_model, turned(0)), 5.0) << degrees << ": half a step";
+    EXPECT_GT(found.certainty, 0.7) << degrees;
+  }
+}
+
+TEST(RotationDecision, WhereTheFlatIsNotSeenNoTurnIsSure)
+{
+  // The scene's disc has none: of 36 turns each is as likely as the others.
+  const meam::Pose found = decided(disc(20.0f), 40.0);
+  EXPECT_LT(found.certainty, 0.15);
+  EXPECT_GT(found.certainty, 0.01);
+}
+
+TEST(RotationDecision, OfUnlikelyPosesNearSymmetriesAloneAreAskedAbout)
+{
+  EXPECT_GT(decided(disc(20.0f), 40.0, 0.001).certainty, decided(disc(20.0f), 40.0).certainty);
+}
