@@ -2,7 +2,7 @@
 # Tests written in Python. Exit status 77 means skipped (no data, no display).
 find_program(PVPYTHON_EXECUTABLE pvpython)
 find_program(PARAVIEW_EXECUTABLE paraview)
-find_program(XVFB_RUN_EXECUTABLE xvfb-run)
+set(PPFMEAM_DISPLAY "${PROJECT_SOURCE_DIR}/testing/display.sh") # runs a command on a virtual display of its own
 
 # meam_add_script_test(NAME LABELS COMMAND...): any command, in the environment of this build tree.
 function(meam_add_script_test name labels)
@@ -10,7 +10,7 @@ function(meam_add_script_test name labels)
   set_tests_properties(${name} PROPERTIES
     LABELS "${labels}" ENVIRONMENT "${PPFMEAM_ENVIRONMENT}" SKIP_RETURN_CODE 77 TIMEOUT 600)
   if("render" IN_LIST labels)
-    set_tests_properties(${name} PROPERTIES RESOURCE_LOCK display) # two virtual displays that start together may collide
+    set_tests_properties(${name} PROPERTIES RESOURCE_LOCK display) # applications with windows wait for each other
   endif()
 endfunction()
 
@@ -35,12 +35,12 @@ endfunction()
 # NAME.py under pvpython with a display of its own; further arguments go to the script.
 function(meam_add_pvpython_test name labels)
   meam_add_script_test(${name} "${labels}"
-    "${XVFB_RUN_EXECUTABLE}" -a "${PVPYTHON_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py" ${ARGN})
+    "${PPFMEAM_DISPLAY}" "${PVPYTHON_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py" ${ARGN})
 endfunction()
 
 # NAME.py inside the ParaView application under a virtual display. What the script prints goes to ParaView's
 # own window: it has to write to sys.__stderr__ and to end with os._exit(status).
 function(meam_add_paraview_test name labels)
   meam_add_script_test(${name} "${labels}"
-    "${XVFB_RUN_EXECUTABLE}" -a "${PARAVIEW_EXECUTABLE}" --dr "--script=${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
+    "${PPFMEAM_DISPLAY}" "${PARAVIEW_EXECUTABLE}" --dr "--script=${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
 endfunction()

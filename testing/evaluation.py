@@ -64,7 +64,7 @@ class Commands:
         if is_script:
             program = [sys.executable, os.path.join(ROOT, "examples", name)]
             if name == "real_scans.py" and not os.environ.get("DISPLAY"):
-                program = ["xvfb-run", "-a", *program]
+                program = [os.path.join(ROOT, "testing", "display.sh"), *program]
         else:
             program = [BENCHMARKS]
         print(self.lines[-1], file=sys.stderr, flush=True)

@@ -2,7 +2,7 @@
 """The first four clicks in the application: a CAD is opened, a scan is opened, MEAM Pose Estimation, Apply. ParaView's own
 player clicks; the state that it saves then is opened by pvpython, which looks at it. The dialog of the menu names its inputs.
 
-Usage: TestFirstContact.py XVFB-RUN PARAVIEW PVPYTHON
+Usage: TestFirstContact.py PARAVIEW PVPYTHON
 """
 import os
 import subprocess
@@ -64,11 +64,10 @@ def prepare(folder):
         file.write(CLICKS.format(folder=folder))
 
 
-def click(xvfb, paraview, folder):
+def click(paraview, folder):
     """Plays the clicks with the settings of a new user."""
     environment = dict(os.environ, HOME=folder, XDG_CONFIG_HOME=os.path.join(folder, "config"))
-    run = subprocess.run([xvfb, "-a", "-s", "-screen 0 1280x900x24", paraview, "--dr", "--exit",
-                          f"--test-script={folder}/clicks.xml"], env=environment, capture_output=True, text=True, timeout=120)
+    run = subprocess.run([paraview, "--dr", "--exit", f"--test-script={folder}/clicks.xml"], env=environment, capture_output=True, text=True, timeout=120)
     check(os.path.exists(os.path.join(folder, "state.pvsm")), f"the clicks led nowhere: {run.stdout[-3000:]} {run.stderr[-3000:]}")
     said = [line for line in (run.stdout + run.stderr).splitlines() if "ERR|" in line or "critical" in line]
     check(not said, f"ParaView says {said}")
@@ -121,6 +120,6 @@ if sys.argv[1] == "--look":
 else:
     with tempfile.TemporaryDirectory() as temporary:
         prepare(temporary)
-        click(sys.argv[1], sys.argv[2], temporary)
-        subprocess.run([sys.argv[1], "-a", sys.argv[3], os.path.abspath(__file__), "--look",
+        click(sys.argv[1], temporary)
+        subprocess.run([sys.argv[2], os.path.abspath(__file__), "--look",
                         os.path.join(temporary, "state.pvsm")], check=True)
