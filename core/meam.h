@@ -15,6 +15,7 @@
 #include "features/Preset.h"     // Preset, Features
 #include "scene/Image.h"         // Image
 #include "scene/PinholeCamera.h" // Camera
+#include "scene/ScanQuality.h"   // ScanQuality
 #include "scene/Sensor.h"        // Sensor
 
 #include <Eigen/Core>
@@ -105,6 +106,7 @@ struct DetectedPose
 struct Detections
 {
   std::vector<DetectedPose> poses; ///< best first
+  ScanQuality quality;             ///< how well the sensor measured, as an organized scan shows; mostly to be looked at
   double seconds = 0.0;
   std::string warning; ///< that nothing sure was found, and what may be wrong with the scan's unit; mostly empty
 };

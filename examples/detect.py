@@ -102,6 +102,7 @@ def main():
         models = parts if options.model else [scripting.train(mesh, options.preset, options.features) for mesh in meshes]
         poses, found = estimate_several(options, models, scene)
     scripting.print_poses(poses)
+    scripting.print_scan_quality(found[0])
     for number, of_part in enumerate(found, 1):
         print(f"part {number} " if len(parts) > 1 else "", end="")
         scripting.print_times(of_part)

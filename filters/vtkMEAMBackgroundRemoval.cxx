@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMBackgroundRemoval.h"
 
-#include "scene/BackgroundRemoval.h"
+#include "scene/preparation/BackgroundRemoval.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
 

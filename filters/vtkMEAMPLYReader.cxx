@@ -3,7 +3,7 @@
 
 #include "io/CameraFile.h"
 #include "io/PLYFile.h"
-#include "scene/CloudOrganization.h"
+#include "scene/preparation/CloudOrganization.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
 

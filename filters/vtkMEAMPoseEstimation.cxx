@@ -223,6 +223,7 @@ int vtkMEAMPoseEstimation::RequestData(
         found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
         scene.edges = meam::toLocalCloud(found.cloud, this->NumberOfThreads);
         scene.edges.fromScan = true;
+        scene.quality = found.quality;
       }
       const double extracted = vtkTimerLog::GetUniversalTime();
       scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
@@ -247,9 +248,9 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         settings.detection.referenceShare = this->ReferenceShare;
       }
-      meam::StageTimes times;
+      meam::DetectionReport report;
       const meam::Poses poses =
-        meam::estimatePoses(*model, scene, settings, &times, meam::subProgress(progress, AfterTraining, 1.0));
+        meam::estimatePoses(*model, scene, settings, &report, meam::subProgress(progress, AfterTraining, 1.0));
       for (const std::string& warning :
         { meam::unitsWarning(scene.edges.cloud.points, model->diameter), meam::doubtsOf(poses) })
       {
@@ -275,6 +276,13 @@ int vtkMEAMPoseEstimation::RequestData(
         this->Trained->shape(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
       setDiameter(output, model->diameter);
       setFieldText(output, "Report", meam::describe(poses));
+      setScanQuality(output, scene.quality);
+      if (report.edgeRates)
+      {
+        setFieldValue(output, "EdgesFound", report.edgeRates->found);
+        setFieldValue(output, "EdgesByChance", report.edgeRates->chance);
+      }
+      const meam::StageTimes& times = report.times;
       const std::pair<const char*, double> seconds[] = { { "Training", trained - loaded },
         { "SceneEdges", extracted - start }, { "Scene", loaded - extracted + times.scene },
         { "Tangents", times.tangents }, { "Detection", times.detection }, { "Screening", times.screening },

@@ -25,14 +25,16 @@
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
  * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on port 2), and those
  * that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether parts were found and
- * how sure that is; where nothing is, a warning says so, too), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`,
- * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
- * `SecondsSelection`, which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and
- * `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the
- * preset Recommended `Tangent`, unless they came in. Output port 2: the part at each pose that is more likely right
- * than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a vtkTable with
- * a row for each pose, to plot: `Pose` (its rank, as a text), `Probability`, `Score`, `VisibleFraction`, `Certainty`.
- * Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
+ * how sure that is; where nothing is, a warning says so, too), `ScanReport` and `ScanQuality` (of an organized scan, as
+ * vtkMEAMSceneEdgeExtraction has them), `EdgesFound` and `EdgesByChance` (share of the edge points of a part that a
+ * scene edge lies on, where the part is and anywhere: how far this scan's edges can be trusted), `SecondsTraining`,
+ * `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`, `SecondsScreening`,
+ * `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, which add up to `SecondsTotal`, and the counts
+ * `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a
+ * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in. Output port 2: the part
+ * at each pose that is more likely right than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its
+ * surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank, as a text), `Probability`,
+ * `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h

@@ -3,8 +3,10 @@
 
 #include "io/CameraFile.h"
 #include "scene/edges/SceneEdgeExtraction.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -20,6 +22,18 @@ namespace vtkMEAMConversion
 namespace
 {
 constexpr const char* EdgeSourceName = "EdgeSource";
+constexpr const char* ScanQualityName = "ScanQuality";
+
+struct QualityField
+{
+  const char* name;
+  double meam::ScanQuality::*value;
+};
+constexpr QualityField QualityFields[] = { { "PointDistance", &meam::ScanQuality::pointDistance },
+  { "Noise", &meam::ScanQuality::noise }, { "Smoothing", &meam::ScanQuality::smoothing },
+  { "DepthStep", &meam::ScanQuality::depthStep }, { "JumpGap", &meam::ScanQuality::jumpGap },
+  { "Flying", &meam::ScanQuality::flying }, { "Coverage", &meam::ScanQuality::coverage } };
+constexpr int QualityFieldCount = static_cast<int>(std::size(QualityFields));
 
 /// The numbers of a field data array, row by row; nothing when it is not there.
 template <int Count>
@@ -83,6 +97,40 @@ void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
   std::transform(edges.sources.begin(), edges.sources.end(), sources->GetPointer(0),
     [](meam::EdgeSource source) { return static_cast<unsigned char>(source); });
   output->GetPointData()->SetScalars(sources); // what a view colours by
+  setScanQuality(output, edges.quality);
+}
+
+void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality)
+{
+  if (!quality.isKnown())
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName(ScanQualityName);
+  numbers->SetNumberOfComponents(QualityFieldCount);
+  numbers->SetNumberOfTuples(1);
+  for (int i = 0; i < QualityFieldCount; ++i)
+  {
+    numbers->SetComponentName(i, QualityFields[i].name);
+    numbers->SetComponent(0, i, quality.*QualityFields[i].value);
+  }
+  output->GetFieldData()->AddArray(numbers);
+  setFieldText(output, "ScanReport", meam::describe(quality));
+}
+
+meam::ScanQuality scanQualityOf(vtkDataObject* input)
+{
+  meam::ScanQuality quality;
+  vtkDataArray* numbers = input->GetFieldData()->GetArray(ScanQualityName);
+  if (numbers && numbers->GetNumberOfTuples() > 0 && numbers->GetNumberOfComponents() == QualityFieldCount)
+  {
+    for (int i = 0; i < QualityFieldCount; ++i)
+    {
+      quality.*QualityFields[i].value = numbers->GetComponent(0, i);
+    }
+  }
+  return quality;
 }
 
 vtkDataArray* edgeSourcesOf(vtkPointSet* edges) { return edges->GetPointData()->GetArray(EdgeSourceName); }

@@ -13,8 +13,10 @@
 namespace meam
 {
 struct SceneEdges;
+struct ScanQuality;
 }
 class vtkDataArray;
+class vtkDataObject;
 class vtkImageData;
 class vtkPointSet;
 class vtkPolyData;
@@ -25,10 +27,15 @@ namespace vtkMEAMConversion
 /// image's field data `CameraMatrix` (9, row-major, pixels) and `CameraPose` (16, row-major T_camera_scene, mm). None
 /// when neither is there, and when the field data say that the image is registered with the cloud. `image` may be null.
 std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, const meam::OrganizedCloud& cloud);
-/// Edge points as fromCloud() has them, and the point array `EdgeSource`.
+/// Edge points as fromCloud() has them, the point array `EdgeSource` and, as field data, how well the sensor measured.
 void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output);
 /// Their point array `EdgeSource`; null for edge points that were not found in a scan.
 vtkDataArray* edgeSourcesOf(vtkPointSet* edges);
+/// How well the sensor measured a scan, as the field data `ScanQuality`, whose components have names, and
+/// `ScanReport`, the same in a sentence; nothing where it is not known.
+void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality);
+/// Not known where they are not there.
+meam::ScanQuality scanQualityOf(vtkDataObject* input);
 }
 
 #endif

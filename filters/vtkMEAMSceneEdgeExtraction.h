@@ -18,7 +18,11 @@
  *
  * Output port 0: the edge points, a vtkPolyData with a vertex each and the point arrays `PointId`, the
  * index of the point in the grid, `EdgeSource` (unsigned char: 0 image, 1 depth jump, 2 crease) and, with
- * ImageTangents, `Tangent` (unit), which vtkMEAMTangentEstimation keeps.
+ * ImageTangents, `Tangent` (unit), which vtkMEAMTangentEstimation keeps. Field data, from the scan itself:
+ * `ScanReport`, in a sentence how well the sensor measured, and `ScanQuality`, a tuple of `PointDistance` (mm),
+ * `Noise` (mm, standard deviation), `Smoothing` (points over which noise is alike), `DepthStep` (mm, 0: none seen),
+ * `JumpGap` (points without depth at a depth jump), `Flying` (share of the jumps with a point that hangs between their
+ * sides) and `Coverage` (share of the points with depth).
  * Output port 1: a vtkImageData of W x H with the point array `Edges` (unsigned char): 255 where an edge
  * point came from, otherwise 0.
  */

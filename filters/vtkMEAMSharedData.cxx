@@ -9,6 +9,7 @@
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMSceneConversion.h"
+#include "vtkMEAMSceneEdgeConversion.h"
 
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
@@ -159,7 +160,8 @@ std::shared_ptr<const meam::Scene> sharedScene(
     meam::LocalCloud local = edgesOf(edges, threads);
     meam::requireSameUnits(local.cloud.points, partDiameter);
     const meam::Points measured = surfaceOf(surface, "The scene's surface", local, threads);
-    scene = std::make_shared<const meam::Scene>(std::move(local), measured, sensor, partDiameter, settings);
+    scene = std::make_shared<const meam::Scene>(
+      std::move(local), measured, sensor, partDiameter, settings, scanQualityOf(edges));
     cacheOf<meam::Scene>().insert(key, scene);
   }
   return scene;

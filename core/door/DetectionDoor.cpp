@@ -50,8 +50,8 @@ Sensor sensorOf(const Scan& scan)
   return sensor;
 }
 
-/// The scan's edge points as extracted, or as given, in their local frame.
-LocalCloud edgesOf(const Scan& scan, const DetectSettings& settings, const Progress& progress)
+/// The scan's edge points as extracted, with what the scan shows of the sensor, or as given, in their local frame.
+LocalCloud edgesOf(const Scan& scan, const DetectSettings& settings, ScanQuality& quality, const Progress& progress)
 {
   if (!scan.edges.empty())
   {
@@ -71,9 +71,10 @@ LocalCloud edgesOf(const Scan& scan, const DetectSettings& settings, const Progr
     throw Error("The scan has no image: give one, registered or with its camera, or turn imageEdges off to "
                 "look for depthEdges and creases alone.");
   }
-  LocalCloud edges =
-    toLocalCloud(extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress).cloud,
-      settings.threads);
+  const SceneEdges found =
+    extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress);
+  quality = found.quality;
+  LocalCloud edges = toLocalCloud(found.cloud, settings.threads);
   edges.fromScan = true;
   return edges;
 }
@@ -86,7 +87,7 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   requireScan(scan);
   SceneInput input;
   input.sensor = sensorOf(scan);
-  input.edges = edgesOf(scan, settings, subProgress(progress, 0.0, AfterSceneEdges));
+  input.edges = edgesOf(scan, settings, input.quality, subProgress(progress, 0.0, AfterSceneEdges));
   input.measured = toLocalPoints(scan.points, input.edges.T_local_scene, settings.threads);
   requirePoints(scan.points.size(), input.measured.size(), "The scan");
 
@@ -103,6 +104,7 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   }
 
   Detections result;
+  result.quality = input.quality;
   const Progress ofPoses = subProgress(progress, AfterSceneEdges, 1.0);
   const Poses poses = estimatePoses(trained, input, steps, nullptr, ofPoses);
   for (const Pose& pose : poses)

@@ -4,7 +4,7 @@
 #include "io/PLYFile.h"
 #include "io/parsing/FileBytes.h"
 #include "meam.h"
-#include "scene/CloudOrganization.h"
+#include "scene/preparation/CloudOrganization.h"
 
 namespace meam
 {

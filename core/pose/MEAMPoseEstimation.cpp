@@ -58,15 +58,16 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
 }
 
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
-  StageTimes* times, const Progress& progress)
+  DetectionReport* report, const Progress& progress)
 {
   StageTimes spent;
+  EdgeRates rates;
   Stopwatch watch;
   LocalCloud edges = estimateTangents(
     input.edges, model.diameter, input.sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1))
                        .edges;
   spent.tangents = watch.lap();
-  const Scene scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene);
+  const Scene scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene, input.quality);
   spent.scene = watch.lap();
   Poses poses = detectPoses(scene, model, settings.detection, subProgress(progress, 0.1, 0.5));
   spent.detection = watch.lap();
@@ -75,7 +76,7 @@ Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const De
     poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.5, 0.6));
   }
   spent.screening = watch.lap();
-  poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.6, 0.7));
+  poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.6, 0.7), &rates);
   spent.verification = watch.lap();
   poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.7, 0.75));
   spent.selection = watch.lap();
@@ -86,9 +87,14 @@ Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const De
   poses = selectPoses(poses, scene, model, settings.selection, subProgress(progress, 0.93, 1.0));
   poses = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
   spent.selection += watch.lap();
-  if (times)
+  if (report)
   {
-    *times = spent;
+    report->times = spent;
+    report->edgeRates.reset();
+    if (settings.candidateVerification.method == VerificationMethod::VisibleEvidence)
+    {
+      report->edgeRates = rates;
+    }
   }
   return poses;
 }

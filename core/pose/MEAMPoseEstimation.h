@@ -44,16 +44,24 @@ struct StageTimes
   double selection = 0.0; ///< with the final alignment
 };
 
+/// What detection tells besides poses.
+struct DetectionReport
+{
+  StageTimes times;
+  std::optional<EdgeRates> edgeRates; ///< of the scan, by the candidates; none with the paper's verification
+};
+
 /// What a sensor says of a bin.
 struct SceneInput
 {
-  LocalCloud edges; ///< edge points, not thinned yet, with tangents where they are known
-  Points measured;  ///< all points that the sensor measured, in the frame of the edges; may be empty
-  Sensor sensor;    ///< in the scene's own coordinates
+  LocalCloud edges;      ///< edge points, not thinned yet, with tangents where they are known
+  Points measured;       ///< all points that the sensor measured, in the frame of the edges; may be empty
+  Sensor sensor;         ///< in the scene's own coordinates
+  ScanQuality quality{}; ///< how well it measures, where that is known
 };
 
 /// The online phase: ranked poses in the scene's own coordinates (mm). Everything happens in the frame of the edges.
-/// `times` may be null.
+/// `report` may be null.
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
-  StageTimes* times = nullptr, const Progress& progress = {});
+  DetectionReport* report = nullptr, const Progress& progress = {});
 }

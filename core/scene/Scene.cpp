@@ -42,10 +42,11 @@ Sensor moved(const Sensor& sensor, const Eigen::Isometry3d& motion)
 }
 }
 
-Scene::Scene(
-  LocalCloud edgePoints, const Points& measured, const Sensor& seenFrom, double diameter, const SceneSettings& settings)
+Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFrom, double diameter,
+  const SceneSettings& settings, const ScanQuality& measuredQuality)
   : edges(checked(std::move(edgePoints)))
   , sensor(moved(seenFrom, edges.T_local_scene))
+  , quality(measuredQuality)
   , partDiameter(diameter)
   , depth(measured, sensor, settings.depthCell * diameter, settings.threads)
 {

@@ -5,6 +5,7 @@
 #include "base/PointGrid.h"
 #include "scene/DepthMap.h"
 #include "scene/EdgeIndex.h"
+#include "scene/ScanQuality.h"
 #include "scene/Sensor.h"
 
 namespace meam
@@ -23,11 +24,11 @@ struct SceneSettings
 struct Scene
 {
   /// `edges`: thinned edge points with tangents (estimateTangents). `measured`: all points that the sensor measured, in
-  /// their frame, or none. `sensor` in the scene's own coordinates.
-  /// Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], and when no point of
-  /// the surface lies before the sensor.
+  /// their frame, or none. `sensor` in the scene's own coordinates. `quality`: what the scan shows of it, where that is
+  /// known. Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], and when no
+  /// point of the surface lies before the sensor.
   Scene(LocalCloud edges, const Points& measured, const Sensor& sensor, double partDiameter,
-    const SceneSettings& settings = {});
+    const SceneSettings& settings = {}, const ScanQuality& quality = {});
   Scene(const Scene&) = delete;
   void operator=(const Scene&) = delete;
 
@@ -39,6 +40,7 @@ struct Scene
 
   LocalCloud edges;
   Sensor sensor; ///< in the local frame
+  ScanQuality quality;
   double partDiameter;
   EdgeIndex edgeIndex;
   DepthMap depth;

@@ -36,8 +36,9 @@ class Model:
 class Detections:
     """The poses found, best first: `poses` (N x 4 x 4, each takes the part's coordinates to the scan's, mm), `scores` (the
     share of what should be visible that is there), `probabilities` (that a pose is right), `certainties` (that no
-    near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without training. `data` is the VTK data
-    object with all that is known."""
+    near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without training; `scan_quality`, what an
+    organized scan shows of its sensor, by name as vtkMEAMSceneEdgeExtraction has it. `data` is the VTK data object with all
+    that is known."""
 
     def __init__(self, data):
         def column(name, *shape):
@@ -51,6 +52,9 @@ class Detections:
         self.certainties = column("Certainty")
         self.visible_fractions = column("VisibleFraction")
         self.seconds = scripting.field(data, "SecondsTotal") - scripting.field(data, "SecondsTraining")
+        quality = data.GetFieldData().GetArray("ScanQuality")
+        self.scan_quality = {quality.GetComponentName(i): quality.GetComponent(0, i)
+                             for i in range(quality.GetNumberOfComponents())} if quality else {}
 
     def __len__(self):
         return len(self.poses)

@@ -452,6 +452,16 @@ def print_poses(poses):
         print("      no part found")
 
 
+def print_scan_quality(poses):
+    """Prints what vtkMEAMPoseEstimation measured of the sensor: nothing for a scan that is not organized."""
+    report = poses.GetFieldData().GetAbstractArray("ScanReport")
+    if report:
+        print("scan: " + report.GetValue(0))
+    if poses.GetFieldData().GetArray("EdgesFound"):
+        print(f"edges: {100 * field(poses, 'EdgesFound'):.0f} % of a part's are found, "
+              f"{100 * field(poses, 'EdgesByChance'):.0f} % anywhere")
+
+
 def print_times(poses):
     """Prints the time of every stage of vtkMEAMPoseEstimation."""
     words = [re.sub("([a-z])([A-Z])", r"\1 \2", stage).lower() for stage in STAGES]

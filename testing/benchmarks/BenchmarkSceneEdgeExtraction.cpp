@@ -4,7 +4,7 @@
 // the second the number of threads.
 #include "features/TangentEstimation.h"
 #include "mesh/ConvexHull.h"
-#include "scene/BackgroundRemoval.h"
+#include "scene/preparation/BackgroundRemoval.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "simulation/BinScene.h"
 #include "simulation/parts/SamplePart.h"

@@ -152,12 +152,12 @@ inline meam::Pose align(const meam::Pose& pose, const meam::Scene& scene, const 
 
 /// The whole online phase.
 inline meam::Poses estimatePoses(const meam::TrainedModel& model, const Seen& seen,
-  const meam::DetectionSettings& settings, meam::StageTimes* times = nullptr, const meam::Progress& progress = {})
+  const meam::DetectionSettings& settings, meam::DetectionReport* report = nullptr, const meam::Progress& progress = {})
 {
   const int threads = settings.tangents.threads;
   meam::SceneInput input{ meam::toLocalCloud(seen.edges, threads), {}, seen.sensor };
   input.measured = meam::toLocalPoints(seen.surface, input.edges.T_local_scene, threads);
-  return meam::estimatePoses(model, input, settings, times, progress);
+  return meam::estimatePoses(model, input, settings, report, progress);
 }
 
 /// Flat on the table, turned by `degrees` about z; `up` false lies on its other face.

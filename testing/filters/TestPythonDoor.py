@@ -111,6 +111,7 @@ try:
     for column in (found.scores, found.probabilities, found.certainties, found.visible_fractions):
         check(column.shape == (len(found),) and (column >= 0).all() and (column <= 1).all(), f"{column}")
     check(found.seconds > 0, "no time")
+    check(0.1 < found.scan_quality["PointDistance"] < 2 and 0 < found.scan_quality["Noise"] < 1, f"{found.scan_quality}")
     nearest = min(numpy.linalg.norm(found.poses[0, :3, 3] - T[:3, 3]) for T in truth)
     print(f"the best of {len(found)} poses is {nearest:.2f} mm from a true one, probability {found.probabilities[0]:.2f}")
     check(nearest < 1 and found.probabilities[0] > 0.5, "the best pose is wrong")

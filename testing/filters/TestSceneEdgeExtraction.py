@@ -74,6 +74,13 @@ values = [v for v, in tuples(marked, "Edges")]
 check([i for i in range(W * H) if values[(H - 1 - i // W) * W + i % W] == 255] == [i for i, in tuples(edges, "PointId")],
       "it shows the same points")
 
+# How well the sensor measured: points 1 mm apart, all of them, without noise.
+quality = edges.GetFieldData().GetArray("ScanQuality")
+check({quality.GetComponentName(i): quality.GetComponent(0, i) for i in range(quality.GetNumberOfComponents())}
+      == {"PointDistance": 1, "Noise": 0, "Smoothing": 1, "DepthStep": 0, "JumpGap": 0, "Flying": 0, "Coverage": 1},
+      f"the quality is {quality}")
+check(edges.GetFieldData().GetAbstractArray("ScanReport").GetValue(0).startswith("Points 1.00 mm apart"), "in words, too")
+
 # The same image as colours, as a second input, with 16 bits.
 ids = tuples(edges, "PointId")
 check(tuples(run(edges_of(scan(lambda x, y: (step(x, y),) * 3))), "PointId") == ids, "a grey RGB image is the same")

@@ -105,8 +105,9 @@ EvidenceCollector::EvidenceCollector(const Scene& scene, const TrainedModel& mod
   : InScene(scene)
   , Model(model)
   , Settings(settings)
-  , Tolerance(
-      static_cast<float>(settings.tolerance > 0.0 ? settings.tolerance : settings.lengths.fits * model.diameter))
+  , Tolerance(static_cast<float>(settings.tolerance > 0.0 ? settings.tolerance
+                                                          : std::max(settings.lengths.fits * model.diameter,
+                                                              settings.noises * scene.quality.noise)))
 {
 }
 

@@ -38,7 +38,8 @@ struct EvidenceWeights
 struct EvidenceSettings
 {
   FitLengths lengths;
-  double tolerance = 0.0; ///< mm, a model point this near to the scene fits; 0: lengths.fits of the diameter
+  double tolerance = 0.0; ///< mm, a model point this near to the scene fits; 0: lengths.fits of the diameter,
+  double noises = 1.5;    ///< and no less than so many times the scan's noise
   EvidenceWeights weights;
   bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
   double facing = 0.8;   ///< cosine between the part's normal and the measured one, from which on the surface fits

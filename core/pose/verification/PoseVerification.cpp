@@ -66,7 +66,7 @@ EdgeRates edgeRatesOf(const Poses& candidates, const EvidenceCollector& collecto
 }
 
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
-  const PoseVerificationSettings& settings, const Progress& progress)
+  const PoseVerificationSettings& settings, const Progress& progress, EdgeRates* ofScan)
 {
   if (settings.pointStride < 1)
   {
@@ -106,6 +106,10 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
       counts.push_back(ofOne.counts);
     }
     const EdgeRates rates = edgeRates(counts, settings.evidence.weights);
+    if (ofScan)
+    {
+      *ofScan = rates;
+    }
     for (std::size_t i = 0; i < scored.size(); ++i)
     {
       scoreByEvidence(scored[i], evidence[i], rates, settings.evidence, scene, model);

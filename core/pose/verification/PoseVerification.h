@@ -27,9 +27,10 @@ struct PoseVerificationSettings
 PoseVerificationSettings paperVerificationSettings();
 
 /// Scores every pose against the scene and returns them best first, in the local frame: score, probability, visible
-/// fraction, and the view that shows what the sensor sees. Without a surface only edges count.
+/// fraction, and the view that shows what the sensor sees. Without a surface only edges count. `rates`, which may be
+/// null, gets how far the scan's edges can be trusted; the paper's score does not ask.
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
-  const PoseVerificationSettings& settings = {}, const Progress& progress = {});
+  const PoseVerificationSettings& settings = {}, const Progress& progress = {}, EdgeRates* rates = nullptr);
 
 /// The appearance model of a pose: its own, when it names one, otherwise the nearest to the sensor.
 int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);

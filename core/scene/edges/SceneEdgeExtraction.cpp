@@ -276,6 +276,7 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   SceneEdges result = settings.tangents ? withTangents(points, cloud, settings, jump, scale.windowRadius(),
                                             subProgress(progress, 0.8, 1.0))
                                         : std::move(points.edges);
+  result.quality = measureQuality(cloud, settings.threads);
   report(progress, 1.0);
   return result;
 }

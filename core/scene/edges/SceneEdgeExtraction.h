@@ -4,6 +4,7 @@
 #include "features/Preset.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
+#include "scene/ScanQuality.h"
 #include "scene/edges/ImageEdges.h"
 
 #include <optional>
@@ -40,6 +41,7 @@ struct SceneEdges
 {
   PointCloud cloud; ///< with pointIds, row * width + column, and tangents when they are asked for
   std::vector<EdgeSource> sources;
+  ScanQuality quality; ///< of the scan they were found in
 };
 
 /// The points of the scene's edges, in the order of the grid, each at most once.

@@ -37,11 +37,12 @@ int instancesFound(const meam::Poses& poses, double millimetres, double degrees)
 TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  meam::StageTimes times;
+  meam::DetectionReport report;
   const meam::Poses poses =
-    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3), &times);
+    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3), &report);
   ASSERT_EQ(poses.size(), 3u);
   EXPECT_EQ(instancesFound(poses, 0.2, 0.3), 3);
+  const meam::StageTimes& times = report.times;
   for (const double seconds : { times.tangents, times.scene, times.detection, times.screening, times.verification,
          times.refinement, times.selection })
   {

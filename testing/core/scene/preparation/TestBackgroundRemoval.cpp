@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestGrids.h"
-#include "scene/BackgroundRemoval.h"
+#include "scene/preparation/BackgroundRemoval.h"
 
 #include <gtest/gtest.h>
 

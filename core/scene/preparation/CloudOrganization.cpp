@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/CloudOrganization.h"
+#include "scene/preparation/CloudOrganization.h"
 
 #include <cmath>
 

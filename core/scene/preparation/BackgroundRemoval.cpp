@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/BackgroundRemoval.h"
+#include "scene/preparation/BackgroundRemoval.h"
 
 #include "base/Random.h"
 #include "scene/edges/GridSurface.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestFiles.h"
-#include "scene/CloudOrganization.h"
+#include "scene/preparation/CloudOrganization.h"
 
 #include <cmath>
 
