@@ -37,9 +37,7 @@ def options_of_user():
     scripting.add_features_argument(parser)
     scripting.add_reference_argument(parser)
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
-    parser.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
-    parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
-                        help="parameters of all steps (default: %(default)s)")
+    scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
     parser.add_argument("--json", help="write the poses as JSON")
     parser.add_argument("--matrices", metavar="TXT", help="write the poses as 4x4 matrices")
@@ -66,7 +64,7 @@ def estimate(options, part, scene, poses):
     if options.image:
         estimation.SetInputDataObject(3, scripting.read_image(options.image))
         estimation.SetCameraFile(options.image_camera)
-    scripting.set_choice(estimation, "Preset", options.preset)
+    scripting.set_preset(estimation, options.preset)
     scripting.set_choice(estimation, "Features", options.features)
     estimation.SetMaximumNumberOfPoses(poses)
     estimation.SetMinimumProbability(options.probability)

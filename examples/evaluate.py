@@ -227,9 +227,7 @@ def names_of(known):
 
 def main():
     shared = argparse.ArgumentParser(add_help=False)
-    shared.add_argument("--method", choices=("meam",), default="meam", help="(default: %(default)s)")
-    shared.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
-                        help="parameters of all steps (default: %(default)s)")
+    scripting.add_method_options(shared)
     scripting.add_reference_argument(shared)
     shared.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)

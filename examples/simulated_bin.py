@@ -16,8 +16,7 @@ def main():
     parser.add_argument("--seed", type=scripting.count, default=1, help="another seed, another bin (default: %(default)s)")
     parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted; 0: all (default: %(default)s)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
-    parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
-                        help="parameters of all steps (default: %(default)s)")
+    scripting.add_method_options(parser)
     parser.add_argument("--picture", metavar="PNG", default=os.path.join(BUILD, "simulated_bin.png"),
                         help="the picture to write (default: %(default)s)")
     options = parser.parse_args()
@@ -36,7 +35,7 @@ def main():
     estimation = filters.vtkMEAMPoseEstimation()
     estimation.SetInputConnection(scene.GetOutputPort(2))
     estimation.SetSceneConnection(scene.GetOutputPort(0))
-    scripting.set_choice(estimation, "Preset", options.preset)
+    scripting.set_preset(estimation, options.preset)
     estimation.SetMaximumNumberOfPoses(options.poses)
     estimation.SetNumberOfThreads(options.threads)
     scripting.update(estimation)

@@ -14,8 +14,7 @@ def main():
     parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
                         help="added to the CAD's coordinates, in mm")
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
-    parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
-                        help="parameters of all steps (default: %(default)s); paper trains without symmetries")
+    scripting.add_method_options(parser)
     scripting.add_features_argument(parser)
     parser.add_argument("--out", required=True, help="the trained model to write: NAME.meam, or NAME.vtpc with a folder NAME beside")
     parser.add_argument("--models-info", metavar="FILE",

@@ -54,6 +54,12 @@ void vtkMEAMPoseDetection::SetParametersToRecommended()
   this->Modified();
 }
 
+void vtkMEAMPoseDetection::SetParametersToOriginalPPF()
+{
+  *this->Settings = meam::originalDetectionSettings();
+  this->Modified();
+}
+
 int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* info)
 {
   const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPointSet" };

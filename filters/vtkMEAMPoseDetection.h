@@ -109,6 +109,8 @@ public:
   void SetParametersToPaper();
   /** The parameters that measure better: the defaults. The number of threads stays. */
   void SetParametersToRecommended();
+  /** The parameters of the original pair feature (Drost et al. 2010). The number of threads stays. */
+  void SetParametersToOriginalPPF();
 
 protected:
   vtkMEAMPoseDetection();

@@ -94,7 +94,7 @@ private:
     vtkMEAMConversion::fromMesh(prepared.mesh, this->Shape);
     meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
     training.sampling.seed = static_cast<unsigned>(seed);
-    if (preset != Paper)
+    if (meam::takesFeatures(static_cast<meam::Preset>(preset)))
     {
       training.hashing.features = static_cast<meam::Features>(features);
     }
@@ -240,7 +240,7 @@ int vtkMEAMPoseEstimation::RequestData(
       meam::DetectionSettings settings = meam::detectionSettings(static_cast<meam::Preset>(this->Preset),
         this->MaximumNumberOfPoses, this->NumberOfThreads, this->MinimumProbability);
       settings.detection.seed = static_cast<unsigned>(this->Seed);
-      if (this->Preset != Paper)
+      if (meam::takesFeatures(static_cast<meam::Preset>(this->Preset)))
       {
         settings.detection.features = static_cast<meam::Features>(this->Features);
       }
@@ -321,7 +321,7 @@ int vtkMEAMPoseEstimation::RequestData(
 void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Preset: " << (this->Preset == Paper ? "Paper" : "Recommended") << "\n";
+  os << indent << "Preset: " << meam::nameOf(static_cast<meam::Preset>(this->Preset)) << "\n";
   os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->Features)) << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
   os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";

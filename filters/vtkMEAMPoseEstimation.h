@@ -61,18 +61,26 @@ public:
   enum Presets
   {
     Paper = 0,
-    Recommended = 1
+    Recommended = 1,
+    WithoutMEAM = 2,
+    OriginalPPF = 3,
+    B2B = 4
   };
 
   ///@{
   /**
-   * Parameters of all steps: those of the paper, Section 6 (0), or those that measure better (1).
-   * Default: Recommended.
+   * The method, by the parameters of all steps: PPF-MEAM as in the paper, Section 6 (0), or as it measures better (1);
+   * and what the paper compares itself with: B2B-TL with one model of the whole part (2, Section 6.2.4), pairs of
+   * surface points with normals (3, Drost et al. 2010), and pairs of points on line segments (4, Choi et al. 2012). The
+   * last two rank poses by their votes. Default: Recommended.
    */
-  vtkSetClampMacro(Preset, int, Paper, Recommended);
+  vtkSetClampMacro(Preset, int, Paper, B2B);
   vtkGetMacro(Preset, int);
   void SetPresetToPaper() { this->SetPreset(Paper); }
   void SetPresetToRecommended() { this->SetPreset(Recommended); }
+  void SetPresetToWithoutMEAM() { this->SetPreset(WithoutMEAM); }
+  void SetPresetToOriginalPPF() { this->SetPreset(OriginalPPF); }
+  void SetPresetToB2B() { this->SetPreset(B2B); }
   ///@}
 
   enum FeatureChoices
@@ -86,7 +94,7 @@ public:
   /**
    * By which points the part is trained, and poses are looked for. Edges (0): edge points with tangents, which carry
    * flat, thin and ribbed parts. Surface (1): surface points with normals, which carry smooth, round and thick ones.
-   * Both (2). The preset Paper takes edges alone. Default: Both.
+   * Both (2). Of presets other than Recommended this has no effect: the method says it. Default: Both.
    */
   vtkSetClampMacro(Features, int, Edges, Both);
   vtkGetMacro(Features, int);

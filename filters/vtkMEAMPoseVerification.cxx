@@ -16,7 +16,7 @@ vtkMEAMPoseVerification::vtkMEAMPoseVerification()
 
 vtkMEAMPoseVerification::~vtkMEAMPoseVerification() = default;
 
-vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Method, int, method, EdgeCoverage, VisibleEvidence)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Method, int, method, EdgeCoverage, Votes)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Tolerance, double, evidence.tolerance, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMSettingMacro(vtkMEAMPoseVerification, FreeSpace, bool, evidence.freeSpace)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PointStride, int, pointStride, 1, VTK_INT_MAX)

@@ -35,17 +35,20 @@ public:
   enum Methods
   {
     EdgeCoverage = 0,
-    VisibleEvidence = 1
+    VisibleEvidence = 1,
+    Votes = 2
   };
 
   ///@{
   /**
-   * EdgeCoverage (0, the paper's) or VisibleEvidence (1). Default: VisibleEvidence.
+   * EdgeCoverage (0, the paper's), VisibleEvidence (1), or Votes (2): those of all poses that agree with one, as a
+   * share of the most, without a look at the scene, as methods before the paper rank poses. Default: VisibleEvidence.
    */
   virtual void SetMethod(int value);
   virtual int GetMethod();
   void SetMethodToEdgeCoverage() { this->SetMethod(EdgeCoverage); }
   void SetMethodToVisibleEvidence() { this->SetMethod(VisibleEvidence); }
+  void SetMethodToVotes() { this->SetMethod(Votes); }
   ///@}
 
   ///@{

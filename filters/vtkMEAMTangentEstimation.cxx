@@ -33,6 +33,7 @@ void vtkMEAMTangentEstimation::SetParameters(const meam::TangentEstimationSettin
   this->LeafSize = settings.leafSize;
   this->Radius = settings.radius;
   this->InlierDistance = settings.inlierDistance;
+  this->SegmentLength = settings.segmentLength;
   this->TilePixels = settings.tilePixels;
   this->PixelSize = settings.pixelSize;
   this->LineDistance = settings.lineDistance;
@@ -68,6 +69,7 @@ int vtkMEAMTangentEstimation::RequestData(
     settings.leafSize = this->LeafSize;
     settings.radius = this->Radius;
     settings.inlierDistance = this->InlierDistance;
+    settings.segmentLength = this->SegmentLength;
     settings.tilePixels = this->TilePixels;
     settings.pixelSize = this->PixelSize;
     settings.lineDistance = this->LineDistance;
@@ -101,10 +103,12 @@ int vtkMEAMTangentEstimation::RequestData(
 void vtkMEAMTangentEstimation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << (this->Method == Tiles ? "Tiles" : "RobustLine") << "\n";
+  const char* methods[] = { "Tiles", "RobustLine", "LineSegments" };
+  os << indent << "Method: " << methods[this->Method] << "\n";
   os << indent << "LeafSize: " << this->LeafSize << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "InlierDistance: " << this->InlierDistance << "\n";
+  os << indent << "SegmentLength: " << this->SegmentLength << "\n";
   os << indent << "TilePixels: " << this->TilePixels << "\n";
   os << indent << "PixelSize: " << this->PixelSize << "\n";
   os << indent << "LineDistance: " << this->LineDistance << "\n";

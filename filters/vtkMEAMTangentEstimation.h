@@ -41,15 +41,20 @@ public:
   enum Methods
   {
     Tiles = 0,
-    RobustLine = 1
+    RobustLine = 1,
+    LineSegments = 2
   };
 
   ///@{
-  /** Tiles (0, the paper's) or RobustLine (1). Default: RobustLine. */
-  vtkSetClampMacro(Method, int, Tiles, RobustLine);
+  /**
+   * Tiles (0, the paper's), RobustLine (1), or LineSegments (2): robust lines of those points alone that lie on line
+   * segments, as the feature B2B has it (Choi et al. 2012, the paper's [23]). Default: RobustLine.
+   */
+  vtkSetClampMacro(Method, int, Tiles, LineSegments);
   vtkGetMacro(Method, int);
   void SetMethodToTiles() { this->SetMethod(Tiles); }
   void SetMethodToRobustLine() { this->SetMethod(RobustLine); }
+  void SetMethodToLineSegments() { this->SetMethod(LineSegments); }
   ///@}
 
   ///@{
@@ -63,8 +68,8 @@ public:
 
   ///@{
   /**
-   * RobustLine: radius of the sphere in mm; 0: 6 % of the part's diameter, up to 12 % where a scene's points are noisy
-   * or sparse. Default: 0.
+   * RobustLine, LineSegments: radius of the sphere in mm; 0: 6 % of the part's diameter, up to 12 % where a scene's
+   * points are noisy or sparse, and no less than the length of a segment. Default: 0.
    */
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
@@ -72,11 +77,20 @@ public:
 
   ///@{
   /**
-   * RobustLine: points this near to the line are on it, in mm; 0: 1.2 % of the part's diameter, up to 3 % where a
-   * scene's points are noisy. Default: 0.
+   * RobustLine, LineSegments: points this near to the line are on it, in mm; 0: 1.2 % of the part's diameter, up to 3 %
+   * where a scene's points are noisy. Default: 0.
    */
   vtkSetClampMacro(InlierDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(InlierDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * LineSegments: a run of points on a line that is shorter, in mm, is no segment; 0: 15 % of the part's diameter.
+   * Default: 0.
+   */
+  vtkSetClampMacro(SegmentLength, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(SegmentLength, double);
   ///@}
 
   ///@{
@@ -139,6 +153,7 @@ private:
   double LeafSize;
   double Radius;
   double InlierDistance;
+  double SegmentLength;
   int TilePixels;
   double PixelSize;
   double LineDistance;

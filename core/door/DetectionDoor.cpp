@@ -94,7 +94,7 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   DetectionSettings steps =
     detectionSettings(settings.preset, settings.maximumPoses, settings.threads, settings.minimumProbability);
   steps.detection.seed = settings.seed;
-  if (settings.preset != Preset::Paper)
+  if (takesFeatures(settings.preset))
   {
     steps.detection.features = settings.features;
   }

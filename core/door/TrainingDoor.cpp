@@ -20,7 +20,7 @@ Model train(const Mesh& mesh, const TrainSettings& settings, const Progress& pro
     prepareMesh({ mesh.vertices, mesh.triangles }, preparation, subProgress(progress, 0.0, AfterPreparation));
   TrainingSettings steps = trainingSettings(settings.preset);
   steps.sampling.seed = settings.seed;
-  if (settings.preset != Preset::Paper)
+  if (takesFeatures(settings.preset))
   {
     steps.hashing.features = settings.features;
   }

@@ -26,6 +26,8 @@ constexpr double SceneLeafShare = 0.03;
 constexpr double ModelLeafShare = 0.02;
 constexpr double RadiusShare = 0.06;
 constexpr double InlierShare = 0.012;
+constexpr double SegmentShare = 0.15;
+constexpr double SegmentReach = 1.25; // lengths of a segment: its ends have to see all of it
 
 constexpr std::size_t MostPerTile = 4000; // the work grows with its cube
 constexpr double CandidateShare = 0.3;    // of the radius: spacing of the neighbours that lines are tried through
@@ -189,6 +191,32 @@ Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidat
   return best < FewestInliers ? Eigen::Vector3f::Zero() : principalAxis(offsets, direction, limit);
 }
 
+/// Whether a point lies in a run of its neighbours along a line, with gaps of at most `gap`, that is `length` long.
+bool isOnSegment(
+  const Neighbours& offsets, const Eigen::Vector3f& line, double inlierDistance, double length, double gap)
+{
+  const float limit = static_cast<float>(inlierDistance * inlierDistance);
+  std::vector<float> places{ 0.0f };
+  for (int k = 0; k < offsets.size(); ++k)
+  {
+    if (squaredDistanceToLine(offsets.at(k), line) <= limit)
+    {
+      places.push_back(offsets.at(k).dot(line));
+    }
+  }
+  std::sort(places.begin(), places.end());
+  auto first = std::lower_bound(places.begin(), places.end(), 0.0f), last = first;
+  while (first != places.begin() && *first - *(first - 1) <= gap)
+  {
+    --first;
+  }
+  while (last + 1 != places.end() && *(last + 1) - *last <= gap)
+  {
+    ++last;
+  }
+  return *last - *first >= length;
+}
+
 /// What the edge points themselves say of how they were measured, mm.
 struct PointStatistics
 {
@@ -253,10 +281,12 @@ PointStatistics statisticsOf(
   return { quantile(deviations, 0.25), quantile(distances, 0.5) };
 }
 
-/// Tangents at the points `kept`, by lines through points of `ends`. `grid` is of all points; cells of both are of
-/// `radius`, that of the settings or the part. Lengths of the settings that are 0 follow the points, too.
+/// Tangents at the points `kept`, by lines through points of `ends`; with the length of a `segment`, 0 for none, of
+/// those that lie on one. `grid` is of all points; cells of both are of `radius`, that of the settings or the part.
+/// Lengths of the settings that are 0 follow the points, too.
 Points robustTangents(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, const PointGrid& ends,
-  double radius, double partDiameter, const TangentEstimationSettings& settings, const Progress& progress)
+  double radius, double segment, double partDiameter, const TangentEstimationSettings& settings,
+  const Progress& progress)
 {
   double inlierDistance = settings.inlierDistance;
   if (settings.radius <= 0.0 || settings.inlierDistance <= 0.0)
@@ -269,8 +299,8 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
     }
     if (settings.radius <= 0.0)
     {
-      radius = std::clamp(std::max(RadiusInliers * inlierDistance, RadiusSpacings * statistics.spacing), radius,
-        MostRadiusShare * partDiameter);
+      const double wanted = std::max(RadiusInliers * inlierDistance, RadiusSpacings * statistics.spacing);
+      radius = std::max(radius, std::min(wanted, MostRadiusShare * partDiameter));
     }
   }
   Points tangents(kept.size());
@@ -284,6 +314,10 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
         offsets.gather(grid, centre, radius);
         candidates.gather(ends, centre, radius);
         tangents[i] = robustLine(offsets, candidates, inlierDistance);
+        if (segment > 0.0 && !isOnSegment(offsets, tangents[i], inlierDistance, segment, settings.segmentGap * segment))
+        {
+          tangents[i].setZero();
+        }
       }
     });
   return tangents;
@@ -369,7 +403,7 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
   const std::function<Points(const std::vector<int>&)>& tiles, const TangentEstimationSettings& settings,
   const Progress& progress)
 {
-  const bool robust = settings.method == TangentMethod::RobustLine && given.empty();
+  const bool robust = settings.method != TangentMethod::Tiles && given.empty();
   const auto length = [&](double value, double share)
   {
     if (value != 0.0)
@@ -384,13 +418,18 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
     return share * partDiameter;
   };
   const double leaf = length(settings.leafSize, leafShare);
-  double radius = 0.0;
+  double radius = 0.0, segment = 0.0;
   ThinnedPoints kept;
   PointGrid grid, ends; // of all points, and of those that lines are tried through
   std::vector<std::function<void()>> works{ [&] { kept = thinWithWeights(local, leaf); } };
   if (robust)
   {
     radius = length(std::max(0.0, settings.radius), RadiusShare);
+    if (settings.method == TangentMethod::LineSegments)
+    {
+      segment = length(std::max(0.0, settings.segmentLength), SegmentShare);
+      radius = std::max(radius, SegmentReach * segment);
+    }
     length(settings.inlierDistance, InlierShare);
     works.push_back(
       [&]
@@ -408,7 +447,7 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
   Points tangents;
   if (robust)
   {
-    tangents = robustTangents(local, kept.indices, grid, ends, radius, partDiameter, settings, progress);
+    tangents = robustTangents(local, kept.indices, grid, ends, radius, segment, partDiameter, settings, progress);
   }
   else if (given.empty())
   {

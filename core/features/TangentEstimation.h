@@ -9,8 +9,9 @@ namespace meam
 {
 enum class TangentMethod
 {
-  Tiles,     ///< Algorithms 1 and 2 of the paper
-  RobustLine ///< the best supported line in a sphere, then the principal axis of its inliers
+  Tiles,       ///< Algorithms 1 and 2 of the paper
+  RobustLine,  ///< the best supported line in a sphere, then the principal axis of its inliers
+  LineSegments ///< the same, of points on line segments alone: what B2B takes (Choi et al., ICRA 2012)
 };
 
 /// Lengths in mm. A length of 0 follows the part's diameter.
@@ -20,9 +21,14 @@ struct TangentEstimationSettings
   /// One point is kept per cube of this side; 0: 3 % of the diameter in a scene, 2 % in a model; negative: all.
   double leafSize = 0.0;
 
-  // RobustLine
-  double radius = 0.0;         ///< of the sphere; 0: 6 % of the diameter, up to 12 % for noisy or sparse points
+  // RobustLine, LineSegments
+  double radius = 0.0; ///< of the sphere; 0: 6 % of the diameter, up to 12 % for noisy or sparse points, or the length
+                       ///< of a segment
   double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter, up to 3 % for noisy points
+
+  // LineSegments
+  double segmentLength = 0.0; ///< a shorter run of points on a line is no segment; 0: 15 % of the diameter
+  double segmentGap = 0.2;    ///< of that length: a longer gap ends a segment
 
   // Tiles
   int tilePixels = 10;       ///< H_rec = W_rec
@@ -44,10 +50,10 @@ struct ThinnedEdges
 };
 
 /// Thins a scene's edge points and gives each a tangent direction; points without a supported line are
-/// left out (Algorithm 2). Points that carry tangents, as edges of a mesh or of an image do, keep them and are only
-/// thinned. `partDiameter` (mm) sets lengths that are 0. Tiles are cut on the plane across `viewDirection`, which is in
-/// the scene's own coordinates. Throws Error for an empty cloud, for one that cannot be in the diameter's unit, or when
-/// a length is 0 and the diameter is too.
+/// left out (Algorithm 2), as are those that are on no line segment, where these are asked for. Points that carry
+/// tangents, as edges of a mesh or of an image do, keep them and are only thinned. `partDiameter` (mm) sets lengths
+/// that are 0. Tiles are cut on the plane across `viewDirection`, which is in the scene's own coordinates. Throws Error
+/// for an empty cloud, for one that cannot be in the diameter's unit, or when a length is 0 and the diameter is too.
 ThinnedEdges estimateTangents(const LocalCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings = {}, const Progress& progress = {});
 

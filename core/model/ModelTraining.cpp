@@ -9,11 +9,24 @@ namespace meam
 TrainingSettings trainingSettings(Preset preset)
 {
   TrainingSettings settings;
-  if (preset == Preset::Paper)
+  if (preset == Preset::Recommended)
   {
-    settings.tangents = paperTangentSettings();
-    settings.hashing = paperHashingSettings();
-    settings.findSymmetries = false;
+    return settings;
+  }
+  settings.tangents = paperTangentSettings();
+  settings.hashing = paperHashingSettings();
+  settings.findSymmetries = false;
+  if (preset == Preset::WithoutMEAM || preset == Preset::B2B)
+  {
+    settings.visibility.viewpoints = 0;
+  }
+  if (preset == Preset::B2B)
+  {
+    settings.tangents.method = TangentMethod::LineSegments;
+  }
+  if (preset == Preset::OriginalPPF)
+  {
+    settings.hashing.features = Features::Surface;
   }
   return settings;
 }

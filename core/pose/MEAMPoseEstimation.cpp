@@ -28,7 +28,7 @@ private:
 DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
 {
   DetectionSettings settings;
-  if (preset == Preset::Paper)
+  if (preset != Preset::Recommended)
   {
     settings.tangents = paperTangentSettings();
     settings.detection = paperDetectionSettings();
@@ -37,6 +37,20 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
     settings.refinement = paperRefinementSettings();
     settings.verification = paperVerificationSettings();
     settings.selection.method = SelectionMethod::Clusters;
+    if (preset == Preset::B2B)
+    {
+      settings.tangents.method = TangentMethod::LineSegments;
+    }
+    if (preset == Preset::OriginalPPF)
+    {
+      settings.detection = originalDetectionSettings();
+      settings.refinement = {}; // by the surface: its points are what poses are found by
+    }
+    if (preset == Preset::OriginalPPF || preset == Preset::B2B)
+    {
+      settings.candidateVerification = settings.verification = votesVerificationSettings();
+      settings.candidateSelection.maximumPoses = 30; // as many as the paper's from six views
+    }
   }
   else
   {

@@ -12,7 +12,6 @@ from vtkmodules.vtkCommonDataModel import (vtkDataObject, vtkImageData, vtkParti
 from . import Error, filters, scripting
 
 MODELS = (".meam", ".vtpc")
-PRESETS = ("recommended", "paper")
 DEPTH_IMAGES = (".png", ".tif", ".tiff")
 
 
@@ -71,12 +70,13 @@ class Detections:
 def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended", features="both"):
     """Learns how a part looks from all sides; takes seconds. `cad`: a .stl, .obj, .ply or .off file, or a vtkPolyData with
     faces. `scale` brings its lengths to mm: 1000 for metres; `offset`, mm, is added after it. features: which points make pairs, edges
-    (flat, thin and ribbed parts), surface (smooth, round and thick ones), or both."""
+    (flat, thin and ribbed parts), surface (smooth, round and thick ones), or both. preset: recommended, paper, or what the
+    paper compares itself with: without-meam, ppf, b2b."""
     if isinstance(cad, vtkDataObject):
         mesh = scripting.prepare_mesh(cad, offset, scale)
     else:
         mesh = scripting.read_mesh(os.fspath(cad), offset, scale)
-    return Model(scripting.train(mesh, chosen("preset", preset, PRESETS), chosen("features", features, scripting.FEATURES)))
+    return Model(scripting.train(mesh, chosen("preset", preset, scripting.PRESETS), chosen("features", features, scripting.FEATURES)))
 
 
 def load(path):
@@ -98,8 +98,8 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
     poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1.
     image_edges, depth_edges, creases: where edges are looked for, the last two not with preset paper. references: the share
-    of points that vote, 0: the preset's. preset: recommended or paper. features: edges, surface or both, as train() has them;
-    with preset paper edges. threads: 0 for all cores.
+    of points that vote, 0: the preset's. preset: recommended, paper, without-meam, ppf or b2b, the one that the part was trained with; the others than
+    recommended have features of their own. features: edges, surface or both, as train() has them. threads: 0 for all cores.
     """
     estimation = filters.vtkMEAMPoseEstimation()
     estimation.SetInputDataObject(part_of(part, cad_scale))
@@ -111,7 +111,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     if image_camera is not None:
         scripting.require_file(os.fspath(image_camera))
         estimation.SetCameraFile(os.fspath(image_camera))
-    scripting.set_choice(estimation, "Preset", chosen("preset", preset, PRESETS))
+    scripting.set_preset(estimation, chosen("preset", preset, scripting.PRESETS))
     scripting.set_choice(estimation, "Features", chosen("features", features, scripting.FEATURES))
     for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, ImageEdges=image_edges,
                             DepthEdges=depth_edges, Creases=creases, ReferenceShare=references, Seed=seed,

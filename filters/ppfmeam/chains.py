@@ -30,10 +30,21 @@ class Detection:
         self.selection = filters.vtkMEAMPoseSelection()
         self.steps = [self.tangents, self.detection, self.screening, self.candidates, self.alternatives, self.refinement,
                       self.verification, self.selection]
-        if preset == "paper":
+        if preset != "recommended":
             self.steps.remove(self.screening)
             for step in self.steps:
-                set_preset(step, preset)
+                set_preset(step, "paper")
+            if preset == "b2b":
+                self.tangents.SetMethodToLineSegments()
+            if preset == "ppf":
+                self.detection.SetParametersToOriginalPPF()
+                self.refinement.SetParametersToRecommended()
+            if preset in ("b2b", "ppf"):
+                self.candidates.SetMethodToVotes()
+                self.candidates.SetPosesPerView(0)
+                self.verification.SetMethodToVotes()
+                self.verification.SetPosesPerView(0)
+                self.alternatives.SetMaximumNumberOfPoses(30)
         else:
             self.candidates.SetPointStride(2)
             self.alternatives.SetMethodToAlternatives()

@@ -97,7 +97,7 @@ class Evaluation:
     def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0, references=0, features="both"):
         self.estimation = filters.vtkMEAMPoseEstimation()
         self.estimation.SetInputDataObject(model)
-        scripting.set_choice(self.estimation, "Preset", preset)
+        scripting.set_preset(self.estimation, preset)
         scripting.set_choice(self.estimation, "Features", features)
         self.estimation.SetMaximumNumberOfPoses(0)  # those beyond the poses asked for matter for recall and AP
         self.estimation.SetNumberOfThreads(threads)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts of examples/ share: files by extension, errors as exceptions, tables and pictures."""
+import argparse
 import contextlib
 import json
 import math
@@ -155,7 +156,32 @@ def add_reference_argument(parser):
                              "copies and takes longer (default: the preset's; recommended: 0.2, of a boundary cloud 0.03)")
 
 
+PRESETS = {"recommended": "Recommended", "paper": "Paper", "without-meam": "WithoutMEAM", "ppf": "OriginalPPF", "b2b": "B2B"}
 FEATURES = ("edges", "surface", "both")
+
+
+class MethodAction(argparse.Action):
+    """--method names what --preset does not: every method but meam is a preset of its own."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        if values != "meam":
+            namespace.preset = values
+
+
+def add_method_options(parser):
+    """The options --method and --preset of a parser; both say `preset`."""
+    parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
+                        help="parameters of all steps of PPF-MEAM: the paper's, Section 6, or those that measure better "
+                             "(default: %(default)s)")
+    parser.add_argument("--method", choices=("meam", "without-meam", "ppf", "b2b"), action=MethodAction,
+                        help="meam: PPF-MEAM (default). In its place, as the paper compares itself with them: without-meam, "
+                             "B2B-TL with one model of the whole part; ppf, pairs of surface points with normals (Drost et al. "
+                             "2010); b2b, pairs of points on line segments (Choi et al. 2012)")
+
+
+def set_preset(estimation, preset):
+    """A preset of vtkMEAMPoseEstimation by its name on the command line."""
+    set_choice(estimation, "Preset", PRESETS[preset])
 
 
 def add_features_argument(parser):
@@ -314,9 +340,15 @@ class Training:
         self.symmetries = filters.vtkMEAMSymmetryDetection()
         self.hashing = filters.vtkMEAMHashing()
         for step in (self.tangents, self.hashing):
-            set_choice(step, "Parameters", preset)
-        if preset != "paper":
+            set_choice(step, "Parameters", "recommended" if preset == "recommended" else "paper")
+        if preset == "recommended":
             set_choice(self.hashing, "Features", features)
+        if preset in ("without-meam", "b2b"):
+            self.views.SetNumberOfViewpoints(0)
+        if preset == "b2b":
+            self.tangents.SetMethodToLineSegments()
+        if preset == "ppf":
+            self.hashing.SetFeaturesToSurface()
         steps = (self.surface, self.views, self.boundary, self.tangents, self.hashing)
         self.surface.SetInputDataObject(mesh)
         for before, step in zip(steps, steps[1:]):
@@ -345,7 +377,9 @@ def resolve_conflicts(found, models, scene, edges, preset="recommended", poses=0
     """Of the poses of several parts, found in the same scan, those that stay, best first; `PartId` is the part's place.
     `edges` are the scan's edge points; as many poses as wanted, 0 for all."""
     tangents = filters.vtkMEAMTangentEstimation()
-    set_choice(tangents, "Parameters", preset)
+    set_choice(tangents, "Parameters", "recommended" if preset == "recommended" else "paper")
+    if preset == "b2b":
+        tangents.SetMethodToLineSegments()
     tangents.SetInputDataObject(edges)
     tangents.SetInputDataObject(1, models[0])
     resolution = filters.vtkMEAMConflictResolution()

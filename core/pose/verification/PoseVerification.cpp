@@ -21,6 +21,47 @@ void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollecto
   pose.evidence = std::log(pose.score / (1.0 - pose.score)); // infinite when all or nothing fits
   pose.visibleFraction = pose.score;
 }
+
+/// Sums up the votes of the poses that agree with each.
+void scoreByVotes(Poses& poses, const TrainedModel& model, const PoseVerificationSettings& settings)
+{
+  const double distance = settings.agreeingDistance * model.diameter;
+  Points middles;
+  for (const Pose& pose : poses)
+  {
+    middles.emplace_back((pose.T_scene_model * model.visibility->middle().cast<double>()).cast<float>());
+  }
+  const PointGrid grid(middles, distance);
+  std::vector<int> sums(poses.size(), 0);
+  parallelFor(static_cast<int>(poses.size()), settings.threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        grid.forEachWithin(middles[i], distance,
+          [&](int other, float)
+          {
+            const bool agrees =
+              rotationError(poses[i].T_scene_model, poses[other].T_scene_model) < settings.agreeingAngle;
+            sums[i] += agrees ? poses[other].votes : 0;
+          });
+      }
+    });
+  const int most = sums.empty() ? 0 : *std::max_element(sums.begin(), sums.end());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    poses[i].votes = sums[i];
+    poses[i].score = most > 0 ? static_cast<double>(sums[i]) / most : 0.0;
+    poses[i].evidence = sums[i]; // orders the poses of one scene; no odds
+  }
+}
+}
+
+PoseVerificationSettings votesVerificationSettings()
+{
+  PoseVerificationSettings settings;
+  settings.method = VerificationMethod::Votes;
+  return settings;
 }
 
 PoseVerificationSettings paperVerificationSettings()
@@ -73,9 +114,10 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     throw Error("The stride of the verification points must be 1 or more.");
   }
   const bool byEvidence = settings.method == VerificationMethod::VisibleEvidence;
+  const bool byCoverage = settings.method == VerificationMethod::EdgeCoverage;
   const EvidenceCollector collector(scene, model, settings.evidence);
   std::vector<Points> viewEdges; // asked for by coverage alone
-  for (std::size_t v = 0; !byEvidence && v < model.viewDirections.size(); ++v)
+  for (std::size_t v = 0; byCoverage && v < model.viewDirections.size(); ++v)
   {
     viewEdges.push_back(model.edgesOfView(static_cast<int>(v)).points);
   }
@@ -93,10 +135,17 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
         else
         {
           scored[i].viewId = viewOf(scored[i], scene, model);
+        }
+        if (byCoverage)
+        {
           scoreByCoverage(scored[i], viewEdges[scored[i].viewId], collector);
         }
       }
     });
+  if (settings.method == VerificationMethod::Votes)
+  {
+    scoreByVotes(scored, model, settings);
+  }
   if (byEvidence)
   {
     std::vector<EvidenceCounts> counts;

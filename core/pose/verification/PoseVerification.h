@@ -9,24 +9,31 @@ namespace meam
 {
 enum class VerificationMethod
 {
-  EdgeCoverage,   ///< Section 5.2 of the paper: share of the edge appearance model that fits the scene
-  VisibleEvidence ///< edges and surface that should be visible, against what the sensor saw
+  EdgeCoverage,    ///< Section 5.2 of the paper: share of the edge appearance model that fits the scene
+  VisibleEvidence, ///< edges and surface that should be visible, against what the sensor saw
+  Votes            ///< of all poses that agree with one, as a share of the most: no look at the scene ([12], [23])
 };
 
 struct PoseVerificationSettings
 {
   VerificationMethod method = VerificationMethod::VisibleEvidence;
-  EvidenceSettings evidence; ///< of both methods the tolerance, the rest of VisibleEvidence
-  int pointStride = 1;       ///< of the predicted points one of so many is looked at: 2 is enough for candidates
-  double minimumScore = 0.0; ///< poses below are dropped
-  int posesPerView = 0;      ///< N_pv: best poses kept for each appearance model; 0: no limit
-  int threads = 0;           ///< 0: one for each processor
+  EvidenceSettings evidence; ///< of EdgeCoverage the tolerance, the rest of VisibleEvidence
+  // Votes
+  double agreeingDistance = 0.1; ///< of the diameter: poses agree whose middles are nearer
+  double agreeingAngle = 15.0;   ///< degrees, and that are turned less
+  int pointStride = 1;           ///< of the predicted points one of so many is looked at: 2 is enough for candidates
+  double minimumScore = 0.0;     ///< poses below are dropped
+  int posesPerView = 0;          ///< N_pv: best poses kept for each appearance model; 0: no limit
+  int threads = 0;               ///< 0: one for each processor
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.
 PoseVerificationSettings paperVerificationSettings();
+/// Those of the methods that rank poses by their votes.
+PoseVerificationSettings votesVerificationSettings();
 
-/// Scores every pose against the scene and returns them best first, in the local frame: score, probability, visible
+/// Scores every pose against the scene, or by its votes, which become those of all that agree with it, and returns them
+/// best first, in the local frame: score, probability, visible
 /// fraction, and the view that shows what the sensor sees. Without a surface only edges count. `rates`, which may be
 /// null, gets how far the scan's edges can be trusted; the paper's score does not ask.
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,

@@ -255,6 +255,16 @@ PoseDetectionSettings paperDetectionSettings()
   return settings;
 }
 
+PoseDetectionSettings originalDetectionSettings()
+{
+  PoseDetectionSettings settings;
+  settings.features = Features::Surface;
+  settings.referenceShare = 0.2;
+  settings.longestBucket = std::numeric_limits<double>::infinity();
+  settings.smoothPeaks = false;
+  return settings;
+}
+
 Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
   const Progress& progress)
 {
@@ -333,9 +343,11 @@ Poses detectPoses(
     const int least = isScan ? settings.leastSurfaceReferences : settings.leastBoundarySurface;
     const DirectedPoints references = surface.subset(
       chooseShare(surface.points, share, least, settings.choiceCell * model.diameter, settings.seed + 2));
+    const double longest = settings.longestBucket * model.surfaceTable.votingPoints;
+    const std::size_t longestBucket =
+      std::isfinite(longest) ? static_cast<std::size_t>(longest) : std::numeric_limits<std::size_t>::max();
     const PartPairs part{ model.surfacePairPoints.points, model.surfacePairPoints.normals, model.surfaceTable,
-      model.surfaceQuantizer(), model.settings.surface.angleStep * M_PI / 180.0, model.diameter,
-      static_cast<std::size_t>(settings.longestBucket * model.surfaceTable.votingPoints) };
+      model.surfaceQuantizer(), model.settings.surface.angleStep * M_PI / 180.0, model.diameter, longestBucket };
     for (const Candidate& candidate :
       candidatesOf(part, references, surface, model.symmetries, settings, subProgress(progress, 0.6, 1.0)))
     {

@@ -198,6 +198,39 @@ TEST(TangentEstimation, PointsThatCarryTangentsAreOnlyThinned)
   EXPECT_NO_THROW(parts::withTangents(parts::withTangents(line({ 1, 0, 0 }, 41, 0.5f), 50.0, Down), 0.0, Down, given));
 }
 
+/// A line of 40 mm, another of 5 mm, and a circle of a radius of 6 mm: of a part of 50 mm the first is a segment.
+TEST(TangentEstimation, OfLineSegmentsOnlyPointsOnLongLinesStay)
+{
+  meam::PointCloud cloud = line({ 1, 0, 0 }, 81, 0.5f);
+  for (const Eigen::Vector3f& point : line({ 0, 1, 0 }, 11, 0.5f).points)
+  {
+    cloud.points.push_back(point + Eigen::Vector3f(0, 30, 0));
+  }
+  for (const Eigen::Vector3f& point : circle(6.0f, 80).points)
+  {
+    cloud.points.push_back(point + Eigen::Vector3f(20, -30, 0));
+  }
+  cloud.pointIds.clear();
+  meam::TangentEstimationSettings settings;
+  settings.method = meam::TangentMethod::LineSegments;
+  settings.leafSize = -1.0;
+  const meam::PointCloud found = parts::withTangents(cloud, 50.0, Down, settings);
+  ASSERT_EQ(found.size(), 81u);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    EXPECT_EQ(found.points[i].y(), 0.0f);
+    EXPECT_NEAR(std::abs(found.tangents[i].x()), 1.0, 1e-5);
+  }
+  // A gap ends a segment: two runs of 19.5 mm stay, when no more is asked for.
+  meam::PointCloud broken = line({ 1, 0, 0 }, 120, 0.5f);
+  broken.points.erase(broken.points.begin() + 40, broken.points.begin() + 80);
+  broken.pointIds.clear();
+  settings.segmentLength = 19.0;
+  EXPECT_EQ(parts::withTangents(broken, 50.0, Down, settings).size(), 80u);
+  settings.segmentLength = 20.0;
+  EXPECT_EQ(parts::withTangents(broken, 50.0, Down, settings).size(), 0u);
+}
+
 TEST(TangentEstimation, EdgesSayWhereTheyComeFrom)
 {
   meam::LocalCloud edges = meam::toLocalCloud(line({ 1, 0, 0 }, 30, 0.5f));

@@ -50,6 +50,21 @@ TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
   }
 }
 
+/// What the paper compares itself with finds fewer: seen from above the bracket's lower edges look like its upper ones,
+/// a plate's thickness away, and its back like its front.
+TEST(MEAMPoseEstimation, EveryPresetFindsCopiesOfABracket)
+{
+  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
+  const std::pair<meam::Preset, int> least[] = { { meam::Preset::Paper, 2 }, { meam::Preset::Recommended, 3 },
+    { meam::Preset::WithoutMEAM, 1 }, { meam::Preset::OriginalPPF, 1 }, { meam::Preset::B2B, 3 } };
+  for (const auto& [preset, copies] : least)
+  {
+    const meam::TrainedModel model = meam::trainModel(parts::lBracket(), meam::trainingSettings(preset));
+    const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(preset, 8));
+    EXPECT_GE(instancesFound(poses, 0.5, 1.5), copies) << meam::nameOf(preset);
+  }
+}
+
 TEST(MEAMPoseEstimation, TheOrderOfPointsDoesNotMatter)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
