@@ -39,8 +39,8 @@ vtk_module_wrap_python(
   BUILD_STATIC OFF)
 
 # The hand-written part of the Python package.
-set(package_files __init__.py api.py bop.py chains.py dataset.py evaluation.py filters.py meshfiles.py picture.py scripting.py
-  simulation.py world.py)
+set(package_files __init__.py api.py bop.py chains.py charts.py dataset.py evaluation.py filters.py meshfiles.py picture.py scripting.py
+  paper.py simulation.py stage.py world.py)
 list(TRANSFORM package_files PREPEND "${PROJECT_SOURCE_DIR}/filters/ppfmeam/" OUTPUT_VARIABLE package_sources)
 list(TRANSFORM package_files PREPEND "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam/" OUTPUT_VARIABLE package_copies)
 add_custom_command(OUTPUT ${package_copies}

@@ -30,7 +30,7 @@ import time
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam import dataset, evaluation, scripting, simulation, world
+from ppfmeam import dataset, evaluation, paper, scripting, simulation, world
 
 COLUMNS = ("scenes  poses   paper  strict    top1  recall      AP  median error: mm  degrees (axis  roll)  ms/scene")
 ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6.1f}  {recall:6.1f}  {AP:6.1f}"
@@ -271,6 +271,7 @@ def main():
     one.add_argument("--scenes", metavar="DIR",
                      help="keep the simulated bins there (.vts and .vtp) and read those that are there")
     one.add_argument("--out", metavar="DIR", required=True, help="write DIR/world.csv, DIR/poses.csv and DIR/world.md")
+    paper.add_parser(datasets, shared)
     options = parser.parse_args()
     failures = options.run(options)
     if failures:

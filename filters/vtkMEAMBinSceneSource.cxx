@@ -85,7 +85,7 @@ void addCamera(const meam::Camera& camera, vtkDataObject* data)
 
 vtkMEAMBinSceneSource::vtkMEAMBinSceneSource()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(4);
 }
 
@@ -122,6 +122,7 @@ int vtkMEAMBinSceneSource::RequestData(
 {
   using namespace vtkMEAMConversion;
   auto* input = vtkPolyData::GetData(inputVector[0]);
+  auto* standing = vtkPolyData::GetData(inputVector[1]);
   auto* scan = vtkStructuredGrid::GetData(outputVector, 0);
   auto* truth = vtkPolyData::GetData(outputVector, 1);
   auto* part = vtkPolyData::GetData(outputVector, 2);
@@ -133,6 +134,17 @@ int vtkMEAMBinSceneSource::RequestData(
       const meam::TriangleMesh mesh = input ? toMesh(input) : meam::makeSamplePart();
       meam::BinSceneSettings settings = meam::binSettings(static_cast<meam::SensorKind>(this->Sensor));
       settings.copies = this->Copies;
+      if (standing)
+      {
+        if (standing->GetNumberOfPoints() == 0)
+        {
+          throw meam::Error("There are no poses for copies to stand at: give some, or leave Poses open.");
+        }
+        for (const meam::Pose& pose : toPoses(standing))
+        {
+          settings.poses.push_back(pose.T_scene_model);
+        }
+      }
       settings.seed = static_cast<unsigned>(this->Seed);
       settings.binSize = this->BinSize;
       settings.sensorHeight = this->SensorHeight;

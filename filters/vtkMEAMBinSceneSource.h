@@ -8,6 +8,8 @@
  * pixels, noise, steps and missing points of such sensors; each of these can be chosen on its own, too.
  *
  * Input port 0 (optional): the part, a vtkPolyData with faces in mm. Default: vtkMEAMSamplePartSource.
+ * Input port 1 (optional): poses in the sensor's frame (mm), as output port 1 has them: copies stand there, nothing
+ * falls, and Copies does not count.
  *
  * Output port 0: the scan, a vtkStructuredGrid of W x H x 1 points (mm, sensor's frame: x right, y down,
  * z the way it looks); points without depth are NaN and blanked. Point arrays: `Intensity` (unsigned

@@ -50,6 +50,15 @@ std::vector<TriangleMesh> walls(double size, double height, double thickness)
 void check(const BinSceneSettings& settings)
 {
   const auto valid = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  const auto isPose = [](const Eigen::Isometry3d& T)
+  {
+    const Eigen::Matrix3d R = T.linear();
+    return T.matrix().allFinite() && (R.transpose() * R).isIdentity(1e-6) && R.determinant() > 0.0;
+  };
+  if (!std::all_of(settings.poses.begin(), settings.poses.end(), isPose))
+  {
+    throw Error("A pose that a copy shall stand at is not a rotation and a translation.");
+  }
   if (settings.copies < 1 || settings.copies > 10000)
   {
     throw Error("The number of copies in the bin must be 1 to 10000.");
@@ -116,11 +125,11 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   {
     throw Error("The part has no size: all vertices of its mesh are at one place.");
   }
+  const std::size_t copies = settings.poses.empty() ? settings.copies : settings.poses.size();
   BinScene scene;
-  scene.binSize =
-    settings.binSize > 0.0
-      ? settings.binSize
-      : partDiameter * std::max(LeastBinSize, SpacePerCopy * std::sqrt(static_cast<double>(settings.copies)));
+  scene.binSize = settings.binSize > 0.0
+                    ? settings.binSize
+                    : partDiameter * std::max(LeastBinSize, SpacePerCopy * std::sqrt(static_cast<double>(copies)));
   if (scene.binSize > 100.0 * partDiameter)
   {
     throw Error("The bin is more than a hundred times larger than the part: check their units.");
@@ -129,22 +138,28 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   const double wallHeight = WallHeight * partDiameter;
   const double wallThickness = WallThickness * partDiameter;
   Random random(settings.seed);
-  const std::vector<Eigen::Isometry3d> poses =
-    fillBin(part, scene.binSize, settings.copies, random, subProgress(progress, 0.0, 0.6)).poses;
-  if (sensorHeight <= wallHeight)
-  {
-    throw Error("The sensor is not above the bin: raise it.");
-  }
-
   // The sensor's z looks down, its x along the bin's x.
   Eigen::Isometry3d T_scene_bin = Eigen::Isometry3d::Identity();
   T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   T_scene_bin.translation().z() = sensorHeight;
+  std::vector<Eigen::Isometry3d> poses = settings.poses;
+  if (poses.empty())
+  {
+    for (const auto& pose :
+      fillBin(part, scene.binSize, settings.copies, random, subProgress(progress, 0.0, 0.6)).poses)
+    {
+      poses.push_back(T_scene_bin * pose);
+    }
+  }
+  if (sensorHeight <= wallHeight)
+  {
+    throw Error("The sensor is not above the bin: raise it.");
+  }
   std::vector<Body> bodies;
   for (const auto& pose : poses)
   {
     const double brightness = random.uniform(0.72, 0.88);
-    bodies.push_back({ &part, T_scene_bin * pose, brightness * PartTint });
+    bodies.push_back({ &part, pose, brightness * PartTint });
   }
   const std::vector<TriangleMesh> sides = walls(scene.binSize, wallHeight, wallThickness);
   for (const auto& side : sides)
@@ -168,16 +183,16 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   scene.image = takeImage(colors, scene.camera, settings.colored, settings.quality, random);
   scene.cloud = measureDepth(view, scene.sensor, settings.quality, random, subProgress(progress, 0.85, 0.95));
 
-  const int copies = static_cast<int>(poses.size());
-  std::vector<Mask> silhouettes = silhouettesOf(facets, copies, scene.sensor);
-  for (int i = 0; i < copies; ++i)
+  const int count = static_cast<int>(copies);
+  std::vector<Mask> silhouettes = silhouettesOf(facets, count, scene.sensor);
+  for (int i = 0; i < count; ++i)
   {
     scene.instances.push_back({ bodies[i].T_scene_model, std::move(silhouettes[i]), 0 });
   }
   scene.instanceOfPixel = view.bodies;
   for (int& body : scene.instanceOfPixel)
   {
-    body = body < copies ? body : -1;
+    body = body < count ? body : -1;
     scene.instances[std::max(body, 0)].visiblePixels += body >= 0;
   }
   report(progress, 1.0);

@@ -83,6 +83,14 @@ check(len(tuples(colored, "RGB")[0]) == 3 and not colored.GetPointData().HasArra
 # The same seed is the same scene, another one is not.
 check(tuples(run(bin_of()), "Intensity") == tuples(scan, "Intensity"), "not the same scene again")
 check(tuples(run(bin_of(Seed=2)), "Intensity") != tuples(scan, "Intensity"), "another seed, the same scene")
+
+# Copies stand at given poses: those that fell, seen again by another sensor.
+again = bin_of(Copies=1, Sensor=1)
+again.SetInputDataObject(1, truth)
+run(again)
+check(tuples(again.GetOutputDataObject(1), "Transform") == tuples(truth, "Transform"), "the copies stand elsewhere")
+again.SetInputDataObject(1, vtkPolyData())
+fails(again, "no poses")
 # Another part; its points may be far from its origin.
 other = bin_of(bracket(), Copies=2)
 run(other)

@@ -145,6 +145,27 @@ TEST(BinScene, aCameraBesideTakesTheImage)
   }
 }
 
+TEST(BinScene, copiesStandWhereTheyAreTold)
+{
+  const meam::BinScene fallen = meam::simulateBin(tetrahedron(), small(2));
+  meam::BinSceneSettings settings = small(7);
+  for (const meam::BinInstance& copy : fallen.instances)
+  {
+    settings.poses.push_back(copy.T_scene_model);
+  }
+  settings.quality.depthNoise = 0.0;
+  const meam::BinScene standing = meam::simulateBin(tetrahedron(), settings);
+  ASSERT_EQ(standing.instances.size(), 2u);
+  EXPECT_EQ(standing.binSize, fallen.binSize);
+  for (int i = 0; i < 2; ++i)
+  {
+    EXPECT_TRUE(standing.instances[i].T_scene_model.matrix() == fallen.instances[i].T_scene_model.matrix());
+    EXPECT_EQ(standing.instances[i].visiblePixels, fallen.instances[i].visiblePixels);
+  }
+  settings.poses[0].linear() *= 2.0;
+  EXPECT_THROW(meam::simulateBin(tetrahedron(), settings), meam::Error);
+}
+
 TEST(BinScene, theSeedDecides)
 {
   const meam::BinScene one = meam::simulateBin(tetrahedron(), small(4, 1));

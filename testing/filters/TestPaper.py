@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's experiments: what they count, which scenes they need, and that a stopped run goes on."""
+import math
+import os
+import tempfile
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+
+from ppfmeam import paper, stage, world
+from meamtest import check, close
+
+# Two scenes, of which one returns three poses of five.
+ROWS = [{"poses": "5", "right": "4", "asked": "5", "ms": "100"}, {"poses": "3", "right": "2", "asked": "5", "ms": "300"}]
+check(close([paper.rate(ROWS), paper.strict(ROWS), paper.milliseconds(ROWS)], [75, 60, 200]), "rates of two scenes")
+check(math.isnan(paper.rate([])) and math.isnan(paper.milliseconds([])), "nothing is no rate")
+
+# Table 1 is four parts by three methods; 2 is of the same scenes; of 5 and 6 some are the same.
+check(len(paper.planned([1], 30, 1)) == len(paper.planned([1, 2], 30, 1)) == 4 * 3 * 30, "scenes of tables 1 and 2")
+check(len(paper.planned([3], 2, 1)) == 24 and len(paper.planned([3, 4, 5, 6], 2, 1)) == 24 + 8 + 4, "scenes of tables 3 to 6")
+check({row["seed"] for row in paper.planned([7], 2, 1)} == {"0", "1"}, "scenes of a dataset count from 0")
+
+# A camera of 100 pixels at 100 mm: of four edge points one lies behind what is measured at its pixel, one beside the scan.
+scan, truth = vtkStructuredGrid(), vtkPolyData()
+scan.SetDimensions(3, 3, 1)
+scan.SetPoints(vtkPoints())
+for row in range(3):
+    for column in range(3):
+        scan.GetPoints().InsertNextPoint(column - 1, row - 1, 100 if column < 2 else math.nan)
+for data, name, values in ((scan, "CameraMatrix", [100, 0, 1, 0, 100, 1, 0, 0, 1]), (truth, "Diameter", [50])):
+    array = vtkDoubleArray()
+    array.SetName(name)
+    array.SetNumberOfComponents(len(values))
+    array.InsertNextTuple(values)
+    data.GetFieldData().AddArray(array)
+truth.SetPoints(vtkPoints())
+truth.GetPoints().InsertNextPoint(0, 0, 100)
+transform = numpy_to_vtk(numpy.array([[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 100, 0, 0, 0, 1]], dtype=float), deep=True)
+transform.SetName("Transform")
+truth.GetPointData().AddArray(transform)
+edges = numpy.array([(0, 0, 0.4), (0, 0, 0.6), (1, 0, 30), (9, 0, 0)], dtype=float)
+kept = vtk_to_numpy(paper.seen(edges, truth, scan).GetPoints().GetData())
+check(numpy.allclose(kept, [(0, 0, 100.4), (1, 0, 130)]), f"of four edge points these are seen: {kept}")
+
+# A step of 10 mm that is found as 10.5, a turn of 20 degrees found as 19.
+still = numpy.eye(4)
+check(close([stage.errors(still, stage.moved(still, 10.5), numpy.array([3.0, 0, 0]), distance=10)], [0.5], 1e-9), "the error of a move")
+middle = numpy.array([3.0, 4.0, 5.0])
+turned = stage.turned(still, middle, 19)
+check(close([stage.errors(still, turned, middle, degrees=20)], [1.0], 1e-6), "the error of a turn")
+check(numpy.allclose(turned[:3, :3] @ middle + turned[:3, 3], middle), "a turn moves the middle")
+
+# A search, the table of it, and a run that has nothing left to do.
+with tempfile.TemporaryDirectory() as folder:
+    rows = [row for row in paper.planned([6], 1, 1) if row["method"] == "recommended"]
+    check(len(rows) == 1, f"{rows}")
+    done = world.Lines(os.path.join(folder, "paper.csv"), paper.ROW)
+    paper.measure(rows, done, paper.Scenes(folder, 4, None), 0)
+    check(len(done.rows) == 1 and done.rows[0]["failure"] == "" and int(done.rows[0]["right"]) >= 3, f"{done.rows}")
+    text = paper.written(6, done.rows, folder)
+    line = next(line for line in text.splitlines() if line.startswith("| PPF-MEAM, recommended |"))
+    right, poses = int(done.rows[0]["right"]), int(done.rows[0]["poses"])
+    check(line.endswith(f"| {100 * right / poses:.1f} % |") and "| 91.0 % |" in text, text)
+    check(os.path.exists(os.path.join(folder, "table6.csv")) and os.path.exists(os.path.join(folder, "table6.md")), "files")
+    again = world.Lines(os.path.join(folder, "paper.csv"), paper.ROW)
+    paper.measure(rows, again, None, 0)  # looks at no scene
+    check(again.rows == done.rows, "the same rows")
