@@ -22,6 +22,7 @@ Times are the median over the scenes, without reading files and training.
 """
 import argparse
 import csv
+import math
 import os
 import statistics
 import sys
@@ -58,7 +59,8 @@ def run_part(part, options):
         try:
             truth = evaluation.tohoku_truth(options.folder, part, scene)
             surface, edges = evaluation.tohoku_clouds(options.folder, part, scene)
-            poses = run.find(*evaluation.with_noise((surface, edges), deviation, scene))
+            poses = (evaluation.stored_poses(options.found, part, scene) if options.found
+                     else run.find(*evaluation.with_noise((surface, edges), deviation, scene)))
             truth = evaluation.with_visibility(truth, model, edges, surface)
             if out:
                 scripting.write_poses(poses, out, "Matrices", MaximumNumberOfPoses=options.poses)
@@ -70,6 +72,8 @@ def run_part(part, options):
 
 
 def print_stages(rows):
+    if all(math.isnan(row["ms"]) for row in rows):
+        return  # another program's poses
     print("\nmedian ms of each stage\npart  " + "  ".join(f"{stage.lower():>12}" for stage in evaluation.STAGES))
     for row in rows:
         print(f"{row['part']:4d}  " + "  ".join(f"{row[stage + '_ms']:12.0f}" for stage in evaluation.STAGES))
@@ -242,6 +246,9 @@ def main():
     one.add_argument("--scenes", type=evaluation.numbers, default=list(range(20)), help="such as 0-4,7 (default: 0-19)")
     one.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
     one.add_argument("--noise", type=evaluation.noise, default="0", help=evaluation.NOISE_HELP)
+    one.add_argument("--found", metavar="DIR",
+                     help="judge the poses that another program left in DIR/Part_P/transI.txt, best first, 16 numbers each, "
+                          "instead of looking for them")
     one.add_argument("--out", metavar="OUTDIR",
                      help="write OUTDIR/Part_P/transI.txt, 4x4 matrices best first, and OUTDIR/tohoku.csv")
 

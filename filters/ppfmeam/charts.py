@@ -28,7 +28,7 @@ def bars(path, title, groups, series, unit):
         ticks.InsertNextValue(place)
         labels.InsertNextValue(str(group))
     chart.GetAxis(vtkAxis.BOTTOM).SetCustomTickPositions(ticks, labels)
-    save(chart, path)
+    save(chart, series, path)
 
 
 def lines(path, title, x, series, across, unit):
@@ -39,7 +39,7 @@ def lines(path, title, x, series, across, unit):
         plot = add(chart, vtkChart.LINE, table, column, name)
         plot.SetWidth(2)
         plot.SetMarkerStyle(4)
-    save(chart, path)
+    save(chart, series, path)
 
 
 def chart_of(title, across, up):
@@ -49,7 +49,6 @@ def chart_of(title, across, up):
     chart.GetLegend().SetInline(False)
     for axis, text in ((vtkAxis.BOTTOM, across), (vtkAxis.LEFT, up)):
         chart.GetAxis(axis).SetTitle(text)
-    chart.GetAxis(vtkAxis.LEFT).SetMinimumLimit(0)
     return chart
 
 
@@ -70,9 +69,12 @@ def add(chart, kind, table, column, name):
     return plot
 
 
-def save(chart, path):
+def save(chart, series, path):
     if not os.environ.get("DISPLAY"):
         return
+    highest = numpy.nanmax([1e-9, *(value for values in series.values() for value in values)])
+    chart.GetAxis(vtkAxis.LEFT).SetBehavior(vtkAxis.FIXED)
+    chart.GetAxis(vtkAxis.LEFT).SetRange(0, 1.05 * highest)
     view = vtkContextView()
     view.GetRenderer().SetBackground(1, 1, 1)
     view.GetRenderWindow().SetOffScreenRendering(True)

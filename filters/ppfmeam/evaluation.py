@@ -54,6 +54,14 @@ def tohoku_truth(folder, part, scene):
     return scripting.read_with(filters.vtkMEAMPoseReader(), path)
 
 
+def stored_poses(folder, part, scene):
+    """The poses of a scene that another program has found; none where it left no file, or an empty one."""
+    path = os.path.join(folder, f"Part_{part}", f"trans{scene}.txt")
+    if not os.path.exists(path) or not os.path.getsize(path):
+        return vtkPolyData()
+    return scripting.read_with(filters.vtkMEAMPoseReader(), path)
+
+
 def tohoku_clouds(folder, part, scene):
     """The measured surface and the edge points of a scene."""
     names = (f"Scene{scene}.pcd", f"Scene_boundary{scene}.pcd")
