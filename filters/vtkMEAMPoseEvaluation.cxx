@@ -15,6 +15,7 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
@@ -22,45 +23,55 @@ vtkStandardNewMacro(vtkMEAMPoseEvaluation);
 
 namespace
 {
-/// The table's columns, filled row by row.
+/// A table's columns, filled row by row.
+template <std::size_t Integer, std::size_t Double>
 class Columns
 {
 public:
-  explicit Columns(vtkTable* table)
+  Columns(
+    vtkTable* table, const std::array<const char*, Integer>& integers, const std::array<const char*, Double>& doubles)
   {
-    for (std::size_t i = 0; i < this->Integers.size(); ++i)
+    for (std::size_t i = 0; i < Integer; ++i)
     {
-      static const char* const names[] = { "Scene", "Rank", "Right", "Duplicate", "Instance", "NearestInstance" };
-      this->Integers[i]->SetName(names[i]);
+      this->Integers[i]->SetName(integers[i]);
       table->AddColumn(this->Integers[i]);
     }
-    for (std::size_t i = 0; i < this->Doubles.size(); ++i)
+    for (std::size_t i = 0; i < Double; ++i)
     {
-      static const char* const names[] = { "Score", "TranslationError", "RotationError", "AxisError", "RollError" };
-      this->Doubles[i]->SetName(names[i]);
+      this->Doubles[i]->SetName(doubles[i]);
       table->AddColumn(this->Doubles[i]);
     }
   }
 
-  void addRow(const std::array<int, 6>& integers, const std::array<double, 5>& doubles)
+  void addRow(const std::array<int, Integer>& integers, const std::array<double, Double>& doubles)
   {
-    for (std::size_t i = 0; i < integers.size(); ++i)
+    for (std::size_t i = 0; i < Integer; ++i)
     {
       this->Integers[i]->InsertNextValue(integers[i]);
     }
-    for (std::size_t i = 0; i < doubles.size(); ++i)
+    for (std::size_t i = 0; i < Double; ++i)
     {
       this->Doubles[i]->InsertNextValue(doubles[i]);
     }
   }
 
 private:
-  std::array<vtkNew<vtkIntArray>, 6> Integers;
-  std::array<vtkNew<vtkDoubleArray>, 5> Doubles;
+  std::array<vtkNew<vtkIntArray>, Integer> Integers;
+  std::array<vtkNew<vtkDoubleArray>, Double> Doubles;
 };
 }
 
-vtkMEAMPoseEvaluation::vtkMEAMPoseEvaluation() { this->SetNumberOfInputPorts(3); }
+vtkMEAMPoseEvaluation::vtkMEAMPoseEvaluation()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(3);
+}
+
+int vtkMEAMPoseEvaluation::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkPolyData" : "vtkTable");
+  return 1;
+}
 
 int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -87,7 +98,9 @@ int vtkMEAMPoseEvaluation::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using namespace vtkMEAMConversion;
-  auto* output = vtkTable::GetData(outputVector);
+  auto* output = vtkTable::GetData(outputVector, 0);
+  auto* instances = vtkTable::GetData(outputVector, 1);
+  auto* judged = vtkPolyData::GetData(outputVector, 2);
   return vtkMEAMRun(
     this,
     [&]
@@ -118,7 +131,14 @@ int vtkMEAMPoseEvaluation::RequestData(
       settings.minimumVisibleFraction = this->MinimumVisibleFraction;
 
       meam::EvaluationTotals totals;
-      Columns columns(output);
+      Columns<7, 5> ofPoses(output, { "Scene", "Rank", "Right", "Duplicate", "Instance", "NearestInstance", "Outcome" },
+        { "Score", "TranslationError", "RotationError", "AxisError", "RollError" });
+      Columns<5, 3> ofInstances(instances, { "Scene", "Instance", "HasToBeFound", "FoundBy", "NearestRank" },
+        { "VisibleFraction", "TranslationError", "RotationError" });
+      meam::Poses all;
+      vtkNew<vtkIntArray> sceneOf, outcomes;
+      sceneOf->SetName("Scene");
+      outcomes->SetName("Outcome");
       for (int i = 0; i < scenes; ++i)
       {
         const meam::Poses estimates = toPoses(vtkPolyData::GetData(inputVector[0], i));
@@ -128,19 +148,35 @@ int vtkMEAMPoseEvaluation::RequestData(
         for (std::size_t k = 0; k < estimates.size(); ++k)
         {
           const meam::PoseJudgement& judgement = scene.judgements[k];
-          columns.addRow({ i, static_cast<int>(k) + 1, judgement.instance >= 0 ? 1 : 0, judgement.duplicate ? 1 : 0,
-                           judgement.instance, judgement.nearest },
+          const int outcome = static_cast<int>(judgement.outcome);
+          ofPoses.addRow({ i, static_cast<int>(k) + 1, judgement.instance >= 0 ? 1 : 0, judgement.duplicate ? 1 : 0,
+                           judgement.instance, judgement.nearest, outcome },
             { estimates[k].score, judgement.translationError, judgement.rotationError, judgement.axisError,
               judgement.rollError });
+          all.push_back(estimates[k]);
+          sceneOf->InsertNextValue(i);
+          outcomes->InsertNextValue(outcome);
+        }
+        for (std::size_t k = 0; k < truths.size(); ++k)
+        {
+          const meam::InstanceJudgement& judgement = scene.instances[k];
+          ofInstances.addRow(
+            { i, static_cast<int>(k), judgement.counts ? 1 : 0, judgement.pose + 1, judgement.nearest + 1 },
+            { truths[k].visibleFraction, judgement.translationError, judgement.rotationError });
         }
       }
       const meam::EvaluationFigures figures = meam::evaluationFigures(totals);
+      fromPoses(all, judged);
+      judged->GetPointData()->AddArray(sceneOf);
+      judged->GetPointData()->AddArray(outcomes);
+      judged->GetPointData()->SetActiveScalars("Outcome");
       setDiameter(output, settings.diameter);
       setFieldValue(output, "PaperRate", figures.paperRate);
       setFieldValue(output, "StrictRate", figures.strictRate);
       setFieldValue(output, "Top1Rate", figures.top1Rate);
       setFieldValue(output, "Recall", figures.recall);
       setFieldValue(output, "AveragePrecision", figures.averagePrecision);
+      setFieldValue(output, "RecallAtPrecision99", figures.recallAtPrecision99);
       setFieldValue(output, "MeanTranslationError", figures.meanTranslationError);
       setFieldValue(output, "MedianTranslationError", figures.medianTranslationError);
       setFieldValue(output, "MeanRotationError", figures.meanRotationError);
@@ -150,7 +186,7 @@ int vtkMEAMPoseEvaluation::RequestData(
       setFieldValue(output, "Scenes", totals.scenes);
       setFieldValue(output, "Poses", totals.poses);
     },
-    output);
+    output, instances, judged);
 }
 
 void vtkMEAMPoseEvaluation::PrintSelf(ostream& os, vtkIndent indent)

@@ -20,11 +20,18 @@
  * Output port 0: a vtkTable with a row for each estimated pose, and the columns `Scene` (from 0), `Rank`,
  * `Score`, `Right` (0 or 1), `Duplicate` (1: a better pose has found the same instance), `Instance`
  * (index of the true pose, -1 for a wrong pose), `NearestInstance`, `TranslationError` (mm),
- * `RotationError`, `AxisError` and `RollError` (degrees; to the matched instance, or to the nearest).
- * Field data: `PaperRate` (right / poses that came out), `StrictRate` (distinct right poses / poses asked
- * for), `Top1Rate`, `Recall` and `AveragePrecision` (all poses, not only those asked for) in %;
- * `MeanTranslationError`, `MedianTranslationError` (mm), `MeanRotationError`, `MedianRotationError`,
- * `MedianAxisError`, `MedianRollError` (degrees) of the right poses; `Scenes`, `Poses` (judged).
+ * `RotationError`, `AxisError` and `RollError` (degrees; to the matched instance, or to the nearest), `Outcome` (0 hit,
+ * 1 duplicate, 2 wrong turn: near enough but turned too far, 3 wrong place). Field data: `PaperRate` (right / poses
+ * that came out), `StrictRate` (distinct right poses / poses asked for), `Top1Rate`, `Recall`, `AveragePrecision` and
+ * `RecallAtPrecision99` (by the likeliest poses, as long as 99 % of them are right) in %, the last three of all poses,
+ * not only those asked for; `MeanTranslationError`, `MedianTranslationError` (mm), `MeanRotationError`,
+ * `MedianRotationError`, `MedianAxisError`, `MedianRollError` (degrees) of the right poses; `Scenes`, `Poses` (judged).
+ *
+ * Output port 1: a vtkTable with a row for each true instance, and the columns `Scene`, `Instance`, `HasToBeFound` (1:
+ * it is visible enough), `FoundBy` (rank of the first pose that found it, 0: missed), `NearestRank` (of the pose whose
+ * middle is nearest, 0: there is none), `VisibleFraction`, `TranslationError` (mm) and `RotationError` (degrees) of the
+ * pose that found it, or else of the nearest. Output port 2: the estimated poses of all scenes, a vtkPolyData with the
+ * arrays of every pose, `Scene` and `Outcome`, which a view colours them by.
  */
 #ifndef vtkMEAMPoseEvaluation_h
 #define vtkMEAMPoseEvaluation_h
@@ -85,6 +92,7 @@ protected:
   ~vtkMEAMPoseEvaluation() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

@@ -75,6 +75,9 @@ PoseJudgement judge(const Pose& estimate, const Poses& truths, const PoseEvaluat
       }
     }
   }
+  judgement.outcome = judgement.instance >= 0 ? PoseOutcome::Hit
+                      : nearest < reach       ? PoseOutcome::WrongTurn
+                                              : PoseOutcome::WrongPlace;
   const int to = judgement.instance >= 0 ? judgement.instance : judgement.nearest;
   if (to < 0)
   {
@@ -87,6 +90,34 @@ PoseJudgement judge(const Pose& estimate, const Poses& truths, const PoseEvaluat
   judgement.translationError = translationError(equal, truth, settings.middle);
   judgement.rotationError = rotationError(equal, truth);
   splitRotation(equal, truth, settings.axis.normalized(), judgement);
+  return judgement;
+}
+
+InstanceJudgement judgeInstance(
+  const Pose& truth, const Poses& estimates, int pose, const PoseEvaluationSettings& settings)
+{
+  InstanceJudgement judgement;
+  judgement.pose = pose;
+  judgement.translationError = judgement.rotationError = NaN;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+  {
+    const double distance =
+      translationError(nearestEqual(estimates[i].T_scene_model, truth.T_scene_model, settings.symmetries),
+        truth.T_scene_model, settings.middle);
+    if (distance < nearest)
+    {
+      nearest = distance;
+      judgement.nearest = static_cast<int>(i);
+    }
+  }
+  const int of = pose >= 0 ? pose : judgement.nearest;
+  if (of >= 0)
+  {
+    const Eigen::Isometry3d equal = nearestEqual(estimates[of].T_scene_model, truth.T_scene_model, settings.symmetries);
+    judgement.translationError = translationError(equal, truth.T_scene_model, settings.middle);
+    judgement.rotationError = rotationError(equal, truth.T_scene_model);
+  }
   return judgement;
 }
 
@@ -138,6 +169,19 @@ double averagePrecision(std::vector<std::pair<double, bool>> ranking, int instan
   }
   return 100.0 * sum / 101.0;
 }
+
+/// In %: instances found by the most likely poses, as many of these as may be with 99 of 100 right.
+double recallAtPrecision99(std::vector<std::pair<double, bool>> ranking, int instances)
+{
+  std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  int right = 0, most = 0;
+  for (std::size_t i = 0; i < ranking.size(); ++i)
+  {
+    right += ranking[i].second ? 1 : 0;
+    most = 100 * right >= 99 * static_cast<int>(i + 1) ? right : most;
+  }
+  return percent(most, instances);
+}
 }
 
 SceneEvaluation evaluatePoses(const Poses& estimates, const Poses& truths, const PoseEvaluationSettings& settings)
@@ -157,21 +201,27 @@ SceneEvaluation evaluatePoses(const Poses& estimates, const Poses& truths, const
   {
     evaluation.visibleInstances += counts(i) ? 1 : 0;
   }
-  std::vector<bool> found(truths.size(), false);
+  std::vector<int> found(truths.size(), -1); // by which estimate
   for (const Pose& estimate : estimates)
   {
     PoseJudgement judgement = judge(estimate, truths, settings);
     const int instance = judgement.instance;
     if (instance >= 0)
     {
-      judgement.duplicate = found[instance];
-      found[instance] = true;
+      judgement.duplicate = found[instance] >= 0;
+      judgement.outcome = judgement.duplicate ? PoseOutcome::Duplicate : PoseOutcome::Hit;
+      found[instance] = judgement.duplicate ? found[instance] : static_cast<int>(evaluation.judgements.size());
     }
     if (instance < 0 || counts(instance))
     {
       evaluation.ranking.emplace_back(probabilityOrScore(estimate), instance >= 0 && !judgement.duplicate);
     }
     evaluation.judgements.push_back(judgement);
+  }
+  for (int i = 0; i < static_cast<int>(truths.size()); ++i)
+  {
+    evaluation.instances.push_back(judgeInstance(truths[i], estimates, found[i], settings));
+    evaluation.instances.back().counts = counts(i);
   }
   return evaluation;
 }
@@ -211,6 +261,7 @@ EvaluationFigures evaluationFigures(const EvaluationTotals& totals)
   figures.top1Rate = percent(totals.firstRight, totals.scenes);
   figures.recall = percent(static_cast<double>(found), totals.visibleInstances);
   figures.averagePrecision = averagePrecision(totals.ranking, totals.visibleInstances);
+  figures.recallAtPrecision99 = recallAtPrecision99(totals.ranking, totals.visibleInstances);
   figures.meanTranslationError = mean(totals.translationErrors);
   figures.medianTranslationError = median(totals.translationErrors);
   figures.meanRotationError = mean(totals.rotationErrors);

@@ -24,6 +24,15 @@ struct PoseEvaluationSettings
   double minimumVisibleFraction = 0.5; ///< of a true instance that has to be found, for the recall
 };
 
+/// What an estimated pose is.
+enum class PoseOutcome
+{
+  Hit,        ///< right, and the first for its instance
+  Duplicate,  ///< right, but a better pose has found the same instance
+  WrongTurn,  ///< near enough to a true pose, but turned too far
+  WrongPlace, ///< too far from every true pose
+};
+
 /// How one estimated pose compares with the true ones. Errors are those to the matched instance or,
 /// without one, to the nearest; NaN when there is no true pose at all.
 struct PoseJudgement
@@ -35,13 +44,26 @@ struct PoseJudgement
   double rotationError;    ///< degrees
   double axisError;        ///< degrees between the axes
   double rollError;        ///< degrees of the turn about the axis that is left
+  PoseOutcome outcome = PoseOutcome::WrongPlace;
+};
+
+/// What became of a true instance. Errors are those of the pose that found it or, without one, of the pose that is
+/// nearest to it; NaN when there is no pose.
+struct InstanceJudgement
+{
+  int pose = -1;           ///< index of the first estimate that found it, or -1: missed
+  int nearest = -1;        ///< index of the estimate whose middle is nearest
+  bool counts = false;     ///< visible enough that it has to be found
+  double translationError; ///< mm
+  double rotationError;    ///< degrees
 };
 
 struct SceneEvaluation
 {
-  std::vector<PoseJudgement> judgements; ///< of each estimate, in its order
-  int asked = 0;                         ///< poses that count for the rates below
-  int visibleInstances = 0;              ///< true instances that have to be found
+  std::vector<PoseJudgement> judgements;    ///< of each estimate, in its order
+  std::vector<InstanceJudgement> instances; ///< of each true pose, in its order
+  int asked = 0;                            ///< poses that count for the rates below
+  int visibleInstances = 0;                 ///< true instances that have to be found
   /// Confidence of each estimate, and whether it is the first for an instance that has to be found.
   /// Poses of instances that are too hidden to count are left out.
   std::vector<std::pair<double, bool>> ranking;
@@ -79,6 +101,7 @@ struct EvaluationFigures
   double top1Rate;             ///< scenes whose first pose is right
   double recall;               ///< visible instances found by any pose, also beyond those asked for
   double averagePrecision;     ///< over all poses by score, interpolated at 101 recalls
+  double recallAtPrecision99;  ///< visible instances found by the most likely poses, as long as 99 % of them are right
   double meanTranslationError; ///< mm, and the next
   double medianTranslationError;
   double meanRotationError; ///< degrees, and all that follow

@@ -3,7 +3,7 @@
 import math
 
 from ppfmeam.filters import vtkMEAMPoseEvaluation
-from meamtest import Errors, box, check, close, cloud, connect, field, poses, prints, run, set_fields
+from meamtest import Errors, box, check, close, cloud, connect, field, poses, prints, run, set_fields, tuples
 
 
 def at(x, degrees=0.0):
@@ -36,6 +36,14 @@ check(column(table, "Rank") == [1, 2, 3, 4] and column(table, "Scene") == [0] * 
 check(column(table, "Right") == [1, 1, 0, 0] and column(table, "Duplicate") == [0, 1, 0, 0], "two are right")
 check(column(table, "Instance") == [0, 0, -1, -1], f"instances: {column(table, 'Instance')}")
 check(column(table, "NearestInstance")[3] == 1, "the turned one lies at the second")
+check(column(table, "Outcome") == [0, 1, 3, 2], f"hit, duplicate, wrong place, wrong turn: {column(table, 'Outcome')}")
+found = filter.GetOutputDataObject(1)
+check(column(found, "FoundBy") == [1, 0, 0] and column(found, "NearestRank") == [1, 4, 4], "the first is found")
+check(column(found, "HasToBeFound") == [1, 1, 1] and close(column(found, "TranslationError"), (1, 0, 100)), "its error")
+judged = filter.GetOutputDataObject(2)
+check([outcome for outcome, in tuples(judged, "Outcome")] == [0, 1, 3, 2] and judged.GetPointData().HasArray("Transform"),
+      "the poses with what they are")
+check(figure(table, "RecallAtPrecision99") >= 0, "a figure of the likeliest")
 check(close(column(table, "TranslationError")[:2], (1, 2)), "distances in mm")
 check(close(column(table, "RotationError"), (0, 3, 0, 90)), "angles in degrees")
 check(close(column(table, "RollError"), (0, 3, 0, 90)) and close(column(table, "AxisError"), (0,) * 4), "all is roll")

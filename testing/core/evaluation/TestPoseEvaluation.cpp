@@ -193,6 +193,55 @@ TEST(PoseEvaluation, averagePrecision)
   EXPECT_NEAR(meam::evaluationFigures(totals).averagePrecision, 50.0, 1e-9);
 }
 
+TEST(PoseEvaluation, whatBecameOfEachInstanceAndPose)
+{
+  // Three instances 100 mm apart: the first is found twice, the second turned by 90 degrees, the third not at all.
+  const meam::SceneEvaluation scene =
+    meam::evaluatePoses({ poseAt(1), poseAt(2), poseAt(100, degrees(90, Vector3d::UnitX())), poseAt(50) },
+      { poseAt(0), poseAt(100), poseAt(300) }, settings());
+  const meam::PoseOutcome outcomes[] = { meam::PoseOutcome::Hit, meam::PoseOutcome::Duplicate,
+    meam::PoseOutcome::WrongTurn, meam::PoseOutcome::WrongPlace };
+  for (int i = 0; i < 4; ++i)
+  {
+    EXPECT_EQ(scene.judgements[i].outcome, outcomes[i]) << i;
+  }
+  ASSERT_EQ(scene.instances.size(), 3u);
+  const int foundBy[] = { 0, -1, -1 }, nearest[] = { 0, 2, 2 };
+  const double mm[] = { 1, 0, 200 }, turns[] = { 0, 90, 90 };
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(scene.instances[i].pose, foundBy[i]) << i;
+    EXPECT_EQ(scene.instances[i].nearest, nearest[i]) << i;
+    EXPECT_TRUE(scene.instances[i].counts);
+    EXPECT_NEAR(scene.instances[i].translationError, mm[i], 1e-9) << i;
+    EXPECT_NEAR(scene.instances[i].rotationError, turns[i], 1e-6) << i;
+  }
+  const meam::SceneEvaluation nothing = meam::evaluatePoses(meam::Poses{}, { poseAt(0) }, settings());
+  EXPECT_EQ(nothing.instances[0].pose, -1);
+  EXPECT_EQ(nothing.instances[0].nearest, -1);
+  EXPECT_TRUE(std::isnan(nothing.instances[0].translationError));
+}
+
+/// 100 right poses, a wrong one, 97 right ones, a wrong one, 2 right ones: 99 % is kept up to the 198th, 197 of which
+/// are right; with the second wrong one it is 197 of 199, 98.99 %, and 198 of 200 are 99 % again.
+TEST(PoseEvaluation, recallAtAPrecisionOf99Percent)
+{
+  meam::EvaluationTotals totals;
+  totals.visibleInstances = 400;
+  for (int i = 0; i < 201; ++i)
+  {
+    totals.ranking.emplace_back(1.0 - 0.001 * i, i != 100 && i != 198);
+  }
+  EXPECT_DOUBLE_EQ(meam::evaluationFigures(totals).recallAtPrecision99, 100.0 * 199 / 400);
+  totals.ranking.resize(200);
+  EXPECT_DOUBLE_EQ(meam::evaluationFigures(totals).recallAtPrecision99, 100.0 * 198 / 400);
+  totals.ranking.resize(199);
+  EXPECT_DOUBLE_EQ(meam::evaluationFigures(totals).recallAtPrecision99, 100.0 * 197 / 400);
+  totals.ranking[0].second = false;
+  totals.ranking.resize(50);
+  EXPECT_DOUBLE_EQ(meam::evaluationFigures(totals).recallAtPrecision99, 0.0);
+}
+
 TEST(PoseEvaluation, equalPosesOfASymmetricPartAreRight)
 {
   meam::PoseEvaluationSettings with = settings();
