@@ -150,8 +150,8 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
       return "Found as rank " + rank + ", " + off + ", but only the best " +
              std::to_string(detection.selection.maximumPoses) + " are wanted.";
     case LossCause::Unlikely:
-      return "Found, " + off + ", but with a probability of " + percent(diagnosis.place->probability) +
-             ", and less than " + percent(detection.selection.minimumProbability) + " is not wanted.";
+      return "Found, " + off + ", but with a probability of " + percent(diagnosis.probability) + ", and less than " +
+             percent(detection.selection.minimumProbability) + " is not wanted.";
     case LossCause::NoPose:
       return "No part there: however closely it is looked for, no pose of the part has its surface at this point.";
     case LossCause::NotThere:
@@ -272,11 +272,12 @@ std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)
     add(nameOf(stage.stage), "best rank here (0: none)", stage.bestRank, stage.poses);
   }
   add("score", "score at the place", diagnosis.place->score, alone);
-  add("score", "probability", diagnosis.place->probability, alone);
+  add("score", "probability at the place", diagnosis.place->probability, alone);
   add("score", "evidence, of the best pose's", diagnosis.place->evidence, diagnosis.bestEvidence);
   add("score", "rank among all refined poses (0: dropped)", diagnosis.placeRank, alone);
   add("selection", "rank of what came out here (0: nothing)", diagnosis.rank, alone);
   add("selection", "rank without limits on number and probability (0: nothing)", diagnosis.rankWithoutLimits, alone);
+  add("selection", "probability of what came out, or would without limits", diagnosis.probability, alone);
   if (diagnosis.takenBy > 0)
   {
     add("selection", "pose that has most of the matched points", diagnosis.takenBy, alone);

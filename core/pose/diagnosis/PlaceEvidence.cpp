@@ -19,8 +19,8 @@ double PlaceEvidence::edgeShare() const
 
 double PlaceEvidence::surfaceShare(PointState state) const
 {
-  const int inSight = static_cast<int>(this->points.surface.size()) - this->surface(PointState::Hidden);
-  return inSight > 0 ? static_cast<double>(this->surface(state)) / inSight : 0.0;
+  const int unhidden = static_cast<int>(this->points.surface.size()) - this->surface(PointState::Hidden);
+  return unhidden > 0 ? static_cast<double>(this->surface(state)) / unhidden : 0.0;
 }
 
 PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& scene, const TrainedModel& model,

@@ -164,6 +164,7 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     diagnosis.rank = diagnosis.rankWithoutLimits = stages.back().bestRank;
     diagnosis.offset =
       offsetBetween(this->Trace.ranked()[diagnosis.rank - 1].T_scene_model, T_local_model, this->Model);
+    diagnosis.probability = this->Trace.ranked()[diagnosis.rank - 1].probability;
     if (diagnosis.offset.angle < this->Settings.foundAngle)
     {
       return LossCause::None;
@@ -262,8 +263,9 @@ LossCause PoseDiagnosis::causeInSelection(Diagnosis& diagnosis, const Eigen::Iso
   {
     diagnosis.rankWithoutLimits = here.front() + 1;
     diagnosis.offset = offsetBetween(all[here.front()].T_scene_model, T_local_model, this->Model);
-    return all[here.front()].probability < this->Detection.selection.minimumProbability ? LossCause::Unlikely
-                                                                                        : LossCause::BeyondMaximum;
+    diagnosis.probability = all[here.front()].probability;
+    return diagnosis.probability < this->Detection.selection.minimumProbability ? LossCause::Unlikely
+                                                                                : LossCause::BeyondMaximum;
   }
   this->findTaker(diagnosis, all);
   return this->isTurnedAmong(all, T_local_model) ? LossCause::OtherRotation : LossCause::Taken;

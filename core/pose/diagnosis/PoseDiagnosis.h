@@ -13,12 +13,12 @@ struct PoseDiagnosisSettings
   double angle = 15.0;        ///< degrees: a candidate this near to the place leads to it
   double foundAngle = 5.0;    ///< degrees: what comes out and is turned by more is another rotation
   double alignedAngle = 10.0; ///< degrees, between tangents of the scene and of the part that are alike
-  double leastVisible = 0.25; ///< share of the part's side towards the sensor: with less in sight it counts as hidden
-  double leastThere = 0.5;    ///< share of the surface in sight: with more seen past, or not measured, that is why
-  double onSurface = 0.025;   ///< of the diameter: a picked point this near to a pose's surface lies on it
-  double lookedFor = 0.5;     ///< of the diameter: points this near to a picked one, or to a part's middle, all vote
-  int peaksLookedFor = 3;     ///< candidates of each of them, when a place is looked for by a picked point
-  bool fit = true;            ///< a place given as a pose is fitted to the scene first where that leaves it nearby
+  double leastVisible = 0.25; ///< share of the part's side towards the sensor: with less visible it is hidden
+  double leastThere = 0.5;  ///< share of the surface that nothing hides: with more seen past or unmeasured, that is why
+  double onSurface = 0.025; ///< of the diameter: a picked point this near to a pose's surface lies on it
+  double lookedFor = 0.5;   ///< of the diameter: points this near to a picked one, or to a part's middle, all vote
+  int peaksLookedFor = 3;   ///< candidates of each of them, when a place is looked for by a picked point
+  bool fit = true;          ///< a place given as a pose is fitted to the scene first where that leaves it nearby
   VoteSupportSettings votes;
 };
 
@@ -70,6 +70,7 @@ struct Diagnosis
   std::vector<StageCount> stages;
   int rank = 0;                    ///< of what came out here, from 1; 0: nothing did
   PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
+  double probability = 0.0;        ///< of what came out here, or would without limits
   int rankWithoutLimits = 0;       ///< the same if all poses came out
   int takenBy = 0;                 ///< rank, from 1, of the pose that came out and has most of the place's points
   double takenShare = 0.0;         ///< of the points that match at the place, those that match at that pose, too

@@ -18,7 +18,7 @@ meam::Diagnosis example(LossCause cause, std::optional<PoseStage> lostIn = {})
   diagnosis.lostIn = lostIn;
   diagnosis.place.emplace();
   diagnosis.place->visibleFraction = 0.12;
-  diagnosis.place->probability = 0.3;
+  diagnosis.probability = 0.3;
   diagnosis.offset = { 0.61, 1.18 };
   diagnosis.evidence.edges = 120;
   diagnosis.evidence.edgesMatched = 3;
@@ -115,6 +115,6 @@ TEST(DiagnosisReport, NumbersGoStepByStep)
   EXPECT_EQ(
     value("voting", "votes for it of its best reference point, of that point's most"), std::make_pair(12.0, 31.0));
   EXPECT_EQ(value("screening", "poses here"), std::make_pair(0.0, 90.0));
-  EXPECT_TRUE(std::isnan(value("score", "probability").second));
+  EXPECT_TRUE(std::isnan(value("score", "probability at the place").second));
   EXPECT_TRUE(meam::numbersOf({}).empty());
 }
