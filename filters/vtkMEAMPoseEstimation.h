@@ -12,14 +12,7 @@
  * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the
  * poses and changes nothing else.
  *
- * Input port 0: the part, a vtkPolyData with the CAD's faces, or the trained model that vtkMEAMHashing
- * returns, a vtkPartitionedDataSetCollection.
- * Input port 1: the scene in mm, a vtkStructuredGrid of W x H x 1 points in the sensor's frame, or a
- * vtkPolyData with the points of the measured surface.
- * Input port 2 (optional): the scene's edge points, a vtkPolyData. Without it the scene has to be
- * organized and, for edges of the image, to have one: port 3, or the point array `Intensity` (1) or `RGB` (3).
- * Input port 3 (optional): the image, a vtkImageData with 1, 3 or 4 components; of W x H, or of any size when the
- * camera that took it is known as vtkMEAMSceneEdgeExtraction has it.
+ * Input ports: as vtkMEAMEstimationAlgorithm has them.
  *
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
@@ -28,170 +21,37 @@
  * how sure that is; where nothing is, a warning says so, too), `ScanReport` and `ScanQuality` (of an organized scan, as
  * vtkMEAMSceneEdgeExtraction has them), `EdgesFound` and `EdgesByChance` (share of the edge points of a part that a
  * scene edge lies on, where the part is and anywhere: how far this scan's edges can be trusted), `SecondsTraining`,
- * `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`, `SecondsScreening`,
- * `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, which add up to `SecondsTotal`, and the counts
- * `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a
- * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in. Output port 2: the part
- * at each pose that is more likely right than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its
- * surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank, as a text), `Probability`,
- * `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
+ * `SecondsSceneEdges`, `SecondsScene`,
+ * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
+ * `SecondsSelection`, which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and
+ * `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the
+ * preset Recommended `Tangent`, unless they came in. Output port 2: the part at each pose that is more likely right
+ * than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a vtkTable with
+ * a row for each pose, to plot: `Pose` (its rank, as a text), `Probability`, `Score`, `VisibleFraction`, `Certainty`.
+ * Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h
 
 #include "ppfmeamFiltersModule.h"
-#include "vtkMEAMSensorAlgorithm.h"
+#include "vtkMEAMEstimationAlgorithm.h"
 
-#include <memory>
-
-class PPFMEAMFILTERS_EXPORT vtkMEAMPoseEstimation : public vtkMEAMSensorAlgorithm
+class PPFMEAMFILTERS_EXPORT vtkMEAMPoseEstimation : public vtkMEAMEstimationAlgorithm
 {
 public:
   static vtkMEAMPoseEstimation* New();
-  vtkTypeMacro(vtkMEAMPoseEstimation, vtkMEAMSensorAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /** The scene, its edge points, and its image. */
-  void SetSceneConnection(vtkAlgorithmOutput* scene) { this->SetInputConnection(1, scene); }
-  void SetBoundaryConnection(vtkAlgorithmOutput* boundary) { this->SetInputConnection(2, boundary); }
-  void SetImageConnection(vtkAlgorithmOutput* image) { this->SetInputConnection(3, image); }
-  ///@}
-
-  enum Presets
-  {
-    Paper = 0,
-    Recommended = 1,
-    WithoutMEAM = 2,
-    OriginalPPF = 3,
-    B2B = 4
-  };
-
-  ///@{
-  /**
-   * The method, by the parameters of all steps: PPF-MEAM as in the paper, Section 6 (0), or as it measures better (1);
-   * and what the paper compares itself with: B2B-TL with one model of the whole part (2, Section 6.2.4), pairs of
-   * surface points with normals (3, Drost et al. 2010), and pairs of points on line segments (4, Choi et al. 2012). The
-   * last two rank poses by their votes. Default: Recommended.
-   */
-  vtkSetClampMacro(Preset, int, Paper, B2B);
-  vtkGetMacro(Preset, int);
-  void SetPresetToPaper() { this->SetPreset(Paper); }
-  void SetPresetToRecommended() { this->SetPreset(Recommended); }
-  void SetPresetToWithoutMEAM() { this->SetPreset(WithoutMEAM); }
-  void SetPresetToOriginalPPF() { this->SetPreset(OriginalPPF); }
-  void SetPresetToB2B() { this->SetPreset(B2B); }
-  ///@}
-
-  enum FeatureChoices
-  {
-    Edges = 0,
-    Surface = 1,
-    Both = 2
-  };
-
-  ///@{
-  /**
-   * By which points the part is trained, and poses are looked for. Edges (0): edge points with tangents, which carry
-   * flat, thin and ribbed parts. Surface (1): surface points with normals, which carry smooth, round and thick ones.
-   * Both (2). Of presets other than Recommended this has no effect: the method says it. Default: Both.
-   */
-  vtkSetClampMacro(Features, int, Edges, Both);
-  vtkGetMacro(Features, int);
-  void SetFeaturesToEdges() { this->SetFeatures(Edges); }
-  void SetFeaturesToSurface() { this->SetFeatures(Surface); }
-  void SetFeaturesToBoth() { this->SetFeatures(Both); }
-  ///@}
-
-  ///@{
-  /** Poses wanted, the best ones; 0 for all. Default: 5. */
-  vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
-  vtkGetMacro(MaximumNumberOfPoses, int);
-  ///@}
-
-  ///@{
-  /** Of what comes out, poses that are less likely to be right are dropped, in [0, 1]. Default: 0. */
-  vtkSetClampMacro(MinimumProbability, double, 0.0, 1.0);
-  vtkGetMacro(MinimumProbability, double);
-  ///@}
-
-  ///@{
-  /**
-   * Share of the scene's edge points, and of its surface points, that are reference points, in [0, 1] (P_ref, Section
-   * 5.1); 0: the preset's, as vtkMEAMPoseDetection has them. More finds more of the hidden copies and takes longer.
-   * Default: 0.
-   */
-  vtkSetClampMacro(ReferenceShare, double, 0.0, 1.0);
-  vtkGetMacro(ReferenceShare, double);
-  ///@}
-
-  ///@{
-  /** Of all random choices: the same seed gives the same result. Default: 1. */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
-  vtkGetMacro(Seed, int);
-  ///@}
-
-  ///@{
-  /** Which edges of the scene to look for, as in vtkMEAMSceneEdgeExtraction. Default: all; the preset Paper takes those
-   * of the image alone. */
-  vtkSetMacro(ImageEdges, bool);
-  vtkGetMacro(ImageEdges, bool);
-  vtkBooleanMacro(ImageEdges, bool);
-  vtkSetMacro(DepthEdges, bool);
-  vtkGetMacro(DepthEdges, bool);
-  vtkBooleanMacro(DepthEdges, bool);
-  vtkSetMacro(Creases, bool);
-  vtkGetMacro(Creases, bool);
-  vtkBooleanMacro(Creases, bool);
-  ///@}
-
-  ///@{
-  /** The calibration of a camera beside the sensor that took the image. Default: none. */
-  vtkSetFilePathMacro(CameraFile);
-  vtkGetFilePathMacro(CameraFile);
-  ///@}
-
-  ///@{
-  /** Factor on the CAD's coordinates, to bring them to mm. No meaning for a trained model. Default: 1. */
-  vtkSetMacro(CADScale, double);
-  vtkGetMacro(CADScale, double);
-  ///@}
-
-  ///@{
-  /** mm, added to the CAD's coordinates after the scale. No meaning for a trained model. Default: 0, 0, 0. */
-  vtkSetVector3Macro(CADOffset, double);
-  vtkGetVector3Macro(CADOffset, double);
-  ///@}
+  vtkTypeMacro(vtkMEAMPoseEstimation, vtkMEAMEstimationAlgorithm);
 
 protected:
   vtkMEAMPoseEstimation();
-  ~vtkMEAMPoseEstimation() override;
+  ~vtkMEAMPoseEstimation() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkMEAMPoseEstimation(const vtkMEAMPoseEstimation&) = delete;
   void operator=(const vtkMEAMPoseEstimation&) = delete;
-
-  class Training;
-  std::unique_ptr<Training> Trained;
-
-  int Preset = Recommended;
-  int Features = Both;
-  int MaximumNumberOfPoses = 5;
-  double MinimumProbability = 0.0;
-  double ReferenceShare = 0.0;
-  int Seed = 1;
-  bool ImageEdges = true;
-  bool DepthEdges = true;
-  bool Creases = true;
-  char* CameraFile = nullptr;
-  double CADScale = 1.0;
-  double CADOffset[3] = { 0.0, 0.0, 0.0 };
 };
 
 #endif

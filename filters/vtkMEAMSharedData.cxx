@@ -11,6 +11,7 @@
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneEdgeConversion.h"
 
+#include "vtkCellArray.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -122,6 +123,17 @@ Key keyOf(vtkPolyData* poses)
   key.addPoints(poses);
   return key;
 }
+
+Key keyOf(vtkPolyData* mesh, const std::vector<double>& settings)
+{
+  Key key = keyOf(mesh);
+  for (vtkCellArray* cells : { mesh->GetPolys(), mesh->GetStrips() })
+  {
+    key.add(cells ? cells->GetConnectivityArray() : nullptr);
+  }
+  key.add(settings.data(), static_cast<int>(settings.size()));
+  return key;
+}
 }
 
 std::shared_ptr<const meam::TrainedModel> sharedModel(vtkPartitionedDataSetCollection* input)
@@ -139,6 +151,17 @@ std::shared_ptr<const meam::TrainedModel> sharedModel(vtkPartitionedDataSetColle
 void shareModel(vtkPartitionedDataSetCollection* output, const std::shared_ptr<const meam::TrainedModel>& model)
 {
   cacheOf<meam::TrainedModel>().insert(keyOf(output), model);
+}
+
+std::shared_ptr<const TrainedPart> sharedTraining(vtkPolyData* mesh, const std::vector<double>& settings)
+{
+  return cacheOf<TrainedPart>().find(keyOf(mesh, settings));
+}
+
+void shareTraining(
+  vtkPolyData* mesh, const std::vector<double>& settings, const std::shared_ptr<const TrainedPart>& part)
+{
+  cacheOf<TrainedPart>().insert(keyOf(mesh, settings), part);
 }
 
 std::shared_ptr<const meam::Scene> sharedScene(

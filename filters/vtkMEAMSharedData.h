@@ -10,6 +10,9 @@
 
 #include "pose/Pose.h"
 
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -19,7 +22,6 @@ class vtkDataSet;
 class vtkObject;
 class vtkPartitionedDataSetCollection;
 class vtkPointSet;
-class vtkPolyData;
 
 namespace meam
 {
@@ -35,6 +37,18 @@ namespace vtkMEAMConversion
 std::shared_ptr<const meam::TrainedModel> sharedModel(vtkPartitionedDataSetCollection* input);
 /// Lets others find the model that a collection was made of.
 void shareModel(vtkPartitionedDataSetCollection* output, const std::shared_ptr<const meam::TrainedModel>& model);
+
+/// A part that is known: its model, and what it looks like, the prepared mesh or points of the surface.
+struct TrainedPart
+{
+  std::shared_ptr<const meam::TrainedModel> model;
+  vtkNew<vtkPolyData> shape;
+};
+/// What a filter has trained of a mesh with settings (all that it depends on, as numbers), or null.
+std::shared_ptr<const TrainedPart> sharedTraining(vtkPolyData* mesh, const std::vector<double>& settings);
+/// Lets others find it.
+void shareTraining(
+  vtkPolyData* mesh, const std::vector<double>& settings, const std::shared_ptr<const TrainedPart>& part);
 
 /// The scene of edge points with `Tangent` and a measured surface, which may be null, for parts of a diameter (mm).
 /// Throws Error for what cannot be a scene.

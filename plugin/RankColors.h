@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// ParaView's color map of the array `Rank`, in ParaView's own form of settings: red, green, blue, yellow and pink for
-/// the ranks 1 to 5, gray for the others. The colors are those of vtkMEAMPoseInstances.
+/// ParaView's color maps of our arrays, in ParaView's own form of settings. `Rank`: red, green, blue, yellow and pink for
+/// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `State`, of vtkMEAMPoseDiagnosis: green
+/// where a point matches, yellow where the surface faces elsewhere, violet where it is hidden, blue where nothing was
+/// measured, red where the sensor saw past it or found no edge.
 inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": { "PVLookupTable": {
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,
@@ -11,4 +13,11 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "IndexedColors": [ 0.863, 0.118, 0.118,  0.157, 0.667, 0.196,  0.157, 0.353, 0.863,  0.961, 0.804, 0.118,
                      0.941, 0.471, 0.745 ],
   "NanColor": [ 0.588, 0.588, 0.588 ]
+} }, "State": { "PVLookupTable": {
+  "IndexedLookup": 1,
+  "AutomaticRescaleRangeMode": -1,
+  "AnnotationsInitialized": 1,
+  "Annotations": [ "0", "matched", "1", "turned", "2", "hidden", "3", "not measured", "4", "violated" ],
+  "IndexedColors": [ 0.157, 0.667, 0.196,  0.961, 0.804, 0.118,  0.588, 0.235, 0.745,  0.157, 0.353, 0.863,
+                     0.863, 0.118, 0.118 ]
 } } } })";

@@ -71,45 +71,91 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
   return settings;
 }
 
+Scene sceneOf(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings, StageTimes* times,
+  const Progress& progress)
+{
+  Stopwatch watch;
+  LocalCloud edges =
+    estimateTangents(input.edges, model.diameter, input.sensor.direction, settings.tangents, progress).edges;
+  if (times)
+  {
+    times->tangents = watch.lap();
+  }
+  return Scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene, input.quality);
+}
+
+Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
+  DetectionReport* report, const Progress& progress, const PoseObserver& observer)
+{
+  DetectionReport unused;
+  DetectionReport& told = report ? *report : unused;
+  StageTimes& spent = told.times;
+  EdgeRates rates;
+  Stopwatch watch;
+  const auto observe = [&](PoseStage stage)
+  {
+    if (observer)
+    {
+      observer(stage, poses);
+    }
+  };
+  if (settings.screening)
+  {
+    poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.0, 0.2));
+    observe(PoseStage::Screening);
+  }
+  spent.screening = watch.lap();
+  poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates);
+  told.edgeRates =
+    settings.candidateVerification.method == VerificationMethod::VisibleEvidence ? std::optional(rates) : std::nullopt;
+  observe(PoseStage::CandidateVerification);
+  spent.verification = watch.lap();
+  poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
+  observe(PoseStage::CandidateSelection);
+  spent.selection = watch.lap();
+  poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.5, 0.8));
+  observe(PoseStage::Refinement);
+  spent.refinement = watch.lap();
+  poses = verifyPoses(poses, scene, model, settings.verification, subProgress(progress, 0.8, 0.86));
+  observe(PoseStage::Verification);
+  spent.verification += watch.lap();
+  poses = selectPoses(poses, scene, model, settings.selection, subProgress(progress, 0.86, 1.0));
+  observe(PoseStage::Selection);
+  spent.selection += watch.lap();
+  return poses;
+}
+
+Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
+  DetectionReport* report, const Progress& progress, const PoseObserver& observer)
+{
+  constexpr double votingShare = 0.45; // of the work
+  Stopwatch watch;
+  Poses candidates = detectPoses(scene, model, settings.detection, subProgress(progress, 0.0, votingShare));
+  if (report)
+  {
+    report->times.detection = watch.lap();
+  }
+  if (observer)
+  {
+    observer(PoseStage::Voting, candidates);
+  }
+  return rankCandidates(
+    std::move(candidates), scene, model, settings, report, subProgress(progress, votingShare, 1.0), observer);
+}
+
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
   DetectionReport* report, const Progress& progress)
 {
-  StageTimes spent;
-  EdgeRates rates;
+  DetectionReport unused;
+  DetectionReport& told = report ? *report : unused;
+  StageTimes& spent = told.times;
   Stopwatch watch;
-  LocalCloud edges = estimateTangents(
-    input.edges, model.diameter, input.sensor.direction, settings.tangents, subProgress(progress, 0.0, 0.1))
-                       .edges;
-  spent.tangents = watch.lap();
-  const Scene scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene, input.quality);
-  spent.scene = watch.lap();
-  Poses poses = detectPoses(scene, model, settings.detection, subProgress(progress, 0.1, 0.5));
-  spent.detection = watch.lap();
-  if (settings.screening)
-  {
-    poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.5, 0.6));
-  }
-  spent.screening = watch.lap();
-  poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.6, 0.7), &rates);
-  spent.verification = watch.lap();
-  poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.7, 0.75));
-  spent.selection = watch.lap();
-  poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.75, 0.9));
-  spent.refinement = watch.lap();
-  poses = verifyPoses(poses, scene, model, settings.verification, subProgress(progress, 0.9, 0.93));
-  spent.verification += watch.lap();
-  poses = selectPoses(poses, scene, model, settings.selection, subProgress(progress, 0.93, 1.0));
-  poses = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
+  const Scene scene = sceneOf(model, input, settings, &spent, subProgress(progress, 0.0, 0.1));
+  spent.scene = watch.lap() - spent.tangents;
+  const Poses poses = findPoses(scene, model, settings, &told, subProgress(progress, 0.1, 1.0));
+  watch.lap();
+  const Poses ranked = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
   spent.selection += watch.lap();
-  if (report)
-  {
-    report->times = spent;
-    report->edgeRates.reset();
-    if (settings.candidateVerification.method == VerificationMethod::VisibleEvidence)
-    {
-      report->edgeRates = rates;
-    }
-  }
-  return poses;
+  return ranked;
 }
 }

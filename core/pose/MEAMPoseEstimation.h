@@ -10,6 +10,7 @@
 #include "pose/voting/PoseDetection.h"
 #include "scene/Scene.h"
 
+#include <functional>
 #include <optional>
 
 namespace meam
@@ -59,6 +60,33 @@ struct SceneInput
   Sensor sensor;         ///< in the scene's own coordinates
   ScanQuality quality{}; ///< how well it measures, where that is known
 };
+
+/// The scene of an input, with its edges thinned as for the model. Of `times`, which may be null, it sets `tangents`.
+Scene sceneOf(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
+  StageTimes* times = nullptr, const Progress& progress = {});
+
+/// The stages that return poses, in their order; without screening there is none of its kind.
+enum class PoseStage
+{
+  Voting,
+  Screening,
+  CandidateVerification,
+  CandidateSelection,
+  Refinement,
+  Verification,
+  Selection
+};
+
+/// Called with what a stage returned, local frame.
+using PoseObserver = std::function<void(PoseStage, const Poses&)>;
+
+/// The stages after voting: ranked poses of raw candidates, all in the scene's local frame. `report` may be null.
+Poses rankCandidates(Poses candidates, const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
+  DetectionReport* report = nullptr, const Progress& progress = {}, const PoseObserver& observer = {});
+
+/// All stages that return poses: ranked poses in the scene's local frame. `report` may be null.
+Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
+  DetectionReport* report = nullptr, const Progress& progress = {}, const PoseObserver& observer = {});
 
 /// The online phase: ranked poses in the scene's own coordinates (mm). Everything happens in the frame of the edges.
 /// `report` may be null.

@@ -14,7 +14,7 @@ class Error(Exception):
 
 def __getattr__(name):
     # Only now, so that ppfmeam.filters alone needs neither NumPy nor VTK's readers.
-    if name in ("Detections", "Model", "detect", "load", "train"):
+    if name in ("Detections", "Diagnosis", "Model", "detect", "load", "train", "why"):
         from . import api
         return getattr(api, name)
     raise AttributeError(f"module 'ppfmeam' has no attribute '{name}'")

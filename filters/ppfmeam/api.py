@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""train() and detect(): files or NumPy arrays in, NumPy arrays out. What goes wrong is raised as ppfmeam.Error; what may be
+"""train(), detect() and why(): files or NumPy arrays in, NumPy arrays out. What goes wrong is raised as ppfmeam.Error; what may be
 wrong is a warning."""
 import os
 
@@ -67,6 +67,30 @@ class Detections:
         scripting.update(writer, "Write")
 
 
+class Diagnosis:
+    """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `lost_in` (the stage;
+    empty: it was found), `rank` (of the pose that came out there; 0: none), `pose` (4 x 4, the place, or None), `numbers` (of
+    each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should be visible)
+    and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"). `data` is the VTK data object of the
+    points."""
+
+    def __init__(self, data, table):
+        def text(name):
+            return data.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+        self.data = data
+        self.verdict, self.advice, self.lost_in = text("Verdict"), text("Advice"), text("LostIn")
+        self.rank = int(scripting.field(data, "Rank"))
+        place = data.GetFieldData().GetArray("Transform")
+        self.pose = vtk_to_numpy(place).reshape(4, 4).copy() if place else None
+        columns = [table.GetColumnByName(name) for name in ("Step", "Quantity", "Value", "Of")]
+        self.numbers = [tuple(column.GetValue(row) for column in columns) for row in range(table.GetNumberOfRows())]
+        count = data.GetNumberOfPoints()
+        self.points = vtk_to_numpy(data.GetPoints().GetData()).copy() if count else numpy.zeros((0, 3))
+        names = data.GetPointData().GetAbstractArray("StateName")
+        self.states = [names.GetValue(k) for k in range(count)]
+
+
 def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended", features="both"):
     """Learns how a part looks from all sides; takes seconds. `cad`: a .stl, .obj, .ply or .off file, or a vtkPolyData with
     faces. `scale` brings its lengths to mm: 1000 for metres; `offset`, mm, is added after it. features: which points make pairs, edges
@@ -102,22 +126,80 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     recommended have features of their own. features: edges, surface or both, as train() has them. threads: 0 for all cores.
     """
     estimation = filters.vtkMEAMPoseEstimation()
-    estimation.SetInputDataObject(part_of(part, cad_scale))
-    estimation.SetInputDataObject(1, scan_of(scan, camera, scale))
+    set_inputs(estimation, part, scan, image, boundary, camera, image_camera, scale, cad_scale, poses, probability, image_edges,
+               depth_edges, creases, references, preset, features, seed, threads)
+    return Detections(scripting.update(estimation).GetOutput())
+
+
+def why(part, scan, at=None, pose=None, fit=False, **options):
+    """Tells why a part of a scan was missed: which step lost it, and what to change.
+
+    part, scan and options: as detect() has them. at: a point of the scan on the part, three numbers, mm; or pose: where the
+    part lies, 4 x 4, or several, N x 4 x 4. fit: poses that are nearly right, laid by hand, are first fitted to the scan.
+    Returns a Diagnosis; of several poses a list, which takes one detection.
+    """
+    if (at is None) == (pose is None):
+        raise Error("give either at, a point on the part, or pose, where the part lies")
+    diagnosis = filters.vtkMEAMPoseDiagnosis()
+    set_inputs(diagnosis, part, scan, **options)
+    diagnosis.SetFit(fit)
+    if pose is None:
+        place = numpy.asarray(at, float)
+        if place.shape != (3,) or not numpy.isfinite(place).all():
+            raise Error(f"the point has to be three finite numbers, not {at!r}")
+        diagnosis.SetPlaceToPoint()
+        diagnosis.SetPosition(*place)
+        return diagnosed(diagnosis)
+    transforms = numpy.asarray(pose, float)
+    if transforms.ndim not in (2, 3) or transforms.shape[-2:] != (4, 4):
+        raise Error(f"the pose has to be a matrix of 4 x 4, or several, not an array with the shape {transforms.shape}")
+    diagnosis.SetInputDataObject(4, poses_of(transforms.reshape(-1, 4, 4)))
+    diagnosis.SetPlaceToRankedPose()
+    found = []
+    for rank in range(1, transforms.size // 16 + 1):
+        diagnosis.SetRankOfPose(rank)
+        found.append(diagnosed(diagnosis))
+    return found if transforms.ndim == 3 else found[0]
+
+
+def diagnosed(filter):
+    scripting.update(filter)
+    data = vtkPolyData()
+    data.ShallowCopy(filter.GetOutput())
+    return Diagnosis(data, filter.GetOutputDataObject(1))
+
+
+def poses_of(transforms):
+    """Poses as VTK has them."""
+    data = vtkPolyData()
+    origins = vtkPoints()
+    origins.SetData(numpy_to_vtk(numpy.ascontiguousarray(transforms[:, :3, 3]), deep=True))
+    data.SetPoints(origins)
+    array = numpy_to_vtk(numpy.ascontiguousarray(transforms.reshape(-1, 16)), deep=True)
+    array.SetName("Transform")
+    data.GetPointData().AddArray(array)
+    return data
+
+
+def set_inputs(filter, part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
+               probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended",
+               features="both", seed=1, threads=0):
+    """The inputs and properties of a filter that detects."""
+    filter.SetInputDataObject(part_of(part, cad_scale))
+    filter.SetInputDataObject(1, scan_of(scan, camera, scale))
     if boundary is not None:
-        estimation.SetInputDataObject(2, points_of(boundary, scale, "boundary"))
+        filter.SetInputDataObject(2, points_of(boundary, scale, "boundary"))
     if image is not None:
-        estimation.SetInputDataObject(3, image_of(image))
+        filter.SetInputDataObject(3, image_of(image))
     if image_camera is not None:
         scripting.require_file(os.fspath(image_camera))
-        estimation.SetCameraFile(os.fspath(image_camera))
-    scripting.set_preset(estimation, chosen("preset", preset, scripting.PRESETS))
-    scripting.set_choice(estimation, "Features", chosen("features", features, scripting.FEATURES))
+        filter.SetCameraFile(os.fspath(image_camera))
+    scripting.set_preset(filter, chosen("preset", preset, scripting.PRESETS))
+    scripting.set_choice(filter, "Features", chosen("features", features, scripting.FEATURES))
     for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, ImageEdges=image_edges,
                             DepthEdges=depth_edges, Creases=creases, ReferenceShare=references, Seed=seed,
                             NumberOfThreads=threads).items():
-        getattr(estimation, "Set" + name)(value)
-    return Detections(scripting.update(estimation).GetOutput())
+        getattr(filter, "Set" + name)(value)
 
 
 def chosen(name, value, choices):

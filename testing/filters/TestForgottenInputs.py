@@ -7,6 +7,7 @@ from meamtest import Errors, check, is_empty
 
 INPUTS = {
     "vtkMEAMPoseEstimation": ("Part", "Scan"),
+    "vtkMEAMPoseDiagnosis": ("Part", "Scan"),
     "vtkMEAMPoseDetection": ("Scene Edges", "Model"),
     "vtkMEAMPoseScreening": ("Poses", "Model", "Scene Edges"),
     "vtkMEAMPoseVerification": ("Poses", "Model", "Scene Edges"),

@@ -68,8 +68,8 @@ private:
   bool FreeSpace;
   SoAOrientedPoints Points;
 };
+}
 
-/// The share of each pose's surface that is there; 1 without a surface.
 std::vector<double> surfaceShares(
   const Poses& poses, const Scene& scene, const TrainedModel& model, const PoseScreeningSettings& settings)
 {
@@ -87,7 +87,6 @@ std::vector<double> surfaceShares(
       });
   }
   return shares;
-}
 }
 
 Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedModel& model,

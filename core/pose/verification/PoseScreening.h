@@ -6,6 +6,8 @@
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
 
+#include <vector>
+
 namespace meam
 {
 struct PoseScreeningSettings
@@ -27,4 +29,9 @@ struct PoseScreeningSettings
 /// equal are duplicates, too. In the order they come, in the local frame. Without a surface only duplicates go.
 Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedModel& model,
   const PoseScreeningSettings& settings = {}, const Progress& progress = {});
+
+/// The share of each pose's surface towards the sensor that is there, [0, 1], as screening finds it: of what nothing
+/// hides, and of what was not measured half. 1 without a surface.
+std::vector<double> surfaceShares(
+  const Poses& poses, const Scene& scene, const TrainedModel& model, const PoseScreeningSettings& settings = {});
 }

@@ -62,4 +62,9 @@ Poses detectPoses(const LocalCloud& edges, const TrainedModel& model, const Pose
 /// model of surface points alone needs a scene with a surface.
 Poses detectPoses(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings = {},
   const Progress& progress = {});
+
+/// The same by all points within `radius` (mm) of a place in the local frame, whatever the shares of reference points
+/// are: what is found where one looks for it.
+Poses detectPosesNear(const Eigen::Vector3f& place, double radius, const Scene& scene, const TrainedModel& model,
+  const PoseDetectionSettings& settings = {}, const Progress& progress = {});
 }

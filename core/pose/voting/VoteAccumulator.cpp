@@ -185,4 +185,15 @@ std::vector<VotePeak> VoteAccumulator::peaks(int count)
   }
   return found;
 }
+
+int VoteAccumulator::votesFor(int modelPoint, bool flip, double alpha) const
+{
+  const int sheet = 2 * modelPoint + (flip ? 1 : 0);
+  const SheetGroup* bins = this->Counts.data() + static_cast<std::size_t>(sheet / SheetGroup::Sheets) * this->Turns;
+  const auto votes = [&](int bin)
+  { return int{ bins[(bin + this->Turns) % this->Turns].of[sheet % SheetGroup::Sheets] }; };
+  const double share = alpha / (2.0 * M_PI);
+  const int bin = static_cast<int>((share - std::floor(share)) * this->Turns) % this->Turns;
+  return this->Smooth ? votes(bin - 1) + votes(bin) + votes(bin + 1) : votes(bin);
+}
 }

@@ -53,6 +53,9 @@ public:
   /// none.
   std::vector<VotePeak> peaks(int count);
 
+  /// Votes for a turn of a model point (radians): of its bin, and of the two beside it where they count.
+  int votesFor(int modelPoint, bool flip, double alpha) const;
+
 private:
   int Turns; ///< bins of a sheet
   bool Smooth;

@@ -313,3 +313,30 @@ TEST(MEAMPoseEstimation, BadInput)
   EXPECT_THROW(meam::trainModel({}, {}), meam::Error);
   EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), {}, {}), meam::Error);
 }
+
+TEST(MEAMPoseEstimation, AnObserverSeesWhatEachStageReturns)
+{
+  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const meam::Scene scene = scenes::prepared(seen);
+  const meam::TrainedModel& model = scenes::bracket();
+  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  std::vector<std::pair<meam::PoseStage, meam::Poses>> seenStages;
+  const meam::Poses ranked = meam::findPoses(scene, model, settings, nullptr, {},
+    [&](meam::PoseStage stage, const meam::Poses& poses) { seenStages.emplace_back(stage, poses); });
+  ASSERT_EQ(seenStages.size(), 7u);
+  for (int k = 0; k < 7; ++k)
+  {
+    EXPECT_EQ(static_cast<int>(seenStages[k].first), k);
+  }
+  const auto equal = [](const meam::Poses& a, const meam::Poses& b)
+  {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+      [](const meam::Pose& one, const meam::Pose& other)
+      { return one.T_scene_model.matrix() == other.T_scene_model.matrix() && one.evidence == other.evidence; });
+  };
+  EXPECT_TRUE(equal(seenStages[0].second, meam::detectPoses(scene, model, settings.detection)));
+  EXPECT_EQ(seenStages[4].second.size(), seenStages[3].second.size()); // refinement keeps all
+  EXPECT_TRUE(equal(seenStages[6].second, ranked));
+  EXPECT_TRUE(equal(ranked, meam::rankCandidates(seenStages[0].second, scene, model, settings)));
+  EXPECT_TRUE(equal(ranked, meam::findPoses(scene, model, settings)));
+}

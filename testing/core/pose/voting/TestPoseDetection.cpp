@@ -334,3 +334,21 @@ TEST(PoseDetection, BadInput)
   EXPECT_THROW(
     scenes::detect(modelEdges(Eigen::Isometry3d::Identity()), model, {}, [](double) { return false; }), meam::Aborted);
 }
+
+TEST(PoseDetection, NearAPlaceAllPointsVote)
+{
+  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const meam::Scene scene = scenes::prepared(seen);
+  const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
+  const Eigen::Isometry3d T = scene.T_local_scene() * scenes::threeCopies()[1];
+  const Eigen::Vector3f place = (T * middle).cast<float>();
+  meam::PoseDetectionSettings settings;
+  settings.features = meam::Features::Edges;
+  const meam::Poses near = meam::detectPosesNear(place, 30.0, scene, scenes::bracket(), settings);
+  const meam::Points& points = scene.edgePoints().points;
+  const auto within = std::count_if(
+    points.begin(), points.end(), [&](const Eigen::Vector3f& point) { return (point - place).norm() <= 30.0f; });
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(near.size()), within);
+  EXPECT_GT(right(near, { T }, 5.0, 8.0), 5);
+  EXPECT_TRUE(meam::detectPosesNear(place, 0.0, scene, scenes::bracket(), settings).empty());
+}

@@ -228,3 +228,24 @@ TEST(VoteAccumulator, EveryPointAndFlipHasItsOwnPeak)
     sheetBefore = sheet;
   }
 }
+
+TEST(VoteAccumulator, TellsTheVotesOfAnyTurn)
+{
+  for (const bool smooth : { true, false })
+  {
+    meam::VoteAccumulator votes(3, Step, smooth);
+    vote(votes, entry(2, true, 0.0), sceneTurn(false, 3.6), 5);   // bin 0
+    vote(votes, entry(2, true, 0.0), sceneTurn(false, 356.4), 2); // bin 49
+    vote(votes, entry(2, true, 0.0), sceneTurn(false, 10.8), 4);  // bin 1
+    for (const double turn : { 0.0, 2.0 * M_PI, -2.0 * M_PI })
+    {
+      EXPECT_EQ(votes.votesFor(2, true, turn + 0.5 * Step), smooth ? 11 : 5);
+      EXPECT_EQ(votes.votesFor(2, true, turn - 0.5 * Step), smooth ? 7 : 2);
+      EXPECT_EQ(votes.votesFor(2, true, turn + 2.5 * Step), smooth ? 4 : 0);
+    }
+    EXPECT_EQ(votes.votesFor(2, false, 0.5 * Step), 0);
+    EXPECT_EQ(votes.votesFor(1, true, 0.5 * Step), 0);
+    const meam::VotePeak peak = votes.peaks(1).at(0);
+    EXPECT_EQ(votes.votesFor(peak.modelPoint, peak.flip, peak.alpha), peak.votes);
+  }
+}

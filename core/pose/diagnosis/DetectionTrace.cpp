@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/diagnosis/DetectionTrace.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace meam
+{
+namespace
+{
+const Poses& posesOf(const std::vector<DetectionTrace::Stage>& stages, PoseStage stage)
+{
+  return std::find_if(
+    stages.begin(), stages.end(), [stage](const DetectionTrace::Stage& one) { return one.stage == stage; })
+    ->poses;
+}
+
+PoseOffset offsetUpTo(
+  const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Symmetries& symmetries, const TrainedModel& model)
+{
+  return { translationError(a, b, model.visibility->middle().cast<double>()),
+    rotationError(nearestEqual(a, b, symmetries), b) };
+}
+}
+
+PoseOffset offsetBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const TrainedModel& model)
+{
+  return offsetUpTo(a, b, model.symmetries, model);
+}
+
+PoseOffset offsetUpToNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const TrainedModel& model)
+{
+  const Symmetries same = asIfRound(model.symmetries);
+  PoseOffset least = offsetUpTo(a, b, same, model);
+  for (const NearSymmetry& near : model.symmetries.near)
+  {
+    const PoseOffset turned = offsetUpTo(a * near.T, b, same, model);
+    least = turned.angle < least.angle ? turned : least;
+  }
+  return least;
+}
+
+std::vector<int> posesAt(const Poses& poses, const Eigen::Isometry3d& T_scene_model, const PlaceTolerance& tolerance,
+  const TrainedModel& model)
+{
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    if (offsetBetween(poses[i].T_scene_model, T_scene_model, model).within(tolerance))
+    {
+      indices.push_back(static_cast<int>(i));
+    }
+  }
+  return indices;
+}
+
+DetectionTrace::DetectionTrace(
+  const Scene& scene, const TrainedModel& model, const DetectionSettings& settings, const Progress& progress)
+  : InScene(scene)
+  , Model(model)
+  , Settings(settings)
+{
+  findPoses(scene, model, settings, nullptr, progress,
+    [this](PoseStage stage, const Poses& poses) {
+      this->Stages.push_back({ stage, poses });
+    });
+}
+
+const Poses& DetectionTrace::unlimited()
+{
+  if (!this->Unlimited)
+  {
+    PoseSelectionSettings all = this->Settings.selection;
+    all.maximumPoses = 0;
+    all.minimumProbability = 0.0;
+    this->Unlimited = selectPoses(posesOf(this->Stages, PoseStage::Verification), this->InScene, this->Model, all);
+  }
+  return *this->Unlimited;
+}
+
+const Poses& DetectionTrace::allAlternatives()
+{
+  if (!this->AllAlternatives)
+  {
+    PoseSelectionSettings all = this->Settings.candidateSelection;
+    all.maximumPoses = 0;
+    all.minimumProbability = 0.0;
+    all.leastScore = 0.0;
+    all.leastRefined = std::numeric_limits<int>::max();
+    this->AllAlternatives =
+      selectPoses(posesOf(this->Stages, PoseStage::CandidateVerification), this->InScene, this->Model, all);
+  }
+  return *this->AllAlternatives;
+}
+}

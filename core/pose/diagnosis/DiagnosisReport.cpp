@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/diagnosis/DiagnosisReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meam
+{
+namespace
+{
+std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+
+/// With one decimal.
+std::string decimal(double number)
+{
+  const long tenths = std::lround(10.0 * number);
+  return (tenths < 0 ? "-" : "") + std::to_string(std::abs(tenths) / 10) + "." + std::to_string(std::abs(tenths) % 10);
+}
+
+std::string counted(int count, const std::string& one, const std::string& many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string offsetWords(const PoseOffset& offset)
+{
+  return decimal(offset.distance) + " mm and " + decimal(offset.angle) + " degrees";
+}
+
+/// What became of the points on the part in voting.
+struct VoteCounts
+{
+  int points = 0;
+  int references = 0;
+  int electing = 0;      ///< reference points whose best peak leads to the place
+  int otherElecting = 0; ///< points whose best peak does, but that are no reference points
+  PointVotes best{ Eigen::Vector3f::Zero(), true, true, 0, 0, 0 }; ///< the reference point with most votes for it
+  int bestRank = 0; ///< of a peak that leads there, over all reference points
+};
+
+VoteCounts countsOf(const std::vector<PointVotes>& votes)
+{
+  VoteCounts counts;
+  for (const PointVotes& point : votes)
+  {
+    ++counts.points;
+    counts.otherElecting += !point.isReference && point.rank == 1 ? 1 : 0;
+    if (point.isReference)
+    {
+      ++counts.references;
+      counts.electing += point.rank == 1 ? 1 : 0;
+      counts.best = point.votes > counts.best.votes ? point : counts.best;
+      const bool isBetter = point.rank > 0 && (counts.bestRank == 0 || point.rank < counts.bestRank);
+      counts.bestRank = isBetter ? point.rank : counts.bestRank;
+    }
+  }
+  return counts;
+}
+
+const StageCount* stageOf(const Diagnosis& diagnosis, PoseStage stage)
+{
+  const auto found = std::find_if(
+    diagnosis.stages.begin(), diagnosis.stages.end(), [stage](const StageCount& one) { return one.stage == stage; });
+  return found == diagnosis.stages.end() ? nullptr : &*found;
+}
+
+/// "its 3 candidates", of the stage before the one that lost it.
+int candidatesBefore(const Diagnosis& diagnosis)
+{
+  int here = 0;
+  for (const StageCount& stage : diagnosis.stages)
+  {
+    if (diagnosis.lostIn && stage.stage == *diagnosis.lostIn)
+    {
+      break;
+    }
+    here = stage.here;
+  }
+  return here;
+}
+
+std::string takerWords(const Diagnosis& diagnosis)
+{
+  return "pose " + std::to_string(diagnosis.takenBy) + ", which has " + percent(diagnosis.takenShare) +
+         " of the points that match here";
+}
+
+std::string lostIn(const Diagnosis& diagnosis) { return "Lost in " + nameOf(*diagnosis.lostIn) + ": "; }
+
+std::string votingVerdict(const Diagnosis& diagnosis)
+{
+  const VoteCounts counts = countsOf(diagnosis.votes);
+  const std::string lost = lostIn(diagnosis);
+  if (counts.points == 0)
+  {
+    return lost + "no scene point that could vote lies on the part.";
+  }
+  if (counts.references == 0)
+  {
+    return lost + "none of the " + counted(counts.points, "scene point", "scene points") +
+           " on the part is a reference point.";
+  }
+  const std::string references = counted(counts.references, "reference point", "reference points");
+  if (diagnosis.cause == LossCause::NoReference)
+  {
+    return lost + counted(counts.otherElecting, "point", "points") + " of " + std::to_string(counts.points) +
+           " on the part would elect it, but none of its " + references + " does.";
+  }
+  return lost + "none of the " + references + " on the part elects it; the best gives it " +
+         counted(counts.best.votes, "vote", "votes") + ", and another pose " + std::to_string(counts.best.most) + ".";
+}
+}
+
+std::string nameOf(PoseStage stage)
+{
+  switch (stage)
+  {
+    case PoseStage::Voting:
+      return "voting";
+    case PoseStage::Screening:
+      return "screening";
+    case PoseStage::CandidateVerification:
+      return "verification of candidates";
+    case PoseStage::CandidateSelection:
+      return "selection of candidates";
+    case PoseStage::Refinement:
+      return "refinement";
+    case PoseStage::Verification:
+      return "verification";
+    case PoseStage::Selection:
+      break;
+  }
+  return "selection";
+}
+
+std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detection)
+{
+  const PlaceEvidence& evidence = diagnosis.evidence;
+  const std::string rank = std::to_string(std::max(diagnosis.rank, diagnosis.rankWithoutLimits));
+  const std::string off = offsetWords(diagnosis.offset) + " off";
+  const auto afterwards = [&] { return "; lost in " + nameOf(*diagnosis.lostIn) + "."; };
+  switch (diagnosis.cause)
+  {
+    case LossCause::None:
+      return "Found as rank " + rank + ", " + off + ".";
+    case LossCause::Inaccurate:
+      return "Found as rank " + rank + ", but " + off + ".";
+    case LossCause::BeyondMaximum:
+      return "Found as rank " + rank + ", " + off + ", but only the best " +
+             std::to_string(detection.selection.maximumPoses) + " are wanted.";
+    case LossCause::Unlikely:
+      return "Found, " + off + ", but with a probability of " + percent(diagnosis.probability) + ", and less than " +
+             percent(detection.selection.minimumProbability) + " is not wanted.";
+    case LossCause::NoPose:
+      return "No part there: however closely it is looked for, no pose of the part has its surface at this point.";
+    case LossCause::NotThere:
+      return "No part there: the sensor saw past " + percent(evidence.surfaceShare(PointState::Violated)) +
+             " of the surface" + afterwards();
+    case LossCause::NotMeasured:
+      return "Not measured: at " + percent(evidence.surfaceShare(PointState::Unknown)) +
+             " of the surface there is no point of the scan" + afterwards();
+    case LossCause::Hidden:
+      return "Hidden: something lies in front of " + percent(1.0 - diagnosis.place->visibleFraction) +
+             " of the part's side towards the sensor" + afterwards();
+    case LossCause::FewEdges:
+      return "Lost at the edges: " + std::to_string(evidence.edgesMatched) + " of " +
+             counted(evidence.edges, "predicted edge point has", "predicted edge points have") +
+             " an edge of the scan, no more than anywhere.";
+    case LossCause::NoReference:
+    case LossCause::Outvoted:
+      return votingVerdict(diagnosis);
+    case LossCause::SurfaceMissing:
+      return lostIn(diagnosis) + "at the best of " + counted(candidatesBefore(diagnosis), "candidate", "candidates") +
+             " here " + percent(diagnosis.candidateShare) + " of the surface is there, less than " +
+             percent(detection.screening ? detection.screening->leastSurface : 0.0) + ".";
+    case LossCause::Duplicate:
+      return lostIn(diagnosis) + "the " + counted(candidatesBefore(diagnosis), "candidate", "candidates") +
+             " here went as duplicates of better ones.";
+    case LossCause::LowScore:
+      return lostIn(diagnosis) + "the score, " + percent(diagnosis.place->score) + ", is too low.";
+    case LossCause::OtherRotation:
+      return lostIn(diagnosis) + "the part was taken to be turned by one of its approximate symmetries.";
+    case LossCause::Taken:
+      return diagnosis.takenBy > 0 ? lostIn(diagnosis) + takerWords(diagnosis) + ", was preferred."
+                                   : lostIn(diagnosis) + "other poses of the same instance were preferred.";
+    case LossCause::NotRefined:
+    {
+      const StageCount* stage = stageOf(diagnosis, PoseStage::CandidateVerification);
+      return lostIn(diagnosis) + "rank " + std::to_string(stage ? stage->bestRank : 0) + " of " +
+             counted(stage ? stage->poses : 0, "candidate", "candidates") + ", too unlikely to be refined.";
+    }
+    case LossCause::MovedAway:
+      break;
+  }
+  return lostIn(diagnosis) + "the best candidate here came to a place that is " + off + ".";
+}
+
+std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detection)
+{
+  const VoteCounts counts = countsOf(diagnosis.votes);
+  switch (diagnosis.cause)
+  {
+    case LossCause::BeyondMaximum:
+      return "Raise MaximumNumberOfPoses to " + std::to_string(diagnosis.rankWithoutLimits) +
+             " or more, or set it to 0.";
+    case LossCause::Unlikely:
+      return "Lower MinimumProbability.";
+    case LossCause::FewEdges:
+      return "Look for edges in the depth, too (DepthEdges, Creases), lower the thresholds of Scene Edge Extraction, "
+             "light "
+             "the bin from another side, or let the surface vote (Features: Both).";
+    case LossCause::NoReference:
+      return "Raise ReferenceShare: with all points on the part voting it is found.";
+    case LossCause::Outvoted:
+      if (diagnosis.isFoundByAllPoints)
+      {
+        return "Raise ReferenceShare: with all points on the part voting it is found.";
+      }
+      if (counts.bestRank > 1)
+      {
+        return "Raise PeaksPerReference of Pose Detection to " + std::to_string(counts.bestRank) + " or more.";
+      }
+      return detection.detection.features != Features::Both ? "Let edges and surface vote (Features: Both)."
+                                                            : std::string();
+    case LossCause::SurfaceMissing:
+      return "Lower LeastSurface of Pose Screening.";
+    case LossCause::Taken:
+      return "When that pose is wrong, raise PosesPerInstance of Pose Selection (method Alternatives).";
+    case LossCause::NotMeasured:
+      return "Measure the part from another side or with another exposure.";
+    case LossCause::Hidden:
+      return "Take out what lies on it, and scan again.";
+    default:
+      return {};
+  }
+}
+
+std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)
+{
+  const double alone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<DiagnosisNumber> numbers;
+  const auto add = [&](const std::string& step, const std::string& what, double value, double of) {
+    numbers.push_back({ step, what, value, of });
+  };
+  if (!diagnosis.place)
+  {
+    return numbers;
+  }
+  const PlaceEvidence& evidence = diagnosis.evidence;
+  add("edges", "predicted edge points with a scene edge near", evidence.edgesNear, evidence.edges);
+  add("edges", "of these that run the same way", evidence.edgesMatched, evidence.edges);
+  add("edges", "of these with a tangent that agrees", evidence.edgesAligned, evidence.edges);
+  const double points = static_cast<double>(evidence.points.surface.size());
+  const std::pair<PointState, const char*> states[] = { { PointState::Matched, "matched" },
+    { PointState::Turned, "turned: a surface that faces elsewhere" },
+    { PointState::Hidden, "hidden: something lies in front" },
+    { PointState::Violated, "violated: the sensor saw past" }, { PointState::Unknown, "not measured" } };
+  for (const auto& [state, name] : states)
+  {
+    add("surface", name, evidence.surface(state), points);
+  }
+  const VoteCounts counts = countsOf(diagnosis.votes);
+  add("voting", "points on the part that are reference points", counts.references, counts.points);
+  add("voting", "reference points that elect the pose", counts.electing, counts.references);
+  add("voting", "other points that would elect it", counts.otherElecting, counts.points - counts.references);
+  add("voting", "votes for it of its best reference point, of that point's most", counts.best.votes, counts.best.most);
+  add("screening", "share of the surface that is there", diagnosis.surfaceShare, alone);
+  for (const StageCount& stage : diagnosis.stages)
+  {
+    add(nameOf(stage.stage), "poses here", stage.here, stage.poses);
+    add(nameOf(stage.stage), "best rank here (0: none)", stage.bestRank, stage.poses);
+  }
+  add("score", "score at the place", diagnosis.place->score, alone);
+  add("score", "probability at the place", diagnosis.place->probability, alone);
+  add("score", "evidence, of the best pose's", diagnosis.place->evidence, diagnosis.bestEvidence);
+  add("score", "rank among all refined poses (0: dropped)", diagnosis.placeRank, alone);
+  add("selection", "rank of what came out here (0: nothing)", diagnosis.rank, alone);
+  add("selection", "rank without limits on number and probability (0: nothing)", diagnosis.rankWithoutLimits, alone);
+  add("selection", "probability of what came out, or would without limits", diagnosis.probability, alone);
+  if (diagnosis.takenBy > 0)
+  {
+    add("selection", "pose that has most of the matched points", diagnosis.takenBy, alone);
+    add("selection", "share of the matched points that it has", diagnosis.takenShare, alone);
+    add("selection", "its evidence, against that of the place", diagnosis.takenEvidence, diagnosis.place->evidence);
+  }
+  return numbers;
+}
+}

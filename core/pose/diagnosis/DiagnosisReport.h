@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose/diagnosis/PoseDiagnosis.h"
+
+#include <string>
+#include <vector>
+
+namespace meam
+{
+/// The step that lost a part, and why, in a plain sentence.
+std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detection);
+
+/// What to change, naming the properties of the filters; empty where nothing is known to help.
+std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detection);
+
+/// A number of a step.
+struct DiagnosisNumber
+{
+  std::string step;
+  std::string what;
+  double value;
+  double of; ///< the value is a count out of so many, or is compared with this; NaN: it stands alone
+};
+
+/// All numbers, step by step.
+std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis);
+
+/// How a stage is called.
+std::string nameOf(PoseStage stage);
+}

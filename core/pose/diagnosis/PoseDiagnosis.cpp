@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/diagnosis/PoseDiagnosis.h"
+
+#include "base/PointGrid.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace meam
+{
+namespace
+{
+/// The settings without a limit on what comes out.
+DetectionSettings withoutLimits(DetectionSettings settings)
+{
+  settings.selection.maximumPoses = 0;
+  settings.selection.minimumProbability = 0.0;
+  return settings;
+}
+
+Pose poseAt(const Eigen::Isometry3d& T)
+{
+  Pose pose;
+  pose.T_scene_model = T;
+  return pose;
+}
+
+PrecisePoints inScene(const Points& points, const Eigen::Isometry3d& T_local_scene)
+{
+  const Eigen::Isometry3d toScene = T_local_scene.inverse();
+  PrecisePoints result;
+  result.reserve(points.size());
+  for (const Eigen::Vector3f& point : points)
+  {
+    result.push_back(toScene * point.cast<double>());
+  }
+  return result;
+}
+}
+
+PoseDiagnosis::PoseDiagnosis(const Scene& scene, const TrainedModel& model, const DetectionSettings& detection,
+  const PoseDiagnosisSettings& settings, const Progress& progress)
+  : InScene(scene)
+  , Model(model)
+  , Detection(detection)
+  , Settings(settings)
+  , Trace(scene, model, this->Detection, progress)
+{
+}
+
+Diagnosis PoseDiagnosis::atPose(const Eigen::Isometry3d& T_scene_model, const Progress& progress)
+{
+  const Poses local = toLocalFrame({ poseAt(T_scene_model) }, this->InScene.T_local_scene(), this->Model.symmetries);
+  const Eigen::Isometry3d& T = local.front().T_scene_model;
+  return this->at(this->Settings.fit ? this->fitted(T) : T, progress);
+}
+
+Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& progress)
+{
+  const Eigen::Vector3f place = (this->InScene.T_local_scene() * point).cast<float>();
+  const auto firstOn = [&](const Poses& poses)
+  {
+    return std::find_if(poses.begin(), poses.end(),
+      [&](const Pose& pose)
+      {
+        return this->Model.surfaceDistance.at(pose.T_scene_model.inverse().cast<float>() * place) <
+               this->Settings.onSurface * this->Model.diameter;
+      });
+  };
+  const Poses& ranked = this->Trace.ranked();
+  const auto found = firstOn(ranked);
+  if (found != ranked.end())
+  {
+    return this->at(found->T_scene_model, progress);
+  }
+  PoseDetectionSettings voting = this->Detection.detection;
+  voting.peaksPerReference = std::max(voting.peaksPerReference, this->Settings.peaksLookedFor);
+  const Poses candidates = detectPosesNear(place, this->Settings.lookedFor * this->Model.diameter, this->InScene,
+    this->Model, voting, subProgress(progress, 0.0, 0.3));
+  const Poses nearby = rankCandidates(
+    candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.3, 0.6));
+  const auto best = firstOn(nearby);
+  if (best != nearby.end())
+  {
+    return this->at(best->T_scene_model, subProgress(progress, 0.6, 1.0));
+  }
+  Diagnosis nothing;
+  nothing.cause = LossCause::NoPose;
+  report(progress, 1.0);
+  return nothing;
+}
+
+Diagnosis PoseDiagnosis::at(const Eigen::Isometry3d& T_local_model, const Progress& progress)
+{
+  Diagnosis diagnosis;
+  const Eigen::Isometry3d& T_local_scene = this->InScene.T_local_scene();
+  diagnosis.evidence = evidenceAt(
+    T_local_model, this->InScene, this->Model, this->Detection.verification.evidence, this->Settings.alignedAngle);
+  diagnosis.edgePoints = inScene(diagnosis.evidence.points.edges, T_local_scene);
+  diagnosis.surfacePoints = inScene(diagnosis.evidence.points.surface, T_local_scene);
+  diagnosis.surfaceShare = surfaceShares(
+    { poseAt(T_local_model) }, this->InScene, this->Model, this->Detection.screening.value_or(PoseScreeningSettings()))
+                             .front();
+  diagnosis.votes = votesForPose(T_local_model, this->InScene, this->Model, this->Detection.detection,
+    this->Settings.votes, subProgress(progress, 0.0, 0.4));
+  this->score(diagnosis, T_local_model);
+  this->count(diagnosis, T_local_model);
+  diagnosis.cause = this->causeOf(diagnosis, T_local_model, subProgress(progress, 0.4, 1.0));
+  report(progress, 1.0);
+  return diagnosis;
+}
+
+Eigen::Isometry3d PoseDiagnosis::fitted(const Eigen::Isometry3d& T_local_model) const
+{
+  Pose pose = refinePoses({ poseAt(T_local_model) }, this->InScene, this->Model, this->Detection.refinement).front();
+  pose = alignRobustly(pose, this->InScene, this->Model, this->Detection.selection.alignment);
+  if (!offsetBetween(pose.T_scene_model, T_local_model, this->Model).within(this->tolerance()))
+  {
+    return T_local_model;
+  }
+  const Poses both =
+    verifyPoses({ poseAt(T_local_model), pose }, this->InScene, this->Model, this->Detection.verification);
+  return both.empty() ? T_local_model : both.front().T_scene_model;
+}
+
+void PoseDiagnosis::score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
+{
+  constexpr int mark = -1; // votes that no other pose has
+  Poses poses = this->posesOf(PoseStage::Verification);
+  poses.push_back(poseAt(T_local_model));
+  poses.back().votes = mark;
+  const Poses scored = verifyPoses(poses, this->InScene, this->Model, this->Detection.verification);
+  const auto place = std::find_if(scored.begin(), scored.end(), [](const Pose& pose) { return pose.votes == mark; });
+  Pose result = poses.back();
+  if (place != scored.end())
+  {
+    result = *place;
+    diagnosis.placeRank = static_cast<int>(place - scored.begin()) + 1;
+  }
+  diagnosis.bestEvidence = scored.empty() ? 0.0 : scored.front().evidence;
+  result.votes = 0;
+  for (const PointVotes& point : diagnosis.votes)
+  {
+    result.votes = std::max(result.votes, point.isReference ? point.votes : 0);
+  }
+  diagnosis.place = toSceneFrame({ result }, this->InScene.T_local_scene(), this->Model.symmetries).front();
+}
+
+void PoseDiagnosis::count(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
+{
+  for (const auto& [stage, poses] : this->Trace.stages())
+  {
+    const std::vector<int> here = posesAt(poses, T_local_model, this->tolerance(), this->Model);
+    diagnosis.stages.push_back(
+      { stage, static_cast<int>(poses.size()), static_cast<int>(here.size()), here.empty() ? 0 : here.front() + 1 });
+  }
+}
+
+LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress)
+{
+  const std::vector<StageCount>& stages = diagnosis.stages;
+  if (stages.back().here > 0)
+  {
+    diagnosis.rank = diagnosis.rankWithoutLimits = stages.back().bestRank;
+    diagnosis.offset =
+      offsetBetween(this->Trace.ranked()[diagnosis.rank - 1].T_scene_model, T_local_model, this->Model);
+    diagnosis.probability = this->Trace.ranked()[diagnosis.rank - 1].probability;
+    if (diagnosis.offset.angle < this->Settings.foundAngle)
+    {
+      return LossCause::None;
+    }
+    diagnosis.lostIn = PoseStage::Selection;
+    return LossCause::Inaccurate;
+  }
+  const auto last =
+    std::find_if(stages.rbegin(), stages.rend(), [](const StageCount& stage) { return stage.here > 0; });
+  diagnosis.lostIn = last == stages.rend() ? PoseStage::Voting : std::prev(last)->stage;
+  this->findTaker(diagnosis, this->Trace.ranked());
+  LossCause cause = LossCause::LowScore;
+  switch (*diagnosis.lostIn)
+  {
+    case PoseStage::Voting:
+      cause = this->causeInVoting(diagnosis, T_local_model, progress);
+      break;
+    case PoseStage::Screening:
+      cause = this->causeInScreening(diagnosis, T_local_model);
+      break;
+    case PoseStage::CandidateSelection:
+    {
+      const Poses& all = this->Trace.allAlternatives();
+      cause =
+        posesAt(all, T_local_model, this->tolerance(), this->Model).empty() ? LossCause::Taken : LossCause::NotRefined;
+      break;
+    }
+    case PoseStage::Refinement:
+    {
+      const Poses& before = this->posesOf(PoseStage::CandidateSelection);
+      const int index = posesAt(before, T_local_model, this->tolerance(), this->Model).front();
+      const Pose& after = this->posesOf(PoseStage::Refinement)[index];
+      diagnosis.offset = offsetBetween(after.T_scene_model, T_local_model, this->Model);
+      cause = LossCause::MovedAway;
+      break;
+    }
+    case PoseStage::Selection:
+      cause = this->causeInSelection(diagnosis, T_local_model);
+      break;
+    case PoseStage::CandidateVerification:
+    case PoseStage::Verification:
+      break;
+  }
+  if (cause == LossCause::Unlikely || cause == LossCause::BeyondMaximum)
+  {
+    return cause; // whatever the scan shows of it, it was found
+  }
+  const PlaceEvidence& evidence = diagnosis.evidence;
+  const double least = this->Settings.leastThere;
+  const double missing = evidence.surfaceShare(PointState::Violated) + evidence.surfaceShare(PointState::Unknown);
+  return diagnosis.place->visibleFraction < this->Settings.leastVisible ? LossCause::Hidden
+         : evidence.surfaceShare(PointState::Violated) > least          ? LossCause::NotThere
+         : missing > least                                              ? LossCause::NotMeasured
+                                                                        : cause;
+}
+
+LossCause PoseDiagnosis::causeInVoting(
+  Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress)
+{
+  const Eigen::Vector3f middle = T_local_model.cast<float>() * this->Model.visibility->middle();
+  Poses candidates = detectPosesNear(middle, this->Settings.lookedFor * this->Model.diameter, this->InScene,
+    this->Model, this->Detection.detection, subProgress(progress, 0.0, 0.4));
+  const Poses& voted = this->posesOf(PoseStage::Voting);
+  candidates.insert(candidates.end(), voted.begin(), voted.end());
+  const Poses ranked = rankCandidates(
+    candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.4, 1.0));
+  diagnosis.isFoundByAllPoints = !posesAt(ranked, T_local_model, this->tolerance(), this->Model).empty();
+  const bool isElected = std::any_of(diagnosis.votes.begin(), diagnosis.votes.end(),
+    [](const PointVotes& point) { return !point.isReference && point.rank == 1; });
+  const bool hasFewEdges = diagnosis.evidence.edgeShare() <= EdgeRatesSettings().usual.chance;
+  return isElected && diagnosis.isFoundByAllPoints ? LossCause::NoReference
+         : hasFewEdges                             ? LossCause::FewEdges
+                                                   : LossCause::Outvoted;
+}
+
+LossCause PoseDiagnosis::causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
+{
+  const Poses& voted = this->posesOf(PoseStage::Voting);
+  Poses here;
+  for (const int index : posesAt(voted, T_local_model, this->tolerance(), this->Model))
+  {
+    here.push_back(voted[index]);
+  }
+  const std::vector<double> shares = surfaceShares(here, this->InScene, this->Model, *this->Detection.screening);
+  diagnosis.candidateShare = *std::max_element(shares.begin(), shares.end());
+  return diagnosis.candidateShare < this->Detection.screening->leastSurface        ? LossCause::SurfaceMissing
+         : this->isTurnedAmong(this->posesOf(PoseStage::Screening), T_local_model) ? LossCause::OtherRotation
+                                                                                   : LossCause::Duplicate;
+}
+
+LossCause PoseDiagnosis::causeInSelection(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model)
+{
+  const Poses& all = this->Trace.unlimited();
+  const std::vector<int> here = posesAt(all, T_local_model, this->tolerance(), this->Model);
+  if (!here.empty())
+  {
+    diagnosis.rankWithoutLimits = here.front() + 1;
+    diagnosis.offset = offsetBetween(all[here.front()].T_scene_model, T_local_model, this->Model);
+    diagnosis.probability = all[here.front()].probability;
+    return diagnosis.probability < this->Detection.selection.minimumProbability ? LossCause::Unlikely
+                                                                                : LossCause::BeyondMaximum;
+  }
+  this->findTaker(diagnosis, all);
+  return this->isTurnedAmong(all, T_local_model) ? LossCause::OtherRotation : LossCause::Taken;
+}
+
+bool PoseDiagnosis::isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T_local_model) const
+{
+  return std::any_of(poses.begin(), poses.end(),
+    [&](const Pose& pose)
+    { return offsetUpToNear(pose.T_scene_model, T_local_model, this->Model).within(this->tolerance()); });
+}
+
+void PoseDiagnosis::findTaker(Diagnosis& diagnosis, const Poses& ranked) const
+{
+  const double near = this->Detection.selection.clusters.sharedDistance * this->Model.diameter;
+  const Points points = diagnosis.evidence.points.matched();
+  const EvidenceCollector collector(this->InScene, this->Model, this->Detection.selection.evidence);
+  for (std::size_t k = 0; k < ranked.size() && !points.empty(); ++k)
+  {
+    const PointGrid others(collector.collect(ranked[k].T_scene_model).matched(), near);
+    const auto shared = std::count_if(
+      points.begin(), points.end(), [&](const Eigen::Vector3f& point) { return others.nearest(point, near) >= 0; });
+    const double share = static_cast<double>(shared) / points.size();
+    if (share > diagnosis.takenShare)
+    {
+      diagnosis.takenBy = static_cast<int>(k) + 1;
+      diagnosis.takenShare = share;
+      diagnosis.takenEvidence = ranked[k].evidence;
+    }
+  }
+}
+
+const Poses& PoseDiagnosis::posesOf(PoseStage stage) const
+{
+  const auto& stages = this->Trace.stages();
+  return std::find_if(
+    stages.begin(), stages.end(), [stage](const DetectionTrace::Stage& one) { return one.stage == stage; })
+    ->poses;
+}
+
+PlaceTolerance PoseDiagnosis::tolerance() const
+{
+  return { this->Settings.distance * this->Model.diameter, this->Settings.angle };
+}
+}

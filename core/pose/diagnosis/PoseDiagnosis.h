@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose/diagnosis/DetectionTrace.h"
+#include "pose/diagnosis/PlaceEvidence.h"
+#include "pose/voting/VoteSupport.h"
+
+namespace meam
+{
+struct PoseDiagnosisSettings
+{
+  double distance = 0.1;      ///< of the diameter, and
+  double angle = 15.0;        ///< degrees: a candidate this near to the place leads to it
+  double foundAngle = 5.0;    ///< degrees: what comes out and is turned by more is another rotation
+  double alignedAngle = 10.0; ///< degrees, between tangents of the scene and of the part that are alike
+  double leastVisible = 0.25; ///< share of the part's side towards the sensor: with less visible it is hidden
+  double leastThere = 0.5;  ///< share of the surface that nothing hides: with more seen past or unmeasured, that is why
+  double onSurface = 0.025; ///< of the diameter: a picked point this near to a pose's surface lies on it
+  double lookedFor = 0.5;   ///< of the diameter: points this near to a picked one, or to a part's middle, all vote
+  int peaksLookedFor = 3;   ///< candidates of each of them, when a place is looked for by a picked point
+  bool fit = true;          ///< a place given as a pose is fitted to the scene first where that leaves it nearby
+  VoteSupportSettings votes;
+};
+
+/// Why a part did not come out, or came out as it did.
+enum class LossCause
+{
+  None,           ///< it was found
+  NoPose,         ///< no pose of the part has its surface at the picked point
+  NotThere,       ///< the sensor saw past most of the surface
+  NotMeasured,    ///< nothing was measured where most of the surface is
+  Hidden,         ///< something lies in front of it
+  FewEdges,       ///< no more edges on it than anywhere
+  NoReference,    ///< points on it would have elected it, but are no reference points
+  Outvoted,       ///< other poses got more votes at every reference point on it
+  SurfaceMissing, ///< screening found too little of its surface
+  Duplicate,      ///< screening took it for a duplicate of a better candidate
+  LowScore,       ///< verification dropped it
+  OtherRotation,  ///< turned by an approximate symmetry
+  Taken,          ///< another pose of the same instance was preferred
+  NotRefined,     ///< too unlikely for refinement
+  MovedAway,      ///< refinement led elsewhere
+  Inaccurate,     ///< it came out, but turned too far
+  Unlikely,       ///< less likely than wanted
+  BeyondMaximum   ///< of all found not among the best that were wanted
+};
+
+/// How many poses of a stage are at the place.
+struct StageCount
+{
+  PoseStage stage;
+  int poses;
+  int here;
+  int bestRank; ///< of those here in the stage's order, from 1; 0: none
+};
+
+struct Diagnosis
+{
+  LossCause cause = LossCause::None;
+  std::optional<PoseStage> lostIn; ///< none when it was found
+  std::optional<Pose> place;       ///< scored as if voting had found it, the scene's own coordinates; none: NoPose
+  PlaceEvidence evidence;          ///< at the place
+  PrecisePoints edgePoints;        ///< those of the evidence in the scene's own coordinates
+  PrecisePoints surfacePoints;     ///< the same
+  double surfaceShare = 0.0;       ///< as screening finds it
+  double candidateShare = 0.0;     ///< lost in screening: the best of the candidates here
+  int placeRank = 0;               ///< the place's among all refined poses, by evidence, from 1; 0: it was dropped
+  double bestEvidence = 0.0;       ///< of these
+  std::vector<PointVotes> votes;   ///< of points on the part
+  std::vector<StageCount> stages;
+  int rank = 0;                    ///< of what came out here, from 1; 0: nothing did
+  PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
+  double probability = 0.0;        ///< of what came out here, or would without limits
+  int rankWithoutLimits = 0;       ///< the same if all poses came out
+  int takenBy = 0;                 ///< rank, from 1, of the pose that came out and has most of the place's points
+  double takenShare = 0.0;         ///< of the points that match at the place, those that match at that pose, too
+  double takenEvidence = 0.0;      ///< of that pose
+  bool isFoundByAllPoints = false; ///< lost in voting: it comes out when all points on it vote
+};
+
+/// Runs the detection of parts in a scene once, and then tells of places what became of a part there. Keeps references.
+class PoseDiagnosis
+{
+public:
+  PoseDiagnosis(const Scene& scene, const TrainedModel& model, const DetectionSettings& detection,
+    const PoseDiagnosisSettings& settings = {}, const Progress& progress = {});
+  PoseDiagnosis(const PoseDiagnosis&) = delete;
+  void operator=(const PoseDiagnosis&) = delete;
+
+  /// Of the part at a pose, in the scene's own coordinates. Throws Error for a pose that is not finite.
+  Diagnosis atPose(const Eigen::Isometry3d& T_scene_model, const Progress& progress = {});
+  /// Of the part that a point of the scan (the scene's own coordinates) lies on: at the pose that came out there, or
+  /// else at the best that is found where all points about it vote.
+  Diagnosis atPoint(const Eigen::Vector3d& point, const Progress& progress = {});
+
+  const DetectionTrace& trace() const { return this->Trace; }
+
+private:
+  Diagnosis at(const Eigen::Isometry3d& T_local_model, const Progress& progress);
+  /// The pose, or what it is fitted to the scene as, when that is near.
+  Eigen::Isometry3d fitted(const Eigen::Isometry3d& T_local_model) const;
+  void score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
+  void count(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
+  /// Sets which pose that came out has the place's points.
+  void findTaker(Diagnosis& diagnosis, const Poses& ranked) const;
+  LossCause causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress);
+  LossCause causeInVoting(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress);
+  LossCause causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
+  LossCause causeInSelection(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
+  bool isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T_local_model) const;
+  const Poses& posesOf(PoseStage stage) const;
+  PlaceTolerance tolerance() const;
+
+  const Scene& InScene;
+  const TrainedModel& Model;
+  DetectionSettings Detection;
+  PoseDiagnosisSettings Settings;
+  DetectionTrace Trace;
+};
+}

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMEstimationAlgorithm.h"
+
+#include "mesh/preparation/MeshPreparation.h"
+#include "model/ModelTraining.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMEstimationWork.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSceneConversion.h"
+#include "vtkMEAMSceneEdgeConversion.h"
+#include "vtkMEAMSceneTime.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTimerLog.h"
+
+#include <tuple>
+#include <vector>
+
+namespace
+{
+constexpr double AfterSceneEdges = 0.1; // of the work, for the progress
+}
+
+/// The trained model and what it was made of.
+class vtkMEAMEstimationAlgorithm::Training
+{
+public:
+  /// What of the filter's settings the model depends on.
+  using Settings = std::tuple<int, int, int, double, double, double, double>;
+
+  std::shared_ptr<const vtkMEAMConversion::TrainedPart> partOf(
+    vtkDataObject* input, const Settings& settings, const meam::Progress& progress)
+  {
+    using namespace vtkMEAMConversion;
+    if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
+    {
+      const auto model = sharedModel(collection);
+      if (!this->Part || this->Part->model != model)
+      {
+        auto part = std::make_shared<TrainedPart>();
+        part->model = model;
+        fromCloud(model->surface, part->shape);
+        this->Part = part;
+      }
+      return this->Part;
+    }
+    auto* mesh = vtkPolyData::SafeDownCast(input);
+    const std::vector<double> numbers =
+      std::apply([](auto... setting) { return std::vector<double>{ static_cast<double>(setting)... }; }, settings);
+    const auto known = sharedTraining(mesh, numbers);
+    if (!known)
+    {
+      this->Part = nullptr; // until the new one is there
+      const auto trained = train(mesh, settings, progress);
+      shareTraining(mesh, numbers, trained);
+      this->Part = trained;
+      return trained;
+    }
+    this->Part = known;
+    return known;
+  }
+
+private:
+  static std::shared_ptr<const vtkMEAMConversion::TrainedPart> train(
+    vtkPolyData* input, const Settings& settings, const meam::Progress& progress)
+  {
+    meam::MeshPreparationSettings preparation;
+    int preset = 0, features = 0, seed = 0;
+    Eigen::Vector3d& offset = preparation.offset;
+    std::tie(preset, features, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
+    const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(input);
+    const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
+    auto part = std::make_shared<vtkMEAMConversion::TrainedPart>();
+    vtkMEAMConversion::fromMesh(prepared.mesh, part->shape);
+    meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
+    training.sampling.seed = static_cast<unsigned>(seed);
+    if (meam::takesFeatures(static_cast<meam::Preset>(preset)))
+    {
+      training.hashing.features = static_cast<meam::Features>(features);
+    }
+    part->model = std::make_shared<const meam::TrainedModel>(
+      meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0)));
+    return part;
+  }
+
+  std::shared_ptr<const vtkMEAMConversion::TrainedPart> Part; ///< what other filters find as long as this one holds it
+};
+
+vtkMEAMEstimationAlgorithm::vtkMEAMEstimationAlgorithm()
+  : Trained(new Training)
+{
+  this->SetNumberOfInputPorts(4);
+}
+
+vtkMEAMEstimationAlgorithm::~vtkMEAMEstimationAlgorithm() { this->SetCameraFile(nullptr); }
+
+int vtkMEAMEstimationAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  static const char* const types[4][2] = { { "vtkPolyData", "vtkPartitionedDataSetCollection" },
+    { "vtkStructuredGrid", "vtkPolyData" }, { "vtkPolyData", nullptr }, { "vtkImageData", nullptr } };
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  for (const char* type : types[port])
+  {
+    if (type)
+    {
+      info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+    }
+  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMEstimationAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 1, 2, 3 }, outputVector);
+  return 1;
+}
+
+int vtkMEAMEstimationAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  return 1;
+}
+
+vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformationVector** inputVector)
+{
+  using namespace vtkMEAMConversion;
+  vtkDataObject* part = vtkDataObject::GetData(inputVector[0]);
+  auto* sceneInput = vtkPointSet::GetData(inputVector[1]);
+  auto* organized = vtkStructuredGrid::SafeDownCast(sceneInput);
+  auto* boundary = vtkPolyData::GetData(inputVector[2]);
+  auto* image = vtkImageData::GetData(inputVector[3]);
+  const meam::Progress progress = progressOf(this);
+  Work work;
+  double last = vtkTimerLog::GetUniversalTime();
+  const auto watch = [&last]
+  {
+    const double before = last;
+    last = vtkTimerLog::GetUniversalTime();
+    return last - before;
+  };
+
+  // What is wrong with the scene is told before any time goes into training.
+  meam::requirePoints(sceneInput->GetNumberOfPoints(), sceneInput->GetNumberOfPoints(), "The scene");
+  int size[3] = { 0, 0, 0 };
+  if (organized)
+  {
+    organized->GetDimensions(size);
+  }
+  if (!boundary && size[1] <= 1)
+  {
+    throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
+                      "points, the boundary, to Boundary, or an organized scan (a grid of width x height points) to "
+                      "Scene.");
+  }
+  meam::SceneInput& scene = work.scene;
+  scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+  if (boundary)
+  {
+    scene.edges = toLocalCloud(boundary, this->NumberOfThreads);
+    meam::requirePoints(scene.edges.cloud.points, "The scene's boundary cloud");
+  }
+  else
+  {
+    const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
+    meam::requirePoints(cloud.points, "The scene");
+    meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(static_cast<meam::Preset>(this->Preset));
+    extraction.imageEdges = this->ImageEdges;
+    extraction.depthEdges &= this->DepthEdges;
+    extraction.creases &= this->Creases;
+    extraction.threads = this->NumberOfThreads;
+    meam::Image pixels;
+    if (this->ImageEdges)
+    {
+      pixels = image ? toImage(image) : imageOfCloud(organized);
+      extraction.camera = cameraOf(this->CameraFile, image, cloud);
+    }
+    work.found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
+    scene.edges = meam::toLocalCloud(work.found.cloud, this->NumberOfThreads);
+    scene.edges.fromScan = true;
+    scene.quality = work.found.quality;
+  }
+  work.secondsEdges = watch();
+  scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
+  work.secondsLoading = watch();
+
+  work.part = this->Trained->partOf(part,
+    { this->Preset, this->Features, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1],
+      this->CADOffset[2] },
+    meam::subProgress(progress, AfterSceneEdges, Work::Prepared));
+  work.secondsTraining = watch();
+
+  meam::DetectionSettings& settings = work.settings;
+  settings = meam::detectionSettings(static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses,
+    this->NumberOfThreads, this->MinimumProbability);
+  settings.detection.seed = static_cast<unsigned>(this->Seed);
+  if (meam::takesFeatures(static_cast<meam::Preset>(this->Preset)))
+  {
+    settings.detection.features = static_cast<meam::Features>(this->Features);
+  }
+  if (this->ReferenceShare > 0.0)
+  {
+    settings.detection.referenceShare = this->ReferenceShare;
+  }
+  return work;
+}
+
+void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preset: " << meam::nameOf(static_cast<meam::Preset>(this->Preset)) << "\n";
+  os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->Features)) << "\n";
+  os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
+  os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
+  os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "ImageEdges: " << this->ImageEdges << "\n";
+  os << indent << "DepthEdges: " << this->DepthEdges << "\n";
+  os << indent << "Creases: " << this->Creases << "\n";
+  os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
+  os << indent << "CADScale: " << this->CADScale << "\n";
+  os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2] << "\n";
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What a vtkMEAMEstimationAlgorithm makes of its inputs and properties. Not wrapped.
+ */
+#ifndef vtkMEAMEstimationWork_h
+#define vtkMEAMEstimationWork_h
+
+#include "pose/MEAMPoseEstimation.h"
+#include "scene/edges/SceneEdgeExtraction.h"
+#include "vtkMEAMEstimationAlgorithm.h"
+#include "vtkMEAMSharedData.h"
+
+struct vtkMEAMEstimationAlgorithm::Work
+{
+  static constexpr double Prepared = 0.5; ///< of the work, for the progress: the share that is done
+
+  std::shared_ptr<const vtkMEAMConversion::TrainedPart> part;
+  meam::SceneInput scene;
+  meam::SceneEdges found; ///< of a scan, when no boundary came in
+  meam::DetectionSettings settings;
+  double secondsEdges = 0.0;
+  double secondsLoading = 0.0; ///< of the points measured
+  double secondsTraining = 0.0;
+};
+
+#endif

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPoseDiagnosis.h"
+
+#include "pose/diagnosis/DiagnosisReport.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMEstimationWork.h"
+#include "vtkMEAMInstanceConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <functional>
+#include <string>
+
+vtkStandardNewMacro(vtkMEAMPoseDiagnosis);
+
+namespace
+{
+constexpr double AfterDetection = 0.8; // of the work, for the progress
+const char* const StateNames[] = { "matched", "turned", "hidden", "not measured", "violated" };
+
+/// As the array `State` has it.
+int stateId(meam::PointState state)
+{
+  switch (state)
+  {
+    case meam::PointState::Matched:
+      return 0;
+    case meam::PointState::Turned:
+      return 1;
+    case meam::PointState::Hidden:
+      return 2;
+    case meam::PointState::Unknown:
+      return 3;
+    case meam::PointState::Violated:
+      break;
+  }
+  return 4;
+}
+
+/// The turns of a vtkProp3D, degrees.
+Eigen::Isometry3d poseOf(const double position[3], const double rotation[3])
+{
+  const auto turn = [&](int axis)
+  { return Eigen::AngleAxisd(rotation[axis] * M_PI / 180.0, Eigen::Vector3d::Unit(axis)); };
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(Eigen::Vector3d(position[0], position[1], position[2]));
+  T.rotate(turn(2) * turn(0) * turn(1));
+  return T;
+}
+
+void fromEvidence(const meam::Diagnosis& diagnosis, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkIntArray> states, edges;
+  vtkNew<vtkStringArray> names;
+  states->SetName("State");
+  names->SetName("StateName");
+  edges->SetName("IsEdge");
+  const auto add = [&](const meam::PrecisePoints& from, const std::vector<meam::PointState>& stateOf, int isEdge)
+  {
+    for (std::size_t k = 0; k < from.size(); ++k)
+    {
+      const int state = stateId(stateOf[k]);
+      points->InsertNextPoint(from[k].data());
+      states->InsertNextValue(state);
+      names->InsertNextValue(StateNames[state]);
+      edges->InsertNextValue(isEdge);
+    }
+  };
+  add(diagnosis.surfacePoints, diagnosis.evidence.points.surfaceStates, 0);
+  add(diagnosis.edgePoints, diagnosis.evidence.points.edgeStates, 1);
+  output->SetPoints(points);
+  vtkMEAMConversion::addVertices(output);
+  output->GetPointData()->AddArray(states);
+  output->GetPointData()->AddArray(names);
+  output->GetPointData()->AddArray(edges);
+  output->GetPointData()->SetActiveScalars("State");
+}
+
+void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* output)
+{
+  vtkNew<vtkStringArray> steps, quantities;
+  vtkNew<vtkDoubleArray> values, of;
+  steps->SetName("Step");
+  quantities->SetName("Quantity");
+  values->SetName("Value");
+  of->SetName("Of");
+  for (const meam::DiagnosisNumber& number : numbers)
+  {
+    steps->InsertNextValue(number.step);
+    quantities->InsertNextValue(number.what);
+    values->InsertNextValue(number.value);
+    of->InsertNextValue(number.of);
+  }
+  for (vtkAbstractArray* column : { static_cast<vtkAbstractArray*>(steps), static_cast<vtkAbstractArray*>(quantities),
+         static_cast<vtkAbstractArray*>(values), static_cast<vtkAbstractArray*>(of) })
+  {
+    output->AddColumn(column);
+  }
+}
+}
+
+/// A detection, and what it was made of.
+struct vtkMEAMPoseDiagnosis::Detection
+{
+  Detection(Work&& from, std::vector<double> madeOf, const meam::PoseDiagnosisSettings& settings,
+    const meam::Progress& progress)
+    : made(std::move(madeOf))
+    , work(std::move(from))
+    , scene(meam::sceneOf(*work.part->model, work.scene, work.settings))
+    , diagnosis(scene, *work.part->model, work.settings, settings, progress)
+  {
+  }
+
+  std::vector<double> made;
+  Work work;
+  meam::Scene scene;
+  meam::PoseDiagnosis diagnosis;
+};
+
+vtkMEAMPoseDiagnosis::vtkMEAMPoseDiagnosis()
+{
+  this->SetNumberOfInputPorts(5);
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkMEAMPoseDiagnosis::~vtkMEAMPoseDiagnosis() = default;
+
+int vtkMEAMPoseDiagnosis::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port < 4)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+int vtkMEAMPoseDiagnosis::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkPolyData");
+  return 1;
+}
+
+vtkMEAMPoseDiagnosis::Detection& vtkMEAMPoseDiagnosis::Detect(vtkInformationVector** inputVector)
+{
+  const char* camera = this->GetCameraFile();
+  std::vector<double> made{ static_cast<double>(this->GetPreset()), static_cast<double>(this->GetFeatures()),
+    static_cast<double>(this->GetMaximumNumberOfPoses()), this->GetMinimumProbability(), this->GetReferenceShare(),
+    static_cast<double>(this->GetSeed()), this->GetImageEdges() ? 1.0 : 0.0, this->GetDepthEdges() ? 1.0 : 0.0,
+    this->GetCreases() ? 1.0 : 0.0, this->GetCADScale(), static_cast<double>(this->Projection), this->Fit ? 1.0 : 0.0,
+    static_cast<double>(std::hash<std::string>()(camera ? camera : "")) };
+  for (const double* vector : { this->GetCADOffset(), this->ViewDirection, this->SensorPosition })
+  {
+    made.insert(made.end(), vector, vector + 3);
+  }
+  for (int port = 0; port < 4; ++port)
+  {
+    vtkDataObject* data = vtkDataObject::GetData(inputVector[port]);
+    made.push_back(data ? static_cast<double>(data->GetMTime()) : 0.0);
+  }
+  if (!this->Detected || this->Detected->made != made)
+  {
+    this->Detected = nullptr; // until the new one is there
+    meam::PoseDiagnosisSettings settings;
+    settings.fit = this->Fit;
+    this->Detected = std::make_unique<Detection>(this->Prepare(inputVector), std::move(made), settings,
+      meam::subProgress(vtkMEAMConversion::progressOf(this), Work::Prepared, AfterDetection));
+  }
+  return *this->Detected;
+}
+
+int vtkMEAMPoseDiagnosis::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  auto* given = vtkPolyData::GetData(inputVector[4]);
+  auto* output = vtkPolyData::GetData(outputVector, 0);
+  auto* numbers = vtkTable::GetData(outputVector, 1);
+  auto* part = vtkPolyData::GetData(outputVector, 2);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      const bool isRanked = this->Place == RankedPose;
+      requireInputs(this, { "Part", "Scan", nullptr, nullptr, isRanked ? "Poses" : nullptr });
+      const meam::Poses poses = isRanked ? toPoses(given) : meam::Poses();
+      if (isRanked && this->RankOfPose > static_cast<int>(poses.size()))
+      {
+        throw meam::Error("There is no pose " + std::to_string(this->RankOfPose) + ": the input Poses has " +
+                          std::to_string(poses.size()) + ". Set RankOfPose to one of these.");
+      }
+      Detection& detection = this->Detect(inputVector);
+      const meam::Progress progress = meam::subProgress(progressOf(this), AfterDetection, 1.0);
+      const meam::Diagnosis diagnosis =
+        this->Place == Point ? detection.diagnosis.atPoint(Eigen::Vector3d(this->Position), progress)
+        : isRanked           ? detection.diagnosis.atPose(poses[this->RankOfPose - 1].T_scene_model, progress)
+                             : detection.diagnosis.atPose(poseOf(this->PosePosition, this->PoseRotation), progress);
+      fromEvidence(diagnosis, output);
+      fromNumbers(meam::numbersOf(diagnosis), numbers);
+      setFieldText(output, "Verdict", meam::verdictOf(diagnosis, detection.work.settings));
+      setFieldText(output, "Advice", meam::adviceOf(diagnosis, detection.work.settings));
+      setFieldText(output, "LostIn", diagnosis.lostIn ? meam::nameOf(*diagnosis.lostIn) : std::string());
+      setFieldValue(output, "Rank", diagnosis.rank);
+      setDiameter(output, detection.work.part->model->diameter);
+      if (diagnosis.place)
+      {
+        meam::Pose place = *diagnosis.place;
+        vtkNew<vtkDoubleArray> transform;
+        transform->SetName("Transform");
+        transform->SetNumberOfComponents(16);
+        transform->SetNumberOfTuples(1);
+        Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(transform->GetPointer(0)) =
+          place.T_scene_model.matrix();
+        output->GetFieldData()->AddArray(transform);
+        InstanceSettings drawn;
+        drawn.minimumProbability = 0.0;
+        fromInstances(
+          detection.work.part->shape, { place }, [&](std::size_t) { return diagnosis.rank; }, drawn, {}, part);
+      }
+    },
+    output, numbers, part);
+}
+
+void vtkMEAMPoseDiagnosis::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const char* names[] = { "Point", "Pose", "RankedPose" };
+  os << indent << "Place: " << names[this->Place] << "\n";
+  const auto print = [&](const char* name, const double vector[3])
+  { os << indent << name << ": " << vector[0] << " " << vector[1] << " " << vector[2] << "\n"; };
+  print("Position", this->Position);
+  print("PosePosition", this->PosePosition);
+  print("PoseRotation", this->PoseRotation);
+  os << indent << "RankOfPose: " << this->RankOfPose << "\n";
+  os << indent << "Fit: " << this->Fit << "\n";
+}

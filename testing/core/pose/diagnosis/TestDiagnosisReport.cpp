@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/diagnosis/DiagnosisReport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+using meam::LossCause;
+using meam::PoseStage;
+
+namespace
+{
+meam::Diagnosis example(LossCause cause, std::optional<PoseStage> lostIn = {})
+{
+  meam::Diagnosis diagnosis;
+  diagnosis.cause = cause;
+  diagnosis.lostIn = lostIn;
+  diagnosis.place.emplace();
+  diagnosis.place->visibleFraction = 0.12;
+  diagnosis.probability = 0.3;
+  diagnosis.offset = { 0.61, 1.18 };
+  diagnosis.evidence.edges = 120;
+  diagnosis.evidence.edgesMatched = 3;
+  diagnosis.evidence.points.surface.resize(5);
+  diagnosis.evidence.points.surfaceStates = { meam::PointState::Hidden, meam::PointState::Violated,
+    meam::PointState::Violated, meam::PointState::Matched, meam::PointState::Unknown };
+  diagnosis.votes = { { Eigen::Vector3f::Zero(), true, true, 12, 31, 4 },
+    { Eigen::Vector3f::Zero(), true, true, 7, 40, 0 }, { Eigen::Vector3f::Zero(), true, false, 20, 20, 1 } };
+  diagnosis.stages = { { PoseStage::Voting, 200, 3, 7 }, { PoseStage::Screening, 90, 0, 0 } };
+  return diagnosis;
+}
+
+std::string verdict(LossCause cause, std::optional<PoseStage> lostIn = {})
+{
+  const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 5, 0, 0.5);
+  meam::Diagnosis diagnosis = example(cause, lostIn);
+  diagnosis.rankWithoutLimits = 7;
+  diagnosis.candidateShare = 0.34;
+  diagnosis.takenBy = 3;
+  diagnosis.takenShare = 0.83;
+  return meam::verdictOf(diagnosis, detection);
+}
+}
+
+TEST(DiagnosisReport, VerdictsAreSentences)
+{
+  EXPECT_EQ(verdict(LossCause::None), "Found as rank 7, 0.6 mm and 1.2 degrees off.");
+  EXPECT_EQ(verdict(LossCause::BeyondMaximum, PoseStage::Selection),
+    "Found as rank 7, 0.6 mm and 1.2 degrees off, but only the best 5 are wanted.");
+  EXPECT_EQ(verdict(LossCause::Unlikely, PoseStage::Selection),
+    "Found, 0.6 mm and 1.2 degrees off, but with a probability of 30 %, and less than 50 % is not wanted.");
+  EXPECT_EQ(verdict(LossCause::Hidden, PoseStage::Voting),
+    "Hidden: something lies in front of 88 % of the part's side towards the sensor; lost in voting.");
+  EXPECT_EQ(verdict(LossCause::NotThere, PoseStage::Refinement),
+    "No part there: the sensor saw past 50 % of the surface; lost in refinement.");
+  EXPECT_EQ(verdict(LossCause::NotMeasured, PoseStage::Voting),
+    "Not measured: at 25 % of the surface there is no point of the scan; lost in voting.");
+  EXPECT_EQ(verdict(LossCause::FewEdges, PoseStage::Voting),
+    "Lost at the edges: 3 of 120 predicted edge points have an edge of the scan, no more than anywhere.");
+  EXPECT_EQ(verdict(LossCause::Outvoted, PoseStage::Voting),
+    "Lost in voting: none of the 2 reference points on the part elects it; the best gives it 12 votes, and another "
+    "pose 31.");
+  EXPECT_EQ(verdict(LossCause::NoReference, PoseStage::Voting),
+    "Lost in voting: 1 point of 3 on the part would elect it, but none of its 2 reference points does.");
+  EXPECT_EQ(verdict(LossCause::SurfaceMissing, PoseStage::Screening),
+    "Lost in screening: at the best of 3 candidates here 34 % of the surface is there, less than 50 %.");
+  EXPECT_EQ(verdict(LossCause::Taken, PoseStage::Selection),
+    "Lost in selection: pose 3, which has 83 % of the points that match here, was preferred.");
+  EXPECT_EQ(verdict(LossCause::MovedAway, PoseStage::Refinement),
+    "Lost in refinement: the best candidate here came to a place that is 0.6 mm and 1.2 degrees off.");
+}
+
+TEST(DiagnosisReport, EveryCauseHasAVerdictOfItsOwn)
+{
+  std::set<std::string> verdicts;
+  for (int cause = 0; cause <= static_cast<int>(LossCause::BeyondMaximum); ++cause)
+  {
+    const std::string words = verdict(static_cast<LossCause>(cause), PoseStage::Selection);
+    EXPECT_EQ(words.back(), '.');
+    verdicts.insert(words);
+  }
+  EXPECT_EQ(verdicts.size(), static_cast<std::size_t>(LossCause::BeyondMaximum) + 1);
+}
+
+TEST(DiagnosisReport, AdviceNamesAProperty)
+{
+  const auto advice = [](LossCause cause, meam::Features features = meam::Features::Both)
+  {
+    meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
+    detection.detection.features = features;
+    meam::Diagnosis diagnosis = example(cause, PoseStage::Voting);
+    diagnosis.rankWithoutLimits = 7;
+    return meam::adviceOf(diagnosis, detection);
+  };
+  EXPECT_EQ(advice(LossCause::BeyondMaximum), "Raise MaximumNumberOfPoses to 7 or more, or set it to 0.");
+  EXPECT_EQ(advice(LossCause::Unlikely), "Lower MinimumProbability.");
+  EXPECT_EQ(advice(LossCause::Outvoted), "Raise PeaksPerReference of Pose Detection to 4 or more.");
+  EXPECT_EQ(advice(LossCause::NoReference), "Raise ReferenceShare: with all points on the part voting it is found.");
+  EXPECT_EQ(advice(LossCause::None), "");
+}
+
+TEST(DiagnosisReport, NumbersGoStepByStep)
+{
+  const std::vector<meam::DiagnosisNumber> numbers = meam::numbersOf(example(LossCause::None));
+  const auto value = [&](const std::string& step, const std::string& what)
+  {
+    const auto found = std::find_if(numbers.begin(), numbers.end(),
+      [&](const meam::DiagnosisNumber& number) { return number.step == step && number.what == what; });
+    return found == numbers.end() ? std::make_pair(-1.0, -1.0) : std::make_pair(found->value, found->of);
+  };
+  EXPECT_EQ(value("edges", "of these that run the same way"), std::make_pair(3.0, 120.0));
+  EXPECT_EQ(value("voting", "points on the part that are reference points"), std::make_pair(2.0, 3.0));
+  EXPECT_EQ(value("voting", "other points that would elect it"), std::make_pair(1.0, 1.0));
+  EXPECT_EQ(
+    value("voting", "votes for it of its best reference point, of that point's most"), std::make_pair(12.0, 31.0));
+  EXPECT_EQ(value("screening", "poses here"), std::make_pair(0.0, 90.0));
+  EXPECT_TRUE(std::isnan(value("score", "probability at the place").second));
+  EXPECT_TRUE(meam::numbersOf({}).empty());
+}

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/diagnosis/PoseDiagnosis.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+using meam::LossCause;
+using meam::PoseStage;
+
+namespace
+{
+const Eigen::Isometry3d Here = scenes::lying(90, 10, 131, false); // the second of the three copies
+
+scenes::Seen threeCopiesSeen() { return scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())); }
+
+/// A large plate at a height above the second copy, from `y` on.
+scenes::Seen covered(double y)
+{
+  std::vector<scenes::Copy> copies;
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    copies.push_back({ parts::lBracket(), T });
+  }
+  copies.push_back({ parts::box({ 40, static_cast<float>(y), 60 }, { 140, 70, 64 }), Eigen::Isometry3d::Identity() });
+  return scenes::withTangents(scenes::seenFromAbove(copies));
+}
+
+meam::Diagnosis diagnose(const scenes::Seen& seen, const Eigen::Isometry3d& T_scene_model,
+  const meam::DetectionSettings& detection = meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5),
+  const meam::PoseDiagnosisSettings& settings = {})
+{
+  const meam::Scene scene = scenes::prepared(seen);
+  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), detection, settings);
+  return diagnosis.atPose(T_scene_model);
+}
+
+template <typename Predicate>
+void removeEdges(scenes::Seen& seen, Predicate&& isRemoved)
+{
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < seen.edges.size(); ++k)
+  {
+    if (!isRemoved(seen.edges.points[k]))
+    {
+      kept.push_back(static_cast<int>(k));
+    }
+  }
+  seen.edges = seen.edges.subset(kept);
+}
+
+/// Whether a point is near the second copy.
+bool isHere(const Eigen::Vector3f& point)
+{
+  const Eigen::Vector3d middle = Here * scenes::bracket().visibility->middle().cast<double>();
+  return (point.cast<double>() - middle).head<2>().norm() < 0.6 * scenes::bracket().diameter;
+}
+}
+
+TEST(PoseDiagnosis, WhatIsFoundIsFound)
+{
+  const meam::Diagnosis diagnosis = diagnose(threeCopiesSeen(), Here);
+  EXPECT_EQ(diagnosis.cause, LossCause::None);
+  EXPECT_FALSE(diagnosis.lostIn);
+  EXPECT_GE(diagnosis.rank, 1);
+  EXPECT_LE(diagnosis.rank, 3);
+  EXPECT_LT(diagnosis.offset.distance, 0.5);
+  EXPECT_LT(diagnosis.offset.angle, 0.5);
+  ASSERT_TRUE(diagnosis.place);
+  EXPECT_LT(meam::translationError(diagnosis.place->T_scene_model, Here), 0.5);
+  EXPECT_GT(diagnosis.place->probability, 0.9);
+  EXPECT_GT(diagnosis.surfaceShare, 0.9);
+  ASSERT_EQ(diagnosis.stages.size(), 7u);
+  for (const meam::StageCount& stage : diagnosis.stages)
+  {
+    EXPECT_GT(stage.here, 0);
+    EXPECT_GE(stage.bestRank, 1);
+    EXPECT_LE(stage.bestRank, stage.poses);
+  }
+  // The points are where the part is.
+  for (const Eigen::Vector3d& point : diagnosis.surfacePoints)
+  {
+    EXPECT_TRUE(isHere(point.cast<float>()));
+  }
+}
+
+TEST(PoseDiagnosis, APoseLaidByHandIsFittedFirst)
+{
+  const Eigen::Isometry3d byHand = scenes::displaced(Here, 3.0, 6.0).T_scene_model;
+  const meam::Diagnosis fitted = diagnose(threeCopiesSeen(), byHand);
+  EXPECT_EQ(fitted.cause, LossCause::None);
+  EXPECT_LT(fitted.offset.distance, 0.5);
+  meam::PoseDiagnosisSettings asItIs;
+  asItIs.fit = false;
+  const meam::Diagnosis unfitted =
+    diagnose(threeCopiesSeen(), byHand, meam::detectionSettings(meam::Preset::Recommended), asItIs);
+  EXPECT_NEAR(unfitted.offset.angle, 6.0, 0.5);
+  EXPECT_EQ(unfitted.cause, LossCause::Inaccurate);
+}
+
+TEST(PoseDiagnosis, APartWithoutEdgesIsLostAtItsEdges)
+{
+  scenes::Seen seen = threeCopiesSeen();
+  removeEdges(seen, isHere);
+  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
+  detection.detection.features = meam::Features::Edges;
+  const meam::Diagnosis diagnosis = diagnose(seen, Here, detection);
+  EXPECT_EQ(diagnosis.cause, LossCause::FewEdges);
+  EXPECT_EQ(diagnosis.lostIn, PoseStage::Voting);
+  EXPECT_EQ(diagnosis.evidence.edgesMatched, 0);
+  EXPECT_GT(diagnosis.evidence.edges, 50);
+  EXPECT_GT(diagnosis.evidence.surfaceShare(meam::PointState::Matched), 0.9);
+  EXPECT_TRUE(diagnosis.votes.empty());
+  EXPECT_EQ(diagnosis.stages.front().here, 0);
+}
+
+TEST(PoseDiagnosis, APartUnderAnotherIsHidden)
+{
+  const meam::Diagnosis diagnosis = diagnose(covered(-50.0), Here);
+  EXPECT_EQ(diagnosis.cause, LossCause::Hidden);
+  EXPECT_TRUE(diagnosis.lostIn);
+  EXPECT_LT(diagnosis.place->visibleFraction, 0.05);
+}
+
+TEST(PoseDiagnosis, WhereNothingIsTheSensorSawPastThePart)
+{
+  // On the floor of a scene there is one; a pose above it.
+  scenes::Seen seen = threeCopiesSeen();
+  for (float x = -60.0f; x < 160.0f; x += 1.0f)
+  {
+    for (float y = 110.0f; y < 260.0f; y += 1.0f)
+    {
+      seen.surface.emplace_back(x, y, 0.0f);
+    }
+  }
+  Eigen::Isometry3d above = scenes::lying(50, 180, 0);
+  above.pretranslate(Eigen::Vector3d(0, 0, 40));
+  EXPECT_EQ(diagnose(seen, above).cause, LossCause::NotThere);
+}
+
+TEST(PoseDiagnosis, WhatWasNotMeasuredIsNotMeasured)
+{
+  scenes::Seen seen = threeCopiesSeen();
+  removeEdges(seen, isHere);
+  seen.surface.erase(std::remove_if(seen.surface.begin(), seen.surface.end(), isHere), seen.surface.end());
+  const meam::Diagnosis diagnosis = diagnose(seen, Here);
+  EXPECT_EQ(diagnosis.cause, LossCause::NotMeasured);
+  EXPECT_EQ(diagnosis.lostIn, PoseStage::Voting);
+}
+
+TEST(PoseDiagnosis, LimitsAreNamed)
+{
+  const scenes::Seen seen = threeCopiesSeen();
+  const meam::Scene scene = scenes::prepared(seen);
+  meam::PoseDiagnosis all(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 0));
+  meam::PoseDiagnosis one(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 1));
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    const int rank = all.atPose(T).rank;
+    const meam::Diagnosis diagnosis = one.atPose(T);
+    EXPECT_EQ(diagnosis.cause, rank == 1 ? LossCause::None : LossCause::BeyondMaximum);
+    EXPECT_EQ(diagnosis.rankWithoutLimits, rank);
+  }
+  meam::DetectionSettings sure = meam::detectionSettings(meam::Preset::Recommended, 0, 0, 1.0);
+  EXPECT_EQ(diagnose(seen, Here, sure).cause, LossCause::Unlikely);
+}
+
+TEST(PoseDiagnosis, WithoutReferencePointsOnThePartItIsTheirShare)
+{
+  // A reference point or two in the whole scene: most copies have none.
+  const meam::Scene scene = scenes::prepared(threeCopiesSeen());
+  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
+  detection.detection.features = meam::Features::Edges;
+  detection.detection.referenceShare = 1e-6;
+  detection.detection.leastReferences = 1;
+  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), detection);
+  int lost = 0;
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    const meam::Diagnosis of = diagnosis.atPose(T);
+    lost += of.cause == LossCause::NoReference ? 1 : 0;
+    EXPECT_EQ(of.cause == LossCause::NoReference, of.isFoundByAllPoints);
+  }
+  EXPECT_GE(lost, 2);
+}
+
+TEST(PoseDiagnosis, ScreeningOfTooLittleSurface)
+{
+  // Without the surface of the second copy, but with a floor where it was, its candidates go.
+  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
+  detection.screening->enough = 0;
+  detection.screening->leastSurface = 1.01; // none has so much
+  const meam::Diagnosis diagnosis = diagnose(threeCopiesSeen(), Here, detection);
+  EXPECT_EQ(diagnosis.cause, LossCause::SurfaceMissing);
+  EXPECT_EQ(diagnosis.lostIn, PoseStage::Screening);
+  EXPECT_GT(diagnosis.candidateShare, 0.7);
+  EXPECT_LE(diagnosis.candidateShare, 1.0);
+}
+
+TEST(PoseDiagnosis, ScoresThatAreTooLow)
+{
+  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
+  detection.candidateVerification.minimumScore = 1.01;
+  const meam::Diagnosis diagnosis = diagnose(threeCopiesSeen(), Here, detection);
+  EXPECT_EQ(diagnosis.cause, LossCause::LowScore);
+  EXPECT_EQ(diagnosis.lostIn, PoseStage::CandidateVerification);
+}
+
+TEST(PoseDiagnosis, CandidatesThatAreNotRefined)
+{
+  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
+  detection.candidateSelection.maximumPoses = 1;
+  const meam::Scene scene = scenes::prepared(threeCopiesSeen());
+  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), detection);
+  int lost = 0;
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    const meam::Diagnosis of = diagnosis.atPose(T);
+    lost += of.cause == LossCause::NotRefined && of.lostIn == PoseStage::CandidateSelection ? 1 : 0;
+  }
+  EXPECT_EQ(lost, 2);
+}
+
+TEST(PoseDiagnosis, APoseInThePlaceOfAnother)
+{
+  // The same part turned about its own middle so that it shares most of the surface: one instance.
+  meam::PoseDiagnosisSettings asItIs;
+  asItIs.fit = false;
+  const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
+  const Eigen::Isometry3d other = Here * meam::turnAbout(Eigen::Vector3d::UnitZ(), M_PI_2, middle);
+  const meam::Diagnosis diagnosis =
+    diagnose(threeCopiesSeen(), other, meam::detectionSettings(meam::Preset::Recommended, 0), asItIs);
+  EXPECT_NE(diagnosis.cause, LossCause::None);
+  EXPECT_GE(diagnosis.takenBy, 1);
+  EXPECT_GT(diagnosis.takenShare, 0.5);
+  EXPECT_GT(diagnosis.takenEvidence, diagnosis.place->evidence);
+}
+
+TEST(PoseDiagnosis, APickedPointIsThatOfThePoseOnIt)
+{
+  const meam::Scene scene = scenes::prepared(threeCopiesSeen());
+  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 0));
+  const auto topOf = [](const Eigen::Isometry3d& T) // some point of its surface towards the sensor
+  {
+    const meam::PointCloud& surface = scenes::bracket().surface;
+    Eigen::Vector3d best(0, 0, -1e9);
+    for (const Eigen::Vector3f& point : surface.points)
+    {
+      const Eigen::Vector3d moved = T * point.cast<double>();
+      best = moved.z() > best.z() ? moved : best;
+    }
+    return best;
+  };
+  const meam::Diagnosis found = diagnosis.atPoint(topOf(Here));
+  EXPECT_EQ(found.cause, LossCause::None);
+  EXPECT_LT(meam::translationError(found.place->T_scene_model, Here), 0.5);
+  const meam::Diagnosis nothing = diagnosis.atPoint({ 500, 500, 0 });
+  EXPECT_EQ(nothing.cause, LossCause::NoPose);
+  EXPECT_FALSE(nothing.place);
+
+  // A part that did not come out is found where the point is.
+  meam::PoseDiagnosis one(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 1));
+  int lost = 0;
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    const meam::Diagnosis of = one.atPoint(topOf(T));
+    ASSERT_TRUE(of.place);
+    EXPECT_LT(meam::translationError(of.place->T_scene_model, T), 0.5);
+    lost += of.cause == LossCause::BeyondMaximum ? 1 : 0;
+  }
+  EXPECT_EQ(lost, 2);
+}
+
+TEST(PoseDiagnosis, ThePaperPresetIsToldOfToo)
+{
+  const meam::Scene scene = scenes::prepared(threeCopiesSeen());
+  const meam::TrainedModel& model = scenes::bracket(meam::Preset::Paper);
+  meam::PoseDiagnosis diagnosis(scene, model, meam::detectionSettings(meam::Preset::Paper, 0));
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    const meam::Diagnosis of = diagnosis.atPose(T);
+    EXPECT_EQ(of.stages.size(), 6u);
+    EXPECT_EQ(of.cause == LossCause::None, !of.lostIn);
+  }
+}
+
+TEST(PoseDiagnosis, ProgressRisesAndAbortStops)
+{
+  const meam::Scene scene = scenes::prepared(threeCopiesSeen());
+  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended));
+  double last = 0.0;
+  diagnosis.atPose(Here,
+    [&](double share)
+    {
+      EXPECT_GE(share, last - 1e-9);
+      last = share;
+      return true;
+    });
+  EXPECT_DOUBLE_EQ(last, 1.0);
+  EXPECT_THROW(diagnosis.atPose(Here, [](double share) { return share < 0.2; }), meam::Aborted);
+  Eigen::Isometry3d broken = Here;
+  broken.translation().x() = NAN;
+  EXPECT_THROW(diagnosis.atPose(broken), meam::Error);
+}

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Of a simulated bin: what came out is found, hidden parts are hidden, and the numbers and points are told."""
+import math
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMSamplePartSource
+from meamtest import check, connect, fails, field, is_empty, points, prints, run, tuples
+
+plate = vtkMEAMSamplePartSource()
+plate.SetPartToHolePlate()
+source = connect(vtkMEAMBinSceneSource(), plate)
+source.SetCopies(12)
+source.SetWidth(640)
+source.SetHeight(480)
+scan = run(source)
+truth, mesh = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
+estimation = connect(vtkMEAMPoseEstimation(), mesh, scan)
+estimation.SetMaximumNumberOfPoses(0)
+estimation.SetMinimumProbability(0.5)
+found = run(estimation)
+
+
+def text(data, name):
+    return data.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def distance(a, b):
+    return math.dist((a[3], a[7], a[11]), (b[3], b[7], b[11]))
+
+
+diagnosis = connect(vtkMEAMPoseDiagnosis(), mesh, scan)
+diagnosis.SetInputDataObject(4, truth)
+diagnosis.SetMaximumNumberOfPoses(0)
+diagnosis.SetMinimumProbability(0.5)
+diagnosis.SetPlaceToRankedPose()
+diagnosis.SetFit(False)
+transforms, visible = tuples(truth, "Transform"), [v for (v,) in tuples(truth, "VisibleFraction")]
+ranks, verdicts = [], []
+for k in range(len(transforms)):
+    diagnosis.SetRankOfPose(k + 1)
+    shares = []
+    observer = diagnosis.AddObserver("ProgressEvent", lambda caller, event: shares.append(caller.GetProgress()))
+    output = run(diagnosis)
+    diagnosis.RemoveObserver(observer)
+    check(k == 0 or min(s for s in shares if s > 0) >= 0.8, f"the detection is not done again: {shares[:3]}")
+    ranks.append(int(field(output, "Rank")[0][0]))
+    verdicts.append(text(output, "Verdict"))
+    check((text(output, "LostIn") == "") == verdicts[-1].startswith("Found as"), f"{verdicts[-1]}, {text(output, 'LostIn')}")
+    check(verdicts[-1].endswith("."), verdicts[-1])
+    if ranks[-1]:
+        off = distance(tuples(found, "Transform")[ranks[-1] - 1], transforms[k])
+        check(off < 5, f"{verdicts[-1]}: the pose of this rank is {off} mm away")
+    else:
+        check(visible[k] < 0.8 or "Lost" in verdicts[-1] or "probability" in verdicts[-1], f"{visible[k]}: {verdicts[-1]}")
+print(*(f"{v:.2f} {verdict}" for v, verdict in zip(visible, verdicts)), sep="\n")
+came_out = [rank for rank in ranks if rank]
+check(len(came_out) >= 5 and len(set(came_out)) == len(came_out), f"each that came out is one of the true: {ranks}")
+check(sum(1 for r, v in zip(ranks, visible) if v > 0.9 and r) >= 4, f"those in sight are found: {ranks}, {visible}")
+hidden = [v for verdict, v in zip(verdicts, visible) if verdict.startswith("Hidden: something lies in front of")]
+check(hidden and max(hidden) < 0.5, f"hidden parts: {hidden}, {verdicts}")
+shares = [int(verdict.split("probability of ")[1].split(" %")[0]) for verdict in verdicts if "with a probability of" in verdict]
+check(shares and max(shares) <= 50, f"those that are too unlikely: {shares}")
+
+# The points lie on the scan where they match, and have their names.
+best = ranks.index(1)
+diagnosis.SetRankOfPose(best + 1)
+output = run(diagnosis)
+states = [int(s) for (s,) in tuples(output, "State")]
+names = output.GetPointData().GetAbstractArray("StateName")
+NAMES = ("matched", "turned", "hidden", "not measured", "violated")
+check([names.GetValue(i) for i in range(len(states))] == [NAMES[s] for s in states], "the names of states")
+check(states.count(0) > 0.6 * len(states), f"of what was found most matches: {states.count(0)} of {len(states)}")
+check({int(e) for (e,) in tuples(output, "IsEdge")} == {0, 1}, "surface and edges")
+middle = [transforms[best][i] for i in (3, 7, 11)]
+check(all(math.dist(p, middle) < field(output, "Diameter")[0][0] for p in points(output)), "the points are those of the part")
+table = diagnosis.GetOutputDataObject(1)
+check([table.GetColumnName(i) for i in range(4)] == ["Step", "Quantity", "Value", "Of"], "the columns")
+steps = [table.GetValueByName(row, "Step").ToString() for row in range(table.GetNumberOfRows())]
+check({"edges", "surface", "voting", "screening", "score", "refinement", "selection"} <= set(steps), f"all steps: {steps}")
+check(not is_empty(diagnosis.GetOutputDataObject(2)), "the part is shown")
+
+# A picked point: that of the pose on it. The place is told.
+matched = [p for p, s in zip(points(output), states) if s == 0]
+diagnosis.SetPlaceToPoint()
+diagnosis.SetPosition(matched[0])
+output = run(diagnosis)
+check(int(field(output, "Rank")[0][0]) == 1 and text(output, "Verdict").startswith("Found as rank 1,"), text(output, "Verdict"))
+place = output.GetFieldData().GetArray("Transform").GetTuple(0)
+check(distance(place, transforms[best]) < 1, f"the place {place}")
+diagnosis.SetPosition(0, 0, 10)
+output = run(diagnosis)
+check(text(output, "Verdict").startswith("No part there") and output.GetNumberOfPoints() == 0, text(output, "Verdict"))
+check(output.GetFieldData().GetArray("Transform") is None, "no place")
+
+# The same pose by its numbers, as of a widget: turned about y, then x, then z.
+diagnosis.SetPlaceToPose()
+diagnosis.SetPosePosition(place[3], place[7], place[11])
+x = math.asin(max(-1.0, min(1.0, place[9])))
+y, z = math.atan2(-place[8], place[10]), math.atan2(-place[1], place[5])
+diagnosis.SetPoseRotation(*(math.degrees(angle) for angle in (x, y, z)))
+output = run(diagnosis)
+check(int(field(output, "Rank")[0][0]) == 1 and " 0.0 mm and 0.0 degrees" in text(output, "Verdict"), text(output, "Verdict"))
+
+# A limit is named.
+diagnosis.SetMaximumNumberOfPoses(1)
+diagnosis.SetPlaceToRankedPose()
+diagnosis.SetRankOfPose(ranks.index(2) + 1)
+output = run(diagnosis)
+check("only the best 1" in text(output, "Verdict") and "MaximumNumberOfPoses" in text(output, "Advice"),
+      text(output, "Verdict") + text(output, "Advice"))
+
+diagnosis.SetRankOfPose(99)
+fails(diagnosis, "no pose 99", "RankOfPose")
+diagnosis.SetRankOfPose(1)
+diagnosis.SetInputDataObject(4, vtkPolyData())
+fails(diagnosis, "no pose 1")
+prints(diagnosis, "Place", "Position", "PosePosition", "PoseRotation", "RankOfPose", "Fit", "Preset")

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""examples/why.py and ppfmeam.why(): of a true pose, of all, of a picked point; bad input."""
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import ppfmeam
+from meamtest import check, tuples
+from scripttest import H, W, refuses, scan_of_bin, works, write_pcd, write_stl
+
+scan, truth, mesh = scan_of_bin()
+write_stl("part.stl", mesh)
+columns = numpy.column_stack((vtk_to_numpy(scan.GetPoints().GetData()),
+                              vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))))
+write_pcd("scan.pcd", columns, W, H, "x y z intensity")
+transforms = numpy.array(tuples(truth, "Transform")).reshape(-1, 4, 4)
+numpy.savetxt("truth.txt", transforms.reshape(-1, 4))
+works("train.py", "--cad", "part.stl", "--out", "part.meam")
+lines = works("why.py", "part.meam", "scan.pcd", "--truth", "truth.txt", "--poses", "0").splitlines()
+check(len(lines) == len(transforms) + 1 and lines[-1].endswith(f"of {len(transforms)} were found"), f"{lines}")
+stages = [line[6:32].strip() for line in lines[:-1]]
+found = stages.count("found")
+check(found >= 2 and lines[-1].startswith(f"{found} of"), f"{lines}")
+row = stages.index("found")
+report = works("why.py", "part.meam", "scan.pcd", "--pose", f"truth.txt:{row + 1}", "--poses", "0").splitlines()
+check(report[-1].startswith("Found as rank ") and any(line.startswith("voting ") for line in report), f"{report}")
+few = works("why.py", "part.meam", "scan.pcd", "--truth", "truth.txt", "--poses", "1")
+check(few.count("only the best 1 are wanted. Raise MaximumNumberOfPoses") == found - 1, few)
+
+# In Python; the point is one of the part's that the scan shows.
+model = ppfmeam.load("part.meam")
+diagnosis = ppfmeam.why(model, "scan.pcd", pose=transforms[row], poses=0)
+check(diagnosis.rank >= 1 and diagnosis.lost_in == "" and diagnosis.verdict.startswith("Found"), diagnosis.verdict)
+check(len(diagnosis.points) == len(diagnosis.states) > 50, "points and states")
+on = diagnosis.points[diagnosis.states.index("matched")]
+report = works("why.py", "part.meam", "scan.pcd", "--at", *map(str, on), "--poses", "0").splitlines()
+check(report[-1].startswith(f"Found as rank {diagnosis.rank},"), f"{report}")
+nothing = works("why.py", "part.meam", "scan.pcd", "--at", "0", "0", "5")
+check(nothing.startswith("No part there") and nothing.count("\n") == 1, nothing)
+for arguments in ({}, {"at": (0, 0, 1), "pose": transforms[0]}, {"at": (1, 2)}, {"pose": numpy.eye(3)}):
+    try:
+        ppfmeam.why(model, "scan.pcd", **arguments)
+        check(False, f"{arguments} are refused")
+    except ppfmeam.Error:
+        pass
+
+refuses("no row 99", "why.py", "part.meam", "scan.pcd", "--pose", "truth.txt:99")
+refuses("nowhere.txt", "why.py", "part.meam", "scan.pcd", "--truth", "nowhere.txt")
+refuses("nowhere.pcd", "why.py", "part.meam", "nowhere.pcd", "--at", "0", "0", "1")
+refuses("nopart.stl", "why.py", "nopart.stl", "scan.pcd", "--at", "0", "0", "1")
