@@ -10,6 +10,7 @@ from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
     vtkMEAMPoseEstimation,
     vtkMEAMPoseEvaluation,
+    vtkMEAMPoseInstances,
     vtkMEAMPoseWriter,
     vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
@@ -52,6 +53,19 @@ check(len(expected) == 2, f"{len(expected)} poses")
 evaluation = connect(vtkMEAMPoseEvaluation(), poses, truth)
 evaluation.SetPosesAskedFor(2)
 check(field(run(evaluation), "StrictRate") == [(100,)], "both poses are right")
+
+# How likely a part has to be to be shown is chosen afterwards: detection does not run again.
+instances = connect(vtkMEAMPoseInstances(), filter, part)
+runs = []
+for algorithm in (filter, instances):
+    algorithm.AddObserver("StartEvent", lambda caller, event: runs.append(caller.GetClassName()))
+cells = []
+for likely in (0.0, 1.0, 0.5):
+    instances.SetMinimumProbability(likely)
+    cells.append(run(instances).GetNumberOfCells())
+check(cells[0] == 2 * part.GetNumberOfCells() and cells[1] == 0 and cells[2] <= cells[0], f"copies shown: {cells}")
+check(runs == ["vtkMEAMPoseInstances"] * 3, f"what ran: {runs}")
+
 (first,), (second,) = tuples(poses, "Evidence")
 check(tuples(poses, "Rank") == [(1,), (2,)] and first >= second > 0, f"evidence {first}, {second}")
 parts = [seconds(filter, stage) for stage in STAGES]

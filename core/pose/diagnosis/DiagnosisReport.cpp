@@ -36,7 +36,6 @@ struct VoteCounts
   int electing = 0;      ///< reference points whose best peak leads to the place
   int otherElecting = 0; ///< points whose best peak does, but that are no reference points
   PointVotes best{ Eigen::Vector3f::Zero(), true, true, 0, 0, 0 }; ///< the reference point with most votes for it
-  int bestRank = 0; ///< of a peak that leads there, over all reference points
 };
 
 VoteCounts countsOf(const std::vector<PointVotes>& votes)
@@ -51,8 +50,6 @@ VoteCounts countsOf(const std::vector<PointVotes>& votes)
       ++counts.references;
       counts.electing += point.rank == 1 ? 1 : 0;
       counts.best = point.votes > counts.best.votes ? point : counts.best;
-      const bool isBetter = point.rank > 0 && (counts.bestRank == 0 || point.rank < counts.bestRank);
-      counts.bestRank = isBetter ? point.rank : counts.bestRank;
     }
   }
   return counts;
@@ -182,8 +179,9 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
     case LossCause::OtherRotation:
       return lostIn(diagnosis) + "the part was taken to be turned by one of its approximate symmetries.";
     case LossCause::Taken:
-      return diagnosis.takenBy > 0 ? lostIn(diagnosis) + takerWords(diagnosis) + ", was preferred."
-                                   : lostIn(diagnosis) + "other poses of the same instance were preferred.";
+      return diagnosis.takenShare > detection.selection.clusters.shared
+               ? lostIn(diagnosis) + takerWords(diagnosis) + ", was preferred."
+               : lostIn(diagnosis) + "other poses of the same instance were preferred.";
     case LossCause::NotRefined:
     {
       const StageCount* stage = stageOf(diagnosis, PoseStage::CandidateVerification);
@@ -198,7 +196,6 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
 
 std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detection)
 {
-  const VoteCounts counts = countsOf(diagnosis.votes);
   switch (diagnosis.cause)
   {
     case LossCause::BeyondMaximum:
@@ -206,34 +203,37 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
              " or more, or set it to 0.";
     case LossCause::Unlikely:
       return "Lower MinimumProbability.";
-    case LossCause::FewEdges:
-      return "Look for edges in the depth, too (DepthEdges, Creases), lower the thresholds of Scene Edge Extraction, "
-             "light "
-             "the bin from another side, or let the surface vote (Features: Both).";
-    case LossCause::NoReference:
-      return "Raise ReferenceShare: with all points on the part voting it is found.";
-    case LossCause::Outvoted:
-      if (diagnosis.isFoundByAllPoints)
-      {
-        return "Raise ReferenceShare: with all points on the part voting it is found.";
-      }
-      if (counts.bestRank > 1)
-      {
-        return "Raise PeaksPerReference of Pose Detection to " + std::to_string(counts.bestRank) + " or more.";
-      }
-      return detection.detection.features != Features::Both ? "Let edges and surface vote (Features: Both)."
-                                                            : std::string();
-    case LossCause::SurfaceMissing:
-      return "Lower LeastSurface of Pose Screening.";
-    case LossCause::Taken:
-      return "When that pose is wrong, raise PosesPerInstance of Pose Selection (method Alternatives).";
     case LossCause::NotMeasured:
       return "Measure the part from another side or with another exposure.";
     case LossCause::Hidden:
       return "Take out what lies on it, and scan again.";
+    case LossCause::SurfaceMissing:
+      return "Lower LeastSurface of Pose Screening.";
     default:
-      return {};
+      break;
   }
+  if (diagnosis.isFoundByAllPoints)
+  {
+    return "Raise ReferenceShare: with all points on the part voting it is found.";
+  }
+  if (diagnosis.peaksThatFind > 0)
+  {
+    return "Raise ReferenceShare, and PeaksPerReference of Pose Detection to " +
+           std::to_string(diagnosis.peaksThatFind) + ": with all points on the part voting so it is found.";
+  }
+  if (diagnosis.cause == LossCause::FewEdges)
+  {
+    return "Look for edges in the depth, too (DepthEdges, Creases), lower the thresholds of Scene Edge Extraction, "
+           "light "
+           "the bin from another side, or let the surface vote (Features: Both).";
+  }
+  if (diagnosis.cause == LossCause::Outvoted && detection.detection.features != Features::Both)
+  {
+    return "Let edges and surface vote (Features: Both).";
+  }
+  return diagnosis.cause == LossCause::Taken
+           ? "When that pose is wrong, raise PosesPerInstance of Pose Selection (method Alternatives)."
+           : "";
 }
 
 std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)

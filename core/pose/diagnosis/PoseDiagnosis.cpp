@@ -176,11 +176,16 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     std::find_if(stages.rbegin(), stages.rend(), [](const StageCount& stage) { return stage.here > 0; });
   diagnosis.lostIn = last == stages.rend() ? PoseStage::Voting : std::prev(last)->stage;
   this->findTaker(diagnosis, this->Trace.ranked());
+  if (*diagnosis.lostIn == PoseStage::Voting || *diagnosis.lostIn == PoseStage::Screening ||
+      *diagnosis.lostIn == PoseStage::CandidateSelection)
+  {
+    this->findWhatHelps(diagnosis, T_local_model, progress);
+  }
   LossCause cause = LossCause::LowScore;
   switch (*diagnosis.lostIn)
   {
     case PoseStage::Voting:
-      cause = this->causeInVoting(diagnosis, T_local_model, progress);
+      cause = causeInVoting(diagnosis);
       break;
     case PoseStage::Screening:
       cause = this->causeInScreening(diagnosis, T_local_model);
@@ -221,17 +226,39 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
                                                                         : cause;
 }
 
-LossCause PoseDiagnosis::causeInVoting(
-  Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress)
+bool PoseDiagnosis::isFoundBy(int peaks, const Eigen::Isometry3d& T_local_model, const Progress& progress) const
 {
+  PoseDetectionSettings voting = this->Detection.detection;
+  voting.peaksPerReference = peaks;
   const Eigen::Vector3f middle = T_local_model.cast<float>() * this->Model.visibility->middle();
   Poses candidates = detectPosesNear(middle, this->Settings.lookedFor * this->Model.diameter, this->InScene,
-    this->Model, this->Detection.detection, subProgress(progress, 0.0, 0.4));
+    this->Model, voting, subProgress(progress, 0.0, 0.4));
   const Poses& voted = this->posesOf(PoseStage::Voting);
   candidates.insert(candidates.end(), voted.begin(), voted.end());
   const Poses ranked = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.4, 1.0));
-  diagnosis.isFoundByAllPoints = !posesAt(ranked, T_local_model, this->tolerance(), this->Model).empty();
+  return !posesAt(ranked, T_local_model, this->tolerance(), this->Model).empty();
+}
+
+void PoseDiagnosis::findWhatHelps(
+  Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress) const
+{
+  const int peaks = this->Detection.detection.peaksPerReference;
+  diagnosis.isFoundByAllPoints = this->isFoundBy(peaks, T_local_model, subProgress(progress, 0.0, 0.5));
+  int best = 0; // rank of a peak that leads here
+  for (const PointVotes& point : diagnosis.votes)
+  {
+    best = point.rank > peaks && (best == 0 || point.rank < best) ? point.rank : best;
+  }
+  if (!diagnosis.isFoundByAllPoints && best > 0 &&
+      this->isFoundBy(best, T_local_model, subProgress(progress, 0.5, 1.0)))
+  {
+    diagnosis.peaksThatFind = best;
+  }
+}
+
+LossCause PoseDiagnosis::causeInVoting(const Diagnosis& diagnosis)
+{
   const bool isElected = std::any_of(diagnosis.votes.begin(), diagnosis.votes.end(),
     [](const PointVotes& point) { return !point.isReference && point.rank == 1; });
   const bool hasFewEdges = diagnosis.evidence.edgeShare() <= EdgeRatesSettings().usual.chance;

@@ -68,14 +68,16 @@ struct Diagnosis
   double bestEvidence = 0.0;       ///< of these
   std::vector<PointVotes> votes;   ///< of points on the part
   std::vector<StageCount> stages;
-  int rank = 0;                    ///< of what came out here, from 1; 0: nothing did
-  PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
-  double probability = 0.0;        ///< of what came out here, or would without limits
-  int rankWithoutLimits = 0;       ///< the same if all poses came out
-  int takenBy = 0;                 ///< rank, from 1, of the pose that came out and has most of the place's points
-  double takenShare = 0.0;         ///< of the points that match at the place, those that match at that pose, too
-  double takenEvidence = 0.0;      ///< of that pose
-  bool isFoundByAllPoints = false; ///< lost in voting: it comes out when all points on it vote
+  int rank = 0;                  ///< of what came out here, from 1; 0: nothing did
+  PoseOffset offset{ 0.0, 0.0 }; ///< of what came out here, or of where refinement led to
+  double probability = 0.0;      ///< of what came out here, or would without limits
+  int rankWithoutLimits = 0;     ///< the same if all poses came out
+  int takenBy = 0;               ///< rank, from 1, of the pose that came out and has most of the place's points
+  double takenShare = 0.0;       ///< of the points that match at the place, those that match at that pose, too
+  double takenEvidence = 0.0;    ///< of that pose
+  // Lost before refinement:
+  bool isFoundByAllPoints = false; ///< it comes out when all points about it vote
+  int peaksThatFind = 0;           ///< or else with so many candidates of each of them; 0: it does not
 };
 
 /// Runs the detection of parts in a scene once, and then tells of places what became of a part there. Keeps references.
@@ -104,7 +106,10 @@ private:
   /// Sets which pose that came out has the place's points.
   void findTaker(Diagnosis& diagnosis, const Poses& ranked) const;
   LossCause causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress);
-  LossCause causeInVoting(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress);
+  /// Whether it comes out, without limits, when all points about it vote with so many candidates each.
+  bool isFoundBy(int peaks, const Eigen::Isometry3d& T_local_model, const Progress& progress) const;
+  void findWhatHelps(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress) const;
+  static LossCause causeInVoting(const Diagnosis& diagnosis);
   LossCause causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   LossCause causeInSelection(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
   bool isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T_local_model) const;

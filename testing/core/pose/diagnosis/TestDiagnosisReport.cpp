@@ -95,9 +95,26 @@ TEST(DiagnosisReport, AdviceNamesAProperty)
   };
   EXPECT_EQ(advice(LossCause::BeyondMaximum), "Raise MaximumNumberOfPoses to 7 or more, or set it to 0.");
   EXPECT_EQ(advice(LossCause::Unlikely), "Lower MinimumProbability.");
-  EXPECT_EQ(advice(LossCause::Outvoted), "Raise PeaksPerReference of Pose Detection to 4 or more.");
-  EXPECT_EQ(advice(LossCause::NoReference), "Raise ReferenceShare: with all points on the part voting it is found.");
+  EXPECT_EQ(advice(LossCause::Outvoted), "");
+  EXPECT_EQ(advice(LossCause::Outvoted, meam::Features::Edges), "Let edges and surface vote (Features: Both).");
   EXPECT_EQ(advice(LossCause::None), "");
+}
+
+TEST(DiagnosisReport, WhatWasTriedAndHelpedIsAdvised)
+{
+  const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
+  for (const LossCause cause : { LossCause::NoReference, LossCause::Outvoted, LossCause::OtherRotation,
+         LossCause::Duplicate, LossCause::NotRefined, LossCause::Taken, LossCause::FewEdges })
+  {
+    meam::Diagnosis diagnosis = example(cause, PoseStage::Screening);
+    diagnosis.peaksThatFind = 4;
+    EXPECT_EQ(meam::adviceOf(diagnosis, detection),
+      "Raise ReferenceShare, and PeaksPerReference of Pose Detection to 4: with all points on the part voting so it is "
+      "found.");
+    diagnosis.isFoundByAllPoints = true;
+    EXPECT_EQ(
+      meam::adviceOf(diagnosis, detection), "Raise ReferenceShare: with all points on the part voting it is found.");
+  }
 }
 
 TEST(DiagnosisReport, NumbersGoStepByStep)

@@ -111,6 +111,8 @@ TEST(PoseDiagnosis, APartWithoutEdgesIsLostAtItsEdges)
   EXPECT_GT(diagnosis.evidence.edges, 50);
   EXPECT_GT(diagnosis.evidence.surfaceShare(meam::PointState::Matched), 0.9);
   EXPECT_TRUE(diagnosis.votes.empty());
+  EXPECT_FALSE(diagnosis.isFoundByAllPoints);
+  EXPECT_EQ(diagnosis.peaksThatFind, 0);
   EXPECT_EQ(diagnosis.stages.front().here, 0);
 }
 
@@ -186,7 +188,6 @@ TEST(PoseDiagnosis, WithoutReferencePointsOnThePartItIsTheirShare)
 
 TEST(PoseDiagnosis, ScreeningOfTooLittleSurface)
 {
-  // Without the surface of the second copy, but with a floor where it was, its candidates go.
   meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
   detection.screening->enough = 0;
   detection.screening->leastSurface = 1.01; // none has so much
