@@ -54,7 +54,7 @@ public:
   ///@{
   /**
    * A point of the model this near to the scene fits, in mm; 0: 3 % of the part's diameter. Default: 0.
-   * The paper: 1.
+   * The preset Paper: 1.5, which the text leaves open.
    */
   virtual void SetTolerance(double value);
   virtual double GetTolerance();
@@ -88,7 +88,8 @@ public:
 
   ///@{
   /**
-   * Best poses kept for each appearance model (N_pv); 0: no limit. Default: 0. The paper: 5.
+   * Best poses kept for each appearance model (N_pv); 0: no limit. Default: 0. The paper: 5 in its picking cell;
+   * its preset: 20.
    */
   virtual void SetPosesPerView(int value);
   virtual int GetPosesPerView();

@@ -80,5 +80,5 @@ fails(connect(vtkMEAMPoseDetection(), edges), "the input Model")
 
 filter = vtkMEAMPoseDetection()
 filter.SetParametersToPaper()
-check((filter.GetReferenceShare(), filter.GetReferredShare()) == (0.05, 0.2), "the paper's parameters")
+check((filter.GetReferenceShare(), filter.GetReferredShare()) == (0.2, 0.2), "the paper's parameters")
 prints(filter, "ReferenceShare", "ReferredShare", "Seed", "NumberOfThreads")

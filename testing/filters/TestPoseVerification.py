@@ -155,6 +155,6 @@ fails(connect(vtkMEAMPoseVerification(), candidates, model), "the input Scene Ed
 
 filter = vtkMEAMPoseVerification()
 filter.SetParametersToPaper()
-check((filter.GetMethod(), filter.GetTolerance(), filter.GetPosesPerView()) == (0, 1.0, 5), "the paper's parameters")
+check((filter.GetMethod(), filter.GetTolerance(), filter.GetPosesPerView()) == (0, 1.5, 20), "the paper's parameters")
 prints(filter, "Method", "Tolerance", "FreeSpace", "PointStride", "MinimumScore", "PosesPerView", "Projection",
        "ViewDirection", "SensorPosition", "NumberOfThreads")

@@ -55,8 +55,8 @@ TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
 TEST(MEAMPoseEstimation, EveryPresetFindsCopiesOfABracket)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const std::pair<meam::Preset, int> least[] = { { meam::Preset::Paper, 2 }, { meam::Preset::Recommended, 3 },
-    { meam::Preset::WithoutMEAM, 1 }, { meam::Preset::OriginalPPF, 1 }, { meam::Preset::B2B, 3 } };
+  const std::pair<meam::Preset, int> least[] = { { meam::Preset::Paper, 3 }, { meam::Preset::Recommended, 3 },
+    { meam::Preset::WithoutMEAM, 1 }, { meam::Preset::OriginalPPF, 1 }, { meam::Preset::B2B, 2 } };
   for (const auto& [preset, copies] : least)
   {
     const meam::TrainedModel model = meam::trainModel(parts::lBracket(), meam::trainingSettings(preset));
@@ -142,11 +142,11 @@ TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
 TEST(MEAMPoseEstimation, ThePaperPresetFindsThemToo)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Paper, 3);
-  settings.detection.referenceShare = 0.2; // the paper's own range is 5 to 20 %
+  // Its score takes the upper edges for the lower ones, a plate's thickness away: twice as many poses as copies.
+  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Paper, 6);
   const meam::Poses poses = scenes::estimatePoses(scenes::bracket(meam::Preset::Paper), scene, settings);
-  ASSERT_LE(poses.size(), 3u);
-  EXPECT_GE(instancesFound(poses, 7.5, 5.0), 2); // its weaker tangents and scores miss some
+  ASSERT_LE(poses.size(), 6u);
+  EXPECT_EQ(instancesFound(poses, 0.5, 1.5), 3);
 }
 
 TEST(MEAMPoseEstimation, AModelOfTheMeshesEdgesFindsThemToo)
