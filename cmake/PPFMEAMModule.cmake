@@ -29,7 +29,9 @@ vtk_module_build(
   INSTALL_EXPORT PPFMEAMFilters
   CMAKE_DESTINATION ${PPFMEAM_CMAKE_DIR}
   LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  HEADERS_DESTINATION include/ppfmeam)
+  TARGETS_COMPONENT python
+  HEADERS_DESTINATION include/ppfmeam
+  HEADERS_COMPONENT dev)
 vtk_module_wrap_python(
   MODULES ${modules}
   PYTHON_PACKAGE ppfmeam
@@ -75,6 +77,8 @@ if(PPFMEAM_USE_PARAVIEW)
     PLUGINS ${plugins}
     LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
     PLUGINS_FILE_NAME "ppfmeam.xml"
+    PLUGINS_COMPONENT paraview
+    TARGET_COMPONENT paraview
     INSTALL_HEADERS OFF)
   add_dependencies(runtime ${plugins})
 endif()
