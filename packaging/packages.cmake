@@ -14,22 +14,22 @@ set(package_paraview ppfmeam-paraview)
 set(components detect train dev python paraview)
 
 set(CPACK_COMPONENT_DETECT_DESCRIPTION "6D poses of industrial parts in a bin, detection in C++
- Finds the copies of a part in an organized 3D scan with a model that was trained
- before: meam::detect, which holds nothing under the GPL.")
+Finds the copies of a part in an organized 3D scan with a model trained before:
+meam::detect, which holds nothing under the GPL.")
 set(CPACK_COMPONENT_TRAIN_DESCRIPTION "6D poses of industrial parts in a bin, training in C++
- Trains the model of a part from its CAD file (meam::train) and reads images in
- files (meam::images). Under the GPL: CGAL is in the one, and Debian's image
- readers, which the other links, need Poppler.")
+Trains the model of a part from its CAD file (meam::train) and reads images in
+files (meam::images). Under the GPL: CGAL is in the one, and Debian's image
+readers, which the other links, need Poppler.")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "6D poses of industrial parts in a bin, C++ headers
- Headers and CMake files for find_package(PPFMEAM): meam::detect, meam::images,
- meam::train and, with python3-ppfmeam, the VTK module PPFMEAM::Filters.")
+Headers and CMake files for find_package(PPFMEAM): meam::detect, meam::images,
+meam::train and, with python3-ppfmeam, the VTK module PPFMEAM::Filters.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "6D poses of industrial parts in a bin, Python and command
- Finds the copies of an industrial part in a bin: a CAD file and an organized 3D
- scan go in, ranked 6D poses come out. The Python module ppfmeam with its VTK
- filters, for the VTK that ParaView brings along, and the command ppfmeam.")
+Finds the copies of an industrial part in a bin: a CAD file and an organized 3D
+scan go in, ranked 6D poses come out. The Python module ppfmeam with its VTK
+filters, for the VTK that ParaView brings along, and the command ppfmeam.")
 set(CPACK_COMPONENT_PARAVIEW_DESCRIPTION "6D poses of industrial parts in a bin, ParaView plugin
- The filters, readers and the toolbar of Pose Estimation for ParaView, in the
- list of Tools > Manage Plugins.")
+The filters, readers and the toolbar of Pose Estimation for ParaView, in the
+list of Tools > Manage Plugins.")
 
 # What dpkg-shlibdeps does not find: the plugin's and the module's ParaView it does, with its version.
 set(same "(= ${debian_version})")
@@ -53,8 +53,15 @@ set(CPACK_DEBIAN_TRAIN_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PARAVIEW_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
-  "${PROJECT_SOURCE_DIR}/packaging/python/postinst;${PROJECT_SOURCE_DIR}/packaging/python/prerm")
+# Scripts, what makes dpkg run ldconfig, and which package a library is in for dpkg-shlibdeps of others.
+set(control "${PROJECT_SOURCE_DIR}/packaging/control")
+set(soversion "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+file(WRITE "${generated}/detect/shlibs" "libmeamDetect ${soversion} ${package_detect} ${same}\n")
+file(WRITE "${generated}/train/shlibs"
+  "libmeamImages ${soversion} ${package_train} ${same}\nlibmeamTrain ${soversion} ${package_train} ${same}\n")
+set(CPACK_DEBIAN_DETECT_PACKAGE_CONTROL_EXTRA "${control}/triggers;${generated}/detect/shlibs")
+set(CPACK_DEBIAN_TRAIN_PACKAGE_CONTROL_EXTRA "${control}/triggers;${generated}/train/shlibs")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${control}/triggers;${control}/postinst;${control}/prerm")
 
 # Copyright and changelog of each package.
 file(READ "${PROJECT_SOURCE_DIR}/LICENSE" LICENSE_TEXT)
@@ -112,8 +119,6 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE ${debian_revision})
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${PPFMEAM_MAINTAINER}")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/lib")
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
