@@ -29,7 +29,9 @@ vtk_module_build(
   INSTALL_EXPORT PPFMEAMFilters
   CMAKE_DESTINATION ${PPFMEAM_CMAKE_DIR}
   LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  HEADERS_DESTINATION include/ppfmeam)
+  TARGETS_COMPONENT python
+  HEADERS_DESTINATION include/ppfmeam
+  HEADERS_COMPONENT dev)
 vtk_module_wrap_python(
   MODULES ${modules}
   PYTHON_PACKAGE ppfmeam
@@ -38,17 +40,28 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF
   BUILD_STATIC OFF)
 
-# The hand-written part of the Python package.
-set(package_files __init__.py api.py bop.py chains.py charts.py dataset.py evaluation.py filters.py meshfiles.py picture.py scripting.py
-  paper.py simulation.py stage.py world.py)
-list(TRANSFORM package_files PREPEND "${PROJECT_SOURCE_DIR}/filters/ppfmeam/" OUTPUT_VARIABLE package_sources)
-list(TRANSFORM package_files PREPEND "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam/" OUTPUT_VARIABLE package_copies)
-add_custom_command(OUTPUT ${package_copies}
-  COMMAND ${CMAKE_COMMAND} -E make_directory "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam"
-  COMMAND ${CMAKE_COMMAND} -E copy ${package_sources} "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam"
-  DEPENDS ${package_sources})
+# The hand-written part of the Python package, its sub-commands, and the command that runs them.
+set(package_files __init__.py __main__.py api.py bop.py chains.py charts.py dataset.py evaluation.py filters.py meshfiles.py
+  paper.py picture.py scripting.py simulation.py stage.py world.py)
+set(command_files __init__.py detect.py evaluate.py simulate.py train.py)
+set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
+set(package_copies)
+function(ppfmeam_copy folder) # files of filters/ppfmeam/FOLDER, to the build tree and to the installed one
+  list(TRANSFORM ARGN PREPEND "${PROJECT_SOURCE_DIR}/filters/ppfmeam${folder}/" OUTPUT_VARIABLE sources)
+  list(TRANSFORM ARGN PREPEND "${package_destination}${folder}/" OUTPUT_VARIABLE copies)
+  add_custom_command(OUTPUT ${copies}
+    COMMAND ${CMAKE_COMMAND} -E make_directory "${package_destination}${folder}"
+    COMMAND ${CMAKE_COMMAND} -E copy ${sources} "${package_destination}${folder}"
+    DEPENDS ${sources})
+  install(FILES ${sources} DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam${folder} COMPONENT python)
+  set(package_copies ${package_copies} ${copies} PARENT_SCOPE)
+endfunction()
+ppfmeam_copy("" ${package_files})
+ppfmeam_copy(/commands ${command_files})
+configure_file("${PROJECT_SOURCE_DIR}/filters/ppfmeam/version.py.in" "${package_destination}/version.py" @ONLY)
+install(FILES "${package_destination}/version.py" DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam COMPONENT python)
+install(PROGRAMS "${PROJECT_SOURCE_DIR}/filters/command/ppfmeam" DESTINATION bin COMPONENT python)
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
-install(FILES ${package_sources} DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam)
 
 # Everything a script or ParaView needs, without the tests.
 add_custom_target(runtime DEPENDS ppfmeamFiltersPython ppfmeamPackage)
@@ -64,6 +77,8 @@ if(PPFMEAM_USE_PARAVIEW)
     PLUGINS ${plugins}
     LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
     PLUGINS_FILE_NAME "ppfmeam.xml"
+    PLUGINS_COMPONENT paraview
+    TARGET_COMPONENT paraview
     INSTALL_HEADERS OFF)
   add_dependencies(runtime ${plugins})
 endif()

@@ -17,4 +17,7 @@ def __getattr__(name):
     if name in ("Detections", "Diagnosis", "Model", "detect", "load", "train", "why"):
         from . import api
         return getattr(api, name)
+    if name == "__version__":
+        from .version import VERSION
+        return VERSION
     raise AttributeError(f"module 'ppfmeam' has no attribute '{name}'")

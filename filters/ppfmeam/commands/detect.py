@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
+import argparse
+
+from .. import filters, picture, scripting
+
+
+def options_of_user():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--cad", action="append", default=[], metavar="PART",
+                        help="CAD file of the part: .stl, .obj or .ply, in mm; once for each type of part")
+    parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
+                        help="added to the CAD's coordinates, in mm")
+    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    parser.add_argument("--model", action="append", default=[],
+                        help="trained model of `train`, instead of training, once for each type of part; --cad is then for "
+                             "the picture")
+    scan = parser.add_mutually_exclusive_group(required=True)
+    scan.add_argument("--scene", metavar="CLOUD", help="scan: .pcd, .ply, .stl or .obj, in mm")
+    scan.add_argument("--depth", metavar="PNG", help="scan: a depth image of 16 bits, with --camera")
+    parser.add_argument("--camera", metavar="FILE",
+                        help="calibration of the sensor (OpenCV's YAML, XML or JSON, or a BOP camera.json): of the depth "
+                             "image, or of a .ply scan, which it brings back onto its pixels")
+    parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
+                        help="mm that 1 in the depth image stands for (default: depth_scale of the calibration, or 1)")
+    parser.add_argument("--scene-scale", type=float, default=1, metavar="F", help="factor to mm, also of the boundary")
+    parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
+    parser.add_argument("--image", metavar="FILE",
+                        help="image of an organized scan that carries none: .png, .jpg, .bmp or .tif")
+    parser.add_argument("--image-camera", metavar="FILE",
+                        help="calibration of the camera beside the sensor that took the image (default: it is registered)")
+    parser.add_argument("--poses", type=scripting.count, default=5,
+                        help="poses wanted, the best ones; 0: all that reach --probability (default: %(default)s)")
+    parser.add_argument("--probability", type=scripting.share, metavar="P",
+                        help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with --poses 0)")
+    scripting.add_features_argument(parser)
+    scripting.add_reference_argument(parser)
+    parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
+    scripting.add_method_options(parser)
+    parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
+    parser.add_argument("--json", help="write the poses as JSON")
+    parser.add_argument("--matrices", metavar="TXT", help="write the poses as 4x4 matrices")
+    parser.add_argument("--picture", metavar="PNG", help="write a picture of the scan with the part at each pose")
+    options = parser.parse_args()
+    if not options.cad and not options.model:
+        parser.error("give the part: --cad, or --model of `train`")
+    if options.cad and options.model and len(options.cad) != len(options.model):
+        parser.error("give a --cad for each --model, in the same order, or none")
+    if options.probability is None:
+        options.probability = 0 if options.poses else 0.5
+    if options.depth and not options.camera:
+        parser.error("a depth image needs its --camera")
+    return options
+
+
+def estimate(options, part, scene, poses):
+    """vtkMEAMPoseEstimation of one part, brought up to date."""
+    estimation = filters.vtkMEAMPoseEstimation()
+    estimation.SetInputDataObject(part)
+    estimation.SetInputDataObject(1, scene)
+    if options.boundary:
+        estimation.SetInputDataObject(2, scripting.read(options.boundary, options.scene_scale))
+    if options.image:
+        estimation.SetInputDataObject(3, scripting.read_image(options.image))
+        estimation.SetCameraFile(options.image_camera)
+    scripting.set_preset(estimation, options.preset)
+    scripting.set_choice(estimation, "Features", options.features)
+    estimation.SetMaximumNumberOfPoses(poses)
+    estimation.SetMinimumProbability(options.probability)
+    estimation.SetReferenceShare(options.references)
+    estimation.SetNumberOfThreads(options.threads)
+    return scripting.update(estimation)
+
+
+def estimate_several(options, models, scene):
+    """The poses of all parts together and the poses of each alone, which know the times."""
+    estimations = [estimate(options, model, scene, 0) for model in models]
+    found = [estimation.GetOutput() for estimation in estimations]
+    edges = estimations[0].GetOutputDataObject(1)
+    return scripting.resolve_conflicts(found, models, scene, edges, options.preset, options.poses, options.threads), found
+
+
+def main():
+    options = options_of_user()
+    scripting.require_folder_of(options.out, options.json, options.matrices, options.picture)
+    if options.picture:
+        picture.require_display()
+    meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale) for path in options.cad]
+    parts = [scripting.read_model(path) for path in options.model] or meshes
+    if options.depth:
+        scene = scripting.read_depth(options.depth, options.camera, options.depth_scale)
+    else:
+        scene = scripting.read_scan(options.scene, options.scene_scale, options.camera)
+
+    if len(parts) == 1:
+        poses = estimate(options, parts[0], scene, options.poses).GetOutput()
+        found = [poses]
+    else:
+        models = parts if options.model else [scripting.train(mesh, options.preset, options.features) for mesh in meshes]
+        poses, found = estimate_several(options, models, scene)
+    scripting.print_poses(poses)
+    scripting.print_scan_quality(found[0])
+    for number, of_part in enumerate(found, 1):
+        print(f"part {number} " if len(parts) > 1 else "", end="")
+        scripting.print_times(of_part)
+    seconds = sum(scripting.field(of_part, "SecondsTotal") for of_part in found)
+    for path, form in ((options.out, "BOPCSV"), (options.json, "JSON"), (options.matrices, "Matrices")):
+        if path:
+            scripting.write_poses(poses, path, form, Time=seconds)
+    if options.picture:
+        picture.save(options.picture, scene, poses, *(meshes or parts))

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# On a bare Debian 12 that never saw a build, as root: installs the packages of packaging/build.sh by apt and uses all of them.
+# It installs about 1 GB of Debian's packages; run it in a chroot or a container.
+#
+#   testing/packages.sh FOLDER      the folder of the .deb files
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+folder=$(cd "$1" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" # nothing of the checkout is on a path
+failed() { echo "FAILED: $*" >&2; exit 1; }
+get() { apt-get install -q -y --no-install-recommends "$@" >>"$work/apt.log" 2>&1 || { tail -n 30 "$work/apt.log"; failed "apt-get install $*"; }; }
+export DEBIAN_FRONTEND=noninteractive
+apt-get update -q >"$work/apt.log"
+
+echo "== libppfmeam-detect alone: what a cell gets"
+get "$folder"/libppfmeam-detect_*.deb binutils
+if dpkg-query -W -f '${db:Status-Status} ${Package}\n' | grep -E '^installed .*(cgal|mpfr|poppler|gdal|paraview|vtk|openmesh|bullet)'; then failed "detection installs what it does not need"; fi
+readelf -d /usr/lib/libmeamDetect.so.0.2 | grep -E "(gmp|mpfr|OpenMesh|Bullet|imgcodecs|vtk)" && failed "libmeamDetect.so links what only training needs"
+
+echo "== the command and the Python package"
+get "$folder"/python3-ppfmeam_*.deb
+[ ! -e /usr/lib/libmeamTrain.so.0.2 ] || failed "Python needs no C++ library"
+version=$(dpkg-query -W -f '${Version}' python3-ppfmeam)
+[ "$(ppfmeam --version)" = "ppfmeam ${version%-*}" ] || failed "ppfmeam --version says $(ppfmeam --version)"
+ppfmeam --help | grep -q '^  detect ' || failed "ppfmeam --help"
+python3 -m ppfmeam --help >/dev/null
+python3 -c 'import ppfmeam; assert ppfmeam.__file__ == "/usr/lib/python3/dist-packages/ppfmeam/__init__.py", ppfmeam.__file__'
+ls /usr/lib/python3/dist-packages/ppfmeam/__pycache__/*.pyc >/dev/null || failed "modules are not compiled"
+plate=/usr/share/doc/python3-ppfmeam/examples/parts/hole_plate.stl
+ppfmeam simulate --cad "$plate" --copies 4 --seed 5 --out bins
+ppfmeam train --cad "$plate" --out plate.meam
+ppfmeam detect --model plate.meam --depth bins/test/000000/depth/000000.png --camera bins/camera.json \
+  --image bins/test/000000/gray/000000.png --poses 2 --matrices found.txt
+[ "$(wc -w <found.txt)" = 32 ] || failed "detect finds less than two poses"
+ppfmeam evaluate bop bins --poses 2 --out results.csv | grep -q strict || failed "evaluate"
+
+echo "== the plugin in ParaView's list"
+get "$folder"/ppfmeam-paraview_*.deb
+cat >plugin.py <<'END'
+from paraview import servermanager
+from paraview.simple import *
+
+plugins = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
+names = [plugins.GetPluginName(k) for k in range(plugins.GetNumberOfPlugins())]
+assert "PPFMEAM" in names, names
+print("listed:", names)
+LoadDistributedPlugin("PPFMEAM", ns=globals())
+part = SamplePartSource()
+part.UpdatePipeline()
+assert part.GetDataInformation().GetNumberOfPoints() > 0
+assert "MEAMPoseEstimation" in globals()
+print("loaded, and it works")
+END
+pvpython plugin.py || failed "the plugin"
+
+echo "== C++ with find_package(PPFMEAM)"
+get "$folder"/libppfmeam-{train,dev}_*.deb g++ make cmake
+bash "$here/install/libraries.sh" /usr/lib/libmeam{Detect,Images,Train}.so || failed "libraries"
+cmake -S /usr/share/doc/libppfmeam-dev/examples/cpp -B cpp -DCMAKE_BUILD_TYPE=Release >cpp.log 2>&1 && cmake --build cpp >>cpp.log 2>&1 ||
+  { cat cpp.log; failed "the examples do not compile"; }
+python3 "$here/install/scan.py" make "$work"
+cpp/find_parts part.stl scan.pcd part.meam >found.txt
+cpp/cell part.meam scan.pcd >cell.txt
+python3 "$here/install/scan.py" check "$work"
+
+echo "== removed again"
+apt-get purge -q -y 'ppfmeam-paraview' 'python3-ppfmeam' 'libppfmeam-*' >>"$work/apt.log" 2>&1 || { tail -n 20 "$work/apt.log"; failed "purge"; }
+left=$(find /usr /etc /var/lib/dpkg/info -iname '*ppfmeam*' -o -name 'libmeam*' -o -name paraview.conf)
+[ -z "$left" ] || failed "left behind: $left"
+echo "all packages work"
