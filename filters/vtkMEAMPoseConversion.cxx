@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseConversion.h"
 
+#include "base/Bounds.h"
 #include "base/Error.h"
 #include "vtkMEAMArrays.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -161,5 +163,39 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
   output->SetPoints(points);
   addVertices(output);
   output->GetPointData()->SetActiveScalars("Score");
+}
+
+std::optional<meam::PartExtent> partExtentOf(vtkDataObject* input)
+{
+  vtkDataArray* bounds = input->GetFieldData()->GetArray("PartBounds");
+  vtkDataArray* middle = input->GetFieldData()->GetArray("PartMiddle");
+  if (!bounds || bounds->GetNumberOfComponents() != 6 || bounds->GetNumberOfTuples() != 1 || !middle ||
+      middle->GetNumberOfComponents() != 3 || middle->GetNumberOfTuples() != 1)
+  {
+    return {};
+  }
+  meam::PartExtent part;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    part.box.min()[axis] = bounds->GetComponent(0, 2 * axis);
+    part.box.max()[axis] = bounds->GetComponent(0, 2 * axis + 1);
+    part.middle[axis] = middle->GetComponent(0, axis);
+  }
+  return part;
+}
+
+void setPartExtent(vtkDataObject* output, const meam::TrainedModel& model)
+{
+  const Eigen::AlignedBox3f box = meam::bounds(model.surface.points);
+  const Eigen::Vector3f& middle = model.visibility->middle();
+  vtkNew<vtkDoubleArray> bounds, middles;
+  bounds->SetName("PartBounds");
+  bounds->SetNumberOfComponents(6);
+  bounds->InsertNextTuple6(box.min().x(), box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z());
+  middles->SetName("PartMiddle");
+  middles->SetNumberOfComponents(3);
+  middles->InsertNextTuple3(middle.x(), middle.y(), middle.z());
+  output->GetFieldData()->AddArray(bounds);
+  output->GetFieldData()->AddArray(middles);
 }
 }

@@ -5,8 +5,13 @@
 #ifndef vtkMEAMPoseConversion_h
 #define vtkMEAMPoseConversion_h
 
+#include "io/DetectionArrayFile.h"
+#include "model/TrainedModel.h"
 #include "pose/Pose.h"
 
+#include <optional>
+
+class vtkDataObject;
 class vtkPolyData;
 
 namespace vtkMEAMConversion
@@ -16,6 +21,11 @@ namespace vtkMEAMConversion
 /// poses `Residual`, `Iterations`, `Covariance` (36), `ConstrainedDegreesOfFreedom` and `ConstrainedAxes` (6).
 meam::Poses toPoses(vtkPolyData* input);
 void fromPoses(const meam::Poses& poses, vtkPolyData* output);
+
+/// How large the part is travels with its poses as the field data `PartBounds` (6: from and to along x, y and z, mm, of
+/// the model's surface points) and `PartMiddle` (3: mm, of its surface, which covariances are about).
+std::optional<meam::PartExtent> partExtentOf(vtkDataObject* input);
+void setPartExtent(vtkDataObject* output, const meam::TrainedModel& model);
 }
 
 #endif

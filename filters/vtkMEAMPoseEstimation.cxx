@@ -79,6 +79,7 @@ int vtkMEAMPoseEstimation::RequestData(
       fromInstances(
         work.part->shape, poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
       setDiameter(output, model.diameter);
+      setPartExtent(output, model);
       setFieldText(output, "Report", meam::describe(poses));
       setScanQuality(output, scene.quality);
       if (report.edgeRates)

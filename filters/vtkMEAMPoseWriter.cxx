@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseWriter.h"
 
+#include "io/DetectionArrayFile.h"
 #include "io/PoseFile.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
@@ -14,12 +15,20 @@
 #include "vtkPolyData.h"
 #include "vtksys/SystemTools.hxx"
 
+#include <string_view>
+
 vtkStandardNewMacro(vtkMEAMPoseWriter);
 
 namespace
 {
 int formatOf(const std::string& fileName)
 {
+  constexpr std::string_view detections = ".detections.json";
+  const std::string name = vtksys::SystemTools::LowerCase(fileName);
+  if (name.size() >= detections.size() && name.substr(name.size() - detections.size()) == detections)
+  {
+    return vtkMEAMPoseWriter::DETECTIONS;
+  }
   const std::string extension = vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(fileName));
   if (extension == ".csv" || extension == ".bop")
   {
@@ -34,14 +43,18 @@ int formatOf(const std::string& fileName)
     return vtkMEAMPoseWriter::MATRICES;
   }
   throw meam::Error("The file '" + fileName +
-                    "' was not written: poses go to .csv or .bop (BOP results), .json, .txt or .poses (4x4 "
-                    "matrices); choose one of these extensions, or set Format.");
+                    "' was not written: poses go to .csv or .bop (BOP results), .json, .detections.json (ROS 2), .txt "
+                    "or .poses (4x4 matrices); choose one of these extensions, or set Format.");
 }
 }
 
-vtkMEAMPoseWriter::vtkMEAMPoseWriter() = default;
+vtkMEAMPoseWriter::vtkMEAMPoseWriter() { this->SetFrameId("camera"); }
 
-vtkMEAMPoseWriter::~vtkMEAMPoseWriter() { this->SetFileName(nullptr); }
+vtkMEAMPoseWriter::~vtkMEAMPoseWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetFrameId(nullptr);
+}
 
 int vtkMEAMPoseWriter::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -98,6 +111,10 @@ void vtkMEAMPoseWriter::WriteData()
         {
           row.certainty = pose.certainty;
         }
+        if (pose.fit.iterations > 0)
+        {
+          row.covariance = pose.fit.covariance;
+        }
         rows.push_back(row);
       }
       switch (format)
@@ -108,6 +125,14 @@ void vtkMEAMPoseWriter::WriteData()
         case JSON:
           meam::writeJSON(this->FileName, rows);
           break;
+        case DETECTIONS:
+        {
+          meam::DetectionArrayHeader header;
+          header.frame = this->FrameId ? this->FrameId : "";
+          header.stamp = this->Stamp;
+          meam::writeDetections(this->FileName, rows, vtkMEAMConversion::partExtentOf(input), header);
+          break;
+        }
         default:
           meam::writeMatrices(this->FileName, rows);
           break;
@@ -126,4 +151,6 @@ void vtkMEAMPoseWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ImageId: " << this->ImageId << "\n";
   os << indent << "ObjectId: " << this->ObjectId << "\n";
   os << indent << "Time: " << this->Time << " s\n";
+  os << indent << "FrameId: " << (this->FrameId ? this->FrameId : "(none)") << "\n";
+  os << indent << "Stamp: " << this->Stamp << " s\n";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMEAMPoseWriter
- * @brief Writes poses as the results CSV of the BOP benchmark, as JSON or as 4x4 matrices.
+ * @brief Writes poses as the results CSV of the BOP benchmark, as JSON, as ROS 2 detections or as 4x4 matrices.
  *
  * The file appears whole or not at all; an older one is replaced only when everything went well.
  * Write() returns 0 when it did not.
@@ -10,7 +10,8 @@
  * `Score`, `Probability`, `Certainty`, `Votes`, `ViewId`, `VisibleFraction` and `Rank`; a pose's score in the file is
  * its probability, by which poses of all scenes can be ordered, or, where that is not known, `Score`. The field data
  * `SecondsTotal` becomes the time. Where there is `PartId` (vtkMEAMConflictResolution), the parts are numbered from
- * ObjectId on.
+ * ObjectId on. Detections have a bounding box and the covariance of refined poses where the field data `PartBounds` and
+ * `PartMiddle` are there, which detection adds.
  */
 #ifndef vtkMEAMPoseWriter_h
 #define vtkMEAMPoseWriter_h
@@ -36,19 +37,22 @@ public:
     BY_EXTENSION,
     BOP_CSV,
     JSON,
-    MATRICES
+    MATRICES,
+    DETECTIONS
   };
   ///@{
   /**
-   * 0: by the file's extension, csv or bop, json, txt or poses; 1: scene_id,im_id,obj_id,score,R,t,time; 2: JSON with
-   * all that is known of a pose; 3: row-major 4x4 blocks. Default: 0.
+   * 0: by the file's name, csv or bop, detections.json, any other json, txt or poses; 1:
+   * scene_id,im_id,obj_id,score,R,t,time; 2: JSON with all that is known of a pose; 3: row-major 4x4 blocks; 4: JSON in
+   * the shape of ROS 2's vision_msgs/Detection3DArray, lengths in metres. Default: 0.
    */
-  vtkSetClampMacro(Format, int, BY_EXTENSION, MATRICES);
+  vtkSetClampMacro(Format, int, BY_EXTENSION, DETECTIONS);
   vtkGetMacro(Format, int);
   void SetFormatToByExtension() { this->SetFormat(BY_EXTENSION); }
   void SetFormatToBOPCSV() { this->SetFormat(BOP_CSV); }
   void SetFormatToJSON() { this->SetFormat(JSON); }
   void SetFormatToMatrices() { this->SetFormat(MATRICES); }
+  void SetFormatToDetections() { this->SetFormat(DETECTIONS); }
   ///@}
 
   ///@{
@@ -84,6 +88,18 @@ public:
   vtkGetMacro(Time, double);
   ///@}
 
+  ///@{
+  /** Detections: the name of the scan's frame in the robot's software. Default: camera. */
+  vtkSetStringMacro(FrameId);
+  vtkGetStringMacro(FrameId);
+  ///@}
+
+  ///@{
+  /** Detections: when the scan was taken, seconds since 1970; 0: not known. Default: 0. */
+  vtkSetMacro(Stamp, double);
+  vtkGetMacro(Stamp, double);
+  ///@}
+
 protected:
   vtkMEAMPoseWriter();
   ~vtkMEAMPoseWriter() override;
@@ -102,6 +118,8 @@ private:
   int ImageId = 0;
   int ObjectId = 1;
   double Time = -1.0;
+  char* FrameId = nullptr;
+  double Stamp = 0.0;
 };
 
 #endif

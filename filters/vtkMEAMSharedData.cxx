@@ -208,6 +208,7 @@ std::shared_ptr<const meam::LocalPoses> sharePoses(
 {
   fromPoses(meam::toSceneFrame(poses.poses, poses.T_local_scene, model.symmetries), output);
   setDiameter(output, model.diameter);
+  setPartExtent(output, model);
   const auto shared = std::make_shared<const meam::LocalPoses>(std::move(poses));
   cacheOf<meam::LocalPoses>().insert(keyOf(output), shared);
   return shared;

@@ -19,6 +19,8 @@ namespace
 // The entries of a rotation that was printed with few digits.
 constexpr double RotationTolerance = 1e-3;
 constexpr double MostIds = 1e9; // of scenes, images, objects, ranks
+constexpr const char* JSONFormat = "meam-poses";
+constexpr int JSONVersion = 1;
 
 /// The shortest text that reads back as the same number, in any locale.
 std::string number(double value)
@@ -149,6 +151,12 @@ std::vector<PoseRow> readJSON(const std::string& bytes, const std::string& path,
   if (!file.is_object() || !file.contains("poses") || !file["poses"].is_array())
   {
     throw Error(what + "has no list 'poses'.");
+  }
+  if (file.value("format", nlohmann::json(JSONFormat)) != JSONFormat ||
+      file.value("version", nlohmann::json(JSONVersion)) != JSONVersion)
+  {
+    throw Error(what + "has another 'format' than \"" + JSONFormat + "\" or another 'version' than " +
+                std::to_string(JSONVersion) + ", those that are known.");
   }
   std::vector<PoseRow> poses;
   for (const nlohmann::json& json : file["poses"])
@@ -286,7 +294,9 @@ void writeBOP(const std::string& path, const std::vector<PoseRow>& poses)
 void writeJSON(const std::string& path, const std::vector<PoseRow>& poses)
 {
   requireFinite(path, poses);
-  std::string text = "{\n\"units\": \"mm\",\n\"transform\": "
+  std::string text = "{\n\"format\": \"" + std::string(JSONFormat) +
+                     "\",\n\"version\": " + std::to_string(JSONVersion) +
+                     ",\n\"units\": \"mm\",\n\"transform\": "
                      "\"T_scene_model\",\n\"quaternion_order\": \"xyzw\",\n\"poses\": [";
   int place = 0;
   for (const PoseRow& row : poses)

@@ -5,6 +5,7 @@
 #include "base/PointCloud.h"
 
 #include <limits>
+#include <optional>
 
 namespace meam
 {
@@ -23,6 +24,7 @@ struct PoseRow
   double visibleFraction = std::numeric_limits<double>::quiet_NaN();
   double probability = std::numeric_limits<double>::quiet_NaN(); ///< that the pose is right
   double certainty = std::numeric_limits<double>::quiet_NaN();   ///< that no near-symmetry turns it
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;         ///< as PoseFit has it; only detections hold it
 };
 
 /// Reads poses in any of the forms below, whatever the file's name is. Throws Error, naming the file and what is wrong.
@@ -42,6 +44,7 @@ void writeMatrices(const std::string& path, const std::vector<PoseRow>& poses);
 /// Writes the results CSV of the BOP benchmark: scene_id,im_id,obj_id,score,R,t,time.
 void writeBOP(const std::string& path, const std::vector<PoseRow>& poses);
 
-/// Writes JSON, one pose on a line, with rank, score, translation, quaternion (x y z w) and matrix.
+/// Writes JSON with `format` "meam-poses" and `version` 1, one pose on a line, with rank, score, translation,
+/// quaternion (x y z w) and matrix. Files without these two are read as well, those of a later version are not.
 void writeJSON(const std::string& path, const std::vector<PoseRow>& poses);
 }

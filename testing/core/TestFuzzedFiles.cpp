@@ -14,6 +14,7 @@
 #include "io/PLYFile.h"
 #include "io/PoseFile.h"
 #include "model/ModelFile.h"
+#include "pick/io/GraspFile.h"
 
 #include <liblzf/lzf.h>
 
@@ -340,6 +341,15 @@ TEST_P(FuzzedFiles, poses)
   fuzz(folder.path("a.json"),
     { R"({"poses": [{"rank": 1, "obj_id": 2, "score": 0.5, "matrix": [[1,0,0,4],[0,1,0,5],[0,0,1,6],[0,0,0,1]]}]})" },
     [](const std::string& path) { meam::readPoses(path); });
+}
+
+TEST_P(FuzzedFiles, grasps)
+{
+  const files::Folder folder(place());
+  fuzz(folder.path("a.json"), { R"({"format": "meam-grasps", "version": 1, "units": "mm", "grasps": [
+         {"name": "a", "kind": "parallel", "position": [1,2,3], "approach": [0,0,1], "closing": [1,0,0], "width": 20},
+         {"kind": "suction", "position": [1,2,3], "approach": [0,0,1], "free_turn": "approach", "quality": 0.5}]})" },
+    [](const std::string& path) { meam::readGrasps(path); });
 }
 
 TEST_P(FuzzedFiles, cameraInJSON)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The whole chain in one filter on a simulated bin: with the CAD or its trained model, an image or ready-made edges."""
+import json
 import math
 import os
 import tempfile
@@ -104,6 +105,13 @@ with tempfile.TemporaryDirectory() as folder:
     writer.Write()
     with open(writer.GetFileName()) as file:
         check([float(row.split(",")[3]) for row in file.readlines()[1:]] == likely, "scores in the file")
+    writer.SetFileName(os.path.join(folder, "poses.detections.json"))
+    writer.Write()
+    with open(writer.GetFileName()) as file:
+        detection = json.load(file)["detections"][0]
+    size = sorted(1000 * s for s in detection["bbox"]["size"].values())
+    check(abs(math.hypot(*size) / field(poses, "Diameter")[0][0] - 1) < 0.2, f"the part's box in the file is {size} mm")
+    check(0 < detection["results"][0]["pose"]["covariance"][0] < 1e-4, f"covariance {detection}")
 
 # Training is not done again for another scene or other settings of the detection; it is for another seed.
 filter.SetMaximumNumberOfPoses(1)

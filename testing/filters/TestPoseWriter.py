@@ -69,6 +69,25 @@ first.SetFormatToMatrices()
 check(first.Write() == 1 and tuples(run(reader("first.dat")), "Transform") == [QUARTER], "the best pose alone")
 check(writer(poses(), "empty.csv").Write() == 1 and text("empty.csv").count("\n") == 1, "no poses: only the header")
 
+# Detections of ROS 2, in metres: the covariance and the box with the part's extent, and nothing of them without.
+fit = dict(Residual=[0.1], Iterations=[3], Covariance=[[0] * 21 + [4] + [0] * 14], ConstrainedDegreesOfFreedom=[6],
+           ConstrainedAxes=[[1] * 6])
+refined = cloud([(1.5, -2, 0.1)], Transform=[QUARTER], Score=[0.75], **fit)
+check(writer(refined, "bare.detections.json").Write() == 1, "Write() succeeds")
+detection, = json.loads(text("bare.detections.json"))["detections"]
+check(detection["results"][0]["pose"]["covariance"] == [0] * 36 and detection["bbox"]["size"]["x"] == 0, f"{detection}")
+set_fields(refined, PartBounds=(0, 20, 0, 40, 0, 60), PartMiddle=(10, 20, 30))
+check(writer(refined, "poses.detections.json", ObjectId=4, FrameId="sensor", Stamp=2.5).Write() == 1, "Write() succeeds")
+message = json.loads(text("poses.detections.json"))
+check(message["header"] == {"stamp": {"sec": 2, "nanosec": 500000000}, "frame_id": "sensor"}, f"{message['header']}")
+detection, = message["detections"]
+result, = detection["results"]
+check(result["hypothesis"] == {"class_id": "4", "score": 0.75}, f"{result}")
+check(result["pose"]["pose"]["position"] == {"x": 0.0015, "y": -0.002, "z": 0.0001}, f"{result}")
+check(abs(result["pose"]["covariance"][0] - 4e-6) < 1e-15 and detection["bbox"]["size"] == {"x": 0.02, "y": 0.04, "z": 0.06},
+      f"{detection}")
+refuses(writer(refined, "late.detections.json", Stamp=-1), "stamp")
+
 # What goes to a file comes back, whatever its form; a rank that poses have, as after a threshold, is kept.
 known = dict(Score=[0.5, 0.25], Probability=[0.9, 0.4], Certainty=[1, 0.5], VisibleFraction=[0.5, 0.75], Votes=[7, 3],
              ViewId=[2, 3], Rank=[2, 5])
@@ -97,4 +116,5 @@ refuses(nameless, "No file")
 check(sorted(os.listdir(folder.name)) == before, "no file was added")
 check(text("poses.csv").count("\n") == 3, "the old file is still there")
 
-prints(vtkMEAMPoseWriter(), "FileName", "Format", "MaximumNumberOfPoses", "SceneId", "ImageId", "ObjectId", "Time")
+prints(vtkMEAMPoseWriter(), "FileName", "Format", "MaximumNumberOfPoses", "SceneId", "ImageId", "ObjectId", "Time",
+       "FrameId", "Stamp")

@@ -108,6 +108,8 @@ TEST(PoseFile, json)
   row.visibleFraction = 0.5;
   meam::writeJSON(folder.file(), { row, {} });
   const auto json = nlohmann::json::parse(meam::readFile(folder.file()));
+  EXPECT_EQ(json["format"], "meam-poses");
+  EXPECT_EQ(json["version"], 1);
   EXPECT_EQ(json["units"], "mm");
   ASSERT_EQ(json["poses"].size(), 2u);
   const auto& pose = json["poses"][0];
@@ -185,6 +187,20 @@ TEST(PoseFile, whatIsWrittenIsReadAgain)
   EXPECT_EQ(poses[0].T_scene_model.matrix(), row.T_scene_model.matrix());
   meam::writeBOP(folder.file(), {});
   EXPECT_TRUE(meam::readPoses(folder.file()).empty());
+}
+
+TEST(PoseFile, jsonOfOlderVersionsIsRead)
+{
+  const Folder folder;
+  const auto read = [&](const std::string& header)
+  {
+    meam::writeFile(folder.file(), "{" + header + R"("poses": [{"matrix": [1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,1]}]})");
+    return meam::readPoses(folder.file());
+  };
+  EXPECT_EQ(read("").size(), 1u);
+  EXPECT_EQ(read(R"("format": "meam-poses", "version": 1, )").size(), 1u);
+  EXPECT_THROW(read(R"("format": "meam-poses", "version": 2, )"), meam::Error);
+  EXPECT_THROW(read(R"("format": "other", )"), meam::Error);
 }
 
 TEST(PoseFile, damagedFilesAreRefused)

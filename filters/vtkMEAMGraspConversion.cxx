@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMGraspConversion.h"
+
+#include "base/Error.h"
+#include "vtkMEAMArrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <string>
+
+namespace vtkMEAMConversion
+{
+namespace
+{
+/// The value of an array that stands for one of `count` choices; the first where there is no array.
+template <typename Choice>
+Choice choiceIn(vtkDataArray* array, vtkIdType place, int count, const std::string& grasp)
+{
+  const double value = array ? array->GetComponent(place, 0) : 0.0;
+  for (int choice = 0; choice < count; ++choice)
+  {
+    if (value == choice)
+    {
+      return static_cast<Choice>(choice);
+    }
+  }
+  throw meam::Error("The grasp '" + grasp + "' has a value of " + quoted(array->GetName()) + " that is not 0 to " +
+                    std::to_string(count - 1) + ".");
+}
+}
+
+meam::Grasps toGrasps(vtkPolyData* input)
+{
+  meam::Grasps grasps;
+  const vtkIdType count = input->GetNumberOfPoints();
+  if (count == 0)
+  {
+    return grasps;
+  }
+  vtkDataArray* transforms = pointArray(input, "Transform", 16);
+  if (!transforms)
+  {
+    throw meam::Error(
+      "The grasps have no point array 'Transform' of 16 components: use the output of GraspDefinition.");
+  }
+  vtkDataArray* kinds = pointArray(input, "Kind", 1);
+  vtkDataArray* widths = pointArray(input, "Width", 1);
+  vtkDataArray* turns = pointArray(input, "FreeTurn", 1);
+  vtkDataArray* qualities = pointArray(input, "Quality", 1);
+  auto* names = vtkStringArray::SafeDownCast(input->GetPointData()->GetAbstractArray("GraspName"));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    meam::Grasp grasp;
+    grasp.name =
+      names && i < names->GetNumberOfValues() ? std::string(names->GetValue(i)) : "grasp " + std::to_string(i + 1);
+    Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix;
+    transforms->GetTuple(i, matrix.data());
+    grasp.T_model_grasp.matrix() = matrix;
+    grasp.kind = choiceIn<meam::GraspKind>(kinds, i, 2, grasp.name);
+    grasp.freeTurn = choiceIn<meam::FreeTurn>(turns, i, 3, grasp.name);
+    grasp.width = widths ? widths->GetComponent(i, 0) : grasp.width;
+    grasp.quality = qualities ? qualities->GetComponent(i, 0) : grasp.quality;
+    meam::requireGrasp(grasp);
+    grasps.push_back(grasp);
+  }
+  return grasps;
+}
+
+void fromGrasps(const meam::Grasps& grasps, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> transforms, widths, qualities;
+  vtkNew<vtkIntArray> kinds, turns;
+  vtkNew<vtkStringArray> names;
+  transforms->SetName("Transform");
+  transforms->SetNumberOfComponents(16);
+  kinds->SetName("Kind");
+  widths->SetName("Width");
+  turns->SetName("FreeTurn");
+  qualities->SetName("Quality");
+  names->SetName("GraspName");
+  for (const meam::Grasp& grasp : grasps)
+  {
+    points->InsertNextPoint(grasp.T_model_grasp.translation().data());
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = grasp.T_model_grasp.matrix();
+    transforms->InsertNextTuple(matrix.data());
+    kinds->InsertNextValue(grasp.kind == meam::GraspKind::Suction ? 1 : 0);
+    widths->InsertNextValue(grasp.width);
+    turns->InsertNextValue(static_cast<int>(grasp.freeTurn));
+    qualities->InsertNextValue(grasp.quality);
+    names->InsertNextValue(grasp.name);
+  }
+  output->SetPoints(points);
+  addVertices(output);
+  for (vtkAbstractArray* array : { static_cast<vtkAbstractArray*>(transforms), static_cast<vtkAbstractArray*>(kinds),
+         static_cast<vtkAbstractArray*>(widths), static_cast<vtkAbstractArray*>(turns),
+         static_cast<vtkAbstractArray*>(qualities), static_cast<vtkAbstractArray*>(names) })
+  {
+    output->GetPointData()->AddArray(array);
+  }
+  output->GetPointData()->SetActiveScalars("Quality");
+}
+}
