@@ -4,6 +4,7 @@
 #include "base/Bounds.h"
 #include "base/Error.h"
 #include "base/Frames.h"
+#include "base/PointGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@ namespace meam
 namespace
 {
 constexpr double MostPoints = 5e6;
+constexpr double LeafOfSpacing = 0.7;
+constexpr double CellOfReach = 0.2; // of the distances
 
 /// Points of a triangle on a lattice whose steps are at most `spacing`, its corners among them.
 void addLattice(
@@ -38,22 +41,42 @@ void addLattice(
 }
 }
 
-PartSurface::PartSurface(const TriangleMesh& part, double spacing)
-  : Spacing(spacing)
+PartSurface::PartSurface(const TriangleMesh& part, double spacing, double reach)
 {
   requireMesh(part);
+  PointCloud lattice;
   for (const auto& triangle : part.triangles)
   {
-    addLattice(
-      part.vertices[triangle.x()], part.vertices[triangle.y()], part.vertices[triangle.z()], spacing, this->Samples);
+    const Eigen::Vector3f& a = part.vertices[triangle.x()];
+    const Eigen::Vector3f& b = part.vertices[triangle.y()];
+    const Eigen::Vector3f& c = part.vertices[triangle.z()];
+    addLattice(a, b, c, spacing, lattice.points);
+    lattice.normals.resize(lattice.size(), (b - a).cross(c - a).normalized());
   }
-  Points thinned;
-  for (const int index : thinPoints(this->Samples, 0.5 * spacing))
+  // Thinned among those that face the same way, so that both sides of a thin wall keep theirs.
+  PointCloud samples;
+  for (int way = 0; way < 6; ++way)
   {
-    thinned.push_back(this->Samples[index]);
+    Points facing;
+    std::vector<int> indices;
+    for (std::size_t k = 0; k < lattice.size(); ++k)
+    {
+      int axis = 0;
+      lattice.normals[k].cwiseAbs().maxCoeff(&axis);
+      if (2 * axis + (lattice.normals[k][axis] > 0.0f) == way)
+      {
+        facing.push_back(lattice.points[k]);
+        indices.push_back(static_cast<int>(k));
+      }
+    }
+    for (const int kept : thinPoints(facing, LeafOfSpacing * spacing))
+    {
+      samples.points.push_back(facing[kept]);
+      samples.normals.push_back(lattice.normals[indices[kept]]);
+    }
   }
-  this->Samples = std::move(thinned);
-  this->Grid = PointGrid(this->Samples, 2.0 * spacing);
+  this->Distances = DistanceField::ofSurface(samples, spacing, reach, CellOfReach * reach);
+  this->Samples = std::move(samples.points);
   this->Middle = bounds(this->Samples).center().cast<double>();
   for (const auto& point : this->Samples)
   {
@@ -65,15 +88,10 @@ std::vector<int> PartSurface::pointsAt(
   const Eigen::Isometry3d& T_scene_model, const Points& points, double tolerance) const
 {
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
-  const Eigen::Vector3f middle = this->Middle.cast<float>();
-  const auto reach = static_cast<float>(this->Radius + tolerance);
   std::vector<int> result;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const Eigen::Vector3f local = toModel * points[k];
-    // The farthest place of a face from its points is about half their distance.
-    if ((local - middle).squaredNorm() <= reach * reach &&
-        this->Grid.nearest(local, tolerance + 0.5 * this->Spacing) >= 0)
+    if (this->Distances.at(toModel * points[k]) < static_cast<float>(tolerance))
     {
       result.push_back(static_cast<int>(k));
     }

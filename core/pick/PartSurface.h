@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/PointGrid.h"
 #include "mesh/TriangleMesh.h"
+#include "model/DistanceField.h"
 
 namespace meam
 {
@@ -10,17 +10,16 @@ namespace meam
 class PartSurface
 {
 public:
-  /// Points `spacing` mm from each other, and nearer at the borders of faces. Throws Error for a mesh without faces, an
-  /// invalid vertex or index, and a spacing that asks for millions of points.
-  PartSurface(const TriangleMesh& part, double spacing);
+  /// Points about `spacing` mm from each other; distances are told up to `reach` mm. Throws Error for a mesh without
+  /// faces, an invalid vertex or index, and a spacing that asks for millions of points.
+  PartSurface(const TriangleMesh& part, double spacing, double reach);
 
-  const Points& points() const { return this->Samples; }
-  double spacing() const { return this->Spacing; }
   /// A ball around the part, model frame, mm.
   const Eigen::Vector3d& middle() const { return this->Middle; }
   double radius() const { return this->Radius; }
 
-  /// Indices of the points, scene coordinates, that lie within `tolerance` mm of the copy at a pose.
+  /// Indices of the points, scene coordinates, that lie within `tolerance` mm, at most the reach, of the copy at a
+  /// pose.
   std::vector<int> pointsAt(const Eigen::Isometry3d& T_scene_model, const Points& points, double tolerance) const;
 
   /// Share, [0, 1], of a copy as seen from `up` (unit, scene) over which one of the points lies, by more than
@@ -29,9 +28,8 @@ public:
     double tolerance) const;
 
 private:
-  double Spacing;
   Points Samples;
-  PointGrid Grid;
+  DistanceField Distances;
   Eigen::Vector3d Middle = Eigen::Vector3d::Zero();
   double Radius = 0.0;
 };

@@ -16,6 +16,8 @@ namespace meam
 namespace
 {
 constexpr double ToleranceOfPart = 0.01; // of the part's size; of the voxels, too
+constexpr double SpacingOfPart = 0.03;   // of points on the part
+constexpr double ReachOfPart = 0.06;     // the largest tolerance
 constexpr double NoiseInTolerance = 3.0;
 constexpr double PointsInVoxel = 4.0; // point distances in the side of a voxel
 constexpr int PointsOfThinned = 2;    // in that side, after every so-manieth point is taken
@@ -148,7 +150,7 @@ public:
     , given(grasps)
     , box(bounds(mesh.vertices).cast<double>())
     , collisions(mesh, hand)
-    , surface(mesh, std::max(0.5 * ToleranceOfPart * this->size(), 1e-3))
+    , surface(mesh, std::max(SpacingOfPart * this->size(), 1e-3), std::max(ReachOfPart * this->size(), 1e-3))
   {
     check(wanted);
     if (grasps.empty())
@@ -276,6 +278,7 @@ PickPlanner::Surroundings PickPlanner::surroundings(
   const GridScale scale = cloud.points.empty() ? GridScale{} : gridScale(cloud);
   const double ofPart = ToleranceOfPart * part.size();
   around.tolerance = settings.tolerance > 0.0 ? settings.tolerance : ofPart + NoiseInTolerance * scale.noise;
+  around.tolerance = std::min(around.tolerance, ReachOfPart * part.size());
   around.voxelSize =
     settings.voxelSize > 0.0 ? settings.voxelSize : std::max(ofPart, PointsInVoxel * scale.pointDistance);
   around.points = thinned(cloud, scale.pointDistance, around.voxelSize);

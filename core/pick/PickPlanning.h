@@ -27,7 +27,7 @@ struct PickSettings
   double comfortableClearance = 10.0; ///< mm; more is no better
   double turnStep = 30.0;             ///< degrees between the turns that a free one is tried at
   double tolerance = 0.0; ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
-                          ///< 1 % of the part's diameter
+                          ///< 1 % of the part's size, its box from corner to corner; at most 6 %
   double voxelSize = 0.0; ///< mm, of what is measured besides; 0: 4 point distances, at least 1 % of the diameter
 };
 

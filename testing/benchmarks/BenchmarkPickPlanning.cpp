@@ -28,7 +28,7 @@ struct FullBin
       const Eigen::Vector3d approach(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       meam::Grasp grasp;
       grasp.T_model_grasp = meam::graspFrame(-20.0 * approach.normalized(), approach, Eigen::Vector3d(1.0, 2.0, 3.0));
-      grasp.width = 15.0;
+      grasp.width = 40.0;
       this->grasps.push_back(grasp);
     }
     const double thickness = 0.05 * 81.0; // of the walls, as the simulation has them
@@ -54,7 +54,10 @@ const FullBin& fullBin()
 void plan(benchmark::State& state, const meam::Gripper& gripper)
 {
   const FullBin& bin = fullBin();
-  meam::PickPlanner planner(bin.part, {}, bin.grasps, gripper);
+  meam::PickSettings settings; // that leave most of the work to do
+  settings.mostCovered = 100.0;
+  settings.mostTilt = 90.0;
+  meam::PickPlanner planner(bin.part, {}, bin.grasps, gripper, settings);
   int possible = 0;
   int looked = 0; // whose clearance had to be found
   for (auto _ : state)

@@ -8,7 +8,7 @@
 
 namespace
 {
-meam::PartSurface block() { return { parts::box({ -20, -10, -5 }, { 20, 10, 5 }), 1.0 }; }
+meam::PartSurface block() { return { parts::box({ -20, -10, -5 }, { 20, 10, 5 }), 1.0, 3.0 }; }
 
 /// Points of a plate 2 mm apart at a height.
 meam::Points plate(float fromX, float toX, float z)
@@ -49,5 +49,5 @@ TEST(PartSurface, IsCoveredByWhatLiesAboveIt)
 
 TEST(PartSurface, RefusesPointsWithoutNumber)
 {
-  EXPECT_THROW(meam::PartSurface(parts::box({ 0, 0, 0 }, { 1e5, 1e5, 1 }), 0.1), meam::Error);
+  EXPECT_THROW(meam::PartSurface(parts::box({ 0, 0, 0 }, { 1e5, 1e5, 1 }), 0.1, 1.0), meam::Error);
 }

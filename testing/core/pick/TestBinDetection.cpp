@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pick/BinDetection.h"
+
+#include "simulation/BinScene.h"
+#include "simulation/parts/SamplePart.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace
+{
+/// What a sensor at the origin sees of a bin turned by `angle` about its line of sight: walls 5 mm thick and 60 mm high
+/// around 200 x 120 mm, the floor 500 mm away, and a block that is higher than the rim.
+meam::OrganizedCloud scanOf(double angle, float noise, bool withBin = true)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<float> error(0.0f, noise > 0.0f ? noise : 1e-6f);
+  meam::OrganizedCloud cloud;
+  cloud.width = 400;
+  cloud.height = 300;
+  for (int row = 0; row < cloud.height; ++row)
+  {
+    for (int column = 0; column < cloud.width; ++column)
+    {
+      const double x = column - 199.5 - 10.0;
+      const double y = row - 149.5 + 5.0;
+      const double u = std::abs(std::cos(angle) * x + std::sin(angle) * y);
+      const double v = std::abs(std::cos(angle) * y - std::sin(angle) * x);
+      double z = 500.0;
+      if (withBin && u < 105.0 && v < 65.0 && (u > 100.0 || v > 60.0))
+      {
+        z = 440.0;
+      }
+      if (u < 20.0 && v < 30.0)
+      {
+        z = 430.0;
+      }
+      cloud.points.emplace_back(
+        static_cast<float>(column) - 199.5f, static_cast<float>(row) - 149.5f, static_cast<float>(z) + error(random));
+    }
+  }
+  return cloud;
+}
+}
+
+TEST(BinDetection, FindsTheRimUnderWhatIsHigher)
+{
+  for (const float noise : { 0.0f, 0.5f })
+  {
+    for (const double angle : { 0.0, 0.4, 1.2 })
+    {
+      const meam::Bin bin = meam::detectBin(scanOf(angle, noise));
+      const Eigen::Vector3d size(
+        std::max(bin.size.x(), bin.size.y()), std::min(bin.size.x(), bin.size.y()), bin.size.z());
+      EXPECT_NEAR(size.x(), 200.0, 4.0) << angle << " " << noise;
+      EXPECT_NEAR(size.y(), 120.0, 4.0) << angle << " " << noise;
+      EXPECT_NEAR(size.z(), 60.0, 2.5) << angle << " " << noise;
+      EXPECT_NEAR(bin.wall, 5.0, 2.0) << angle << " " << noise;
+      EXPECT_LT((bin.T_scene_bin.translation() - Eigen::Vector3d(10, -5, 500)).norm(), 2.5) << angle << " " << noise;
+      EXPECT_GT(-bin.T_scene_bin.linear().col(2).z(), 0.999);
+      EXPECT_NO_THROW(meam::requireBin(bin));
+    }
+  }
+}
+
+TEST(BinDetection, FindsTheSimulatedOne)
+{
+  const meam::BinScene scene = meam::simulateBin(meam::makeSamplePart());
+  const meam::Bin bin = meam::detectBin(scene.cloud);
+  EXPECT_NEAR(bin.size.x(), scene.binSize, 0.02 * scene.binSize);
+  EXPECT_NEAR(bin.size.y(), scene.binSize, 0.02 * scene.binSize);
+  EXPECT_LT((bin.T_scene_bin.translation() - Eigen::Vector3d(0, 0, 3.0 * scene.binSize)).norm(), 0.02 * scene.binSize);
+}
+
+TEST(BinDetection, SaysWhenThereIsNone) { EXPECT_THROW(meam::detectBin(scanOf(0.3, 0.1f, false)), meam::Error); }
