@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pick/GraspProposal.h"
+
+#include "base/Parallel.h"
+#include "pick/GraspTurns.h"
+#include "pick/PickCollisions.h"
+#include "pick/proposal/ContactPlaces.h"
+#include "pick/proposal/GripperContact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace meam
+{
+namespace
+{
+constexpr double SamePlaces = 0.1;      // of the diameter, the spread where none is given
+constexpr double QualitySteps = 1e6;    // finer differences of quality are rounding
+constexpr double AlongAxis = 0.9;       // cosine: a direction of the CAD that is no reference for approaches
+constexpr double AfterCandidates = 0.8; // of the work, for the progress
+
+void requireSettings(const GraspProposalSettings& s)
+{
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  const bool counts = s.most >= 0 && s.contacts > 0 && s.approaches > 0 && s.approaches <= 360;
+  const bool lengths = s.spread >= 0.0 && s.leastWidth >= 0.0 && s.padTolerance > 0.0 && s.sealTolerance > 0.0 &&
+                       s.wayIn >= 0.0 && s.wayStep > 0.0;
+  const bool angles = within(s.frictionAngle, 0.1, 89.0) && within(s.mostBend, 0.0, 89.0) &&
+                      within(s.turnApart, 0.0, 180.0) && within(s.turnStep, 1.0, 90.0);
+  const bool shares = within(s.leastContact, 0.0, 1.0) && within(s.freeTurnLoss, 0.0, 1.0) &&
+                      within(s.centreWeight, 0.0, 1.0) && within(s.angleWeight, 0.0, 1.0);
+  if (!counts || !lengths || !angles || !shares)
+  {
+    throw Error("Grasps cannot be proposed with these settings: counts and lengths have to be positive, angles of "
+                "friction 0.1 to 89 degrees, shares and weights 0 to 1.");
+  }
+}
+
+/// A direction of the CAD that does not run along the axis: down, because parts are drawn as they stand, or else along
+/// y.
+Eigen::Vector3d referenceAcross(const Eigen::Vector3d& axis)
+{
+  return std::abs(axis.z()) < AlongAxis ? Eigen::Vector3d(-Eigen::Vector3d::UnitZ()) : Eigen::Vector3d::UnitY();
+}
+
+/// Says what a gripper makes of a grasp.
+class GraspJudge
+{
+public:
+  GraspJudge(const TriangleMesh& part, const Gripper& gripper, const GraspProposalSettings& settings)
+    : Rays(part)
+    , Balance(balanceOf(part))
+    , Collisions(part, gripper)
+    , Claw(gripper)
+    , Settings(settings)
+  {
+  }
+
+  const MeshRays& rays() const { return this->Rays; }
+  const PartBalance& balance() const { return this->Balance; }
+
+  /// How the gripper touches the part there; none when it does not hold or is in its own way.
+  std::optional<GripperContact> contact(const Grasp& grasp) const
+  {
+    const bool isCup = grasp.kind == GraspKind::Suction;
+    const auto found = isCup ? cupContact(this->Rays, grasp, this->Claw, this->Settings)
+                             : jawContact(this->Rays, grasp, this->Claw, this->Settings);
+    Grasp before = grasp; // a cup that sits on the surface touches it
+    before.T_model_grasp.translate(Eigen::Vector3d(0.0, 0.0, isCup ? -this->Settings.sealTolerance : 0.0));
+    return found && !this->Collisions.touchesHeld(before, this->Settings.wayIn, this->Settings.wayStep) ? found
+                                                                                                        : std::nullopt;
+  }
+
+  double quality(const Grasp& grasp, const GripperContact& contact) const
+  {
+    Eigen::Vector3d lever = this->Balance.centre - grasp.T_model_grasp.translation();
+    if (grasp.kind == GraspKind::Suction) // what hangs straight below does not bend the lip
+    {
+      const Eigen::Vector3d axis = grasp.T_model_grasp.linear().col(2);
+      lever -= lever.dot(axis) * axis;
+    }
+    const double away = std::min(1.0, lever.norm() / (0.5 * this->Balance.diameter));
+    return contact.share * (1.0 - this->Settings.centreWeight * away) *
+           (1.0 - this->Settings.angleWeight * std::min(1.0, contact.slant));
+  }
+
+  /// The turn after which the gripper holds as well, all around.
+  FreeTurn freeTurn(const Grasp& grasp) const
+  {
+    const bool isCup = grasp.kind == GraspKind::Suction;
+    if (this->isFree(grasp, Eigen::Vector3d::UnitZ()))
+    {
+      return FreeTurn::Approach;
+    }
+    return !isCup && this->isFree(grasp, Eigen::Vector3d::UnitX()) ? FreeTurn::Closing : FreeTurn::None;
+  }
+
+private:
+  bool isFree(const Grasp& grasp, const Eigen::Vector3d& axis) const
+  {
+    const auto here = this->contact(grasp);
+    const int turns = static_cast<int>(std::lround(360.0 / this->Settings.turnStep));
+    for (int k = 1; here && k < turns; ++k)
+    {
+      Grasp turned = grasp;
+      turned.T_model_grasp.rotate(Eigen::AngleAxisd(2.0 * M_PI * k / turns, axis));
+      const auto there = this->contact(turned);
+      if (!there || there->share < (1.0 - this->Settings.freeTurnLoss) * here->share)
+      {
+        return false;
+      }
+    }
+    return here.has_value();
+  }
+
+  MeshRays Rays;
+  PartBalance Balance;
+  PickCollisions Collisions;
+  const Gripper& Claw;
+  const GraspProposalSettings& Settings;
+};
+
+/// The grasps of jaws that close along the normal of a place: a face on the other side, and approaches across.
+Grasps jawGrasps(
+  const ContactPlace& place, const MeshRays& rays, const Gripper& gripper, const GraspProposalSettings& settings)
+{
+  Grasps grasps;
+  const double most = gripper.mesh.triangles.empty() ? gripper.opening - 2.0 * gripper.jawClearance : gripper.opening;
+  const double cone = std::cos(settings.frictionAngle * M_PI / 180.0);
+  for (const RayHit& hit : rays.hits(place.point, -place.normal, most))
+  {
+    if (hit.entering || hit.distance < settings.leastWidth || hit.normal.dot(-place.normal) < cone)
+    {
+      continue;
+    }
+    Grasp grasp;
+    grasp.width = hit.distance;
+    const Eigen::Vector3d middle = place.point - 0.5 * hit.distance * place.normal;
+    grasp.T_model_grasp = graspFrame(middle, place.normal.cross(referenceAcross(place.normal)), place.normal);
+    grasp.T_model_grasp.rotate(Eigen::AngleAxisd(-0.5 * M_PI, Eigen::Vector3d::UnitX())); // to the reference
+    for (int k = 0; k < settings.approaches; ++k)
+    {
+      grasps.push_back(grasp);
+      const double angle = 2.0 * M_PI * k / settings.approaches;
+      grasps.back().T_model_grasp.rotate(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
+    }
+  }
+  return grasps;
+}
+
+Grasps cupGrasps(const ContactPlace& place)
+{
+  Grasp grasp;
+  grasp.kind = GraspKind::Suction;
+  grasp.T_model_grasp = graspFrame(place.point, -place.normal, referenceAcross(place.normal));
+  return { grasp };
+}
+
+/// All that hold, best first.
+Grasps candidates(const std::vector<ContactPlace>& places, const GraspJudge& judge, const Gripper& gripper,
+  const GraspProposalSettings& settings, const Progress& progress)
+{
+  std::vector<Grasps> found(places.size());
+  parallelFor(static_cast<int>(places.size()), numberOfThreads(settings.threads), progress,
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        const Grasps tried = gripper.kind == GraspKind::Suction ? cupGrasps(places[i])
+                                                                : jawGrasps(places[i], judge.rays(), gripper, settings);
+        for (Grasp grasp : tried)
+        {
+          if (const auto contact = judge.contact(grasp))
+          {
+            grasp.quality = std::round(judge.quality(grasp, *contact) * QualitySteps) / QualitySteps;
+            found[i].push_back(grasp);
+          }
+        }
+      }
+    });
+  Grasps all;
+  for (const Grasps& some : found)
+  {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Grasp& a, const Grasp& b) { return a.quality > b.quality; });
+  return all;
+}
+
+/// The frames of the grasps that were taken, with those that are as good.
+class TakenFrames
+{
+public:
+  TakenFrames(const Symmetries& symmetries, double spread, const GraspProposalSettings& settings, double size)
+    : Symmetric(turnsOf(symmetries, settings.turnStep))
+    , Spread(spread)
+    , LeastTrace(1.0 + 2.0 * std::cos(settings.turnApart * M_PI / 180.0))
+    , Step(settings.turnStep)
+    , Size(size)
+  {
+  }
+
+  void add(const Grasp& grasp)
+  {
+    for (const Eigen::Isometry3d& frame : framesOf(grasp, this->Symmetric, this->Step, this->Size))
+    {
+      this->Frames.push_back(frame);
+      if (grasp.kind == GraspKind::Parallel) // the jaws have changed places
+      {
+        this->Frames.push_back(frame * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));
+      }
+    }
+  }
+
+  bool isNear(const Eigen::Isometry3d& frame) const
+  {
+    return std::any_of(this->Frames.begin(), this->Frames.end(),
+      [&](const Eigen::Isometry3d& taken)
+      {
+        return (taken.translation() - frame.translation()).squaredNorm() < this->Spread * this->Spread &&
+               taken.linear().cwiseProduct(frame.linear()).sum() > this->LeastTrace;
+      });
+  }
+
+private:
+  std::vector<Eigen::Isometry3d> Symmetric;
+  std::vector<Eigen::Isometry3d> Frames;
+  double Spread;
+  double LeastTrace; ///< of the turn between two frames
+  double Step;
+  double Size;
+};
+}
+
+Grasps proposeGrasps(const TriangleMesh& part, const Symmetries& symmetries, const Gripper& gripper,
+  const GraspProposalSettings& settings, const Progress& progress)
+{
+  requireMesh(part);
+  requireGripper(gripper);
+  requireSettings(settings);
+  const GraspJudge judge(part, gripper, settings);
+  const double size = judge.balance().diameter;
+  const std::vector<ContactPlace> places =
+    contactPlaces(part, judge.rays(), judge.balance(), symmetries, settings.contacts, settings.seed);
+  const Grasps all = candidates(places, judge, gripper, settings, subProgress(progress, 0.0, AfterCandidates));
+
+  TakenFrames taken(symmetries, settings.spread > 0.0 ? settings.spread : SamePlaces * size, settings, size);
+  const char* name = gripper.kind == GraspKind::Suction ? "suction " : "parallel ";
+  Grasps best;
+  for (const Grasp& grasp : all)
+  {
+    if (static_cast<int>(best.size()) >= settings.most)
+    {
+      break;
+    }
+    if (taken.isNear(grasp.T_model_grasp))
+    {
+      continue;
+    }
+    best.push_back(grasp);
+    best.back().name = name + std::to_string(best.size());
+    best.back().freeTurn = judge.freeTurn(grasp);
+    taken.add(best.back());
+    report(progress, AfterCandidates + (1.0 - AfterCandidates) * best.size() / settings.most);
+  }
+  return best;
+}
+}
