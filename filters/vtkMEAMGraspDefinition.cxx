@@ -7,6 +7,7 @@
 #include "pick/proposal/GraspFitting.h"
 #include "vtkMEAMGraspConversion.h"
 #include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSymmetryConversion.h"
@@ -91,15 +92,12 @@ vtkMEAMLengthMacro(CupLength, cupLength);
 
 meam::Grasp vtkMEAMGraspDefinition::LaidByHand() const
 {
-  const auto turn = [this](int axis)
-  { return Eigen::AngleAxisd(this->HandRotation[axis] * M_PI / 180.0, Eigen::Vector3d::Unit(axis)); };
   meam::Grasp grasp;
   grasp.name = HandName;
   grasp.kind = this->HandGrasp == HandCup ? meam::GraspKind::Suction : meam::GraspKind::Parallel;
   grasp.freeTurn = this->HandGrasp == HandCup ? meam::FreeTurn::Approach : meam::FreeTurn::None;
   grasp.width = this->HandGrasp == HandCup ? 0.0 : this->HandWidth;
-  grasp.T_model_grasp.translate(Eigen::Vector3d(this->HandPosition));
-  grasp.T_model_grasp.rotate(turn(2) * turn(0) * turn(1));
+  grasp.T_model_grasp = vtkMEAMConversion::placedAt(this->HandPosition, this->HandRotation).T_scene_model;
   return grasp;
 }
 

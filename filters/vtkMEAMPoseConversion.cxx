@@ -198,4 +198,14 @@ void setPartExtent(vtkDataObject* output, const meam::TrainedModel& model)
   output->GetFieldData()->AddArray(bounds);
   output->GetFieldData()->AddArray(middles);
 }
+
+meam::Pose placedAt(const double position[3], const double rotation[3])
+{
+  const auto turn = [&](int axis)
+  { return Eigen::AngleAxisd(rotation[axis] * M_PI / 180.0, Eigen::Vector3d::Unit(axis)); };
+  meam::Pose pose;
+  pose.T_scene_model.translate(Eigen::Vector3d(position[0], position[1], position[2]));
+  pose.T_scene_model.rotate(turn(2) * turn(0) * turn(1));
+  return pose;
+}
 }

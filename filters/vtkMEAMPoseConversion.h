@@ -22,6 +22,9 @@ namespace vtkMEAMConversion
 meam::Poses toPoses(vtkPolyData* input);
 void fromPoses(const meam::Poses& poses, vtkPolyData* output);
 
+/// The pose at a position with the turns of a vtkProp3D: degrees about x, y and z, first about y, then x, then z.
+meam::Pose placedAt(const double position[3], const double rotation[3]);
+
 /// How large the part is travels with its poses as the field data `PartBounds` (6: from and to along x, y and z, mm, of
 /// the model's surface points) and `PartMiddle` (3: mm, of its surface, which covariances are about).
 std::optional<meam::PartExtent> partExtentOf(vtkDataObject* input);

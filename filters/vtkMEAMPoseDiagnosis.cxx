@@ -48,17 +48,6 @@ int stateId(meam::PointState state)
   return 4;
 }
 
-/// The turns of a vtkProp3D, degrees.
-Eigen::Isometry3d poseOf(const double position[3], const double rotation[3])
-{
-  const auto turn = [&](int axis)
-  { return Eigen::AngleAxisd(rotation[axis] * M_PI / 180.0, Eigen::Vector3d::Unit(axis)); };
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translate(Eigen::Vector3d(position[0], position[1], position[2]));
-  T.rotate(turn(2) * turn(0) * turn(1));
-  return T;
-}
-
 void fromEvidence(const meam::Diagnosis& diagnosis, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
@@ -207,8 +196,9 @@ int vtkMEAMPoseDiagnosis::RequestData(
       const meam::Progress progress = meam::subProgress(progressOf(this), AfterDetection, 1.0);
       const meam::Diagnosis diagnosis =
         this->Place == Point ? detection.diagnosis.atPoint(Eigen::Vector3d(this->Position), progress)
-        : isRanked           ? detection.diagnosis.atPose(poses[this->RankOfPose - 1].T_scene_model, progress)
-                             : detection.diagnosis.atPose(poseOf(this->PosePosition, this->PoseRotation), progress);
+        : isRanked
+          ? detection.diagnosis.atPose(poses[this->RankOfPose - 1].T_scene_model, progress)
+          : detection.diagnosis.atPose(placedAt(this->PosePosition, this->PoseRotation).T_scene_model, progress);
       fromEvidence(diagnosis, output);
       fromNumbers(meam::numbersOf(diagnosis), numbers);
       setFieldText(output, "Verdict", meam::verdictOf(diagnosis, detection.work.settings));

@@ -4,7 +4,8 @@
 /// ParaView's color maps of our arrays, in ParaView's own form of settings. `Rank`: red, green, blue, yellow and pink for
 /// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `State`, of vtkMEAMPoseDiagnosis: green
 /// where a point matches, yellow where the surface faces elsewhere, violet where it is hidden, blue where nothing was
-/// measured, red where the sensor saw past it or found no edge.
+/// measured, red where the sensor saw past it or found no edge. `Possible` and `Obstruction`, of vtkMEAMPickPlanning: green
+/// where a pick is possible, red where it is not.
 inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": { "PVLookupTable": {
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,
@@ -20,4 +21,19 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "Annotations": [ "0", "matched", "1", "turned", "2", "hidden", "3", "not measured", "4", "violated" ],
   "IndexedColors": [ 0.157, 0.667, 0.196,  0.961, 0.804, 0.118,  0.588, 0.235, 0.745,  0.157, 0.353, 0.863,
                      0.863, 0.118, 0.118 ]
+} }, "Possible": { "PVLookupTable": {
+  "IndexedLookup": 1,
+  "AutomaticRescaleRangeMode": -1,
+  "AnnotationsInitialized": 1,
+  "Annotations": [ "1", "possible", "0", "not possible" ],
+  "IndexedColors": [ 0.157, 0.667, 0.196,  0.863, 0.118, 0.118 ]
+} }, "Obstruction": { "PVLookupTable": {
+  "IndexedLookup": 1,
+  "AutomaticRescaleRangeMode": -1,
+  "AnnotationsInitialized": 1,
+  "Annotations": [ "0", "possible", "1", "uncertain", "2", "covered", "3", "wrong kind", "4", "too wide", "5", "tilted",
+                   "6", "part itself", "7", "bin", "8", "instance", "9", "measured" ],
+  "IndexedColors": [ 0.157, 0.667, 0.196,  0.588, 0.588, 0.588,  0.588, 0.235, 0.745,  0.3, 0.3, 0.3,  0.4, 0.4, 0.4,
+                     0.961, 0.804, 0.118,  0.941, 0.471, 0.745,  0.157, 0.353, 0.863,  0.863, 0.118, 0.118,
+                     0.95, 0.5, 0.1 ]
 } } } })";

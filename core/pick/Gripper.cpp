@@ -77,26 +77,35 @@ std::vector<GripperPiece> betweenJaws(const Gripper& gripper, const Grasp& grasp
   return { { false, Eigen::Vector3d::Zero(), { width, gripper.fingerWidth, 2.0 * gripper.tipLength } } };
 }
 
-TriangleMesh meshOf(const Gripper& gripper, const Grasp& grasp)
+TriangleMesh meshOf(const GripperPiece& piece)
 {
-  if (!gripper.mesh.triangles.empty())
+  std::vector<Eigen::Vector2d> outline{ { -0.5, -0.5 }, { 0.5, -0.5 }, { 0.5, 0.5 }, { -0.5, 0.5 } };
+  if (piece.round)
   {
-    return gripper.mesh;
+    outline.clear();
+    for (int k = 0; k < RoundSides; ++k)
+    {
+      const double angle = 2.0 * M_PI * k / RoundSides;
+      outline.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle));
+    }
   }
   TriangleMesh mesh;
-  for (const GripperPiece& piece : piecesOf(gripper, grasp))
+  addPrism(mesh, piece, outline);
+  return mesh;
+}
+
+TriangleMesh meshOf(const Gripper& gripper, const Grasp& grasp)
+{
+  TriangleMesh mesh = gripper.mesh;
+  for (const GripperPiece& piece : piecesOf(gripper, grasp)) // none of a mesh
   {
-    std::vector<Eigen::Vector2d> outline{ { -0.5, -0.5 }, { 0.5, -0.5 }, { 0.5, 0.5 }, { -0.5, 0.5 } };
-    if (piece.round)
+    const TriangleMesh faces = meshOf(piece);
+    const Eigen::Vector3i first = Eigen::Vector3i::Constant(static_cast<int>(mesh.vertices.size()));
+    mesh.vertices.insert(mesh.vertices.end(), faces.vertices.begin(), faces.vertices.end());
+    for (const auto& triangle : faces.triangles)
     {
-      outline.clear();
-      for (int k = 0; k < RoundSides; ++k)
-      {
-        const double angle = 2.0 * M_PI * k / RoundSides;
-        outline.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle));
-      }
+      mesh.triangles.push_back(triangle + first);
     }
-    addPrism(mesh, piece, outline);
   }
   return mesh;
 }

@@ -44,6 +44,9 @@ std::vector<GripperPiece> piecesOf(const Gripper& gripper, const Grasp& grasp, d
 /// What comes to lie between the jaws when they close, as far as they are wide and their tips reach; none of a cup.
 std::vector<GripperPiece> betweenJaws(const Gripper& gripper, const Grasp& grasp);
 
+/// The faces of a piece, to look at.
+TriangleMesh meshOf(const GripperPiece& piece);
+
 /// The faces of the gripper around a part, in the grasp's frame, to look at.
 TriangleMesh meshOf(const Gripper& gripper, const Grasp& grasp);
 

@@ -235,4 +235,29 @@ bool PickCollisions::touchesHeld(const Grasp& grasp, double wayIn, double step) 
     placedGripper(world.gripper, world.gripperMesh, grasp, grasp.T_model_grasp, wayIn, step);
   return std::any_of(moving.begin(), moving.end(), [&](const Placed& piece) { return collide(piece, part); });
 }
+
+std::vector<int> PickCollisions::heldBy(const Grasp& grasp, const Eigen::Isometry3d& T_scene_grasp, double slack) const
+{
+  const World& world = *this->Objects;
+  std::vector<GripperPiece> pieces = betweenJaws(world.gripper, grasp);
+  if (pieces.empty())
+  {
+    const double diameter = world.gripper.cupDiameter;
+    pieces.push_back({ true, Eigen::Vector3d::Zero(), { diameter, diameter, 2.0 * slack } });
+  }
+  std::vector<int> held;
+  for (const Placed& instance : world.instances)
+  {
+    const auto touches = [&](const GripperPiece& piece)
+    {
+      return collide(
+        { geometryOf(piece), T_scene_grasp * Eigen::Translation3d(piece.middle), Obstacle::None, -1 }, instance);
+    };
+    if (std::any_of(pieces.begin(), pieces.end(), touches))
+    {
+      held.push_back(instance.instance);
+    }
+  }
+  return held;
+}
 }

@@ -49,6 +49,9 @@ public:
   /// Whether the open gripper touches the part that it holds, on its way in.
   bool touchesHeld(const Grasp& grasp, double wayIn, double step) const;
 
+  /// The copies that are between the jaws, or within `slack` mm of the cup's rim, at a grasp at T_scene_grasp.
+  std::vector<int> heldBy(const Grasp& grasp, const Eigen::Isometry3d& T_scene_grasp, double slack) const;
+
 private:
   struct World;
   std::unique_ptr<World> Objects;

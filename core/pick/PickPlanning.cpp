@@ -8,7 +8,10 @@
 #include "scene/edges/GridSurface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <tuple>
 
 namespace meam
@@ -47,6 +50,13 @@ void check(const PickSettings& settings)
   {
     throw Error("The step between turns of a grasp must be 1 to 360 degrees.");
   }
+}
+
+/// Of a pose of which nothing is known, such as a true one: 1.
+double confidence(const Pose& pose)
+{
+  const double known = probabilityOrScore(pose);
+  return known > 0.0 ? known : 1.0;
 }
 
 void check(const Poses& poses)
@@ -125,6 +135,36 @@ std::string describe(const Pick& pick)
       return "collides with something measured";
   }
   return {};
+}
+
+std::string describe(const Picks& picks)
+{
+  static const char* const names[] = { "possible", "of uncertain poses", "covered", "of another kind of gripper",
+    "too wide", "tilted", "against the part itself", "against the bin", "against another copy",
+    "against something measured" };
+  std::array<int, std::size(names)> counts{};
+  std::set<int> all;
+  std::set<int> graspable;
+  for (const Pick& pick : picks)
+  {
+    ++counts[static_cast<std::size_t>(pick.obstruction)];
+    all.insert(pick.pose);
+    if (pick.possible())
+    {
+      graspable.insert(pick.pose);
+    }
+  }
+  std::string text = std::to_string(graspable.size()) + " of " + std::to_string(all.size()) +
+                     " copies can be picked, by " + std::to_string(counts[0]) + " of " + std::to_string(picks.size()) +
+                     " picks";
+  for (std::size_t k = 1; k < counts.size(); ++k)
+  {
+    if (counts[k] > 0)
+    {
+      text += (text.find(';') == std::string::npos ? "; " : ", ") + std::to_string(counts[k]) + " " + names[k];
+    }
+  }
+  return text + ".";
 }
 
 /// A scan as planning sees it.
@@ -298,7 +338,7 @@ PickPlanner::Surroundings PickPlanner::surroundings(
   std::vector<bool> explained(around.points.size(), false);
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    if (probabilityOrScore(poses[k]) < settings.leastProbability)
+    if (confidence(poses[k]) < settings.leastProbability)
     {
       continue;
     }
@@ -380,7 +420,7 @@ Picks PickPlanner::plan(
       if (pick.possible())
       {
         const double comfort = part.settings.comfortableClearance;
-        pick.score = probabilityOrScore(poses[k]) * part.given[g].quality * (1.0 - covered) *
+        pick.score = confidence(poses[k]) * part.given[g].quality * (1.0 - covered) *
                      (comfort > 0.0 ? std::min(1.0, pick.clearance / comfort) : 1.0);
       }
       picks.push_back(pick);

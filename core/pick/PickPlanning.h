@@ -18,12 +18,12 @@ namespace meam
 {
 struct PickSettings
 {
-  double safetyMargin = 2.0; ///< mm that the gripper keeps from all but the part that it holds
-  double wayIn = 80.0;       ///< mm, straight along the grasp's z, that have to be free
-  double leastProbability =
-    0.5;                     ///< of a pose that is picked; less likely ones are no copies that stand in the way either
-  double mostTilt = 60.0;    ///< degrees between the way in and straight down
-  double mostCovered = 20.0; ///< % of the part, from above, that may lie under something
+  double safetyMargin = 2.0;          ///< mm that the gripper keeps from all but the part that it holds
+  double wayIn = 80.0;                ///< mm, straight along the grasp's z, that have to be free
+  double leastProbability = 0.5;      ///< of a pose that is picked; less likely ones do not stand in
+                                      ///< the way either; one of unknown probability and score (0) is certain
+  double mostTilt = 60.0;             ///< degrees between the way in and straight down
+  double mostCovered = 20.0;          ///< % of the part, from above, that may lie under something
   double comfortableClearance = 10.0; ///< mm; more is no better
   double turnStep = 30.0;             ///< degrees between the turns that a free one is tried at
   double tolerance = 0.0; ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
@@ -67,6 +67,9 @@ using Picks = std::vector<Pick>;
 
 /// Why it is not possible, in words, poses counted from 1: "collides with instance 3".
 std::string describe(const Pick& pick);
+
+/// How many are possible, of how many copies, and what the others come to, in a sentence.
+std::string describe(const Picks& picks);
 
 /// Plans picks of one part with one gripper. A grasp is tried at all turns that are as good, those of the part's exact
 /// symmetries and free ones, and comes back once: where it is possible and the clearance is largest.

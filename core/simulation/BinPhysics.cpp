@@ -157,14 +157,17 @@ public:
     const double x = random.uniform(-half - low.x(), half - high.x());
     const double y = random.uniform(-half - low.y(), half - high.y());
     pose.setOrigin(btVector3(x, y, top + Clearance - low.z()));
-    const Eigen::Vector3d inertia = this->Piece.mass.inertia / (this->Piece.diameter * this->Piece.diameter);
-    btRigidBody::btRigidBodyConstructionInfo info(
-      1.0, nullptr, this->Piece.shape.get(), btVector3(inertia.x(), inertia.y(), inertia.z()));
-    info.m_startWorldTransform = pose;
-    this->Copies.push_back(std::make_unique<btRigidBody>(info));
-    btRigidBody& body = *this->Copies.back();
-    body.setDamping(Damping, Damping);
-    this->Bullet.addRigidBody(&body);
+    this->add(pose);
+  }
+
+  /// A copy at T_bin_model, mm.
+  void add(const Eigen::Isometry3d& T_bin_model)
+  {
+    const Eigen::Isometry3d T_bin_body = T_bin_model * this->Piece.mass.T_model_body;
+    const Eigen::Quaterniond turn(T_bin_body.linear());
+    const Eigen::Vector3d place = T_bin_body.translation() / this->Piece.diameter;
+    this->add(
+      btTransform(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()), btVector3(place.x(), place.y(), place.z())));
   }
 
   void step()
@@ -221,6 +224,18 @@ public:
   }
 
 private:
+  void add(const btTransform& pose)
+  {
+    const Eigen::Vector3d inertia = this->Piece.mass.inertia / (this->Piece.diameter * this->Piece.diameter);
+    btRigidBody::btRigidBodyConstructionInfo info(
+      1.0, nullptr, this->Piece.shape.get(), btVector3(inertia.x(), inertia.y(), inertia.z()));
+    info.m_startWorldTransform = pose;
+    this->Copies.push_back(std::make_unique<btRigidBody>(info));
+    btRigidBody& body = *this->Copies.back();
+    body.setDamping(Damping, Damping);
+    this->Bullet.addRigidBody(&body);
+  }
+
   void addWall(const btVector3& normal, double constant)
   {
     this->WallShapes.push_back(std::make_unique<btStaticPlaneShape>(normal, constant));
@@ -240,6 +255,28 @@ private:
   std::vector<std::unique_ptr<btRigidBody>> Walls;
   std::vector<std::unique_ptr<btRigidBody>> Copies;
 };
+}
+
+namespace
+{
+/// Brings the world on, step by step, until the copies rest or time runs out.
+template <typename Advance>
+FilledBin rested(World& world, const Part& part, Advance&& advance)
+{
+  double resting = 0.0;
+  for (double time = 0.0; time < TimeToRest + TimeToCalm && resting < RestingTime; time += Step)
+  {
+    if (time > TimeToRest)
+    {
+      world.setDamping(CalmDamping);
+    }
+    advance();
+    resting = world.speed() < RestingSpeed ? resting + Step : 0.0;
+  }
+  // One unit of time in seconds.
+  const double second = std::sqrt(part.diameter * Gravity / RealGravity);
+  return { world.poses(), world.speed() * part.diameter / second };
+}
 }
 
 FilledBin fillBin(const TriangleMesh& input, double binSize, int copies, Random& random, const Progress& progress)
@@ -267,19 +304,34 @@ FilledBin fillBin(const TriangleMesh& input, double binSize, int copies, Random&
     }
   }
   now = last - TimeToRest - TimeToCalm;
-  double resting = 0.0;
-  while (now < last && resting < RestingTime)
-  {
-    if (now > last - TimeToCalm)
-    {
-      world.setDamping(CalmDamping);
-    }
-    step();
-    resting = world.speed() < RestingSpeed ? resting + Step : 0.0;
-  }
+  const FilledBin filled = rested(world, part, step);
   report(progress, 1.0);
-  // One unit of time in seconds.
-  const double second = std::sqrt(part.diameter * Gravity / RealGravity);
-  return { world.poses(), world.speed() * part.diameter / second };
+  return filled;
+}
+
+FilledBin settleBin(
+  const TriangleMesh& input, double binSize, const std::vector<Eigen::Isometry3d>& poses, const Progress& progress)
+{
+  const Part part = makePart(input);
+  report(progress, 0.05);
+  World world(part, binSize / part.diameter);
+  for (const auto& pose : poses)
+  {
+    if (!pose.matrix().allFinite())
+    {
+      throw Error("A pose that a copy is let go at is not finite.");
+    }
+    world.add(pose);
+  }
+  double now = 0.0;
+  const FilledBin settled = rested(world, part,
+    [&]
+    {
+      world.step();
+      now += Step;
+      report(progress, 0.05 + 0.95 * std::min(now / (TimeToRest + TimeToCalm), 1.0));
+    });
+  report(progress, 1.0);
+  return settled;
 }
 }

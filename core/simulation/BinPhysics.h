@@ -10,7 +10,7 @@ namespace meam
 /// Copies of a part as they came to rest in a bin.
 struct FilledBin
 {
-  std::vector<Eigen::Isometry3d> poses; ///< T_bin_model of each, in mm; the first one fell first
+  std::vector<Eigen::Isometry3d> poses; ///< T_bin_model of each, in mm, in the order in which they fell or were given
   double speed = 0.0; ///< mm/s, of the fastest point of a copy at the end; below 10 unless time ran out
 };
 
@@ -22,4 +22,10 @@ struct FilledBin
 /// Copies stop at 0.4 % of the diameter from each other, at 1 % when the mesh is not closed. Throws Error for a
 /// mesh without faces, an invalid vertex or index, or a part that does not fit into the bin.
 FilledBin fillBin(const TriangleMesh& part, double binSize, int copies, Random& random, const Progress& progress = {});
+
+/// What becomes of copies that are let go at poses T_bin_model, such as those that stay when one was taken away: until
+/// they rest again. Copies that overlap are pushed apart. Throws Error as fillBin() does, and for a pose that is not
+/// finite.
+FilledBin settleBin(
+  const TriangleMesh& part, double binSize, const std::vector<Eigen::Isometry3d>& poses, const Progress& progress = {});
 }

@@ -143,13 +143,16 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   T_scene_bin.translation().z() = sensorHeight;
   std::vector<Eigen::Isometry3d> poses = settings.poses;
-  if (poses.empty())
+  if (poses.empty() || settings.settle)
   {
-    for (const auto& pose :
-      fillBin(part, scene.binSize, settings.copies, random, subProgress(progress, 0.0, 0.6)).poses)
-    {
-      poses.push_back(T_scene_bin * pose);
-    }
+    const Progress falling = subProgress(progress, 0.0, 0.6);
+    std::transform(poses.begin(), poses.end(), poses.begin(),
+      [&](const Eigen::Isometry3d& pose) { return T_scene_bin.inverse() * pose; });
+    const FilledBin bin = poses.empty() ? fillBin(part, scene.binSize, settings.copies, random, falling)
+                                        : settleBin(part, scene.binSize, poses, falling);
+    poses = bin.poses;
+    std::transform(
+      poses.begin(), poses.end(), poses.begin(), [&](const Eigen::Isometry3d& pose) { return T_scene_bin * pose; });
   }
   if (sensorHeight <= wallHeight)
   {

@@ -11,8 +11,9 @@ namespace meam
 struct BinSceneSettings
 {
   int copies = 20;
-  /// Where copies stand, in the sensor's frame, mm: nothing falls, and `copies` does not count. Empty: they fall.
+  /// Where copies stand, in the sensor's frame, mm: `copies` does not count. Empty: they fall.
   std::vector<Eigen::Isometry3d> poses{};
+  bool settle = false;       ///< they are let go at `poses` and come to rest; otherwise nothing falls
   unsigned seed = 1;         ///< the same seed gives the same scene
   double binSize = 0.0;      ///< mm, inner side of the square bin; 0: follows the part and the copies
   double sensorHeight = 0.0; ///< mm above the floor; 0: three times the bin's side

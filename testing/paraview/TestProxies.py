@@ -52,8 +52,7 @@ def check_property(name, key, prop, instance):
         return
     domains = prop.NewDomainIterator()
     domains.Begin()
-    is_free_text = prop.GetClassName() == "vtkSMStringVectorProperty"
-    check(not domains.IsAtEnd() or is_free_text, f"{where}: no domain")
+    check(not domains.IsAtEnd() or prop.GetClassName() == "vtkSMStringVectorProperty", f"{where}: no domain")  # any text
     if not hasattr(prop, "GetElement") or not command.startswith("Set"):
         failures.append(f"{where}: a {prop.GetClassName()} with the command {command} cannot be compared")
         return

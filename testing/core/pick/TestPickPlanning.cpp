@@ -207,6 +207,7 @@ TEST(PickPlanning, TheBestComesFirstAndTheImpossibleLast)
   EXPECT_EQ(picks[1].pose, 0);
   EXPECT_EQ(picks[2].pose, 2);
   EXPECT_FALSE(picks[2].possible());
+  EXPECT_EQ(meam::describe(picks), "2 of 3 copies can be picked, by 2 of 3 picks; 1 of uncertain poses.");
 }
 
 TEST(PickPlanning, MovesWithTheScene)

@@ -192,6 +192,24 @@ TEST(BinPhysics, aBoxComesToLieFlat)
   }
 }
 
+TEST(BinPhysics, whatLosesItsSupportFallsAndWhatRestsStays)
+{
+  const meam::TriangleMesh part = box(40, 30, 10);
+  const auto at = [](double x, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, -15.0, z)); };
+  // One on the floor, and one where another has been taken from under it.
+  const meam::FilledBin bin = meam::settleBin(part, 200.0, { at(-70.0, 0.1), at(20.0, 10.2) });
+  ASSERT_EQ(bin.poses.size(), 2u);
+  expectAtRest(bin, part, 200.0, 51.0);
+  for (const auto& pose : bin.poses)
+  {
+    EXPECT_NEAR(boundsOf(part, pose).min().z(), 0.0, 0.3);
+    EXPECT_GT(pose(2, 2), std::cos(1.0 * M_PI / 180.0));
+  }
+  EXPECT_LT((bin.poses[0].translation() - at(-70.0, 0.0).translation()).norm(), 1.0);
+  EXPECT_LT((bin.poses[1].translation() - at(20.0, 0.0).translation()).norm(), 3.0);
+  EXPECT_TRUE(meam::settleBin(part, 200.0, {}).poses.empty());
+}
+
 TEST(BinPhysics, sheetsWithoutThicknessDoNotCross)
 {
   meam::TriangleMesh part;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pick/PickTrial.h"
+
+#include "pick/PickCollisions.h"
+
+namespace meam
+{
+PickTrial tryPick(const TriangleMesh& part, const Gripper& gripper, const Grasp& grasp,
+  const Eigen::Isometry3d& T_scene_grasp, const std::vector<Eigen::Isometry3d>& truths, const Bin* bin,
+  const PickTrialSettings& settings)
+{
+  PickCollisions world(part, gripper);
+  world.setBin(bin);
+  world.setInstances(truths);
+  const std::vector<int> held = world.heldBy(grasp, T_scene_grasp, settings.cupSlack);
+  PickTrial trial;
+  if (held.size() > 1)
+  {
+    trial.outcome = TrialOutcome::HitsOther;
+    return trial;
+  }
+  trial.instance = held.empty() ? -1 : held.front();
+  // A cup gives way as it comes down on the part.
+  const double back = grasp.kind == GraspKind::Suction ? settings.cupSlack : 0.0;
+  const Eigen::Isometry3d stop = T_scene_grasp * Eigen::Translation3d(0.0, 0.0, -back);
+  const Clearance clearance =
+    world.clearance(grasp, stop, trial.instance, settings.wayIn, settings.step, settings.step);
+  if (clearance.distance <= 0.0)
+  {
+    trial.outcome = clearance.obstacle == Obstacle::Bin ? TrialOutcome::HitsBin
+                    : held.empty()                      ? TrialOutcome::HitsPart
+                                                        : TrialOutcome::HitsOther;
+  }
+  else if (!held.empty())
+  {
+    Grasp actual = grasp;
+    actual.T_model_grasp = truths[trial.instance].inverse() * stop;
+    trial.outcome =
+      world.touchesHeld(actual, settings.wayIn, settings.step) ? TrialOutcome::HitsPart : TrialOutcome::Success;
+  }
+  return trial;
+}
+
+std::string describe(TrialOutcome outcome)
+{
+  switch (outcome)
+  {
+    case TrialOutcome::Success:
+      return "success";
+    case TrialOutcome::HitsBin:
+      return "hits the bin";
+    case TrialOutcome::HitsOther:
+      return "hits another part";
+    case TrialOutcome::HitsPart:
+      return "hits the part itself";
+    case TrialOutcome::HoldsNothing:
+      return "holds nothing";
+  }
+  return {};
+}
+}

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPickConversion.h"
+
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMMeshConversion.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <functional>
+#include <set>
+#include <utility>
+
+namespace vtkMEAMConversion
+{
+namespace
+{
+/// An array with a value for each pick.
+template <typename Array, typename Value>
+void addColumn(const meam::Picks& picks, const char* name, Value&& valueOf, vtkPolyData* output)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  for (const meam::Pick& pick : picks)
+  {
+    array->InsertNextValue(valueOf(pick));
+  }
+  output->GetPointData()->AddArray(array);
+}
+
+/// Faces one after the other, with a value of each array for all cells of a piece.
+class Pieces
+{
+public:
+  explicit Pieces(std::vector<const char*> names)
+    : Names(std::move(names))
+    , Values(this->Names.size())
+  {
+  }
+
+  void add(const meam::TriangleMesh& piece, const Eigen::Isometry3d& place, const std::vector<int>& values)
+  {
+    const int first = static_cast<int>(this->Mesh.vertices.size());
+    for (const auto& vertex : piece.vertices)
+    {
+      this->Mesh.vertices.push_back((place * vertex.cast<double>()).cast<float>());
+    }
+    for (const auto& triangle : piece.triangles)
+    {
+      this->Mesh.triangles.push_back(triangle + Eigen::Vector3i::Constant(first));
+      for (std::size_t k = 0; k < values.size(); ++k)
+      {
+        this->Values[k].push_back(values[k]);
+      }
+    }
+  }
+
+  void write(vtkPolyData* output) const
+  {
+    fromMesh(this->Mesh, output);
+    for (std::size_t k = 0; k < this->Names.size(); ++k)
+    {
+      vtkNew<vtkIntArray> array;
+      array->SetName(this->Names[k]);
+      for (const int value : this->Values[k])
+      {
+        array->InsertNextValue(value);
+      }
+      output->GetCellData()->AddArray(array);
+    }
+    if (!this->Names.empty())
+    {
+      output->GetCellData()->SetActiveScalars(this->Names.front());
+    }
+  }
+
+private:
+  std::vector<const char*> Names;
+  std::vector<std::vector<int>> Values;
+  meam::TriangleMesh Mesh;
+};
+}
+
+void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> transforms, quaternions;
+  transforms->SetName("Transform");
+  transforms->SetNumberOfComponents(16);
+  quaternions->SetName("Quaternion");
+  quaternions->SetNumberOfComponents(4);
+  for (const meam::Pick& pick : picks)
+  {
+    points->InsertNextPoint(pick.T_scene_grasp.translation().data());
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pick.T_scene_grasp.matrix();
+    transforms->InsertNextTuple(matrix.data());
+    const Eigen::Quaterniond turn(pick.T_scene_grasp.linear());
+    quaternions->InsertNextTuple(turn.coeffs().data());
+  }
+  output->SetPoints(points);
+  addVertices(output);
+  output->GetPointData()->AddArray(transforms);
+  output->GetPointData()->AddArray(quaternions);
+  int rank = 0;
+  addColumn<vtkIntArray>(
+    picks, "Rank", [&](const meam::Pick&) { return ++rank; }, output);
+  addColumn<vtkIntArray>(
+    picks, "Possible", [](const meam::Pick& pick) { return pick.possible() ? 1 : 0; }, output);
+  addColumn<vtkIntArray>(
+    picks, "Obstruction", [](const meam::Pick& pick) { return static_cast<int>(pick.obstruction); }, output);
+  addColumn<vtkStringArray>(
+    picks, "Reason", [](const meam::Pick& pick) { return meam::describe(pick); }, output);
+  addColumn<vtkIntArray>(
+    picks, "Instance", [](const meam::Pick& pick) { return pick.pose + 1; }, output);
+  addColumn<vtkIntArray>(
+    picks, "Grasp", [](const meam::Pick& pick) { return pick.grasp + 1; }, output);
+  addColumn<vtkStringArray>(
+    picks, "GraspName", [&](const meam::Pick& pick) { return grasps[pick.grasp].name; }, output);
+  addColumn<vtkIntArray>(
+    picks, "Obstacle", [](const meam::Pick& pick) { return pick.obstacle + 1; }, output);
+  addColumn<vtkDoubleArray>(
+    picks, "Clearance", [](const meam::Pick& pick) { return pick.clearance; }, output);
+  addColumn<vtkDoubleArray>(
+    picks, "Reach", [](const meam::Pick& pick) { return pick.reach; }, output);
+  addColumn<vtkDoubleArray>(
+    picks, "Tilt", [](const meam::Pick& pick) { return pick.tilt; }, output);
+  addColumn<vtkDoubleArray>(
+    picks, "Covered", [](const meam::Pick& pick) { return pick.covered; }, output);
+  addColumn<vtkDoubleArray>(
+    picks, "Score", [](const meam::Pick& pick) { return pick.score; }, output);
+  output->GetPointData()->SetActiveScalars("Possible");
+}
+
+void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const meam::Gripper& gripper, ShownPicks shown,
+  vtkPolyData* output)
+{
+  Pieces pieces({ "Possible", "Rank", "Obstruction" });
+  std::set<int> done; // copies that have one
+  for (std::size_t k = 0; k < picks.size(); ++k)
+  {
+    const meam::Pick& pick = picks[k];
+    if (shown == ShownPicks::All || (shown == ShownPicks::Possible && pick.possible()) ||
+        (shown == ShownPicks::BestOfEachCopy && done.insert(pick.pose).second))
+    {
+      pieces.add(meam::meshOf(gripper, grasps[pick.grasp]), pick.T_scene_grasp,
+        { pick.possible() ? 1 : 0, static_cast<int>(k) + 1, static_cast<int>(pick.obstruction) });
+    }
+  }
+  pieces.write(output);
+}
+
+void fromBin(const meam::Bin& bin, vtkPolyData* output)
+{
+  Pieces pieces({});
+  for (const meam::PlacedBox& box : meam::boxesOf(bin))
+  {
+    pieces.add(meam::meshOf(meam::GripperPiece{ false, Eigen::Vector3d::Zero(), box.size }), box.T_scene_box, {});
+  }
+  pieces.write(output);
+}
+}

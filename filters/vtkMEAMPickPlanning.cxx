@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPickPlanning.h"
+
+#include "pick/BinDetection.h"
+#include "pick/PickPlanning.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMGraspConversion.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMPickConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSettings.h"
+#include "vtkMEAMSymmetryConversion.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStructuredGrid.h"
+
+#include <optional>
+
+vtkStandardNewMacro(vtkMEAMPickPlanning);
+
+namespace
+{
+/// What the sensor measured: a grid, or points in no order.
+meam::OrganizedCloud cloudOf(vtkPointSet* scan)
+{
+  if (auto* grid = vtkStructuredGrid::SafeDownCast(scan))
+  {
+    return vtkMEAMConversion::toOrganizedCloud(grid);
+  }
+  meam::OrganizedCloud cloud;
+  if (scan && scan->GetNumberOfPoints() > 0)
+  {
+    cloud.points = vtkMEAMConversion::toVectors<float>(scan->GetPoints()->GetData());
+    cloud.width = static_cast<int>(cloud.points.size());
+    cloud.height = 1;
+  }
+  return cloud;
+}
+}
+
+vtkMEAMPickPlanning::vtkMEAMPickPlanning()
+  : Settings(std::make_unique<meam::PickSettings>())
+  , Lengths(std::make_unique<meam::Gripper>())
+{
+  this->SetNumberOfInputPorts(5);
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkMEAMPickPlanning::~vtkMEAMPickPlanning() = default;
+
+int vtkMEAMPickPlanning::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 3 ? "vtkPointSet" : "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMPickPlanning::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneTime::announce(inputVector, { 0, 3 }, outputVector);
+  return 1;
+}
+
+vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, SafetyMargin, double, safetyMargin, 0.0, VTK_DOUBLE_MAX);
+vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, WayIn, double, wayIn, 0.0, VTK_DOUBLE_MAX);
+vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MinimumProbability, double, leastProbability, 0.0, 1.0);
+vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MaximumTilt, double, mostTilt, 0.0, 180.0);
+vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MaximumCovered, double, mostCovered, 0.0, 100.0);
+vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, TurnStep, double, turnStep, 1.0, 360.0);
+vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, Tolerance, double, tolerance, 0.0, VTK_DOUBLE_MAX);
+
+// The lengths of the gripper.
+#define vtkMEAMLengthMacro(name, field)                                                                                \
+  void vtkMEAMPickPlanning::Set##name(double length)                                                                   \
+  {                                                                                                                    \
+    if (this->Lengths->field != length)                                                                                \
+    {                                                                                                                  \
+      this->Lengths->field = length;                                                                                   \
+      this->Modified();                                                                                                \
+    }                                                                                                                  \
+  }                                                                                                                    \
+  double vtkMEAMPickPlanning::Get##name() { return this->Lengths->field; }
+vtkMEAMLengthMacro(Opening, opening);
+vtkMEAMLengthMacro(JawClearance, jawClearance);
+vtkMEAMLengthMacro(FingerWidth, fingerWidth);
+vtkMEAMLengthMacro(FingerThickness, fingerThickness);
+vtkMEAMLengthMacro(FingerLength, fingerLength);
+vtkMEAMLengthMacro(TipLength, tipLength);
+vtkMEAMLengthMacro(BodyLength, bodyLength);
+vtkMEAMLengthMacro(BodyWidth, bodyWidth);
+vtkMEAMLengthMacro(CupDiameter, cupDiameter);
+vtkMEAMLengthMacro(CupLength, cupLength);
+
+void vtkMEAMPickPlanning::SetGripper(int gripper)
+{
+  const auto kind = gripper == SuctionCup ? meam::GraspKind::Suction : meam::GraspKind::Parallel;
+  if (this->Lengths->kind != kind)
+  {
+    this->Lengths->kind = kind;
+    this->Modified();
+  }
+}
+
+int vtkMEAMPickPlanning::GetGripper()
+{
+  return this->Lengths->kind == meam::GraspKind::Suction ? SuctionCup : ParallelJaws;
+}
+
+int vtkMEAMPickPlanning::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  auto* posesInput = vtkPolyData::GetData(inputVector[0]);
+  auto* part = vtkPolyData::GetData(inputVector[1]);
+  auto* graspsInput = vtkPolyData::GetData(inputVector[2]);
+  auto* scan = vtkPointSet::GetData(inputVector[3]);
+  auto* gripperInput = vtkPolyData::GetData(inputVector[4]);
+  auto* output = vtkPolyData::GetData(outputVector, 0);
+  auto* grippers = vtkPolyData::GetData(outputVector, 1);
+  auto* walls = vtkPolyData::GetData(outputVector, 2);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      requireInputs(this, { "Poses", "Part", "Grasps" });
+      const meam::Progress progress = progressOf(this);
+      const meam::Poses poses = toPoses(posesInput);
+      const meam::Grasps grasps = toGrasps(graspsInput);
+      meam::Symmetries symmetries = symmetriesOf(part);
+      if (!symmetries.exact())
+      {
+        symmetries = symmetriesOf(graspsInput);
+      }
+      meam::Gripper gripper = *this->Lengths;
+      if (gripperInput)
+      {
+        gripper.mesh = toMesh(gripperInput);
+      }
+      const meam::OrganizedCloud cloud = cloudOf(scan);
+      std::optional<meam::Bin> bin;
+      if (this->Bin == GivenBin)
+      {
+        bin = meam::Bin{ placedAt(this->BinPosition, this->BinRotation).T_scene_model, Eigen::Vector3d(this->BinSize),
+          this->BinWall };
+      }
+      else if (this->Bin == DetectedBin)
+      {
+        if (!vtkStructuredGrid::SafeDownCast(scan))
+        {
+          throw meam::Error("The bin is found in an organized scan: connect Scan, or set Bin to Given or None.");
+        }
+        bin = meam::detectBin(cloud, {}, meam::subProgress(progress, 0.0, 0.2));
+      }
+      meam::PickPlanner planner(toMesh(part), symmetries, grasps, gripper, *this->Settings);
+      const meam::Picks picks = planner.plan(poses, cloud, bin, meam::subProgress(progress, 0.4, 1.0));
+      fromPicks(picks, grasps, output);
+      setFieldText(output, "PickReport", meam::describe(picks));
+      fromGrippers(picks, grasps, gripper, static_cast<ShownPicks>(this->ShownGrippers), grippers);
+      if (bin)
+      {
+        fromBin(*bin, walls);
+      }
+    },
+    output, grippers, walls);
+}
+
+void vtkMEAMPickPlanning::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const double values[3])
+  { os << indent << name << ": " << values[0] << " " << values[1] << " " << values[2] << "\n"; };
+  os << indent << "Gripper: " << this->GetGripper() << "\n";
+  os << indent << "Opening: " << this->GetOpening() << " mm\n";
+  os << indent << "JawClearance: " << this->GetJawClearance() << " mm\n";
+  os << indent << "FingerWidth: " << this->GetFingerWidth() << " mm\n";
+  os << indent << "FingerThickness: " << this->GetFingerThickness() << " mm\n";
+  os << indent << "FingerLength: " << this->GetFingerLength() << " mm\n";
+  os << indent << "TipLength: " << this->GetTipLength() << " mm\n";
+  os << indent << "BodyLength: " << this->GetBodyLength() << " mm\n";
+  os << indent << "BodyWidth: " << this->GetBodyWidth() << " mm\n";
+  os << indent << "CupDiameter: " << this->GetCupDiameter() << " mm\n";
+  os << indent << "CupLength: " << this->GetCupLength() << " mm\n";
+  os << indent << "Bin: " << this->Bin << "\n";
+  print("BinPosition", this->BinPosition);
+  print("BinRotation", this->BinRotation);
+  print("BinSize", this->BinSize);
+  os << indent << "BinWall: " << this->BinWall << " mm\n";
+  os << indent << "SafetyMargin: " << this->GetSafetyMargin() << " mm\n";
+  os << indent << "WayIn: " << this->GetWayIn() << " mm\n";
+  os << indent << "MinimumProbability: " << this->GetMinimumProbability() << "\n";
+  os << indent << "MaximumTilt: " << this->GetMaximumTilt() << " degrees\n";
+  os << indent << "MaximumCovered: " << this->GetMaximumCovered() << " %\n";
+  os << indent << "TurnStep: " << this->GetTurnStep() << " degrees\n";
+  os << indent << "Tolerance: " << this->GetTolerance() << " mm\n";
+  os << indent << "ShownGrippers: " << this->ShownGrippers << "\n";
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pick/PickTrial.h"
+
+#include "TestParts.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+meam::TriangleMesh cube() { return parts::box({ -10, -10, -10 }, { 10, 10, 10 }); }
+
+Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
+
+/// From above, along z, the jaws 23 mm apart.
+meam::PickTrial pick(const Eigen::Isometry3d& where, const std::vector<Eigen::Isometry3d>& truths)
+{
+  meam::Gripper gripper;
+  gripper.jawClearance = 1.5;
+  meam::Grasp grasp;
+  grasp.width = 20.0;
+  meam::Bin bin;
+  bin.T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  bin.T_scene_bin.translation().z() = 20.0;
+  bin.size << 300.0, 300.0, 60.0;
+  return meam::tryPick(cube(), gripper, grasp, where, truths, &bin);
+}
+}
+
+TEST(PickTrial, HoldsWhatIsThere)
+{
+  const auto trial = pick(at(0, 0, 0), { at(60, 0, 0), at(0, 0, 0) });
+  EXPECT_EQ(trial.outcome, meam::TrialOutcome::Success);
+  EXPECT_EQ(trial.instance, 1);
+  EXPECT_EQ(pick(at(1, 0, 0), { at(0, 0, 0) }).outcome, meam::TrialOutcome::Success); // a jaw has 1.5 mm of room
+}
+
+TEST(PickTrial, FailsAsAPoseIsWrong)
+{
+  EXPECT_EQ(pick(at(2, 0, 0), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HitsPart);
+  EXPECT_EQ(pick(at(0, 0, -40), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HoldsNothing);
+  EXPECT_EQ(pick(at(0, 40, 0), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HoldsNothing);
+  EXPECT_EQ(pick(at(0, 0, 15), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HitsBin); // the tips reach to 21
+  EXPECT_EQ(pick(at(0, 0, 0), { at(0, 0, 0), at(25, 0, 0) }).outcome, meam::TrialOutcome::HitsOther);
+  EXPECT_EQ(pick(at(0, 15.5, 0), { at(0, 0, 0), at(0, 31, 0) }).outcome, meam::TrialOutcome::HitsOther); // of two
+}
+
+TEST(PickTrial, ACupGivesWay)
+{
+  meam::Gripper cup;
+  cup.kind = meam::GraspKind::Suction;
+  cup.cupDiameter = 10.0;
+  meam::Grasp grasp;
+  grasp.kind = meam::GraspKind::Suction;
+  const auto outcome = [&](double z) // the top of the cube is at -10
+  { return meam::tryPick(cube(), cup, grasp, at(0, 0, z), { at(0, 0, 0) }, nullptr).outcome; };
+  EXPECT_EQ(outcome(-10.0), meam::TrialOutcome::Success);
+  EXPECT_EQ(outcome(-11.0), meam::TrialOutcome::Success);
+  EXPECT_EQ(outcome(-9.0), meam::TrialOutcome::Success);
+  EXPECT_EQ(outcome(-13.0), meam::TrialOutcome::HoldsNothing);
+  EXPECT_EQ(outcome(-7.0), meam::TrialOutcome::HitsPart);
+}

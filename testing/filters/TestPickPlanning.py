@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkMEAMPickPlanning: possible picks first, the reasons of the others, the gripper and the bin to look at, bad input."""
+from meamtest import box, check, cloud, connect, fails, field, image, points, poses, prints, run, set_fields, tuples
+
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+
+from ppfmeam.filters import vtkMEAMPickPlanning
+
+PART = box(20, 40, 20, (-10, -20, -10))
+
+
+def at(x, y, z=490.0):
+    return (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
+
+
+def scan():
+    """A floor 500 mm away with a rim of 60 mm around 160 x 120 mm, and a block on it."""
+    coordinates = vtkPoints()
+    for row in range(200):
+        for column in range(240):
+            x, y = column - 119.5, row - 99.5
+            u, v = abs(x), abs(y)
+            z = 500.0
+            if u < 85 and v < 65 and (u > 80 or v > 60):
+                z = 440.0
+            if u < 10 and v < 20:
+                z = 480.0
+            coordinates.InsertNextPoint(x, y, z)
+    grid = vtkStructuredGrid()
+    grid.SetDimensions(240, 200, 1)
+    grid.SetPoints(coordinates)
+    return grid
+
+
+def names(data):
+    array = data.GetPointData().GetAbstractArray("Reason")
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+
+
+above = cloud([(0, 0, 0), (0, 0, 0)], Transform=[(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1),
+                                                 (1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1)], Width=[20, 20])
+found = poses(at(0, 0), at(32, 0))
+
+planning = connect(vtkMEAMPickPlanning(), found, PART, above)
+planning.SetBinToGiven()
+planning.SetBinPosition(0, 0, 500)
+planning.SetBinSize(300, 300, 100)
+picks = run(planning)
+check(picks.GetNumberOfPoints() == 4, "a pick for each pose and grasp")
+check([t[0] for t in tuples(picks, "Possible")] == [0, 0, 0, 0], "the two copies are in each other's way")
+check("collides with instance 2" in names(picks) and "collides with instance 1" in names(picks), names(picks))
+check(sum("tilted by 90 degrees" == name for name in names(picks)) == 2, names(picks))
+check(sorted(t[0] for t in tuples(picks, "Instance")) == [1, 1, 2, 2], "instances are counted from 1")
+report = picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0)
+check(report == "0 of 2 copies can be picked, by 0 of 4 picks; 2 tilted, 2 against another copy.", report)
+
+planning.SetSafetyMargin(0.5)
+picks = run(planning)
+check([t[0] for t in tuples(picks, "Possible")] == [1, 1, 0, 0], "with less margin both can be picked")
+check([t[0] for t in tuples(picks, "Rank")] == [1, 2, 3, 4], "ranks")
+check(abs(tuples(picks, "Clearance")[0][0] - 1.0) < 1e-3, tuples(picks, "Clearance"))
+check(abs(tuples(picks, "Reach")[0][0] - 90.0) < 1e-6, tuples(picks, "Reach"))
+check(tuples(picks, "Transform")[0][11] == 490.0, "the grasp is where the pose is")
+gripper = planning.GetOutputDataObject(1)
+check(gripper.GetNumberOfCells() == 2 * 36, "a gripper of three boxes at the best pick of each copy")
+check(set(gripper.GetCellData().GetArray("Possible").GetValue(i) for i in range(72)) == {1}, "both are possible")
+check(planning.GetOutputDataObject(2).GetNumberOfCells() == 60, "the bin's floor and walls")
+planning.SetShownGrippers(planning.AllPicks)
+run(planning)
+check(planning.GetOutputDataObject(1).GetNumberOfCells() == 4 * 36, "a gripper at each pick")
+
+# A bin that is found, and without one.
+alone = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART, above, scan())
+picks = run(alone)
+check(tuples(picks, "Possible")[0][0] == 1, names(picks))
+check(abs(tuples(picks, "Reach")[0][0] - 50.0) < 3.0, "from the rim that was found")
+check(alone.GetOutputDataObject(2).GetNumberOfCells() == 60, "the bin that was found")
+alone.SetBinToNone()
+check(tuples(run(alone), "Possible")[0][0] == 1, "the floor is something measured")
+check(alone.GetOutputDataObject(2).GetNumberOfCells() == 0, "no bin")
+
+# A part that looks the same when it is turned by 180 degrees about its x: the grasp from the side may come from the other.
+turned = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART,
+                 cloud([(0, 0, 0)], Transform=[(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1)], Width=[20]))
+turned.SetBinToNone()
+check(names(run(turned)) == ["tilted by 180 degrees"], names(run(turned)))
+symmetric = vtkPolyData()
+symmetric.ShallowCopy(PART)
+set_fields(symmetric, SymmetriesDiscrete=(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1))
+turned.SetInputDataObject(1, symmetric)
+check(names(run(turned)) == ["possible"], names(run(turned)))
+
+# A gripper of any shape, a cup, and no poses.
+finger = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART, above)
+finger.SetInputDataObject(4, box(4, 4, 50, (-2, -2, -70)))
+finger.SetBinToNone()
+check(names(run(finger))[0] == "possible", names(run(finger)))
+finger.SetInputDataObject(4, box(4, 4, 50, (-2, -2, -50)))
+check("collides with the part itself" in names(run(finger)), names(run(finger)))
+cup = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART,
+              cloud([(0, 0, -10)], Transform=[(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -10.2, 0, 0, 0, 1)], Kind=[1]))
+cup.SetBinToNone()
+check(names(run(cup)) == ["the grasp is for another kind of gripper"], names(run(cup)))
+cup.SetGripperToSuctionCup()
+check(names(run(cup)) == ["possible"], names(run(cup)))
+check(run(connect(vtkMEAMPickPlanning(), poses(), PART, above, scan())).GetNumberOfPoints() == 0, "no poses, no picks")
+
+fails(connect(vtkMEAMPickPlanning(), found), "Part", "Grasps")
+fails(connect(vtkMEAMPickPlanning(), found, PART, above), "organized scan", "Bin")
+fails(connect(vtkMEAMPickPlanning(), found, PART, PART, scan()), "Transform", "GraspDefinition")
+fails(connect(vtkMEAMPickPlanning(), found, PART, vtkPolyData(), scan()), "no grasp")
+far = connect(vtkMEAMPickPlanning(), found, PART, cloud([(0, 0, 0)], Transform=[at(900, 0)]), scan())
+fails(far, "outside the part", "mm")
+flat = connect(vtkMEAMPickPlanning(), found, PART, above)
+flat.SetBinToGiven()
+flat.SetBinSize(300, 0, 100)
+fails(flat, "bin", "larger than 0")
+flat.SetBinSize(10, 10, 100)
+fails(flat, "does not go into the bin")
+flat.SetOpening(-1)
+fails(flat, "gripper's lengths")
+prints(planning, "Gripper", "Opening", "Bin", "BinPosition", "BinSize", "SafetyMargin", "WayIn", "MaximumTilt", "Tolerance")
