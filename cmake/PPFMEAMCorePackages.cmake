@@ -2,7 +2,7 @@
 # What core/ is compiled with, and whoever links its static libraries.
 find_package(Eigen3 REQUIRED)
 find_package(PCL 1.12 REQUIRED)
-find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs calib3d)
 find_package(OpenMesh REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(nlohmann_json REQUIRED)

@@ -15,7 +15,7 @@ packages=(
   g++ cmake ninja-build
   paraview paraview-dev python3-paraview python3-numpy libqt5svg5 xvfb xauth libgl1-mesa-dri
   libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}1.13
-  libopencv-imgcodecs-dev libeigen3-dev libcgal-dev libopenmesh-dev libflann-dev liblzf-dev nlohmann-json3-dev
+  libopencv-imgcodecs-dev libopencv-calib3d-dev libeigen3-dev libcgal-dev libopenmesh-dev libflann-dev liblzf-dev nlohmann-json3-dev
   libbullet-dev libfcl-dev
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
   qtbase5-dev # the plugin's toolbar and icons; ParaView's icons are libqt5svg5's

@@ -3,7 +3,9 @@
 
 #include "base/Error.h"
 #include "vtkMEAMArrays.h"
+#include "vtkMEAMMeshConversion.h"
 
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -32,6 +34,18 @@ Choice choiceIn(vtkDataArray* array, vtkIdType place, int count, const std::stri
   }
   throw meam::Error("The grasp '" + grasp + "' has a value of " + quoted(array->GetName()) + " that is not 0 to " +
                     std::to_string(count - 1) + ".");
+}
+
+/// The gripper without its body: only what joins the fingers, or holds the cup.
+meam::Gripper glyphOf(const meam::Gripper& gripper, const meam::Grasp& grasp)
+{
+  meam::Gripper glyph = gripper;
+  glyph.mesh = {};
+  glyph.kind = grasp.kind;
+  glyph.bodyLength = gripper.fingerThickness;
+  glyph.bodyWidth = grasp.kind == meam::GraspKind::Suction ? 0.5 * gripper.cupDiameter : gripper.fingerWidth;
+  glyph.opening = grasp.width + 2.0 * gripper.jawClearance;
+  return glyph;
 }
 }
 
@@ -106,5 +120,35 @@ void fromGrasps(const meam::Grasps& grasps, vtkPolyData* output)
     output->GetPointData()->AddArray(array);
   }
   output->GetPointData()->SetActiveScalars("Quality");
+}
+
+void fromGraspGlyphs(const meam::Grasps& grasps, const meam::Gripper& gripper, vtkPolyData* output)
+{
+  meam::TriangleMesh all;
+  vtkNew<vtkDoubleArray> qualities;
+  vtkNew<vtkIntArray> kinds, numbers;
+  qualities->SetName("Quality");
+  kinds->SetName("Kind");
+  numbers->SetName("Grasp");
+  for (std::size_t k = 0; k < grasps.size(); ++k)
+  {
+    const meam::TriangleMesh glyph = meam::meshOf(glyphOf(gripper, grasps[k]), grasps[k]);
+    const auto first = Eigen::Vector3i::Constant(static_cast<int>(all.vertices.size()));
+    for (const auto& vertex : glyph.vertices)
+    {
+      all.vertices.push_back((grasps[k].T_model_grasp * vertex.cast<double>()).cast<float>());
+    }
+    for (const auto& triangle : glyph.triangles)
+    {
+      all.triangles.push_back(triangle + first);
+      qualities->InsertNextValue(grasps[k].quality);
+      kinds->InsertNextValue(grasps[k].kind == meam::GraspKind::Suction ? 1 : 0);
+      numbers->InsertNextValue(static_cast<int>(k) + 1);
+    }
+  }
+  fromMesh(all, output);
+  output->GetCellData()->AddArray(kinds);
+  output->GetCellData()->AddArray(numbers);
+  output->GetCellData()->SetScalars(qualities);
 }
 }

@@ -6,6 +6,7 @@
 #define vtkMEAMGraspConversion_h
 
 #include "pick/Grasp.h"
+#include "pick/Gripper.h"
 
 class vtkPolyData;
 
@@ -18,6 +19,10 @@ namespace vtkMEAMConversion
 /// for points without `Transform`.
 meam::Grasps toGrasps(vtkPolyData* input);
 void fromGrasps(const meam::Grasps& grasps, vtkPolyData* output);
+
+/// Jaws or a cup at each grasp, to look at, without the gripper's body; `Quality`, `Kind` and `Grasp` (from 1) for
+/// their cells.
+void fromGraspGlyphs(const meam::Grasps& grasps, const meam::Gripper& gripper, vtkPolyData* output);
 }
 
 #endif

@@ -14,7 +14,7 @@ class Error(Exception):
 
 def __getattr__(name):
     # Only now, so that ppfmeam.filters alone needs neither NumPy nor VTK's readers.
-    if name in ("Detections", "Diagnosis", "Model", "detect", "load", "train", "why"):
+    if name in ("Detections", "Diagnosis", "Grasps", "Model", "detect", "grasps", "load", "train", "why"):
         from . import api
         return getattr(api, name)
     if name == "__version__":

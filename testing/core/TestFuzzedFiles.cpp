@@ -3,6 +3,8 @@
 // wrong access and without a block of memory that is larger than files this small can justify.
 #include "TestFiles.h"
 #include "TestImages.h"
+#include "calibration/HandEyeFile.h"
+#include "calibration/RobotFrameFile.h"
 #include "io/BOPDataset.h"
 #include "io/CameraFile.h"
 #include "io/DepthImage.h"
@@ -350,6 +352,23 @@ TEST_P(FuzzedFiles, grasps)
          {"name": "a", "kind": "parallel", "position": [1,2,3], "approach": [0,0,1], "closing": [1,0,0], "width": 20},
          {"kind": "suction", "position": [1,2,3], "approach": [0,0,1], "free_turn": "approach", "quality": 0.5}]})" },
     [](const std::string& path) { meam::readGrasps(path); });
+}
+
+TEST_P(FuzzedFiles, robotFrame)
+{
+  const files::Folder folder(place());
+  fuzz(folder.path("a.yaml"),
+    { "transforms:\n- header:\n    frame_id: base\n  transform:\n    translation:\n      x: 0.1\n      y: 0.2\n      "
+      "z: 0.3\n"
+      "    rotation:\n      x: 0.0\n      y: 0.0\n      z: 0.0\n      w: 1.0\n",
+      R"({"units": "m", "T_robot_camera": [[1,0,0,4],[0,1,0,5],[0,0,1,6],[0,0,0,1]]})",
+      "%YAML:1.0\n---\nT_robot_camera: !!opencv-matrix\n   rows: 4\n   data: [ 1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,1 ]\n" },
+    [](const std::string& path) { meam::readRobotFrame(path); });
+  fuzz(folder.path("a.json"),
+    { R"({"mount": "hand", "pairs": [{"T_base_gripper": [[1,0,0,4],[0,1,0,5],[0,0,1,6],[0,0,0,1]],
+          "T_camera_target": [[1,0,0,4],[0,1,0,5],[0,0,1,6],[0,0,0,1]]}]})",
+      "1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,1,1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,1\n" },
+    [](const std::string& path) { meam::readHandEye(path); });
 }
 
 TEST_P(FuzzedFiles, cameraInJSON)

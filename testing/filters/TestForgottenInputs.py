@@ -15,6 +15,7 @@ INPUTS = {
     "vtkMEAMPoseRefinement": ("Poses", "Model", "Scene Edges"),
     "vtkMEAMConflictResolution": ("Poses", "Models", "Scene Edges"),
     "vtkMEAMPoseInstances": ("Poses", "Part"),
+    "vtkMEAMGraspDefinition": ("Part",),
     "vtkMEAMPoseEvaluation": ("Poses", "True Poses"),
     "vtkMEAMBOPEvaluation": ("Poses", "True Poses", "Mesh", "Scan"),
 }

@@ -145,6 +145,19 @@ try:
     matrices = numpy.loadtxt("poses.txt", comments="#").reshape(-1, 4, 4)
     check((matrices == found.poses).all(), "the matrices in the file")
 
+    # Grasps of the part, to a file and back.
+    with Quiet():
+        grasps = ppfmeam.grasps("part.stl", propose="both", grasps=3, symmetries=model, opening=40, cup_diameter=8)
+        grasps.save("part.grasps.json")
+        again = ppfmeam.grasps("part.stl", file="part.grasps.json")
+    check(len(grasps) == 6 and grasps.kinds == ["parallel"] * 3 + ["suction"] * 3, f"{grasps.kinds}")
+    check(again.names == grasps.names and numpy.allclose(again.transforms, grasps.transforms, atol=1e-12), "the same grasps")
+    check((grasps.widths[:3] <= 40 - 2 * 3).all() and (grasps.qualities > 0).all(), f"{grasps.widths} {grasps.qualities}")
+    check(grasps.free_turns[3:] == ["approach"] * 3, f"{grasps.free_turns}")
+    raises("no such file", ppfmeam.grasps, "part.stl", file="missing.json")
+    raises("opening", ppfmeam.grasps, "part.stl", jaws=3)
+    raises("propose", ppfmeam.grasps, "part.stl", propose="magnet")
+
     # What is wrong is an exception, what may be wrong a warning.
     flat = points.reshape(-1, 3)
     raises("no such file", ppfmeam.train, "missing.stl")

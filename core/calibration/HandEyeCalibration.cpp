@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/HandEyeCalibration.h"
+
+#include "base/Error.h"
+
+#include <opencv2/calib3d.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace meam
+{
+namespace
+{
+constexpr std::size_t FewestPairs = 3;
+constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
+constexpr double Degrees = 180.0 / M_PI;
+
+const std::pair<cv::HandEyeCalibrationMethod, const char*> Methods[] = { { cv::CALIB_HAND_EYE_PARK, "Park" },
+  { cv::CALIB_HAND_EYE_HORAUD, "Horaud" }, { cv::CALIB_HAND_EYE_DANIILIDIS, "Daniilidis" },
+  { cv::CALIB_HAND_EYE_TSAI, "Tsai" } };
+
+Eigen::Isometry3d requireRigid(const Eigen::Isometry3d& T, const char* name, std::size_t pair)
+{
+  const Eigen::Matrix3d R = T.linear();
+  if (!T.matrix().allFinite() || !R.isUnitary(RotationTolerance) || R.determinant() < 0.0)
+  {
+    throw Error("The " + std::string(name) + " of pair " + std::to_string(pair + 1) +
+                " is not a rotation and a translation: check its 4x4 matrix.");
+  }
+  Eigen::Isometry3d exact = T;
+  exact.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  return exact;
+}
+
+Eigen::Vector3d rotationVector(const Eigen::Matrix3d& R)
+{
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+/// The motions between all poses have to turn about two axes that are not parallel.
+void requireTurns(const std::vector<Eigen::Isometry3d>& poses, const char* what, double leastTurn)
+{
+  std::vector<Eigen::Vector3d> turns;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    for (std::size_t k = i + 1; k < poses.size(); ++k)
+    {
+      turns.push_back(rotationVector(poses[i].linear().transpose() * poses[k].linear()));
+    }
+  }
+  const Eigen::Vector3d largest = *std::max_element(turns.begin(), turns.end(),
+    [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.squaredNorm() < b.squaredNorm(); });
+  if (largest.norm() * Degrees < leastTurn)
+  {
+    throw Error(std::string("The motions of the ") + what + " turn by less than " +
+                std::to_string(static_cast<int>(leastTurn)) +
+                " degrees, which leaves the camera's place open: turn the gripper by 30 degrees and more about several "
+                "axes.");
+  }
+  const auto aside = [&](const Eigen::Vector3d& turn)
+  { return turn.cross(largest.normalized()).norm() * Degrees >= leastTurn; };
+  if (std::none_of(turns.begin(), turns.end(), aside))
+  {
+    throw Error(std::string("All motions of the ") + what +
+                " turn about parallel axes, which leaves the camera's place along them open: turn the gripper about a "
+                "second axis by 30 degrees and more.");
+  }
+}
+
+/// The mean of poses: of their translations, and the rotation nearest to the mean of their matrices.
+Eigen::Isometry3d meanOf(const std::vector<Eigen::Isometry3d>& poses)
+{
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  for (const Eigen::Isometry3d& pose : poses)
+  {
+    sum += pose.matrix() / static_cast<double>(poses.size());
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum.topLeftCorner<3, 3>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d U = svd.matrixU();
+  U.col(2) *= (U * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  Eigen::Isometry3d mean = Eigen::Isometry3d::Identity();
+  mean.linear() = U * svd.matrixV().transpose();
+  mean.translation() = sum.topRightCorner<3, 1>();
+  return mean;
+}
+
+double rootMeanSquare(const std::vector<double>& values)
+{
+  double sum = 0.0;
+  for (const double value : values)
+  {
+    sum += value * value;
+  }
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// The spread of the target when the camera is there.
+HandEyeCalibration judged(
+  const Eigen::Isometry3d& T_robot_camera, const std::vector<HandEyePair>& pairs, CameraMount mount)
+{
+  std::vector<Eigen::Isometry3d> targets;
+  for (const HandEyePair& pair : pairs)
+  {
+    const Eigen::Isometry3d T_holder_robot =
+      mount == CameraMount::Hand ? pair.T_base_gripper : pair.T_base_gripper.inverse();
+    targets.push_back(T_holder_robot * T_robot_camera * pair.T_camera_target);
+  }
+  HandEyeCalibration result;
+  result.T_robot_camera = T_robot_camera;
+  result.T_holder_target = meanOf(targets);
+  for (const Eigen::Isometry3d& target : targets)
+  {
+    const Eigen::Isometry3d off = result.T_holder_target.inverse() * target;
+    result.shifts.push_back(off.translation().norm());
+    result.turns.push_back(rotationVector(off.linear()).norm() * Degrees);
+  }
+  result.shift = rootMeanSquare(result.shifts);
+  result.turn = rootMeanSquare(result.turns);
+  return result;
+}
+
+/// What one of OpenCV's methods finds; none when it finds nothing.
+std::optional<Eigen::Isometry3d> solved(
+  const std::vector<HandEyePair>& pairs, CameraMount mount, cv::HandEyeCalibrationMethod method)
+{
+  std::vector<cv::Mat> robotTurns, robotShifts, targetTurns, targetShifts;
+  const auto append = [](const Eigen::Isometry3d& T, std::vector<cv::Mat>& turns, std::vector<cv::Mat>& shifts)
+  {
+    cv::Mat turn(3, 3, CV_64F), shift(3, 1, CV_64F);
+    for (int row = 0; row < 3; ++row)
+    {
+      shift.at<double>(row) = T(row, 3);
+      for (int column = 0; column < 3; ++column)
+      {
+        turn.at<double>(row, column) = T(row, column);
+      }
+    }
+    turns.push_back(turn);
+    shifts.push_back(shift);
+  };
+  for (const HandEyePair& pair : pairs)
+  {
+    // OpenCV solves for a camera on the gripper; for one beside the robot base and gripper change places.
+    append(mount == CameraMount::Hand ? pair.T_base_gripper : pair.T_base_gripper.inverse(), robotTurns, robotShifts);
+    append(pair.T_camera_target, targetTurns, targetShifts);
+  }
+  cv::Mat turn, shift;
+  try
+  {
+    cv::calibrateHandEye(robotTurns, robotShifts, targetTurns, targetShifts, turn, shift, method);
+  }
+  catch (const cv::Exception&)
+  {
+    return {};
+  }
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  for (int row = 0; row < 3; ++row)
+  {
+    T(row, 3) = shift.at<double>(row);
+    for (int column = 0; column < 3; ++column)
+    {
+      T(row, column) = turn.at<double>(row, column);
+    }
+  }
+  if (!T.matrix().allFinite() || !(T.linear().determinant() > 0.0))
+  {
+    return {};
+  }
+  T.linear() = meanOf({ T }).linear(); // a rotation to the last digit
+  return T;
+}
+}
+
+HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, const HandEyeSettings& settings)
+{
+  if (pairs.size() < FewestPairs)
+  {
+    throw Error("Hand-eye calibration needs 3 pairs of poses or more, better 10, with the gripper turned in different "
+                "ways: there are " +
+                std::to_string(pairs.size()) + ".");
+  }
+  std::vector<HandEyePair> exact;
+  std::vector<Eigen::Isometry3d> grippers, targets;
+  for (const HandEyePair& pair : pairs)
+  {
+    grippers.push_back(requireRigid(pair.T_base_gripper, "T_base_gripper", exact.size()));
+    targets.push_back(requireRigid(pair.T_camera_target, "T_camera_target", exact.size()));
+    exact.push_back({ grippers.back(), targets.back() });
+  }
+  requireTurns(grippers, "gripper", settings.leastTurn);
+  requireTurns(targets, "target", settings.leastTurn);
+  std::optional<HandEyeCalibration> best;
+  for (const auto& [method, name] : Methods)
+  {
+    if (const auto found = solved(exact, settings.mount, method))
+    {
+      HandEyeCalibration calibration = judged(*found, exact, settings.mount);
+      calibration.method = name;
+      if (std::isfinite(calibration.shift) && (!best || calibration.shift < best->shift))
+      {
+        best = calibration;
+      }
+    }
+  }
+  if (!best)
+  {
+    throw Error("No place of the camera fits the pairs of poses: check that each has the gripper and the target of the "
+                "same moment.");
+  }
+  return *best;
+}
+
+std::string describe(const HandEyeCalibration& calibration)
+{
+  char text[200];
+  std::snprintf(text, sizeof(text),
+    "The target stays within %.2f mm and %.2f degrees (root mean square of %zu pairs; at "
+    "most %.2f mm and %.2f degrees).",
+    calibration.shift, calibration.turn, calibration.shifts.size(),
+    *std::max_element(calibration.shifts.begin(), calibration.shifts.end()),
+    *std::max_element(calibration.turns.begin(), calibration.turns.end()));
+  return text;
+}
+}

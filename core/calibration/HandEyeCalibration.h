@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <string>
+#include <vector>
+
+namespace meam
+{
+/// What the robot held, or looked at, at one place.
+struct HandEyePair
+{
+  Eigen::Isometry3d T_base_gripper = Eigen::Isometry3d::Identity(); ///< mm, as the robot tells it
+  Eigen::Isometry3d T_camera_target =
+    Eigen::Isometry3d::Identity(); ///< mm, of a calibration target, or of a part found
+};
+
+enum class CameraMount
+{
+  Beside, ///< the camera stands beside the robot, the target is in the gripper (eye-to-hand)
+  Hand    ///< the camera is on the gripper, the target stands still (eye-in-hand)
+};
+
+struct HandEyeSettings
+{
+  CameraMount mount = CameraMount::Beside;
+  double leastTurn = 5.0; ///< degrees that some motions have to turn, about axes that are not parallel
+};
+
+struct HandEyeCalibration
+{
+  /// Takes the camera's points to the robot's: to its base of a camera beside it, to its gripper of one on it; mm.
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+  /// Where the target is by the mean of all pairs: in the gripper, or in the base of a camera on the gripper; mm.
+  Eigen::Isometry3d T_holder_target = Eigen::Isometry3d::Identity();
+  std::vector<double> shifts; ///< mm, of the target at each pair from that mean
+  std::vector<double> turns;  ///< degrees, the same of its orientation
+  double shift = 0.0;         ///< mm, root mean square of these: the residual
+  double turn = 0.0;          ///< degrees
+  std::string method;         ///< whose it is: the one with the smallest residual
+};
+
+/// The camera's place from pairs of poses: solves A X = X B by cv::calibrateHandEye with the methods of Park and Martin
+/// (1994), Horaud and Dornaika (1995), Daniilidis (1999) and Tsai and Lenz (1989), and takes that under which the
+/// target moves least. Throws Error for fewer than three pairs, poses that are not rigid, and motions that turn too
+/// little or about parallel axes alone, which leave the camera's place open.
+HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, const HandEyeSettings& settings = {});
+
+/// In a sentence, the residual.
+std::string describe(const HandEyeCalibration& calibration);
+}

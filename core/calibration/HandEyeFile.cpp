@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/HandEyeFile.h"
+
+#include "base/Error.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/JSONFile.h"
+#include "io/parsing/TextLines.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string_view>
+
+namespace meam
+{
+namespace
+{
+constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
+constexpr double Metre = 1000.0;           // mm
+constexpr std::string_view Separators = ",; \t";
+
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+  throw Error("The hand-eye file '" + path + "' " + what + ".");
+}
+
+Eigen::Isometry3d poseOf(
+  const std::string& path, const double* numbers, double unit, const char* name, std::size_t pair)
+{
+  Eigen::Isometry3d T;
+  T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers);
+  const Eigen::Matrix3d R = T.linear();
+  if (!T.matrix().allFinite() || !R.isUnitary(RotationTolerance) || R.determinant() < 0.0 ||
+      T.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+  {
+    fail(path,
+      std::string("has a ") + name + " that is not a rotation and a translation: pair " + std::to_string(pair + 1));
+  }
+  T.translation() *= unit;
+  return T;
+}
+
+HandEyeFile readJSON(const std::string& path, const std::string& bytes)
+{
+  const nlohmann::json file = parseJSON(path, bytes);
+  if (!file.contains("pairs") || !file["pairs"].is_array())
+  {
+    fail(path, "has no list 'pairs'");
+  }
+  const nlohmann::json units = file.value("units", nlohmann::json("mm"));
+  if (units != "mm" && units != "m")
+  {
+    fail(path, "has 'units' other than \"mm\" and \"m\"");
+  }
+  const double unit = units == "m" ? Metre : 1.0;
+  HandEyeFile result;
+  if (file.contains("mount"))
+  {
+    if (file["mount"] != "beside" && file["mount"] != "hand")
+    {
+      fail(path, "has a 'mount' other than \"beside\" and \"hand\"");
+    }
+    result.mount = file["mount"] == "hand" ? CameraMount::Hand : CameraMount::Beside;
+  }
+  for (const nlohmann::json& json : file["pairs"])
+  {
+    const std::size_t pair = result.pairs.size();
+    const auto pose = [&](const char* name)
+    {
+      const std::vector<double> numbers =
+        json.is_object() && json.contains(name) ? numbersOf(json[name], path, name) : std::vector<double>();
+      if (numbers.size() != 16)
+      {
+        fail(path, std::string("has no 4x4 '") + name + "' in pair " + std::to_string(pair + 1));
+      }
+      return poseOf(path, numbers.data(), unit, name, pair);
+    };
+    const Eigen::Isometry3d T_base_gripper = pose("T_base_gripper");
+    result.pairs.push_back({ T_base_gripper, pose("T_camera_target") });
+  }
+  return result;
+}
+
+HandEyeFile readTable(const std::string& path, const std::string& bytes)
+{
+  HandEyeFile result;
+  TextLines lines(bytes);
+  bool first = true;
+  while (lines.next())
+  {
+    std::vector<double> numbers;
+    std::string_view rest = lines.line();
+    bool good = true;
+    for (std::size_t at = rest.find_first_not_of(Separators); at != std::string_view::npos;
+         at = rest.find_first_not_of(Separators))
+    {
+      rest.remove_prefix(at);
+      const std::size_t end = std::min(rest.find_first_of(Separators), rest.size());
+      double value = 0.0;
+      good = good && parseNumber(rest.substr(0, end), value);
+      numbers.push_back(value);
+      rest.remove_prefix(end);
+    }
+    const bool isHeader = first && !good;
+    first = false;
+    if (isHeader)
+    {
+      continue;
+    }
+    const std::size_t pair = result.pairs.size();
+    if (!good || numbers.size() != 32)
+    {
+      fail(
+        path, "has a row that is not 32 numbers, T_base_gripper and T_camera_target: pair " + std::to_string(pair + 1));
+    }
+    const Eigen::Isometry3d T_base_gripper = poseOf(path, numbers.data(), 1.0, "T_base_gripper", pair);
+    result.pairs.push_back({ T_base_gripper, poseOf(path, numbers.data() + 16, 1.0, "T_camera_target", pair) });
+  }
+  return result;
+}
+}
+
+HandEyeFile readHandEye(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && bytes[first] == '{' ? readJSON(path, bytes) : readTable(path, bytes);
+}
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/RobotFrameFile.h"
+
+#include "base/Error.h"
+#include "io/PoseFile.h"
+#include "io/parsing/FileBytes.h"
+#include "io/parsing/JSONFile.h"
+#include "io/parsing/NestedText.h"
+#include "io/parsing/StorageText.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace meam
+{
+namespace
+{
+constexpr std::size_t MostBytes = 1 << 20; // a transform is a page of text
+constexpr double Tolerance = 1e-3;         // of entries that were printed with few digits
+constexpr double Metre = 1000.0;           // mm
+constexpr const char* Entry = "T_robot_camera";
+constexpr const char* Blanks = " \t\r\n";
+
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+  throw Error("The robot frame file '" + path + "' " + what + ".");
+}
+
+Eigen::Isometry3d poseOf(const std::string& path, const std::vector<double>& numbers, double unit)
+{
+  if (numbers.size() != 16)
+  {
+    fail(path, "has " + std::to_string(numbers.size()) + " numbers as " + Entry + " instead of 16");
+  }
+  Eigen::Isometry3d T;
+  T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  const Eigen::Matrix3d R = T.linear();
+  if (!T.matrix().allFinite() || !R.isUnitary(Tolerance) || R.determinant() < 0.0 ||
+      T.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+  {
+    fail(path, std::string("has a ") + Entry + " that is not a rotation and a translation");
+  }
+  T.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  T.translation() *= unit;
+  return T;
+}
+
+/// The numbers whose names end in each of these, within one transform: `a.` + each. None when there is none of them.
+std::optional<Eigen::Isometry3d> transformIn(
+  const std::string& path, const NestedNumbers& numbers, const std::array<std::string, 7>& names)
+{
+  std::optional<Eigen::Isometry3d> found;
+  for (const auto& [key, first] : numbers)
+  {
+    const std::string& name = names[0];
+    if (key.size() < name.size() || key.compare(key.size() - name.size(), name.size(), name) != 0 ||
+        (key.size() > name.size() && key[key.size() - name.size() - 1] != '.'))
+    {
+      continue;
+    }
+    const std::string parent = key.substr(0, key.size() - name.size());
+    std::array<double, 7> values{};
+    bool whole = true;
+    for (std::size_t k = 0; k < names.size(); ++k)
+    {
+      const auto entry = numbers.find(parent + names[k]);
+      whole = whole && entry != numbers.end();
+      values[k] = whole ? entry->second : 0.0;
+    }
+    if (!whole)
+    {
+      continue;
+    }
+    if (found)
+    {
+      fail(path, "has several transforms: leave the one from the robot's base to the camera alone");
+    }
+    Eigen::Quaterniond turn(values[6], values[3], values[4], values[5]);
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation() = Metre * Eigen::Vector3d(values[0], values[1], values[2]);
+    if (!T.translation().allFinite() || !(std::abs(turn.norm() - 1.0) < Tolerance))
+    {
+      fail(path, "has a rotation that is not a quaternion of length 1, or a number that is not finite");
+    }
+    T.linear() = turn.normalized().toRotationMatrix();
+    found = T;
+  }
+  return found;
+}
+
+/// The forms of ROS.
+std::optional<Eigen::Isometry3d> transformIn(const std::string& path, const NestedNumbers& numbers)
+{
+  const auto apart = transformIn(path, numbers,
+    { "translation.x", "translation.y", "translation.z", "rotation.x", "rotation.y", "rotation.z", "rotation.w" });
+  return apart ? apart : transformIn(path, numbers, { "x", "y", "z", "qx", "qy", "qz", "qw" });
+}
+
+std::optional<Eigen::Isometry3d> frameInJSON(const std::string& path, const std::string& bytes)
+{
+  const nlohmann::json file = parseJSON(path, bytes);
+  if (!file.contains(Entry))
+  {
+    return transformIn(path, numbersInJSONTree(file));
+  }
+  const nlohmann::json units = file.value("units", nlohmann::json("mm"));
+  if (units != "mm" && units != "m")
+  {
+    fail(path, "has 'units' other than \"mm\" and \"m\"");
+  }
+  const nlohmann::json& value = file[Entry];
+  const nlohmann::json& numbers = value.is_object() && value.contains("data") ? value["data"] : value;
+  return poseOf(path, numbersOf(numbers, path, Entry), units == "m" ? Metre : 1.0);
+}
+}
+
+Eigen::Isometry3d readRobotFrame(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  if (bytes.size() > MostBytes || bytes.find('\0') != std::string::npos)
+  {
+    fail(path, "is not a text with a transform");
+  }
+  const std::size_t first = bytes.find_first_not_of(Blanks);
+  std::optional<Eigen::Isometry3d> found;
+  if (first != std::string::npos && bytes[first] == '{')
+  {
+    found = frameInJSON(path, bytes);
+  }
+  else if (bytes.find(Entry) != std::string::npos)
+  {
+    const NamedNumbers entries = numbersInStorage(path, bytes);
+    const auto entry = entries.find(Entry);
+    found = entry != entries.end() ? std::optional(poseOf(path, entry->second, 1.0)) : std::nullopt;
+  }
+  else if (bytes.find(':') != std::string::npos)
+  {
+    found = transformIn(path, numbersInIndentedText(bytes));
+  }
+  else
+  {
+    const std::vector<Eigen::Isometry3d> matrices = readMatrices(path);
+    if (matrices.size() == 1)
+    {
+      found = matrices.front();
+    }
+  }
+  if (!found)
+  {
+    fail(path, std::string("has no ") + Entry + " (4x4), no translation and rotation, and not one matrix alone");
+  }
+  return *found;
+}
+
+void writeRobotFrame(const std::string& path, const Eigen::Isometry3d& T_robot_camera, const std::string& robotFrame,
+  const std::string& cameraFrame)
+{
+  if (!T_robot_camera.matrix().allFinite())
+  {
+    throw Error("The file '" + path + "' was not written: the transform has a value that is not a number.");
+  }
+  const Eigen::Quaterniond q = Eigen::Quaterniond(T_robot_camera.linear()).normalized();
+  const Eigen::Vector3d t = T_robot_camera.translation() / Metre;
+  const std::string extension = extensionOf(path);
+  if (extension == ".yaml" || extension == ".yml")
+  {
+    const auto line = [](const char* name, double value)
+    { return std::string("    ") + name + ": " + nlohmann::json(value).dump() + "\n"; };
+    const auto text = [](const std::string& value) { return nlohmann::json(value).dump(); }; // quotes are YAML's, too
+    writeFile(path, "header:\n  frame_id: " + text(robotFrame) + "\nchild_frame_id: " + text(cameraFrame) +
+                      "\ntransform:\n  translation:\n" + line("x", t.x()) + line("y", t.y()) + line("z", t.z()) +
+                      "  rotation:\n" + line("x", q.x()) + line("y", q.y()) + line("z", q.z()) + line("w", q.w()));
+    return;
+  }
+  nlohmann::ordered_json json;
+  json["format"] = "meam-robot-frame";
+  json["version"] = 1;
+  json["units"] = "mm";
+  for (int row = 0; row < 4; ++row)
+  {
+    const Eigen::RowVector4d values = T_robot_camera.matrix().row(row);
+    json[Entry].push_back({ values[0], values[1], values[2], values[3] });
+  }
+  writeFile(path, json.dump(1) + "\n");
+}
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMGraspWriter.h"
+
+#include "pick/io/GraspFile.h"
+#include "vtkMEAMGraspConversion.h"
+#include "vtkMEAMRun.h"
+
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkMEAMGraspWriter);
+
+vtkMEAMGraspWriter::vtkMEAMGraspWriter() = default;
+
+vtkMEAMGraspWriter::~vtkMEAMGraspWriter() { this->SetFileName(nullptr); }
+
+int vtkMEAMGraspWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+void vtkMEAMGraspWriter::WriteData()
+{
+  const int done = vtkMEAMRun(this,
+    [this]
+    {
+      if (!this->FileName || !*this->FileName)
+      {
+        throw meam::Error("No file is given: set FileName to the name of the file to write.");
+      }
+      meam::writeGrasps(this->FileName, vtkMEAMConversion::toGrasps(vtkPolyData::SafeDownCast(this->GetInput())));
+    });
+  this->SetErrorCode(done ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError);
+}
+
+void vtkMEAMGraspWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}

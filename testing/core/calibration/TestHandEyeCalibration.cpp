@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/HandEyeCalibration.h"
+#include "TestFiles.h"
+#include "TestParts.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using meam::CameraMount;
+using meam::HandEyePair;
+
+Eigen::Isometry3d placed(const Eigen::Vector3d& position, double angle, const Eigen::Vector3d& axis)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(position);
+  T.rotate(Eigen::AngleAxisd(angle, axis.normalized()));
+  return T;
+}
+
+const Eigen::Isometry3d Camera = placed({ 400, -250, 900 }, 2.8, { 1, 0.2, -0.1 });
+const Eigen::Isometry3d Target = placed({ 15, -8, 120 }, 0.7, { -0.3, 1, 0.5 });
+
+/// Exact pairs, or with `noise` mm (and half of it in degrees) on what the camera sees.
+std::vector<HandEyePair> pairsOf(CameraMount mount, int count, double noise = 0.0)
+{
+  std::mt19937 random(3);
+  std::vector<HandEyePair> pairs;
+  for (int k = 0; k < count; ++k)
+  {
+    HandEyePair pair;
+    pair.T_base_gripper = parts::motion(random, 300);
+    pair.T_camera_target = mount == CameraMount::Hand ? Camera.inverse() * pair.T_base_gripper.inverse() * Target
+                                                      : Camera.inverse() * pair.T_base_gripper * Target;
+    const Eigen::Vector3d axis = parts::motion(random, 1).translation();
+    pair.T_camera_target =
+      pair.T_camera_target * placed(noise * parts::motion(random, 1).translation(), 0.5 * noise * M_PI / 180.0, axis);
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+meam::HandEyeCalibration calibrated(const std::vector<HandEyePair>& pairs, CameraMount mount)
+{
+  meam::HandEyeSettings settings;
+  settings.mount = mount;
+  return meam::calibrateHandEye(pairs, settings);
+}
+}
+
+TEST(HandEyeCalibration, findsTheCamera)
+{
+  for (const CameraMount mount : { CameraMount::Beside, CameraMount::Hand })
+  {
+    for (const int count : { 3, 12 })
+    {
+      const meam::HandEyeCalibration found = calibrated(pairsOf(mount, count), mount);
+      EXPECT_TRUE(found.T_robot_camera.isApprox(Camera, 1e-9)) << found.T_robot_camera.matrix();
+      EXPECT_TRUE(found.T_holder_target.isApprox(Target, 1e-9)) << found.T_holder_target.matrix();
+      EXPECT_LT(found.shift, 1e-6);
+      EXPECT_LT(found.turn, 1e-6);
+      EXPECT_EQ(found.shifts.size(), static_cast<std::size_t>(count));
+    }
+  }
+}
+
+TEST(HandEyeCalibration, theResidualTellsTheNoise)
+{
+  const meam::HandEyeCalibration found = calibrated(pairsOf(CameraMount::Beside, 20, 0.5), CameraMount::Beside);
+  EXPECT_LT((found.T_robot_camera.translation() - Camera.translation()).norm(), 3.0);
+  EXPECT_GT(found.shift, 0.1);
+  EXPECT_LT(found.shift, 3.0);
+  EXPECT_NEAR(found.turn, 0.25, 0.1);
+  EXPECT_TRUE(files::contains(meam::describe(found), "mm"));
+  // One that does not belong to the others stands out.
+  std::vector<HandEyePair> pairs = pairsOf(CameraMount::Beside, 20);
+  pairs[7].T_camera_target.translation().x() += 30.0;
+  const meam::HandEyeCalibration one = calibrated(pairs, CameraMount::Beside);
+  EXPECT_EQ(std::max_element(one.shifts.begin(), one.shifts.end()) - one.shifts.begin(), 7);
+}
+
+TEST(HandEyeCalibration, tooLittleIsSaid)
+{
+  const auto error = [](const std::vector<HandEyePair>& pairs)
+  { return files::errorOf([&] { meam::calibrateHandEye(pairs); }); };
+  EXPECT_TRUE(files::contains(error(pairsOf(CameraMount::Beside, 2)), "there are 2"));
+  std::vector<HandEyePair> shifted, aboutOneAxis;
+  for (int k = 0; k < 6; ++k)
+  {
+    HandEyePair pair;
+    pair.T_base_gripper = placed({ 50.0 * k, -30.0 * k * k, 10.0 * k }, 0.4, { 0, 1, 1 });
+    pair.T_camera_target = Camera.inverse() * pair.T_base_gripper * Target;
+    shifted.push_back(pair);
+    pair.T_base_gripper = placed({ 50.0 * k, -30.0 * k * k, 10.0 * k }, 0.4 * k, { 0, 0, 1 });
+    pair.T_camera_target = Camera.inverse() * pair.T_base_gripper * Target;
+    aboutOneAxis.push_back(pair);
+  }
+  EXPECT_TRUE(files::contains(error(shifted), "turn by less than 5 degrees"));
+  EXPECT_TRUE(files::contains(error(aboutOneAxis), "parallel axes"));
+  std::vector<HandEyePair> scaled = pairsOf(CameraMount::Beside, 5);
+  scaled[2].T_base_gripper.linear() *= 2.0;
+  EXPECT_TRUE(files::contains(error(scaled), "T_base_gripper of pair 3"));
+}
