@@ -8,6 +8,7 @@
 #include "pick/proposal/GripperContact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -188,6 +189,15 @@ Grasps candidates(const std::vector<ContactPlace>& places, const GraspJudge& jud
   return all;
 }
 
+/// From which of the part's six sides a grasp comes.
+std::size_t sideOf(const Grasp& grasp)
+{
+  const Eigen::Vector3d approach = grasp.T_model_grasp.linear().col(2);
+  int axis = 0;
+  approach.cwiseAbs().maxCoeff(&axis);
+  return static_cast<std::size_t>(2 * axis + (approach[axis] > 0.0));
+}
+
 /// The frames of the grasps that were taken, with those that are as good.
 class TakenFrames
 {
@@ -247,22 +257,44 @@ Grasps proposeGrasps(const TriangleMesh& part, const Symmetries& symmetries, con
 
   TakenFrames taken(symmetries, settings.spread > 0.0 ? settings.spread : SamePlaces * size, settings, size);
   const char* name = gripper.kind == GraspKind::Suction ? "suction " : "parallel ";
+  // Half of them the best ones; then in turn from each side of the part: however it lies, some come from above.
   Grasps best;
-  for (const Grasp& grasp : all)
+  const auto take = [&](const Grasp& grasp)
   {
-    if (static_cast<int>(best.size()) >= settings.most)
-    {
-      break;
-    }
     if (taken.isNear(grasp.T_model_grasp))
     {
-      continue;
+      return false;
     }
     best.push_back(grasp);
-    best.back().name = name + std::to_string(best.size());
     best.back().freeTurn = judge.freeTurn(grasp);
     taken.add(best.back());
     report(progress, AfterCandidates + (1.0 - AfterCandidates) * best.size() / settings.most);
+    return true;
+  };
+  const auto most = static_cast<std::size_t>(settings.most);
+  std::array<std::vector<const Grasp*>, 6> bySide;
+  for (const Grasp& grasp : all)
+  {
+    if (2 * best.size() >= most || !take(grasp))
+    {
+      bySide[sideOf(grasp)].push_back(&grasp);
+    }
+  }
+  std::array<std::size_t, 6> next{};
+  for (std::size_t before = most; best.size() != before && best.size() < most;)
+  {
+    before = best.size();
+    for (std::size_t side = 0; side < bySide.size() && best.size() < most; ++side)
+    {
+      while (next[side] < bySide[side].size() && !take(*bySide[side][next[side]++]))
+      {
+      }
+    }
+  }
+  std::stable_sort(best.begin(), best.end(), [](const Grasp& a, const Grasp& b) { return a.quality > b.quality; });
+  for (std::size_t k = 0; k < best.size(); ++k)
+  {
+    best[k].name = name + std::to_string(k + 1);
   }
   return best;
 }

@@ -11,7 +11,7 @@ namespace meam
 {
 struct GraspProposalSettings
 {
-  int most = 20;       ///< grasps that come out, the best ones
+  int most = 20;       ///< grasps that come out, half of them the best ones, the others the best of each side in turn
   double spread = 0.0; ///< mm: nearer than this and turned by less than `turnApart` two grasps are one; 0: 10 % of D
   double turnApart = 40.0; ///< degrees, between grasps at one place; less than the step between approaches
 

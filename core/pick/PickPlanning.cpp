@@ -197,6 +197,9 @@ public:
     {
       throw Error("There is no grasp: define one at least, or have some proposed.");
     }
+    Gripper wide = hand; // a cup keeps the margin from what stands out of the part, as jaws do by their clearance
+    wide.cupDiameter += 2.0 * wanted.safetyMargin;
+    const PickCollisions own(mesh, wide);
     const std::vector<Eigen::Isometry3d> symmetric = turnsOf(symmetries, wanted.turnStep);
     for (const Grasp& grasp : grasps)
     {
@@ -213,8 +216,7 @@ public:
       {
         const double back = grasp.kind == GraspKind::Suction ? wanted.cupSlack : 0.0;
         const Grasp open = at(grasp, frame * Eigen::Translation3d(0.0, 0.0, -back));
-        this->touching.back().push_back(
-          this->fits(grasp) && this->collisions.touchesHeld(open, wanted.wayIn, this->step()));
+        this->touching.back().push_back(this->fits(grasp) && own.touchesHeld(open, wanted.wayIn, this->step()));
       }
     }
   }

@@ -6,5 +6,6 @@ SUMMARIES = {
     "train": "train the model of a part from its CAD file",
     "detect": "find the copies of one or several parts in a scan",
     "simulate": "simulate scans of bins with their true poses, as a dataset",
+    "cell": "simulate a picking cell: find, pick, until the bin is empty",
     "evaluate": "run the method on scenes with true poses and print how many it finds",
 }

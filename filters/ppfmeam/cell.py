@@ -1,0 +1,312 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A picking cell, simulated (Section 6.4 of the paper): parts fall into a bin, are scanned, found and picked one by one,
+the gripper among the true parts, until none is left or none can be picked."""
+import os
+import sys
+import time
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from . import filters, scripting, simulation, world
+
+COPIES = 12  # in a bin, as in the paper
+BINS = 5
+MOST_FAILURES = 3  # one after the other: then the bin is given up
+PROBABILITY = 0.5  # of a pose that is picked
+BIN = ("part", "sensor", "gripper", "seed")
+ROW = (*BIN, "trial", "left", "found", "possible", "outcome", "reason", "mm", "degrees", "detect_ms", "plan_ms")
+HEAD = ("| part | sensor | gripper | bins | trials | success | failure | success rate | left in the bins | detection ms | planning ms |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|")
+PAPER = "| part A (the paper) | structured light | jaws | 5 | 63 | 60 | 3 | 95.2 % | 0 | 889 | - |"
+
+
+def column(data, name):
+    return vtk_to_numpy(data.GetPointData().GetArray(name))
+
+
+def text(data, name, row):
+    return data.GetPointData().GetAbstractArray(name).GetValue(row)
+
+
+def rows_of(data, rows):
+    """Some of the points with their arrays and the field data."""
+    chosen = vtkPolyData()
+    chosen.SetPoints(vtkPoints())
+    chosen.GetPointData().CopyAllocate(data.GetPointData())
+    for place, row in enumerate(rows):
+        chosen.GetPoints().InsertNextPoint(data.GetPoint(row))
+        chosen.GetPointData().CopyData(data.GetPointData(), row, place)
+    chosen.GetFieldData().ShallowCopy(data.GetFieldData())
+    return chosen
+
+
+def poses_of(transforms):
+    data = vtkPolyData()
+    data.SetPoints(vtkPoints())
+    for transform in transforms:
+        data.GetPoints().InsertNextPoint(transform[:3, 3])
+    array = numpy_to_vtk(numpy.ascontiguousarray(transforms).reshape(-1, 16), deep=True)
+    array.SetName("Transform")
+    data.GetPointData().AddArray(array)
+    return data
+
+
+class Gripper:
+    """Jaws or a cup, in lengths that suit a part: set on the filters that take them."""
+
+    def __init__(self, kind, diameter):
+        self.kind = kind
+        size = diameter / 80
+        self.lengths = dict(Opening=92 * size, JawClearance=3 * size, FingerWidth=8 * size, FingerThickness=5 * size,
+                            FingerLength=60 * size, TipLength=5 * size, BodyLength=80 * size, BodyWidth=40 * size,
+                            CupDiameter=8 * size, CupLength=50 * size)
+
+    def set(self, algorithm):
+        for name, value in self.lengths.items():
+            getattr(algorithm, "Set" + name)(value)
+
+
+class Station:
+    """What a cell knows of a part before the first scan: its model, its grasps, its gripper."""
+
+    def __init__(self, part, sensor, gripper, threads):
+        self.part, self.sensor = part, sensor
+        self.mesh = simulation.part_mesh(part)
+        training = scripting.Training(self.mesh)
+        self.model = training.model()
+        self.diameter = scripting.field(self.model, "Diameter")
+        self.gripper = Gripper(gripper, self.diameter)
+        definition = filters.vtkMEAMGraspDefinition()
+        definition.SetInputDataObject(self.mesh)
+        definition.SetInputDataObject(1, self.model)
+        scripting.set_choice(definition, "Propose", "Suction" if gripper == "cup" else "ParallelJaws")
+        self.gripper.set(definition)
+        definition.SetMaximumNumberOfGrasps(40)
+        self.grasps = vtkPolyData()
+        self.grasps.ShallowCopy(scripting.update(definition).GetOutput())
+        if self.grasps.GetNumberOfPoints() == 0:
+            raise scripting.Failure(f"no grasp of {part} is found for this gripper")
+        self.estimation = filters.vtkMEAMPoseEstimation()
+        self.estimation.SetInputDataObject(self.model)
+        self.estimation.SetMaximumNumberOfPoses(0)
+        self.estimation.SetMinimumProbability(PROBABILITY)
+        self.estimation.SetNumberOfThreads(threads)
+        self.planning = filters.vtkMEAMPickPlanning()
+        self.planning.SetInputDataObject(1, self.mesh)
+        self.planning.SetInputDataObject(2, self.grasps)
+        scripting.set_choice(self.planning, "Gripper", "SuctionCup" if gripper == "cup" else "ParallelJaws")
+        self.gripper.set(self.planning)
+        self.planning.SetBinToGiven()
+        self.trial = filters.vtkMEAMPickTrial()
+        self.trial.SetInputDataObject(1, self.mesh)
+
+    def set_bin(self, truth):
+        """A cell knows its bin."""
+        values = scripting.tuples(truth, "Bin")[0]
+        self.planning.SetBinPosition(values[3], values[7], values[11])
+        self.planning.SetBinSize(values[16:19])
+        self.planning.SetBinWall(values[19])
+
+
+class Bin:
+    """Copies of the part, scanned again after each pick."""
+
+    def __init__(self, station, copies, seed):
+        self.source = filters.vtkMEAMBinSceneSource()
+        self.source.SetInputDataObject(station.mesh)
+        self.source.SetCopies(copies)
+        simulation.set_sensor(self.source, station.sensor)
+        self.seed, self.scans = seed, 0
+        self.scan_again()
+        self.source.SetBinSize(scripting.field(self.scan, "BinSize"))
+
+    def scan_again(self):
+        self.source.SetSeed(1000 * self.seed + self.scans)
+        self.scans += 1
+        scripting.update(self.source)
+        self.scan, self.truth = (self.source.GetOutputDataObject(port).NewInstance() for port in (0, 1))
+        self.scan.ShallowCopy(self.source.GetOutputDataObject(0))
+        self.truth.ShallowCopy(self.source.GetOutputDataObject(1))
+
+    @property
+    def left(self):
+        return self.truth.GetNumberOfPoints() if self.truth else 0
+
+    def take(self, instance):
+        """A copy (from 0) goes; the others come to rest and are scanned. Whether any is left."""
+        stay = numpy.delete(column(self.truth, "Transform").reshape(-1, 4, 4), instance, axis=0)
+        if not len(stay):
+            self.truth = None
+            return False
+        self.source.SetInputDataObject(1, poses_of(stay))
+        self.source.SetSettle(True)
+        self.scan_again()
+        return True
+
+
+class Film:
+    """What happens in a bin, for ParaView: DIR/NAME.pvd with the true parts, the parts found and the gripper, a time step for
+    each trial."""
+
+    def __init__(self, folder, name, station):
+        self.folder, self.name, self.station, self.entries = folder, name, station, []
+        os.makedirs(os.path.join(folder, name), exist_ok=True)
+
+    def add(self, truth, gripper):
+        instances = filters.vtkMEAMPoseInstances()
+        instances.SetInputDataObject(truth)
+        instances.SetInputDataObject(1, self.station.mesh)
+        step = len(self.entries) // 2
+        for part, (kind, data) in enumerate((("parts", scripting.update(instances).GetOutput()), ("gripper", gripper))):
+            path = os.path.join(self.name, f"{kind}_{step:03}.vtp")
+            writer = vtkXMLPolyDataWriter()
+            writer.SetInputData(data)
+            writer.SetFileName(os.path.join(self.folder, path))
+            writer.SetDataModeToBinary()
+            scripting.update(writer, "Write")
+            self.entries.append(f'    <DataSet timestep="{step}" part="{part}" name="{kind}" file="{path}"/>')
+        with scripting.written(os.path.join(self.folder, self.name + ".pvd")) as file:
+            file.write("\n".join(['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>",
+                                  *self.entries, "  </Collection>", "</VTKFile>", ""]))
+
+
+def errors(pose, truth, station):
+    """Of a pose the distance (mm) of its middle from the nearest true one, and the least turn (degrees) against it."""
+    middle = numpy.array(station.mesh.GetCenter())
+    places = truth[:, :3, :3] @ middle + truth[:, :3, 3]
+    distances = numpy.linalg.norm(places - (pose[:3, :3] @ middle + pose[:3, 3]), axis=1)
+    nearest = int(numpy.argmin(distances))
+    turn = truth[nearest][:3, :3].T @ pose[:3, :3]
+    return distances[nearest], float(numpy.degrees(numpy.arccos(numpy.clip((numpy.trace(turn) - 1) / 2, -1, 1))))
+
+
+def trials(station, copies, seed, film=None, pictures=None):
+    """Picks a bin empty; yields a row for each trial, the last one, without an outcome, of parts that cannot be picked."""
+    bin, failures, tried = Bin(station, copies, seed), 0, set()
+    number = 0
+    station.set_bin(bin.truth)
+    while bin.left:
+        start = time.perf_counter()
+        station.estimation.SetInputDataObject(1, bin.scan)
+        found = scripting.update(station.estimation).GetOutput()
+        detected = time.perf_counter()
+        station.planning.SetInputDataObject(0, found)
+        station.planning.SetInputDataObject(3, bin.scan)
+        picks = scripting.update(station.planning).GetOutput()
+        planned = time.perf_counter()
+        possible = [] if not picks.GetNumberOfPoints() else [
+            row for row in numpy.flatnonzero(column(picks, "Possible")) if text(picks, "GraspName", row) not in tried]
+        number += 1
+        row = {**dict.fromkeys(ROW, ""), "part": station.part, "sensor": station.sensor, "gripper": station.gripper.kind,
+               "seed": seed, "trial": number, "left": bin.left, "found": found.GetNumberOfPoints(), "possible": len(possible),
+               "detect_ms": f"{1000 * (detected - start):.0f}", "plan_ms": f"{1000 * (planned - detected):.0f}"}
+        if not possible or failures >= MOST_FAILURES:
+            reason = "given up after failures" if possible else picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0)
+            yield {**row, "reason": reason}
+            return
+        pick = possible[0]
+        station.trial.SetInputDataObject(0, rows_of(picks, [pick]))
+        station.trial.SetInputDataObject(2, bin.truth)
+        outcome = scripting.update(station.trial).GetOutput()
+        truth = column(bin.truth, "Transform").reshape(-1, 4, 4)
+        instance = int(column(picks, "Instance")[pick])
+        off = errors(column(found, "Transform").reshape(-1, 4, 4)[instance - 1], truth, station)
+        row.update(outcome=text(outcome, "OutcomeName", 0), mm=f"{off[0]:.2f}", degrees=f"{off[1]:.1f}",
+                   reason=f"{text(picks, 'GraspName', pick)}, clearance {column(picks, 'Clearance')[pick]:.1f} mm")
+        if film or pictures:
+            station.planning.SetShownGrippers(station.planning.AllPossible)
+            gripper = of_pick(scripting.update(station.planning).GetOutputDataObject(1), pick + 1)
+            station.planning.SetShownGrippers(station.planning.BestOfEachInstance)
+            if film:
+                film.add(bin.truth, gripper)
+            if pictures:
+                pictures(bin.scan, found, gripper, row)
+        yield row
+        if row["outcome"] == "success":
+            failures, tried = 0, set()
+            bin.take(int(column(outcome, "TrueInstance")[0]) - 1)
+        else:
+            failures += 1
+            tried.add(text(picks, "GraspName", pick))  # another one next time
+            bin.scan_again()
+
+
+def of_pick(gripper, rank):
+    """Of the grippers at all picks that at one."""
+    from vtkmodules.vtkFiltersCore import vtkThreshold
+    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+    threshold, geometry = vtkThreshold(), vtkGeometryFilter()
+    threshold.SetInputDataObject(gripper)
+    threshold.SetInputArrayToProcess(0, 0, 0, 1, "Rank")
+    threshold.SetLowerThreshold(rank)
+    threshold.SetUpperThreshold(rank)
+    geometry.SetInputConnection(threshold.GetOutputPort())
+    return scripting.update(geometry).GetOutput()
+
+
+def bin_of(row):
+    return tuple(str(row[name]) for name in BIN)
+
+
+def table(rows):
+    """Table 9 in Markdown, and each failure with its reason."""
+    lines, failures = [HEAD, PAPER], []
+    for kind in dict.fromkeys((row["part"], row["sensor"], row["gripper"]) for row in rows):
+        of_kind = [row for row in rows if (row["part"], row["sensor"], row["gripper"]) == kind]
+        tried = [row for row in of_kind if row["outcome"]]
+        right = sum(row["outcome"] == "success" for row in tried)
+        left = [row for row in of_kind if not row["outcome"]]
+        rate = f"{100 * right / len(tried):.1f} %" if tried else "-"
+        detect, plan = (numpy.median([float(row[name]) for row in of_kind]) for name in ("detect_ms", "plan_ms"))
+        cells = (*kind, len(set(map(bin_of, of_kind))), len(tried), right, len(tried) - right, rate,
+                 sum(int(row["left"]) for row in left), f"{detect:.0f}", f"{plan:.0f}")
+        lines.append("| " + " | ".join(map(str, cells)) + " |")
+        failures += [f"- {row['part']}, {row['sensor']}, bin {row['seed']}, trial {row['trial']}: "
+                     + (f"{row['outcome']} ({row['reason']}; the pose is {row['mm']} mm and {row['degrees']} degrees off)"
+                        if row["outcome"] else f"{row['left']} left: {row['reason']}")
+                     for row in of_kind if row["outcome"] != "success"]
+    return "\n".join(lines) + "\n" + ("\nFailures, and bins that were left:\n\n" + "\n".join(failures) + "\n" if failures else "")
+
+
+def run(folder, parts, sensors, gripper, bins, copies, first, threads, show=False):
+    """Table 9 in Markdown; DIR/cell.csv has a row for each trial and is gone on with, DIR/table9.md is the table, DIR/NAME.pvd
+    the film of each bin and, when it is shown, DIR/NAME.png a strip of pictures. A bin that was interrupted starts anew."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise scripting.Failure(f"cannot write {folder}: {error.strerror}") from None
+    whole = world.Lines(os.path.join(folder, "bins.csv"), BIN)
+    done = set(map(bin_of, whole.rows))
+    record = world.Lines(os.path.join(folder, "cell.csv"), ROW, lambda row: bin_of(row) in done)
+    wanted = [(part, sensor, gripper, str(seed)) for part in parts for sensor in sensors for seed in range(first, first + bins)]
+    todo = [each for each in wanted if each not in done]
+    station, start = None, time.time()
+    for count, (part, sensor, _, seed) in enumerate(todo):
+        if station is None or (station.part, station.sensor) != (part, sensor):
+            station = Station(part, sensor, gripper, threads)
+        name = f"{part}_{sensor}_{gripper}_{seed}"
+        film = Film(folder, name, station)
+        strip = None
+        if show:
+            from .cellpicture import Strip
+            strip = Strip(station)
+        rows = []
+        for row in trials(station, copies, int(seed), film, strip.add if strip else None):
+            rows.append(row)
+            print(f"{part}, {sensor}, bin {seed}: {row['left']} left, trial {row['trial']}: {row['outcome'] or row['reason']}",
+                  file=sys.stderr, flush=True)
+        if strip:
+            strip.write(os.path.join(folder, name + ".png"))
+        record.add(rows)
+        whole.add([dict(zip(BIN, (part, sensor, gripper, seed)))])
+        left = (time.time() - start) / (count + 1) * (len(todo) - count - 1)
+        print(f"bin {len(wanted) - len(todo) + count + 1} of {len(wanted)} is done; {left / 60:.0f} min left", file=sys.stderr, flush=True)
+    text = ("Table 9. Pickup success rate: a simulated cell with " + str(copies) + " parts in a bin.\n\n"
+            + table([row for row in record.rows if bin_of(row) in set(wanted)]))
+    with scripting.written(os.path.join(folder, "table9.md")) as file:
+        file.write(text)
+    return text
