@@ -7,6 +7,7 @@
 #include "simulation/parts/SamplePart.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMPickConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
@@ -145,6 +146,7 @@ int vtkMEAMBinSceneSource::RequestData(
           settings.poses.push_back(pose.T_scene_model);
         }
       }
+      settings.settle = this->Settle;
       settings.seed = static_cast<unsigned>(this->Seed);
       settings.binSize = this->BinSize;
       settings.sensorHeight = this->SensorHeight;
@@ -192,6 +194,7 @@ int vtkMEAMBinSceneSource::RequestData(
       }
       fromPoses(poses, truth);
       addMasks(scene.instances, truth);
+      setBin(truth, scene.bin);
       setDiameter(truth, meam::diameter(mesh.vertices));
       fromMesh(mesh, part);
     },
@@ -202,6 +205,7 @@ void vtkMEAMBinSceneSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Copies: " << this->Copies << "\n";
+  os << indent << "Settle: " << this->Settle << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "BinSize: " << this->BinSize << " mm\n";
   os << indent << "SensorHeight: " << this->SensorHeight << " mm\n";

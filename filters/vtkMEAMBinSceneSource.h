@@ -8,8 +8,8 @@
  * pixels, noise, steps and missing points of such sensors; each of these can be chosen on its own, too.
  *
  * Input port 0 (optional): the part, a vtkPolyData with faces in mm. Default: vtkMEAMSamplePartSource.
- * Input port 1 (optional): poses in the sensor's frame (mm), as output port 1 has them: copies stand there, nothing
- * falls, and Copies does not count.
+ * Input port 1 (optional): poses in the sensor's frame (mm), as output port 1 has them: copies stand there and,
+ * unless Settle is on, nothing falls; Copies does not count.
  *
  * Output port 0: the scan, a vtkStructuredGrid of W x H x 1 points (mm, sensor's frame: x right, y down,
  * z the way it looks); points without depth are NaN and blanked. Point arrays: `Intensity` (unsigned
@@ -20,9 +20,9 @@
  * share of the pixels that nothing hides; `Score` and `Votes` are without meaning. Point arrays: `Pixels` (int;
  * that the copy would have if nothing else were there), `VisiblePixels` (int), `Box` (4 int: column and row of
  * its first pixel, width, height). Field data: `Diameter`; `Silhouettes` (unsigned char): the pixels of every
- * Box, row by row, one copy after the other, 255 where the copy would be.
- * Output port 2: the mesh that lies in the bin, a vtkPolyData.
- * Output port 3: the image, a vtkImageData of W x H; field data `CameraMatrix` and `CameraPose`.
+ * Box, row by row, one copy after the other, 255 where the copy would be; `Bin` (20: its frame, row-major, inner
+ * length, inner width, height, wall; mm). Output port 2: the mesh that lies in the bin, a vtkPolyData. Output port 3:
+ * the image, a vtkImageData of W x H; field data `CameraMatrix` and `CameraPose`.
  */
 #ifndef vtkMEAMBinSceneSource_h
 #define vtkMEAMBinSceneSource_h
@@ -41,6 +41,13 @@ public:
   /** Copies of the part in the bin. Default: 20. */
   vtkSetClampMacro(Copies, int, 1, 10000);
   vtkGetMacro(Copies, int);
+  ///@}
+
+  ///@{
+  /** Copies at the poses of input port 1 are let go and come to rest. Default: false. */
+  vtkSetMacro(Settle, bool);
+  vtkGetMacro(Settle, bool);
+  vtkBooleanMacro(Settle, bool);
   ///@}
 
   ///@{
@@ -261,6 +268,7 @@ private:
   void operator=(const vtkMEAMBinSceneSource&) = delete;
 
   int Copies = 20;
+  bool Settle = false;
   int Seed = 1;
   double BinSize = 0.0;
   double SensorHeight = 0.0;

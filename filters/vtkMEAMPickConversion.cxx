@@ -6,6 +6,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -13,7 +14,7 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
-#include <functional>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -21,6 +22,22 @@ namespace vtkMEAMConversion
 {
 namespace
 {
+using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+constexpr int BinNumbers = 20; // 16 of the frame, 3 of the size, the wall
+
+struct GripperLength
+{
+  const char* name;
+  double meam::Gripper::*length;
+};
+constexpr std::array<GripperLength, 10> GripperLengths{ { { "Opening", &meam::Gripper::opening },
+  { "JawClearance", &meam::Gripper::jawClearance }, { "FingerWidth", &meam::Gripper::fingerWidth },
+  { "FingerThickness", &meam::Gripper::fingerThickness }, { "FingerLength", &meam::Gripper::fingerLength },
+  { "TipLength", &meam::Gripper::tipLength }, { "BodyLength", &meam::Gripper::bodyLength },
+  { "BodyWidth", &meam::Gripper::bodyWidth }, { "CupDiameter", &meam::Gripper::cupDiameter },
+  { "CupLength", &meam::Gripper::cupLength } } };
+
 /// An array with a value for each pick.
 template <typename Array, typename Value>
 void addColumn(const meam::Picks& picks, const char* name, Value&& valueOf, vtkPolyData* output)
@@ -99,7 +116,7 @@ void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData
   for (const meam::Pick& pick : picks)
   {
     points->InsertNextPoint(pick.T_scene_grasp.translation().data());
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pick.T_scene_grasp.matrix();
+    const RowMajor matrix = pick.T_scene_grasp.matrix();
     transforms->InsertNextTuple(matrix.data());
     const Eigen::Quaterniond turn(pick.T_scene_grasp.linear());
     quaternions->InsertNextTuple(turn.coeffs().data());
@@ -123,6 +140,10 @@ void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData
     picks, "Grasp", [](const meam::Pick& pick) { return pick.grasp + 1; }, output);
   addColumn<vtkStringArray>(
     picks, "GraspName", [&](const meam::Pick& pick) { return grasps[pick.grasp].name; }, output);
+  addColumn<vtkIntArray>(
+    picks, "Kind", [&](const meam::Pick& pick) { return static_cast<int>(grasps[pick.grasp].kind); }, output);
+  addColumn<vtkDoubleArray>(
+    picks, "Width", [&](const meam::Pick& pick) { return grasps[pick.grasp].width; }, output);
   addColumn<vtkIntArray>(
     picks, "Obstacle", [](const meam::Pick& pick) { return pick.obstacle + 1; }, output);
   addColumn<vtkDoubleArray>(
@@ -164,5 +185,79 @@ void fromBin(const meam::Bin& bin, vtkPolyData* output)
     pieces.add(meam::meshOf(meam::GripperPiece{ false, Eigen::Vector3d::Zero(), box.size }), box.T_scene_box, {});
   }
   pieces.write(output);
+}
+
+void setBin(vtkDataObject* output, const meam::Bin& bin)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("Bin");
+  array->SetNumberOfComponents(BinNumbers);
+  array->SetNumberOfTuples(1);
+  Eigen::Map<RowMajor>(array->GetPointer(0)) = bin.T_scene_bin.matrix();
+  Eigen::Map<Eigen::Vector3d>(array->GetPointer(16)) = bin.size;
+  array->SetComponent(0, 19, bin.wall);
+  output->GetFieldData()->AddArray(array);
+}
+
+std::optional<meam::Bin> binOf(vtkDataObject* input)
+{
+  vtkDataArray* array = input->GetFieldData()->GetArray("Bin");
+  if (!array || array->GetNumberOfComponents() != BinNumbers || array->GetNumberOfTuples() < 1)
+  {
+    return {};
+  }
+  double values[BinNumbers];
+  array->GetTuple(0, values);
+  meam::Bin bin;
+  bin.T_scene_bin.matrix() = Eigen::Map<const RowMajor>(values);
+  bin.size = Eigen::Map<const Eigen::Vector3d>(values + 16);
+  bin.wall = values[19];
+  meam::requireBin(bin);
+  return bin;
+}
+
+void setGripper(vtkDataObject* output, const meam::Gripper& gripper)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("Gripper");
+  array->SetNumberOfComponents(1 + static_cast<int>(GripperLengths.size()));
+  array->SetNumberOfTuples(1);
+  array->SetComponentName(0, "Kind");
+  array->SetComponent(0, 0, static_cast<int>(gripper.kind));
+  for (std::size_t k = 0; k < GripperLengths.size(); ++k)
+  {
+    const int component = static_cast<int>(k) + 1;
+    array->SetComponentName(component, GripperLengths[k].name);
+    array->SetComponent(0, component, gripper.*GripperLengths[k].length);
+  }
+  output->GetFieldData()->AddArray(array);
+}
+
+std::optional<meam::Gripper> gripperOf(vtkDataObject* input)
+{
+  vtkDataArray* array = input->GetFieldData()->GetArray("Gripper");
+  if (!array || array->GetNumberOfComponents() != 1 + static_cast<int>(GripperLengths.size()) ||
+      array->GetNumberOfTuples() < 1)
+  {
+    return {};
+  }
+  meam::Gripper gripper;
+  gripper.kind = array->GetComponent(0, 0) > 0.5 ? meam::GraspKind::Suction : meam::GraspKind::Parallel;
+  for (std::size_t k = 0; k < GripperLengths.size(); ++k)
+  {
+    gripper.*GripperLengths[k].length = array->GetComponent(0, static_cast<int>(k) + 1);
+  }
+  return gripper;
+}
+
+std::vector<bool> possiblePicks(vtkPolyData* input)
+{
+  std::vector<bool> possible;
+  vtkDataArray* array = pointArray(input, "Possible", 1);
+  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  {
+    possible.push_back(!array || array->GetComponent(k, 0) != 0.0);
+  }
+  return possible;
 }
 }

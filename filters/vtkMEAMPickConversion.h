@@ -8,6 +8,10 @@
 #include "pick/Bin.h"
 #include "pick/PickPlanning.h"
 
+#include <optional>
+#include <vector>
+
+class vtkDataObject;
 class vtkPolyData;
 
 namespace vtkMEAMConversion
@@ -27,8 +31,19 @@ void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData
 void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const meam::Gripper& gripper, ShownPicks shown,
   vtkPolyData* output);
 
-/// The floor and the walls.
+/// The floor and the walls, to look at.
 void fromBin(const meam::Bin& bin, vtkPolyData* output);
+
+/// What picks were planned with travels with them as field data: `Bin` (20: the frame, row-major, inner length, inner
+/// width and height, wall) and `Gripper` (11, named: kind and lengths). None when it is not there.
+void setBin(vtkDataObject* output, const meam::Bin& bin);
+std::optional<meam::Bin> binOf(vtkDataObject* input);
+void setGripper(vtkDataObject* output, const meam::Gripper& gripper);
+std::optional<meam::Gripper> gripperOf(vtkDataObject* input);
+
+/// Whether each of the picks, which toGrasps() reads as grasps in the scene, is possible; all where `Possible` is not
+/// there.
+std::vector<bool> possiblePicks(vtkPolyData* input);
 }
 
 #endif

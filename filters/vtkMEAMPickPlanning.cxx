@@ -164,8 +164,10 @@ int vtkMEAMPickPlanning::RequestData(
       fromPicks(picks, grasps, output);
       setFieldText(output, "PickReport", meam::describe(picks));
       fromGrippers(picks, grasps, gripper, static_cast<ShownPicks>(this->ShownGrippers), grippers);
+      setGripper(output, gripper);
       if (bin)
       {
+        setBin(output, *bin);
         fromBin(*bin, walls);
       }
     },

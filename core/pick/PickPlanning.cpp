@@ -34,10 +34,10 @@ void check(const PickSettings& settings)
 {
   const auto length = [](double value) { return value >= 0.0 && std::isfinite(value); };
   if (!length(settings.safetyMargin) || !length(settings.wayIn) || !length(settings.tolerance) ||
-      !length(settings.voxelSize) || !length(settings.comfortableClearance))
+      !length(settings.voxelSize) || !length(settings.cupSlack) || !length(settings.comfortableClearance))
   {
-    throw Error(
-      "The safety margin, the way in, the tolerance, the voxels and the comfortable clearance must be 0 mm or more.");
+    throw Error("The safety margin, the way in, the tolerance, the voxels, the cup's slack and the "
+                "comfortable clearance must be 0 mm or more.");
   }
   if (!(settings.leastProbability >= 0.0 && settings.leastProbability <= 1.0) ||
       !(settings.mostTilt >= 0.0 && settings.mostTilt <= 180.0) ||
@@ -211,8 +211,10 @@ public:
       this->touching.push_back({});
       for (const auto& frame : this->frames.back())
       {
+        const double back = grasp.kind == GraspKind::Suction ? wanted.cupSlack : 0.0;
+        const Grasp open = at(grasp, frame * Eigen::Translation3d(0.0, 0.0, -back));
         this->touching.back().push_back(
-          this->fits(grasp) && this->collisions.touchesHeld(at(grasp, frame), wanted.wayIn, this->step()));
+          this->fits(grasp) && this->collisions.touchesHeld(open, wanted.wayIn, this->step()));
       }
     }
   }

@@ -26,6 +26,7 @@ struct PickSettings
   double mostCovered = 20.0;          ///< % of the part, from above, that may lie under something
   double comfortableClearance = 10.0; ///< mm; more is no better
   double turnStep = 30.0;             ///< degrees between the turns that a free one is tried at
+  double cupSlack = 2.0;              ///< mm that a cup gives way when it comes down on the part
   double tolerance = 0.0; ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
                           ///< 1 % of the part's size, its box from corner to corner; at most 6 %
   double voxelSize = 0.0; ///< mm, of what is measured besides; 0: 4 point distances, at least 1 % of the diameter

@@ -142,6 +142,7 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   Eigen::Isometry3d T_scene_bin = Eigen::Isometry3d::Identity();
   T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   T_scene_bin.translation().z() = sensorHeight;
+  scene.bin = { T_scene_bin, { scene.binSize, scene.binSize, wallHeight }, wallThickness };
   std::vector<Eigen::Isometry3d> poses = settings.poses;
   if (poses.empty() || settings.settle)
   {

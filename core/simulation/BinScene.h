@@ -2,6 +2,7 @@
 #pragma once
 #include "base/Error.h"
 #include "mesh/TriangleMesh.h"
+#include "pick/Bin.h"
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
 #include "simulation/VirtualSensor.h"
@@ -52,6 +53,7 @@ struct BinScene
   std::vector<int> instanceOfPixel; ///< of the depth; -1: the bin
   std::vector<BinInstance> instances;
   double binSize = 0.0; ///< mm
+  Bin bin;              ///< where it is
 };
 
 /// A bin with a floor, walls and copies of `part` (mm) that lie as they fell, and the scan of it by a virtual

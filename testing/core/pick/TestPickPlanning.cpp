@@ -176,6 +176,20 @@ TEST(PickPlanning, TiltUncertaintyWidthAndKind)
   EXPECT_EQ(onlyPick({ at(0, 0) }, {}, narrow).obstruction, meam::PickObstruction::PartItself);
 }
 
+TEST(PickPlanning, ACupMayLieOnThePart)
+{
+  meam::Grasp cup = fromAbove();
+  cup.kind = meam::GraspKind::Suction;
+  cup.T_model_grasp.translation().z() = -10.0;
+  meam::Gripper gripper;
+  gripper.kind = meam::GraspKind::Suction;
+  const auto picked = [&]
+  { return meam::PickPlanner(block(), {}, { cup }, gripper).plan({ at(0, 0) }, {}, bin()).front(); };
+  EXPECT_TRUE(picked().possible()) << meam::describe(picked());
+  cup.T_model_grasp.translation().z() = 0.0; // in the middle of it
+  EXPECT_EQ(picked().obstruction, meam::PickObstruction::PartItself);
+}
+
 TEST(PickPlanning, TheWallIsInTheWay)
 {
   const meam::Pick pick = onlyPick({ at(125, 0) }); // the jaw ends at 146, the wall begins at 150; the body ends at 153

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMPickTrial.h"
+
+#include "pick/PickTrial.h"
+#include "vtkMEAMGraspConversion.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMPickConversion.h"
+#include "vtkMEAMPoseConversion.h"
+#include "vtkMEAMRun.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+vtkStandardNewMacro(vtkMEAMPickTrial);
+
+vtkMEAMPickTrial::vtkMEAMPickTrial() { this->SetNumberOfInputPorts(4); }
+
+int vtkMEAMPickTrial::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMPickTrial::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace vtkMEAMConversion;
+  auto* picksInput = vtkPolyData::GetData(inputVector[0]);
+  auto* part = vtkPolyData::GetData(inputVector[1]);
+  auto* truthInput = vtkPolyData::GetData(inputVector[2]);
+  auto* gripperInput = vtkPolyData::GetData(inputVector[3]);
+  auto* output = vtkPolyData::GetData(outputVector);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      requireInputs(this, { "Picks", "Part", "True poses" });
+      const meam::Progress progress = progressOf(this);
+      const meam::Grasps picks = toGrasps(picksInput); // their frames are the scene's
+      const std::vector<bool> possible = possiblePicks(picksInput);
+      const meam::TriangleMesh mesh = toMesh(part);
+      std::vector<Eigen::Isometry3d> truths;
+      for (const meam::Pose& pose : toPoses(truthInput))
+      {
+        truths.push_back(pose.T_scene_model);
+      }
+      std::optional<meam::Bin> bin = binOf(truthInput);
+      if (!bin)
+      {
+        bin = binOf(picksInput);
+      }
+      std::optional<meam::Gripper> gripper = gripperOf(picksInput);
+      if (gripperInput)
+      {
+        gripper = meam::Gripper();
+        gripper->mesh = toMesh(gripperInput);
+      }
+      if (!gripper)
+      {
+        throw meam::Error("The picks have no field data 'Gripper': use the output of Pick Planning as it is.");
+      }
+      meam::PickTrialSettings settings;
+      settings.wayIn = this->WayIn;
+      settings.cupSlack = this->CupSlack;
+
+      vtkNew<vtkIntArray> outcomes, instances;
+      vtkNew<vtkStringArray> names;
+      outcomes->SetName("Outcome");
+      names->SetName("OutcomeName");
+      instances->SetName("TrueInstance");
+      for (std::size_t k = 0; k < picks.size(); ++k)
+      {
+        meam::report(progress, static_cast<double>(k) / static_cast<double>(picks.size()));
+        if (!possible[k])
+        {
+          outcomes->InsertNextValue(NotTried);
+          names->InsertNextValue("not tried");
+          instances->InsertNextValue(0);
+          continue;
+        }
+        const meam::PickTrial trial =
+          meam::tryPick(mesh, *gripper, picks[k], picks[k].T_model_grasp, truths, bin ? &*bin : nullptr, settings);
+        outcomes->InsertNextValue(static_cast<int>(trial.outcome));
+        names->InsertNextValue(meam::describe(trial.outcome));
+        instances->InsertNextValue(trial.instance + 1);
+      }
+      output->ShallowCopy(picksInput);
+      output->GetPointData()->AddArray(outcomes);
+      output->GetPointData()->AddArray(names);
+      output->GetPointData()->AddArray(instances);
+    },
+    output);
+}
+
+void vtkMEAMPickTrial::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "WayIn: " << this->WayIn << " mm\n";
+  os << indent << "CupSlack: " << this->CupSlack << " mm\n";
+}
