@@ -12,7 +12,7 @@ def main():
         epilog="""The pairs, as JSON:
   {"mount": "beside", "units": "mm", "pairs": [{"T_base_gripper": [[4x4]], "T_camera_target": [[4x4]]}, ...]}
 or as a table, CSV, with 32 numbers in a row: T_base_gripper and T_camera_target, mm, each row by row.
-Ten pairs or more, with the gripper turned by 30 degrees and more about several axes.""")
+Twenty pairs, with the gripper turned by 30 degrees and more about several axes.""")
     parser.add_argument("pairs", metavar="FILE", help="pairs of poses, .json or .csv")
     parser.add_argument("--camera", choices=("beside", "hand"),
                         help="beside the robot, which holds the target, or on its hand, with the target at rest (default: as "
