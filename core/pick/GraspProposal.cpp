@@ -2,9 +2,9 @@
 #include "pick/GraspProposal.h"
 
 #include "base/Parallel.h"
-#include "pick/GraspTurns.h"
 #include "pick/PickCollisions.h"
 #include "pick/proposal/ContactPlaces.h"
+#include "pick/proposal/GraspSpread.h"
 #include "pick/proposal/GripperContact.h"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ void requireSettings(const GraspProposalSettings& s)
   const bool angles = within(s.frictionAngle, 0.1, 89.0) && within(s.mostBend, 0.0, 89.0) &&
                       within(s.turnApart, 0.0, 180.0) && within(s.turnStep, 1.0, 90.0);
   const bool shares = within(s.leastContact, 0.0, 1.0) && within(s.freeTurnLoss, 0.0, 1.0) &&
-                      within(s.centreWeight, 0.0, 1.0) && within(s.angleWeight, 0.0, 1.0);
+                      within(s.centreWeight, 0.0, 1.0) && within(s.angleWeight, 0.0, 1.0) &&
+                      within(s.crowding, 0.0, 1.0);
   if (!counts || !lengths || !angles || !shares)
   {
     throw Error("Grasps cannot be proposed with these settings: counts and lengths have to be positive, angles of "
@@ -187,50 +188,6 @@ Grasps candidates(const std::vector<ContactPlace>& places, const GraspJudge& jud
   std::stable_sort(all.begin(), all.end(), [](const Grasp& a, const Grasp& b) { return a.quality > b.quality; });
   return all;
 }
-
-/// The frames of the grasps that were taken, with those that are as good.
-class TakenFrames
-{
-public:
-  TakenFrames(const Symmetries& symmetries, double spread, const GraspProposalSettings& settings, double size)
-    : Symmetric(turnsOf(symmetries, settings.turnStep))
-    , Spread(spread)
-    , LeastTrace(1.0 + 2.0 * std::cos(settings.turnApart * M_PI / 180.0))
-    , Step(settings.turnStep)
-    , Size(size)
-  {
-  }
-
-  void add(const Grasp& grasp)
-  {
-    for (const Eigen::Isometry3d& frame : framesOf(grasp, this->Symmetric, this->Step, this->Size))
-    {
-      this->Frames.push_back(frame);
-      if (grasp.kind == GraspKind::Parallel) // the jaws have changed places
-      {
-        this->Frames.push_back(frame * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));
-      }
-    }
-  }
-
-  bool isNear(const Eigen::Isometry3d& frame) const
-  {
-    return std::any_of(this->Frames.begin(), this->Frames.end(),
-      [&](const Eigen::Isometry3d& taken)
-      {
-        return (taken.translation() - frame.translation()).squaredNorm() < this->Spread * this->Spread &&
-               taken.linear().cwiseProduct(frame.linear()).sum() > this->LeastTrace;
-      });
-  }
-
-private:
-  std::vector<Eigen::Isometry3d> Symmetric;
-  std::vector<Eigen::Isometry3d> Frames;
-  double Spread;
-  double LeastTrace; ///< of the turn between two frames
-  double Step;
-  double Size;
-};
 }
 
 Grasps proposeGrasps(const TriangleMesh& part, const Symmetries& symmetries, const Gripper& gripper,
@@ -245,24 +202,14 @@ Grasps proposeGrasps(const TriangleMesh& part, const Symmetries& symmetries, con
     contactPlaces(part, judge.rays(), judge.balance(), symmetries, settings.contacts, settings.seed);
   const Grasps all = candidates(places, judge, gripper, settings, subProgress(progress, 0.0, AfterCandidates));
 
-  TakenFrames taken(symmetries, settings.spread > 0.0 ? settings.spread : SamePlaces * size, settings, size);
-  const char* name = gripper.kind == GraspKind::Suction ? "suction " : "parallel ";
-  Grasps best;
-  for (const Grasp& grasp : all)
+  const double spread = settings.spread > 0.0 ? settings.spread : SamePlaces * size;
+  Grasps best = spreadOut(
+    all, symmetries, spread, size, settings, [&](const Grasp& grasp) { return judge.freeTurn(grasp); },
+    subProgress(progress, AfterCandidates, 1.0));
+  int number = 0;
+  for (Grasp& grasp : best)
   {
-    if (static_cast<int>(best.size()) >= settings.most)
-    {
-      break;
-    }
-    if (taken.isNear(grasp.T_model_grasp))
-    {
-      continue;
-    }
-    best.push_back(grasp);
-    best.back().name = name + std::to_string(best.size());
-    best.back().freeTurn = judge.freeTurn(grasp);
-    taken.add(best.back());
-    report(progress, AfterCandidates + (1.0 - AfterCandidates) * best.size() / settings.most);
+    grasp.name = (gripper.kind == GraspKind::Suction ? "suction " : "parallel ") + std::to_string(++number);
   }
   return best;
 }
