@@ -43,7 +43,7 @@ vtk_module_wrap_python(
 # The hand-written part of the Python package, its sub-commands, and the command that runs them.
 set(package_files __init__.py __main__.py api.py bop.py chains.py charts.py dataset.py evaluation.py filters.py meshfiles.py
   paper.py picture.py scripting.py simulation.py stage.py world.py)
-set(command_files __init__.py detect.py evaluate.py simulate.py train.py)
+set(command_files __init__.py detect.py evaluate.py hand_eye.py simulate.py train.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
 set(package_copies)
 function(ppfmeam_copy folder) # files of filters/ppfmeam/FOLDER, to the build tree and to the installed one

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseWriter.h"
 
+#include "calibration/RobotFrameFile.h"
 #include "io/DetectionArrayFile.h"
 #include "io/PoseFile.h"
 #include "vtkMEAMPoseConversion.h"
@@ -54,6 +55,7 @@ vtkMEAMPoseWriter::~vtkMEAMPoseWriter()
 {
   this->SetFileName(nullptr);
   this->SetFrameId(nullptr);
+  this->SetRobotFrameFile(nullptr);
 }
 
 int vtkMEAMPoseWriter::FillInputPortInformation(int, vtkInformation* info)
@@ -83,6 +85,14 @@ void vtkMEAMPoseWriter::WriteData()
       if (this->MaximumNumberOfPoses > 0 && poses.size() > static_cast<std::size_t>(this->MaximumNumberOfPoses))
       {
         poses.resize(this->MaximumNumberOfPoses);
+      }
+      if (this->RobotFrameFile && *this->RobotFrameFile)
+      {
+        const Eigen::Isometry3d T_robot_camera = meam::readRobotFrame(this->RobotFrameFile);
+        for (meam::Pose& pose : poses)
+        {
+          pose = meam::moved(pose, T_robot_camera);
+        }
       }
       for (const meam::Pose& pose : poses)
       {
@@ -151,6 +161,7 @@ void vtkMEAMPoseWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ImageId: " << this->ImageId << "\n";
   os << indent << "ObjectId: " << this->ObjectId << "\n";
   os << indent << "Time: " << this->Time << " s\n";
+  os << indent << "RobotFrameFile: " << (this->RobotFrameFile ? this->RobotFrameFile : "(none)") << "\n";
   os << indent << "FrameId: " << (this->FrameId ? this->FrameId : "(none)") << "\n";
   os << indent << "Stamp: " << this->Stamp << " s\n";
 }

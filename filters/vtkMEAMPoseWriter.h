@@ -89,7 +89,17 @@ public:
   ///@}
 
   ///@{
-  /** Detections: the name of the scan's frame in the robot's software. Default: camera. */
+  /**
+   * Where the camera is for the robot, T_robot_camera, as vtkMEAMHandEyeCalibration writes it or ROS has it: the poses
+   * in the file are the robot's then. Default: none, the scan's frame.
+   */
+  vtkSetFilePathMacro(RobotFrameFile);
+  vtkGetFilePathMacro(RobotFrameFile);
+  ///@}
+
+  ///@{
+  /** Detections: the name of the frame that the poses are in, the scan's or the robot's, in the robot's software.
+   * Default: camera. */
   vtkSetStringMacro(FrameId);
   vtkGetStringMacro(FrameId);
   ///@}
@@ -118,6 +128,7 @@ private:
   int ImageId = 0;
   int ObjectId = 1;
   double Time = -1.0;
+  char* RobotFrameFile = nullptr;
   char* FrameId = nullptr;
   double Stamp = 0.0;
 };

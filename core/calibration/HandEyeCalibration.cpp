@@ -179,7 +179,7 @@ HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, const
 {
   if (pairs.size() < FewestPairs)
   {
-    throw Error("Hand-eye calibration needs 3 pairs of poses or more, better 10, with the gripper turned in different "
+    throw Error("Hand-eye calibration needs 3 pairs of poses or more, better 20, with the gripper turned in different "
                 "ways: there are " +
                 std::to_string(pairs.size()) + ".");
   }

@@ -36,7 +36,7 @@ struct HandEyeCalibration
   Eigen::Isometry3d T_holder_target = Eigen::Isometry3d::Identity();
   std::vector<double> shifts; ///< mm, of the target at each pair from that mean
   std::vector<double> turns;  ///< degrees, the same of its orientation
-  double shift = 0.0;         ///< mm, root mean square of these: the residual
+  double shift = 0.0;         ///< mm, root mean square of these: the residual, which few pairs make too small
   double turn = 0.0;          ///< degrees
   std::string method;         ///< whose it is: the one with the smallest residual
 };

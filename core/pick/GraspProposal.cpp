@@ -2,13 +2,12 @@
 #include "pick/GraspProposal.h"
 
 #include "base/Parallel.h"
-#include "pick/GraspTurns.h"
 #include "pick/PickCollisions.h"
 #include "pick/proposal/ContactPlaces.h"
+#include "pick/proposal/GraspSpread.h"
 #include "pick/proposal/GripperContact.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -30,7 +29,8 @@ void requireSettings(const GraspProposalSettings& s)
   const bool angles = within(s.frictionAngle, 0.1, 89.0) && within(s.mostBend, 0.0, 89.0) &&
                       within(s.turnApart, 0.0, 180.0) && within(s.turnStep, 1.0, 90.0);
   const bool shares = within(s.leastContact, 0.0, 1.0) && within(s.freeTurnLoss, 0.0, 1.0) &&
-                      within(s.centreWeight, 0.0, 1.0) && within(s.angleWeight, 0.0, 1.0);
+                      within(s.centreWeight, 0.0, 1.0) && within(s.angleWeight, 0.0, 1.0) &&
+                      within(s.crowding, 0.0, 1.0);
   if (!counts || !lengths || !angles || !shares)
   {
     throw Error("Grasps cannot be proposed with these settings: counts and lengths have to be positive, angles of "
@@ -188,59 +188,6 @@ Grasps candidates(const std::vector<ContactPlace>& places, const GraspJudge& jud
   std::stable_sort(all.begin(), all.end(), [](const Grasp& a, const Grasp& b) { return a.quality > b.quality; });
   return all;
 }
-
-/// From which of the part's six sides a grasp comes.
-std::size_t sideOf(const Grasp& grasp)
-{
-  const Eigen::Vector3d approach = grasp.T_model_grasp.linear().col(2);
-  int axis = 0;
-  approach.cwiseAbs().maxCoeff(&axis);
-  return static_cast<std::size_t>(2 * axis + (approach[axis] > 0.0));
-}
-
-/// The frames of the grasps that were taken, with those that are as good.
-class TakenFrames
-{
-public:
-  TakenFrames(const Symmetries& symmetries, double spread, const GraspProposalSettings& settings, double size)
-    : Symmetric(turnsOf(symmetries, settings.turnStep))
-    , Spread(spread)
-    , LeastTrace(1.0 + 2.0 * std::cos(settings.turnApart * M_PI / 180.0))
-    , Step(settings.turnStep)
-    , Size(size)
-  {
-  }
-
-  void add(const Grasp& grasp)
-  {
-    for (const Eigen::Isometry3d& frame : framesOf(grasp, this->Symmetric, this->Step, this->Size))
-    {
-      this->Frames.push_back(frame);
-      if (grasp.kind == GraspKind::Parallel) // the jaws have changed places
-      {
-        this->Frames.push_back(frame * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));
-      }
-    }
-  }
-
-  bool isNear(const Eigen::Isometry3d& frame) const
-  {
-    return std::any_of(this->Frames.begin(), this->Frames.end(),
-      [&](const Eigen::Isometry3d& taken)
-      {
-        return (taken.translation() - frame.translation()).squaredNorm() < this->Spread * this->Spread &&
-               taken.linear().cwiseProduct(frame.linear()).sum() > this->LeastTrace;
-      });
-  }
-
-private:
-  std::vector<Eigen::Isometry3d> Symmetric;
-  std::vector<Eigen::Isometry3d> Frames;
-  double Spread;
-  double LeastTrace; ///< of the turn between two frames
-  double Step;
-  double Size;
-};
 }
 
 Grasps proposeGrasps(const TriangleMesh& part, const Symmetries& symmetries, const Gripper& gripper,
@@ -255,46 +202,14 @@ Grasps proposeGrasps(const TriangleMesh& part, const Symmetries& symmetries, con
     contactPlaces(part, judge.rays(), judge.balance(), symmetries, settings.contacts, settings.seed);
   const Grasps all = candidates(places, judge, gripper, settings, subProgress(progress, 0.0, AfterCandidates));
 
-  TakenFrames taken(symmetries, settings.spread > 0.0 ? settings.spread : SamePlaces * size, settings, size);
-  const char* name = gripper.kind == GraspKind::Suction ? "suction " : "parallel ";
-  // Half of them the best ones; then in turn from each side of the part: however it lies, some come from above.
-  Grasps best;
-  const auto take = [&](const Grasp& grasp)
+  const double spread = settings.spread > 0.0 ? settings.spread : SamePlaces * size;
+  Grasps best = spreadOut(
+    all, symmetries, spread, size, settings, [&](const Grasp& grasp) { return judge.freeTurn(grasp); },
+    subProgress(progress, AfterCandidates, 1.0));
+  int number = 0;
+  for (Grasp& grasp : best)
   {
-    if (taken.isNear(grasp.T_model_grasp))
-    {
-      return false;
-    }
-    best.push_back(grasp);
-    best.back().freeTurn = judge.freeTurn(grasp);
-    taken.add(best.back());
-    report(progress, AfterCandidates + (1.0 - AfterCandidates) * best.size() / settings.most);
-    return true;
-  };
-  const auto most = static_cast<std::size_t>(settings.most);
-  std::array<std::vector<const Grasp*>, 6> bySide;
-  for (const Grasp& grasp : all)
-  {
-    if (2 * best.size() >= most || !take(grasp))
-    {
-      bySide[sideOf(grasp)].push_back(&grasp);
-    }
-  }
-  std::array<std::size_t, 6> next{};
-  for (std::size_t before = most; best.size() != before && best.size() < most;)
-  {
-    before = best.size();
-    for (std::size_t side = 0; side < bySide.size() && best.size() < most; ++side)
-    {
-      while (next[side] < bySide[side].size() && !take(*bySide[side][next[side]++]))
-      {
-      }
-    }
-  }
-  std::stable_sort(best.begin(), best.end(), [](const Grasp& a, const Grasp& b) { return a.quality > b.quality; });
-  for (std::size_t k = 0; k < best.size(); ++k)
-  {
-    best[k].name = name + std::to_string(k + 1);
+    grasp.name = (gripper.kind == GraspKind::Suction ? "suction " : "parallel ") + std::to_string(++number);
   }
   return best;
 }

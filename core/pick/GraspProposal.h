@@ -11,9 +11,12 @@ namespace meam
 {
 struct GraspProposalSettings
 {
-  int most = 20;       ///< grasps that come out, half of them the best ones, the others the best of each side in turn
+  int most = 20;       ///< grasps that come out
   double spread = 0.0; ///< mm: nearer than this and turned by less than `turnApart` two grasps are one; 0: 10 % of D
   double turnApart = 40.0; ///< degrees, between grasps at one place; less than the step between approaches
+
+  double crowding = 0.8; ///< times its worth for each grasp taken at its place, and for each with its way in; 1: by
+                         ///< quality alone, however many are at one place
 
   // Of jaws.
   double frictionAngle = 15.0; ///< degrees between the closing direction and the surface's normals: friction of 0.27

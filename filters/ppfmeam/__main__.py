@@ -22,7 +22,7 @@ def main():
     sys.argv = [f"ppfmeam {command}", *sys.argv[2:]]
 
     from . import scripting  # loads VTK, which --help does without
-    scripting.run(importlib.import_module(f".commands.{command}", __package__).main)
+    scripting.run(importlib.import_module(f".commands.{command.replace('-', '_')}", __package__).main)
 
 
 if __name__ == "__main__":

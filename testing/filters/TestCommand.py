@@ -12,13 +12,18 @@ from scripttest import EXAMPLES, read, script, works, write_stl
 COMMAND = os.path.join(EXAMPLES, "..", "filters", "command", "ppfmeam")
 MODULES = os.path.join(EXAMPLES, "..", "filters", "ppfmeam", "commands")
 
+
+def module_of(name):
+    return name.replace("-", "_") + ".py"
+
+
 # The list, without loading VTK, and the same of the module.
 text = works(COMMAND, "--help")
 check(text.startswith("usage: ppfmeam [-h]"), text)
 for name, summary in SUMMARIES.items():
     lines = [line for line in text.splitlines() if line.split()[:1] == [name]]
     check(len(lines) == 1 and lines[0].endswith(summary), f"a line for {name}: {text}")
-check({f"{name}.py" for name in SUMMARIES} | {"__init__.py"} == {n for n in os.listdir(MODULES) if n.endswith(".py")},
+check({module_of(name) for name in SUMMARIES} | {"__init__.py"} == {n for n in os.listdir(MODULES) if n.endswith(".py")},
       "every sub-command is listed")
 module = subprocess.run([sys.executable, "-m", "ppfmeam", "--help"], capture_output=True, text=True)
 check(module.returncode == 0 and module.stdout == text, f"python3 -m ppfmeam: {module}")
@@ -29,7 +34,7 @@ for arguments, word in (((), "COMMAND"), (("fly",), "invalid choice: 'fly'")):
 
 # Options and output are those of the scripts, but for the name.
 for name in SUMMARIES:
-    own, of_script = works(COMMAND, name, "--help"), works(f"{name}.py", "--help")
+    own, of_script = works(COMMAND, name, "--help"), works(module_of(name), "--help")
     check(own.startswith(f"usage: ppfmeam {name} ") and own.split()[3:] == of_script.split()[2:], f"{name}: {own}")
 write_stl("box.stl", box(30, 20, 10))
 own = works(COMMAND, "train", "--cad", "box.stl", "--out", "a.meam")

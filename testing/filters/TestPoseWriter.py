@@ -88,6 +88,17 @@ check(abs(result["pose"]["covariance"][0] - 4e-6) < 1e-15 and detection["bbox"][
       f"{detection}")
 refuses(writer(refined, "late.detections.json", Stamp=-1), "stamp")
 
+# In the robot's frame: a quarter turn and a shift after that of the pose; the covariance turns with it.
+with open(path("robot.json"), "w") as file:
+    json.dump({"T_robot_camera": [[0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]]}, file)
+check(writer(data, "robot.txt", RobotFrameFile=path("robot.json")).Write() == 1, "Write() succeeds")
+moved = tuples(run(reader("robot.txt")), "Transform")[0]
+check(all(abs(a - b) < 1e-12 for a, b in zip(moved, (-1, 0, 0, 12, 0, -1, 0, 21.5, 0, 0, 1, 30.1, 0, 0, 0, 1))), f"{moved}")
+check(writer(refined, "robot.detections.json", RobotFrameFile=path("robot.json")).Write() == 1, "Write() succeeds")
+covariance = json.loads(text("robot.detections.json"))["detections"][0]["results"][0]["pose"]["covariance"]
+check(abs(covariance[7] - 4e-6) < 1e-15 and abs(covariance[0]) < 1e-15, f"{covariance}")
+refuses(writer(data, "robot.txt", RobotFrameFile=path("none.json")), "none.json")
+
 # What goes to a file comes back, whatever its form; a rank that poses have, as after a threshold, is kept.
 known = dict(Score=[0.5, 0.25], Probability=[0.9, 0.4], Certainty=[1, 0.5], VisibleFraction=[0.5, 0.75], Votes=[7, 3],
              ViewId=[2, 3], Rank=[2, 5])
@@ -117,4 +128,4 @@ check(sorted(os.listdir(folder.name)) == before, "no file was added")
 check(text("poses.csv").count("\n") == 3, "the old file is still there")
 
 prints(vtkMEAMPoseWriter(), "FileName", "Format", "MaximumNumberOfPoses", "SceneId", "ImageId", "ObjectId", "Time",
-       "FrameId", "Stamp")
+       "RobotFrameFile", "FrameId", "Stamp")

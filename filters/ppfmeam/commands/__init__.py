@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sub-commands of `ppfmeam`, one module each with a main() that reads sys.argv, as the scripts of examples/ call it.
+"""The sub-commands of `ppfmeam`, one module each (a dash is an underscore there) with a main() that reads sys.argv, as the scripts of examples/ call it.
 SUMMARIES is what `ppfmeam --help` says of them, in the order of a first use."""
 
 SUMMARIES = {
     "train": "train the model of a part from its CAD file",
     "detect": "find the copies of one or several parts in a scan",
+    "hand-eye": "find where the camera is for the robot, from pairs of poses",
     "simulate": "simulate scans of bins with their true poses, as a dataset",
     "cell": "simulate a picking cell: find, pick, until the bin is empty",
     "evaluate": "run the method on scenes with true poses and print how many it finds",
