@@ -5,6 +5,7 @@ SUMMARIES is what `ppfmeam --help` says of them, in the order of a first use."""
 SUMMARIES = {
     "train": "train the model of a part from its CAD file",
     "detect": "find the copies of one or several parts in a scan",
+    "batch": "find them in many scans, with one process or many, and go on where a run was stopped",
     "simulate": "simulate scans of bins with their true poses, as a dataset",
     "evaluate": "run the method on scenes with true poses and print how many it finds",
 }
