@@ -44,7 +44,8 @@ vtk_module_wrap_python(
 set(package_files __init__.py __main__.py api.py bop.py chains.py charts.py dataset.py evaluation.py filters.py finding.py
   meshfiles.py paper.py picture.py scripting.py simulation.py stage.py world.py)
 set(command_files __init__.py batch.py detect.py evaluate.py simulate.py train.py)
-set(batch_files __init__.py __main__.py journal.py parts.py progress.py ranks.py run.py scans.py table.py)
+set(batch_files __init__.py __main__.py journal.py parts.py progress.py ranks.py run.py scans.py table.py
+  watch.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
 set(package_copies)
 function(ppfmeam_copy folder) # files of filters/ppfmeam/FOLDER, to the build tree and to the installed one

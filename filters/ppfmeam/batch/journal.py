@@ -37,7 +37,8 @@ class Journal:
                                     "options: go on with these, remove it, or choose another --out")
 
     def keep_others_out(self):
-        """Makes the folder and locks it. Processes whose mpirun was killed may still finish their run and take it away."""
+        """Makes the folder and locks it. Processes whose mpirun was killed may still finish their run and take it
+        away."""
         last = time.monotonic() + PATIENCE
         while True:
             os.makedirs(self.folder, exist_ok=True)

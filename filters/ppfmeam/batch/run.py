@@ -10,7 +10,7 @@ from . import parts, progress, scans, table
 from .journal import Journal
 from .ranks import DONE, FAILED, NEXT, PAUSE, STOPPED, together
 
-ELSEWHERE = ("out", "threads")  # options that change no pose
+ELSEWHERE = ("out", "threads", "watch", "form")  # options that change no pose
 
 
 class Plan:

@@ -4,21 +4,29 @@ scans, and NAME.scans.csv with the times. A scan that fails is a row with the re
 killed goes on when the same command is given again.
 
 With several processes, each with one thread, scans go to whichever is free, and the table is the same: mpirun -n 8
-ppfmeam batch ..., or mpirun -n 8 pvbatch --symmetric .../ppfmeam/batch/__main__.py ..."""
+ppfmeam batch ..., or mpirun -n 8 pvbatch --symmetric .../ppfmeam/batch/__main__.py ...
+
+With --watch scans are taken as they arrive in a folder, and NAME.poses.json stands beside each, or NAME.poses.failed
+with the reason."""
 import argparse
 import traceback
 
 from .. import evaluation, scripting
-from ..batch import run
+from ..batch import run, watch
 from ..batch.ranks import ranks
 
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scans", metavar="SCANS",
+    parser.add_argument("scans", metavar="SCANS", nargs="?",
                         help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply or, with "
                              "--camera, depth images); or a text file with a scan in each line, after a tab its image where "
                              "it carries none")
+    parser.add_argument("--watch", metavar="FOLDER",
+                        help="instead of SCANS and --out: a folder in which scans arrive, each taken as soon as it is whole; "
+                             "Ctrl-C ends it")
+    parser.add_argument("--form", choices=watch.FORMS, default="json",
+                        help="of the poses beside each scan of --watch: JSON, or CSV as BOP has it (default: %(default)s)")
     parts = parser.add_mutually_exclusive_group()
     parts.add_argument("--model", action="append", default=[], metavar="MODEL",
                        help="trained model of `train`, once for each type of part")
@@ -49,9 +57,13 @@ def options_of_user():
                         help="threads of each process; 0: all cores for one process, one thread for each of several "
                              "(default)")
     scripting.add_method_options(parser)
-    parser.add_argument("--out", required=True, metavar="CSV",
+    parser.add_argument("--out", metavar="CSV",
                         help="table to write; OUT.run beside it keeps what is done")
     options = parser.parse_args()
+    if bool(options.watch) == bool(options.scans) or bool(options.watch) == bool(options.out):
+        parser.error("give SCANS and --out, or --watch")
+    if options.watch and not options.model and not options.cad:
+        parser.error("give the part: --cad, or --model of `train`")
     if options.probability is None:
         options.probability = 0 if options.poses else 0.5
     return options
@@ -60,7 +72,12 @@ def options_of_user():
 def main():
     options, processes = options_of_user(), ranks()
     try:
-        run.run(options, processes)
+        if options.watch and processes.size > 1:
+            raise scripting.Failure("--watch is for one process, which uses all cores for each scan")
+        if options.watch:
+            watch.Watch(options).run()
+        else:
+            run.run(options, processes)
     except (scripting.Failure, SystemExit):
         processes.close()  # all have come to this
         raise
