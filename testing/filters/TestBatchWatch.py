@@ -64,7 +64,8 @@ os.rename("cell/a.part", "cell/a.pcd")
 line(process, f"a.pcd: {len(expected)} poses; ", " s (waited ", "read ", "found ")
 right("a")
 
-# One that grows gets its poses when it is whole, also where a busy machine made a pause so long that it was taken before.
+# One that grows gets its poses when it is whole, also where a busy machine made a pause so long that it was taken
+# before.
 with open("cell/b.pcd", "wb") as file:
     for part in range(4):
         file.write(whole[part * len(whole) // 4:(part + 1) * len(whole) // 4])
@@ -109,6 +110,7 @@ end(process, "3 scans, 0 failed")
 # What cannot be watched.
 result = subprocess.run(command("--watch", "none", "--model", "plate.meam"), capture_output=True, text=True)
 check(result.returncode == 1 and result.stderr == "batch.py: cannot watch none: no such folder\n", result.stderr)
-for arguments in (("scans", "--watch", "cell", "--model", "plate.meam"), ("--watch", "cell"), ("scans", "--model", "plate.meam")):
+for arguments in (("scans", "--watch", "cell", "--model", "plate.meam"), ("--watch", "cell"),
+                  ("scans", "--model", "plate.meam")):
     result = subprocess.run(command(*arguments), capture_output=True, text=True)
     check(result.returncode == 2 and "give " in result.stderr, f"{arguments}: {result.stderr}")

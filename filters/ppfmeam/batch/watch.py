@@ -146,5 +146,6 @@ class Watch:
     def summary(self):
         text = f"{len(self.latencies)} scans, {self.failed} failed"
         if self.latencies:
-            text += f"; from arrival to poses {statistics.median(self.latencies):.2f} s, at most {max(self.latencies):.2f} s"
+            text += (f"; from arrival to poses {statistics.median(self.latencies):.2f} s, "
+                     f"at most {max(self.latencies):.2f} s")
         return text

@@ -20,13 +20,14 @@ def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", metavar="SCANS", nargs="?",
                         help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply or, with "
-                             "--camera, depth images); or a text file with a scan in each line, after a tab its image where "
-                             "it carries none")
+                             "--camera, depth images); or a text file with a scan in each line, after a tab its image "
+                             "where it carries none")
     parser.add_argument("--watch", metavar="FOLDER",
-                        help="instead of SCANS and --out: a folder in which scans arrive, each taken as soon as it is whole; "
-                             "Ctrl-C ends it")
+                        help="instead of SCANS and --out: a folder in which scans arrive, each taken as soon as it "
+                             "is whole; Ctrl-C ends it")
     parser.add_argument("--form", choices=watch.FORMS, default="json",
-                        help="of the poses beside each scan of --watch: JSON, or CSV as BOP has it (default: %(default)s)")
+                        help="of the poses beside each scan of --watch: JSON, or CSV as BOP has it "
+                             "(default: %(default)s)")
     parts = parser.add_mutually_exclusive_group()
     parts.add_argument("--model", action="append", default=[], metavar="MODEL",
                        help="trained model of `train`, once for each type of part")
