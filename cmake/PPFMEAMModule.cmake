@@ -41,9 +41,11 @@ vtk_module_wrap_python(
   BUILD_STATIC OFF)
 
 # The hand-written part of the Python package, its sub-commands, and the command that runs them.
-set(package_files __init__.py __main__.py api.py bop.py chains.py charts.py dataset.py evaluation.py filters.py meshfiles.py
-  paper.py picture.py scripting.py simulation.py stage.py world.py)
-set(command_files __init__.py detect.py evaluate.py hand_eye.py simulate.py train.py)
+set(package_files __init__.py __main__.py api.py bop.py cell.py chains.py charts.py dataset.py evaluation.py filters.py
+  finding.py meshfiles.py paper.py picture.py scripting.py simulation.py stage.py world.py)
+set(command_files __init__.py batch.py cell.py detect.py evaluate.py hand_eye.py simulate.py train.py)
+set(batch_files __init__.py __main__.py journal.py parts.py progress.py ranks.py run.py scans.py table.py
+  watch.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
 set(package_copies)
 function(ppfmeam_copy folder) # files of filters/ppfmeam/FOLDER, to the build tree and to the installed one
@@ -58,6 +60,7 @@ function(ppfmeam_copy folder) # files of filters/ppfmeam/FOLDER, to the build tr
 endfunction()
 ppfmeam_copy("" ${package_files})
 ppfmeam_copy(/commands ${command_files})
+ppfmeam_copy(/batch ${batch_files})
 configure_file("${PROJECT_SOURCE_DIR}/filters/ppfmeam/version.py.in" "${package_destination}/version.py" @ONLY)
 install(FILES "${package_destination}/version.py" DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam COMPONENT python)
 install(PROGRAMS "${PROJECT_SOURCE_DIR}/filters/command/ppfmeam" DESTINATION bin COMPONENT python)

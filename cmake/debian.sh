@@ -17,6 +17,7 @@ packages=(
   libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}1.13
   libopencv-imgcodecs-dev libopencv-calib3d-dev libeigen3-dev libcgal-dev libopenmesh-dev libflann-dev liblzf-dev nlohmann-json3-dev
   libbullet-dev libfcl-dev
+  openmpi-bin python3-mpi4py # several processes: ppfmeam batch
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
   qtbase5-dev # the plugin's toolbar and icons; ParaView's icons are libqt5svg5's
   qttools5-dev qtxmlpatterns5-dev-tools # ParaView makes the plugin's help pages with them

@@ -53,9 +53,13 @@ class Dataset:
             raise scripting.Failure(f"{models} has no obj_000001.ply or other object")
         return numbers
 
+    def mesh_file(self, number):
+        """The path of an object's mesh."""
+        return os.path.join(self.path, "models", f"obj_{number:06d}.ply")
+
     def mesh(self, number):
         """The mesh of an object."""
-        return scripting.read_mesh(os.path.join(self.path, "models", f"obj_{number:06d}.ply"))
+        return scripting.read_mesh(self.mesh_file(number))
 
     def train(self, number, preset, features="both"):
         """The trained model of an object, with the symmetries of models_info.json where that knows it."""

@@ -220,7 +220,8 @@ def require_folder_of(*paths):
     for path in filter(None, paths):
         folder = os.path.dirname(os.path.abspath(path))
         if os.path.isdir(path) or not os.access(folder, os.W_OK):
-            raise Failure(f"cannot write {path}: {'it is a folder' if os.path.isdir(path) else 'no such folder'}")
+            why = "it is a folder" if os.path.isdir(path) else "the folder is protected" if os.path.isdir(folder) else "no such folder"
+            raise Failure(f"cannot write {path}: {why}")
 
 
 def read_json(path):

@@ -2,7 +2,7 @@
 """Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
 import argparse
 
-from .. import filters, picture, scripting
+from .. import finding, picture, scripting
 
 
 def options_of_user():
@@ -53,33 +53,6 @@ def options_of_user():
     return options
 
 
-def estimate(options, part, scene, poses):
-    """vtkMEAMPoseEstimation of one part, brought up to date."""
-    estimation = filters.vtkMEAMPoseEstimation()
-    estimation.SetInputDataObject(part)
-    estimation.SetInputDataObject(1, scene)
-    if options.boundary:
-        estimation.SetInputDataObject(2, scripting.read(options.boundary, options.scene_scale))
-    if options.image:
-        estimation.SetInputDataObject(3, scripting.read_image(options.image))
-        estimation.SetCameraFile(options.image_camera)
-    scripting.set_preset(estimation, options.preset)
-    scripting.set_choice(estimation, "Features", options.features)
-    estimation.SetMaximumNumberOfPoses(poses)
-    estimation.SetMinimumProbability(options.probability)
-    estimation.SetReferenceShare(options.references)
-    estimation.SetNumberOfThreads(options.threads)
-    return scripting.update(estimation)
-
-
-def estimate_several(options, models, scene):
-    """The poses of all parts together and the poses of each alone, which know the times."""
-    estimations = [estimate(options, model, scene, 0) for model in models]
-    found = [estimation.GetOutput() for estimation in estimations]
-    edges = estimations[0].GetOutputDataObject(1)
-    return scripting.resolve_conflicts(found, models, scene, edges, options.preset, options.poses, options.threads), found
-
-
 def main():
     options = options_of_user()
     scripting.require_folder_of(options.out, options.json, options.matrices, options.picture)
@@ -92,12 +65,13 @@ def main():
     else:
         scene = scripting.read_scan(options.scene, options.scene_scale, options.camera)
 
-    if len(parts) == 1:
-        poses = estimate(options, parts[0], scene, options.poses).GetOutput()
-        found = [poses]
-    else:
-        models = parts if options.model else [scripting.train(mesh, options.preset, options.features) for mesh in meshes]
-        poses, found = estimate_several(options, models, scene)
+    if len(parts) > 1 and not options.model:
+        parts = [scripting.train(mesh, options.preset, options.features) for mesh in meshes]
+    boundary = scripting.read(options.boundary, options.scene_scale) if options.boundary else None
+    image = scripting.read_image(options.image) if options.image else None
+    finder = finding.Finder(parts, options)
+    poses = finder.find(scene, boundary, image, options.image_camera)
+    found = finder.found()
     scripting.print_poses(poses)
     scripting.print_scan_quality(found[0])
     for number, of_part in enumerate(found, 1):

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run over many scans."""
+import os
+import time
+import warnings
+
+from .. import finding, scripting
+from ..version import VERSION
+from . import parts, progress, scans, table
+from .journal import Journal
+from .ranks import DONE, FAILED, NEXT, PAUSE, STOPPED, together
+
+ELSEWHERE = ("out", "threads", "watch", "form")  # options that change no pose
+
+
+class Plan:
+    """What the first process finds out for all: the scans, those that are left to do, and the parts."""
+
+    def __init__(self, options, journal):
+        scripting.require_folder_of(options.out, table.path_of_scans(options.out))
+        self.scans = scans.source(options).list()
+        wanted = parts.parts_of(options)
+        journal.open({"version": VERSION, "parts": [part.digest() for part in wanted],
+                      "scans": os.path.abspath(options.scans),
+                      **{name: value for name, value in vars(options).items() if name not in ("scans", *ELSEWHERE)}})
+        done = journal.lines()
+        self.todo = [scan for scan in self.scans if scan[0] not in done]
+        self.objects = [part.number for part in wanted]
+        self.models = parts.trained(wanted, journal.folder)
+
+    def names(self):
+        return [scan[0] for scan in self.scans]
+
+    def done(self):
+        """How many scans an earlier run has done."""
+        return len(self.scans) - len(self.todo)
+
+
+class Search:
+    """Reads scans and finds the parts in them."""
+
+    def __init__(self, options, plan):
+        self.source, self.objects = scans.source(options), plan.objects
+        self.finder = finding.Finder([scripting.read_model(path) for path in plan.models], options)
+
+    def line(self, scan, rank=0):
+        """All that becomes known of a scan; what fails is a reason."""
+        start = time.monotonic()
+        rows, read, failure = [], start, ""
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always", UserWarning)
+            try:
+                data = self.source.read(*scan)
+                read = time.monotonic()
+                rows = table.rows_of(self.finder.find(data.scene, None, data.image, data.image_camera), self.objects)
+            except scripting.Failure as error:
+                failure = str(error)
+            except Exception as error:  # whatever is wrong with a scan, the others are not to wait for it
+                failure = f"{type(error).__name__}: {error}"
+        end = time.monotonic()
+        return {"scan": scan[0], "rows": rows, "failure": failure, "read_s": f"{read - start:.4f}",
+                "find_s": f"{end - read:.4f}", "process": rank,
+                "warning": "; ".join(str(warning.message) for warning in heard)}
+
+
+def work(ranks, journal, search, plan):
+    """Takes scan after scan until none is left or a process has stopped; the first one tells how far all are."""
+    shown = progress.Progress(len(plan.scans), plan.done()) if ranks.rank == 0 else None
+    total = len(plan.todo)
+    try:
+        while not ranks.add(STOPPED, 0) and (place := ranks.add(NEXT, 1)) < total:
+            line = search.line(plan.todo[place], ranks.rank)
+            journal.add(line)
+            ranks.add(FAILED, line["failure"] != "")
+            ranks.add(DONE, 1)
+            if shown:
+                shown.show(ranks.add(DONE, 0), ranks.add(FAILED, 0))
+        while shown and ranks.add(DONE, 0) < total and not ranks.add(STOPPED, 0):
+            time.sleep(PAUSE)
+            shown.show(ranks.add(DONE, 0), ranks.add(FAILED, 0))
+    except scripting.Failure:
+        ranks.add(STOPPED, 1)
+        raise
+    finally:
+        if shown:
+            shown.end()
+
+
+def finish(options, plan, journal):
+    """Writes the result and says what is in it."""
+    lines = journal.lines()
+    table.write(options.out, plan.names(), lines)
+    journal.remove()
+    lines = [lines[name] for name in plan.names()]
+    failed, poses = sum(line["failure"] != "" for line in lines), sum(len(line["rows"]) for line in lines)
+    return f"{options.out}: {len(lines)} scans, {failed} failed, {poses} poses"
+
+
+def run(options, ranks):
+    """In every process; `ranks` are all of them."""
+    start = time.monotonic()
+    if ranks.size > 1 and not options.threads:
+        options.threads = 1
+    journal = Journal(options.out + ".run")
+    try:
+        plan = ranks.share(together(ranks, lambda: Plan(options, journal) if ranks.rank == 0 else None))
+        if plan.todo:
+            search = together(ranks, lambda: Search(options, plan))
+            together(ranks, lambda: work(ranks, journal, search, plan))
+    except scripting.Failure:
+        journal.remove_unused()
+        raise
+    text = together(ranks, lambda: finish(options, plan, journal) if ranks.rank == 0 else None)
+    if text:
+        seconds = time.monotonic() - start
+        rate = f", {len(plan.todo) / seconds:.2f} scans a second" if plan.todo else ""
+        print(f"{text}; {seconds:.1f} s{rate}", flush=True)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where many scans come from: a dataset in the form of the BOP benchmark, a list in a file, or a folder."""
+import os
+
+from .. import dataset, scripting
+
+CLOUDS = (".pcd", ".ply")
+DEPTH_IMAGES = (".png", ".tif", ".tiff")
+
+
+class Scan:
+    """A scan as it was read, `image` of a camera with the calibration `image_camera`, or of the scan's own pixels, or
+    None."""
+
+    def __init__(self, scene, image=None, image_camera=None):
+        self.scene, self.image, self.image_camera = scene, image, image_camera
+
+
+class Files:
+    """Scans in files. A row of list() is (name, path of the scan, path of its image or "")."""
+
+    def __init__(self, options):
+        self.options = options
+
+    def is_scan(self, name):
+        """By its extension; a depth image is one when there is a calibration of its camera."""
+        return os.path.splitext(name)[1].lower() in CLOUDS + (DEPTH_IMAGES if self.options.camera else ())
+
+    def read(self, _, path, image):
+        """A row of list()."""
+        options = self.options
+        if os.path.splitext(path)[1].lower() not in DEPTH_IMAGES:
+            camera = options.camera if path.lower().endswith(".ply") else None
+            scene = scripting.read_scan(path, options.scene_scale, camera)
+        elif options.camera:
+            scene = scripting.read_depth(path, options.camera, options.depth_scale)
+        else:
+            raise scripting.Failure(f"{path}: a depth image needs the calibration of its camera, --camera")
+        return Scan(scene, scripting.read_image(image) if image else None, options.image_camera)
+
+
+class Folder(Files):
+    """The scans of a folder, by name."""
+
+    def list(self):
+        folder = self.options.scans
+        rows = [(name, os.path.join(folder, name), "") for name in sorted(os.listdir(folder)) if self.is_scan(name)]
+        if not rows:
+            raise scripting.Failure(f"{folder} has no scans: .pcd, .ply or, with --camera, depth images, or "
+                                    f"{self.options.split}/ of a BOP dataset")
+        return rows
+
+
+class ListFile(Files):
+    """The scans that a text file names, one in a line, after a tab the scan's image; paths as seen from the file."""
+
+    def list(self):
+        path = self.options.scans
+        scripting.require_file(path)
+        try:
+            with open(path, encoding="utf-8") as file:
+                lines = [line for line in file.read().splitlines() if line.strip() and not line.startswith("#")]
+        except UnicodeDecodeError:
+            raise scripting.Failure(f"{path} is not a list of scans, a text file with a path in each line") from None
+        if not lines:
+            raise scripting.Failure(f"{path} names no scans")
+        folder, rows = os.path.dirname(path), []
+        for line in lines:
+            scan, _, image = (word.strip() for word in line.partition("\t"))
+            rows.append((scan, os.path.join(folder, scan), os.path.join(folder, image) if image else ""))
+        names = [name for name, _, _ in rows]
+        twice = len(set(names)) < len(names) and next(name for k, name in enumerate(names) if name in names[:k])
+        if twice:
+            raise scripting.Failure(f"{path} names {twice} twice")
+        return rows
+
+
+class BOP:
+    """The images of a BOP dataset. A row of list() is (name, scene, step); without a step where the scene cannot be
+    listed."""
+
+    def __init__(self, options):
+        self.data = dataset.Dataset(options.scans, options.split)
+        self.scene, self.number = None, None  # the last one
+
+    def list(self):
+        rows = []
+        for number in self.data.scenes():
+            try:
+                cameras = scripting.read_json(os.path.join(self.data.split, f"{number:06d}", "scene_camera.json"))
+                images = sorted(map(int, cameras))
+            except (scripting.Failure, TypeError, ValueError):
+                images = []
+            rows += [(f"{number:06d}/{image:06d}", number, step) for step, image in enumerate(images)]
+            if not images:
+                rows.append((f"{number:06d}", number, None))
+        if not rows:
+            raise scripting.Failure(f"{self.data.split} has no scenes")
+        return rows
+
+    def read(self, _, number, step):
+        """A row of list()."""
+        if self.number != number:
+            self.scene, self.number = None, None
+            self.scene, self.number = self.data.scene(number), number
+        image = self.scene.image(step or 0)
+        return Scan(image.scan, image.beside, self.data.beside())
+
+
+def source(options):
+    """Of the folder or file `options.scans`."""
+    if not os.path.isdir(options.scans):
+        return ListFile(options)
+    return BOP(options) if os.path.isdir(os.path.join(options.scans, options.split)) else Folder(options)

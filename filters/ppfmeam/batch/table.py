@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run writes: the poses in the order of the scans, and beside them what depends on the machine."""
+import csv
+import os
+
+from .. import scripting
+
+POSES = ("scan", "obj_id", "rank", "score", "probability", "R", "t", "failure")
+SCANS = ("scan", "poses", "read_s", "find_s", "process", "warning", "failure")
+
+
+def rows_of(poses, objects):
+    """Of poses, best first, what stands in the table after the scan's name. `objects`: the numbers of the parts."""
+    array = poses.GetPointData().GetArray
+    part, scores, probabilities, transforms = map(array, ("PartId", "Score", "Probability", "Transform"))
+    rows = []
+    for i in range(poses.GetNumberOfPoints()):
+        T = transforms.GetTuple(i)
+        R, t = (*T[0:3], *T[4:7], *T[8:11]), (T[3], T[7], T[11])
+        rows.append((objects[part.GetValue(i)] if part else objects[0], i + 1, repr(scores.GetValue(i)),
+                     repr(probabilities.GetValue(i)), " ".join(map(repr, R)), " ".join(map(repr, t)), ""))
+    return rows
+
+
+def path_of_scans(path):
+    """Where the second table goes: poses.csv has poses.scans.csv beside it."""
+    name, extension = os.path.splitext(path)
+    return f"{name}.scans{extension}"
+
+
+def write(path, names, lines):
+    """Both tables, of these scans in this order. A scan that failed, or where nothing was found, has one row."""
+    def poses():
+        for name in names:
+            line = lines[name]
+            yield from ([name, *row] for row in line["rows"] or [["", "", "", "", "", "", line["failure"]]])
+
+    def scans():
+        for name in names:
+            line = lines[name]
+            yield [name, len(line["rows"]), *(line[column] for column in SCANS[2:])]
+
+    for to, columns, rows in ((path_of_scans(path), SCANS, scans()), (path, POSES, poses())):
+        try:
+            with scripting.written(to, newline="") as file:
+                writer = csv.writer(file, lineterminator="\n")
+                writer.writerow(columns)
+                writer.writerows(rows)
+        except OSError as error:
+            raise scripting.Failure(f"cannot write {to}: {error.strerror}") from None

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`ppfmeam batch` in one process: datasets, folders and lists, broken scans, a killed run, what cannot be read or
+written."""
+import os
+import resource
+import shutil
+import subprocess
+
+from ppfmeam import scripting
+from batchtest import H, W, command, content, dataset, finished, killed, rows
+from meamtest import check
+from scripttest import refuses, script, works, write_pcd
+from vtkmodules.util.numpy_support import vtk_to_numpy
+import numpy
+
+SCENES = 5
+model, scan = dataset("bins", SCENES)
+scripting.write_model(model, "plate.meam")
+names = [f"{scene:06d}/000000" for scene in range(SCENES)]
+
+# A dataset: the poses of `detect`, in the order of the scenes; nothing else is left behind.
+text = finished(*command("bins", "--model", "plate.meam", "--out", "poses.csv"))
+check(text.startswith("poses.csv: 5 scans, 0 failed, "), text)
+poses = rows("poses.csv")
+check(list(dict.fromkeys(row["scan"] for row in poses)) == names, "the scans in their order")
+check(all(row["obj_id"] == "1" and not row["failure"] for row in poses), "rows of object 1")
+check([int(row["rank"]) for row in poses if row["scan"] == names[0]] == list(range(1, 1 + sum(
+    row["scan"] == names[0] for row in poses))), "ranks from 1")
+place = "bins/test/000002"
+works("detect.py", "--model", "plate.meam", "--depth", f"{place}/depth/000000.png", "--camera", "bins/camera.json",
+      "--depth-scale", str(scripting.read_json(f"{place}/scene_camera.json")["0"]["depth_scale"]),
+      "--image", f"{place}/gray/000000.png", "--out", "one.csv")
+ours = [(row["probability"], row["R"], row["t"]) for row in poses if row["scan"] == names[2]]
+check([(row["score"], row["R"], row["t"]) for row in rows("one.csv")] == ours, "the poses are not those of detect")
+of_scans = rows("poses.scans.csv")
+check([row["scan"] for row in of_scans] == names and all(float(row["find_s"]) > 0 for row in of_scans), "the times")
+check(not os.path.exists("poses.csv.run"), "what is done is left behind")
+
+# The dataset's own objects, which are trained, and any number of threads.
+finished(*command("bins", "--threads", "1", "--out", "own.csv"))
+check(content("own.csv") == content("poses.csv"), "another table with one thread and the dataset's own object")
+
+# A killed run is taken up; with other options it is not.
+killed("killed.csv", lambda process: process, *command("bins", "--model", "plate.meam", "--out", "killed.csv"))
+result = script("batch.py", "bins", "--model", "plate.meam", "--poses", "1", "--out", "killed.csv")
+check(result.returncode == 1 and "had other parts, scans or options" in result.stderr, result.stderr)
+name = next(name for name in sorted(os.listdir("killed.csv.run")) if name.endswith(".jsonl"))
+with open(f"killed.csv.run/{name}", "a", encoding="utf-8") as file:
+    file.write('{"scan": "000004/000000", "rows": [[1, 1, "0.')  # what a process leaves that is killed as it writes
+finished(*command("bins", "--model", "plate.meam", "--out", "killed.csv"))
+check(content("killed.csv") == content("poses.csv"), "another table after a kill")
+
+# A scan that cannot be read, and a scene, is a row with its reason.
+with open(f"bins/test/{names[1][:6]}/depth/000000.png", "r+b") as file:
+    file.truncate(1000)
+with open(f"bins/test/{names[3][:6]}/scene_camera.json", "w", encoding="utf-8") as file:
+    file.write("{")
+text = finished(*command("bins", "--model", "plate.meam", "--out", "broken.csv"))
+check(", 2 failed, " in text, text)
+broken = {row["scan"]: row["failure"] for row in rows("broken.csv") if row["failure"]}
+check(list(broken) == [names[1], "000003"] and "000000.png" in broken[names[1]] and "JSON" in broken["000003"],
+      f"{broken}")
+check([row for row in rows("broken.csv") if not row["failure"]]
+      == [row for row in poses if row["scan"] not in (names[1], names[3])], "the others are not as they were")
+
+# A folder and a list, with images beside; a scan without any copy of the part has an empty row.
+os.makedirs("folder")
+points = vtk_to_numpy(scan.GetPoints().GetData())
+grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).astype(numpy.float32)
+write_pcd("folder/b.pcd", numpy.column_stack((points, grey)), W, H, "x y z intensity")
+shutil.copy("folder/b.pcd", "folder/a.pcd")
+shutil.copy(f"bins/test/{names[4][:6]}/gray/000000.png", "folder/image.png")
+flat = numpy.column_stack((points[:, :2], numpy.full(W * H, 700.0)))
+flat[numpy.isnan(points).any(axis=1)] = numpy.nan
+write_pcd("folder/c.pcd", numpy.column_stack((flat, 0 * grey)), W, H, "x y z intensity")
+finished(*command("folder", "--model", "plate.meam", "--probability", "0.5", "--out", "folder.csv"))
+found = {}
+for row in rows("folder.csv"):
+    found.setdefault(row["scan"], []).append(row["R"] + row["t"])
+check(list(found) == ["a.pcd", "b.pcd", "c.pcd"], f"the folder's scans by name: {list(found)}")
+check(found["a.pcd"] == found["b.pcd"] != [""] and found["c.pcd"] == [""], f"{found}")
+write_pcd("bare.pcd", points, W, H, "x y z")
+with open("list.txt", "w", encoding="utf-8") as file:
+    file.write("# scan and image\nbare.pcd\tfolder/image.png\nnone.pcd\nfolder/a.pcd\n")
+finished(*command("list.txt", "--model", "plate.meam", "--probability", "0.5", "--out", "list.csv"))
+found = {row["scan"]: row for row in rows("list.csv")}
+check(list(found) == ["bare.pcd", "none.pcd", "folder/a.pcd"], f"the list's scans in its order: {list(found)}")
+check(found["none.pcd"]["failure"].startswith("cannot read none.pcd"), f"{found}")
+check(found["bare.pcd"]["R"] and found["folder/a.pcd"]["R"], f"{found}")
+
+# Two parts: no two poses explain the same surface.
+finished(*command("folder", "--model", "plate.meam", "--model", "plate.meam", "--out", "two.csv"))
+check({row["obj_id"] for row in rows("two.csv")} <= {"1", "2", ""}, "the numbers of two parts")
+
+# What cannot be read or written is a sentence, and nothing is left behind.
+os.makedirs("empty")
+with open("cut.meam", "wb") as file:
+    file.write(content("plate.meam")[:5000])
+with open("old.meam", "wb") as file:
+    file.write(content("plate.meam")[:8] + b"\x63\0\0\0" + content("plate.meam")[12:])
+with open("twice.txt", "w", encoding="utf-8") as file:
+    file.write("bare.pcd\nbare.pcd\n")
+for word, name in (("has no scans", "empty"), ("cannot read none", "none"), ("twice", "twice.txt"),
+                   ("not a list", "plate.meam")):
+    refuses(word, "batch.py", name, "--model", "plate.meam", "--out", "x.csv")
+refuses("give the parts", "batch.py", "folder", "--out", "x.csv")
+refuses("no such folder", "batch.py", "bins", "--model", "plate.meam", "--out", "none/x.csv")
+for word, name in (("cut off", "cut.meam"), ("version 99", "old.meam")):
+    refuses(word, "batch.py", "bins", "--model", name, "--out", "x.csv")
+
+
+# A full disk: it takes no file beyond so many bytes. What is done stays, and the run goes on when there is room.
+def small():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (3000, resource.RLIM_INFINITY))
+
+
+result = subprocess.run(command("folder", "--model", "plate.meam", "--out", "full.csv"), preexec_fn=small,
+                        capture_output=True, text=True)
+check(result.returncode == 1 and result.stderr.startswith("batch.py: cannot write full.csv.run: "), result.stderr)
+check(not [name for name in os.listdir() if name.startswith("full") and name != "full.csv.run"], f"{os.listdir()}")
+finished(*command("folder", "--model", "plate.meam", "--out", "full.csv"))
+finished(*command("folder", "--model", "plate.meam", "--out", "room.csv"))
+check(content("full.csv") == content("room.csv"), "another table after a full disk")

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`ppfmeam batch --watch`: scans that are renamed into the folder, grow in it, are damaged or replaced; Ctrl-C."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+from batchtest import H, W, command, dataset, finished, rows
+from meamtest import check
+from ppfmeam import scripting
+
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+model, scan = dataset("bins", 1)
+scripting.write_model(model, "plate.meam")
+os.makedirs("cell")
+os.makedirs("scans")
+points = vtk_to_numpy(scan.GetPoints().GetData())
+grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).astype(numpy.float32)
+HEAD = (f"VERSION .7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH {W}\nHEIGHT {H}\n"
+        f"POINTS {W * H}\nDATA binary\n")
+whole = HEAD.encode() + numpy.ascontiguousarray(numpy.column_stack((points, grey)), dtype="<f4").tobytes()
+with open("scans/one.pcd", "wb") as file:
+    file.write(whole)
+finished(*command("scans", "--model", "plate.meam", "--out", "poses.csv"))
+expected = [[float(word) for word in row["t"].split()] for row in rows("poses.csv")]
+check(len(expected) > 1, "no poses to compare with")
+
+
+def start(*options):
+    return subprocess.Popen(command("--watch", "cell", "--model", "plate.meam", *options), stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True)
+
+
+def line(process, *words):
+    """The next line it prints, which has all the words."""
+    text = process.stdout.readline()
+    check(text and all(word in text for word in words), f"expected {words}: {text or process.stderr.read()}")
+
+
+def end(process, *words):
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=30)
+    check(process.returncode == 0 and not errors, f"{process.returncode}, {errors}")
+    check(output.count("\n") == 1 and all(word in output for word in words), f"expected {words}: {output}")
+
+
+def right(name):
+    with open(f"cell/{name}.poses.json", encoding="utf-8") as file:
+        poses = json.load(file)["poses"]
+    check([pose["translation"] for pose in poses] == expected, f"{name}: {poses}")
+
+
+process = start()
+line(process, "watching cell")
+shutil.copy("scans/one.pcd", "cell/a.part")
+os.rename("cell/a.part", "cell/a.pcd")
+line(process, f"a.pcd: {len(expected)} poses; ", " s (waited ", "read ", "found ")
+right("a")
+
+# One that grows gets its poses when it is whole, also where a busy machine made a pause so long that it was taken
+# before.
+with open("cell/b.pcd", "wb") as file:
+    for part in range(4):
+        file.write(whole[part * len(whole) // 4:(part + 1) * len(whole) // 4])
+        file.flush()
+        time.sleep(0.1)
+early = 0
+while "poses;" not in (text := process.stdout.readline()):
+    check(text.startswith("b.pcd: "), text)
+    early += 1
+right("b")
+
+# A damaged one has a reason beside it, until it is replaced.
+with open("cell/c.part", "wb") as file:
+    file.write(whole[:9000])
+os.rename("cell/c.part", "cell/c.pcd")
+line(process, "c.pcd: ", "c.pcd", " s\n")
+with open("cell/c.poses.failed", encoding="utf-8") as file:
+    check("c.pcd" in file.read() and not os.path.exists("cell/c.poses.json"), "the reason")
+shutil.copy("scans/one.pcd", "cell/c.part")
+os.rename("cell/c.part", "cell/c.pcd")
+line(process, f"c.pcd: {len(expected)} poses; ")
+right("c")
+check(not os.path.exists("cell/c.poses.failed"), "the reason stays")
+end(process, f"{4 + early} scans, {1 + early} failed; from arrival to poses ")
+check(sorted(os.listdir("cell")) == [f"{name}.{kind}" for name in "abc" for kind in ("pcd", "poses.json")],
+      f"{sorted(os.listdir('cell'))}")
+
+# What has its poses already is left alone; CSV is another result.
+os.rename("cell/b.poses.json", "b.json")
+process = start()
+line(process, "watching cell")
+line(process, f"b.pcd: {len(expected)} poses; ")
+right("b")
+end(process, "1 scans, 0 failed")
+process = start("--form", "csv")
+line(process, "watching cell")
+for name in "abc":
+    line(process, f"{name}.pcd: {len(expected)} poses")
+    check([[float(word) for word in row["t"].split()] for row in rows(f"cell/{name}.poses.csv")] == expected, "CSV")
+end(process, "3 scans, 0 failed")
+
+# What cannot be watched.
+result = subprocess.run(command("--watch", "none", "--model", "plate.meam"), capture_output=True, text=True)
+check(result.returncode == 1 and result.stderr == "batch.py: cannot watch none: no such folder\n", result.stderr)
+for arguments in (("scans", "--watch", "cell", "--model", "plate.meam"), ("--watch", "cell"),
+                  ("scans", "--model", "plate.meam")):
+    result = subprocess.run(command(*arguments), capture_output=True, text=True)
+    check(result.returncode == 2 and "give " in result.stderr, f"{arguments}: {result.stderr}")

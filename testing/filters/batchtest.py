@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of many scans share: small bins as a dataset, runs that are killed. Not a test."""
+import csv
+import glob
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from ppfmeam import bop, filters, scripting
+from meamtest import check
+
+BATCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "batch.py")
+W, H = 320, 240
+
+
+def plate():
+    part = filters.vtkMEAMSamplePartSource()
+    part.SetPartToHolePlate()
+    part.Update()
+    return scripting.prepare_mesh(part.GetOutput())
+
+
+def dataset(folder, scenes):
+    """Writes bins of three plates, one in each scene. Returns the trained model and the last scan."""
+    mesh = plate()
+    training = scripting.Training(mesh)
+    source = filters.vtkMEAMBinSceneSource()
+    source.SetInputDataObject(mesh)
+    source.SetCopies(3)
+    source.SetWidth(W)
+    source.SetHeight(H)
+    os.makedirs(folder)
+    for scene in range(scenes):
+        source.SetSeed(scene + 1)
+        scripting.update(source)
+        scan, truth, part, image = (source.GetOutputDataObject(port) for port in range(4))
+        bop.write_scene(folder, scene, scan, truth, image)
+    bop.write_part(folder, part, training.symmetric_samples().GetFieldData().GetAbstractArray("ModelsInfo").GetValue(0))
+    bop.write_camera(folder, scan, image)
+    return training.model(), scan
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def rows(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def children(process):
+    """The processes that a process has started."""
+    with open(f"/proc/{process}/task/{process}/children", encoding="ascii") as file:
+        return [int(word) for word in file.read().split()]
+
+
+def killed(out, victim, *command):
+    """Starts a run and kills the process that victim(its number) names once a scan is done: kill -9."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not any(map(os.path.getsize, glob.glob(f"{out}.run/*.jsonl"))):
+        check(process.poll() is None, f"the run has ended before a scan was done: {process.returncode}")
+        time.sleep(0.01)
+    os.kill(victim(process.pid), signal.SIGKILL)
+    process.wait()
+    check(process.returncode != 0 and not os.path.exists(out), f"a killed run has written {out}")
+    check(os.path.isdir(f"{out}.run"), "a killed run leaves what is done")
+
+
+def finished(*command):
+    """Runs to the end. Returns the output."""
+    done = subprocess.run(command, capture_output=True, text=True)
+    check(done.returncode == 0, f"{command}: {done.returncode}, {done.stderr}")
+    return done.stdout
+
+
+def command(*arguments):
+    return (sys.executable, BATCH, *arguments)
