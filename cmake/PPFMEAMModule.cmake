@@ -6,10 +6,11 @@
 # The interpreter that Debian's VTK is built for, whatever comes first on the PATH.
 set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The interpreter VTK was built for")
 
-# What filters/vtk.module names, and the wrapping tools.
+# What filters/vtk.module names. The wrapping tools come with it: VTK 9.3 as ParaView 5.13 has it refuses them as components.
 set(vtk_components
   CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem CommonTransforms
-  FiltersCore IOCore vtksys Python WrapPython WrapHierarchy)
+  FiltersCore IOCore vtksys Python)
+include(PPFMEAMPythonModules)
 if(PPFMEAM_USE_PARAVIEW)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager RemotingClientServerStream ProcessXML WrapClientServer)
 endif()
