@@ -14,7 +14,12 @@ include(PPFMEAMPythonModules)
 if(PPFMEAM_USE_PARAVIEW)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager RemotingClientServerStream ProcessXML WrapClientServer)
 endif()
-find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components})
+# A wheel is for the VTK of this machine: plain VTK where that is installed, else ParaView's, which stands apart.
+set(elsewhere "")
+if(SKBUILD)
+  file(GLOB elsewhere "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/paraview-*/vtk")
+endif()
+find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components} PATHS ${elsewhere})
 message(STATUS "VTK ${VTK_VERSION} from ${VTK_DIR}")
 
 vtk_module_scan(
@@ -61,7 +66,9 @@ ppfmeam_copy("" ${package_files})
 ppfmeam_copy(/commands ${command_files})
 configure_file("${PROJECT_SOURCE_DIR}/filters/ppfmeam/version.py.in" "${package_destination}/version.py" @ONLY)
 install(FILES "${package_destination}/version.py" DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam COMPONENT python)
-install(PROGRAMS "${PROJECT_SOURCE_DIR}/filters/command/ppfmeam" DESTINATION bin COMPONENT python)
+if(NOT SKBUILD) # pip makes it
+  install(PROGRAMS "${PROJECT_SOURCE_DIR}/filters/command/ppfmeam" DESTINATION bin COMPONENT python)
+endif()
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
 
 # Everything a script or ParaView needs, without the tests.

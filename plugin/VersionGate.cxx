@@ -6,7 +6,9 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <climits>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 class vtkPVPlugin;
@@ -55,18 +57,18 @@ void complain(const char* sentence, const Version& running)
   }
 }
 
-/// Opens the plugin itself, which is in the folder of this library.
+/// Opens the plugin itself, which is in the folder of this library, wherever links to it are.
 void* openPlugin()
 {
   Dl_info own;
-  if (!dladdr(reinterpret_cast<void*>(&openPlugin), &own) || !own.dli_fname)
+  char file[PATH_MAX];
+  if (!dladdr(reinterpret_cast<void*>(&openPlugin), &own) || !own.dli_fname || !realpath(own.dli_fname, file))
   {
     return nullptr;
   }
-  const char* slash = std::strrchr(own.dli_fname, '/');
-  const int length = slash ? static_cast<int>(slash + 1 - own.dli_fname) : 0;
-  char path[4096];
-  std::snprintf(path, sizeof(path), "%.*s%s", length, own.dli_fname, PPFMEAM_PLUGIN_FILE);
+  const int length = static_cast<int>(std::strrchr(file, '/') + 1 - file);
+  char path[PATH_MAX + sizeof(PPFMEAM_PLUGIN_FILE)];
+  std::snprintf(path, sizeof(path), "%.*s%s", length, file, PPFMEAM_PLUGIN_FILE);
   return dlopen(path, RTLD_LAZY | RTLD_LOCAL);
 }
 }
