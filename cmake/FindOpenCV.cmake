@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # OpenCV's small modules alone: OpenCVConfig.cmake is part of libopencv-dev, which installs every module
-# (Qt, VTK 9.1, 450 MB). Imported targets opencv_core, opencv_imgproc, ... for the COMPONENTS asked for.
+# (Qt, plain VTK, 450 MB). Imported targets opencv_core, opencv_imgproc, ... for the COMPONENTS asked for.
 find_path(OpenCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 foreach(module IN LISTS OpenCV_FIND_COMPONENTS)
   find_library(OpenCV_${module}_LIBRARY NAMES opencv_${module})

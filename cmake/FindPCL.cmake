@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# PCL without VTK. PCLConfig.cmake brings VTK 9.1's targets in beside ParaView's VTK 9.2, and two VTKs in
+# PCL without VTK. PCLConfig.cmake brings plain VTK's targets in beside ParaView's VTK, and two VTKs in
 # one process are a crash; so the headers come from an unpacked libpcl-dev (build/deps/pcl, see
 # cmake/debian.sh) or from the system, the libraries from the runtime packages. Only modules that link no
 # VTK are offered: imported targets PCL::common PCL::kdtree PCL::octree PCL::search PCL::sample_consensus
 # PCL::filters PCL::features PCL::registration.
-find_path(PCL_INCLUDE_DIR pcl/pcl_config.h
-  HINTS "${PROJECT_SOURCE_DIR}/build/deps/pcl/usr/include" PATH_SUFFIXES pcl-1.13 pcl-1.12)
+set(unpacked "${PROJECT_SOURCE_DIR}/build/deps/pcl/usr/include")
+file(GLOB headers "${unpacked}/pcl-*" "/usr/include/pcl-*" "/usr/local/include/pcl-*") # one folder for each version
+list(SORT headers COMPARE NATURAL ORDER DESCENDING)
+list(TRANSFORM headers REPLACE "^.*/" "" OUTPUT_VARIABLE suffixes)
+find_path(PCL_INCLUDE_DIR pcl/pcl_config.h HINTS "${unpacked}" PATH_SUFFIXES ${suffixes})
 set(PCL_VERSION "")
 if(PCL_INCLUDE_DIR)
   file(STRINGS "${PCL_INCLUDE_DIR}/pcl/pcl_config.h" line REGEX "define PCL_VERSION_PRETTY")
@@ -31,7 +34,7 @@ foreach(module IN LISTS modules)
 endforeach()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(PCL REQUIRED_VARS PCL_INCLUDE_DIR ${PCL_REQUIRED_LIBRARIES} VERSION_VAR PCL_VERSION
-  REASON_FAILURE_MESSAGE "cmake/debian.sh gets it on Debian 12")
+  REASON_FAILURE_MESSAGE "cmake/debian.sh gets it on Debian 12 and 13")
 mark_as_advanced(PCL_INCLUDE_DIR)
 
 if(PCL_FOUND AND NOT TARGET PCL::common)

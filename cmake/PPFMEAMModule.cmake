@@ -6,14 +6,20 @@
 # The interpreter that Debian's VTK is built for, whatever comes first on the PATH.
 set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The interpreter VTK was built for")
 
-# What filters/vtk.module names, and the wrapping tools.
+# What filters/vtk.module names. The wrapping tools come with it: VTK 9.3 as ParaView 5.13 has it refuses them as components.
 set(vtk_components
   CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem CommonTransforms
-  FiltersCore IOCore vtksys Python WrapPython WrapHierarchy)
+  FiltersCore IOCore vtksys Python)
+include(PPFMEAMPythonModules)
 if(PPFMEAM_USE_PARAVIEW)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager RemotingClientServerStream ProcessXML WrapClientServer)
 endif()
-find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components})
+# A wheel is for the VTK of this machine: plain VTK where that is installed, else ParaView's, which stands apart.
+set(elsewhere "")
+if(SKBUILD)
+  file(GLOB elsewhere "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/paraview-*/vtk")
+endif()
+find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components} PATHS ${elsewhere})
 message(STATUS "VTK ${VTK_VERSION} from ${VTK_DIR}")
 
 vtk_module_scan(
@@ -63,7 +69,9 @@ ppfmeam_copy(/commands ${command_files})
 ppfmeam_copy(/batch ${batch_files})
 configure_file("${PROJECT_SOURCE_DIR}/filters/ppfmeam/version.py.in" "${package_destination}/version.py" @ONLY)
 install(FILES "${package_destination}/version.py" DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam COMPONENT python)
-install(PROGRAMS "${PROJECT_SOURCE_DIR}/filters/command/ppfmeam" DESTINATION bin COMPONENT python)
+if(NOT SKBUILD) # pip makes it
+  install(PROGRAMS "${PROJECT_SOURCE_DIR}/filters/command/ppfmeam" DESTINATION bin COMPONENT python)
+endif()
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
 
 # Everything a script or ParaView needs, without the tests.

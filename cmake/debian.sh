@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Gets a Debian 12 ready to build: installs the packages that are missing and unpacks into build/deps what
+# Gets a Debian 12 or 13 ready to build: installs the packages that are missing and unpacks into build/deps what
 # cannot be installed beside ParaView. Costs nothing, and needs no network, when everything is there.
 #
 #   cmake/debian.sh            what the plugin, the Python package, the examples and the tests need
-#   cmake/debian.sh vtk        that and, for the vtk preset, a plain VTK 9.1 in build/deps/vtk9
+#   cmake/debian.sh vtk        that and, for the vtk preset, a plain VTK in build/deps/vtk9
 #
 # libpcl-dev and plain VTK's packages conflict with python3-paraview, hence the unpacking: of PCL only the
 # headers are needed (its runtime libraries install fine), plain VTK runs from where it is unpacked.
@@ -11,25 +11,40 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 deps=$root/build/deps
 
+fail() { echo "cmake/debian.sh: $*" >&2; exit 1; }
+command -v apt-get >/dev/null || fail "this machine has no apt-get; its list of packages tells what to install by hand"
+
+# What the releases of Debian name differently.
+. /etc/os-release
+case ${VERSION_ID:-} in
+  12)
+    pcl=1.13 vtk=9.1
+    # The plugin's toolbar and icons (ParaView's icons are libqt5svg5's), and what ParaView makes its help pages with.
+    suite=(libqt5svg5 qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools clang-format)
+    ;;
+  *)
+    [ "${VERSION_ID:-}" = 13 ] || echo "cmake/debian.sh: made for Debian 12 and 13, this is ${PRETTY_NAME:-unknown}" >&2
+    pcl=1.15 vtk=9.3
+    suite=(libqt6svg6 qt6-base-dev python3-dev) # ParaView has no help pages of plugins with Qt 6
+    ;;
+esac
+
 packages=(
   g++ cmake ninja-build
-  paraview paraview-dev python3-paraview python3-numpy libqt5svg5 xvfb xauth libgl1-mesa-dri
-  libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}1.13
-  libopencv-imgcodecs-dev libopencv-calib3d-dev libeigen3-dev libcgal-dev libopenmesh-dev libflann-dev liblzf-dev nlohmann-json3-dev
-  libbullet-dev libfcl-dev
+  paraview paraview-dev python3-paraview python3-numpy xvfb xauth libgl1-mesa-dri
+  libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}"$pcl"
+  libopencv-imgcodecs-dev libopencv-calib3d-dev libeigen3-dev libcgal-dev libopenmesh-dev
+  libflann-dev liblzf-dev nlohmann-json3-dev libbullet-dev libfcl-dev
   openmpi-bin python3-mpi4py # several processes: ppfmeam batch
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
-  qtbase5-dev # the plugin's toolbar and icons; ParaView's icons are libqt5svg5's
-  qttools5-dev qtxmlpatterns5-dev-tools # ParaView makes the plugin's help pages with them
-  libgtest-dev libbenchmark-dev clang-format
+  libgtest-dev libbenchmark-dev
+  "${suite[@]}"
 )
 unpack=(pcl:libpcl-dev)
 if [ "${1:-}" = vtk ]; then
-  unpack+=(vtk9:{libvtk9-dev,libvtk9.1,libvtk9.1-qt,vtk9,python3-vtk9})
+  unpack+=(vtk9:{libvtk9-dev,"libvtk$vtk","libvtk$vtk-qt",vtk9,python3-vtk9})
 fi
 
-fail() { echo "cmake/debian.sh: $*" >&2; exit 1; }
-command -v apt-get >/dev/null || fail "this machine has no apt-get. Install by hand: ${packages[*]}"
 mkdir -p "$deps"
 log=$root/build/packages.log
 
@@ -42,8 +57,6 @@ as_root() {
 mapfile -t missing < <(comm -23 <(printf '%s\n' "${packages[@]}" | sort) \
   <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null | sed -n 's/^installed //p' | sort))
 if [ ${#missing[@]} -gt 0 ]; then
-  . /etc/os-release
-  [ "${VERSION_ID:-}" = 12 ] || echo "cmake/debian.sh: made for Debian 12, this is ${PRETTY_NAME:-unknown}" >&2
   echo "installing ${#missing[@]} Debian packages and what they need (log: build/packages.log)"
   # --no-remove: a machine with libpcl-dev or python3-vtk9 has to be told, not changed.
   { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive \

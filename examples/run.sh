@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs an example; sets up the machine (Debian 12) and builds first when that is needed.
+# Runs an example; sets up the machine (Debian 12 or 13) and builds first when that is needed.
 #
 #   examples/run.sh                    the main job: finds the parts in a simulated bin
 #   examples/run.sh SCRIPT [ARGS...]   a script of this folder, or a path to one of yours
 #
 # Scripts run under /usr/bin/python3 with ParaView's VTK; one whose first line names pvpython runs under
-# pvpython with the plugin loaded. PPFMEAM_PRESET=vtk runs under plain VTK 9.1 instead. Without a display a
+# pvpython with the plugin loaded. PPFMEAM_PRESET=vtk runs under plain VTK instead. Without a display a
 # virtual one is started.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -101,10 +101,22 @@ file(GLOB parts "${PROJECT_SOURCE_DIR}/examples/parts/*.stl")
 install(FILES ${parts} DESTINATION share/doc/${package_python}/examples/parts COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/cpp" DESTINATION share/doc/${package_dev}/examples
   COMPONENT dev EXCLUDE_FROM_ALL)
-# Debian's ParaView 5.11 lists the plugins that a file of this name beside its program names, and comes without one.
-file(RELATIVE_PATH plugins /usr/bin "/usr/lib/${PARAVIEW_PLUGIN_SUBDIR}/ppfmeam.xml")
-file(WRITE "${generated}/paraview.conf" "${plugins}\n")
-install(FILES "${generated}/paraview.conf" DESTINATION bin COMPONENT paraview EXCLUDE_FROM_ALL)
+# ParaView lists the plugins that the first paraview.conf names. Debian's 5.13 comes with one, which names a folder for those
+# of others; 5.11 comes without one, and finds it beside its program.
+set(installed "/usr/lib/${PARAVIEW_PLUGIN_SUBDIR}")
+file(GLOB paraview_conf "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/paraview-${ParaView_VERSION_MAJOR}.*/paraview.conf")
+if(paraview_conf)
+  set(listed /usr/share/paraview/plugins/PPFMEAM)
+  file(RELATIVE_PATH plugin "${listed}" "${installed}/PPFMEAM/PPFMEAM.so")
+  file(REMOVE "${generated}/PPFMEAM.so")
+  file(CREATE_LINK "${plugin}" "${generated}/PPFMEAM.so" SYMBOLIC)
+  install(FILES "${generated}/PPFMEAM.so" DESTINATION share/paraview/plugins/PPFMEAM
+    COMPONENT paraview EXCLUDE_FROM_ALL)
+else()
+  file(RELATIVE_PATH plugins /usr/bin "${installed}/ppfmeam.xml")
+  file(WRITE "${generated}/paraview.conf" "${plugins}\n")
+  install(FILES "${generated}/paraview.conf" DESTINATION bin COMPONENT paraview EXCLUDE_FROM_ALL)
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME ppfmeam)

@@ -91,7 +91,10 @@ void showPlain(vtkSMProxy* representation, vtkPVDataInformation* data)
   if (colors && std::strcmp(colors->GetName(), "STLSolidLabeling") == 0 &&
       colors->GetComponentRange(0)[0] == colors->GetComponentRange(0)[1])
   {
-    vtkSMPVRepresentationProxy::SetScalarColoring(representation, nullptr, vtkDataObject::CELL);
+    if (auto* geometry = vtkSMPVRepresentationProxy::SafeDownCast(representation))
+    {
+      geometry->SetScalarColoring(nullptr, vtkDataObject::CELL);
+    }
   }
 }
 

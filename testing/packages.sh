@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# On a bare Debian 12 that never saw a build, as root: installs the packages of packaging/build.sh by apt and uses all of them.
+# On a bare Debian that never saw a build, of the release that they were made on, as root: installs the packages of
+# packaging/build.sh by apt and uses all of them.
 # It installs about 1 GB of Debian's packages; run it in a chroot or a container.
 #
 #   testing/packages.sh FOLDER      the folder of the .deb files
@@ -68,6 +69,6 @@ python3 "$here/install/scan.py" check "$work"
 
 echo "== removed again"
 apt-get purge -q -y 'ppfmeam-paraview' 'python3-ppfmeam' 'libppfmeam-*' >>"$work/apt.log" 2>&1 || { tail -n 20 "$work/apt.log"; failed "purge"; }
-left=$(find /usr /etc /var/lib/dpkg/info -iname '*ppfmeam*' -o -name 'libmeam*' -o -name paraview.conf)
+left=$(find /usr /etc /var/lib/dpkg/info -iname '*ppfmeam*' -o -name 'libmeam*' -o -path /usr/bin/paraview.conf)
 [ -z "$left" ] || failed "left behind: $left"
 echo "all packages work"

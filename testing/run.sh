@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything and runs the tests: the release build, core under the sanitizers (dev), and the filters
-# under plain VTK 9.1 (vtk), two tests at a time.
+# under plain VTK (vtk), two tests at a time.
 #
 #   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
 #
@@ -26,7 +26,7 @@ run() { # PRESET, "what", build target or "", ctest arguments...
 }
 run release "core, filters, plugin" "" "$@"
 run dev "core under the sanitizers" "" "$@"
-run vtk "filters under plain VTK 9.1" runtime -L filters "$@"
+run vtk "filters under plain VTK" runtime -L filters "$@"
 
 if [ ${#failed[@]} -gt 0 ]; then
   echo "FAILED: ${failed[*]}"

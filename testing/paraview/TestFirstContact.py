@@ -19,6 +19,7 @@ CLICKS = """<?xml version="1.0" ?>
   <pqevent object="pqClientMainWindow/propertiesDock/propertiesPanel/Accept" command="activate" arguments="" />
   <pqevent object="pqClientMainWindow/menubar/menu_File" command="activate" arguments="actionFileSaveServerState" />
   <pqevent object="pqClientMainWindow/FileSaveServerStateDialog" command="filesSelected" arguments="{folder}/state.pvsm" />
+  <pqevent object="pqClientMainWindow/menubar" command="activate" arguments="menuFilters" />
   <pqevent object="pqClientMainWindow/menubar/menuFilters/PoseEstimation" command="activate" arguments="MEAMPoseEstimation" />
   <pqcheck object="pqClientMainWindow/SelectInputDialog/buttonFrame/Input" property="text" arguments="Part" />
   <pqcheck object="pqClientMainWindow/SelectInputDialog/buttonFrame/Scene" property="text" arguments="Scan" />
