@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 
-from ppfmeam import chains, evaluation, filters, picture, scripting
+from ppfmeam import cellpicture, chains, evaluation, filters, picture, scripting
 
 SIZE = (840, 650)
 MOST_BYTES = 119000
@@ -166,6 +166,33 @@ class Gallery:
         scores = enumerate(array(steps[3], "Score"), 1)
         labels = [(f"rank {r}: score {score:.2f}", tuple(colors[numpy.argmax(ranks == r)] / 255.0)) for r, score in scores]
         self.save("poses", [scan, copies], labels, frame)
+        return steps[3]
+
+    def picks(self, scan, truth, poses):
+        """The gripper at the best pick of each pose."""
+        grasps, planning = filters.vtkMEAMGraspDefinition(), filters.vtkMEAMPickPlanning()
+        grasps.SetInputDataObject(self.mesh)
+        grasps.SetInputDataObject(1, self.model)
+        grasps.SetProposeToParallelJaws()
+        for algorithm in (grasps, planning):
+            algorithm.SetFingerWidth(6)
+            algorithm.SetFingerThickness(4)
+            algorithm.SetBodyWidth(30)
+            algorithm.SetBodyLength(30)
+        planning.SetInputDataObject(0, poses)
+        planning.SetInputDataObject(1, self.mesh)
+        planning.SetInputConnection(2, grasps.GetOutputPort())
+        planning.SetInputDataObject(3, scan)
+        scripting.update(planning)
+        picks = planning.GetOutput()
+        reasons = picks.GetPointData().GetAbstractArray("Reason")
+        instances, labels = array(picks, "Instance"), []
+        for number in sorted(set(instances)):
+            reason = reasons.GetValue(int(numpy.argmax(instances == number)))
+            color = cellpicture.POSSIBLE if reason == "possible" else cellpicture.NOT
+            labels.append((f"instance {number}: {reason}", color))
+        self.save("picks", cellpicture.actors(scan, poses, self.mesh, planning.GetOutputDataObject(1)), labels,
+                  cellpicture.frame(scan, truth, SIZE))
 
     @staticmethod
     def lifted(points, looks):
@@ -212,7 +239,8 @@ def main():
     scripting.update(edges)
     gallery = Gallery(options.out, "sample", source.GetOutputDataObject(2), (0.8, -1.3, 1.5))
     gallery.offline(0)
-    gallery.online(source.GetOutputDataObject(0), edges.GetOutputDataObject(0), (0, 0, 1))
+    poses = gallery.online(source.GetOutputDataObject(0), edges.GetOutputDataObject(0), (0, 0, 1))
+    gallery.picks(source.GetOutputDataObject(0), source.GetOutputDataObject(1), poses)
     if options.tohoku:
         gallery = Gallery(options.out, "tohoku", evaluation.tohoku_mesh(options.tohoku, 1), (0.6, -1.1, 1.6))
         gallery.offline(0)

@@ -159,6 +159,19 @@ void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData
   output->GetPointData()->SetActiveScalars("Possible");
 }
 
+void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* name, vtkPolyData* output)
+{
+  vtkNew<vtkDoubleArray> transforms;
+  transforms->SetName(name);
+  transforms->SetNumberOfComponents(16);
+  for (const meam::Pick& pick : picks)
+  {
+    const RowMajor matrix = (frame.T_scene_model * pick.T_scene_grasp).matrix();
+    transforms->InsertNextTuple(matrix.data());
+  }
+  output->GetPointData()->AddArray(transforms);
+}
+
 void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const meam::Gripper& gripper, ShownPicks shown,
   vtkPolyData* output)
 {

@@ -27,6 +27,10 @@ enum class ShownPicks
 /// A vertex for each pick, with the arrays that vtkMEAMPickPlanning documents.
 void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData* output);
 
+/// The picks' frames in another frame, such as a robot's, in which the scene's lies at `frame`: as a point array of 16
+/// components, row-major.
+void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* name, vtkPolyData* output);
+
 /// The gripper at picks, with `Rank`, `Possible` and `Obstruction` for its cells.
 void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const meam::Gripper& gripper, ShownPicks shown,
   vtkPolyData* output);

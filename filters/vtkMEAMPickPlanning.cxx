@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPickPlanning.h"
 
+#include "calibration/RobotFrameFile.h"
 #include "pick/BinDetection.h"
 #include "pick/PickPlanning.h"
 #include "vtkMEAMArrays.h"
@@ -53,7 +54,7 @@ vtkMEAMPickPlanning::vtkMEAMPickPlanning()
   this->SetNumberOfOutputPorts(3);
 }
 
-vtkMEAMPickPlanning::~vtkMEAMPickPlanning() = default;
+vtkMEAMPickPlanning::~vtkMEAMPickPlanning() { this->SetRobotFrameFile(nullptr); }
 
 int vtkMEAMPickPlanning::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -162,6 +163,12 @@ int vtkMEAMPickPlanning::RequestData(
       meam::PickPlanner planner(toMesh(part), symmetries, grasps, gripper, *this->Settings);
       const meam::Picks picks = planner.plan(poses, cloud, bin, meam::subProgress(progress, 0.4, 1.0));
       fromPicks(picks, grasps, output);
+      if (this->RobotFrameFile && *this->RobotFrameFile)
+      {
+        meam::Pose robot;
+        robot.T_scene_model = meam::readRobotFrame(this->RobotFrameFile);
+        addInFrame(picks, robot, "RobotTransform", output);
+      }
       setFieldText(output, "PickReport", meam::describe(picks));
       fromGrippers(picks, grasps, gripper, static_cast<ShownPicks>(this->ShownGrippers), grippers);
       setGripper(output, gripper);
@@ -202,5 +209,6 @@ void vtkMEAMPickPlanning::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumCovered: " << this->GetMaximumCovered() << " %\n";
   os << indent << "TurnStep: " << this->GetTurnStep() << " degrees\n";
   os << indent << "Tolerance: " << this->GetTolerance() << " mm\n";
+  os << indent << "RobotFrameFile: " << (this->RobotFrameFile ? this->RobotFrameFile : "(none)") << "\n";
   os << indent << "ShownGrippers: " << this->ShownGrippers << "\n";
 }

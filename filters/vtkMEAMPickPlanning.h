@@ -225,6 +225,15 @@ public:
   double GetTolerance();
   ///@}
 
+  ///@{
+  /**
+   * A file with T_robot_camera, as vtkMEAMHandEyeCalibration writes it, OpenCV's or ROS's form: picks have the array
+   * `RobotTransform`, too. Default: none.
+   */
+  vtkSetFilePathMacro(RobotFrameFile);
+  vtkGetFilePathMacro(RobotFrameFile);
+  ///@}
+
   enum Shown
   {
     BestOfEachInstance,
@@ -257,6 +266,7 @@ private:
   double BinRotation[3] = { 180.0, 0.0, 0.0 };
   double BinSize[3] = { 300.0, 200.0, 100.0 };
   double BinWall = 5.0;
+  char* RobotFrameFile = nullptr;
   int ShownGrippers = BestOfEachInstance;
 };
 

@@ -9,6 +9,8 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkThreshold
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from . import filters, scripting, simulation, world
@@ -224,7 +226,7 @@ def trials(station, copies, seed, film=None, pictures=None):
             if film:
                 film.add(bin.truth, gripper)
             if pictures:
-                pictures(bin.scan, found, gripper, row)
+                pictures(bin.scan, bin.truth, found, gripper, row)
         yield row
         if row["outcome"] == "success":
             failures, tried = 0, set()
@@ -237,8 +239,6 @@ def trials(station, copies, seed, film=None, pictures=None):
 
 def of_pick(gripper, rank):
     """Of the grippers at all picks that at one."""
-    from vtkmodules.vtkFiltersCore import vtkThreshold
-    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
     threshold, geometry = vtkThreshold(), vtkGeometryFilter()
     threshold.SetInputDataObject(gripper)
     threshold.SetInputArrayToProcess(0, 0, 0, 1, "Rank")

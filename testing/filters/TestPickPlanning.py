@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkMEAMPickPlanning: possible picks first, the reasons of the others, the gripper and the bin to look at, bad input."""
-from meamtest import box, check, cloud, connect, fails, field, image, points, poses, prints, run, set_fields, tuples
+import os
+import tempfile
+
+from meamtest import box, check, close, cloud, connect, fails, field, image, points, poses, prints, run, set_fields, tuples
 
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
@@ -105,6 +108,25 @@ check(names(run(cup)) == ["the grasp is for another kind of gripper"], names(run
 cup.SetGripperToSuctionCup()
 check(names(run(cup)) == ["possible"], names(run(cup)))
 check(run(connect(vtkMEAMPickPlanning(), poses(), PART, above, scan())).GetNumberOfPoints() == 0, "no poses, no picks")
+
+# In the robot's frame.
+with tempfile.TemporaryDirectory() as folder:
+    file = os.path.join(folder, "robot.yaml")
+    with open(file, "w", encoding="utf-8") as text:
+        text.write("""%YAML:1.0
+---
+T_robot_camera: !!opencv-matrix
+   rows: 4
+   cols: 4
+   dt: d
+   data: [ 1., 0., 0., 1000., 0., -1., 0., 0., 0., 0., -1., 800., 0., 0., 0., 1. ]
+""")
+    alone.SetRobotFrameFile(file)
+    check(close(tuples(run(alone), "RobotTransform")[0], (1, 0, 0, 1000, 0, -1, 0, 0, 0, 0, -1, 310, 0, 0, 0, 1), 1e-6),
+          tuples(run(alone), "RobotTransform"))
+    alone.SetRobotFrameFile(file + "x")
+    fails(alone, "robot.yamlx")
+    alone.SetRobotFrameFile(None)
 
 fails(connect(vtkMEAMPickPlanning(), found), "Part", "Grasps")
 fails(connect(vtkMEAMPickPlanning(), found, PART, above), "organized scan", "Bin")
