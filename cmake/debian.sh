@@ -22,6 +22,7 @@ packages=(
   qtbase5-dev # the plugin's toolbar and icons; ParaView's icons are libqt5svg5's
   qttools5-dev qtxmlpatterns5-dev-tools # ParaView makes the plugin's help pages with them
   libgtest-dev libbenchmark-dev clang-format
+  qemu-user # a processor without AVX: TestSameBits
 )
 unpack=(pcl:libpcl-dev)
 if [ "${1:-}" = vtk ]; then
