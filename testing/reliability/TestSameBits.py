@@ -2,8 +2,8 @@
 """The same poses, bit for bit, on processors with and without AVX2 and AVX-512, and for 1 to 8 threads.
 
 Three look at the processor: the C library, whose functions are told to forget what it has by GLIBC_TUNABLES; OpenCV, by
-OPENCV_CPU_DISABLE; and our own loops, which ask the processor itself: for them qemu-user is a processor without, where it
-is installed."""
+OPENCV_CPU_DISABLE; and our own loops, which ask the processor itself: for them qemu-user is a processor without, where
+it is installed."""
 import os
 import shutil
 import subprocess
