@@ -38,6 +38,7 @@ packages=(
   openmpi-bin python3-mpi4py # several processes: ppfmeam batch
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
   libgtest-dev libbenchmark-dev
+  qemu-user # a processor without AVX: TestSameBits
   "${suite[@]}"
 )
 unpack=(pcl:libpcl-dev)

@@ -22,15 +22,15 @@ def plate():
     return scripting.prepare_mesh(part.GetOutput())
 
 
-def dataset(folder, scenes):
-    """Writes bins of three plates, one in each scene. Returns the trained model and the last scan."""
+def dataset(folder, scenes, width=W, height=H, copies=3):
+    """Writes bins of plates, one in each scene. Returns the trained model and the last scan."""
     mesh = plate()
     training = scripting.Training(mesh)
     source = filters.vtkMEAMBinSceneSource()
     source.SetInputDataObject(mesh)
-    source.SetCopies(3)
-    source.SetWidth(W)
-    source.SetHeight(H)
+    source.SetCopies(copies)
+    source.SetWidth(width)
+    source.SetHeight(height)
     os.makedirs(folder)
     for scene in range(scenes):
         source.SetSeed(scene + 1)

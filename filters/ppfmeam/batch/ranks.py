@@ -8,24 +8,32 @@ import time
 
 from .. import scripting
 
-NEXT, DONE, FAILED, STOPPED = range(4)  # the counters
-COUNTERS = 4
 PAUSE = 0.02  # seconds between two looks: waiting inside MPI would take a processor
+SERVICE_PAUSE = 0.001
+FAILED = 1 << 40  # in the counter: below it how many scans were taken, above it how many of these have failed
 LAUNCHERS = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE")  # variables by which Open MPI and MPICH tell how many there are
 
 
 class Alone:
     """One process."""
-    rank, size = 0, 1
+    rank, size, serves = 0, 1, False
 
     def __init__(self):
-        self.counters = [0] * COUNTERS
+        self.counter = 0
 
-    def add(self, counter, number):
-        """Adds to a counter and returns what it was."""
-        before = self.counters[counter]
-        self.counters[counter] += number
-        return before
+    def add(self, number):
+        """Adds to the counter and returns what it was."""
+        self.counter += number
+        return self.counter - number
+
+    def take(self, failed=False):
+        """The place of the next scan; `failed`: whether the one before has."""
+        return self.add(1 + FAILED * failed) % FAILED
+
+    def state(self):
+        """How many scans were taken, and how many have failed."""
+        failed, taken = divmod(self.add(0), FAILED)
+        return taken, failed
 
     def share(self, value):
         """The first one's value."""
@@ -42,24 +50,31 @@ class Alone:
         pass
 
 
-class MPIRanks:
-    """All processes of mpirun."""
+class MPIRanks(Alone):
+    """All processes of mpirun. On one machine the counter is in memory that they share. Between machines a network may
+    need the first one to look after it, so there it `serves` and takes no scans."""
 
     def __init__(self, MPI, numpy):
         self.MPI, self.comm = MPI, MPI.COMM_WORLD
         self.rank, self.size = self.comm.rank, self.comm.size
+        self.serves = self.comm.Split_type(MPI.COMM_TYPE_SHARED).size < self.size
+        self.serves = self.comm.bcast(self.serves) and self.rank == 0
         self.numbers = numpy.zeros(2, numpy.int64)
-        self.window = MPI.Win.Allocate(8 * COUNTERS if self.rank == 0 else 0, 8, comm=self.comm)
+        self.window = MPI.Win.Allocate(8 if self.rank == 0 else 0, 8, comm=self.comm)
         if self.rank == 0:
             numpy.frombuffer(self.window.tomemory(), numpy.int64)[:] = 0
         self.comm.Barrier()
         self.window.Lock_all()
 
-    def add(self, counter, number):
+    def add(self, number):
         self.numbers[0] = number
-        self.window.Fetch_and_op(self.numbers[:1], self.numbers[1:], 0, counter, self.MPI.SUM)
+        self.window.Fetch_and_op(self.numbers[:1], self.numbers[1:], 0, 0, self.MPI.SUM)
         self.window.Flush(0)
         return int(self.numbers[1])
+
+    def state(self):
+        self.comm.Iprobe()  # lets MPI answer the others, which an operation on this process's own memory does not
+        return super().state()
 
     def share(self, value):
         return self.comm.bcast(value)
@@ -75,8 +90,7 @@ class MPIRanks:
             time.sleep(PAUSE)
 
     def close(self):
-        """MPI ends here: pvbatch does not end it when a script ends with a status, and mpirun takes that for a
-        crash."""
+        """MPI ends here: pvbatch does not end it when a script ends with a status, which mpirun takes for a crash."""
         self.window.Unlock_all()
         self.window.Free()
         sys.stdout.flush()

@@ -8,7 +8,7 @@ from .. import finding, scripting
 from ..version import VERSION
 from . import parts, progress, scans, table
 from .journal import Journal
-from .ranks import DONE, FAILED, NEXT, PAUSE, STOPPED, together
+from .ranks import SERVICE_PAUSE, together
 
 ELSEWHERE = ("out", "threads", "watch", "form")  # options that change no pose
 
@@ -64,22 +64,26 @@ class Search:
 
 
 def work(ranks, journal, search, plan):
-    """Takes scan after scan until none is left or a process has stopped; the first one tells how far all are."""
+    """Takes scan after scan until none is left; the first process tells how far all are."""
+    total, failed = len(plan.todo), False
     shown = progress.Progress(len(plan.scans), plan.done()) if ranks.rank == 0 else None
-    total = len(plan.todo)
+
+    def show():
+        if shown:
+            taken, bad = ranks.state()
+            shown.show(max(min(taken, total) - ranks.size + 1, 0), bad)
+            return taken
+
     try:
-        while not ranks.add(STOPPED, 0) and (place := ranks.add(NEXT, 1)) < total:
+        while ranks.serves and show() < total:
+            time.sleep(SERVICE_PAUSE)
+        while not ranks.serves and (place := ranks.take(failed)) < total:
             line = search.line(plan.todo[place], ranks.rank)
             journal.add(line)
-            ranks.add(FAILED, line["failure"] != "")
-            ranks.add(DONE, 1)
-            if shown:
-                shown.show(ranks.add(DONE, 0), ranks.add(FAILED, 0))
-        while shown and ranks.add(DONE, 0) < total and not ranks.add(STOPPED, 0):
-            time.sleep(PAUSE)
-            shown.show(ranks.add(DONE, 0), ranks.add(FAILED, 0))
+            failed = line["failure"] != ""
+            show()
     except scripting.Failure:
-        ranks.add(STOPPED, 1)
+        ranks.add(total)  # nothing is left for the others
         raise
     finally:
         if shown:
