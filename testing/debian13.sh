@@ -55,13 +55,16 @@ make_debian() { # a bare one
   "$2" --variant=minbase --include=ca-certificates "$suite" "$1" "$mirror" >"$log" 2>&1 || { tail "$log"; exit 1; }
   cp /etc/resolv.conf "$1/etc/"
 }
+name=$(git -C "$checkout" config user.name || echo PPFMEAM)
+address=$(git -C "$checkout" config user.email || echo ppfmeam@example.org)
 within() { # FOLDER COMMAND...: in its /src, with mounts that go when the command ends
   local place=$1; shift
   unshare --mount --pid --fork bash -euc '
     mount -t proc proc "$0/proc"
     mount --rbind /dev "$0/dev"
     exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 ${http_proxy:+http_proxy="$http_proxy"} \
-      chroot "$0" bash -c "cd /src && exec \"\$@\"" within "$@"' "$place" "$@"
+      DEBFULLNAME="$1" DEBEMAIL="$2" \
+      chroot "$0" bash -c "cd /src && exec \"\$@\"" within "${@:3}"' "$place" "$name" "$address" "$@"
 }
 give_sources() { # to FOLDER/src: the commit, and what was built there stays
   [ -d "$1/src" ] || git clone -q --no-checkout "$checkout" "$1/src"
