@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# All of it on a Debian 13 that has nothing installed, which is made in a folder: README's two commands, the packages, and
-# what they do on another bare Debian 13. Needs root, debootstrap or mmdebstrap, 8 GB and a mirror of Debian.
+# All of it on a Debian 13 that has nothing installed, which is made in a folder: README's two commands, the packages,
+# and what they do on another bare Debian 13. Needs root, debootstrap or mmdebstrap, 8 GB and a mirror of Debian.
 #
-#   testing/debian13.sh [FOLDER]      FOLDER stays, and the next run with it does only what is new; without it all goes
-#   testing/debian13.sh --here        on this machine, a container of debian:13 for instance; packages are made, not tried
+#   testing/debian13.sh [FOLDER]      FOLDER stays, the next run with it does only what is new; without it all goes
+#   testing/debian13.sh --here        on this machine, as in a container of debian:13; packages are made, not tried
 #   SUITE=bookworm, MIRROR=URL        Debian 12; another mirror
 #
 # What is tried is the commit that is checked out.
