@@ -62,9 +62,11 @@ within() { # FOLDER COMMAND...: in its /src, with mounts that go when the comman
   unshare --mount --pid --fork bash -euc '
     mount -t proc proc "$0/proc"
     mount --rbind /dev "$0/dev"
-    exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 ${http_proxy:+http_proxy="$http_proxy"} \
+    env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 ${http_proxy:+http_proxy="$http_proxy"} \
       DEBFULLNAME="$1" DEBEMAIL="$2" \
-      chroot "$0" bash -c "cd /src && exec \"\$@\"" within "${@:3}"' "$place" "$name" "$address" "$@"
+      chroot "$0" bash -c "cd /src && exec \"\$@\"" within "${@:3}"
+    exit # not exec: Xvfb tells process 1, which this is, nothing of its start, and xvfb-run would wait' \
+    "$place" "$name" "$address" "$@"
 }
 give_sources() { # to FOLDER/src: the commit, and what was built there stays
   [ -d "$1/src" ] || git clone -q --no-checkout "$checkout" "$1/src"
