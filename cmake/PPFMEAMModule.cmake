@@ -6,7 +6,7 @@
 # The interpreter that Debian's VTK is built for, whatever comes first on the PATH.
 set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The interpreter VTK was built for")
 
-# What filters/vtk.module names. The wrapping tools come with it: VTK 9.3 as ParaView 5.13 has it refuses them as components.
+# What filters/vtk.module names. The wrapping tools come with it; VTK 9.3 as in ParaView 5.13 refuses them as components.
 set(vtk_components
   CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem CommonTransforms
   FiltersCore IOCore vtksys Python)

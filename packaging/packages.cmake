@@ -101,8 +101,8 @@ file(GLOB parts "${PROJECT_SOURCE_DIR}/examples/parts/*.stl")
 install(FILES ${parts} DESTINATION share/doc/${package_python}/examples/parts COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/cpp" DESTINATION share/doc/${package_dev}/examples
   COMPONENT dev EXCLUDE_FROM_ALL)
-# ParaView lists the plugins that the first paraview.conf names. Debian's 5.13 comes with one, which names a folder for those
-# of others; 5.11 comes without one, and finds it beside its program.
+# ParaView lists the plugins that the first paraview.conf names. Debian's 5.13 comes with one, which names a folder for
+# those of others; 5.11 comes without one, and finds it beside its program.
 set(installed "/usr/lib/${PARAVIEW_PLUGIN_SUBDIR}")
 file(GLOB paraview_conf "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/paraview-${ParaView_VERSION_MAJOR}.*/paraview.conf")
 if(paraview_conf)

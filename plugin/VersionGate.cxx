@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PPFMEAM.so, the library that ParaView opens. It links nothing of ParaView, nor the C++ library, so that every ParaView
-// can open it, looks in which one it is, and opens the plugin itself only in the one that this was built for. ParaView
-// compares no versions: a plugin for another one lacks libraries, or brings a second ParaView into the process and
-// crashes it.
+// PPFMEAM.so, the library that ParaView opens. It links nothing of ParaView, nor the C++ library, so that every
+// ParaView can open it, looks in which one it is, and opens the plugin itself only in the one that this was built for.
+// ParaView compares no versions: a plugin for another one lacks libraries, or brings a second ParaView into the
+// process and crashes it.
 #include <dlfcn.h>
 #include <link.h>
 
@@ -17,7 +17,7 @@ namespace
 {
 constexpr const char* Built = PPFMEAM_PARAVIEW_VERSION; // as "5.11"
 
-/// The version of ParaView in the name of its library, as "5.13" in libvtkRemotingCore-pv5.13.so.1; empty if there is none.
+/// The version of ParaView in the name of its library, "5.13" in libvtkRemotingCore-pv5.13.so.1; empty if there is none.
 struct Version
 {
   char Text[32] = "";
@@ -82,8 +82,8 @@ extern "C" __attribute__((visibility("default"))) vtkPVPlugin* pv_plugin_instanc
   if (running.Text[0] && std::strcmp(running.Text, Built) != 0)
   {
     std::snprintf(sentence, sizeof(sentence),
-      "The plugin PPFMEAM was built for ParaView %s and this is ParaView %s: load the one that was built for it.", Built,
-      running.Text);
+      "The plugin PPFMEAM was built for ParaView %s and this is ParaView %s: load the one that was built for it.",
+      Built, running.Text);
     complain(sentence, running);
     return nullptr;
   }
@@ -93,7 +93,8 @@ extern "C" __attribute__((visibility("default"))) vtkPVPlugin* pv_plugin_instanc
   if (!instance)
   {
     const char* reason = dlerror();
-    std::snprintf(sentence, sizeof(sentence), "The plugin PPFMEAM cannot be loaded: %s", reason ? reason : "no reason given");
+    std::snprintf(
+      sentence, sizeof(sentence), "The plugin PPFMEAM cannot be loaded: %s", reason ? reason : "no reason given");
     complain(sentence, running);
     return nullptr;
   }

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# All of it on a Debian 13 that has nothing installed, which is made in a folder: README's two commands, the packages, and
-# what they do on another bare Debian 13. Needs root, debootstrap or mmdebstrap, 8 GB and a mirror of Debian.
+# All of it on a Debian 13 that has nothing installed, which is made in a folder: README's two commands, the packages,
+# and what they do on another bare Debian 13. Needs root, debootstrap or mmdebstrap, 8 GB and a mirror of Debian.
 #
-#   testing/debian13.sh [FOLDER]      FOLDER stays, and the next run with it does only what is new; without it all goes
-#   testing/debian13.sh --here        on this machine, a container of debian:13 for instance; packages are made, not tried
+#   testing/debian13.sh [FOLDER]      FOLDER stays, the next run with it does only what is new; without it all goes
+#   testing/debian13.sh --here        on this machine, as in a container of debian:13; packages are made, not tried
 #   SUITE=bookworm, MIRROR=URL        Debian 12; another mirror
 #
 # What is tried is the commit that is checked out.
@@ -55,13 +55,18 @@ make_debian() { # a bare one
   "$2" --variant=minbase --include=ca-certificates "$suite" "$1" "$mirror" >"$log" 2>&1 || { tail "$log"; exit 1; }
   cp /etc/resolv.conf "$1/etc/"
 }
+name=$(git -C "$checkout" config user.name || echo PPFMEAM)
+address=$(git -C "$checkout" config user.email || echo ppfmeam@example.org)
 within() { # FOLDER COMMAND...: in its /src, with mounts that go when the command ends
   local place=$1; shift
   unshare --mount --pid --fork bash -euc '
     mount -t proc proc "$0/proc"
     mount --rbind /dev "$0/dev"
-    exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 ${http_proxy:+http_proxy="$http_proxy"} \
-      chroot "$0" bash -c "cd /src && exec \"\$@\"" within "$@"' "$place" "$@"
+    env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 ${http_proxy:+http_proxy="$http_proxy"} \
+      DEBFULLNAME="$1" DEBEMAIL="$2" \
+      chroot "$0" bash -c "cd /src && exec \"\$@\"" within "${@:3}"
+    exit # not exec: Xvfb tells process 1, which this is, nothing of its start, and xvfb-run would wait' \
+    "$place" "$name" "$address" "$@"
 }
 give_sources() { # to FOLDER/src: the commit, and what was built there stays
   [ -d "$1/src" ] || git clone -q --no-checkout "$checkout" "$1/src"

@@ -24,7 +24,8 @@ with tempfile.TemporaryFile() as said:
 sys.stderr.write(text)
 
 version = "%d.%d" % (simple.GetParaViewVersion().major, simple.GetParaViewVersion().minor)
-expected = f"The plugin PPFMEAM was built for ParaView 5.0 and this is ParaView {version}: load the one that was built for it."
+expected = (f"The plugin PPFMEAM was built for ParaView 5.0 and this is ParaView {version}: "
+            "load the one that was built for it.")
 assert not loaded
 assert text.count("PPFMEAM was built") == 1 and expected in text
 assert "MEAMPoseEstimation" not in globals()
