@@ -431,8 +431,10 @@ Picks PickPlanner::plan(
     }
     copy += likely;
   }
+  const auto order = [](const Pick& pick)
+  { return std::make_tuple(-pick.score, -static_cast<int>(pick.obstruction), pick.tilt); };
   std::stable_sort(picks.begin(), picks.end(),
-    [](const Pick& a, const Pick& b) { return a.possible() != b.possible() ? a.possible() : a.score > b.score; });
+    [&](const Pick& a, const Pick& b) { return a.possible() != b.possible() ? a.possible() : order(a) < order(b); });
   report(progress, 1.0);
   return picks;
 }

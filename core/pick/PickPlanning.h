@@ -83,10 +83,10 @@ public:
     const PickSettings& settings = {});
   ~PickPlanner();
 
-  /// A pick for each pose and each grasp, in mm of the scan's frame: those that are possible first, best first. Without
-  /// a bin down is the way the sensor looks, z, and nothing is known of walls but what was measured. The scan may be
-  /// without points: then only the copies and the bin are in the way. Throws Error for a pose that is not finite and a
-  /// gripper that is wider than the bin.
+  /// A pick for each pose and each grasp, in mm of the scan's frame: those that are possible first, best first, then
+  /// those first that come farthest in the order of reasons. Without a bin down is the way the sensor looks, z, and
+  /// nothing is known of walls but what was measured. The scan may be without points: then only the copies and the bin
+  /// are in the way. Throws Error for a pose that is not finite and a gripper that is wider than the bin.
   Picks plan(
     const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin = {}, const Progress& progress = {});
 
