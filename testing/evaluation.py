@@ -242,6 +242,18 @@ def paper(commands):
             + told.strip())
 
 
+def cell(commands):
+    rows, failures = [], []
+    for gripper, part in (("cup", "ridged_disc"), ("jaws", "cap"), ("jaws", "ribbed_flange")):
+        lines = commands.run("cell.py", "--gripper", gripper, "--part", part, "--sensor", "structured-light", "--sensor",
+                             "active-stereo", "--threads", "1", "--out", "OUT/cell").splitlines()
+        rows += [line for line in lines if line.startswith("|") and line not in rows]
+        failures += [line for line in lines if line.startswith("- ")]
+    return ("Table 9 of the paper with a simulated cell ([picking.md](picking.md#a-cell-simulated)): 12 parts in a bin, five bins each, "
+            "picked until none is left or none can be picked; one thread.\n\n" + "\n".join(rows)
+            + "\n\nEvery failure, and every bin that was left:\n\n" + "\n".join(failures))
+
+
 def paper_reading(commands):
     commands.lines.append("testing/paper_reading.py DATA/tohoku")
     told = subprocess.run([sys.executable, os.path.join(ROOT, "testing", "paper_reading.py"), path_of("DATA/tohoku")],
@@ -337,6 +349,7 @@ TABLES = {  # name: the heading, what makes it, whether it takes a few minutes a
     "robustness": ("Noise and image quality in simulated bins", robustness, False),
     "world": ("Parts and sensors", world, False),
     "paper": ("The paper's own experiments", paper, False),
+    "cell": ("The picking cell", cell, False),
     "paper-reading": ("Readings of the paper's text", paper_reading, False),
     "rivals": ("What others would use instead", rivals, False),
     "rings": ("A real scan: rings", rings, False),
