@@ -29,7 +29,8 @@ def interrupted(after, folder, *command):
 
 
 start = time.monotonic()
-subprocess.run([sys.executable, os.path.join(root, "examples", "train.py"), "--help"], stdout=subprocess.DEVNULL, check=True)
+subprocess.run([sys.executable, os.path.join(root, "examples", "train.py"), "--help"],
+               stdout=subprocess.DEVNULL, check=True)
 loading = time.monotonic() - start  # of its modules, which Ctrl-C may cut off anyhow
 with tempfile.TemporaryDirectory() as folder:
     model = os.path.join(folder, "part.meam")
