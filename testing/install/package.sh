@@ -3,7 +3,7 @@
 # finds parts in a scan. Usage: package.sh SOURCE_DIR BUILD_DIR PYTHON_DIR PYTHON CXX
 set -euo pipefail
 source=$1 build=$2 python_dir=$3 python=$4
-export CXX=$5
+export CXX=$5 CMAKE_GENERATOR=Ninja
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
