@@ -4,6 +4,7 @@
 #
 #   cmake/debian.sh            what the plugin, the Python package, the examples and the tests need
 #   cmake/debian.sh vtk        that and, for the vtk preset, a plain VTK in build/deps/vtk9
+#   cmake/debian.sh packages   that and what packaging/build.sh makes Debian packages with
 #
 # libpcl-dev and plain VTK's packages conflict with python3-paraview, hence the unpacking: of PCL only the
 # headers are needed (its runtime libraries install fine), plain VTK runs from where it is unpacked.
@@ -41,6 +42,7 @@ packages=(
   qemu-user # a processor without AVX: TestSameBits
   "${suite[@]}"
 )
+[ "${1:-}" != packages ] || packages+=(dpkg-dev file)
 unpack=(pcl:libpcl-dev)
 if [ "${1:-}" = vtk ]; then
   unpack+=(vtk9:{libvtk9-dev,"libvtk$vtk","libvtk$vtk-qt",vtk9,python3-vtk9})

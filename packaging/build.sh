@@ -12,6 +12,7 @@ mkdir -p "$folder"
 name=${DEBFULLNAME:-$(git -C "$root" config user.name || id -un)}
 address=${DEBEMAIL:-$(git -C "$root" config user.email || echo "$(id -un)@$(hostname -f)")}
 
+"$root/cmake/debian.sh" packages
 "$root/cmake/build.sh" release runtime meamDetect meamImages meamTrain
 log=$root/build/packaging.log
 failed() { tail -n 40 "$log" >&2; echo "making packages failed; the whole output is in build/packaging.log" >&2; exit 1; }
