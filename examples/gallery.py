@@ -192,7 +192,7 @@ class Gallery:
             color = cellpicture.POSSIBLE if reason == "possible" else cellpicture.NOT
             labels.append((f"instance {number}: {reason}", color))
         self.save("picks", cellpicture.actors(scan, poses, self.mesh, planning.GetOutputDataObject(1)), labels,
-                  cellpicture.frame(scan, truth, SIZE))
+                  cellpicture.frame(truth, SIZE))
 
     @staticmethod
     def lifted(points, looks):

@@ -21,8 +21,11 @@
  * that the copy would have if nothing else were there), `VisiblePixels` (int), `Box` (4 int: column and row of
  * its first pixel, width, height). Field data: `Diameter`; `Silhouettes` (unsigned char): the pixels of every
  * Box, row by row, one copy after the other, 255 where the copy would be; `Bin` (20: its frame, row-major, inner
- * length, inner width, height, wall; mm). Output port 2: the mesh that lies in the bin, a vtkPolyData. Output port 3:
- * the image, a vtkImageData of W x H; field data `CameraMatrix` and `CameraPose`.
+ * length, inner width, height, wall; mm).
+ *
+ * Output port 2: the mesh that lies in the bin, a vtkPolyData.
+ *
+ * Output port 3: the image, a vtkImageData of W x H; field data `CameraMatrix` and `CameraPose`.
  */
 #ifndef vtkMEAMBinSceneSource_h
 #define vtkMEAMBinSceneSource_h

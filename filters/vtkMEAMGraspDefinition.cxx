@@ -43,7 +43,6 @@ void makeNamesUnique(meam::Grasps& grasps)
 
 vtkMEAMGraspDefinition::vtkMEAMGraspDefinition()
   : Settings(std::make_unique<meam::GraspProposalSettings>())
-  , Lengths(std::make_unique<meam::Gripper>())
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
@@ -67,28 +66,6 @@ int vtkMEAMGraspDefinition::FillOutputPortInformation(int, vtkInformation* info)
 vtkMEAMClampedSettingMacro(vtkMEAMGraspDefinition, MaximumNumberOfGrasps, int, most, 0, VTK_INT_MAX);
 vtkMEAMClampedSettingMacro(vtkMEAMGraspDefinition, FrictionAngle, double, frictionAngle, 0.1, 89.0);
 vtkMEAMClampedSettingMacro(vtkMEAMGraspDefinition, Spread, double, spread, 0.0, VTK_DOUBLE_MAX);
-
-// The lengths of the gripper.
-#define vtkMEAMLengthMacro(name, field)                                                                                \
-  void vtkMEAMGraspDefinition::Set##name(double length)                                                                \
-  {                                                                                                                    \
-    if (this->Lengths->field != length)                                                                                \
-    {                                                                                                                  \
-      this->Lengths->field = length;                                                                                   \
-      this->Modified();                                                                                                \
-    }                                                                                                                  \
-  }                                                                                                                    \
-  double vtkMEAMGraspDefinition::Get##name() { return this->Lengths->field; }
-vtkMEAMLengthMacro(Opening, opening);
-vtkMEAMLengthMacro(JawClearance, jawClearance);
-vtkMEAMLengthMacro(FingerWidth, fingerWidth);
-vtkMEAMLengthMacro(FingerThickness, fingerThickness);
-vtkMEAMLengthMacro(FingerLength, fingerLength);
-vtkMEAMLengthMacro(TipLength, tipLength);
-vtkMEAMLengthMacro(BodyLength, bodyLength);
-vtkMEAMLengthMacro(BodyWidth, bodyWidth);
-vtkMEAMLengthMacro(CupDiameter, cupDiameter);
-vtkMEAMLengthMacro(CupLength, cupLength);
 
 meam::Grasp vtkMEAMGraspDefinition::LaidByHand() const
 {
@@ -164,16 +141,6 @@ void vtkMEAMGraspDefinition::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfGrasps: " << this->Settings->most << "\n";
   os << indent << "FrictionAngle: " << this->Settings->frictionAngle << "\n";
   os << indent << "Spread: " << this->Settings->spread << "\n";
-  os << indent << "Opening: " << this->Lengths->opening << "\n";
-  os << indent << "JawClearance: " << this->Lengths->jawClearance << "\n";
-  os << indent << "FingerWidth: " << this->Lengths->fingerWidth << "\n";
-  os << indent << "FingerThickness: " << this->Lengths->fingerThickness << "\n";
-  os << indent << "FingerLength: " << this->Lengths->fingerLength << "\n";
-  os << indent << "TipLength: " << this->Lengths->tipLength << "\n";
-  os << indent << "BodyLength: " << this->Lengths->bodyLength << "\n";
-  os << indent << "BodyWidth: " << this->Lengths->bodyWidth << "\n";
-  os << indent << "CupDiameter: " << this->Lengths->cupDiameter << "\n";
-  os << indent << "CupLength: " << this->Lengths->cupLength << "\n";
   os << indent << "HandGrasp: " << this->HandGrasp << "\n";
   const auto print = [&](const char* name, const double vector[3])
   { os << indent << name << ": " << vector[0] << " " << vector[1] << " " << vector[2] << "\n"; };

@@ -22,8 +22,7 @@
 #ifndef vtkMEAMGraspDefinition_h
 #define vtkMEAMGraspDefinition_h
 
-#include "ppfmeamFiltersModule.h"
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkMEAMGripperAlgorithm.h"
 
 #include <memory>
 
@@ -31,14 +30,13 @@ namespace meam
 {
 struct Grasp;
 struct GraspProposalSettings;
-struct Gripper;
 }
 
-class PPFMEAMFILTERS_EXPORT vtkMEAMGraspDefinition : public vtkPolyDataAlgorithm
+class PPFMEAMFILTERS_EXPORT vtkMEAMGraspDefinition : public vtkMEAMGripperAlgorithm
 {
 public:
   static vtkMEAMGraspDefinition* New();
-  vtkTypeMacro(vtkMEAMGraspDefinition, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkMEAMGraspDefinition, vtkMEAMGripperAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** What carries the part's symmetries. */
@@ -86,66 +84,6 @@ public:
   /** mm: of proposals nearer than this that face the same way one comes out; 0: 10 % of the diameter. Default: 0. */
   void SetSpread(double spread);
   double GetSpread();
-  ///@}
-
-  ///@{
-  /** mm between the jaws, at most. Default: 60. */
-  void SetOpening(double opening);
-  double GetOpening();
-  ///@}
-
-  ///@{
-  /** mm on either side between the part and a jaw on its way in. Default: 3. */
-  void SetJawClearance(double clearance);
-  double GetJawClearance();
-  ///@}
-
-  ///@{
-  /** mm, a finger across the direction of closing. Default: 12. */
-  void SetFingerWidth(double width);
-  double GetFingerWidth();
-  ///@}
-
-  ///@{
-  /** mm, a finger along the direction of closing. Default: 8. */
-  void SetFingerThickness(double thickness);
-  double GetFingerThickness();
-  ///@}
-
-  ///@{
-  /** mm from the gripper's body to the tips of its fingers. Default: 50. */
-  void SetFingerLength(double length);
-  double GetFingerLength();
-  ///@}
-
-  ///@{
-  /** mm that the tips reach farther than the grasp's origin. Default: 6. */
-  void SetTipLength(double length);
-  double GetTipLength();
-  ///@}
-
-  ///@{
-  /** mm, the body behind the fingers or the cup. Default: 100. */
-  void SetBodyLength(double length);
-  double GetBodyLength();
-  ///@}
-
-  ///@{
-  /** mm, the body across the direction of closing; of a cup its diameter. Default: 60. */
-  void SetBodyWidth(double width);
-  double GetBodyWidth();
-  ///@}
-
-  ///@{
-  /** mm, of the suction cup. Default: 20. */
-  void SetCupDiameter(double diameter);
-  double GetCupDiameter();
-  ///@}
-
-  ///@{
-  /** mm from the body to the cup's rim. Default: 30. */
-  void SetCupLength(double length);
-  double GetCupLength();
   ///@}
 
   enum HandKinds
@@ -203,7 +141,6 @@ private:
   meam::Grasp LaidByHand() const;
 
   std::unique_ptr<meam::GraspProposalSettings> Settings;
-  std::unique_ptr<meam::Gripper> Lengths;
   char* FileName = nullptr;
   int Propose = ParallelJaws;
   int HandGrasp = NoHandGrasp;

@@ -48,7 +48,6 @@ meam::OrganizedCloud cloudOf(vtkPointSet* scan)
 
 vtkMEAMPickPlanning::vtkMEAMPickPlanning()
   : Settings(std::make_unique<meam::PickSettings>())
-  , Lengths(std::make_unique<meam::Gripper>())
 {
   this->SetNumberOfInputPorts(5);
   this->SetNumberOfOutputPorts(3);
@@ -77,28 +76,6 @@ vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MaximumTilt, double, mostTilt, 0
 vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MaximumCovered, double, mostCovered, 0.0, 100.0);
 vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, TurnStep, double, turnStep, 1.0, 360.0);
 vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, Tolerance, double, tolerance, 0.0, VTK_DOUBLE_MAX);
-
-// The lengths of the gripper.
-#define vtkMEAMLengthMacro(name, field)                                                                                \
-  void vtkMEAMPickPlanning::Set##name(double length)                                                                   \
-  {                                                                                                                    \
-    if (this->Lengths->field != length)                                                                                \
-    {                                                                                                                  \
-      this->Lengths->field = length;                                                                                   \
-      this->Modified();                                                                                                \
-    }                                                                                                                  \
-  }                                                                                                                    \
-  double vtkMEAMPickPlanning::Get##name() { return this->Lengths->field; }
-vtkMEAMLengthMacro(Opening, opening);
-vtkMEAMLengthMacro(JawClearance, jawClearance);
-vtkMEAMLengthMacro(FingerWidth, fingerWidth);
-vtkMEAMLengthMacro(FingerThickness, fingerThickness);
-vtkMEAMLengthMacro(FingerLength, fingerLength);
-vtkMEAMLengthMacro(TipLength, tipLength);
-vtkMEAMLengthMacro(BodyLength, bodyLength);
-vtkMEAMLengthMacro(BodyWidth, bodyWidth);
-vtkMEAMLengthMacro(CupDiameter, cupDiameter);
-vtkMEAMLengthMacro(CupLength, cupLength);
 
 void vtkMEAMPickPlanning::SetGripper(int gripper)
 {
@@ -171,7 +148,10 @@ int vtkMEAMPickPlanning::RequestData(
       }
       setFieldText(output, "PickReport", meam::describe(picks));
       fromGrippers(picks, grasps, gripper, static_cast<ShownPicks>(this->ShownGrippers), grippers);
-      setGripper(output, gripper);
+      if (!gripperInput)
+      {
+        setGripper(output, gripper);
+      }
       if (bin)
       {
         setBin(output, *bin);
@@ -187,16 +167,6 @@ void vtkMEAMPickPlanning::PrintSelf(ostream& os, vtkIndent indent)
   const auto print = [&](const char* name, const double values[3])
   { os << indent << name << ": " << values[0] << " " << values[1] << " " << values[2] << "\n"; };
   os << indent << "Gripper: " << this->GetGripper() << "\n";
-  os << indent << "Opening: " << this->GetOpening() << " mm\n";
-  os << indent << "JawClearance: " << this->GetJawClearance() << " mm\n";
-  os << indent << "FingerWidth: " << this->GetFingerWidth() << " mm\n";
-  os << indent << "FingerThickness: " << this->GetFingerThickness() << " mm\n";
-  os << indent << "FingerLength: " << this->GetFingerLength() << " mm\n";
-  os << indent << "TipLength: " << this->GetTipLength() << " mm\n";
-  os << indent << "BodyLength: " << this->GetBodyLength() << " mm\n";
-  os << indent << "BodyWidth: " << this->GetBodyWidth() << " mm\n";
-  os << indent << "CupDiameter: " << this->GetCupDiameter() << " mm\n";
-  os << indent << "CupLength: " << this->GetCupLength() << " mm\n";
   os << indent << "Bin: " << this->Bin << "\n";
   print("BinPosition", this->BinPosition);
   print("BinRotation", this->BinRotation);

@@ -13,36 +13,41 @@
  * or the grasps with it, symmetric grasps are tried, too.
  * Input port 2: grasps, a vtkPolyData with `Transform` (vtkMEAMGraspDefinition).
  * Input port 3, optional: all points the sensor measured, a vtkPointSet in mm. Without it only copies and bin are in
- * the way. Input port 4, optional: any gripper as it stands open, a vtkPolyData with faces in the grasp's frame, mm:
+ * the way.
+ * Input port 4, optional: any gripper as it stands open, a vtkPolyData with faces in the grasp's frame, mm:
  * origin between the jaws, z the way in. It takes the place of the one by lengths.
  *
- * Output port 0: a vtkPolyData, a vertex at each pick, possible ones first, best first. Point arrays: `Transform` (16,
- * row-major T_scene_grasp), `Quaternion` (x y z w), `Rank` (from 1, active scalars), `Possible` (0 or 1), `Obstruction`
- * (int, see Obstructions), `Reason` (text), `Instance` and `Grasp` (from 1: which pose, which grasp), `GraspName`
- * (text), `Obstacle` (the instance in the way, 0: none), `Clearance`, `Reach` (mm, down from the bin's rim or the
- * highest point), `Tilt` (degrees), `Covered` and `Score` ([0, 1]). Field data: `PickReport`, in a sentence. Output
- * port 1: the gripper at the picks, a vtkPolyData with `Rank`, `Possible` and `Obstruction` for its cells. Output port
- * 2: the bin's floor and walls, a vtkPolyData; empty without a bin.
+ * Output port 0: a vtkPolyData, a vertex at each pick: possible ones first, best first, then those that come farthest
+ * in the order of Obstructions. Point arrays: `Transform` (16, row-major T_scene_grasp), `Quaternion` (x y z w), `Rank`
+ * (from 1), `Possible` (0 or 1, active scalars), `Obstruction` (int, see Obstructions), `Reason` (text), `Instance` and
+ * `Grasp` (from 1: which pose, which grasp), `GraspName` (text), `Kind` and `Width` (of the grasp), `Obstacle` (the
+ * instance in the way, 0: none), `Clearance`, `Reach` (mm, down from the bin's rim or the highest point), `Tilt`
+ * (degrees), `Covered` and `Score` ([0, 1]); with a RobotFrameFile `RobotTransform` (16, row-major T_robot_grasp, mm).
+ * Field data: `PickReport`, in a sentence; `Gripper` (11, named: kind and lengths; not of a mesh); with a bin `Bin`
+ * (20: its frame, row-major, inner length, inner width, height, wall; mm).
+ *
+ * Output port 1: the gripper at the picks, a vtkPolyData with `Possible` (active scalars), `Rank` and `Obstruction` for
+ * its cells.
+ *
+ * Output port 2: the bin's floor and walls, a vtkPolyData; empty without a bin.
  */
 #ifndef vtkMEAMPickPlanning_h
 #define vtkMEAMPickPlanning_h
 
-#include "ppfmeamFiltersModule.h"
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkMEAMGripperAlgorithm.h"
 
 #include <memory>
 
 namespace meam
 {
-struct Gripper;
 struct PickSettings;
 }
 
-class PPFMEAMFILTERS_EXPORT vtkMEAMPickPlanning : public vtkPolyDataAlgorithm
+class PPFMEAMFILTERS_EXPORT vtkMEAMPickPlanning : public vtkMEAMGripperAlgorithm
 {
 public:
   static vtkMEAMPickPlanning* New();
-  vtkTypeMacro(vtkMEAMPickPlanning, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkMEAMPickPlanning, vtkMEAMGripperAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Values of `Obstruction`: why a pick is not possible. */
@@ -72,66 +77,6 @@ public:
   int GetGripper();
   void SetGripperToParallelJaws() { this->SetGripper(ParallelJaws); }
   void SetGripperToSuctionCup() { this->SetGripper(SuctionCup); }
-  ///@}
-
-  ///@{
-  /** mm between the jaws, at most. Default: 60. */
-  void SetOpening(double opening);
-  double GetOpening();
-  ///@}
-
-  ///@{
-  /** mm on either side between the part and a jaw on its way in. Default: 3. */
-  void SetJawClearance(double clearance);
-  double GetJawClearance();
-  ///@}
-
-  ///@{
-  /** mm, a finger across the direction of closing. Default: 12. */
-  void SetFingerWidth(double width);
-  double GetFingerWidth();
-  ///@}
-
-  ///@{
-  /** mm, a finger along the direction of closing. Default: 8. */
-  void SetFingerThickness(double thickness);
-  double GetFingerThickness();
-  ///@}
-
-  ///@{
-  /** mm from the gripper's body to the tips of its fingers. Default: 50. */
-  void SetFingerLength(double length);
-  double GetFingerLength();
-  ///@}
-
-  ///@{
-  /** mm that the tips reach farther than the grasp's origin. Default: 6. */
-  void SetTipLength(double length);
-  double GetTipLength();
-  ///@}
-
-  ///@{
-  /** mm, the body behind the fingers or the cup. Default: 100. */
-  void SetBodyLength(double length);
-  double GetBodyLength();
-  ///@}
-
-  ///@{
-  /** mm, the body across the direction of closing; behind a cup its diameter. Default: 60. */
-  void SetBodyWidth(double width);
-  double GetBodyWidth();
-  ///@}
-
-  ///@{
-  /** mm, the suction cup. Default: 20. */
-  void SetCupDiameter(double diameter);
-  double GetCupDiameter();
-  ///@}
-
-  ///@{
-  /** mm from the gripper's body to the cup's rim. Default: 30. */
-  void SetCupLength(double length);
-  double GetCupLength();
   ///@}
 
   enum Bins
@@ -260,7 +205,6 @@ private:
   void operator=(const vtkMEAMPickPlanning&) = delete;
 
   const std::unique_ptr<meam::PickSettings> Settings;
-  const std::unique_ptr<meam::Gripper> Lengths;
   int Bin = DetectedBin;
   double BinPosition[3] = { 0.0, 0.0, 0.0 };
   double BinRotation[3] = { 180.0, 0.0, 0.0 };

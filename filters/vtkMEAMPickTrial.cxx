@@ -17,6 +17,9 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
+#include <iterator>
+
 vtkStandardNewMacro(vtkMEAMPickTrial);
 
 vtkMEAMPickTrial::vtkMEAMPickTrial() { this->SetNumberOfInputPorts(4); }
@@ -64,32 +67,32 @@ int vtkMEAMPickTrial::RequestData(
       }
       if (!gripper)
       {
-        throw meam::Error("The picks have no field data 'Gripper': use the output of Pick Planning as it is.");
+        throw meam::Error(
+          "The picks have no field data 'Gripper': use the output of Pick Planning as it is, and connect "
+          "the gripper's mesh when they were planned with one.");
       }
       meam::PickTrialSettings settings;
       settings.wayIn = this->WayIn;
       settings.cupSlack = this->CupSlack;
+
+      meam::Grasps tried;
+      std::copy_if(picks.begin(), picks.end(), std::back_inserter(tried),
+        [&](const meam::Grasp& pick) { return possible[&pick - picks.data()]; });
+      const std::vector<meam::PickTrial> trials =
+        meam::tryPicks(mesh, *gripper, tried, truths, bin ? &*bin : nullptr, settings, progress);
 
       vtkNew<vtkIntArray> outcomes, instances;
       vtkNew<vtkStringArray> names;
       outcomes->SetName("Outcome");
       names->SetName("OutcomeName");
       instances->SetName("TrueInstance");
-      for (std::size_t k = 0; k < picks.size(); ++k)
+      auto trial = trials.begin();
+      for (const bool isTried : possible)
       {
-        meam::report(progress, static_cast<double>(k) / static_cast<double>(picks.size()));
-        if (!possible[k])
-        {
-          outcomes->InsertNextValue(NotTried);
-          names->InsertNextValue("not tried");
-          instances->InsertNextValue(0);
-          continue;
-        }
-        const meam::PickTrial trial =
-          meam::tryPick(mesh, *gripper, picks[k], picks[k].T_model_grasp, truths, bin ? &*bin : nullptr, settings);
-        outcomes->InsertNextValue(static_cast<int>(trial.outcome));
-        names->InsertNextValue(meam::describe(trial.outcome));
-        instances->InsertNextValue(trial.instance + 1);
+        outcomes->InsertNextValue(isTried ? static_cast<int>(trial->outcome) : NotTried);
+        names->InsertNextValue(isTried ? meam::describe(trial->outcome) : "not tried");
+        instances->InsertNextValue(isTried ? trial->instance + 1 : 0);
+        trial += isTried;
       }
       output->ShallowCopy(picksInput);
       output->GetPointData()->AddArray(outcomes);

@@ -16,16 +16,7 @@ namespace meam
 namespace
 {
 constexpr std::size_t EnoughPoints = 60000;
-constexpr int SideBins = 25;           // pieces of a side that are looked at for points
-constexpr double SideTolerance = 0.02; // of the rectangle's shorter side: so near a side is on it
-constexpr double PointsInLevel = 2.0;  // point distances, and standard deviations of the noise, in a level
-constexpr double NoiseInLevel = 4.0;
-constexpr double LowestShare = 0.02; // of the points inside may be lower than the floor: wrong ones
-constexpr double ThinnestWall = 2.0; // point distances
-constexpr double MiddleShare = 0.7;  // of the sides: inside of any wall
-constexpr double MostInside = 0.5;   // of the points there may be as high as the rim: it is no solid block
-constexpr double SameArea = 0.05;
-constexpr double ThickestWall = 0.25; // of the rim's shorter side
+constexpr int SideBins = 25; // pieces of a side that are looked at for points
 constexpr int FewestInLevel = 4 * SideBins / 2;
 
 /// A rectangle in the plane.
@@ -84,31 +75,12 @@ double leastFullSide(const Rectangle& rectangle, const PlanePoints& points, doub
   return static_cast<double>(least) / SideBins;
 }
 
-/// How many points lie in the middle of a rectangle.
-std::ptrdiff_t countInside(const Rectangle& rectangle, const PlanePoints& points)
+/// How many points lie in the middle of a rectangle, a share of its sides.
+std::ptrdiff_t countInside(const Rectangle& rectangle, const PlanePoints& points, double share)
 {
   return std::count_if(points.begin(), points.end(),
     [&](const Eigen::Vector2d& point)
-    { return (rectangle.local(point).cwiseAbs().array() < 0.5 * MiddleShare * rectangle.size.array()).all(); });
-}
-
-Points spreadPoints(const OrganizedCloud& cloud)
-{
-  const std::size_t step =
-    std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(static_cast<double>(cloud.size()) / EnoughPoints)));
-  Points points;
-  for (int row = 0; row < cloud.height; row += static_cast<int>(step))
-  {
-    for (int column = 0; column < cloud.width; column += static_cast<int>(step))
-    {
-      const Eigen::Vector3f& point = cloud.points[static_cast<std::size_t>(row) * cloud.width + column];
-      if (point.allFinite())
-      {
-        points.push_back(point);
-      }
-    }
-  }
-  return points;
+    { return (rectangle.local(point).cwiseAbs().array() < 0.5 * share * rectangle.size.array()).all(); });
 }
 }
 
@@ -129,11 +101,11 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
   up.normalize();
   const Eigen::Quaterniond toUp = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), up);
   const Eigen::Matrix3d axes = toUp.toRotationMatrix(); // first axis: up
-  const Points points = spreadPoints(cloud);
+  const double spread = std::max(1.0, std::sqrt(static_cast<double>(cloud.size()) / EnoughPoints));
+  const Points points = everyNth(cloud, static_cast<int>(spread));
   const GridScale scale = gridScale(cloud);
-  const double distance =
-    scale.pointDistance * std::max(1.0, std::sqrt(static_cast<double>(cloud.size()) / EnoughPoints));
-  const double level = PointsInLevel * scale.pointDistance + NoiseInLevel * scale.noise;
+  const double distance = scale.pointDistance * spread;
+  const double level = settings.pointsInLevel * scale.pointDistance + settings.noiseInLevel * scale.noise;
   std::vector<std::pair<double, Eigen::Vector2d>> highest; // height, and place across
   for (const auto& point : points)
   {
@@ -165,14 +137,14 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
     PlanePoints inLevel;
     std::transform(begin, end, std::back_inserter(inLevel), [](const auto& point) { return point.second; });
     const Rectangle outside = smallestAround(inLevel);
-    const double tolerance = std::max(SideTolerance * outside.size.minCoeff(), 2.0 * distance);
+    const double tolerance = std::max(settings.sideTolerance * outside.size.minCoeff(), 2.0 * distance);
     const double area = outside.size.prod();
-    if (area < (1.0 - SameArea) * rim.size.prod() ||
-        (area < (1.0 + SameArea) * rim.size.prod() && inLevel.size() <= rimPoints.size()) ||
+    if (area < (1.0 - settings.sameArea) * rim.size.prod() ||
+        (area < (1.0 + settings.sameArea) * rim.size.prod() && inLevel.size() <= rimPoints.size()) ||
         outside.size.minCoeff() < std::max(leastSize, 4.0 * tolerance) ||
         100.0 * leastFullSide(outside, inLevel, 0.0, tolerance) < settings.fullSides ||
-        static_cast<double>(countInside(outside, inLevel)) >
-          MostInside * static_cast<double>(countInside(outside, all)))
+        static_cast<double>(countInside(outside, inLevel, settings.middleShare)) >
+          settings.mostInside * static_cast<double>(countInside(outside, all, settings.middleShare)))
     {
       continue;
     }
@@ -184,8 +156,8 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
   Bin bin;
   if (!rimPoints.empty())
   {
-    bin.wall = ThinnestWall * scale.pointDistance;
-    while (bin.wall < ThickestWall * rim.size.minCoeff() &&
+    bin.wall = settings.thinnestWall * scale.pointDistance;
+    while (bin.wall < settings.thickestWall * rim.size.minCoeff() &&
            100.0 * leastFullSide(rim, rimPoints, bin.wall, bin.wall + 2.0 * distance) >= settings.fullSides)
     {
       bin.wall += 0.5 * distance;
@@ -200,7 +172,7 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
           inside.push_back(height);
         }
       }
-      floor = inside[static_cast<std::size_t>((1.0 - LowestShare) * static_cast<double>(inside.size() - 1))];
+      floor = inside[static_cast<std::size_t>((1.0 - settings.lowestShare) * static_cast<double>(inside.size() - 1))];
     }
     bin.size << rim.size.x() - 2.0 * bin.wall, rim.size.y() - 2.0 * bin.wall, heights[heights.size() / 2] - *floor;
   }

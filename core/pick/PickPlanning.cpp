@@ -18,16 +18,6 @@ namespace meam
 {
 namespace
 {
-constexpr double ToleranceOfPart = 0.01; // of the part's size; of the voxels, too
-constexpr double SpacingOfPart = 0.03;   // of points on the part
-constexpr double ReachOfPart = 0.06;     // the largest tolerance
-constexpr double NoiseInTolerance = 3.0;
-constexpr double PointsInVoxel = 4.0; // point distances in the side of a voxel
-constexpr int PointsOfThinned = 2;    // in that side, after every so-manieth point is taken
-constexpr int FewestInVoxel = 2;      // a point alone is none of a surface
-constexpr double MostOutside =
-  0.5; // of the part's size: a grasp farther away is one of another part, or in another unit
-
 std::string lengthText(double mm) { return std::to_string(static_cast<int>(std::lround(mm))) + " mm"; }
 
 void check(const PickSettings& settings)
@@ -87,26 +77,13 @@ void check(const Bin& bin, const Gripper& gripper, double margin)
 }
 
 /// Every so-manieth finite point of the scan, so that a few of them are in the side of a voxel.
-Points thinned(const OrganizedCloud& cloud, double pointDistance, double voxelSize)
+Points thinned(const OrganizedCloud& cloud, double pointDistance, double voxelSize, double pointsInVoxel)
 {
   const int step = cloud.height > 1 && pointDistance > 0.0
-                     ? std::max(1, static_cast<int>(voxelSize / (PointsOfThinned * pointDistance)))
+                     ? std::max(1, static_cast<int>(voxelSize / (pointsInVoxel * pointDistance)))
                      : 1;
-  Points points;
-  for (int row = 0; row < cloud.height; row += step)
-  {
-    for (int column = 0; column < cloud.width; column += step)
-    {
-      const Eigen::Vector3f& point = cloud.points[static_cast<std::size_t>(row) * cloud.width + column];
-      if (point.allFinite())
-      {
-        points.push_back(point);
-      }
-    }
-  }
-  return points;
+  return everyNth(cloud, step);
 }
-
 }
 
 std::string describe(const Pick& pick)
@@ -190,7 +167,8 @@ public:
     , given(grasps)
     , box(bounds(mesh.vertices).cast<double>())
     , collisions(mesh, hand)
-    , surface(mesh, std::max(SpacingOfPart * this->size(), 1e-3), std::max(ReachOfPart * this->size(), 1e-3))
+    , surface(
+        mesh, std::max(wanted.surfaceSpacing * this->size(), 1e-3), std::max(wanted.mostTolerance * this->size(), 1e-3))
   {
     check(wanted);
     if (grasps.empty())
@@ -205,7 +183,7 @@ public:
     {
       requireGrasp(grasp);
       const double outside = this->box.exteriorDistance(grasp.T_model_grasp.translation());
-      if (outside > MostOutside * this->size())
+      if (outside > wanted.mostOutside * this->size())
       {
         throw Error("The grasp '" + grasp.name + "' lies " + lengthText(outside) +
                     " outside the part: check that it is one of this part, in its coordinates and in mm.");
@@ -320,12 +298,12 @@ PickPlanner::Surroundings PickPlanner::surroundings(
   const PickSettings& settings = part.settings;
   Surroundings around;
   const GridScale scale = cloud.points.empty() ? GridScale{} : gridScale(cloud);
-  const double ofPart = ToleranceOfPart * part.size();
-  around.tolerance = settings.tolerance > 0.0 ? settings.tolerance : ofPart + NoiseInTolerance * scale.noise;
-  around.tolerance = std::min(around.tolerance, ReachOfPart * part.size());
+  const double ofPart = settings.toleranceOfPart * part.size();
+  around.tolerance = settings.tolerance > 0.0 ? settings.tolerance : ofPart + settings.noiseInTolerance * scale.noise;
+  around.tolerance = std::min(around.tolerance, settings.mostTolerance * part.size());
   around.voxelSize =
-    settings.voxelSize > 0.0 ? settings.voxelSize : std::max(ofPart, PointsInVoxel * scale.pointDistance);
-  around.points = thinned(cloud, scale.pointDistance, around.voxelSize);
+    settings.voxelSize > 0.0 ? settings.voxelSize : std::max(ofPart, settings.pointsInVoxel * scale.pointDistance);
+  around.points = thinned(cloud, scale.pointDistance, around.voxelSize, settings.thinnedInVoxel);
   if (bin)
   {
     around.up = bin->T_scene_bin.linear().col(2);
@@ -364,7 +342,7 @@ PickPlanner::Surroundings PickPlanner::surroundings(
   }
   part.collisions.setBin(bin ? &*bin : nullptr);
   part.collisions.setInstances(places);
-  part.collisions.setMeasured(rest, around.voxelSize, FewestInVoxel);
+  part.collisions.setMeasured(rest, around.voxelSize, settings.fewestInVoxel);
   return around;
 }
 

@@ -30,6 +30,16 @@ struct PickSettings
   double tolerance = 0.0; ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
                           ///< 1 % of the part's size, its box from corner to corner; at most 6 %
   double voxelSize = 0.0; ///< mm, of what is measured besides; 0: 4 point distances, at least 1 % of the diameter
+
+  // Shares of the part's size, the diagonal of its box.
+  double toleranceOfPart = 0.01; ///< the tolerance without noise, and the smallest voxel
+  double mostTolerance = 0.06;   ///< however noisy: farther away lies something else
+  double surfaceSpacing = 0.03;  ///< of the points on the part that tell what lies at it and on it
+  double mostOutside = 0.5;      ///< a grasp so far from the part is one of another part, or in another unit
+  double noiseInTolerance = 3.0; ///< standard deviations: all but 3 of 1,000 points
+  double pointsInVoxel = 4.0;    ///< point distances in the side of a voxel, so that a slanted surface has no holes
+  double thinnedInVoxel = 2.0;   ///< of the points along that side so many are taken: more say no more
+  int fewestInVoxel = 2;         ///< a point alone is none of a surface
 };
 
 /// Why a pick is not possible, in the order in which it is looked at.

@@ -5,14 +5,13 @@
 
 namespace meam
 {
-PickTrial tryPick(const TriangleMesh& part, const Gripper& gripper, const Grasp& grasp,
-  const Eigen::Isometry3d& T_scene_grasp, const std::vector<Eigen::Isometry3d>& truths, const Bin* bin,
+namespace
+{
+PickTrial tryPick(const PickCollisions& world, const Grasp& pick, const std::vector<Eigen::Isometry3d>& truths,
   const PickTrialSettings& settings)
 {
-  PickCollisions world(part, gripper);
-  world.setBin(bin);
-  world.setInstances(truths);
-  const std::vector<int> held = world.heldBy(grasp, T_scene_grasp, settings.cupSlack);
+  const Eigen::Isometry3d& T_scene_grasp = pick.T_model_grasp;
+  const std::vector<int> held = world.heldBy(pick, T_scene_grasp, settings.cupSlack);
   PickTrial trial;
   if (held.size() > 1)
   {
@@ -21,10 +20,9 @@ PickTrial tryPick(const TriangleMesh& part, const Gripper& gripper, const Grasp&
   }
   trial.instance = held.empty() ? -1 : held.front();
   // A cup gives way as it comes down on the part.
-  const double back = grasp.kind == GraspKind::Suction ? settings.cupSlack : 0.0;
+  const double back = pick.kind == GraspKind::Suction ? settings.cupSlack : 0.0;
   const Eigen::Isometry3d stop = T_scene_grasp * Eigen::Translation3d(0.0, 0.0, -back);
-  const Clearance clearance =
-    world.clearance(grasp, stop, trial.instance, settings.wayIn, settings.step, settings.step);
+  const Clearance clearance = world.clearance(pick, stop, trial.instance, settings.wayIn, settings.step, settings.step);
   if (clearance.distance <= 0.0)
   {
     trial.outcome = clearance.obstacle == Obstacle::Bin ? TrialOutcome::HitsBin
@@ -33,12 +31,29 @@ PickTrial tryPick(const TriangleMesh& part, const Gripper& gripper, const Grasp&
   }
   else if (!held.empty())
   {
-    Grasp actual = grasp;
+    Grasp actual = pick;
     actual.T_model_grasp = truths[trial.instance].inverse() * stop;
     trial.outcome =
       world.touchesHeld(actual, settings.wayIn, settings.step) ? TrialOutcome::HitsPart : TrialOutcome::Success;
   }
   return trial;
+}
+}
+
+std::vector<PickTrial> tryPicks(const TriangleMesh& part, const Gripper& gripper, const Grasps& picks,
+  const std::vector<Eigen::Isometry3d>& truths, const Bin* bin, const PickTrialSettings& settings,
+  const Progress& progress)
+{
+  PickCollisions world(part, gripper);
+  world.setBin(bin);
+  world.setInstances(truths);
+  std::vector<PickTrial> trials;
+  for (const Grasp& pick : picks)
+  {
+    report(progress, static_cast<double>(trials.size()) / static_cast<double>(picks.size()));
+    trials.push_back(tryPick(world, pick, truths, settings));
+  }
+  return trials;
 }
 
 std::string describe(TrialOutcome outcome)

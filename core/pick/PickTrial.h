@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Error.h"
 #include "pick/Bin.h"
 #include "pick/Gripper.h"
 
@@ -32,11 +33,12 @@ struct PickTrialSettings
   double step = 1.0;     ///< mm between the places at which a gripper that is a mesh is looked at
 };
 
-/// Plays a pick among copies whose true poses are known: whether the gripper on its way to T_scene_grasp touches the
-/// bin, or any copy before it holds one. Throws Error for an invalid mesh, gripper or bin.
-PickTrial tryPick(const TriangleMesh& part, const Gripper& gripper, const Grasp& grasp,
-  const Eigen::Isometry3d& T_scene_grasp, const std::vector<Eigen::Isometry3d>& truths, const Bin* bin,
-  const PickTrialSettings& settings = {});
+/// Plays picks, grasps whose frames are the scene's (T_scene_grasp, mm), each for itself, among copies whose true poses
+/// are known: whether the gripper on its way touches the bin, or any copy before it holds one. Throws Error for an
+/// invalid mesh, gripper or bin.
+std::vector<PickTrial> tryPicks(const TriangleMesh& part, const Gripper& gripper, const Grasps& picks,
+  const std::vector<Eigen::Isometry3d>& truths, const Bin* bin, const PickTrialSettings& settings = {},
+  const Progress& progress = {});
 
 /// In words: "hits another part".
 std::string describe(TrialOutcome outcome);

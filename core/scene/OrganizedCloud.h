@@ -16,4 +16,22 @@ struct OrganizedCloud
 
   std::size_t size() const { return this->points.size(); }
 };
+
+/// The points of every `step`th row and column that have depth.
+inline Points everyNth(const OrganizedCloud& cloud, int step)
+{
+  Points points;
+  for (int row = 0; row < cloud.height; row += step)
+  {
+    for (int column = 0; column < cloud.width; column += step)
+    {
+      const Eigen::Vector3f& point = cloud.points[static_cast<std::size_t>(row) * cloud.width + column];
+      if (point.allFinite())
+      {
+        points.push_back(point);
+      }
+    }
+  }
+  return points;
+}
 }

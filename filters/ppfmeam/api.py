@@ -214,7 +214,7 @@ def why(part, scan, at=None, pose=None, fit=False, **options):
     transforms = numpy.asarray(pose, float)
     if transforms.ndim not in (2, 3) or transforms.shape[-2:] != (4, 4):
         raise Error(f"the pose has to be a matrix of 4 x 4, or several, not an array with the shape {transforms.shape}")
-    diagnosis.SetInputDataObject(4, poses_of(transforms.reshape(-1, 4, 4)))
+    diagnosis.SetInputDataObject(4, scripting.poses_of(transforms.reshape(-1, 4, 4)))
     diagnosis.SetPlaceToRankedPose()
     found = []
     for rank in range(1, transforms.size // 16 + 1):
@@ -228,18 +228,6 @@ def diagnosed(filter):
     data = vtkPolyData()
     data.ShallowCopy(filter.GetOutput())
     return Diagnosis(data, filter.GetOutputDataObject(1))
-
-
-def poses_of(transforms):
-    """Poses as VTK has them."""
-    data = vtkPolyData()
-    origins = vtkPoints()
-    origins.SetData(numpy_to_vtk(numpy.ascontiguousarray(transforms[:, :3, 3]), deep=True))
-    data.SetPoints(origins)
-    array = numpy_to_vtk(numpy.ascontiguousarray(transforms.reshape(-1, 16)), deep=True)
-    array.SetName("Transform")
-    data.GetPointData().AddArray(array)
-    return data
 
 
 def set_inputs(filter, part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,

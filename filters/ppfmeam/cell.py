@@ -6,11 +6,8 @@ import sys
 import time
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkThreshold
-from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from . import filters, scripting, simulation, world
@@ -32,29 +29,6 @@ def column(data, name):
 
 def text(data, name, row):
     return data.GetPointData().GetAbstractArray(name).GetValue(row)
-
-
-def rows_of(data, rows):
-    """Some of the points with their arrays and the field data."""
-    chosen = vtkPolyData()
-    chosen.SetPoints(vtkPoints())
-    chosen.GetPointData().CopyAllocate(data.GetPointData())
-    for place, row in enumerate(rows):
-        chosen.GetPoints().InsertNextPoint(data.GetPoint(row))
-        chosen.GetPointData().CopyData(data.GetPointData(), row, place)
-    chosen.GetFieldData().ShallowCopy(data.GetFieldData())
-    return chosen
-
-
-def poses_of(transforms):
-    data = vtkPolyData()
-    data.SetPoints(vtkPoints())
-    for transform in transforms:
-        data.GetPoints().InsertNextPoint(transform[:3, 3])
-    array = numpy_to_vtk(numpy.ascontiguousarray(transforms).reshape(-1, 16), deep=True)
-    array.SetName("Transform")
-    data.GetPointData().AddArray(array)
-    return data
 
 
 class Gripper:
@@ -103,6 +77,8 @@ class Station:
         scripting.set_choice(self.planning, "Gripper", "SuctionCup" if gripper == "cup" else "ParallelJaws")
         self.gripper.set(self.planning)
         self.planning.SetBinToGiven()
+        self.evaluation = filters.vtkMEAMPoseEvaluation()
+        self.evaluation.SetInputDataObject(2, self.model)
         self.trial = filters.vtkMEAMPickTrial()
         self.trial.SetInputDataObject(1, self.mesh)
 
@@ -144,7 +120,7 @@ class Bin:
         if not len(stay):
             self.truth = None
             return False
-        self.source.SetInputDataObject(1, poses_of(stay))
+        self.source.SetInputDataObject(1, scripting.poses_of(stay))
         self.source.SetSettle(True)
         self.scan_again()
         return True
@@ -176,16 +152,6 @@ class Film:
                                   *self.entries, "  </Collection>", "</VTKFile>", ""]))
 
 
-def errors(pose, truth, station):
-    """Of a pose the distance (mm) of its middle from the nearest true one, and the least turn (degrees) against it."""
-    middle = numpy.array(station.mesh.GetCenter())
-    places = truth[:, :3, :3] @ middle + truth[:, :3, 3]
-    distances = numpy.linalg.norm(places - (pose[:3, :3] @ middle + pose[:3, 3]), axis=1)
-    nearest = int(numpy.argmin(distances))
-    turn = truth[nearest][:3, :3].T @ pose[:3, :3]
-    return distances[nearest], float(numpy.degrees(numpy.arccos(numpy.clip((numpy.trace(turn) - 1) / 2, -1, 1))))
-
-
 def trials(station, copies, seed, film=None, pictures=None):
     """Picks a bin empty; yields a row for each trial, the last one, without an outcome, of parts that cannot be picked."""
     bin, failures, tried = Bin(station, copies, seed), 0, set()
@@ -211,17 +177,19 @@ def trials(station, copies, seed, film=None, pictures=None):
             yield {**row, "reason": reason}
             return
         pick = possible[0]
-        station.trial.SetInputDataObject(0, rows_of(picks, [pick]))
+        station.trial.SetInputDataObject(0, scripting.with_value(picks, "Rank", pick + 1))
         station.trial.SetInputDataObject(2, bin.truth)
         outcome = scripting.update(station.trial).GetOutput()
-        truth = column(bin.truth, "Transform").reshape(-1, 4, 4)
         instance = int(column(picks, "Instance")[pick])
-        off = errors(column(found, "Transform").reshape(-1, 4, 4)[instance - 1], truth, station)
+        station.evaluation.SetInputDataObject(0, found)
+        station.evaluation.SetInputDataObject(1, bin.truth)
+        judged = scripting.update(station.evaluation).GetOutput()
+        off = [judged.GetColumnByName(name).GetValue(instance - 1) for name in ("TranslationError", "RotationError")]
         row.update(outcome=text(outcome, "OutcomeName", 0), mm=f"{off[0]:.2f}", degrees=f"{off[1]:.1f}",
                    reason=f"{text(picks, 'GraspName', pick)}, clearance {column(picks, 'Clearance')[pick]:.1f} mm")
         if film or pictures:
             station.planning.SetShownGrippers(station.planning.AllPossible)
-            gripper = of_pick(scripting.update(station.planning).GetOutputDataObject(1), pick + 1)
+            gripper = scripting.with_value(scripting.update(station.planning).GetOutputDataObject(1), "Rank", pick + 1, cells=True)
             station.planning.SetShownGrippers(station.planning.BestOfEachInstance)
             if film:
                 film.add(bin.truth, gripper)
@@ -235,17 +203,6 @@ def trials(station, copies, seed, film=None, pictures=None):
             failures += 1
             tried.add(text(picks, "GraspName", pick))  # another one next time
             bin.scan_again()
-
-
-def of_pick(gripper, rank):
-    """Of the grippers at all picks that at one."""
-    threshold, geometry = vtkThreshold(), vtkGeometryFilter()
-    threshold.SetInputDataObject(gripper)
-    threshold.SetInputArrayToProcess(0, 0, 0, 1, "Rank")
-    threshold.SetLowerThreshold(rank)
-    threshold.SetUpperThreshold(rank)
-    geometry.SetInputConnection(threshold.GetOutputPort())
-    return scripting.update(geometry).GetOutput()
 
 
 def bin_of(row):

@@ -6,8 +6,7 @@ import tempfile
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkFiltersCore import vtkImageAppend, vtkThreshold
-from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+from vtkmodules.vtkFiltersCore import vtkImageAppend
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 from . import filters, picture, scripting
@@ -20,20 +19,14 @@ SLANT = (0.35, 0.55, -1.0)  # from where it is looked at, in the sensor's frame
 
 def gripper_actors(gripper):
     """Green where a pick is possible, red where it is not."""
-    actors = []
+    shown = []
     for value, color in ((1, POSSIBLE), (0, NOT)):
-        threshold, geometry = vtkThreshold(), vtkGeometryFilter()
-        threshold.SetInputDataObject(gripper)
-        threshold.SetInputArrayToProcess(0, 0, 0, 1, "Possible")
-        threshold.SetLowerThreshold(value)
-        threshold.SetUpperThreshold(value)
-        geometry.SetInputConnection(threshold.GetOutputPort())
-        data = scripting.update(geometry).GetOutput()
+        data = scripting.with_value(gripper, "Possible", value, cells=True)
         if data.GetNumberOfCells():
             actor = picture.solid(data, color)
             actor.GetProperty().SetOpacity(0.85)
-            actors.append(actor)
-    return actors
+            shown.append(actor)
+    return shown
 
 
 def actors(scan, found, mesh, gripper):
@@ -47,7 +40,7 @@ def actors(scan, found, mesh, gripper):
     return [picture.scan(scan, points, valid, (0, 0, 1)), picture.copies(instances), *gripper_actors(gripper)]
 
 
-def frame(scan, truth, size):
+def frame(truth, size):
     """A camera that looks into the bin from a side."""
     values = scripting.tuples(truth, "Bin")[0]
     pose, inner = numpy.array(values[:16]).reshape(4, 4), numpy.array(values[16:19])
@@ -64,7 +57,7 @@ class Strip:
     def add(self, scan, truth, found, gripper, row):
         path = os.path.join(self.folder.name, f"{len(self.tiles)}.png")
         color = POSSIBLE if row["outcome"] == "success" else NOT
-        picture.save_actors(path, actors(scan, found, self.station.mesh, gripper), frame(scan, truth, TILE), TILE,
+        picture.save_actors(path, actors(scan, found, self.station.mesh, gripper), frame(truth, TILE), TILE,
                             [(f"{row['left']} left: {row['outcome']}", color)])
         self.tiles.append(path)
 

@@ -6,9 +6,8 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStructuredGrid
-from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkPolyDataNormals, vtkThreshold
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
-from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
@@ -16,7 +15,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401  the legend's letters
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
 from .filters import vtkMEAMPoseInstances
-from .scripting import Failure, update
+from .scripting import Failure, update, with_value
 
 WIDTH = 1600  # pixels
 JPEG_QUALITIES = range(85, 40, -5)
@@ -259,21 +258,10 @@ def posed(poses, parts):
     together = vtkAppendPolyData()
     for number, part in enumerate(parts):
         instances = vtkMEAMPoseInstances()
-        instances.SetInputDataObject(0, of_part(poses, number) if len(parts) > 1 else poses)
+        instances.SetInputDataObject(0, with_value(poses, "PartId", number) if len(parts) > 1 else poses)
         instances.SetInputDataObject(1, shape_of(part))
         together.AddInputDataObject(update(instances).GetOutput())
     return update(together)
-
-
-def of_part(poses, number):
-    """The poses with that `PartId`."""
-    threshold, geometry = vtkThreshold(), vtkGeometryFilter()
-    threshold.SetInputDataObject(poses)
-    threshold.SetInputArrayToProcess(0, 0, 0, 0, "PartId")
-    threshold.SetLowerThreshold(number)
-    threshold.SetUpperThreshold(number)
-    geometry.SetInputConnection(threshold.GetOutputPort())
-    return update(geometry).GetOutput()
 
 
 def legend(copies_made, poses):

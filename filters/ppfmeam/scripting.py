@@ -11,9 +11,14 @@ import sys
 import tempfile
 import warnings
 
-from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOImage import vtkBMPReader, vtkJPEGReader, vtkPNGReader, vtkTIFFReader
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
@@ -450,6 +455,28 @@ def tuples(data, name):
     """The rows of a field data array."""
     array = data.GetFieldData().GetArray(name)
     return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+
+
+def poses_of(transforms):
+    """Poses, N x 4 x 4, as the filters take them."""
+    data, origins = vtkPolyData(), vtkPoints()
+    origins.SetData(numpy_to_vtk(numpy.ascontiguousarray(transforms[:, :3, 3]), deep=True))
+    data.SetPoints(origins)
+    array = numpy_to_vtk(numpy.ascontiguousarray(transforms).reshape(-1, 16), deep=True)
+    array.SetName("Transform")
+    data.GetPointData().AddArray(array)
+    return data
+
+
+def with_value(data, name, value, cells=False):
+    """Of a vtkPolyData the points, or the cells, whose array has that value, with all their arrays."""
+    threshold, geometry = vtkThreshold(), vtkGeometryFilter()
+    threshold.SetInputDataObject(data)
+    threshold.SetInputArrayToProcess(0, 0, 0, int(cells), name)
+    threshold.SetLowerThreshold(value)
+    threshold.SetUpperThreshold(value)
+    geometry.SetInputConnection(threshold.GetOutputPort())
+    return update(geometry).GetOutput()
 
 
 def symmetry_words(samples):

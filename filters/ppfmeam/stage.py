@@ -5,9 +5,7 @@ import math
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from . import charts, filters, scripting, simulation
 
@@ -15,17 +13,6 @@ MOVES = (5, 10, 15, 20)  # mm
 TURNS = (5, 10, 15, 20)  # degrees
 TRIALS = 10
 SCANS = 1 + len(MOVES) + len(TURNS)  # of a trial
-
-
-def poses_of(transform):
-    """A pose as the filters take it."""
-    data = vtkPolyData()
-    data.SetPoints(vtkPoints())
-    data.GetPoints().InsertNextPoint(transform[:3, 3])
-    array = numpy_to_vtk(numpy.ascontiguousarray(transform).reshape(1, 16), deep=True)
-    array.SetName("Transform")
-    data.GetPointData().AddArray(array)
-    return data
 
 
 def moved(transform, distance):
@@ -72,7 +59,7 @@ class Stage:
     def found(self, transform, seed):
         """The pose that is found of the part at a pose, seen with noise of its own; None where none is."""
         source = self.source(seed)
-        source.SetInputDataObject(1, poses_of(transform))
+        source.SetInputDataObject(1, scripting.poses_of(transform[None]))
         self.estimation.SetInputDataObject(1, scripting.update(source).GetOutput())
         array = scripting.update(self.estimation).GetOutput().GetPointData().GetArray("Transform")
         return vtk_to_numpy(array).reshape(-1, 4, 4)[0] if array and array.GetNumberOfTuples() else None

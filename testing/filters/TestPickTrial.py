@@ -37,5 +37,13 @@ check(outcomes(at(100, 0)) == (["holds nothing", "not tried"], [0, 0]), outcomes
 check(outcomes(at(0, 0), at(26, 0))[0][0] == "hits another part", "a neighbour that was not found")
 
 fails(connect(vtkMEAMPickTrial(), planning), "Part", "True poses")
+# A gripper of any shape is not forgotten.
+finger = box(4, 4, 50, (-2, -2, -70))
+planning.SetInputDataObject(4, finger)
+trial = connect(vtkMEAMPickTrial(), planning, PART, poses(at(0, 0)))
+fails(trial, "gripper's mesh")
+trial.SetInputDataObject(3, finger)
+check(run(trial).GetNumberOfPoints() == 2, "with its mesh they are tried")
+
 fails(connect(vtkMEAMPickTrial(), above, PART, poses(at(0, 0))), "Gripper", "Pick Planning")
 prints(vtkMEAMPickTrial(), "WayIn", "CupSlack")

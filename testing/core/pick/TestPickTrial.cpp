@@ -22,7 +22,8 @@ meam::PickTrial pick(const Eigen::Isometry3d& where, const std::vector<Eigen::Is
   bin.T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   bin.T_scene_bin.translation().z() = 20.0;
   bin.size << 300.0, 300.0, 60.0;
-  return meam::tryPick(cube(), gripper, grasp, where, truths, &bin);
+  grasp.T_model_grasp = where;
+  return meam::tryPicks(cube(), gripper, { grasp }, truths, &bin).front();
 }
 }
 
@@ -52,7 +53,10 @@ TEST(PickTrial, ACupGivesWay)
   meam::Grasp grasp;
   grasp.kind = meam::GraspKind::Suction;
   const auto outcome = [&](double z) // the top of the cube is at -10
-  { return meam::tryPick(cube(), cup, grasp, at(0, 0, z), { at(0, 0, 0) }, nullptr).outcome; };
+  {
+    grasp.T_model_grasp = at(0, 0, z);
+    return meam::tryPicks(cube(), cup, { grasp }, { at(0, 0, 0) }, nullptr).front().outcome;
+  };
   EXPECT_EQ(outcome(-10.0), meam::TrialOutcome::Success);
   EXPECT_EQ(outcome(-11.0), meam::TrialOutcome::Success);
   EXPECT_EQ(outcome(-9.0), meam::TrialOutcome::Success);
