@@ -5,8 +5,8 @@ import os
 import tempfile
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkFiltersCore import vtkImageAppend
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 from . import filters, picture, scripting
@@ -65,17 +65,19 @@ class Strip:
         """PNG; nothing when there was no pick."""
         if not self.tiles:
             return
-        rows = vtkImageAppend()
-        rows.SetAppendAxis(1)
-        starts = range(0, len(self.tiles), TILES_IN_ROW)
-        for start in reversed(starts):  # VTK's images start at the lower left
-            line = vtkImageAppend()
-            for tile in self.tiles[start:start + TILES_IN_ROW]:
-                reader = vtkPNGReader()
-                reader.SetFileName(tile)
-                line.AddInputConnection(reader.GetOutputPort())
-            rows.AddInputConnection(line.GetOutputPort())
+        rows = -(-len(self.tiles) // TILES_IN_ROW)
+        width, height = TILE[0] * min(len(self.tiles), TILES_IN_ROW), TILE[1] * rows
+        pixels = numpy.full((height, width, 3), 255, numpy.uint8)
+        for place, tile in enumerate(self.tiles):
+            image = scripting.read_with(vtkPNGReader(), tile)
+            image = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(TILE[1], TILE[0], -1)
+            row, column = divmod(place, TILES_IN_ROW)
+            low = height - TILE[1] * (row + 1)  # VTK's images start at the lower left
+            pixels[low:low + TILE[1], TILE[0] * column:TILE[0] * (column + 1)] = image[:, :, :3]
+        data = vtkImageData()
+        data.SetDimensions(width, height, 1)
+        data.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
         writer = vtkPNGWriter()
-        writer.SetInputConnection(rows.GetOutputPort())
+        writer.SetInputData(data)
         writer.SetFileName(path)
         scripting.update(writer, "Write")

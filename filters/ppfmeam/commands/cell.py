@@ -16,12 +16,15 @@ def options_of_user():
     parser.add_argument("--sensor", choices=simulation.SENSORS, action="append", help="again for more (default: structured-light)")
     parser.add_argument("--gripper", choices=("jaws", "cup"), default="jaws", help="default: %(default)s")
     parser.add_argument("--bins", type=scripting.count, default=cell.BINS, help="of each part and sensor (default: %(default)s)")
-    parser.add_argument("--copies", type=scripting.count, default=cell.COPIES, help="in a bin (default: %(default)s)")
+    parser.add_argument("--copies", type=scripting.count, default=cell.COPIES, help="in a bin, up to 10000 (default: %(default)s)")
     parser.add_argument("--seed", type=scripting.count, default=1, help="of the first bin, the next has the next one")
     parser.add_argument("--threads", type=int, default=0, help="0: all cores")
     parser.add_argument("--pictures", action="store_true", help="a strip of pictures of each bin, too (needs a display)")
     parser.add_argument("--out", required=True, metavar="DIR", help="folder to write")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.bins < 1 or not 1 <= options.copies <= 10000:
+        parser.error("--bins has to be 1 or more, --copies 1 to 10000")
+    return options
 
 
 def main():
