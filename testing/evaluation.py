@@ -243,14 +243,15 @@ def paper(commands):
 
 
 def cell(commands):
+    shutil.rmtree(path_of("OUT/cell"), ignore_errors=True)  # of another version
     rows, failures = [], []
     for gripper, part in (("cup", "ridged_disc"), ("jaws", "cap"), ("jaws", "ribbed_flange")):
         lines = commands.run("cell.py", "--gripper", gripper, "--part", part, "--sensor", "structured-light", "--sensor",
-                             "active-stereo", "--threads", "1", "--out", "OUT/cell").splitlines()
+                             "active-stereo", "--seed", "6", "--threads", "1", "--out", "OUT/cell").splitlines()
         rows += [line for line in lines if line.startswith("|") and line not in rows]
         failures += [line for line in lines if line.startswith("- ")]
     return ("Table 9 of the paper with a simulated cell ([picking.md](picking.md#a-cell-simulated)): 12 parts in a bin, five bins each, "
-            "picked until none is left or none can be picked; one thread.\n\n" + "\n".join(rows)
+            "picked until none is left or none can be picked; one thread. Seeds 6 to 10, which nothing was chosen on.\n\n" + "\n".join(rows)
             + "\n\nEvery failure, and every bin that was left:\n\n" + "\n".join(failures))
 
 

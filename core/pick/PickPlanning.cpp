@@ -20,13 +20,27 @@ namespace
 {
 std::string lengthText(double mm) { return std::to_string(static_cast<int>(std::lround(mm))) + " mm"; }
 
+/// A gripper that touches the part it holds only where it holds it, however little its pose is off: thicker by the
+/// margin but on the pads of the jaws, whose room is their clearance, and on the cup's rim, which gives way.
+Gripper widened(Gripper gripper, const PickSettings& settings)
+{
+  gripper.cupDiameter += 2.0 * settings.safetyMargin;
+  gripper.fingerWidth += 2.0 * settings.partMargin;
+  gripper.fingerThickness += settings.partMargin;
+  gripper.tipLength += settings.partMargin; // and so is the body nearer to the part
+  gripper.fingerLength = std::max(gripper.fingerLength, gripper.tipLength + settings.partMargin);
+  gripper.bodyWidth += 2.0 * settings.partMargin;
+  return gripper;
+}
+
 void check(const PickSettings& settings)
 {
   const auto length = [](double value) { return value >= 0.0 && std::isfinite(value); };
   if (!length(settings.safetyMargin) || !length(settings.wayIn) || !length(settings.tolerance) ||
-      !length(settings.voxelSize) || !length(settings.cupSlack) || !length(settings.comfortableClearance))
+      !length(settings.voxelSize) || !length(settings.cupSlack) || !length(settings.partMargin) ||
+      !length(settings.comfortableClearance))
   {
-    throw Error("The safety margin, the way in, the tolerance, the voxels, the cup's slack and the "
+    throw Error("The margins, the way in, the tolerance, the voxels, the cup's slack and the "
                 "comfortable clearance must be 0 mm or more.");
   }
   if (!(settings.leastProbability >= 0.0 && settings.leastProbability <= 1.0) ||
@@ -175,8 +189,7 @@ public:
     {
       throw Error("There is no grasp: define one at least, or have some proposed.");
     }
-    Gripper wide = hand; // a cup keeps the margin from what stands out of the part, as jaws do by their clearance
-    wide.cupDiameter += 2.0 * wanted.safetyMargin;
+    const Gripper wide = widened(hand, wanted);
     const PickCollisions own(mesh, wide);
     const std::vector<Eigen::Isometry3d> symmetric = turnsOf(symmetries, wanted.turnStep);
     for (const Grasp& grasp : grasps)

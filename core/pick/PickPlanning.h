@@ -27,9 +27,10 @@ struct PickSettings
   double comfortableClearance = 10.0; ///< mm; more is no better
   double turnStep = 30.0;             ///< degrees between the turns that a free one is tried at
   double cupSlack = 2.0;              ///< mm that a cup gives way when it comes down on the part
-  double tolerance = 0.0; ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
-                          ///< 1 % of the part's size, its box from corner to corner; at most 6 %
-  double voxelSize = 0.0; ///< mm, of what is measured besides; 0: 4 point distances, at least 1 % of the diameter
+  double partMargin = 1.0; ///< mm that the open gripper keeps from the part that it takes, but between its pads
+  double tolerance = 0.0;  ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
+                           ///< 1 % of the part's size, its box from corner to corner; at most 6 %
+  double voxelSize = 0.0;  ///< mm, of what is measured besides; 0: 4 point distances, at least 1 % of the diameter
 
   // Shares of the part's size, the diagonal of its box.
   double toleranceOfPart = 0.01; ///< the tolerance without noise, and the smallest voxel

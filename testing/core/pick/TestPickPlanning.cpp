@@ -190,6 +190,17 @@ TEST(PickPlanning, ACupMayLieOnThePart)
   EXPECT_EQ(picked().obstruction, meam::PickObstruction::PartItself);
 }
 
+TEST(PickPlanning, TheOpenGripperDoesNotGrazeThePart)
+{
+  // The body comes down to 44 mm behind the grasp; the block is held so deep that it ends half a millimetre before it.
+  meam::Grasp deep = fromAbove();
+  deep.T_model_grasp.translation().z() = 33.5;
+  EXPECT_EQ(onlyPick({ at(0, 0) }, {}, deep, {}, std::nullopt).obstruction, meam::PickObstruction::PartItself);
+  meam::PickSettings bold;
+  bold.partMargin = 0.25;
+  EXPECT_TRUE(onlyPick({ at(0, 0) }, {}, deep, bold, std::nullopt).possible());
+}
+
 TEST(PickPlanning, TheWallIsInTheWay)
 {
   const meam::Pick pick = onlyPick({ at(125, 0) }); // the jaw ends at 146, the wall begins at 150; the body ends at 153
