@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseAlgorithm.h"
 
+#include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMPoseWork.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
@@ -58,9 +59,10 @@ int vtkMEAMPoseAlgorithm::RequestData(
     const meam::Sensor sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, surface);
     const auto scene = sharedScene(edges, surface, sensor, model->diameter, this->NumberOfThreads);
     const auto poses = sharedPoses(input, *scene, model->symmetries);
-    Work step{ poses->poses, *scene, *model, progressOf(this), {} };
+    Work step{ poses->poses, *scene, *model, progressOf(this), evidenceRatesOf(input), {} };
     this->Process(step);
     *this->Shared = { model, scene, sharePoses({ scene->T_local_scene(), std::move(step.result) }, *model, output) };
+    setEvidenceRates(output, step.rates);
   };
   return vtkMEAMRun(this, work, output);
 }

@@ -12,7 +12,9 @@
  * Input port 3, optional: vtkPointSet, all points the sensor measured, in mm: an organized cloud
  * (vtkStructuredGrid, invalid points NaN or blanked) or any cloud. Without it only edges count.
  *
- * Output port 0: vtkPolyData of poses as vtkMEAMPoseDetection has them. Field data `Diameter` (mm, of the part).
+ * Output port 0: vtkPolyData of poses as vtkMEAMPoseDetection has them. Field data `Diameter` (mm, of the part)
+ * and, from the first vtkMEAMPoseVerification on, `EvidenceRates`: share of the edge points of a part that find an
+ * edge, and of those anywhere, and the same of outlines that end.
  */
 #ifndef vtkMEAMPoseAlgorithm_h
 #define vtkMEAMPoseAlgorithm_h

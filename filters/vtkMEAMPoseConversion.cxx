@@ -199,6 +199,38 @@ void setPartExtent(vtkDataObject* output, const meam::TrainedModel& model)
   output->GetFieldData()->AddArray(middles);
 }
 
+std::optional<meam::EvidenceRates> evidenceRatesOf(vtkDataObject* input)
+{
+  vtkDataArray* array = input->GetFieldData()->GetArray("EvidenceRates");
+  if (!array || array->GetNumberOfValues() != 4)
+  {
+    return {};
+  }
+  double rates[4];
+  for (int k = 0; k < 4; ++k)
+  {
+    rates[k] = array->GetVariantValue(k).ToDouble();
+    if (!(rates[k] > 0.0 && rates[k] < 1.0))
+    {
+      return {};
+    }
+  }
+  return meam::EvidenceRates{ { rates[0], rates[1] }, { rates[2], rates[3] } };
+}
+
+void setEvidenceRates(vtkDataObject* output, const std::optional<meam::EvidenceRates>& rates)
+{
+  if (rates)
+  {
+    const double values[] = { rates->edges.found, rates->edges.chance, rates->outline.found, rates->outline.chance };
+    vtkNew<vtkDoubleArray> array;
+    array->SetName("EvidenceRates");
+    array->SetNumberOfComponents(4);
+    array->InsertNextTuple(values);
+    output->GetFieldData()->AddArray(array);
+  }
+}
+
 meam::Pose placedAt(const double position[3], const double rotation[3])
 {
   const auto turn = [&](int axis)

@@ -8,6 +8,7 @@
 #include "io/DetectionArrayFile.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
+#include "pose/verification/EvidenceCounts.h"
 
 #include <optional>
 
@@ -29,6 +30,12 @@ meam::Pose placedAt(const double position[3], const double rotation[3]);
 /// the model's surface points) and `PartMiddle` (3: mm, of its surface, which covariances are about).
 std::optional<meam::PartExtent> partExtentOf(vtkDataObject* input);
 void setPartExtent(vtkDataObject* output, const meam::TrainedModel& model);
+
+/// The scan's rates travel with its poses as the field data `EvidenceRates` (4: edges found where a part is and
+/// anywhere, outlines that end where a part is and anywhere; each between 0 and 1). None: not measured yet, or no
+/// rates.
+std::optional<meam::EvidenceRates> evidenceRatesOf(vtkDataObject* input);
+void setEvidenceRates(vtkDataObject* output, const std::optional<meam::EvidenceRates>& rates);
 }
 
 #endif

@@ -82,10 +82,10 @@ int vtkMEAMPoseEstimation::RequestData(
       setPartExtent(output, model);
       setFieldText(output, "Report", meam::describe(poses));
       setScanQuality(output, scene.quality);
-      if (report.edgeRates)
+      if (report.rates)
       {
-        setFieldValue(output, "EdgesFound", report.edgeRates->found);
-        setFieldValue(output, "EdgesByChance", report.edgeRates->chance);
+        setFieldValue(output, "EdgesFound", report.rates->edges.found);
+        setFieldValue(output, "EdgesByChance", report.rates->edges.chance);
       }
       const meam::StageTimes& times = report.times;
       const std::pair<const char*, double> seconds[] = { { "Training", work.secondsTraining },

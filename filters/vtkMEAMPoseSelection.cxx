@@ -53,7 +53,9 @@ void vtkMEAMPoseSelection::SetParametersToRecommended()
 void vtkMEAMPoseSelection::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;
-  work.result = meam::selectPoses(work.poses, work.scene, work.model, *this->Settings, work.progress);
+  meam::PoseSelectionSettings settings = *this->Settings;
+  settings.evidence.rates = work.rates;
+  work.result = meam::selectPoses(work.poses, work.scene, work.model, settings, work.progress);
 }
 
 void vtkMEAMPoseSelection::PrintSelf(ostream& os, vtkIndent indent)

@@ -38,7 +38,14 @@ void vtkMEAMPoseVerification::SetParametersToRecommended()
 void vtkMEAMPoseVerification::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;
-  work.result = meam::verifyPoses(work.poses, work.scene, work.model, *this->Settings, work.progress);
+  meam::PoseVerificationSettings settings = *this->Settings;
+  settings.evidence.rates = work.rates;
+  meam::EvidenceRates rates;
+  work.result = meam::verifyPoses(work.poses, work.scene, work.model, settings, work.progress, &rates);
+  if (settings.method == meam::VerificationMethod::VisibleEvidence)
+  {
+    work.rates = rates;
+  }
 }
 
 void vtkMEAMPoseVerification::PrintSelf(ostream& os, vtkIndent indent)

@@ -8,8 +8,11 @@
 #include "base/Error.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
+#include "pose/verification/EvidenceCounts.h"
 #include "scene/Scene.h"
 #include "vtkMEAMPoseAlgorithm.h"
+
+#include <optional>
 
 struct vtkMEAMPoseAlgorithm::Work
 {
@@ -17,7 +20,8 @@ struct vtkMEAMPoseAlgorithm::Work
   const meam::Scene& scene;
   const meam::TrainedModel& model;
   const meam::Progress progress;
-  meam::Poses result; ///< in the local frame
+  std::optional<meam::EvidenceRates> rates; ///< of the scan, as the first verification found them; the result's, too
+  meam::Poses result;                       ///< in the local frame
 };
 
 #endif

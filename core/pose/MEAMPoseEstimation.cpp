@@ -90,7 +90,7 @@ Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model,
   DetectionReport unused;
   DetectionReport& told = report ? *report : unused;
   StageTimes& spent = told.times;
-  EdgeRates rates;
+  EvidenceRates rates;
   Stopwatch watch;
   const auto observe = [&](PoseStage stage)
   {
@@ -106,7 +106,7 @@ Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model,
   }
   spent.screening = watch.lap();
   poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates);
-  told.edgeRates =
+  told.rates =
     settings.candidateVerification.method == VerificationMethod::VisibleEvidence ? std::optional(rates) : std::nullopt;
   observe(PoseStage::CandidateVerification);
   spent.verification = watch.lap();
@@ -116,10 +116,13 @@ Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model,
   poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.5, 0.8));
   observe(PoseStage::Refinement);
   spent.refinement = watch.lap();
-  poses = verifyPoses(poses, scene, model, settings.verification, subProgress(progress, 0.8, 0.86));
+  PoseVerificationSettings verification = settings.verification;
+  PoseSelectionSettings selection = settings.selection;
+  verification.evidence.rates = selection.evidence.rates = told.rates; // of all candidates; few are left
+  poses = verifyPoses(poses, scene, model, verification, subProgress(progress, 0.8, 0.86));
   observe(PoseStage::Verification);
   spent.verification += watch.lap();
-  poses = selectPoses(poses, scene, model, settings.selection, subProgress(progress, 0.86, 1.0));
+  poses = selectPoses(poses, scene, model, selection, subProgress(progress, 0.86, 1.0));
   observe(PoseStage::Selection);
   spent.selection += watch.lap();
   return poses;

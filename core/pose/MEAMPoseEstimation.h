@@ -49,7 +49,7 @@ struct StageTimes
 struct DetectionReport
 {
   StageTimes times;
-  std::optional<EdgeRates> edgeRates; ///< of the scan, by the candidates; none with the paper's verification
+  std::optional<EvidenceRates> rates; ///< of the scan, by the candidates; none with the paper's verification
 };
 
 /// What a sensor says of a bin.

@@ -53,6 +53,8 @@ Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFr
   inParallel(
     settings.threads, { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
                         [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter); } });
+  const double tolerance = std::max(settings.enclosureTolerance * diameter, settings.enclosureNoises * quality.noise);
+  this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter);
   if (!measured.empty() && !this->hasSurface())
   {
     throw Error(

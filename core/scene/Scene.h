@@ -5,6 +5,7 @@
 #include "base/PointGrid.h"
 #include "scene/DepthMap.h"
 #include "scene/EdgeIndex.h"
+#include "scene/Enclosure.h"
 #include "scene/ScanQuality.h"
 #include "scene/Sensor.h"
 
@@ -13,10 +14,12 @@ namespace meam
 /// Cells of what is looked up in a scene, as shares of the part's diameter: about the distances that are asked for.
 struct SceneSettings
 {
-  double edgeCell = 0.08;    ///< of the edge index; refinement starts with correspondences of 10 %
-  double depthCell = 0.02;   ///< of the depth map: some points of a usual scan each
-  double surfaceCell = 0.05; ///< of the measured surface's grid
-  int threads = 0;           ///< 0: one for each processor
+  double edgeCell = 0.08;           ///< of the edge index; refinement starts with correspondences of 10 %
+  double depthCell = 0.02;          ///< of the depth map: some points of a usual scan each
+  double surfaceCell = 0.05;        ///< of the measured surface's grid
+  double enclosureTolerance = 0.03; ///< from the bin's floor and walls, and no less than
+  double enclosureNoises = 3.0;     ///< times the scan's noise
+  int threads = 0;                  ///< 0: one for each processor
 };
 
 /// A bin at the time of detection, prepared for parts of one diameter: built once, in the frame of its edge points, in
@@ -44,6 +47,7 @@ struct Scene
   double partDiameter;
   EdgeIndex edgeIndex;
   DepthMap depth;
-  PointGrid surface; ///< of depth.means()
+  PointGrid surface;            ///< of depth.means()
+  std::vector<Plane> enclosure; ///< the bin's floor and walls, as far as they are in sight
 };
 }

@@ -261,7 +261,7 @@ LossCause PoseDiagnosis::causeInVoting(const Diagnosis& diagnosis)
 {
   const bool isElected = std::any_of(diagnosis.votes.begin(), diagnosis.votes.end(),
     [](const PointVotes& point) { return !point.isReference && point.rank == 1; });
-  const bool hasFewEdges = diagnosis.evidence.edgeShare() <= EdgeRatesSettings().usual.chance;
+  const bool hasFewEdges = diagnosis.evidence.edgeShare() <= EvidenceRatesSettings().usual.edges.chance;
   return isElected && diagnosis.isFoundByAllPoints ? LossCause::NoReference
          : hasFewEdges                             ? LossCause::FewEdges
                                                    : LossCause::Outvoted;

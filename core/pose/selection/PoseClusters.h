@@ -25,7 +25,7 @@ struct PoseClustersSettings
   double shared = 0.5;
   double sharedWithin = 0.5;    ///< of the diameter: middles farther apart than this are of two instances all the same
   double sharedDistance = 0.04; ///< of the diameter, between matched points: a little over their spacing
-  double equalEvidence = 0.75;  ///< poses whose evidence (log odds) differs by less are compared point by point
+  double equalEvidence = 3.0;   ///< poses whose evidence (log odds) differs by less are compared point by point
   int allCompared = 300;        ///< of more poses than this each is compared only with those that stay
 };
 

@@ -24,7 +24,7 @@ class InstanceFinish
 {
 public:
   InstanceFinish(const Scene& scene, const TrainedModel& model, const PoseSelectionSettings& settings,
-    const EvidenceCollector& collector, const EdgeRates& rates, const PoseComparison& comparison)
+    const EvidenceCollector& collector, const EvidenceRates& rates, const PoseComparison& comparison)
     : InScene(scene)
     , Model(model)
     , Settings(settings)
@@ -74,7 +74,7 @@ private:
   const TrainedModel& Model;
   const PoseSelectionSettings& Settings;
   const EvidenceCollector& Collector;
-  EdgeRates Rates;
+  EvidenceRates Rates;
   const PoseComparison& Comparison;
   RotationSearch Search;
   PoseRefinementSettings Rotated;
@@ -140,7 +140,8 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   exact.near.clear();
   PoseClusters clusters(scored, exact, model, &collector, &comparison, clustering, settings.threads);
   const std::vector<int> selected = clusters.select(subProgress(progress, 0.0, 0.3));
-  const EdgeRates rates = edgeRatesOf(scored, collector, settings.evidence, settings.rateStride, settings.threads);
+  const EvidenceRates rates =
+    evidenceRatesOf(scored, collector, settings.evidence, settings.rateStride, settings.threads);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison);
   std::vector<Finished> finished(selected.size());
   parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),

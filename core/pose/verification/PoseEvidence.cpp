@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 
 namespace meam
 {
@@ -16,60 +14,6 @@ int count(const std::vector<PointState>& states, PointState state)
 {
   return static_cast<int>(std::count(states.begin(), states.end(), state));
 }
-}
-
-double EvidenceCounts::ofSurface(const EvidenceWeights& weights) const
-{
-  return weights.there * this->there + weights.unclear * this->unclear + weights.turned * this->turned +
-         weights.past * this->past + weights.hidden * this->hidden + weights.unmeasured * this->unmeasured;
-}
-
-double EvidenceCounts::ofEdges(const EvidenceWeights& weights, const EdgeRates& rates) const
-{
-  return weights.edge * (this->edgesFound * std::log(rates.found / rates.chance) +
-                          this->edgesMissing * std::log((1.0 - rates.found) / (1.0 - rates.chance)));
-}
-
-double EvidenceCounts::sum(const EvidenceWeights& weights, const EdgeRates& rates) const
-{
-  return this->ofSurface(weights) + weights.goesOn * this->goesOn + this->ofEdges(weights, rates);
-}
-
-EdgeRates edgeRates(
-  const std::vector<EvidenceCounts>& candidates, const EvidenceWeights& weights, const EdgeRatesSettings& settings)
-{
-  std::vector<int> order(candidates.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto rate = [&](std::size_t best, double usual)
-  {
-    double found = settings.usualPoints * usual, all = settings.usualPoints;
-    for (std::size_t k = 0; k < best; ++k)
-    {
-      const EvidenceCounts& counts = candidates[order[k]];
-      found += counts.edgesFound;
-      all += counts.edgesFound + counts.edgesMissing;
-    }
-    return found / all;
-  };
-  const double gain = settings.leastGain;
-  EdgeRates rates;
-  rates.chance = std::min(rate(candidates.size(), settings.usual.chance), 1.0 - 2.0 * gain);
-  rates.found = std::max(std::min(settings.firstGain * rates.chance, settings.usual.found), rates.chance + gain);
-  std::vector<double> sums(candidates.size());
-  for (int step = 0; step < settings.steps; ++step)
-  {
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-    {
-      const double edges = candidates[k].ofEdges(weights, rates);
-      sums[k] =
-        candidates[k].sum(weights, rates) - edges + std::clamp(edges, -settings.mostOfEdges, settings.mostOfEdges);
-    }
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sums[a] > sums[b]; });
-    rates.found =
-      rate(static_cast<std::size_t>(std::ceil(settings.supportedShare * candidates.size())), settings.usual.found);
-    rates.found = std::clamp(rates.found, rates.chance + gain, 1.0 - gain);
-  }
-  return rates;
 }
 
 double PoseEvidence::score() const
@@ -150,6 +94,13 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
            : relation == DepthMap::Relation::NoSurface || !settings.freeSpace ? PointState::Unknown
                                                                               : PointState::Violated;
   };
+  const auto isEnclosed = [&](const Eigen::Vector3f& point)
+  {
+    const std::vector<Plane>& planes = this->InScene.enclosure;
+    return std::any_of(
+      planes.begin(), planes.end(), [&](const Plane& plane) { return plane.signedDistance(point) < -tolerance; });
+  };
+  const float farBehind = std::max(tolerance, static_cast<float>(settings.farBehind * model.diameter));
   EvidenceCounts& counts = evidence.counts;
   const double patch = settings.weights.patch * model.diameter;
   const double area = stride * model.verificationArea() / (patch * patch);
@@ -177,26 +128,39 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
         break;
       }
       case DepthMap::Relation::Hidden:
-        counts.hidden += seen;
-        state = PointState::Hidden;
+      {
+        const bool isBeyond = isEnclosed(point);
+        (isBeyond ? counts.enclosed : counts.hidden) += seen;
+        state = isBeyond ? PointState::Violated : PointState::Hidden;
         break;
+      }
       case DepthMap::Relation::NoSurface:
         state = stateOf(depth.relation(point, tolerance)); // what is beside a gap of one cell
-        counts.unmeasured += state == PointState::Unknown ? seen : 0.0;
+        if (state == PointState::Unknown)
+        {
+          const bool isBeyond = isEnclosed(point);
+          (isBeyond ? counts.enclosed : counts.unmeasured) += seen;
+          state = isBeyond ? PointState::Violated : PointState::Unknown;
+        }
         break;
       case DepthMap::Relation::InFront:
-        (settings.freeSpace ? counts.past : counts.unmeasured) += seen;
+      {
+        const bool isFar = depth.relationToMean(point, farBehind) == DepthMap::Relation::InFront;
+        (!settings.freeSpace ? counts.unmeasured : isFar ? counts.farPast : counts.past) += seen;
         state = stateOf(DepthMap::Relation::InFront);
         break;
+      }
     }
     evidence.surface.push_back(point);
     evidence.surfaceStates.push_back(state);
   }
   const float beside = static_cast<float>(settings.outlineTolerance) * tolerance;
+  const double side = stride * model.visibility->cellSize() / patch;
   for (std::size_t k = 0; k < visible->outside.size(); k += stride)
   {
-    const bool goesOn = depth.relationToMean(T * visible->outside[k], beside) == DepthMap::Relation::OnSurface;
-    counts.goesOn += goesOn ? stride * model.visibility->cellSize() / patch : 0.0;
+    const DepthMap::Relation relation = depth.relationToMean(T * visible->outside[k], beside);
+    counts.goesOn += relation == DepthMap::Relation::OnSurface ? side : 0.0;
+    counts.ends += relation == DepthMap::Relation::InFront ? side : 0.0;
   }
   return evidence;
 }

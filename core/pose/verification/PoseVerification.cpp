@@ -80,21 +80,27 @@ int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model)
   return isNamed ? pose.viewId : model.visibility->view(pose.T_scene_model, scene.sensor);
 }
 
-void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EdgeRates& rates, const EvidenceSettings& settings,
-  const Scene& scene, const TrainedModel& model)
+void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceRates& rates,
+  const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model)
 {
   pose.viewId = model.visibility->view(pose.T_scene_model, scene.sensor);
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.score();
   const ProbabilityCalibration& calibration = settings.calibration;
-  const LogisticRegression& ofPlace = haveSurfaces(scene, model) ? calibration.withSurface : calibration.edgesAlone;
-  pose.evidence = withCertainty(ofPlace.logOdds(evidence.counts.sum(settings.weights, rates)), pose.certainty);
+  const double ofPlace = haveSurfaces(scene, model)
+                           ? calibration.withSurface.logOdds(evidence.counts.sum(settings.weights, rates))
+                           : calibration.edgesAlone.logOdds(evidence.counts.ofEdges(settings.weights, rates));
+  pose.evidence = withCertainty(ofPlace, pose.certainty);
   pose.probability = probabilityOf(pose.evidence);
 }
 
-EdgeRates edgeRatesOf(const Poses& candidates, const EvidenceCollector& collector, const EvidenceSettings& settings,
-  std::size_t stride, int threads)
+EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& collector,
+  const EvidenceSettings& settings, std::size_t stride, int threads)
 {
+  if (settings.rates)
+  {
+    return *settings.rates;
+  }
   std::vector<EvidenceCounts> counts(candidates.size());
   parallelFor(static_cast<int>(candidates.size()), threads, {},
     [&](int begin, int end, int)
@@ -104,11 +110,11 @@ EdgeRates edgeRatesOf(const Poses& candidates, const EvidenceCollector& collecto
         counts[i] = collector.collect(candidates[i].T_scene_model, stride).counts;
       }
     });
-  return edgeRates(counts, settings.weights);
+  return evidenceRates(counts, settings.weights);
 }
 
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
-  const PoseVerificationSettings& settings, const Progress& progress, EdgeRates* ofScan)
+  const PoseVerificationSettings& settings, const Progress& progress, EvidenceRates* ofScan)
 {
   if (settings.pointStride < 1)
   {
@@ -155,7 +161,8 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     {
       counts.push_back(ofOne.counts);
     }
-    const EdgeRates rates = edgeRates(counts, settings.evidence.weights);
+    const EvidenceRates rates =
+      settings.evidence.rates ? *settings.evidence.rates : evidenceRates(counts, settings.evidence.weights);
     if (ofScan)
     {
       *ofScan = rates;

@@ -37,17 +37,17 @@ PoseVerificationSettings votesVerificationSettings();
 /// fraction, and the view that shows what the sensor sees. Without a surface only edges count. `rates`, which may be
 /// null, gets how far the scan's edges can be trusted; the paper's score does not ask.
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
-  const PoseVerificationSettings& settings = {}, const Progress& progress = {}, EdgeRates* rates = nullptr);
+  const PoseVerificationSettings& settings = {}, const Progress& progress = {}, EvidenceRates* rates = nullptr);
 
 /// The appearance model of a pose: its own, when it names one, otherwise the nearest to the sensor.
 int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);
 
 /// Sets what the evidence says of a pose: score, evidence and probability (by its certainty, too), visible fraction and
 /// view.
-void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EdgeRates& rates, const EvidenceSettings& settings,
-  const Scene& scene, const TrainedModel& model);
+void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceRates& rates,
+  const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model);
 
-/// The rates of a scene by candidates of a part, every `stride`-th point of each.
-EdgeRates edgeRatesOf(const Poses& candidates, const EvidenceCollector& collector, const EvidenceSettings& settings,
-  std::size_t stride, int threads);
+/// The rates of a scene: those that are known, or by candidates of a part, every `stride`-th point of each.
+EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& collector,
+  const EvidenceSettings& settings, std::size_t stride, int threads);
 }

@@ -7,7 +7,7 @@ namespace meam
 struct LogisticRegression
 {
   double constant;
-  double counted; ///< of EvidenceCounts::sum
+  double counted; ///< of EvidenceCounts::sum, or of what the edges say
 
   double logOdds(double sum) const { return this->constant + this->counted * sum; }
 };
@@ -17,8 +17,8 @@ struct LogisticRegression
 /// Tohoku dataset without its surface. examples/calibration.py tells how they hold for other scenes.
 struct ProbabilityCalibration
 {
-  LogisticRegression withSurface{ -1.5, 0.381 };
-  LogisticRegression edgesAlone{ 2.9, 0.08 }; ///< of scenes without a surface
+  LogisticRegression withSurface{ -5.75, 0.52 };
+  LogisticRegression edgesAlone{ 2.9, 0.16 }; ///< of scenes without a surface
 };
 
 /// Logarithm of the odds that a pose is right: those of its place, where it has a part, and the certainty of its

@@ -2,9 +2,8 @@
 #include "scene/preparation/BackgroundRemoval.h"
 
 #include "base/Random.h"
+#include "scene/Enclosure.h"
 #include "scene/edges/GridSurface.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +14,6 @@ namespace meam
 {
 namespace
 {
-using Plane = Eigen::Hyperplane<float, 3>;
-
 constexpr double PointsInTolerance = 2.0;
 constexpr double NoiseInTolerance = 3.0;
 constexpr std::size_t EnoughPoints = 10000; // to find planes among
@@ -59,26 +56,6 @@ std::vector<int> spread(const std::vector<int>& indices)
   return result;
 }
 
-/// The plane through points with the least sum of squared distances; its normal points to the origin.
-Plane fittedPlane(const Points& points)
-{
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& point : points)
-  {
-    mean += point.cast<double>();
-  }
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto& point : points)
-  {
-    const Eigen::Vector3d d = point.cast<double>() - mean;
-    covariance += d * d.transpose();
-  }
-  Eigen::Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
-  normal *= normal.dot(mean) > 0.0 ? -1.0 : 1.0;
-  return { normal.cast<float>().normalized(), static_cast<float>(-normal.dot(mean)) };
-}
-
 /// The plane with the most points within the tolerance (RANSAC, then least squares); false when there is none.
 bool largestPlane(const Points& points, double tolerance, Plane& plane)
 {
@@ -116,7 +93,7 @@ bool largestPlane(const Points& points, double tolerance, Plane& plane)
   }
   Points inliers;
   std::copy_if(points.begin(), points.end(), std::back_inserter(inliers), near(plane));
-  plane = fittedPlane(inliers);
+  plane = fitPlane(inliers, {}).plane;
   return true;
 }
 }

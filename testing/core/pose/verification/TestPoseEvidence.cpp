@@ -2,6 +2,7 @@
 #include "pose/verification/PoseEvidence.h"
 
 #include "TestScene.h"
+#include "base/Bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -31,8 +32,11 @@ TEST(PoseEvidence, CountsAddUpByTheirWeights)
   counts.unclear = 2.0;
   counts.turned = 1.0;
   counts.past = 0.5;
+  counts.farPast = 0.25;
+  counts.enclosed = 0.125;
   counts.hidden = 4.0;
   counts.unmeasured = 7.0;
+  counts.ends = 6.0;
   counts.goesOn = 3.0;
   counts.edgesFound = 20.0;
   counts.edgesMissing = 10.0;
@@ -41,14 +45,27 @@ TEST(PoseEvidence, CountsAddUpByTheirWeights)
   weights.unclear = 0.5;
   weights.turned = -1.0;
   weights.past = -4.0;
+  weights.farPast = -8.0;
+  weights.enclosed = -16.0;
   weights.hidden = -0.25;
   weights.unmeasured = 0.1;
-  weights.goesOn = -2.0;
+  weights.outline = 0.25;
   weights.edge = 0.5;
-  EXPECT_NEAR(counts.ofSurface(weights), 10.0 + 1.0 - 1.0 - 2.0 - 1.0 + 0.7, 1e-12);
-  // An edge found is twice as likely where the part is, one that is missing half as likely.
-  EXPECT_NEAR(counts.sum(weights, { 2.0 / 3.0, 1.0 / 3.0 }), 7.7 - 6.0 + 0.5 * (20.0 - 10.0) * std::log(2.0), 1e-12);
-  EXPECT_NEAR(counts.sum(weights, { 0.4, 0.4 }), 1.7, 1e-12) << "edges that tell nothing have no say";
+  weights.manyLines = 4.0;
+  EXPECT_NEAR(counts.ofSurface(weights), 10.0 + 1.0 - 1.0 - 2.0 - 2.0 - 1.0 - 2.0 + 0.7, 1e-12);
+  // An edge found is twice as likely where the part is, one that is missing half as likely; an outline that ends four
+  // times, one that goes on a quarter.
+  const meam::EvidenceRates rates{ { 2.0 / 3.0, 1.0 / 3.0 }, { 0.8, 0.2 } };
+  const double ofEdges = 0.5 * (20.0 - 10.0) * std::log(2.0), ofOutline = 0.25 * (6.0 - 3.0) * std::log(4.0);
+  EXPECT_NEAR(counts.ofEdges(weights, rates), ofEdges, 1e-12);
+  // Much of it counts by its logarithm, for or against the pose.
+  const double ofLines = 4.0 * std::log(1.0 + (ofEdges + ofOutline) / 4.0);
+  EXPECT_NEAR(counts.ofLines(weights, rates), ofLines, 1e-12);
+  EXPECT_NEAR(counts.sum(weights, rates), 3.7 + ofLines, 1e-12);
+  std::swap(counts.edgesFound, counts.edgesMissing);
+  std::swap(counts.ends, counts.goesOn);
+  EXPECT_NEAR(counts.ofLines(weights, rates), -ofLines, 1e-12);
+  EXPECT_NEAR(counts.sum(weights, { { 0.4, 0.4 }, { 0.7, 0.7 } }), 3.7, 1e-12) << "rates that tell nothing have no say";
 }
 
 TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
@@ -62,22 +79,65 @@ TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
     candidates[k].edgesFound = isRight ? 900.0 : 100.0;
     candidates[k].edgesMissing = isRight ? 100.0 : 900.0;
   }
-  meam::EdgeRatesSettings settings;
-  settings.usualPoints = 30.0;
-  const meam::EdgeRates rates = meam::edgeRates(candidates, {}, settings);
-  EXPECT_NEAR(rates.found, (1800.0 + 30.0 * 0.75) / 2030.0, 1e-12);
-  EXPECT_NEAR(rates.chance, (1800.0 + 18 * 100.0 + 30.0 * 0.3) / 20030.0, 1e-12);
-  const meam::EdgeRates usual = meam::edgeRates({}, {});
-  EXPECT_DOUBLE_EQ(usual.found, 0.75);
-  EXPECT_DOUBLE_EQ(usual.chance, 0.3);
+  meam::EvidenceRatesSettings settings;
+  settings.usualEdges = 30.0;
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, settings);
+  EXPECT_NEAR(rates.edges.found, (1800.0 + 30.0 * 0.75) / 2030.0, 1e-12);
+  EXPECT_NEAR(rates.edges.chance, (1800.0 + 18 * 100.0 + 30.0 * 0.3) / 20030.0, 1e-12);
+  const meam::EvidenceRates usual = meam::evidenceRates({}, {});
+  EXPECT_DOUBLE_EQ(usual.edges.found, 0.75);
+  EXPECT_DOUBLE_EQ(usual.edges.chance, 0.3);
   // Edges that are found where the part is no more often than elsewhere never speak against it.
   for (meam::EvidenceCounts& counts : candidates)
   {
     std::swap(counts.edgesFound, counts.edgesMissing);
   }
-  const meam::EdgeRates misleading = meam::edgeRates(candidates, {});
-  EXPECT_GT(misleading.found, misleading.chance);
-  EXPECT_LT(misleading.found - misleading.chance, 0.03);
+  const meam::EvidenceRates misleading = meam::evidenceRates(candidates, {});
+  EXPECT_GT(misleading.edges.found, misleading.edges.chance);
+  EXPECT_LT(misleading.edges.found - misleading.edges.chance, 0.03);
+}
+
+TEST(PoseEvidence, RatesOfOutlinesAreThoseOfTheScan)
+{
+  // The outline of one candidate of ten ends nearly everywhere, that of the others nearly nowhere.
+  std::vector<meam::EvidenceCounts> candidates(10);
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+  {
+    candidates[k].there = k == 4 ? 20.0 : 1.0;
+    candidates[k].ends = k == 4 ? 95.0 : 10.0;
+    candidates[k].goesOn = k == 4 ? 5.0 : 90.0;
+  }
+  meam::EvidenceRatesSettings settings;
+  settings.usualOutline = 100.0;
+  settings.usual.outline = { 0.9, 0.5 };
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, settings);
+  EXPECT_NEAR(rates.outline.found, (95.0 + 90.0) / 200.0, 1e-12);
+  EXPECT_NEAR(rates.outline.chance, (95.0 + 9 * 10.0 + 50.0) / 1100.0, 1e-12);
+  // Where there is no part no outline ends; a part's would.
+  candidates.erase(candidates.begin() + 4);
+  EXPECT_DOUBLE_EQ(meam::evidenceRates(candidates, {}, settings).outline.found, settings.leastEnds);
+}
+
+TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
+{
+  scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const Eigen::AlignedBox3f parts = meam::bounds(seen.surface);
+  for (float x = parts.min().x() - 100.0f; x < parts.max().x() + 100.0f; x += 1.0f)
+  {
+    for (float y = parts.min().y() - 100.0f; y < parts.max().y() + 100.0f; y += 1.0f)
+    {
+      seen.surface.push_back({ x, y, parts.min().z() - 10.0f });
+    }
+  }
+  const meam::Scene scene = scenes::prepared(seen);
+  ASSERT_EQ(scene.enclosure.size(), 1u);
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  Eigen::Isometry3d sunk = scenes::threeCopies()[0];
+  const meam::EvidenceCounts right = collector.collect(scene.T_local_scene() * sunk).counts;
+  EXPECT_EQ(right.enclosed, 0.0);
+  sunk.translation().z() -= 2.0 * scenes::bracket().diameter;
+  const meam::EvidenceCounts below = collector.collect(scene.T_local_scene() * sunk).counts;
+  EXPECT_GT(below.enclosed, 0.9 * (below.enclosed + below.hidden + below.unmeasured + below.there));
 }
 
 TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)

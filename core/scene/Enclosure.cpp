@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/Enclosure.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace meam
+{
+namespace
+{
+Points near(const Plane& plane, const Points& points, double tolerance)
+{
+  Points result;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(result),
+    [&](const Eigen::Vector3f& point) { return plane.absDistance(point) <= tolerance; });
+  return result;
+}
+
+/// Of planes through single points, across their normals, the one with the most points near. No points: none.
+Points nearBestSeed(const Points& points, const DepthMap& depth, double tolerance, int seeds)
+{
+  Points best;
+  std::ptrdiff_t most = 2;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / seeds);
+  for (std::size_t i = 0; i < points.size(); i += step)
+  {
+    const Eigen::Vector3f normal = depth.normalAt(points[i]);
+    if (normal.isZero())
+    {
+      continue;
+    }
+    const Plane plane(normal, points[i]);
+    const auto count = std::count_if(points.begin(), points.end(),
+      [&](const Eigen::Vector3f& point) { return plane.absDistance(point) <= tolerance; });
+    if (count > most)
+    {
+      most = count;
+      best = near(plane, points, tolerance);
+    }
+  }
+  return best;
+}
+}
+
+PlaneFit fitPlane(const Points& points, const Sensor& sensor)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& point : points)
+  {
+    mean += point.cast<double>();
+  }
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& point : points)
+  {
+    const Eigen::Vector3d d = point.cast<double>() - mean;
+    covariance += d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
+  Eigen::Vector3d normal = axes.eigenvectors().col(0);
+  normal *= normal.dot(sensor.towards(mean)) < 0.0 ? -1.0 : 1.0;
+  const double variance = axes.eigenvalues()[2] / static_cast<double>(points.size());
+  return { Plane(normal.cast<float>().normalized(), static_cast<float>(-normal.dot(mean))),
+    std::sqrt(12.0 * std::max(0.0, variance)) };
+}
+
+std::vector<Plane> enclosingPlanes(
+  const DepthMap& depth, const Sensor& sensor, double tolerance, double partDiameter, const EnclosureSettings& settings)
+{
+  const Points& means = depth.means();
+  Points all;
+  const std::size_t count = std::min<std::size_t>(means.size(), settings.samples);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    all.push_back(means[i * means.size() / count]);
+  }
+  const double fewest = std::max(3.0, settings.leastShare * static_cast<double>(count));
+  std::vector<Plane> planes;
+  Points left = all;
+  while (static_cast<int>(planes.size()) < settings.mostPlanes)
+  {
+    Points on = nearBestSeed(left, depth, settings.seedTolerance * tolerance, settings.seeds);
+    PlaneFit fit;
+    for (int k = 0; k < settings.fits && on.size() >= 3; ++k)
+    {
+      fit = fitPlane(on, sensor);
+      on = near(fit.plane, left, tolerance);
+    }
+    if (static_cast<double>(on.size()) < fewest)
+    {
+      break; // those with fewer points follow
+    }
+    const auto behind = std::count_if(all.begin(), all.end(),
+      [&](const Eigen::Vector3f& point) { return fit.plane.signedDistance(point) < -2.0 * tolerance; });
+    if (static_cast<double>(behind) <= settings.mostBehind * static_cast<double>(count) &&
+        fit.extent >= settings.leastExtent * partDiameter)
+    {
+      planes.push_back(fit.plane);
+    }
+    left.erase(std::remove_if(left.begin(), left.end(),
+                 [&](const Eigen::Vector3f& point) { return fit.plane.absDistance(point) <= tolerance; }),
+      left.end());
+  }
+  return planes;
+}
+}
