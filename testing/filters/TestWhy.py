@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""examples/why.py and ppfmeam.why(): of a true pose, of all, of a picked point; bad input."""
+"""`ppfmeam why` and ppfmeam.why(): of a true pose, of all, of a picked point; bad input."""
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
