@@ -65,7 +65,7 @@ std::vector<bool> drawnOf(const meam::Picks& picks, ShownPicks shown)
   return drawn;
 }
 
-/// The text `Label` of those that get a gripper: the rank, or why the pick is not possible.
+/// The text `Label` of those that get a gripper: the rank, or in a word why the pick is not possible.
 void addLabels(const meam::Picks& picks, ShownPicks shown, vtkPolyData* output)
 {
   const std::vector<bool> drawn = drawnOf(picks, shown);
@@ -73,9 +73,7 @@ void addLabels(const meam::Picks& picks, ShownPicks shown, vtkPolyData* output)
   labels->SetName("Label");
   for (std::size_t k = 0; k < picks.size(); ++k)
   {
-    labels->InsertNextValue(!drawn[k]             ? ""
-                            : picks[k].possible() ? "pick " + std::to_string(k + 1)
-                                                  : meam::describe(picks[k]));
+    labels->InsertNextValue(drawn[k] ? meam::labelOf(picks[k], static_cast<int>(k) + 1) : "");
   }
   output->GetPointData()->AddArray(labels);
 }
