@@ -124,11 +124,11 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       stages->AddColumn(names);
       stages->AddColumn(durations);
-      vtkNew<vtkStringArray> ranks;
+      vtkNew<vtkIntArray> ranks;
       ranks->SetName("Pose");
       for (std::size_t k = 1; k <= poses.size(); ++k)
       {
-        ranks->InsertNextValue(std::to_string(k));
+        ranks->InsertNextValue(static_cast<int>(k));
       }
       scores->AddColumn(ranks);
       for (const char* name : { "Probability", "Score", "VisibleFraction", "Certainty" })

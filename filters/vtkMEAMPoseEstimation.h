@@ -28,7 +28,7 @@
  * preset Recommended `Tangent`, unless they came in, and `Rank` (active scalars): of the first pose that has an edge of
  * the part there, 0 of edge points that no pose explains. Output port 2: the part at each pose that is more likely
  * right than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a vtkTable
- * with a row for each pose, to plot: `Pose` (its rank, as a text), `Probability`, `Score`, `VisibleFraction`,
+ * with a row for each pose, to plot: `Pose` (its rank), `Probability`, `Score`, `VisibleFraction`,
  * `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
  */
 #ifndef vtkMEAMPoseEstimation_h

@@ -14,11 +14,13 @@
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMPropertyIterator.h"
 #include "vtkSMProxyManager.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSettings.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -98,6 +100,27 @@ void showPlain(vtkSMProxy* representation, vtkPVDataInformation* data)
   }
 }
 
+/// A text of ours, the answer of Pose Diagnosis: where nothing else is, in letters of a map.
+void showText(vtkSMProxy* representation)
+{
+  constexpr int UpperLeftCorner = 4, Left = 0;
+  vtkSMPropertyHelper(representation, "WindowLocation").Set(UpperLeftCorner);
+  vtkSMPropertyHelper(representation, "Justification").Set(Left);
+  vtkSMPropertyHelper(representation, "FontSize").Set(12);
+  representation->UpdateVTKObjects();
+}
+
+/// Beside the points of Pose Diagnosis stands its answer.
+void showAnswer(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
+{
+  constexpr int Answer = 3;
+  if (std::strcmp(source->GetVTKClassName(), "vtkMEAMPoseDiagnosis") == 0)
+  {
+    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+    controller->Show(source, Answer, view);
+  }
+}
+
 /// Hides the part that was searched, which lies where the sensor is, when its poses are shown.
 void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
 {
@@ -109,6 +132,29 @@ void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
     if (part && !isInScene(part->GetDataInformation(port)))
     {
       hide(view, part, port);
+    }
+  }
+}
+
+/// Hides what a step of poses was made of, as ParaView does it for other filters, but for the scan.
+void hideInputs(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
+{
+  if (!source->GetProperty("SceneSurface"))
+  {
+    return;
+  }
+  auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(source->NewPropertyIterator());
+  for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
+  {
+    auto* input = vtkSMInputProperty::SafeDownCast(properties->GetProperty());
+    for (unsigned int k = 0; input && k < input->GetNumberOfProxies(); ++k)
+    {
+      auto* producer = vtkSMSourceProxy::SafeDownCast(input->GetProxy(k));
+      const unsigned int port = input->GetOutputPortForConnection(k);
+      if (producer && !isOrganized(producer->GetDataInformation(port)))
+      {
+        hide(view, producer, port);
+      }
     }
   }
 }
@@ -193,10 +239,17 @@ private:
     {
       return;
     }
+    if (std::strcmp(representation->GetXMLName(), "TextSourceRepresentation") == 0)
+    {
+      showText(representation);
+      return;
+    }
+    showAnswer(view, shown.source);
     showScan(representation, shown.data());
     if (isInScene(shown.data()))
     {
       hidePart(view, shown.source);
+      hideInputs(view, shown.source);
       if (!view->HasAnnotation(SeenFromSensor) && comesFromScan(shown.source, shown.port))
       {
         double bounds[6];
