@@ -37,6 +37,10 @@ constexpr const char* SeenFromSensor = "PPFMEAM.FromSensor"; // annotation of a 
 constexpr const char* BehindParts = R"([{ "type": "fragment", "original": "//VTK::Depth::Impl", "replacement":
   "//VTK::Depth::Impl\n  gl_FragDepth = min(1.0, gl_FragCoord.z + 0.005);\n" }])";
 
+/// Draws points in front of all else, in their own order.
+constexpr const char* InFront = R"([{ "type": "fragment", "original": "//VTK::Depth::Impl", "replacement":
+  "//VTK::Depth::Impl\n  gl_FragDepth = 0.01 * gl_FragCoord.z;\n" }])";
+
 void hide(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source, unsigned int port)
 {
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
@@ -110,15 +114,23 @@ void showText(vtkSMProxy* representation)
   representation->UpdateVTKObjects();
 }
 
-/// Beside the points of Pose Diagnosis stands its answer.
-void showAnswer(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
+/// The points of Pose Diagnosis, which often lie under other parts, are in front of these; beside them stands the answer.
+void showDiagnosis(vtkSMRenderViewProxy* view, vtkSMProxy* representation, const ShownData& shown)
 {
-  constexpr int Answer = 3;
-  if (std::strcmp(source->GetVTKClassName(), "vtkMEAMPoseDiagnosis") == 0)
+  constexpr unsigned int Points = 0, Answer = 3;
+  if (std::strcmp(shown.source->GetVTKClassName(), "vtkMEAMPoseDiagnosis") != 0 || shown.port != Points)
   {
-    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-    controller->Show(source, Answer, view);
+    return;
   }
+  if (representation->GetProperty("ShaderReplacements"))
+  {
+    vtkSMPropertyHelper(representation, "UseShaderReplacements").Set(1);
+    vtkSMPropertyHelper(representation, "ShaderReplacements").Set(InFront);
+    vtkSMPropertyHelper(representation, "PointSize").Set(3.0);
+    representation->UpdateVTKObjects();
+  }
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->Show(shown.source, Answer, view);
 }
 
 /// Hides the part that was searched, which lies where the sensor is, when its poses are shown.
@@ -244,7 +256,7 @@ private:
       showText(representation);
       return;
     }
-    showAnswer(view, shown.source);
+    showDiagnosis(view, representation, shown);
     showScan(representation, shown.data());
     if (isInScene(shown.data()))
     {
