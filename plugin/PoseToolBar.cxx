@@ -144,10 +144,14 @@ public:
     {
       const bool wholeMethod = dialog->findChild<QRadioButton*>("Scene") && dialog->findChild<QRadioButton*>("Boundary");
       const bool stepOfPoses = dialog->findChild<QRadioButton*>("SceneSurface") && dialog->findChild<QRadioButton*>("Model");
+      const bool picks = dialog->findChild<QRadioButton*>("Grasps") && dialog->findChild<QRadioButton*>("Mesh");
       rename(dialog, "Scene", wholeMethod, "Scan");
       rename(dialog, "Input", wholeMethod, "Part");
       rename(dialog, "Boundary", wholeMethod, "Edge Points");
       rename(dialog, "SceneSurface", stepOfPoses, "Scan");
+      rename(dialog, "Input", picks, "Poses");
+      rename(dialog, "Mesh", picks, "Part");
+      rename(dialog, "GripperMesh", picks, "Gripper");
     }
     return false;
   }

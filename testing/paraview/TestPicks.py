@@ -4,7 +4,7 @@ part cannot be taken. With PPFMEAM_PICTURE=FILE the picture goes there, that of 
 import os
 import tempfile
 
-from paraview import simple
+from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
@@ -30,6 +30,10 @@ picks = simple.PickPlanning(Input=truth, Mesh=part, Grasps=grasps, Scan=scan, **
 view = simple.CreateRenderView()
 view.OrientationAxesVisibility, view.ViewSize = 0, [840, 650]
 simple.Show(scan, view)
+controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
+picks.UpdatePipeline()
+check([port for port in range(3) if controller.ShowInPreferredView(picks.SMProxy, port, view.SMProxy)] == [0, 1],
+      "picks and gripper come up by themselves, the bin's walls do not")
 gripper = simple.Show(simple.OutputPort(picks, 1), view)
 check(list(gripper.ColorArrayName) == ["CELLS", "Possible"], f"the gripper is colored by {gripper.ColorArrayName}")
 gripper.SetScalarBarVisibility(view, True)
