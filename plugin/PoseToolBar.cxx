@@ -95,7 +95,7 @@ void askWhy()
     // Ctrl, because the cells of a scan are often smaller than the pixels of the picture: P alone may miss them.
     qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget())
       ->statusBar()
-      ->showMessage("Point at a part that was missed and press Ctrl+P, then Apply.");
+      ->showMessage("Point at the part, Ctrl+P, Apply");
   }
   if (!searched || !diagnosis)
   {
@@ -186,7 +186,7 @@ void build()
     "Finds the copies of the open part in the open scan (MEAM Pose Estimation)", estimatePoses);
   addButton(bar, "ShowCharts", "chart", "Scores and Times",
     "Shows how likely the poses are and how long each stage took, beside the picture", showCharts);
-  addButton(bar, "AskWhy", "why", "Pose Diagnosis", "Tells why a part was missed (Pose Diagnosis)", askWhy);
+  addButton(bar, "AskWhy", "why", "Pose Diagnosis", "Tells why a part was missed: point at it, Ctrl+P, Apply (Pose Diagnosis)", askWhy);
   for (const char* name : { "PoseInstances", "ConflictResolution" }) // ParaView's own actions
   {
     for (QAction* filter : window->findChildren<QAction*>(name))
