@@ -15,6 +15,8 @@ from ppfmeam import cellpicture, chains, evaluation, filters, picture, scripting
 
 SIZE = (840, 650)
 MOST_BYTES = 119000
+UNCERTAINTY = 1000  # standard deviations
+UNEXPLAINED = (0.0, 0.0, 0.0)
 DARK = (0.15, 0.3, 0.55)
 TYPES = {0: ("contour", (0.12, 0.35, 0.75)), 1: ("crease", (0.85, 0.33, 0.0)), 2: ("hole border", (0.0, 0.55, 0.3))}
 EDGE_TYPES = {1: ("sharp edge", TYPES[1][1]), 2: ("border", TYPES[2][1])}
@@ -166,7 +168,29 @@ class Gallery:
         scores = enumerate(array(steps[3], "Score"), 1)
         labels = [(f"rank {r}: score {score:.2f}", tuple(colors[numpy.argmax(ranks == r)] / 255.0)) for r, score in scores]
         self.save("poses", [scan, copies], labels, frame)
+        self.certainty(surface, edges, scan, looks, frame)
         return steps[3]
+
+    def certainty(self, surface, edges, scan, looks, frame):
+        """Which edges the poses explain, and how uncertain they are."""
+        estimation, instances = filters.vtkMEAMPoseEstimation(), filters.vtkMEAMPoseInstances()
+        for port, data in enumerate((self.model, surface, edges)):
+            estimation.SetInputDataObject(port, data)
+        instances.SetInputConnection(estimation.GetOutputPort())
+        instances.SetInputDataObject(1, self.mesh)
+        instances.SetUncertaintyScale(UNCERTAINTY)
+        scripting.update(instances)
+        shown = instances.GetOutput()
+        colors = dict(zip(array(shown, "Rank"), vtk_to_numpy(shown.GetPointData().GetArray("RankColor")) / 255.0))
+        found = estimation.GetOutputDataObject(1)
+        places, ranks = self.lifted(points_of(found), looks), array(found, "Rank")
+        actors = [picture.dots(places[ranks == rank], tuple(colors.get(rank, UNEXPLAINED)), 2)
+                  for rank in sorted(set(ranks))]
+        labels = [(f"rank {rank}: {(ranks == rank).sum()} points" if rank else f"unexplained: {(ranks == 0).sum()} points",
+                   tuple(colors.get(rank, UNEXPLAINED))) for rank in sorted(set(ranks))]
+        self.save("explained", [scan, *actors], labels, frame)
+        ellipsoids = picture.copies(instances, 1)
+        self.save("uncertainty", [scan, ellipsoids], [(f"{UNCERTAINTY} standard deviations", None)], frame)
 
     def picks(self, scan, truth, poses):
         """The gripper at the best pick of each pose."""

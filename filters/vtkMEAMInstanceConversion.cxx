@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMInstanceConversion.h"
 
+#include "pose/PoseUncertainty.h"
 #include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMMeshConversion.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
@@ -69,37 +71,26 @@ void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, const
   }
   attributes->AddArray(colors);
 }
-}
 
-void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
-  const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output)
+/// A piece for each pose that is drawn, with the values of the pose.
+template <typename Piece>
+void appendDrawn(const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
+  const InstanceSettings& settings, const meam::Progress& progress, Piece&& pieceAt, vtkPolyData* output)
 {
-  const meam::Points points = toCloud(part).points;
-  meam::requirePoints(points, "The CAD mesh");
   const std::size_t copies = settings.most > 0 ? std::min(poses.size(), settings.most) : poses.size();
   vtkNew<vtkAppendPolyData> append;
   for (std::size_t k = 0; k < copies; ++k)
   {
     meam::report(progress, static_cast<double>(k) / copies);
-    if (!isDrawn(poses[k], settings.minimumProbability))
+    if (isDrawn(poses[k], settings.minimumProbability))
     {
-      continue;
+      vtkNew<vtkPolyData> piece;
+      pieceAt(poses[k], piece);
+      const int rank = rankOf(k);
+      describe(piece->GetPointData(), piece->GetNumberOfPoints(), rank, poses[k]);
+      describe(piece->GetCellData(), piece->GetNumberOfCells(), rank, poses[k]);
+      append->AddInputDataObject(piece);
     }
-    const Eigen::Isometry3f T_scene_model = poses[k].T_scene_model.cast<float>();
-    vtkNew<vtkPoints> moved;
-    moved->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const Eigen::Vector3f point = T_scene_model * points[i];
-      moved->SetPoint(static_cast<vtkIdType>(i), point.data());
-    }
-    vtkNew<vtkPolyData> instance;
-    instance->CopyStructure(part);
-    instance->SetPoints(moved);
-    const int rank = rankOf(k);
-    describe(instance->GetPointData(), instance->GetNumberOfPoints(), rank, poses[k]);
-    describe(instance->GetCellData(), instance->GetNumberOfCells(), rank, poses[k]);
-    append->AddInputDataObject(instance);
   }
   if (append->GetNumberOfInputConnections(0) > 0)
   {
@@ -108,6 +99,36 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
     output->GetPointData()->ShallowCopy(append->GetOutput()->GetPointData());
     output->GetCellData()->ShallowCopy(append->GetOutput()->GetCellData());
   }
+}
+}
+
+void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
+  const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output)
+{
+  const meam::Points points = toCloud(part).points;
+  meam::requirePoints(points, "The CAD mesh");
+  const auto copyAt = [&](const meam::Pose& pose, vtkPolyData* instance)
+  {
+    const Eigen::Isometry3f T_scene_model = pose.T_scene_model.cast<float>();
+    vtkNew<vtkPoints> moved;
+    moved->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const Eigen::Vector3f point = T_scene_model * points[i];
+      moved->SetPoint(static_cast<vtkIdType>(i), point.data());
+    }
+    instance->CopyStructure(part);
+    instance->SetPoints(moved);
+  };
+  appendDrawn(poses, rankOf, settings, progress, copyAt, output);
+}
+
+void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, double deviations,
+  const std::function<int(std::size_t)>& rankOf, const InstanceSettings& settings, vtkPolyData* output)
+{
+  const auto ellipsoidAt = [&](const meam::Pose& pose, vtkPolyData* ellipsoid)
+  { fromMesh(meam::uncertaintyEllipsoid(pose, part.middle, deviations), ellipsoid); };
+  appendDrawn(poses, rankOf, settings, {}, ellipsoidAt, output);
 }
 
 void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output)

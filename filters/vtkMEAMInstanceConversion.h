@@ -6,6 +6,7 @@
 #define vtkMEAMInstanceConversion_h
 
 #include "base/Error.h"
+#include "io/DetectionArrayFile.h"
 #include "pose/Pose.h"
 
 #include <cstddef>
@@ -26,6 +27,11 @@ struct InstanceSettings
 /// for cells. `rankOf` tells the rank of the pose at an index.
 void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
   const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output);
+
+/// For the same poses the ellipsoid of so many standard deviations about the part's middle, with the
+/// same arrays.
+void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, double deviations,
+  const std::function<int(std::size_t)>& rankOf, const InstanceSettings& settings, vtkPolyData* output);
 
 /// The text `Label` for each pose: its rank and, where it is known, its probability, as in "1: 98 %"; nothing for a
 /// pose that is less likely, which gets no copy.

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace vtkMEAMConversion
@@ -49,6 +50,32 @@ void addColumn(const meam::Picks& picks, const char* name, Value&& valueOf, vtkP
     array->InsertNextValue(valueOf(pick));
   }
   output->GetPointData()->AddArray(array);
+}
+
+/// Which of the picks get a gripper.
+std::vector<bool> drawnOf(const meam::Picks& picks, ShownPicks shown)
+{
+  std::vector<bool> drawn;
+  std::set<int> done; // copies that have one
+  for (const meam::Pick& pick : picks)
+  {
+    drawn.push_back(shown == ShownPicks::All || (shown == ShownPicks::Possible && pick.possible()) ||
+                    (shown == ShownPicks::BestOfEachCopy && done.insert(pick.pose).second));
+  }
+  return drawn;
+}
+
+/// The text `Label` of those that get a gripper: the rank, or in a word why the pick is not possible.
+void addLabels(const meam::Picks& picks, ShownPicks shown, vtkPolyData* output)
+{
+  const std::vector<bool> drawn = drawnOf(picks, shown);
+  vtkNew<vtkStringArray> labels;
+  labels->SetName("Label");
+  for (std::size_t k = 0; k < picks.size(); ++k)
+  {
+    labels->InsertNextValue(drawn[k] ? meam::labelOf(picks[k], static_cast<int>(k) + 1) : "");
+  }
+  output->GetPointData()->AddArray(labels);
 }
 
 /// Faces one after the other, with a value of each array for all cells of a piece.
@@ -104,7 +131,7 @@ private:
 };
 }
 
-void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData* output)
+void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, ShownPicks shown, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -134,6 +161,7 @@ void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData
     picks, "Obstruction", [](const meam::Pick& pick) { return static_cast<int>(pick.obstruction); }, output);
   addColumn<vtkStringArray>(
     picks, "Reason", [](const meam::Pick& pick) { return meam::describe(pick); }, output);
+  addLabels(picks, shown, output);
   addColumn<vtkIntArray>(
     picks, "Instance", [](const meam::Pick& pick) { return pick.pose + 1; }, output);
   addColumn<vtkIntArray>(
@@ -176,12 +204,11 @@ void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const me
   vtkPolyData* output)
 {
   Pieces pieces({ "Possible", "Rank", "Obstruction" });
-  std::set<int> done; // copies that have one
+  const std::vector<bool> drawn = drawnOf(picks, shown);
   for (std::size_t k = 0; k < picks.size(); ++k)
   {
     const meam::Pick& pick = picks[k];
-    if (shown == ShownPicks::All || (shown == ShownPicks::Possible && pick.possible()) ||
-        (shown == ShownPicks::BestOfEachCopy && done.insert(pick.pose).second))
+    if (drawn[k])
     {
       pieces.add(meam::meshOf(gripper, grasps[pick.grasp]), pick.T_scene_grasp,
         { pick.possible() ? 1 : 0, static_cast<int>(k) + 1, static_cast<int>(pick.obstruction) });

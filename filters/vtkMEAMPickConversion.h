@@ -24,8 +24,9 @@ enum class ShownPicks
   All
 };
 
-/// A vertex for each pick, with the arrays that vtkMEAMPickPlanning documents.
-void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, vtkPolyData* output);
+/// A vertex for each pick, with the arrays that vtkMEAMPickPlanning documents; `Label` is empty where no gripper is
+/// drawn.
+void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, ShownPicks shown, vtkPolyData* output);
 
 /// The picks' frames in another frame, such as a robot's, in which the scene's lies at `frame`: as a point array of 16
 /// components, row-major.

@@ -139,7 +139,8 @@ int vtkMEAMPickPlanning::RequestData(
       }
       meam::PickPlanner planner(toMesh(part), symmetries, grasps, gripper, *this->Settings);
       const meam::Picks picks = planner.plan(poses, cloud, bin, meam::subProgress(progress, 0.4, 1.0));
-      fromPicks(picks, grasps, output);
+      const auto shown = static_cast<ShownPicks>(this->ShownGrippers);
+      fromPicks(picks, grasps, shown, output);
       if (this->RobotFrameFile && *this->RobotFrameFile)
       {
         meam::Pose robot;
@@ -147,7 +148,7 @@ int vtkMEAMPickPlanning::RequestData(
         addInFrame(picks, robot, "RobotTransform", output);
       }
       setFieldText(output, "PickReport", meam::describe(picks));
-      fromGrippers(picks, grasps, gripper, static_cast<ShownPicks>(this->ShownGrippers), grippers);
+      fromGrippers(picks, grasps, gripper, shown, grippers);
       if (!gripperInput)
       {
         setGripper(output, gripper);

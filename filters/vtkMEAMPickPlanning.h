@@ -19,7 +19,8 @@
  *
  * Output port 0: a vtkPolyData, a vertex at each pick: possible ones first, best first, then those that come farthest
  * in the order of Obstructions. Point arrays: `Transform` (16, row-major T_scene_grasp), `Quaternion` (x y z w), `Rank`
- * (from 1), `Possible` (0 or 1, active scalars), `Obstruction` (int, see Obstructions), `Reason` (text), `Instance` and
+ * (from 1), `Possible` (0 or 1, active scalars), `Obstruction` (int, see Obstructions), `Reason` (text), `Label` (text:
+ * where the gripper is shown the rank, or the reason in a word), `Instance` and
  * `Grasp` (from 1: which pose, which grasp), `GraspName` (text), `Kind` and `Width` (of the grasp), `Obstacle` (the
  * instance in the way, 0: none), `Clearance`, `Reach` (mm, down from the bin's rim or the highest point), `Tilt`
  * (degrees), `Covered` and `Score` ([0, 1]); with a RobotFrameFile `RobotTransform` (16, row-major T_robot_grasp, mm).
@@ -187,7 +188,7 @@ public:
   };
 
   ///@{
-  /** At which picks the gripper is shown by output port 1. Default: BestOfEachInstance. */
+  /** At which picks the gripper is shown by output port 1, with a label. Default: BestOfEachInstance. */
   vtkSetClampMacro(ShownGrippers, int, BestOfEachInstance, AllPicks);
   vtkGetMacro(ShownGrippers, int);
   ///@}

@@ -20,12 +20,14 @@
 #include "vtkTable.h"
 
 #include <functional>
+#include <sstream>
 #include <string>
 
 vtkStandardNewMacro(vtkMEAMPoseDiagnosis);
 
 namespace
 {
+constexpr std::size_t LineLength = 75; // letters, of the answer
 constexpr double AfterDetection = 0.8; // of the work, for the progress
 const char* const StateNames[] = { "matched", "turned", "hidden", "not measured", "violated" };
 
@@ -99,6 +101,30 @@ void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* ou
     output->AddColumn(column);
   }
 }
+
+/// The words in lines of no more than so many letters.
+std::string inLines(const std::string& text, std::size_t most)
+{
+  std::istringstream words(text);
+  std::string lines, word;
+  std::size_t length = 0; // of the last line
+  while (words >> word)
+  {
+    const bool isNext = length > 0 && length + 1 + word.size() > most;
+    lines += (length == 0 ? "" : isNext ? "\n" : " ") + word;
+    length = isNext || length == 0 ? word.size() : length + 1 + word.size();
+  }
+  return lines;
+}
+
+/// Verdict and advice as a text to show in a view.
+void fromAnswer(const std::string& verdict, const std::string& advice, vtkTable* output)
+{
+  vtkNew<vtkStringArray> text;
+  text->SetName("Text");
+  text->InsertNextValue(inLines(verdict, LineLength) + (advice.empty() ? "" : "\n") + inLines(advice, LineLength));
+  output->AddColumn(text);
+}
 }
 
 /// A detection, and what it was made of.
@@ -122,7 +148,7 @@ struct vtkMEAMPoseDiagnosis::Detection
 vtkMEAMPoseDiagnosis::vtkMEAMPoseDiagnosis()
 {
   this->SetNumberOfInputPorts(5);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 vtkMEAMPoseDiagnosis::~vtkMEAMPoseDiagnosis() = default;
@@ -140,7 +166,7 @@ int vtkMEAMPoseDiagnosis::FillInputPortInformation(int port, vtkInformation* inf
 
 int vtkMEAMPoseDiagnosis::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkPolyData");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 || port == 3 ? "vtkTable" : "vtkPolyData");
   return 1;
 }
 
@@ -180,6 +206,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
   auto* output = vtkPolyData::GetData(outputVector, 0);
   auto* numbers = vtkTable::GetData(outputVector, 1);
   auto* part = vtkPolyData::GetData(outputVector, 2);
+  auto* answer = vtkTable::GetData(outputVector, 3);
   return vtkMEAMRun(
     this,
     [&]
@@ -201,8 +228,11 @@ int vtkMEAMPoseDiagnosis::RequestData(
           : detection.diagnosis.atPose(placedAt(this->PosePosition, this->PoseRotation).T_scene_model, progress);
       fromEvidence(diagnosis, output);
       fromNumbers(meam::numbersOf(diagnosis), numbers);
-      setFieldText(output, "Verdict", meam::verdictOf(diagnosis, detection.work.settings));
-      setFieldText(output, "Advice", meam::adviceOf(diagnosis, detection.work.settings));
+      const std::string verdict = meam::verdictOf(diagnosis, detection.work.settings);
+      const std::string advice = meam::adviceOf(diagnosis, detection.work.settings);
+      setFieldText(output, "Verdict", verdict);
+      setFieldText(output, "Advice", advice);
+      fromAnswer(verdict, advice, answer);
       setFieldText(output, "LostIn", diagnosis.lostIn ? meam::nameOf(*diagnosis.lostIn) : std::string());
       setFieldValue(output, "Rank", diagnosis.rank);
       setDiameter(output, detection.work.part->model->diameter);
@@ -222,7 +252,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
           detection.work.part->shape, { place }, [&](std::size_t) { return diagnosis.rank; }, drawn, {}, part);
       }
     },
-    output, numbers, part);
+    output, numbers, part, answer);
 }
 
 void vtkMEAMPoseDiagnosis::PrintSelf(ostream& os, vtkIndent indent)

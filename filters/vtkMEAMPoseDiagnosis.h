@@ -19,7 +19,8 @@
  * be empty), `LostIn` (the stage; empty: it was found), `Rank` (of the pose that came out there; 0: none), `Transform`
  * (16, the place; not there when no pose lies at the point). Output port 1: vtkTable, the numbers of all steps: `Step`,
  * `Quantity`, `Value`, `Of` (what the value is out of, or is compared with; NaN: nothing). Output port 2: the part at
- * the place, as vtkMEAMPoseInstances has it.
+ * the place, as vtkMEAMPoseInstances has it. Output port 3: vtkTable with one row, `Text`: verdict and advice in lines,
+ * to show in a view.
  */
 #ifndef vtkMEAMPoseDiagnosis_h
 #define vtkMEAMPoseDiagnosis_h

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseEstimation.h"
 
+#include "pose/verification/EdgeExplanation.h"
 #include "scene/Units.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMEstimationWork.h"
@@ -12,6 +13,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -20,10 +22,26 @@
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkMEAMPoseEstimation);
+
+namespace
+{
+/// The rank of the pose that explains each of the edge points; 0: none does.
+void addRanks(const std::vector<int>& explained, vtkPolyData* edges)
+{
+  vtkNew<vtkIntArray> ranks;
+  ranks->SetName("Rank");
+  ranks->SetNumberOfTuples(static_cast<vtkIdType>(explained.size()));
+  std::transform(explained.begin(), explained.end(), ranks->GetPointer(0), [](int pose) { return pose + 1; });
+  edges->GetPointData()->AddArray(ranks);
+  edges->GetPointData()->SetActiveScalars("Rank");
+}
+}
 
 vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(5); }
 
@@ -72,6 +90,8 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         fromSceneEdges(work.found, edges);
       }
+      addRanks(
+        meam::explainEdges(scene.edges, poses, model, scene.quality.noise, {}, this->GetNumberOfThreads()), edges);
       fromPoses(poses, output);
       output->GetPointData()->SetActiveScalars("Rank");
       const InstanceSettings drawn;
@@ -104,11 +124,11 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       stages->AddColumn(names);
       stages->AddColumn(durations);
-      vtkNew<vtkStringArray> ranks;
+      vtkNew<vtkIntArray> ranks;
       ranks->SetName("Pose");
       for (std::size_t k = 1; k <= poses.size(); ++k)
       {
-        ranks->InsertNextValue(std::to_string(k));
+        ranks->InsertNextValue(static_cast<int>(k));
       }
       scores->AddColumn(ranks);
       for (const char* name : { "Probability", "Score", "VisibleFraction", "Certainty" })

@@ -16,7 +16,11 @@
 
 vtkStandardNewMacro(vtkMEAMPoseInstances);
 
-vtkMEAMPoseInstances::vtkMEAMPoseInstances() { this->SetNumberOfInputPorts(2); }
+vtkMEAMPoseInstances::vtkMEAMPoseInstances()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
 
 int vtkMEAMPoseInstances::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -30,7 +34,8 @@ int vtkMEAMPoseInstances::RequestData(
 {
   auto* posesInput = vtkPolyData::GetData(inputVector[0]);
   auto* mesh = vtkPolyData::GetData(inputVector[1]);
-  auto* output = vtkPolyData::GetData(outputVector);
+  auto* output = vtkPolyData::GetData(outputVector, 0);
+  auto* ellipsoids = vtkPolyData::GetData(outputVector, 1);
   return vtkMEAMRun(
     this,
     [&]
@@ -45,8 +50,19 @@ int vtkMEAMPoseInstances::RequestData(
       settings.most = this->MaximumNumberOfInstances;
       settings.minimumProbability = this->MinimumProbability;
       vtkMEAMConversion::fromInstances(mesh, poses, rankOf, settings, progress, output);
+      if (this->UncertaintyScale > 0.0)
+      {
+        const auto extent = vtkMEAMConversion::partExtentOf(posesInput);
+        const auto isRefined = [](const meam::Pose& pose) { return pose.fit.iterations > 0; };
+        if (!extent || !std::all_of(poses.begin(), poses.end(), isRefined))
+        {
+          throw meam::Error("The poses do not tell how uncertain they are: connect those of MEAM Pose Estimation, "
+                            "or set UncertaintyScale to 0.");
+        }
+        vtkMEAMConversion::fromUncertainties(poses, *extent, this->UncertaintyScale, rankOf, settings, ellipsoids);
+      }
     },
-    output);
+    output, ellipsoids);
 }
 
 void vtkMEAMPoseInstances::PrintSelf(ostream& os, vtkIndent indent)
@@ -54,4 +70,5 @@ void vtkMEAMPoseInstances::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumNumberOfInstances: " << this->MaximumNumberOfInstances << "\n";
   os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
+  os << indent << "UncertaintyScale: " << this->UncertaintyScale << "\n";
 }

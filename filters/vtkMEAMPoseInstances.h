@@ -12,6 +12,10 @@
  *   keep theirs;
  * - `Score`, `Probability`, `Certainty`, `VisibleFraction`: [0, 1], of the pose;
  * - `RankColor` (3, unsigned char): red, green, blue, yellow and pink for the ranks 1 to 5, grey for the others.
+ *
+ * Output port 1: with an UncertaintyScale the ellipsoids of how uncertain the place of each copy's middle is, a
+ * vtkPolyData with the same arrays; empty otherwise. For it the poses need the arrays of vtkMEAMPoseRefinement and the
+ * field data `PartBounds` and `PartMiddle`, as vtkMEAMPoseEstimation gives them.
  */
 #ifndef vtkMEAMPoseInstances_h
 #define vtkMEAMPoseInstances_h
@@ -44,6 +48,12 @@ public:
   vtkGetMacro(MinimumProbability, double);
   ///@}
 
+  ///@{
+  /** Standard deviations that the ellipsoids on output port 1 reach to, such as 1000; 0: none. Default: 0. */
+  vtkSetClampMacro(UncertaintyScale, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(UncertaintyScale, double);
+  ///@}
+
 protected:
   vtkMEAMPoseInstances();
   ~vtkMEAMPoseInstances() override = default;
@@ -57,6 +67,7 @@ private:
 
   int MaximumNumberOfInstances = 0;
   double MinimumProbability = 0.5;
+  double UncertaintyScale = 0.0;
 };
 
 #endif

@@ -14,11 +14,13 @@
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMPropertyIterator.h"
 #include "vtkSMProxyManager.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSettings.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -34,6 +36,10 @@ constexpr const char* SeenFromSensor = "PPFMEAM.FromSensor"; // annotation of a 
 /// what lies between the near and the far end of the view.
 constexpr const char* BehindParts = R"([{ "type": "fragment", "original": "//VTK::Depth::Impl", "replacement":
   "//VTK::Depth::Impl\n  gl_FragDepth = min(1.0, gl_FragCoord.z + 0.005);\n" }])";
+
+/// Draws points in front of all else, in their own order.
+constexpr const char* InFront = R"([{ "type": "fragment", "original": "//VTK::Depth::Impl", "replacement":
+  "//VTK::Depth::Impl\n  gl_FragDepth = 0.01 * gl_FragCoord.z;\n" }])";
 
 void hide(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source, unsigned int port)
 {
@@ -98,6 +104,35 @@ void showPlain(vtkSMProxy* representation, vtkPVDataInformation* data)
   }
 }
 
+/// A text of ours, the answer of Pose Diagnosis: where nothing else is, in letters of a map.
+void showText(vtkSMProxy* representation)
+{
+  constexpr int UpperLeftCorner = 4, Left = 0;
+  vtkSMPropertyHelper(representation, "WindowLocation").Set(UpperLeftCorner);
+  vtkSMPropertyHelper(representation, "Justification").Set(Left);
+  vtkSMPropertyHelper(representation, "FontSize").Set(12);
+  representation->UpdateVTKObjects();
+}
+
+/// The points of Pose Diagnosis, which often lie under other parts, are in front of these; beside them stands the answer.
+void showDiagnosis(vtkSMRenderViewProxy* view, vtkSMProxy* representation, const ShownData& shown)
+{
+  constexpr unsigned int Points = 0, Answer = 3;
+  if (std::strcmp(shown.source->GetVTKClassName(), "vtkMEAMPoseDiagnosis") != 0 || shown.port != Points)
+  {
+    return;
+  }
+  if (representation->GetProperty("ShaderReplacements"))
+  {
+    vtkSMPropertyHelper(representation, "UseShaderReplacements").Set(1);
+    vtkSMPropertyHelper(representation, "ShaderReplacements").Set(InFront);
+    vtkSMPropertyHelper(representation, "PointSize").Set(3.0);
+    representation->UpdateVTKObjects();
+  }
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->Show(shown.source, Answer, view);
+}
+
 /// Hides the part that was searched, which lies where the sensor is, when its poses are shown.
 void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
 {
@@ -109,6 +144,29 @@ void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
     if (part && !isInScene(part->GetDataInformation(port)))
     {
       hide(view, part, port);
+    }
+  }
+}
+
+/// Hides what a step of poses was made of, as ParaView does it for other filters, but for the scan.
+void hideInputs(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
+{
+  if (!source->GetProperty("SceneSurface"))
+  {
+    return;
+  }
+  auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(source->NewPropertyIterator());
+  for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
+  {
+    auto* input = vtkSMInputProperty::SafeDownCast(properties->GetProperty());
+    for (unsigned int k = 0; input && k < input->GetNumberOfProxies(); ++k)
+    {
+      auto* producer = vtkSMSourceProxy::SafeDownCast(input->GetProxy(k));
+      const unsigned int port = input->GetOutputPortForConnection(k);
+      if (producer && !isOrganized(producer->GetDataInformation(port)))
+      {
+        hide(view, producer, port);
+      }
     }
   }
 }
@@ -193,10 +251,17 @@ private:
     {
       return;
     }
+    if (std::strcmp(representation->GetXMLName(), "TextSourceRepresentation") == 0)
+    {
+      showText(representation);
+      return;
+    }
+    showDiagnosis(view, representation, shown);
     showScan(representation, shown.data());
     if (isInScene(shown.data()))
     {
       hidePart(view, shown.source);
+      hideInputs(view, shown.source);
       if (!view->HasAnnotation(SeenFromSensor) && comesFromScan(shown.source, shown.port))
       {
         double bounds[6];

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PoseToolBar.h"
 
-#include "ShownData.h"
+#include "OpenData.h"
+#include "ScoreCharts.h"
+#include "Tutorial.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
 #include "pqObjectBuilder.h"
 #include "pqOutputPort.h"
-#include "pqPipelineSource.h"
+#include "pqPipelineFilter.h"
 #include "pqPropertiesPanel.h"
-#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
-#include "vtkPVDataInformation.h"
-#include "vtkSMSourceProxy.h"
+#include "vtkSMInputProperty.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyIterator.h"
+#include "vtkSMProxy.h"
+#include "vtkSmartPointer.h"
 
 #include <QAction>
 #include <QApplication>
@@ -24,73 +28,107 @@
 #include <QMainWindow>
 #include <QMessageBox>
 #include <QRadioButton>
+#include <QStatusBar>
 #include <QTimer>
 #include <QToolBar>
-
-#include <cstring>
 
 namespace
 {
 constexpr int UntilNextLook = 100; // ms
 
-/// A CAD's mesh in its own coordinates, or a trained model.
-bool isPart(pqOutputPort* port)
+using Inputs = QMap<QString, QList<pqOutputPort*>>;
+
+/// The part and the scan that are open. None: they are not, which is said.
+Inputs openInputs(const char* label)
 {
-  const char* name = port->getSourceProxy()->GetVTKClassName();
-  if (name && (std::strcmp(name, "vtkMEAMHashing") == 0 || std::strcmp(name, "vtkMEAMModelReader") == 0))
+  pqOutputPort* part = openPart();
+  pqOutputPort* scan = openScan();
+  if (!part || !scan)
   {
-    return true;
+    QMessageBox::information(pqCoreUtilities::mainWidget(), label,
+      QString("There is no %1: open one first.")
+        .arg(!part ? "part, a CAD file or a trained model" : "scan, an organized cloud"));
+    return {};
   }
-  vtkPVDataInformation* data = port->getDataInformation();
-  return data->DataSetTypeIsA("vtkPolyData") && data->GetNumberOfCells() > 0 && !isInScene(data);
+  return { { "Input", { part } }, { "Scene", { scan } } };
 }
 
-bool isScan(pqOutputPort* port) { return isOrganized(port->getDataInformation()); }
-
-/// The output of that kind that is selected or, if none is, the one that was opened last; null: there is none.
-pqOutputPort* choose(bool (*isKind)(pqOutputPort*))
+pqPipelineSource* addFilter(const char* name, const char* label, const Inputs& inputs)
 {
-  pqOutputPort* last = nullptr;
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>(pqActiveObjects::instance().activeServer()))
-  {
-    for (pqOutputPort* port : source->getOutputPorts())
-    {
-      if (isKind(port))
-      {
-        if (pqActiveObjects::instance().activePort() == port)
-        {
-          return port;
-        }
-        last = port;
-      }
-    }
-  }
-  return last;
+  BEGIN_UNDO_SET(QString("Create '%1'").arg(label));
+  pqPipelineSource* filter = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
+    "filters", name, inputs, pqActiveObjects::instance().activeServer());
+  END_UNDO_SET();
+  return filter;
 }
 
-void estimatePoses()
+void applyAll()
 {
   if (auto* panel = pqCoreUtilities::mainWidget()->findChild<pqPropertiesPanel*>())
   {
     panel->apply();
   }
-  pqOutputPort* part = choose(isPart);
-  pqOutputPort* scan = choose(isScan);
-  if (!part || !scan)
+}
+
+void estimatePoses()
+{
+  constexpr const char* Label = "MEAM Pose Estimation";
+  applyAll();
+  const Inputs inputs = openInputs(Label);
+  if (!inputs.empty())
   {
-    QMessageBox::information(pqCoreUtilities::mainWidget(), "MEAM Pose Estimation",
-      QString("There is no %1: open one first.")
-        .arg(!part ? "part, a CAD file or a trained model" : "scan, an organized cloud"));
+    addFilter("MEAMPoseEstimation", Label, inputs);
+  }
+}
+
+/// Of the part, in the scan, with the properties that it was searched with, if it was.
+void askWhy()
+{
+  constexpr const char* Label = "Pose Diagnosis";
+  applyAll();
+  pqPipelineSource* estimation = openEstimation();
+  auto* searched = qobject_cast<pqPipelineFilter*>(estimation);
+  const Inputs inputs = searched ? searched->getNamedInputs() : openInputs(Label);
+  pqPipelineSource* diagnosis = inputs.empty() ? nullptr : addFilter("PoseDiagnosis", Label, inputs);
+  if (diagnosis)
+  {
+    // Ctrl, because the cells of a scan are often smaller than the pixels of the picture: P alone may miss them.
+    qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget())
+      ->statusBar()
+      ->showMessage("Point at the part, Ctrl+P, Apply");
+  }
+  if (!searched || !diagnosis)
+  {
     return;
   }
-  QMap<QString, QList<pqOutputPort*>> inputs;
-  inputs["Input"] = { part };
-  inputs["Scene"] = { scan };
-  BEGIN_UNDO_SET("Create 'MEAM Pose Estimation'");
-  pqApplicationCore::instance()->getObjectBuilder()->createFilter(
-    "filters", "MEAMPoseEstimation", inputs, pqActiveObjects::instance().activeServer());
-  END_UNDO_SET();
+  auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(searched->getProxy()->NewPropertyIterator());
+  for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
+  {
+    vtkSMProperty* property = diagnosis->getProxy()->GetProperty(properties->GetKey());
+    if (property && !vtkSMInputProperty::SafeDownCast(property) && !property->GetInformationOnly())
+    {
+      property->Copy(properties->GetProperty());
+    }
+  }
+}
+
+void showCharts()
+{
+  if (pqPipelineSource* estimation = openEstimation())
+  {
+    showScoreCharts(estimation);
+    return;
+  }
+  QMessageBox::information(
+    pqCoreUtilities::mainWidget(), "Scores and Times", "There are no poses: apply MEAM Pose Estimation first.");
+}
+
+/// A button of our own.
+void addButton(QToolBar* bar, const char* name, const char* icon, const char* text, const char* tip, void (*clicked)())
+{
+  QAction* action = bar->addAction(QIcon(QString(":/PPFMEAM/icons/%1.svg").arg(icon)), text, clicked);
+  action->setObjectName(name);
+  action->setToolTip(tip);
 }
 
 /// ParaView's dialog for inputs calls them by the names that scripts have; a user looks for a part and a scan.
@@ -106,10 +144,14 @@ public:
     {
       const bool wholeMethod = dialog->findChild<QRadioButton*>("Scene") && dialog->findChild<QRadioButton*>("Boundary");
       const bool stepOfPoses = dialog->findChild<QRadioButton*>("SceneSurface") && dialog->findChild<QRadioButton*>("Model");
+      const bool picks = dialog->findChild<QRadioButton*>("Grasps") && dialog->findChild<QRadioButton*>("Mesh");
       rename(dialog, "Scene", wholeMethod, "Scan");
       rename(dialog, "Input", wholeMethod, "Part");
       rename(dialog, "Boundary", wholeMethod, "Edge Points");
       rename(dialog, "SceneSurface", stepOfPoses, "Scan");
+      rename(dialog, "Input", picks, "Poses");
+      rename(dialog, "Mesh", picks, "Part");
+      rename(dialog, "GripperMesh", picks, "Gripper");
     }
     return false;
   }
@@ -140,9 +182,11 @@ void build()
   }
   QToolBar* bar = window->addToolBar("Pose Estimation");
   bar->setObjectName("PoseEstimationToolbar");
-  QAction* action = bar->addAction(QIcon(":/PPFMEAM/icons/found.svg"), "MEAM Pose Estimation", estimatePoses);
-  action->setObjectName("EstimatePoses");
-  action->setToolTip("Finds the copies of the open part in the open scan (MEAM Pose Estimation)");
+  addButton(bar, "EstimatePoses", "found", "MEAM Pose Estimation",
+    "Finds the copies of the open part in the open scan (MEAM Pose Estimation)", estimatePoses);
+  addButton(bar, "ShowCharts", "chart", "Scores and Times",
+    "Shows how likely the poses are and how long each stage took, beside the picture", showCharts);
+  addButton(bar, "AskWhy", "why", "Pose Diagnosis", "Tells why a part was missed: point at it, Ctrl+P, Apply (Pose Diagnosis)", askWhy);
   for (const char* name : { "PoseInstances", "ConflictResolution" }) // ParaView's own actions
   {
     for (QAction* filter : window->findChildren<QAction*>(name))
@@ -150,6 +194,7 @@ void build()
       bar->addAction(filter);
     }
   }
+  addTutorial(window);
   qApp->installEventFilter(new InputNames(window));
 }
 }

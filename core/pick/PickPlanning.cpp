@@ -128,6 +128,34 @@ std::string describe(const Pick& pick)
   return {};
 }
 
+std::string labelOf(const Pick& pick, int rank)
+{
+  switch (pick.obstruction)
+  {
+    case PickObstruction::None:
+      return "pick " + std::to_string(rank);
+    case PickObstruction::Uncertain:
+      return "uncertain";
+    case PickObstruction::Covered:
+      return std::to_string(std::lround(100.0 * pick.covered)) + " % covered";
+    case PickObstruction::WrongKind:
+      return "wrong kind";
+    case PickObstruction::TooWide:
+      return "too wide";
+    case PickObstruction::Tilted:
+      return "tilted";
+    case PickObstruction::PartItself:
+      return "hits the part";
+    case PickObstruction::Bin:
+      return "hits the bin";
+    case PickObstruction::Instance:
+      return "hits " + std::to_string(pick.obstacle + 1);
+    case PickObstruction::Measured:
+      return "hits something";
+  }
+  return {};
+}
+
 std::string describe(const Picks& picks)
 {
   static const char* const names[] = { "possible", "of uncertain poses", "covered", "of another kind of gripper",

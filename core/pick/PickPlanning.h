@@ -79,6 +79,8 @@ using Picks = std::vector<Pick>;
 
 /// Why it is not possible, in words, poses counted from 1: "collides with instance 3".
 std::string describe(const Pick& pick);
+/// The same in a word or two, to stand in a picture: "pick 1" of one that is possible, by its rank.
+std::string labelOf(const Pick& pick, int rank);
 
 /// How many are possible, of how many copies, and what the others come to, in a sentence.
 std::string describe(const Picks& picks);

@@ -232,10 +232,10 @@ def scan(scene, points, valid, looks, greys=(0.3, 0.8)):
     return actor
 
 
-def copies(instances):
-    """The part at every pose, drawn over scan points that lie on its surface."""
+def copies(instances, port=0):
+    """The part at every pose, drawn over scan points that lie on its surface; port 1: how uncertain the poses are."""
     normals = vtkPolyDataNormals()
-    normals.SetInputConnection(instances.GetOutputPort())
+    normals.SetInputConnection(instances.GetOutputPort(port))
     normals.SetFeatureAngle(30)
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(normals.GetOutputPort())
@@ -249,7 +249,7 @@ def copies(instances):
     actor.GetProperty().SetSpecular(0.2)
     actor.GetProperty().SetSpecularPower(20)
     actor.GetProperty().SetPointSize(3)  # of a model without faces
-    actor.GetProperty().SetLighting(instances.GetOutput().GetNumberOfPolys() > 0)
+    actor.GetProperty().SetLighting(instances.GetOutputDataObject(port).GetNumberOfPolys() > 0)
     return actor
 
 

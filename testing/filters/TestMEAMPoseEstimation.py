@@ -80,6 +80,9 @@ warnings = Warnings(doubtful)
 check(is_empty(run(doubtful)) and "No part was found." in str(warnings), f"no part without a word: {warnings}")
 edges = filter.GetOutputDataObject(1)
 check(field(poses, "SceneEdgePoints") == [(edges.GetNumberOfPoints(),)], "the edges are the second output")
+explained = [r for r, in tuples(edges, "Rank")]
+counts = [explained.count(rank) for rank in range(3)]
+check(sum(counts) == len(explained) and min(counts) > 0.03 * len(explained), f"edges that no or which pose explains: {counts}")
 copies = filter.GetOutputDataObject(2)
 check(copies.GetNumberOfPolys() == 2 * part.GetNumberOfPolys(), "the third output has the part at each pose")
 check([r for r, in tuples(copies, "Rank")[::part.GetNumberOfPoints()]] == [1, 2], "in the order of the poses")
@@ -130,7 +133,9 @@ copies = filter.GetOutputDataObject(2)
 check(copies.GetNumberOfVerts() == copies.GetNumberOfPoints() > 200, "points of its surface at each pose")
 check(found(estimation(model, scan, MaximumNumberOfPoses=2, NumberOfThreads=1)) == expected, "one thread")
 ready = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
-check(found(estimation(model, scan, ready, MaximumNumberOfPoses=2)) == expected, "ready-made edges")
+given = estimation(model, scan, ready, MaximumNumberOfPoses=2)
+check(found(given) == expected, "ready-made edges")
+check([r for r, in tuples(given.GetOutputDataObject(1), "Rank")] == explained, "they are explained in their order")
 # A part in another unit and frame, brought back: the same two poses, whichever is the better by a hair.
 moved = found(estimation(scaled(part, 0.001), scan, MaximumNumberOfPoses=2, CADScale=1000.0, CADOffset=(0, 0, 5)))
 for pose in expected:

@@ -36,8 +36,8 @@ def scan():
     return grid
 
 
-def names(data):
-    array = data.GetPointData().GetAbstractArray("Reason")
+def names(data, array="Reason"):
+    array = data.GetPointData().GetAbstractArray(array)
     return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
 
 
@@ -67,11 +67,13 @@ check(abs(tuples(picks, "Reach")[0][0] - 90.0) < 1e-6, tuples(picks, "Reach"))
 check(tuples(picks, "Transform")[0][11] == 490.0, "the grasp is where the pose is")
 gripper = planning.GetOutputDataObject(1)
 check(gripper.GetNumberOfCells() == 2 * 36, "a gripper of three boxes at the best pick of each copy")
+check(names(picks, "Label") == ["pick 1", "pick 2", "", ""], f"labels where a gripper is: {names(picks, 'Label')}")
 check(set(gripper.GetCellData().GetArray("Possible").GetValue(i) for i in range(72)) == {1}, "both are possible")
 check(planning.GetOutputDataObject(2).GetNumberOfCells() == 60, "the bin's floor and walls")
 planning.SetShownGrippers(planning.AllPicks)
-run(planning)
+picks = run(planning)
 check(planning.GetOutputDataObject(1).GetNumberOfCells() == 4 * 36, "a gripper at each pick")
+check(names(picks, "Label") == ["pick 1", "pick 2", "tilted", "tilted"], f"labels at each pick: {names(picks, 'Label')}")
 
 # A bin that is found, and without one.
 alone = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART, above, scan())

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A box at every pose, in the colour of its rank."""
+"""A box at every pose, in the colour of its rank, and how uncertain it is."""
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseInstances
-from meamtest import box, check, close, cloud, connect, fails, field, points, poses, prints, run, set_fields, tuples
+from meamtest import box, check, close, cloud, connect, fails, field, is_empty, points, poses, prints, run, set_fields, tuples
 
 
 def at(x, turned=False):
@@ -56,8 +56,29 @@ check(run(connect(vtkMEAMPoseInstances(), poses(), part)).GetNumberOfPoints() ==
 points_only = run(connect(vtkMEAMPoseInstances(), found, cloud([(0, 0, 0), (1, 0, 0)])))
 check(points_only.GetNumberOfVerts() == 4, "a part of points is fine")
 
+# How uncertain a pose is, when asked for: an ellipsoid about the part's middle, and of what does not tell it an error.
+deviations = (0.1, 0.2, 0.3)
+covariance = [0.0] * 36
+for axis, deviation in enumerate(deviations):
+    covariance[7 * (3 + axis)] = deviation ** 2
+uncertain = set_fields(cloud([(0, 0, 0)] * 2, Transform=[at(10), at(20)], Probability=[0.9, 0.4],
+                             Residual=[0.1] * 2, Iterations=[5] * 2, Covariance=[covariance] * 2,
+                             ConstrainedDegreesOfFreedom=[6] * 2, ConstrainedAxes=[(1,) * 6] * 2), PartBounds=(0, 1, 0, 2, 0, 3), PartMiddle=(0.5, 1, 1.5))
+filter = connect(vtkMEAMPoseInstances(), uncertain, part)
+run(filter)
+check(is_empty(filter.GetOutputDataObject(1)), "no ellipsoids without a wish")
+filter.SetUncertaintyScale(20)
+run(filter)
+ellipsoids = filter.GetOutputDataObject(1)
+bounds = ellipsoids.GetBounds()
+check(close([bounds[2 * k + 1] - bounds[2 * k] for k in range(3)], [40 * d for d in deviations], 1e-3), f"{bounds}")
+check(close([(bounds[2 * k + 1] + bounds[2 * k]) / 2 for k in range(3)], (10.5, 1, 1.5), 1e-3), f"{bounds}")
+check({r for r, in tuples(ellipsoids, "Rank")} == {1}, "of the likely pose alone")
+filter.SetInputDataObject(0, found)
+fails(filter, "UncertaintyScale")
+
 fails(connect(vtkMEAMPoseInstances(), found, vtkPolyData()), "CAD mesh", "no points")
 fails(connect(vtkMEAMPoseInstances(), part, part), "Transform")
 fails(connect(vtkMEAMPoseInstances(), poses((float("nan"),) * 16), part), "not a rotation")
 fails(connect(vtkMEAMPoseInstances(), found))
-prints(filter, "MaximumNumberOfInstances", "MinimumProbability")
+prints(filter, "MaximumNumberOfInstances", "MinimumProbability", "UncertaintyScale")

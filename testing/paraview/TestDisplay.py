@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What ParaView shows without a word from the user: poses in the colours of their ranks, a grey scan, both seen from the
-sensor, and nothing in front."""
+sensor, and nothing in front; of a chain's steps the last, over the scan."""
 import os
 import tempfile
 
@@ -103,6 +103,13 @@ view.Background, view.UseColorPaletteForBackground = [0.5, 0.5, 0.5], 0
 picture = pixels(view)
 check((picture.max(axis=1) - picture.min(axis=1)).max() < 3, "the scan is not grey")
 check(picture.std() > 10, "the scan is not in sight")
+
+# A point of it can be picked (Ctrl+P in the application).
+point = [0.0, 0.0, 0.0]
+view.SMProxy.ConvertDisplayToPointOnSurface([size // 2 for size in view.ViewSize], point, [0.0, 0.0, 0.0], True)
+data = scene.GetClientSideObject().GetOutputDataObject(0)
+check(abs(point[0]) + abs(point[1]) < 20 < point[2] and data.FindPoint(point) >= 0
+      and data.GetPoint(data.FindPoint(point)) == tuple(point), f"the picked point is {point}")
 scan.SetScalarBarVisibility(view, True)
 check(simple.GetScalarBar(simple.GetColorTransferFunction("Intensity"), view).Visibility == 0, "a legend of grey values")
 
@@ -114,6 +121,31 @@ check(tuple(view.CameraViewUp) == (0, 1, 0), "the camera is moved again")
 check(scan.Visibility == 1, "the scan is gone")
 check(found.SMProxy.GetHints().FindNestedElementByName("Visibility"), "inputs are hidden")
 check(max(share(pixels(view), RANKS[name]) for name in ("red", "green")) > 0.01, "no parts over the scan")
+
+# A step of poses takes the place of what it was made of, but not of the scan; edges and answers come over it.
+view = simple.CreateRenderView()
+plate = simple.SamplePartSource(Part="Hole plate")
+bin = simple.BinSceneOfPart(Input=plate, Copies=2, Width=320, Height=240)
+shown = simple.Show(simple.OutputPort(bin, 0), view)
+found = simple.MEAMPoseEstimation(Input=plate, Scene=simple.OutputPort(bin, 0))
+edges = simple.Show(simple.OutputPort(found, 1), view)
+check(list(edges.ColorArrayName) == ["POINTS", "Rank"], f"edges are coloured by {edges.ColorArrayName}, not by what explains them")
+poses = simple.Show(simple.OutputPort(found, 0), view)
+model = simple.MEAMHashing(Input=simple.TangentEstimation(Input=simple.BoundaryExtraction(Input=simple.VisibilityExtraction(
+    Input=simple.SurfaceSampling(Input=simple.MeshPreparation(Input=plate))))))
+verified = simple.PoseVerification(Input=simple.OutputPort(found, 0), Model=model, SceneEdges=simple.OutputPort(found, 1),
+                                   SceneSurface=simple.OutputPort(bin, 0))
+simple.Show(verified, view)
+check((shown.Visibility, edges.Visibility, poses.Visibility) == (1, 0, 0), "what a step was made of is hidden, but the scan")
+for name in ("SceneEdgeExtraction", "PoseDetection", "PoseScreening", "PoseVerification", "PoseSelection", "PoseRefinement",
+             "ConflictResolution"):
+    hint = servermanager.ProxyManager().SMProxyManager.GetPrototypeProxy("filters", name).GetHints()
+    hint = hint and hint.FindNestedElementByName("Visibility")
+    check(hint and hint.GetAttribute("replace_input") == "0", f"{name} hides the scan in the application")
+why = simple.PoseDiagnosis(Input=plate, Scene=simple.OutputPort(bin, 0), Place="Point")
+simple.Show(why, view)
+answer, = [r for r in view.Representations if r.GetXMLName() == "TextSourceRepresentation" and r.Visibility]
+check(answer.WindowLocation == "Upper Left Corner" and answer.FontSize == 12, f"the answer is {answer.WindowLocation}")
 
 # A scan with colours shows them.
 view = simple.CreateRenderView()

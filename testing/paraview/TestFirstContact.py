@@ -1,32 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first four clicks in the application: a CAD is opened, a scan is opened, MEAM Pose Estimation, Apply. ParaView's own
-player clicks; the state that it saves then is opened by pvpython, which looks at it. The dialog of the menu names its inputs.
+"""The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of three scans is opened,
+MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked why a hidden part was missed. The
+state that is saved then is opened by pvpython, which looks at it. The tutorial shows its text and opens its example; the
+dialog of the menu names its inputs.
 
-Usage: TestFirstContact.py PARAVIEW PVPYTHON
+Usage: TestFirstContact.py PARAVIEW PVPYTHON REPOSITORY; with PPFMEAM_PICTURE=FOLDER pictures of the whole window go there,
+those of docs/gallery.md (needs python3-pil).
 """
+import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import time
+from xml.sax.saxutils import quoteattr
 
-CLICKS = """<?xml version="1.0" ?>
-<pqevents>
-  <pqevent object="pqClientMainWindow/menubar/menu_File" command="activate" arguments="actionFileOpen" />
-  <pqevent object="pqClientMainWindow/FileOpenDialog" command="filesSelected" arguments="{folder}/part.stl" />
-  <pqevent object="pqClientMainWindow/menubar/menu_File" command="activate" arguments="actionFileOpen" />
-  <pqevent object="pqClientMainWindow/FileOpenDialog" command="filesSelected" arguments="{folder}/scan.pcd" />
-  <pqevent object="pqClientMainWindow/PoseEstimationToolbar/EstimatePoses" command="activate" arguments="" />
-  <pqevent object="pqClientMainWindow/propertiesDock/propertiesPanel/Accept" command="activate" arguments="" />
-  <pqevent object="pqClientMainWindow/menubar/menu_File" command="activate" arguments="actionFileSaveServerState" />
-  <pqevent object="pqClientMainWindow/FileSaveServerStateDialog" command="filesSelected" arguments="{folder}/state.pvsm" />
-  <pqevent object="pqClientMainWindow/menubar" command="activate" arguments="menuFilters" />
-  <pqevent object="pqClientMainWindow/menubar/menuFilters/PoseEstimation" command="activate" arguments="MEAMPoseEstimation" />
-  <pqcheck object="pqClientMainWindow/SelectInputDialog/buttonFrame/Input" property="text" arguments="Part" />
-  <pqcheck object="pqClientMainWindow/SelectInputDialog/buttonFrame/Scene" property="text" arguments="Scan" />
-  <pqevent object="pqClientMainWindow/SelectInputDialog/buttonBox/1QPushButton1" command="activate" arguments="" />
-</pqevents>
-"""
-RED, GREEN = (220, 30, 30), (40, 170, 50)
+RED, GREEN, VIOLET = (220, 30, 30), (40, 170, 50), (150, 60, 190)
+SCANS = 3
+WINDOW = "pqClientMainWindow"
+PANEL = "propertiesDock/propertiesPanel"
+POINT = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/InteractiveHandle"
 
 
 def check(condition, message):
@@ -34,44 +28,116 @@ def check(condition, message):
         raise AssertionError(message)
 
 
-def prepare(folder):
-    """A part and a scan of four copies of it, as files."""
+def event(widget, command, arguments=""):
+    return f'<pqevent object="{WINDOW}/{widget}" command="{command}" arguments="{arguments}" />'
+
+
+def menu(name, entry):
+    return event(f"menubar/{name}", "activate", entry)
+
+
+def files(action, dialog, path):
+    return [menu("menu_File", action), event(dialog, "filesSelected", path)]
+
+
+def clicks(folder, hidden):
+    """What is clicked, in stages that end with a picture of the gallery."""
+    apply = event(f"{PANEL}/Accept", "activate")
+    yield "first_contact", [
+        *files("actionFileOpen", "FileOpenDialog", f"{folder}/bins/models/obj_000001.ply"),
+        *files("actionFileOpen", "FileOpenDialog", f"{folder}/bins/camera.json"),
+        event("PoseEstimationToolbar/EstimatePoses", "activate"), apply]
+    yield "series", [event("PoseEstimationToolbar/ShowCharts", "activate"), event("VCRToolbar/actionVCRPlay", "activate")]
+    yield "why", [
+        event("PoseEstimationToolbar/AskWhy", "activate"),
+        *(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", hidden)), apply]
+
+
+def tutorial(folder, text):
+    """Its text, the names in the dialog of the menu, and its example."""
+    select = "SelectInputDialog/buttonFrame"
+    return [
+        menu("menu_Help", "actionPPFMEAMTutorial"),
+        f'<pqcheck object="{WINDOW}/PPFMEAMTutorial/Page/Text" property="plainText" arguments={quoteattr(text, {chr(10): "&#10;"})} />',
+        event("menubar", "activate", "menuFilters"),
+        menu("menuFilters/PoseEstimation", "MEAMPoseEstimation"),
+        f'<pqcheck object="{WINDOW}/{select}/Input" property="text" arguments="Part" />',
+        f'<pqcheck object="{WINDOW}/{select}/Scene" property="text" arguments="Scan" />',
+        event("SelectInputDialog/buttonBox/1QPushButton1", "activate"),
+        event("PPFMEAMTutorial/Page/OpenExample", "activate"),
+        event("PoseEstimationToolbar/EstimatePoses", "activate"),
+        *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/example.pvsm")]
+
+
+def prepare(folder, repository):
+    """Three scans of a part, and a point of it in the last one that a sensor sees, though most lies under others."""
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOGeometry import vtkSTLWriter
-    from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMSamplePartSource
+    from vtkmodules.vtkIOImage import vtkPNGReader
 
-    plate = vtkMEAMSamplePartSource()
-    plate.SetPartToHolePlate()
-    source = vtkMEAMBinSceneSource()
-    source.SetInputConnection(plate.GetOutputPort())
-    source.SetCopies(4)
-    source.SetWidth(640)
-    source.SetHeight(480)
-    source.Update()
-    writer = vtkSTLWriter()
-    writer.SetInputData(source.GetOutputDataObject(2))
-    writer.SetFileName(os.path.join(folder, "part.stl"))
-    writer.SetFileTypeToBinary()
-    writer.Write()
-    scan = source.GetOutputDataObject(0)
-    columns = numpy.column_stack((vtk_to_numpy(scan.GetPoints().GetData()),
-                                  vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))))
-    with open(os.path.join(folder, "scan.pcd"), "wb") as file:
-        file.write(b"VERSION .7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 640\nHEIGHT 480\n"
-                   b"POINTS 307200\nDATA binary\n")
-        file.write(columns.astype("<f4").tobytes())
-    with open(os.path.join(folder, "clicks.xml"), "w") as file:
-        file.write(CLICKS.format(folder=folder))
+    def pixels(path):
+        reader = vtkPNGReader()
+        reader.SetFileName(path)
+        reader.Update()
+        image = reader.GetOutput()
+        return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[1::-1])[::-1].astype(float)
+
+    subprocess.run(["/usr/bin/python3", os.path.join(repository, "examples", "simulate.py"), "--cad",
+                    os.path.join(repository, "examples", "parts", "hole_plate.stl"), "--scenes", str(SCANS), "--copies",
+                    "12", "--out", os.path.join(folder, "bins")], check=True, stdout=subprocess.DEVNULL)
+    scene = os.path.join(folder, "bins", "test", f"{SCANS - 1:06d}")
+    with open(os.path.join(scene, "scene_gt_info.json")) as file:
+        shares = [copy["visib_fract"] for copy in json.load(file)["0"]]
+    with open(os.path.join(scene, "scene_camera.json")) as file:
+        camera = json.load(file)["0"]
+    copy = max((k for k, share in enumerate(shares) if share < 0.3), key=lambda k: shares[k])
+    depth = pixels(os.path.join(scene, "depth", "000000.png")) * camera["depth_scale"]
+    rows, columns = numpy.nonzero((pixels(os.path.join(scene, "mask_visib", f"000000_{copy:06d}.png")) > 0) & (depth > 0))
+    middle = numpy.argmin((rows - numpy.median(rows)) ** 2 + (columns - numpy.median(columns)) ** 2)
+    z = depth[rows[middle], columns[middle]]
+    matrix = camera["cam_K"]
+    return (columns[middle] - matrix[2]) / matrix[0] * z, (rows[middle] - matrix[5]) / matrix[4] * z, z
 
 
-def click(paraview, folder):
-    """Plays the clicks with the settings of a new user."""
+def start(paraview, folder, events, *options):
+    """The application plays the events with the settings of a new user."""
+    script = os.path.join(folder, "clicks.xml")
+    with open(script, "w") as file:
+        file.write('<?xml version="1.0" ?>\n<pqevents>\n' + "\n".join(events) + "\n</pqevents>\n")
     environment = dict(os.environ, HOME=folder, XDG_CONFIG_HOME=os.path.join(folder, "config"))
-    run = subprocess.run([paraview, "--dr", "--exit", f"--test-script={folder}/clicks.xml"], env=environment, capture_output=True, text=True, timeout=120)
-    check(os.path.exists(os.path.join(folder, "state.pvsm")), f"the clicks led nowhere: {run.stdout[-3000:]} {run.stderr[-3000:]}")
-    said = [line for line in (run.stdout + run.stderr).splitlines() if "ERR|" in line or "critical" in line]
-    check(not said, f"ParaView says {said}")
+    return subprocess.Popen([paraview, "--dr", f"--test-script={script}", *options], env=environment, text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def play(paraview, folder, events):
+    said, _ = start(paraview, folder, events, "--exit").communicate(timeout=180)
+    errors = [line for line in said.splitlines() if "ERR|" in line or "critical" in line]
+    check(not errors, f"ParaView says {errors}")
+    check("Success =  true" in said, f"the clicks led nowhere: {said[-3000:]}")
+
+
+def shoot(paraview, folder, events, picture):
+    """The whole window after the events."""
+    from PIL import ImageGrab
+
+    done = os.path.join(folder, "done.pvsm")
+    application = start(paraview, folder, events + files("actionFileSaveServerState", "FileSaveServerStateDialog", done))
+    while not os.path.exists(done):
+        time.sleep(0.2)
+    time.sleep(2)
+    window = ImageGrab.grab(xdisplay=os.environ["DISPLAY"])
+    window.crop(window.getbbox()).save(picture, quality=85)
+    application.kill()
+    application.wait()
+    os.remove(done)
+
+
+def plain(path):
+    """A page as it reads: its headings and paragraphs, a line each."""
+    with open(path) as file:
+        text = re.sub(r"^(#+ .*)$", r"\1\n", file.read().strip(), flags=re.MULTILINE)
+    blocks = re.split(r"\n\s*\n", text)
+    return "\n".join(re.sub(r"[*`]|^#+ ", "", block.replace("\n", " ")) for block in blocks)
 
 
 def share(picture, color):
@@ -88,39 +154,93 @@ def share(picture, color):
     return (near & (level - pixels.min(axis=1) > 40)).mean()
 
 
-def look(state):
+def shown_in(view):
+    """The representations of data, by kind of source and its port."""
+    def key(representation):
+        data = representation.Input
+        return (data.GetXMLName() if hasattr(data, "GetXMLName") else data.SMProxy.GetXMLName()), data.Port
+    return {key(r): r for r in view.Representations if hasattr(r, "Input") and r.Visibility}
+
+
+def output(source, port=0):
+    return source.GetClientSideObject().GetOutputDataObject(port)
+
+
+def look(folder):
     """At what the user sees."""
     from paraview import simple
 
-    simple.LoadState(state)
-    found = simple.FindSource("MEAMPoseEstimation1")
+    simple.LoadState(os.path.join(folder, "state.pvsm"))
+    found, why = simple.FindSource("MEAMPoseEstimation1"), simple.FindSource("PoseDiagnosis1")
+    times = simple.GetTimeKeeper()
+    check(list(times.TimestepValues) == list(range(SCANS)) and times.Time == SCANS - 1, f"the series stands at {times.Time}")
     view = next(v for v in simple.GetViews() if v.GetXMLName() == "RenderView")
-    shown = {(r.Input.GetXMLName() if hasattr(r.Input, "GetXMLName") else r.Input.SMProxy.GetXMLName(), r.Input.Port): r
-             for r in view.Representations if hasattr(r, "Input") and r.Visibility}
-    check(sorted(shown) == [("MEAMPoseEstimation", 0), ("MEAMPoseEstimation", 2), ("PCDReader", 0)], f"shown: {sorted(shown)}")
+    shown = shown_in(view)
+    check(sorted(shown) == [("BOPReader", 0), ("MEAMPoseEstimation", 0), ("MEAMPoseEstimation", 2), ("PoseDiagnosis", 0),
+                            ("PoseDiagnosis", 3)], f"shown: {sorted(shown)}")
     labels = shown["MEAMPoseEstimation", 0]
     check((labels.Representation, labels.LabelArray) == ("Pose Labels", "Label"), f"labels: {labels.Representation}")
     check(list(shown["MEAMPoseEstimation", 2].ColorArrayName) == ["POINTS", "Rank"], "the parts are not coloured by rank")
-    check(shown["PCDReader", 0].MapScalars == 0, "the scan is not grey")
+    check(shown["BOPReader", 0].MapScalars == 0, "the scan is not grey")
     check(tuple(view.CameraViewUp) == (0, -1, 0), f"seen from {view.CameraPosition}, up {view.CameraViewUp}")
-    bars = [r for r in view.Representations if r.GetXMLName() == "ScalarBarWidgetRepresentation" and r.Visibility]
-    check([b.Title for b in bars] == ["Rank"], f"legends: {[b.Title for b in bars]}")
-    found.UpdatePipeline()
-    poses = found.GetClientSideObject().GetOutputDataObject(0)
-    check(poses.GetNumberOfPoints() >= 2, f"{poses.GetNumberOfPoints()} poses")
-    check(poses.GetPointData().GetAbstractArray("Label").GetValue(0).startswith("1: "), "the label of the first")
+    bars = [r.Title for r in view.Representations if r.GetXMLName() == "ScalarBarWidgetRepresentation" and r.Visibility]
+    check(sorted(bars) == ["Rank", "State"], f"legends: {bars}")
     simple.Render(view)
-    picture = state + ".png"
+    check(output(found).GetNumberOfPoints() >= 2, f"{output(found).GetNumberOfPoints()} poses")
+    check(output(found).GetPointData().GetAbstractArray("Label").GetValue(0).startswith("1: "), "the label of the first")
+    picture = os.path.join(folder, "view.png")
     simple.SaveScreenshot(picture, view, ImageResolution=[640, 480])
-    for color in (RED, GREEN):
-        check(share(picture, color) > 0.005, f"no part of the colour {color} in {picture}")
+    for color, least in ((RED, 0.005), (GREEN, 0.005), (VIOLET, 0.002)):  # the last are points that lie under other parts
+        check(share(picture, color) > least, f"{share(picture, color)} of {picture} has the colour {color}")
+    verdict = output(why).GetFieldData().GetAbstractArray("Verdict").GetValue(0)
+    check(verdict.startswith("Hidden: something lies in front of"), verdict)
+    text = output(why, 3).GetValueByName(0, "Text").ToString()
+    check(verdict in text.replace("\n", " ") and max(map(len, text.split("\n"))) <= 75, f"the answer in the view: {text}")
+    look_at_charts(simple, found)
+
+
+def look_at_charts(simple, found):
+    charts = {key: v for v in simple.GetViews() if v.GetXMLName() == "XYBarChartView" for key in shown_in(v)}
+    check(sorted(charts) == [("MEAMPoseEstimation", 3), ("MEAMPoseEstimation", 4)], f"charts: {charts}")
+    scores, = shown_in(charts["MEAMPoseEstimation", 3]).values()
+    check((scores.UseIndexForXAxis, scores.XArrayName) == (0, "Pose"), f"scores over {scores.XArrayName}")
+    series = sorted(scores.SeriesVisibility)
+    check(series == ["Certainty", "Probability", "Score", "VisibleFraction"], f"bars of {series}")
+    stages = output(found, 4).GetColumnByName("Stage")
+    labels = [re.sub(r"\s", "", label) for label in charts["MEAMPoseEstimation", 4].BottomAxisLabels[1::2]]
+    check(labels == [stages.GetValue(k) for k in range(stages.GetNumberOfValues())], f"bars of {labels}")
+
+
+def look_at_example(path):
+    """The button took the example's part and scan."""
+    import xml.etree.ElementTree as ElementTree
+
+    proxies = {p.get("type"): p for p in ElementTree.parse(path).getroot().iter("Proxy") if p.get("group") in ("sources", "filters")
+               and p.get("type") == "BinSceneSource"}
+    check(proxies, "the example is not open")
+    bin_id = proxies["BinSceneSource"].get("id")
+    inputs = [{p.get("name"): [(x.get("value"), x.get("output_port")) for x in p.iter("Proxy")] for p in e.iter("Property")
+               if p.get("name") in ("Input", "Scene")} for e in ElementTree.parse(path).getroot().iter("Proxy")
+              if e.get("type") == "MEAMPoseEstimation"]
+    check({"Input": [(bin_id, "2")], "Scene": [(bin_id, "0")]} in inputs, f"connected: {inputs}")
+
+
+def main(paraview, pvpython, repository):
+    pictures = os.environ.get("PPFMEAM_PICTURE")
+    with tempfile.TemporaryDirectory() as folder:
+        hidden = prepare(folder, repository)
+        events = []
+        for name, stage in clicks(folder, hidden):
+            events += stage
+            if pictures:
+                shoot(paraview, folder, events, os.path.join(pictures, f"application_{name}.jpg"))
+        events += files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm")
+        play(paraview, folder, events + tutorial(folder, plain(os.path.join(repository, "docs", "tutorial.md"))))
+        look_at_example(os.path.join(folder, "example.pvsm"))
+        subprocess.run([pvpython, os.path.abspath(__file__), "--look", folder], check=True)
 
 
 if sys.argv[1] == "--look":
     look(sys.argv[2])
 else:
-    with tempfile.TemporaryDirectory() as temporary:
-        prepare(temporary)
-        click(sys.argv[1], temporary)
-        subprocess.run([sys.argv[2], os.path.abspath(__file__), "--look",
-                        os.path.join(temporary, "state.pvsm")], check=True)
+    main(*sys.argv[1:])

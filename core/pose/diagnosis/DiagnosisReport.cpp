@@ -209,6 +209,8 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
       return "Take out what lies on it, and scan again.";
     case LossCause::SurfaceMissing:
       return "Lower LeastSurface of Pose Screening.";
+    case LossCause::NoPose:
+      return "Take a point of the scan that lies on the part.";
     default:
       break;
   }

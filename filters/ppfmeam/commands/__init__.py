@@ -5,6 +5,7 @@ SUMMARIES is what `ppfmeam --help` says of them, in the order of a first use."""
 SUMMARIES = {
     "train": "train the model of a part from its CAD file",
     "detect": "find the copies of one or several parts in a scan",
+    "why": "tell why a part of a scan was missed: which step lost it, and what to change",
     "batch": "find them in many scans, with one process or many, and go on where a run was stopped",
     "hand-eye": "find where the camera is for the robot, from pairs of poses",
     "simulate": "simulate scans of bins with their true poses, as a dataset",

@@ -129,6 +129,7 @@ TEST(PickPlanning, TheNeighbourThatIsInTheWayIsNamed)
   EXPECT_EQ(pick.obstacle, 2);
   EXPECT_NEAR(pick.clearance, 1.0, 1e-3);
   EXPECT_EQ(meam::describe(pick), "collides with instance 3");
+  EXPECT_EQ(meam::labelOf(pick, 7), "hits 3");
   meam::PickSettings narrow;
   narrow.safetyMargin = 0.5;
   EXPECT_TRUE(onlyPick(poses, {}, fromAbove(), narrow).possible());
@@ -164,6 +165,7 @@ TEST(PickPlanning, TiltUncertaintyWidthAndKind)
   const meam::Pick tilted = onlyPick({ at(0, 0) }, {}, side);
   EXPECT_EQ(tilted.obstruction, meam::PickObstruction::Tilted);
   EXPECT_EQ(meam::describe(tilted), "tilted by 90 degrees");
+  EXPECT_EQ(meam::labelOf(tilted, 7), "tilted");
   EXPECT_EQ(onlyPick({ at(0, 0, 0.2) }).obstruction, meam::PickObstruction::Uncertain);
   meam::Grasp wide = fromAbove();
   wide.width = 35.0; // and 3 mm on either side
@@ -186,6 +188,7 @@ TEST(PickPlanning, ACupMayLieOnThePart)
   const auto picked = [&]
   { return meam::PickPlanner(block(), {}, { cup }, gripper).plan({ at(0, 0) }, {}, bin()).front(); };
   EXPECT_TRUE(picked().possible()) << meam::describe(picked());
+  EXPECT_EQ(meam::labelOf(picked(), 7), "pick 7");
   cup.T_model_grasp.translation().z() = 0.0; // in the middle of it
   EXPECT_EQ(picked().obstruction, meam::PickObstruction::PartItself);
 }

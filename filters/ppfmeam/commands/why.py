@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tells why a part of a scan was missed: which step lost it, in words and numbers, and what to change."""
+import argparse
+import math
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+from .. import api, filters, scripting
+
+
+def options_of_user():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("part", help="CAD file of the part (.stl, .obj, .ply or .off, in mm), or trained model of `train`")
+    parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm")
+    place = parser.add_mutually_exclusive_group(required=True)
+    place.add_argument("--at", nargs=3, type=float, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
+    place.add_argument("--pose", metavar="FILE[:ROW]",
+                       help="where the part lies: a pose of a file (BOP's CSV, JSON, or 4x4 matrices), the first or that of "
+                            "a row, from 1; it is fitted to the scan first")
+    place.add_argument("--truth", metavar="FILE",
+                       help="the true poses of all parts, a file of the same kinds: a line for each with the stage that lost it")
+    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    parser.add_argument("--scale", type=float, default=1, metavar="F", help="the same of the scan and the boundary")
+    parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
+    parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
+    parser.add_argument("--image", metavar="FILE", help="image of an organized scan that carries none")
+    parser.add_argument("--image-camera", metavar="FILE", help="calibration of the camera beside the sensor that took it")
+    parser.add_argument("--poses", type=scripting.count, default=5,
+                        help="poses wanted, as of `detect`; 0: all (default: %(default)s)")
+    parser.add_argument("--probability", type=scripting.share, default=0, metavar="P",
+                        help="poses less likely to be right than P, 0 to 1, are not wanted (default: %(default)s)")
+    scripting.add_features_argument(parser)
+    scripting.add_reference_argument(parser)
+    parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
+                        help="parameters of all steps (default: %(default)s)")
+    parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
+    return parser.parse_args()
+
+
+def transforms_of(path):
+    """The poses of a file, N x 4 x 4."""
+    poses = scripting.read_with(filters.vtkMEAMPoseReader(), path)
+    if poses.GetNumberOfPoints() == 0:
+        raise scripting.Failure(f"{path}: there is no pose in it")
+    return vtk_to_numpy(poses.GetPointData().GetArray("Transform")).reshape(-1, 4, 4)
+
+
+def chosen(text):
+    """The pose that FILE[:ROW] names."""
+    path, colon, row = text.rpartition(":")
+    if not colon or not row.isdigit():
+        path, row = text, "1"
+    transforms = transforms_of(path)
+    if not 1 <= int(row) <= len(transforms):
+        raise scripting.Failure(f"{path}: there is no row {row}: it has {len(transforms)} poses")
+    return transforms[int(row) - 1]
+
+
+def print_report(diagnosis):
+    """The numbers step by step, how many points are in which state, the verdict and the advice."""
+    def words(number):
+        return f"{number:.0f}" if number == int(number) else f"{number:.3f}"
+
+    for step, quantity, value, of in diagnosis.numbers:
+        print(f"{step:26s}{quantity}: {words(value)}" + ("" if math.isnan(of) else f" / {words(of)}"))
+    if diagnosis.pose is not None:
+        print(f"{'place':26s}" + "  ".join(" ".join(f"{x:.4f}" for x in row) for row in diagnosis.pose[:3]))
+    print(diagnosis.verdict)
+    if diagnosis.advice:
+        print(diagnosis.advice)
+
+
+def main():
+    options = options_of_user()
+    inputs = {name: getattr(options, name) for name in (
+        "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "references", "preset",
+        "features", "threads")}
+    if options.at:
+        print_report(api.why(options.part, options.scan, at=options.at, **inputs))
+    elif options.pose:
+        print_report(api.why(options.part, options.scan, pose=chosen(options.pose), fit=True, **inputs))
+    else:
+        found = api.why(options.part, options.scan, pose=transforms_of(options.truth), **inputs)
+        for row, diagnosis in enumerate(found, 1):
+            print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{diagnosis.verdict} {diagnosis.advice}".rstrip())
+        lost = numpy.array([bool(diagnosis.lost_in) for diagnosis in found])
+        print(f"{(~lost).sum()} of {len(lost)} were found")

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenData.h"
+
+#include "ShownData.h"
+
+#include "pqActiveObjects.h"
+#include "pqApplicationCore.h"
+#include "pqOutputPort.h"
+#include "pqPipelineSource.h"
+#include "pqServerManagerModel.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMSourceProxy.h"
+
+#include <cstring>
+
+namespace
+{
+bool isOf(pqPipelineSource* source, const char* className)
+{
+  const char* name = source->getSourceProxy()->GetVTKClassName();
+  return name && std::strcmp(name, className) == 0;
+}
+
+bool isPart(pqOutputPort* port)
+{
+  if (isOf(port->getSource(), "vtkMEAMHashing") || isOf(port->getSource(), "vtkMEAMModelReader"))
+  {
+    return true;
+  }
+  vtkPVDataInformation* data = port->getDataInformation();
+  return data->DataSetTypeIsA("vtkPolyData") && data->GetNumberOfCells() > 0 && !isInScene(data) &&
+         !comesFromScan(port->getSourceProxy(), port->getPortNumber()) &&
+         !isOf(port->getSource(), "vtkMEAMGraspDefinition"); // its jaws
+}
+
+bool isScan(pqOutputPort* port) { return isOrganized(port->getDataInformation()); }
+
+bool isEstimation(pqOutputPort* port)
+{
+  return port->getPortNumber() == 0 && isOf(port->getSource(), "vtkMEAMPoseEstimation");
+}
+
+pqOutputPort* choose(bool (*isKind)(pqOutputPort*))
+{
+  pqOutputPort* last = nullptr;
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>(pqActiveObjects::instance().activeServer()))
+  {
+    for (pqOutputPort* port : source->getOutputPorts())
+    {
+      if (isKind(port))
+      {
+        if (pqActiveObjects::instance().activePort() == port)
+        {
+          return port;
+        }
+        last = port;
+      }
+    }
+  }
+  return last;
+}
+}
+
+pqOutputPort* openPart() { return choose(isPart); }
+
+pqOutputPort* openScan() { return choose(isScan); }
+
+pqPipelineSource* openEstimation()
+{
+  pqOutputPort* port = choose(isEstimation);
+  return port ? port->getSource() : nullptr;
+}
