@@ -15,7 +15,7 @@ from . import chains, filters, scripting
 # mm. Part 3's STL is in another frame than its true poses.
 OFFSETS = {3: (-20.9645, -17.4974, -9.3144)}
 FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "recall": "Recall",
-           "AP": "AveragePrecision", "mm": "MedianTranslationError", "deg": "MedianRotationError",
+           "AP": "AveragePrecision", "AP_mm": "AveragePrecisionMSSD", "mm": "MedianTranslationError", "deg": "MedianRotationError",
            "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
            "mean_deg": "MeanRotationError"}
 STAGES = scripting.STAGES[2:-1]
@@ -51,14 +51,6 @@ def tohoku_mesh(folder, part):
 def tohoku_truth(folder, part, scene):
     """The true poses of a scene."""
     path = os.path.join(folder, f"Part_{part}", "Results", f"trans{scene}.txt")
-    return scripting.read_with(filters.vtkMEAMPoseReader(), path)
-
-
-def stored_poses(folder, part, scene):
-    """The poses of a scene that another program has found; none where it left no file, or an empty one."""
-    path = os.path.join(folder, f"Part_{part}", f"trans{scene}.txt")
-    if not os.path.exists(path) or not os.path.getsize(path):
-        return vtkPolyData()
     return scripting.read_with(filters.vtkMEAMPoseReader(), path)
 
 
@@ -102,7 +94,7 @@ def tohoku_scene(folder, part, scene, model, deviation=0):
 class Evaluation:
     """Finds the poses of scene after scene with a trained model and compares them with the true ones."""
 
-    def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0, references=0, features="both"):
+    def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0, references=0, features="both", mesh=None):
         self.estimation = filters.vtkMEAMPoseEstimation()
         self.estimation.SetInputDataObject(model)
         scripting.set_preset(self.estimation, preset)
@@ -114,6 +106,7 @@ class Evaluation:
         self.judge.SetDiameter(scripting.field(model, "Diameter"))
         self.judge.SetPosesAskedFor(poses_asked_for)
         self.judge.SetInputDataObject(2, model)  # its symmetries
+        self.judge.SetInputDataObject(3, mesh)
         self.times = []
 
     def find(self, surface, edges=None, image=None, camera=None):
@@ -142,13 +135,15 @@ class Evaluation:
         return self.judged("Right")
 
     def figures(self):
-        """Over all scenes: how many poses were judged, FIGURES, and the median ms of a scene and its stages."""
+        """Over all scenes: how many poses were judged, FIGURES (AP_mm with a mesh), and the median ms of a scene and its
+        stages."""
         def median(of):
             return statistics.median(of(times) for times in self.times) if self.times else float("nan")
 
         table = scripting.update(self.judge).GetOutput()
         row = {"poses": int(scripting.field(table, "Poses"))}
-        row.update((name, scripting.field(table, array)) for name, array in FIGURES.items())
+        row.update((name, scripting.field(table, array)) for name, array in FIGURES.items()
+                   if table.GetFieldData().HasArray(array))
         row["ms"] = median(lambda times: times["Total"] - times["Training"])
         row.update((f"{stage}_ms", median(lambda times: times[stage])) for stage in STAGES)
         return row
