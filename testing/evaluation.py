@@ -243,6 +243,15 @@ def paper(commands):
             + told.strip())
 
 
+def wrong_poses(commands):
+    commands.lines.append("testing/wrong_poses.py DATA/tohoku OUT/paper/bins 5")
+    told = subprocess.run([sys.executable, "-W", "ignore", os.path.join(ROOT, "testing", "wrong_poses.py"), path_of("DATA/tohoku"),
+                           path_of("OUT/paper/bins"), "5"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return ("Where the five best poses of a scene go, five scenes of each part. *Half a turn*: right place, turned by more than 150 degrees; "
+            "*on the bin*: most of the part's vertices are where the sensor sees the bin; *evidence*: what our verification says of the "
+            "candidates in place of their votes.\n\n" + told.strip())
+
+
 def cell(commands):
     shutil.rmtree(path_of("OUT/cell"), ignore_errors=True)  # of another version
     rows, failures = [], []
@@ -351,6 +360,7 @@ TABLES = {  # name: the heading, what makes it, whether it takes a few minutes a
     "robustness": ("Noise and image quality in simulated bins", robustness, False),
     "world": ("Parts and sensors", world, False),
     "paper": ("The paper's own experiments", paper, False),
+    "wrong-poses": ("Where wrong poses of the compared methods go", wrong_poses, False),
     "cell": ("The picking cell", cell, False),
     "paper-reading": ("Readings of the paper's text", paper_reading, False),
     "rivals": ("What others would use instead", rivals, False),

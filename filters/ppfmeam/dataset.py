@@ -197,15 +197,25 @@ class Found:
     """The poses that another program has found in the images of a dataset: a file of BOP results, or a folder of files
     obj_OOOOOO/SSSSSS_IIIIII.txt of 16 numbers each, best first; none where there is no file."""
 
-    def __init__(self, path):
+    def __init__(self, path, objects):
         self.folder, self.all = path, None
         if not os.path.isdir(path):
             self.folder, self.all = None, scripting.read_with(filters.vtkMEAMPoseReader(), path)
+            known = set(vtk_to_numpy(self.all.GetPointData().GetArray("ObjectId"))) if self.all.GetNumberOfPoints() else set()
+        else:
+            known = {number for number in objects if os.path.isdir(self.folder_of(number))}
+        if not known.intersection(objects):
+            raise scripting.Failure(f"{path} has no poses of object {', '.join(map(str, objects))}: "
+                                    + ("it needs folders such as obj_000001" if self.folder else
+                                       f"its objects are {', '.join(map(str, sorted(known))) or 'none'}"))
+
+    def folder_of(self, number):
+        return os.path.join(self.folder, f"obj_{number:06d}")
 
     def poses(self, image, number):
         """Of an object in an image."""
         if self.folder:
-            return stored_poses(os.path.join(self.folder, f"obj_{number:06d}", f"{image.scene:06d}_{image.number:06d}.txt"))
+            return stored_poses(os.path.join(self.folder_of(number), f"{image.scene:06d}_{image.number:06d}.txt"))
         poses = self.all
         for name, value in (("SceneId", image.scene), ("ImageId", image.number), ("ObjectId", number)):
             poses = points_where(poses, name, value)

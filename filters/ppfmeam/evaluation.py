@@ -18,6 +18,7 @@ FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "re
            "AP": "AveragePrecision", "AP_mm": "AveragePrecisionMSSD", "mm": "MedianTranslationError", "deg": "MedianRotationError",
            "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
            "mean_deg": "MeanRotationError"}
+LEAST_FIT = 0.5  # median score of true poses: 0.84 and more on their own scenes, 0.13 and less on others
 STAGES = scripting.STAGES[2:-1]
 NOISE_HELP = ("normal noise of every coordinate of the scenes' points: mm, or %% of the part's diameter, such as 0.3 or 1%% "
               "(default: %(default)s)")
@@ -61,14 +62,19 @@ def tohoku_clouds(folder, part, scene):
 
 
 def with_visibility(truth, model, edges, surface):
-    """The true poses with the share of each instance that nothing hides."""
+    """The true poses with the share of each instance that nothing hides. Raises a Failure when they are not of this scene."""
     tangents = filters.vtkMEAMTangentEstimation()
     tangents.SetInputDataObject(edges)
     tangents.SetInputDataObject(1, model)
     verification = filters.vtkMEAMPoseVerification()
     for port, data in enumerate((truth, model, scripting.update(tangents).GetOutputDataObject(0), surface)):
         verification.SetInputDataObject(port, data)
-    return scripting.update(verification).GetOutput()
+    poses = scripting.update(verification).GetOutput()
+    scores = [poses.GetPointData().GetArray("Score").GetValue(i) for i in range(poses.GetNumberOfPoints())]
+    if scores and statistics.median(scores) < LEAST_FIT:
+        raise scripting.Failure(f"the true poses fit {100 * statistics.median(scores):.0f} % of what should be seen of them (median): they "
+                                "are of another part or another scene")
+    return poses
 
 
 def with_noise(clouds, deviation, seed):

@@ -15,7 +15,8 @@ from . import cell, charts, dataset, evaluation, filters, scripting, simulation,
 PARTS = ("ridged_disc", "arc_lever", "flap", "hole_plate")  # in place of A, B, C and D
 LETTERS = "ABCD"
 POSES = 5  # wanted of a scene
-QUICK = 3  # scenes, bins and trials of a quick run
+QUICK = 3  # scenes of each part in a quick run
+QUICK_COPIES = 8
 METHODS = {"recommended": "PPF-MEAM, recommended", "paper": "PPF-MEAM as in the paper", "without-meam": "B2B-TL without MEAM",
            "ppf": "original PPF", "b2b": "B2B"}
 VIEWS = (1, 2, 6, 14, 26)
@@ -272,7 +273,9 @@ def add_parser(datasets, shared):
     which.add_argument("--figure", type=int, choices=(13,), metavar="13", help="the stage: relative errors of moves and turns")
     which.add_argument("--all", action="store_true", help="all of them")
     one.add_argument("--scenes", type=scripting.count, default=30, help="of each part (default: %(default)s)")
-    one.add_argument("--quick", action="store_true", help=f"no more than {QUICK} scenes of each part, {QUICK} trials of Figure 13")
+    one.add_argument("--quick", action="store_true",
+                     help=f"to see it run: no more than {QUICK} scenes of each part and {QUICK_COPIES} copies, one bin of Table 9 and one "
+                          "trial of Figure 13")
     one.add_argument("--seed", type=scripting.count, default=1, help="of the first bin, the next has the next one")
     one.add_argument("--copies", type=scripting.count, default=20, help="in a bin (default: %(default)s)")
     one.add_argument("--tohoku", metavar="DIR", help="where the Tohoku dataset is, for tables 7 and 8")
@@ -287,7 +290,9 @@ def run(options):
         os.makedirs(options.out, exist_ok=True)
     except OSError as error:
         raise scripting.Failure(f"cannot write {options.out}: {error.strerror}") from None
-    scenes = min(options.scenes, QUICK) if options.quick else options.scenes
+    scenes, copies, bins, trials = options.scenes, options.copies, cell.BINS, stage.TRIALS
+    if options.quick:
+        scenes, copies, bins, trials = min(scenes, QUICK), min(copies, QUICK_COPIES), 1, 1
     tables = list(TABLES) if options.all else options.table or []
     picking = options.all or 9 in tables
     tables = [number for number in tables if number != 9]
@@ -306,7 +311,7 @@ def run(options):
     # Of the dataset as many scenes as there are.
     rows = [row for row in rows if row["source"] != "tohoku" or os.path.exists(
         os.path.join(options.tohoku, f"Part_{row['part'][-1]}", "Results", f"trans{row['seed']}.txt"))]
-    measure(rows, done, Scenes(options.out, options.copies, options.tohoku), options.threads)
+    measure(rows, done, Scenes(options.out, copies, options.tohoku), options.threads)
     wanted = {tuple(row[name] for name in RUN) for row in rows}
     of_these = [row for row in done.rows if tuple(row[name] for name in RUN) in wanted]
     for number in tables:
@@ -314,9 +319,8 @@ def run(options):
         if TABLES[number].value is rate and len(TABLES[number].methods) > 1:
             print(details(number, of_these, options.out), flush=True)
     if picking:
-        print(cell.run(options.out, [PARTS[0]], [simulation.SENSORS[0]], "cup", min(cell.BINS, scenes), cell.COPIES,
+        print(cell.run(options.out, [PARTS[0]], [simulation.SENSORS[0]], "cup", min(bins, scenes), cell.COPIES,
                        options.seed, options.threads), flush=True)
     if options.all or options.figure:
-        print(stage.run(options.out, PARTS[0], options.preset, options.threads, options.seed,
-                        QUICK if options.quick else stage.TRIALS), flush=True)
+        print(stage.run(options.out, PARTS[0], options.preset, options.threads, options.seed, trials), flush=True)
     return sum(row["failure"] != "" for row in of_these)

@@ -150,6 +150,13 @@ for name in ("back.csv", "matrices"):
     figures, recalled = again.stdout.splitlines()[1].split(), again.stdout.splitlines()[4]
     where = slice(1, 9 if name == "back.csv" else 7)  # AP is of the order of all
     check(figures[where] == lines[1].split()[where] and recalled == lines[at + 1], f"{name}: {again.stdout} {done.stdout}")
+with open("other.csv", "w", encoding="utf-8") as file:  # of another part
+    file.write(open("back.csv", encoding="utf-8").read().replace(",0,1,", ",0,7,"))
+os.makedirs("empty")
+for name, words in (("other.csv", "its objects are 7"), ("empty", "folders such as obj_000001")):
+    done = script("evaluate.py", "bop", "plates", "--found", name)
+    check(done.returncode == 1 and done.stderr == f"evaluate.py: {name} has no poses of object 1: {words if name == 'other.csv' else 'it needs ' + words}\n",
+          done.stderr)
 done = script("evaluate.py", "bop", "plates", "--found", "nowhere")
 check(done.returncode == 1 and done.stderr == "evaluate.py: cannot read nowhere: No such file or directory\n", done.stderr)
 

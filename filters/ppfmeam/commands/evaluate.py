@@ -84,6 +84,9 @@ def print_stages(rows):
 def tohoku(options):
     """Part by part; returns how many scenes failed."""
     rows, failures = [], 0
+    for part in options.parts if options.found else ():
+        if not os.path.isdir(os.path.join(options.found, f"Part_{part}")):
+            raise scripting.Failure(f"{options.found} has no folder Part_{part} with the poses of part {part}: choose --parts that it has")
     print("part  " + COLUMNS)
     for part in options.parts:
         row, failed = run_part(part, options)
@@ -115,9 +118,10 @@ def bop(options):
     if options.out:
         scripting.require_folder_of(options.out)
     data = dataset.Dataset(options.folder, options.split)
-    stored = options.found and dataset.Found(options.found)
+    objects = options.objects or data.objects()
+    stored = options.found and dataset.Found(options.found, objects)
     runs, benchmark = {}, {}
-    for number in options.objects or data.objects():
+    for number in objects:
         model, mesh = data.train(number, options.preset, options.features), data.mesh(number)
         runs[number] = evaluation_of(model, mesh, options, options.features)
         benchmark[number] = dataset.BOPFigures(mesh, model)
