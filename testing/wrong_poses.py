@@ -15,7 +15,6 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 from ppfmeam import chains, evaluation, filters, paper, scripting, simulation
 
 POSES = 5
-COPIES = 20
 HALF_TURN = 150  # degrees
 METHODS = ("original PPF", "original PPF, judged by evidence", "PPF-MEAM as in the paper")
 WHERE = ("right", "half a turn", "another turn", "on the bin", "elsewhere", "missing")
@@ -81,7 +80,7 @@ def main():
     data, bins, *scenes = sys.argv[1:]
     scenes = int(scenes[0]) if scenes else 5
     print("| scenes | method | " + " | ".join(WHERE) + " |\n|" + "---|" * (2 + len(WHERE)))
-    simulated = simulation.Bins(COPIES, bins)
+    simulated = simulation.Bins(paper.COPIES, bins)
 
     def scene_of(part, number):
         if part.startswith("tohoku"):

@@ -21,7 +21,8 @@ METHODS = {"recommended": "PPF-MEAM, recommended", "paper": "PPF-MEAM as in the 
            "ppf": "original PPF", "b2b": "B2B"}
 VIEWS = (1, 2, 6, 14, 26)
 EDGE_TOLERANCE = 0.01  # of the diameter: an edge point so far behind what is measured there is hidden
-RUN = ("source", "part", "method", "views", "seed")  # a search in a scene
+COPIES = 20  # in a bin
+RUN = ("source", "part", "method", "views", "seed", "copies")  # a search in a scene
 OUTCOMES = ("right", "duplicate", "wrong turn", "wrong place")  # of a pose, by vtkMEAMPoseEvaluation's numbers
 ROW = (*RUN, "poses", *OUTCOMES, "asked", *dataset.BIN_FIGURES, "ms", "failure")
 
@@ -163,7 +164,7 @@ def seen(edges, truth, scan):
     return cloud
 
 
-def planned(tables, scenes, first):
+def planned(tables, scenes, first, copies=COPIES):
     """The searches that the tables need, those of one model one after the other."""
     rows = {}
     for number in tables:
@@ -172,7 +173,8 @@ def planned(tables, scenes, first):
             for _, where in table.columns:
                 for seed in range(first, first + scenes):
                     at = seed - first if table.source == "tohoku" else seed
-                    row = {"source": table.source, "method": method, "seed": str(at), **where}
+                    row = {"source": table.source, "method": method, "seed": str(at),
+                           "copies": "" if table.source == "tohoku" else str(copies), **where}
                     rows[tuple(row[name] for name in RUN)] = row
     return sorted(rows.values(), key=lambda row: (row["part"], row["method"], int(row["views"]), row["source"], int(row["seed"])))
 
@@ -277,7 +279,7 @@ def add_parser(datasets, shared):
                      help=f"to see it run: no more than {QUICK} scenes of each part and {QUICK_COPIES} copies, one bin of Table 9 and one "
                           "trial of Figure 13")
     one.add_argument("--seed", type=scripting.count, default=1, help="of the first bin, the next has the next one")
-    one.add_argument("--copies", type=scripting.count, default=20, help="in a bin (default: %(default)s)")
+    one.add_argument("--copies", type=scripting.count, default=COPIES, help="in a bin (default: %(default)s)")
     one.add_argument("--tohoku", metavar="DIR", help="where the Tohoku dataset is, for tables 7 and 8")
     one.add_argument("--out", metavar="DIR", required=True,
                      help="write there paper.csv, a row for each scene, from which a run goes on that was stopped; of each table "
@@ -307,7 +309,7 @@ def run(options):
     elif not options.all or os.path.isdir(options.tohoku):
         scripting.require_file(os.path.join(options.tohoku, "Part_1", "Part_1.STL"))
     done = world.Lines(os.path.join(options.out, "paper.csv"), ROW)
-    rows = planned(tables, scenes, options.seed)
+    rows = planned(tables, scenes, options.seed, copies)
     # Of the dataset as many scenes as there are.
     rows = [row for row in rows if row["source"] != "tohoku" or os.path.exists(
         os.path.join(options.tohoku, f"Part_{row['part'][-1]}", "Results", f"trans{row['seed']}.txt"))]

@@ -25,6 +25,8 @@ check(math.isnan(paper.rate([])) and math.isnan(paper.milliseconds([])), "nothin
 # Table 1 is four parts by three methods; 2 is of the same scenes; of 5 and 6 some are the same.
 check(len(paper.planned([1], 30, 1)) == len(paper.planned([1, 2], 30, 1)) == 4 * 3 * 30, "scenes of tables 1 and 2")
 check(len(paper.planned([3], 2, 1)) == 24 and len(paper.planned([3, 4, 5, 6], 2, 1)) == 24 + 8 + 4, "scenes of tables 3 to 6")
+check(not {tuple(row[name] for name in paper.RUN) for row in paper.planned([1], 2, 1, 8)}
+      & {tuple(row[name] for name in paper.RUN) for row in paper.planned([1], 2, 1)}, "bins of fewer copies are others")
 check({row["seed"] for row in paper.planned([7], 2, 1)} == {"0", "1"}, "scenes of a dataset count from 0")
 
 # A camera of 100 pixels at 100 mm: of four edge points one lies behind what is measured at its pixel, one beside the scan.
@@ -59,7 +61,7 @@ check(numpy.allclose(turned[:3, :3] @ middle + turned[:3, 3], middle), "a turn m
 
 # A search, the table of it, and a run that has nothing left to do.
 with tempfile.TemporaryDirectory() as folder:
-    rows = [row for row in paper.planned([6], 1, 1) if row["method"] == "recommended"]
+    rows = [row for row in paper.planned([6], 1, 1, 4) if row["method"] == "recommended"]
     check(len(rows) == 1, f"{rows}")
     done = world.Lines(os.path.join(folder, "paper.csv"), paper.ROW)
     paper.measure(rows, done, paper.Scenes(folder, 4, None), 0)
@@ -94,7 +96,7 @@ TABLE = paper.Figure("A table", "image", paper.by_part([("D", "hole_plate")]), (
 with tempfile.TemporaryDirectory() as folder:
     os.makedirs(os.path.join(folder, "stopped"))
     paper.TABLES[0] = TABLE
-    rows, scenes = paper.planned([0], 2, 1), paper.Scenes(folder, 3, None)
+    rows, scenes = paper.planned([0], 2, 1, 3), paper.Scenes(folder, 3, None)
     whole = world.Lines(os.path.join(folder, "paper.csv"), paper.ROW)
     paper.measure(rows, whole, scenes, 0)
     check([row["failure"] for row in whole.rows] == [""] * 4, f"{whole.rows}")
