@@ -249,7 +249,13 @@ def wrong_poses(commands):
                            path_of("OUT/paper/bins"), "5"], stdout=subprocess.PIPE, text=True, check=True).stdout
     return ("Where the five best poses of a scene go, five scenes of each part. *Half a turn*: right place, turned by more than 150 degrees; "
             "*on the bin*: most of the part's vertices are where the sensor sees the bin; *evidence*: what our verification says of the "
-            "candidates in place of their votes.\n\n" + told.strip())
+            "candidates in place of their votes.\n\n" + told.strip() + "\n\n"
+            "Votes say what fits and never what does not. The bin's floor and walls are planes as most faces of these parts are, so the pair "
+            "feature's best poses lie on them; where the bin is taken out they lie at a part, and most are turned by half: pairs of normals "
+            "fit both faces of a thin plate, both ways round, and the holes and outlines that tell them apart make no pairs. What evidence "
+            "cannot mend its candidates do not hold. The preset `Paper` has no bin's plane to fit; in bins 1 to 4 of `flap`, where most of "
+            "its misplaced poses are, these stand tilted in another copy, by 33 to 90 degrees, on one or two of its long edges: about half of "
+            "their edge points fit, which is its whole judgement, and no surface speaks against them.")
 
 
 def cell(commands):
