@@ -158,5 +158,5 @@ if "--long" in sys.argv:
         files = set(os.listdir(folder))
         expected = {f"table{number}.{form}" for number in (1, 2, 3, 4, 5, 6) for form in ("md", "csv")} | {"table9.md", "figure13.md", "figure13.csv"}
         check(expected <= files, f"{expected - files} are missing")
-        check(f"{90} of {90}: " in done.stderr and "Table 9." in done.stdout and "Figure 13." in done.stdout, done.stderr)
+        check("84 of 84: " in done.stderr and "Table 9." in done.stdout and "Figure 13." in done.stdout, done.stderr)
         print(f"{time.time() - start:.0f} s")
