@@ -4,6 +4,7 @@ calibration.py. With --long more of their choices."""
 import csv
 import math
 import os
+import shutil
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -39,6 +40,19 @@ check(result.returncode == 1 and "scene 1: cannot read" in result.stderr and "1 
 rows = list(csv.DictReader(read("result/tohoku.csv").splitlines()))
 check(math.isclose(float(rows[0]["strict"]), float(row["strict"]) / 2), "the missing scene counts")
 check(os.listdir("result/Part_1") == ["trans0.txt"], "there is no file for the missing scene")
+# True poses that are not of the scene, and poses of another program that are not there.
+for name in ("Scene", "Scene_boundary"):
+    shutil.copy(f"data/Part_1/Scenes/{name}0.pcd", f"data/Part_1/Scenes/{name}1.pcd")
+away = up @ true
+away[:, :3, 3] += (40, 40, 20)
+writer = connect(vtkMEAMPoseWriter(), poses(*[tuple(t.ravel()) for t in away]))
+writer.SetFileName("data/Part_1/Results/trans1.txt")
+writer.Write()
+result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "1")
+check(result.returncode == 1 and "scene 1: the true poses fit" in result.stderr and "another part or another scene" in result.stderr, result.stderr)
+text = works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--found", "result")
+check(text.splitlines()[1].split()[4] == f"{float(row['strict']):.1f}", "our own poses, judged again")
+refuses("result has no folder Part_2 with the poses of part 2", "evaluate.py", "tohoku", "data", "--parts", "2", "--found", "result")
 # Noise: the same again with the same one.
 noisy = [works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--noise", noise,
                "--out", "noisy") and read("noisy/Part_1/trans0.txt") for noise in ("0.2", "0.2", "0.1%")]
