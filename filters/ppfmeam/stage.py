@@ -90,7 +90,7 @@ def run(folder, part, preset, threads, first, trials=TRIALS):
             if before is not None and after is not None:
                 asked = {"distance" if unit == "mm" else "degrees": amount}
                 measured[unit, amount].append(errors(before, after, stage.middle, **asked))
-    lines = [f"Figure 13. Relative errors of a {part} that is moved and turned by known amounts, {trials} trials, preset {preset}.", "",
+    lines = [f"Figure 13. Relative errors of a {part} that is moved and turned by known amounts, {trials} trial{'s' if trials > 1 else ''}, preset {preset}.", "",
              "| step | found in | mean error | largest |", "|---|---|---|---|"]
     rows = ["unit,step,found,mean,largest"]
     for unit, amount in steps:
