@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseEvaluation.h"
 
+#include "evaluation/BOPEvaluation.h"
 #include "evaluation/PoseEvaluation.h"
 #include "vtkMEAMArrays.h"
+#include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
@@ -18,6 +20,8 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+
+#include <optional>
 
 vtkStandardNewMacro(vtkMEAMPoseEvaluation);
 
@@ -63,7 +67,7 @@ private:
 
 vtkMEAMPoseEvaluation::vtkMEAMPoseEvaluation()
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
   this->SetNumberOfOutputPorts(3);
 }
 
@@ -75,9 +79,9 @@ int vtkMEAMPoseEvaluation::FillOutputPortInformation(int port, vtkInformation* i
 
 int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == 2)
+  if (port >= 2)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataObject" : "vtkPolyData");
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     return 1;
   }
@@ -130,6 +134,13 @@ int vtkMEAMPoseEvaluation::RequestData(
       settings.axis = Eigen::Map<const Eigen::Vector3d>(this->Axis);
       settings.minimumVisibleFraction = this->MinimumVisibleFraction;
 
+      vtkPolyData* mesh = vtkPolyData::GetData(inputVector[3]);
+      std::optional<meam::BOPEvaluation> benchmark;
+      if (mesh)
+      {
+        benchmark.emplace(toMesh(mesh), settings.symmetries, settings.diameter);
+      }
+      meam::BOPRanking ranking;
       meam::EvaluationTotals totals;
       Columns<7, 5> ofPoses(output, { "Scene", "Rank", "Right", "Duplicate", "Instance", "NearestInstance", "Outcome" },
         { "Score", "TranslationError", "RotationError", "AxisError", "RollError" });
@@ -145,6 +156,10 @@ int vtkMEAMPoseEvaluation::RequestData(
         const meam::Poses truths = toPoses(vtkPolyData::GetData(inputVector[1], i));
         const meam::SceneEvaluation scene = meam::evaluatePoses(estimates, truths, settings);
         totals.add(scene);
+        if (benchmark)
+        {
+          ranking.add(benchmark->ranking(estimates, truths));
+        }
         for (std::size_t k = 0; k < estimates.size(); ++k)
         {
           const meam::PoseJudgement& judgement = scene.judgements[k];
@@ -177,6 +192,10 @@ int vtkMEAMPoseEvaluation::RequestData(
       setFieldValue(output, "Recall", figures.recall);
       setFieldValue(output, "AveragePrecision", figures.averagePrecision);
       setFieldValue(output, "RecallAtPrecision99", figures.recallAtPrecision99);
+      if (benchmark)
+      {
+        setFieldValue(output, "AveragePrecisionMSSD", ranking.averagePrecision());
+      }
       setFieldValue(output, "MeanTranslationError", figures.meanTranslationError);
       setFieldValue(output, "MedianTranslationError", figures.medianTranslationError);
       setFieldValue(output, "MeanRotationError", figures.meanRotationError);

@@ -16,6 +16,7 @@
  * Input port 2 (optional): the part's samples from vtkMEAMSymmetryDetection, or its trained model. Of poses that are
  * equal under the part's exact symmetries the one nearest to the true pose is judged, and translation errors are
  * displacements of the part's middle. Without it they are those of the origin, which may lie far from the part.
+ * Input port 3 (optional): the part's mesh in the frame of the poses, mm, for `AveragePrecisionMSSD`.
  *
  * Output port 0: a vtkTable with a row for each estimated pose, and the columns `Scene` (from 0), `Rank`,
  * `Score`, `Right` (0 or 1), `Duplicate` (1: a better pose has found the same instance), `Instance`
@@ -24,8 +25,10 @@
  * 1 duplicate, 2 wrong turn: near enough but turned too far, 3 wrong place). Field data: `PaperRate` (right / poses
  * that came out), `StrictRate` (distinct right poses / poses asked for), `Top1Rate`, `Recall`, `AveragePrecision` and
  * `RecallAtPrecision99` (by the likeliest poses, as long as 99 % of them are right) in %, the last three of all poses,
- * not only those asked for; `MeanTranslationError`, `MedianTranslationError` (mm), `MeanRotationError`,
- * `MedianRotationError`, `MedianAxisError`, `MedianRollError` (degrees) of the right poses; `Scenes`, `Poses` (judged).
+ * not only those asked for; with a mesh `AveragePrecisionMSSD` (%, as the BOP benchmark has it for industrial parts:
+ * the mean over MSSD less than 2, 4, ..., 20 mm, of copies of which at least a tenth is visible);
+ * `MeanTranslationError`, `MedianTranslationError` (mm), `MeanRotationError`, `MedianRotationError`, `MedianAxisError`,
+ * `MedianRollError` (degrees) of the right poses; `Scenes`, `Poses` (judged).
  *
  * Output port 1: a vtkTable with a row for each true instance, and the columns `Scene`, `Instance`, `HasToBeFound` (1:
  * it is visible enough), `FoundBy` (rank of the first pose that found it, 0: missed), `NearestRank` (of the pose whose

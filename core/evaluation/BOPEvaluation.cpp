@@ -185,6 +185,18 @@ struct BOPEvaluation::Impl
     return least;
   }
 
+  double mssd(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) const
+  {
+    return this->largest(
+      estimate, truth, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); });
+  }
+
+  /// False when no vertex of one is within `reach` (mm) of a vertex of the other.
+  bool mayBeWithin(double reach, const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) const
+  {
+    return (estimate * this->middle - truth * this->middle).norm() < 2.0 * this->radius + reach;
+  }
+
   double mspd(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const Camera& camera) const
   {
     return this->largest(estimate, truth,
@@ -282,8 +294,7 @@ struct BOPEvaluation::Impl
     BOPErrors result;
     result.add = this->add(estimate, truth);
     result.adi = this->adi(estimate, truth);
-    result.mssd =
-      this->largest(estimate, truth, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); });
+    result.mssd = this->mssd(estimate, truth);
     result.mspd = this->mspd(estimate, truth, camera);
     result.vsd = this->vsd(ofEstimate, ofTruth, measured, camera);
     return result;
@@ -302,19 +313,32 @@ std::vector<float> distancesOf(const OrganizedCloud& scan)
   return distances;
 }
 
-/// How many targets are found: error(e, t) < threshold.
-template <typename ErrorOf>
-int found(int estimates, const std::vector<char>& isTarget, double threshold, ErrorOf&& errorOf)
+/// Whether each true pose has to be found.
+std::vector<char> targetsOf(const Poses& truths)
 {
-  std::vector<char> taken(isTarget.size(), 0);
-  int count = 0;
+  const bool isVisibilityKnown =
+    std::any_of(truths.begin(), truths.end(), [](const Pose& pose) { return pose.visibleFraction > 0.0; });
+  std::vector<char> isTarget;
+  for (const Pose& truth : truths)
+  {
+    isTarget.push_back(!isVisibilityKnown || truth.visibleFraction >= VisibleShare ? 1 : 0);
+  }
+  return isTarget;
+}
+
+/// Of each estimate the true pose that it takes, error(e, t) < threshold, among those that may be taken; or -1.
+template <typename ErrorOf>
+std::vector<int> matches(int estimates, const std::vector<char>& mayBeTaken, double threshold, ErrorOf&& errorOf)
+{
+  std::vector<char> isFree = mayBeTaken;
+  std::vector<int> matched;
   for (int e = 0; e < estimates; ++e)
   {
     int best = -1;
     double least = threshold;
-    for (std::size_t t = 0; t < taken.size(); ++t)
+    for (std::size_t t = 0; t < isFree.size(); ++t)
     {
-      if (isTarget[t] && !taken[t] && errorOf(e, t) < least)
+      if (isFree[t] && errorOf(e, t) < least)
       {
         least = errorOf(e, t);
         best = static_cast<int>(t);
@@ -322,11 +346,19 @@ int found(int estimates, const std::vector<char>& isTarget, double threshold, Er
     }
     if (best >= 0)
     {
-      taken[best] = 1;
-      ++count;
+      isFree[best] = 0;
     }
+    matched.push_back(best);
   }
-  return count;
+  return matched;
+}
+
+/// How many targets are found.
+template <typename ErrorOf>
+int found(int estimates, const std::vector<char>& isTarget, double threshold, ErrorOf&& errorOf)
+{
+  const std::vector<int> matched = matches(estimates, isTarget, threshold, errorOf);
+  return static_cast<int>(std::count_if(matched.begin(), matched.end(), [](int t) { return t >= 0; }));
 }
 }
 
@@ -388,14 +420,8 @@ BOPRecall BOPEvaluation::recall(
   const Poses& estimates, const Poses& truths, const OrganizedCloud& scan, const Progress& progress) const
 {
   BOPRecall recall;
-  const bool isVisibilityKnown =
-    std::any_of(truths.begin(), truths.end(), [](const Pose& pose) { return pose.visibleFraction > 0.0; });
-  std::vector<char> isTarget;
-  for (const Pose& truth : truths)
-  {
-    isTarget.push_back(!isVisibilityKnown || truth.visibleFraction >= VisibleShare ? 1 : 0);
-    recall.targets += isTarget.back();
-  }
+  const std::vector<char> isTarget = targetsOf(truths);
+  recall.targets = static_cast<int>(std::count(isTarget.begin(), isTarget.end(), 1));
   const int count = std::min(static_cast<int>(estimates.size()), recall.targets);
   if (count == 0)
   {
@@ -410,7 +436,7 @@ BOPRecall BOPEvaluation::recall(
   }
   // So far apart no threshold of a distance is met; on the image they may still be in the same place.
   const Impl& part = *this->Data;
-  const double far = 2.0 * part.radius + bopThreshold(BOPThresholds - 1) * part.diameter;
+  const double reach = bopThreshold(BOPThresholds - 1) * part.diameter;
   BOPErrors none;
   none.add = none.adi = none.mssd = Infinity;
   none.vsd.fill(1.0);
@@ -423,7 +449,7 @@ BOPRecall BOPEvaluation::recall(
     for (std::size_t t = 0; t < truths.size(); ++t)
     {
       const Eigen::Isometry3d& truth = truths[t].T_scene_model;
-      if ((T * part.middle - truth * part.middle).norm() < far)
+      if (part.mayBeWithin(reach, T, truth))
       {
         errors[e][t] = part.errors(T, truth, rendering, renderings[t], measured, camera);
       }
@@ -449,5 +475,55 @@ BOPRecall BOPEvaluation::recall(
     recall.vsd[k] /= BOPThresholds;
   }
   return recall;
+}
+
+BOPRanking BOPEvaluation::ranking(const Poses& estimates, const Poses& truths) const
+{
+  const Impl& part = *this->Data;
+  const double reach = bopMillimeters(BOPThresholds - 1);
+  std::vector<std::vector<double>> errors(estimates.size(), std::vector<double>(truths.size(), Infinity));
+  for (std::size_t e = 0; e < estimates.size(); ++e)
+  {
+    for (std::size_t t = 0; t < truths.size(); ++t)
+    {
+      const Eigen::Isometry3d &T = estimates[e].T_scene_model, &truth = truths[t].T_scene_model;
+      errors[e][t] = part.mayBeWithin(reach, T, truth) ? part.mssd(T, truth) : Infinity;
+    }
+  }
+  const std::vector<char> isTarget = targetsOf(truths), every(truths.size(), 1);
+  BOPRanking ranking;
+  ranking.targets = static_cast<int>(std::count(isTarget.begin(), isTarget.end(), 1));
+  for (int k = 0; k < BOPThresholds; ++k)
+  {
+    const std::vector<int> matched = matches(
+      static_cast<int>(estimates.size()), every, bopMillimeters(k), [&](int e, std::size_t t) { return errors[e][t]; });
+    for (std::size_t e = 0; e < estimates.size(); ++e)
+    {
+      if (matched[e] < 0 || isTarget[matched[e]])
+      {
+        ranking.poses[k].emplace_back(probabilityOrScore(estimates[e]), matched[e] >= 0);
+      }
+    }
+  }
+  return ranking;
+}
+
+void BOPRanking::add(const BOPRanking& image)
+{
+  this->targets += image.targets;
+  for (int k = 0; k < BOPThresholds; ++k)
+  {
+    this->poses[k].insert(this->poses[k].end(), image.poses[k].begin(), image.poses[k].end());
+  }
+}
+
+double BOPRanking::averagePrecision() const
+{
+  double sum = 0.0;
+  for (const Ranking& ranking : this->poses)
+  {
+    sum += meam::averagePrecision(ranking, this->targets);
+  }
+  return sum / BOPThresholds;
 }
 }

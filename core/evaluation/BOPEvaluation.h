@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "base/Error.h"
+#include "evaluation/PoseEvaluation.h"
 #include "mesh/Symmetries.h"
 #include "mesh/TriangleMesh.h"
 #include "pose/Pose.h"
@@ -16,6 +17,9 @@ namespace meam
 /// of an image that is 640 wide.
 constexpr int BOPThresholds = 10;
 inline double bopThreshold(int k) { return 0.05 * (k + 1); }
+
+/// Thresholds of MSSD (mm) for industrial parts (BOP Challenge 2025): 2 to 20.
+inline double bopMillimeters(int k) { return 2.0 * (k + 1); }
 
 /// The pose errors of the BOP benchmark (Hodan et al., BOP Challenge 2020, Section 2.2; ADD and ADI: Hinterstoisser et
 /// al. 2012) between an estimated pose and a true one.
@@ -39,6 +43,17 @@ struct BOPRecall
   Counts vsd{}; ///< mean over the tolerances of the distance
 };
 
+/// Of an object over images: how its poses rank at MSSD less than bopMillimeters(k). Poses of copies of which less than
+/// a tenth is visible are left out.
+struct BOPRanking
+{
+  int targets = 0; ///< copies of which at least a tenth is visible
+  std::array<Ranking, BOPThresholds> poses;
+
+  void add(const BOPRanking& image);
+  double averagePrecision() const; ///< %, mean over the thresholds; NaN without targets
+};
+
 /// Evaluates poses of one part. Calls may run in parallel.
 class BOPEvaluation
 {
@@ -55,6 +70,10 @@ public:
   /// has taken, the nearest by the error in question.
   BOPRecall recall(
     const Poses& estimates, const Poses& truths, const OrganizedCloud& scan, const Progress& progress = {}) const;
+
+  /// All estimates of an image, best first, without looking at a scan. Each takes, of the copies that no better one has
+  /// taken, the nearest.
+  BOPRanking ranking(const Poses& estimates, const Poses& truths) const;
 
 private:
   struct Impl;

@@ -139,8 +139,21 @@ double median(std::vector<double> values)
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-/// In %: the mean over the recalls 0, 0.01, ..., 1 of the best precision at that recall or more.
-double averagePrecision(std::vector<std::pair<double, bool>> ranking, int instances)
+/// In %: instances found by the most likely poses, as many of these as may be with 99 of 100 right.
+double recallAtPrecision99(Ranking ranking, int instances)
+{
+  std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  int right = 0, most = 0;
+  for (std::size_t i = 0; i < ranking.size(); ++i)
+  {
+    right += ranking[i].second ? 1 : 0;
+    most = 100 * right >= 99 * static_cast<int>(i + 1) ? right : most;
+  }
+  return percent(most, instances);
+}
+}
+
+double averagePrecision(Ranking ranking, int instances)
 {
   if (instances == 0)
   {
@@ -168,20 +181,6 @@ double averagePrecision(std::vector<std::pair<double, bool>> ranking, int instan
     sum += found <= precisions.size() ? precisions[found - 1] : 0.0;
   }
   return 100.0 * sum / 101.0;
-}
-
-/// In %: instances found by the most likely poses, as many of these as may be with 99 of 100 right.
-double recallAtPrecision99(std::vector<std::pair<double, bool>> ranking, int instances)
-{
-  std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  int right = 0, most = 0;
-  for (std::size_t i = 0; i < ranking.size(); ++i)
-  {
-    right += ranking[i].second ? 1 : 0;
-    most = 100 * right >= 99 * static_cast<int>(i + 1) ? right : most;
-  }
-  return percent(most, instances);
-}
 }
 
 SceneEvaluation evaluatePoses(const Poses& estimates, const Poses& truths, const PoseEvaluationSettings& settings)

@@ -58,15 +58,19 @@ struct InstanceJudgement
   double rotationError;    ///< degrees
 };
 
+/// Confidences of poses, and whether each is the first for an instance that has to be found.
+using Ranking = std::vector<std::pair<double, bool>>;
+
+/// In %: the mean over the recalls 0, 0.01, ..., 1 of the best precision at that recall or more; NaN without instances.
+double averagePrecision(Ranking ranking, int instances);
+
 struct SceneEvaluation
 {
   std::vector<PoseJudgement> judgements;    ///< of each estimate, in its order
   std::vector<InstanceJudgement> instances; ///< of each true pose, in its order
   int asked = 0;                            ///< poses that count for the rates below
   int visibleInstances = 0;                 ///< true instances that have to be found
-  /// Confidence of each estimate, and whether it is the first for an instance that has to be found.
-  /// Poses of instances that are too hidden to count are left out.
-  std::vector<std::pair<double, bool>> ranking;
+  Ranking ranking;                          ///< without poses of instances that are too hidden to count
 };
 
 /// Compares the poses of a scene, best first, with the true ones (paper, Section 6.3). A true pose
@@ -88,7 +92,7 @@ struct EvaluationTotals
   std::vector<double> rotationErrors;
   std::vector<double> axisErrors;
   std::vector<double> rollErrors;
-  std::vector<std::pair<double, bool>> ranking;
+  Ranking ranking;
 
   void add(const SceneEvaluation& scene);
 };

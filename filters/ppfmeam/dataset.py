@@ -3,6 +3,9 @@
 import csv
 import os
 
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkFiltersCore import vtkThresholdPoints
@@ -10,6 +13,17 @@ from vtkmodules.vtkFiltersCore import vtkThresholdPoints
 from . import filters, scripting
 
 BESIDE = ("rgb_beside", "gray_beside")  # images of the camera of image_camera.json, where the sensor has none
+
+
+def points_where(points, name, value):
+    """Those whose array has the value."""
+    if not points.GetNumberOfPoints():
+        return points
+    threshold = vtkThresholdPoints()
+    threshold.SetInputData(points)
+    threshold.SetInputArrayToProcess(0, 0, 0, vtkPolyData.FIELD_ASSOCIATION_POINTS, name)
+    threshold.ThresholdBetween(value, value)
+    return scripting.update(threshold).GetOutput()
 
 
 class Image:
@@ -27,13 +41,7 @@ class Image:
 
     def truth_of(self, number):
         """The true poses of an object; no points where it is not in the image or nothing is known of it."""
-        if self.truth.GetNumberOfPoints() == 0:
-            return self.truth
-        objects = vtkThresholdPoints()
-        objects.SetInputData(self.truth)
-        objects.SetInputArrayToProcess(0, 0, 0, vtkPolyData.FIELD_ASSOCIATION_POINTS, "ObjectId")
-        objects.ThresholdBetween(number, number)
-        return scripting.update(objects).GetOutput()
+        return points_where(self.truth, "ObjectId", number)
 
 
 class Dataset:
@@ -105,7 +113,7 @@ BOP_FIGURES = ("ADD", "ADI", "MSSD", "MSPD", "VSD")
 
 
 class BOPFigures:
-    """Recalls of an object over images as the benchmark measures them."""
+    """Recalls of a part over images as the benchmark measures them."""
 
     def __init__(self, mesh, model):
         self.judge = filters.vtkMEAMBOPEvaluation()
@@ -114,11 +122,11 @@ class BOPFigures:
         self.targets = 0
         self.found = {name: [] for name in BOP_FIGURES}  # of each image, at each threshold
 
-    def add(self, poses, image, truth):
+    def add(self, poses, truth, scan):
         """The poses found in an image and the true ones."""
         self.judge.SetInputDataObject(0, poses)
         self.judge.SetInputDataObject(1, truth)
-        self.judge.SetInputDataObject(3, image.scan)
+        self.judge.SetInputDataObject(3, scan)
         table = scripting.update(self.judge).GetOutput()
         self.targets += int(scripting.field(table, "Targets"))
         for name, counts in self.found.items():
@@ -136,6 +144,83 @@ class BOPFigures:
         recalls["AR"] = sum(recalls[name] for name in ("MSSD", "MSPD", "VSD")) / 3
         return recalls
 
+    def row(self, precision):
+        """BIN_FIGURES as words, with the AP at 2 to 20 mm; empty ones where no copy had to be found."""
+        if not self.targets:
+            return {"targets": 0}
+        return {"targets": self.targets, **{name: f"{value:.2f}" for name, value in self.recalls().items()},
+                "AP2-20": f"{precision:.2f}"}
+
+
+def pose_array(name, values):
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    return array
+
+
+def stored_poses(path):
+    """The poses of a scene that another program has left in a file, best first; none where there is no file, or an empty
+    one. Where they have no scores, the first of every scene are the likeliest."""
+    if not os.path.exists(path) or not os.path.getsize(path):
+        return vtkPolyData()
+    poses = scripting.read_with(filters.vtkMEAMPoseReader(), path)
+    if not poses.GetPointData().HasArray("Score"):
+        poses.GetPointData().AddArray(pose_array("Score", 1 / numpy.arange(1.0, poses.GetNumberOfPoints() + 1)))
+    return poses
+
+
+def by_score(poses):
+    """The poses, best first."""
+    arrays = poses.GetPointData()
+    if not arrays.HasArray("Score"):
+        return poses
+    order = numpy.argsort(-vtk_to_numpy(arrays.GetArray("Score")), kind="stable")
+    result = vtkPolyData()
+    result.SetPoints(vtkPoints())
+    result.GetPoints().SetData(numpy_to_vtk(vtk_to_numpy(poses.GetPoints().GetData())[order], deep=True))
+    for k in range(arrays.GetNumberOfArrays()):
+        result.GetPointData().AddArray(pose_array(arrays.GetArrayName(k), vtk_to_numpy(arrays.GetArray(k))[order]))
+    return result
+
+
+BIN_FIGURES = ("targets", *BOP_FIGURES, "AR", "AP2-20")  # of a bin; AP2-20 by the ranks in this bin alone
+
+
+def mean_of(rows, name):
+    """One of BIN_FIGURES over bins, by their targets; None without any."""
+    counted = [(int(row["targets"]), float(row[name])) for row in rows if row[name] != ""]
+    targets = sum(count for count, _ in counted)
+    return sum(count * figure for count, figure in counted) / targets if targets else None
+
+
+class Found:
+    """The poses that another program has found in the images of a dataset: a file of BOP results, or a folder of files
+    obj_OOOOOO/SSSSSS_IIIIII.txt of 16 numbers each, best first; none where there is no file."""
+
+    def __init__(self, path, objects):
+        self.folder, self.all = path, None
+        if not os.path.isdir(path):
+            self.folder, self.all = None, scripting.read_with(filters.vtkMEAMPoseReader(), path)
+            known = set(vtk_to_numpy(self.all.GetPointData().GetArray("ObjectId"))) if self.all.GetNumberOfPoints() else set()
+        else:
+            known = {number for number in objects if os.path.isdir(self.folder_of(number))}
+        if not known.intersection(objects):
+            raise scripting.Failure(f"{path} has no poses of object {', '.join(map(str, objects))}: "
+                                    + ("it needs folders such as obj_000001" if self.folder else
+                                       f"its objects are {', '.join(map(str, sorted(known))) or 'none'}"))
+
+    def folder_of(self, number):
+        return os.path.join(self.folder, f"obj_{number:06d}")
+
+    def poses(self, image, number):
+        """Of an object in an image."""
+        if self.folder:
+            return stored_poses(os.path.join(self.folder_of(number), f"{image.scene:06d}_{image.number:06d}.txt"))
+        poses = self.all
+        for name, value in (("SceneId", image.scene), ("ImageId", image.number), ("ObjectId", number)):
+            poses = points_where(poses, name, value)
+        return by_score(poses)
+
 
 class Results:
     """A file of results, written as the rows come."""
@@ -145,14 +230,16 @@ class Results:
         self.writer.writerow(("scene_id", "im_id", "obj_id", "score", "R", "t", "time"))
 
     def add(self, image, found, most):
-        """The poses of each object (number, poses best first) in an image, no more than `most` of each; 0: all."""
+        """The poses of each object (number, poses best first) in an image, no more than `most` of each; 0: all. The score is the
+        probability, by which poses of all images can be ordered, where that is known."""
         seconds = sum(scripting.field(poses, "SecondsTotal") - scripting.field(poses, "SecondsTraining")
                       for poses in found.values())
         for number, poses in found.items():
-            scores, transforms = (poses.GetPointData().GetArray(name) for name in ("Score", "Transform"))
+            scores, probabilities, transforms = (poses.GetPointData().GetArray(name)
+                                                 for name in ("Score", "Probability", "Transform"))
             count = poses.GetNumberOfPoints()
             for i in range(min(count, most) if most else count):
                 T = transforms.GetTuple(i)
                 R, t = (*T[0:3], *T[4:7], *T[8:11]), (T[3], T[7], T[11])
-                self.writer.writerow((image.scene, image.number, number, repr(scores.GetValue(i)),
+                self.writer.writerow((image.scene, image.number, number, repr(probabilities.GetValue(i) or scores.GetValue(i)),
                                       " ".join(map(repr, R)), " ".join(map(repr, t)), repr(seconds)))

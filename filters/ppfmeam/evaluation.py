@@ -15,9 +15,10 @@ from . import chains, filters, scripting
 # mm. Part 3's STL is in another frame than its true poses.
 OFFSETS = {3: (-20.9645, -17.4974, -9.3144)}
 FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "recall": "Recall",
-           "AP": "AveragePrecision", "mm": "MedianTranslationError", "deg": "MedianRotationError",
+           "AP": "AveragePrecision", "AP_mm": "AveragePrecisionMSSD", "mm": "MedianTranslationError", "deg": "MedianRotationError",
            "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
            "mean_deg": "MeanRotationError"}
+LEAST_FIT = 0.5  # median score of true poses: 0.84 and more on their own scenes, 0.13 and less on others
 STAGES = scripting.STAGES[2:-1]
 NOISE_HELP = ("normal noise of every coordinate of the scenes' points: mm, or %% of the part's diameter, such as 0.3 or 1%% "
               "(default: %(default)s)")
@@ -54,14 +55,6 @@ def tohoku_truth(folder, part, scene):
     return scripting.read_with(filters.vtkMEAMPoseReader(), path)
 
 
-def stored_poses(folder, part, scene):
-    """The poses of a scene that another program has found; none where it left no file, or an empty one."""
-    path = os.path.join(folder, f"Part_{part}", f"trans{scene}.txt")
-    if not os.path.exists(path) or not os.path.getsize(path):
-        return vtkPolyData()
-    return scripting.read_with(filters.vtkMEAMPoseReader(), path)
-
-
 def tohoku_clouds(folder, part, scene):
     """The measured surface and the edge points of a scene."""
     names = (f"Scene{scene}.pcd", f"Scene_boundary{scene}.pcd")
@@ -69,14 +62,19 @@ def tohoku_clouds(folder, part, scene):
 
 
 def with_visibility(truth, model, edges, surface):
-    """The true poses with the share of each instance that nothing hides."""
+    """The true poses with the share of each instance that nothing hides. Raises a Failure when they are not of this scene."""
     tangents = filters.vtkMEAMTangentEstimation()
     tangents.SetInputDataObject(edges)
     tangents.SetInputDataObject(1, model)
     verification = filters.vtkMEAMPoseVerification()
     for port, data in enumerate((truth, model, scripting.update(tangents).GetOutputDataObject(0), surface)):
         verification.SetInputDataObject(port, data)
-    return scripting.update(verification).GetOutput()
+    poses = scripting.update(verification).GetOutput()
+    scores = [poses.GetPointData().GetArray("Score").GetValue(i) for i in range(poses.GetNumberOfPoints())]
+    if scores and statistics.median(scores) < LEAST_FIT:
+        raise scripting.Failure(f"the true poses fit {100 * statistics.median(scores):.0f} % of what should be seen of them (median): they "
+                                "are of another part or another scene")
+    return poses
 
 
 def with_noise(clouds, deviation, seed):
@@ -102,7 +100,7 @@ def tohoku_scene(folder, part, scene, model, deviation=0):
 class Evaluation:
     """Finds the poses of scene after scene with a trained model and compares them with the true ones."""
 
-    def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0, references=0, features="both"):
+    def __init__(self, model, preset="recommended", poses_asked_for=5, threads=0, references=0, features="both", mesh=None):
         self.estimation = filters.vtkMEAMPoseEstimation()
         self.estimation.SetInputDataObject(model)
         scripting.set_preset(self.estimation, preset)
@@ -114,6 +112,7 @@ class Evaluation:
         self.judge.SetDiameter(scripting.field(model, "Diameter"))
         self.judge.SetPosesAskedFor(poses_asked_for)
         self.judge.SetInputDataObject(2, model)  # its symmetries
+        self.judge.SetInputDataObject(3, mesh)
         self.times = []
 
     def find(self, surface, edges=None, image=None, camera=None):
@@ -142,13 +141,15 @@ class Evaluation:
         return self.judged("Right")
 
     def figures(self):
-        """Over all scenes: how many poses were judged, FIGURES, and the median ms of a scene and its stages."""
+        """Over all scenes: how many poses were judged, FIGURES (AP_mm with a mesh), and the median ms of a scene and its
+        stages."""
         def median(of):
             return statistics.median(of(times) for times in self.times) if self.times else float("nan")
 
         table = scripting.update(self.judge).GetOutput()
         row = {"poses": int(scripting.field(table, "Poses"))}
-        row.update((name, scripting.field(table, array)) for name, array in FIGURES.items())
+        row.update((name, scripting.field(table, array)) for name, array in FIGURES.items()
+                   if table.GetFieldData().HasArray(array))
         row["ms"] = median(lambda times: times["Total"] - times["Training"])
         row.update((f"{stage}_ms", median(lambda times: times[stage])) for stage in STAGES)
         return row

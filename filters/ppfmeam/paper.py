@@ -10,17 +10,22 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 
-from . import cell, charts, evaluation, filters, scripting, simulation, stage, world
+from . import cell, charts, dataset, evaluation, filters, scripting, simulation, stage, world
 
 PARTS = ("ridged_disc", "arc_lever", "flap", "hole_plate")  # in place of A, B, C and D
 LETTERS = "ABCD"
 POSES = 5  # wanted of a scene
+QUICK = 3  # scenes of each part in a quick run
+QUICK_COPIES = 8
+QUICK_VIEWS = 6  # training with more takes a minute
 METHODS = {"recommended": "PPF-MEAM, recommended", "paper": "PPF-MEAM as in the paper", "without-meam": "B2B-TL without MEAM",
            "ppf": "original PPF", "b2b": "B2B"}
 VIEWS = (1, 2, 6, 14, 26)
 EDGE_TOLERANCE = 0.01  # of the diameter: an edge point so far behind what is measured there is hidden
-RUN = ("source", "part", "method", "views", "seed")  # a search in a scene
-ROW = (*RUN, "poses", "right", "asked", "ms", "failure")
+COPIES = 20  # in a bin
+RUN = ("source", "part", "method", "views", "seed", "copies")  # a search in a scene
+OUTCOMES = ("right", "duplicate", "wrong turn", "wrong place")  # of a pose, by vtkMEAMPoseEvaluation's numbers
+ROW = (*RUN, "poses", *OUTCOMES, "asked", *dataset.BIN_FIGURES, "ms", "failure")
 
 
 class Figure:
@@ -83,7 +88,7 @@ class Scenes:
     def __init__(self, bins, copies, data):
         self.bins, self.data = bins, data
         self.simulated = simulation.Bins(copies, bins and os.path.join(bins, "bins"))
-        self.meshes, self.edges = {}, {}
+        self.meshes, self.models, self.edges = {}, {}, {}
 
     def mesh(self, part):
         if part not in self.meshes:
@@ -91,17 +96,28 @@ class Scenes:
             self.meshes[part] = evaluation.tohoku_mesh(self.data, int(part[-1])) if tohoku else simulation.part_mesh(part)
         return self.meshes[part]
 
+    def model(self, part, method, views):
+        """A trained model; those of a part are kept until another's is asked for."""
+        kind = (part, method, views)
+        if kind not in self.models:
+            self.models = {known: model for known, model in self.models.items() if known[0] == part}
+            training = scripting.Training(self.mesh(part), method)
+            if views != "6":
+                training.views.SetNumberOfViewpoints(int(views))
+            self.models[kind] = training.model()
+        return self.models[kind]
+
     def find(self, run, row):
-        """The poses and the true ones of a row's scene."""
+        """The poses and the true ones of a row's scene, and the scan of a bin with its image."""
         part, seed = row["part"], int(row["seed"])
         if row["source"] == "tohoku":
             truth = evaluation.tohoku_truth(self.data, int(part[-1]), seed)
-            return run.find(*evaluation.tohoku_clouds(self.data, int(part[-1]), seed)), truth
+            return run.find(*evaluation.tohoku_clouds(self.data, int(part[-1]), seed)), truth, None
         scan, truth = self.simulated.scene(part, simulation.SENSORS[0], seed)
         if row["source"] == "image":
-            return run.find(scan), truth
+            return run.find(scan), truth, scan
         exact, edges = self.perfect(part, truth)
-        return run.find(exact, edges), truth
+        return run.find(exact, edges), truth, None
 
     def perfect(self, part, truth):
         """The parts at those true poses, without the bin, as a sensor without any error sees them, and the edge points of
@@ -116,9 +132,7 @@ class Scenes:
         scan.DeepCopy(scripting.update(source).GetOutput())
         vtk_to_numpy(scan.GetPoints().GetData())[vtk_to_numpy(scan.GetPointData().GetArray("Instance")) < 0] = numpy.nan
         if part not in self.edges:
-            training = scripting.Training(self.mesh(part), "paper")
-            scripting.update(training.hashing)
-            self.edges[part] = model_edges(training.hashing.GetOutput())
+            self.edges[part] = model_edges(self.model(part, "paper", "6"))
         return scan, seen(self.edges[part], truth, scan)
 
 
@@ -151,7 +165,7 @@ def seen(edges, truth, scan):
     return cloud
 
 
-def planned(tables, scenes, first):
+def planned(tables, scenes, first, copies=COPIES):
     """The searches that the tables need, those of one model one after the other."""
     rows = {}
     for number in tables:
@@ -160,7 +174,8 @@ def planned(tables, scenes, first):
             for _, where in table.columns:
                 for seed in range(first, first + scenes):
                     at = seed - first if table.source == "tohoku" else seed
-                    row = {"source": table.source, "method": method, "seed": str(at), **where}
+                    row = {"source": table.source, "method": method, "seed": str(at),
+                           "copies": "" if table.source == "tohoku" else str(copies), **where}
                     rows[tuple(row[name] for name in RUN)] = row
     return sorted(rows.values(), key=lambda row: (row["part"], row["method"], int(row["views"]), row["source"], int(row["seed"])))
 
@@ -169,29 +184,24 @@ def belongs(row, table, method, where):
     return row["source"] == table.source and row["method"] == method and all(row[name] == value for name, value in where.items())
 
 
-def trained(mesh, method, views):
-    training = scripting.Training(mesh, method)
-    if int(views) != 6:
-        training.views.SetNumberOfViewpoints(int(views))
-    return training.model()
-
-
 def measure(rows, done, scenes, threads):
     """Runs the searches that are not done; each is a row as soon as it is."""
     known = {tuple(row[name] for name in RUN) for row in done.rows}
     todo = [row for row in rows if tuple(row[name] for name in RUN) not in known]
-    made, model, start = None, None, time.time()
+    start = time.time()
     for count, row in enumerate(todo):
-        kind = (row["part"], row["method"], row["views"])
         result = {**dict.fromkeys(ROW, ""), **row, "asked": POSES}
         try:
-            if made != kind:
-                model, made = trained(scenes.mesh(row["part"]), row["method"], row["views"]), kind
-            run = evaluation.Evaluation(model, row["method"], POSES, threads)
-            poses, truth = scenes.find(run, row)
+            mesh, model = scenes.mesh(row["part"]), scenes.model(row["part"], row["method"], row["views"])
+            run = evaluation.Evaluation(model, row["method"], POSES, threads, mesh=mesh)
+            poses, truth, scan = scenes.find(run, row)
             run.add(poses, truth)
-            right, duplicate = run.judged("Right")[:POSES], run.judged("Duplicate")[:POSES]
-            result.update(poses=len(right), right=int((right * (1 - duplicate)).sum()),
+            if scan:
+                benchmark = dataset.BOPFigures(mesh, model)
+                benchmark.add(poses, truth, scan)
+                result.update(benchmark.row(run.figures()["AP_mm"]))
+            outcomes = run.judged("Outcome")[:POSES].tolist()
+            result.update(poses=len(outcomes), **{name: outcomes.count(kind) for kind, name in enumerate(OUTCOMES)},
                           ms=f"{run.times[0]['Total'] - run.times[0]['Training']:.0f}")
         except scripting.Failure as failure:
             result["failure"] = str(failure)
@@ -200,6 +210,27 @@ def measure(rows, done, scenes, threads):
         print(f"{len(rows) - len(todo) + count + 1} of {len(rows)}: {METHODS[row['method']]}, {row['part']}, {row['source']} scene "
               f"{row['seed']}: {result['failure'] or str(result['right']) + ' right'}; {left / 60:.0f} min left",
               file=sys.stderr, flush=True)
+
+
+def details(number, rows, folder):
+    """What the poses of a table are, and the figures of the BOP benchmark where it has them, in Markdown, which is also
+    written."""
+    table = TABLES[number]
+    figures = dataset.BIN_FIGURES[1:] if table.source == "image" else ()
+    head = ["method", *OUTCOMES, "missing", *figures]
+    lines = [f"The poses of Table {number}, of those asked for"
+             + ("; and the BOP benchmark's recalls over copies of which at least a tenth is visible, AP2-20 by the ranks in each bin."
+                if figures else "."), "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    for method in table.methods:
+        of_method = [row for row in rows for _, where in table.columns if belongs(row, table, method, where)]
+        asked = sum(int(row["asked"]) for row in of_method)
+        shares = [100 * sum(int(row[name] or 0) for row in of_method) / asked if asked else None for name in OUTCOMES]
+        values = [*shares, None if None in shares else 100 - sum(shares), *(dataset.mean_of(of_method, name) for name in figures)]
+        lines.append("| " + " | ".join([METHODS[method]] + ["-" if value is None else f"{value:.1f} %" for value in values]) + " |")
+    text = "\n".join(lines) + "\n"
+    with scripting.written(os.path.join(folder, f"table{number}_poses.md")) as file:
+        file.write(text)
+    return text
 
 
 def written(number, rows, folder):
@@ -245,8 +276,11 @@ def add_parser(datasets, shared):
     which.add_argument("--figure", type=int, choices=(13,), metavar="13", help="the stage: relative errors of moves and turns")
     which.add_argument("--all", action="store_true", help="all of them")
     one.add_argument("--scenes", type=scripting.count, default=30, help="of each part (default: %(default)s)")
+    one.add_argument("--quick", action="store_true",
+                     help=f"to see it run: no more than {QUICK} scenes of each part, {QUICK_COPIES} copies and {QUICK_VIEWS} appearance "
+                          "models, one bin of Table 9 and one trial of Figure 13")
     one.add_argument("--seed", type=scripting.count, default=1, help="of the first bin, the next has the next one")
-    one.add_argument("--copies", type=scripting.count, default=20, help="in a bin (default: %(default)s)")
+    one.add_argument("--copies", type=scripting.count, default=COPIES, help="in a bin (default: %(default)s)")
     one.add_argument("--tohoku", metavar="DIR", help="where the Tohoku dataset is, for tables 7 and 8")
     one.add_argument("--out", metavar="DIR", required=True,
                      help="write there paper.csv, a row for each scene, from which a run goes on that was stopped; of each table "
@@ -259,6 +293,9 @@ def run(options):
         os.makedirs(options.out, exist_ok=True)
     except OSError as error:
         raise scripting.Failure(f"cannot write {options.out}: {error.strerror}") from None
+    scenes, copies, bins, trials = options.scenes, options.copies, cell.BINS, stage.TRIALS
+    if options.quick:
+        scenes, copies, bins, trials = min(scenes, QUICK), min(copies, QUICK_COPIES), 1, 1
     tables = list(TABLES) if options.all else options.table or []
     picking = options.all or 9 in tables
     tables = [number for number in tables if number != 9]
@@ -273,18 +310,22 @@ def run(options):
     elif not options.all or os.path.isdir(options.tohoku):
         scripting.require_file(os.path.join(options.tohoku, "Part_1", "Part_1.STL"))
     done = world.Lines(os.path.join(options.out, "paper.csv"), ROW)
-    rows = planned(tables, options.scenes, options.seed)
+    rows = planned(tables, scenes, options.seed, copies)
+    if options.quick:
+        rows = [row for row in rows if int(row["views"]) <= QUICK_VIEWS]
     # Of the dataset as many scenes as there are.
     rows = [row for row in rows if row["source"] != "tohoku" or os.path.exists(
         os.path.join(options.tohoku, f"Part_{row['part'][-1]}", "Results", f"trans{row['seed']}.txt"))]
-    measure(rows, done, Scenes(options.out, options.copies, options.tohoku), options.threads)
+    measure(rows, done, Scenes(options.out, copies, options.tohoku), options.threads)
     wanted = {tuple(row[name] for name in RUN) for row in rows}
     of_these = [row for row in done.rows if tuple(row[name] for name in RUN) in wanted]
     for number in tables:
         print(written(number, of_these, options.out), flush=True)
+        if TABLES[number].value is rate and len(TABLES[number].methods) > 1:
+            print(details(number, of_these, options.out), flush=True)
     if picking:
-        print(cell.run(options.out, [PARTS[0]], [simulation.SENSORS[0]], "cup", min(cell.BINS, options.scenes), cell.COPIES,
+        print(cell.run(options.out, [PARTS[0]], [simulation.SENSORS[0]], "cup", min(bins, scenes), cell.COPIES,
                        options.seed, options.threads), flush=True)
     if options.all or options.figure:
-        print(stage.run(options.out, PARTS[0], options.preset, options.threads, options.seed), flush=True)
+        print(stage.run(options.out, PARTS[0], options.preset, options.threads, options.seed, trials), flush=True)
     return sum(row["failure"] != "" for row in of_these)

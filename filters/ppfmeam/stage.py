@@ -74,12 +74,12 @@ def errors(before, after, middle, distance=None, degrees=None):
     return abs(math.degrees(math.acos(max(-1.0, min(1.0, (numpy.trace(turn) - 1) / 2)))) - degrees)
 
 
-def run(folder, part, preset, threads, first):
+def run(folder, part, preset, threads, first, trials=TRIALS):
     """The table in Markdown, which is also written, as CSV and as charts where there is a display."""
     stage = Stage(part, preset, threads)
     steps = [("mm", distance) for distance in MOVES] + [("degrees", degrees) for degrees in TURNS]
     measured = {step: [] for step in steps}
-    for trial in range(TRIALS):
+    for trial in range(trials):
         seed = first + trial * SCANS
         start = stage.lying(seed)
         before = stage.found(start, seed)
@@ -90,13 +90,13 @@ def run(folder, part, preset, threads, first):
             if before is not None and after is not None:
                 asked = {"distance" if unit == "mm" else "degrees": amount}
                 measured[unit, amount].append(errors(before, after, stage.middle, **asked))
-    lines = [f"Figure 13. Relative errors of a {part} that is moved and turned by known amounts, {TRIALS} trials, preset {preset}.", "",
+    lines = [f"Figure 13. Relative errors of a {part} that is moved and turned by known amounts, {trials} trial{'s' if trials > 1 else ''}, preset {preset}.", "",
              "| step | found in | mean error | largest |", "|---|---|---|---|"]
     rows = ["unit,step,found,mean,largest"]
     for unit, amount in steps:
         of_step = measured[unit, amount] or [math.nan]
         found, mean, largest = len(measured[unit, amount]), numpy.mean(of_step), max(of_step)
-        lines.append(f"| {amount} {unit} | {found} of {TRIALS} | {mean:.3f} {unit} | {largest:.3f} {unit} |")
+        lines.append(f"| {amount} {unit} | {found} of {trials} | {mean:.3f} {unit} | {largest:.3f} {unit} |")
         rows.append(f"{unit},{amount},{found},{mean:.5f},{largest:.5f}")
     text = "\n".join(lines) + "\n"
     for name, content in (("figure13.md", text), ("figure13.csv", "\n".join(rows) + "\n")):

@@ -5,16 +5,17 @@ import os
 
 import numpy
 
-from . import scripting
+from . import dataset, scripting
 
 BIN = ("part", "features", "sensor", "seed", "copies", "bin")  # a search; `bin`: the part that lies in it
 KIND = ("part", "sensor", "features")  # that a line of the table is of
 # `right`, `mm` and `degrees` are of the poses asked for.
-ROW = (*BIN, "half_visible", "half_visible_found", "poses", "asked", "right", "mm", "degrees", "ms", "failure")
+ROW = (*BIN, "half_visible", "half_visible_found", "poses", "asked", "right", "mm", "degrees", *dataset.BIN_FIGURES, "ms",
+       "failure")
 POSE = (*BIN, "rank", "probability", "right", "mm", "degrees")
 CLASS = 100  # poses whose probabilities are compared with a rate
-HEAD = ("| part | sensor | features | best five right | recall | mm | degrees | claim - rate | without the part | ms | failed |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|")
+HEAD = ("| part | sensor | features | best five right | recall | AR | AP2-20 | mm | degrees | claim - rate | without the part | ms | "
+        "failed |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|")
 
 
 class Lines:
@@ -105,8 +106,11 @@ def values(rows, name):
 
 def line(kind, rows, poses):
     """A line of the table: bins that hold the part, but for the probabilities, which are of all."""
+    def percent(value):
+        return "-" if value is None else f"{value:.1f} %"
+
     def share(part, whole):
-        return f"{100 * part.sum() / whole.sum():.1f} %" if whole.sum() else "-"
+        return percent(100 * part.sum() / whole.sum() if whole.sum() else None)
 
     def median(column, digits):
         return f"{numpy.median(column):.{digits}f}" if column.size else "-"
@@ -118,6 +122,7 @@ def line(kind, rows, poses):
     absent = values([row for row in poses if row["bin"] != row["part"]], "probability")
     cells = (*kind, share(values(there, "right"), values(there, "asked")),
              share(values(there, "half_visible_found"), values(there, "half_visible")),
+             *(percent(dataset.mean_of(there, name)) for name in ("AR", "AP2-20")),
              median(values(right, "mm"), 3), median(values(right, "degrees"), 3),
              f"{100 * (claims.mean() - values(poses, 'right').mean()):+.1f} %" if claims.size else "-",
              f"{100 * absent.max():.0f} %" if absent.size else "-", median(values(there, "ms"), 0),

@@ -4,6 +4,7 @@ calibration.py. With --long more of their choices."""
 import csv
 import math
 import os
+import shutil
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -39,6 +40,19 @@ check(result.returncode == 1 and "scene 1: cannot read" in result.stderr and "1 
 rows = list(csv.DictReader(read("result/tohoku.csv").splitlines()))
 check(math.isclose(float(rows[0]["strict"]), float(row["strict"]) / 2), "the missing scene counts")
 check(os.listdir("result/Part_1") == ["trans0.txt"], "there is no file for the missing scene")
+# True poses that are not of the scene, and poses of another program that are not there.
+for name in ("Scene", "Scene_boundary"):
+    shutil.copy(f"data/Part_1/Scenes/{name}0.pcd", f"data/Part_1/Scenes/{name}1.pcd")
+away = up @ true
+away[:, :3, 3] += (40, 40, 20)
+writer = connect(vtkMEAMPoseWriter(), poses(*[tuple(t.ravel()) for t in away]))
+writer.SetFileName("data/Part_1/Results/trans1.txt")
+writer.Write()
+result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "1")
+check(result.returncode == 1 and "scene 1: the true poses fit" in result.stderr and "another part or another scene" in result.stderr, result.stderr)
+text = works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--found", "result")
+check(text.splitlines()[1].split()[4] == f"{float(row['strict']):.1f}", "our own poses, judged again")
+refuses("result has no folder Part_2 with the poses of part 2", "evaluate.py", "tohoku", "data", "--parts", "2", "--found", "result")
 # Noise: the same again with the same one.
 noisy = [works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--noise", noise,
                "--out", "noisy") and read("noisy/Part_1/trans0.txt") for noise in ("0.2", "0.2", "0.1%")]
@@ -83,6 +97,7 @@ check(read("world/world.md") == table and "| hole_plate | time-of-flight | both 
 check([row["bin"] for row in rows] == ["hole_plate", "pipe_elbow"] and all(row["failure"] == "" for row in rows), f"{rows}")
 check(int(rows[0]["right"]) >= 1 and 0 < float(rows[0]["mm"]) < 5 and float(rows[0]["ms"]) > 0, f"{rows[0]}")
 check(rows[1]["right"] == "0" and rows[1]["mm"] == "", f"{rows[1]}")
+check(50 < float(rows[0]["AR"]) <= 100 and 50 < float(rows[0]["AP2-20"]) <= 100 and rows[1]["targets"] == "0", f"{rows}")
 check(0 < int(rows[0]["half_visible_found"]) <= int(rows[0]["half_visible"]) <= 3 and rows[1]["half_visible"] == "0", f"{rows}")
 found = list(csv.DictReader(read("world/poses.csv").splitlines()))
 check(len(found) == sum(int(row["poses"]) for row in rows), "a row for each pose")
@@ -94,8 +109,8 @@ before = read("world/poses.csv")
 result = script(*WORLD)
 check(result.returncode == 0 and "2 of 2" in result.stderr and "1 of 2" not in result.stderr, result.stderr)
 check(read("world/poses.csv") == before, "the same poses again, from the bins that were kept")
-check([line.split(",")[:13] for line in read("world/world.csv").splitlines()]
-      == [line.split(",")[:13] for line in whole.splitlines()], "the same rows again, but for the times")
+check([line.split(",")[:-2] for line in read("world/world.csv").splitlines()]
+      == [line.split(",")[:-2] for line in whole.splitlines()], "the same rows again, but for the times")
 result = script(*WORLD)
 check(result.returncode == 0 and result.stderr == "" and result.stdout == read("world/world.md"), "nothing is left to do")
 for extension in (".vts", ".vtp"):  # a bin that cannot be read

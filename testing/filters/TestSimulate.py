@@ -121,7 +121,7 @@ for arguments in (["--out", "plates"], ["--out", "new", "--copies", "0"], ["--ou
 check(simulate("--cad", "nothing.stl", "--out", "new").returncode == 1, "a file that is not there")
 
 # What is found in them, and as the benchmark measures it.
-done = script("evaluate.py", "bop", "plates", "--out", "plates.csv")
+done = script("evaluate.py", "bop", "plates", "--poses", "0", "--out", "plates.csv")
 check(done.returncode == 0, done.stderr)
 lines = done.stdout.splitlines()
 at = next(i for i, line in enumerate(lines) if "recall of" in line)
@@ -130,7 +130,35 @@ recalls = [float(word) for word in lines[at + 1].split()[1:]]
 check(len(recalls) == 6 and all(50 < recall <= 100 for recall in recalls[1:]), lines[at + 1])
 check(abs(recalls[5] - sum(recalls[2:5]) / 3) < 0.2, "AR is the mean of three")
 with open("plates.csv", newline="", encoding="utf-8") as table:
-    check(len(list(csv.DictReader(table))) >= 6, "poses of both bins")
+    found = list(csv.DictReader(table))
+check(len(found) >= 6, "poses of both bins")
+check(0 < float(lines[1].split()[8]) <= 100 and lines[0].split()[8] == "AP2-20", lines[0])
+
+# The same poses, judged from that file, worst first, and from files of matrices, best first; the order of all is in the file alone.
+with open("back.csv", "w", newline="", encoding="utf-8") as table:
+    rows = csv.DictWriter(table, list(found[0]))
+    rows.writeheader()
+    rows.writerows(found[::-1])
+os.makedirs("matrices/obj_000001")
+for row in found:
+    R, t = (row[name].split() for name in "Rt")
+    with open(f"matrices/obj_000001/{int(row['scene_id']):06d}_000000.txt", "a", encoding="utf-8") as file:
+        file.write(" ".join((*R[0:3], t[0], *R[3:6], t[1], *R[6:9], t[2], "0 0 0 1\n")))
+for name in ("back.csv", "matrices"):
+    again = script("evaluate.py", "bop", "plates", "--poses", "0", "--found", name)
+    check(again.returncode == 0, again.stderr)
+    figures, recalled = again.stdout.splitlines()[1].split(), again.stdout.splitlines()[4]
+    where = slice(1, 9 if name == "back.csv" else 7)  # AP is of the order of all
+    check(figures[where] == lines[1].split()[where] and recalled == lines[at + 1], f"{name}: {again.stdout} {done.stdout}")
+with open("other.csv", "w", encoding="utf-8") as file:  # of another part
+    file.write(open("back.csv", encoding="utf-8").read().replace(",0,1,", ",0,7,"))
+os.makedirs("empty")
+for name, words in (("other.csv", "its objects are 7"), ("empty", "folders such as obj_000001")):
+    done = script("evaluate.py", "bop", "plates", "--found", name)
+    check(done.returncode == 1 and done.stderr == f"evaluate.py: {name} has no poses of object 1: {words if name == 'other.csv' else 'it needs ' + words}\n",
+          done.stderr)
+done = script("evaluate.py", "bop", "plates", "--found", "nowhere")
+check(done.returncode == 1 and done.stderr == "evaluate.py: cannot read nowhere: No such file or directory\n", done.stderr)
 
 # One bin that gets worse.
 done = script("robustness.py", "--cad", PART, "--copies", "3", "--scenes", "1", "--poses", "3", "--out", "curve.csv")

@@ -20,7 +20,8 @@ for name in OpenCV PCL; do
         files+=("$data/Part_$part/Scenes/Scene$scene.pcd" "$to/Part_$part/trans$scene.txt")
       done
       # shellcheck disable=SC2046,SC2086
-      "$build/bin/meamRival$name" $refined "$data/Part_$part/Part_$part.STL" $(offset "$part") "${files[@]}" >> "$to/seconds.txt"
+      "$build/bin/meamRival$name" $refined "$data/Part_$part/Part_$part.STL" $(offset "$part") "${files[@]}" |
+        grep '\.pcd [0-9.e-]*$' >> "$to/seconds.txt" # PCL tells of its votes, too
     done
     echo "== $name $refined: $(sort -k2 -g "$to/seconds.txt" | awk '{ t[NR] = $2 } END { print t[int((NR + 1) / 2)] }') s of processor time a scene (median)"
     bash "$root/examples/run.sh" evaluate.py tohoku "$data" --scenes "0-$((scenes - 1))" --found "$to"

@@ -14,12 +14,14 @@ A pose is right when a true one is within 10 % of the part's diameter and 5 degr
   strict  right poses / poses asked for: each true instance counts once, a missing pose is wrong
   top1    scenes whose first pose is right
   recall, AP  (average precision) of all poses that come out, over instances that are at least half visible
+  AP2-20  the benchmark's for industrial parts: AP at MSSD less than 2, 4, ..., 20 mm, over instances at least a tenth visible
   ADD, ADI    recall at a tenth of the diameter, over instances that are at least a tenth visible, by as many poses
   MSSD, MSPD, VSD  of the benchmark: recall over its ten thresholds; AR is the mean of the three. These are of all poses
   that come out; the file holds --poses of each object
 Times are the median over the scenes, without reading files and training.
 """
 import argparse
+import contextlib
 import csv
 import math
 import os
@@ -32,20 +34,21 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .. import dataset, evaluation, paper, scripting, simulation, world
 
-COLUMNS = ("scenes  poses   paper  strict    top1  recall      AP  median error: mm  degrees (axis  roll)  ms/scene")
-ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6.1f}  {recall:6.1f}  {AP:6.1f}"
+COLUMNS = ("scenes  poses   paper  strict    top1  recall      AP  AP2-20  median error: mm  degrees (axis  roll)  ms/scene")
+ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6.1f}  {recall:6.1f}  {AP:6.1f}  {AP_mm:6.1f}"
        "  {mm:16.3f}  {deg:7.3f} ({axis_deg:.3f} {roll_deg:.3f})  {ms:8.0f}")
 
 
-def evaluation_of(model, options, features):
-    """What finds and judges poses, as the options have it."""
-    return evaluation.Evaluation(model, options.preset, options.poses, options.threads, options.references, features)
+def evaluation_of(model, mesh, options, features):
+    """What finds and judges poses of a part, as the options have it."""
+    return evaluation.Evaluation(model, options.preset, options.poses, options.threads, options.references, features, mesh)
 
 
 def run_part(part, options):
     """Trains, runs every scene and returns the row of the table, and how many scenes failed."""
-    model = scripting.train(evaluation.tohoku_mesh(options.folder, part), options.preset, options.features)
-    run = evaluation_of(model, options, options.features)
+    mesh = evaluation.tohoku_mesh(options.folder, part)
+    model = scripting.train(mesh, options.preset, options.features)
+    run = evaluation_of(model, mesh, options, options.features)
     deviation = options.noise(scripting.field(model, "Diameter"))
     failed = 0
     if options.out:
@@ -58,7 +61,7 @@ def run_part(part, options):
         try:
             truth = evaluation.tohoku_truth(options.folder, part, scene)
             surface, edges = evaluation.tohoku_clouds(options.folder, part, scene)
-            poses = (evaluation.stored_poses(options.found, part, scene) if options.found
+            poses = (dataset.stored_poses(os.path.join(options.found, f"Part_{part}", f"trans{scene}.txt")) if options.found
                      else run.find(*evaluation.with_noise((surface, edges), deviation, scene)))
             truth = evaluation.with_visibility(truth, model, edges, surface)
             if out:
@@ -81,6 +84,9 @@ def print_stages(rows):
 def tohoku(options):
     """Part by part; returns how many scenes failed."""
     rows, failures = [], 0
+    for part in options.parts if options.found else ():
+        if not os.path.isdir(os.path.join(options.found, f"Part_{part}")):
+            raise scripting.Failure(f"{options.found} has no folder Part_{part} with the poses of part {part}: choose --parts that it has")
     print("part  " + COLUMNS)
     for part in options.parts:
         row, failed = run_part(part, options)
@@ -96,12 +102,12 @@ def tohoku(options):
     return failures
 
 
-def find_objects(image, runs, camera):
-    """The poses of each object in an image; says which objects fail and leaves them out."""
+def find_objects(image, runs, camera, stored):
+    """The poses of each object in an image, or those stored; says which objects fail and leaves them out."""
     found = {}
     for number, run in runs.items():
         try:
-            found[number] = run.find(image.scan, None, image.beside, camera)
+            found[number] = stored.poses(image, number) if stored else run.find(image.scan, None, image.beside, camera)
         except scripting.Failure as failure:
             print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
     return found
@@ -109,16 +115,19 @@ def find_objects(image, runs, camera):
 
 def bop(options):
     """Image by image, all objects in each; returns how many of these failed."""
-    scripting.require_folder_of(options.out)
+    if options.out:
+        scripting.require_folder_of(options.out)
     data = dataset.Dataset(options.folder, options.split)
+    objects = options.objects or data.objects()
+    stored = options.found and dataset.Found(options.found, objects)
     runs, benchmark = {}, {}
-    for number in options.objects or data.objects():
-        model = data.train(number, options.preset, options.features)
-        runs[number] = evaluation_of(model, options, options.features)
-        benchmark[number] = dataset.BOPFigures(data.mesh(number), model)
+    for number in objects:
+        model, mesh = data.train(number, options.preset, options.features), data.mesh(number)
+        runs[number] = evaluation_of(model, mesh, options, options.features)
+        benchmark[number] = dataset.BOPFigures(mesh, model)
     judged, failures = dict.fromkeys(runs, 0), 0
-    with scripting.written(options.out, newline="") as file:
-        results = dataset.Results(file)
+    with scripting.written(options.out, newline="") if options.out else contextlib.nullcontext() as file:
+        results = dataset.Results(file) if file else None
         for scene in map(data.scene, options.scenes or data.scenes()):
             for step in scene.steps:
                 try:
@@ -127,16 +136,17 @@ def bop(options):
                     print(failure, file=sys.stderr)
                     failures += 1
                     continue
-                found = find_objects(image, runs, data.beside())
+                found = find_objects(image, runs, data.beside(), stored)
                 failures += len(runs) - len(found)
-                results.add(image, found, options.poses)
+                if results:
+                    results.add(image, found, options.poses)
                 for number, run in runs.items():
                     truth = image.truth_of(number)
                     if truth.GetNumberOfPoints():  # an object that is not in an image is not judged
                         poses = found.get(number, vtkPolyData())
                         run.add(poses, truth)
                         try:
-                            benchmark[number].add(poses, image, truth)
+                            benchmark[number].add(poses, truth, image.scan)
                         except scripting.Failure as failure:
                             print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
                             failures += 1
@@ -153,7 +163,7 @@ def bop(options):
     return failures
 
 
-def find_in_bin(run, bins, row):
+def find_in_bin(run, benchmark, bins, row):
     """Finds a part in a bin, completes the bin's row and returns a row for each pose."""
     scan, truth = bins.scene(row["bin"], row["sensor"], row["seed"])
     if row["bin"] != row["part"]:
@@ -163,6 +173,7 @@ def find_in_bin(run, bins, row):
     row.update(half_visible=len(half), half_visible_found=0)
     poses = run.find(scan)
     run.add(poses, truth)
+    benchmark.add(poses, truth, scan)
 
     def median(errors):
         return f"{statistics.median(errors):.4f}" if errors.size else ""
@@ -173,7 +184,7 @@ def find_in_bin(run, bins, row):
     row.update(half_visible_found=len(half.intersection(instance)), poses=len(right),
                right=int((right[best] * (1 - duplicate[best])).sum()),
                mm=median(mm[best][right[best] == 1]), degrees=median(degrees[best][right[best] == 1]),
-               ms=f"{run.times[0]['Total'] - run.times[0]['Training']:.0f}")
+               **benchmark.row(run.figures()["AP_mm"]), ms=f"{run.times[0]['Total'] - run.times[0]['Training']:.0f}")
     probability = vtk_to_numpy(poses.GetPointData().GetArray("Probability")) if len(right) else ()
     here = {name: row[name] for name in world.BIN}
     return [{**here, "rank": i + 1, "probability": f"{probability[i]:.5f}", "right": right[i],
@@ -195,16 +206,18 @@ def run_world(options):
     record, bins = world.Record(options.out), simulation.Bins(options.copies, options.scenes)
     planned = list(world_bins(options))
     todo = [row for row in planned if world.bin_of(row) not in record.done]
-    models, start = {}, time.time()
+    meshes, models, start = {}, {}, time.time()
     for count, row in enumerate(todo):
         part = row["part"]
         if part not in models:
             print(f"training {part}", file=sys.stderr, flush=True)
-            models[part] = scripting.train(simulation.part_mesh(part), options.preset)
+            meshes[part] = simulation.part_mesh(part)
+            models[part] = scripting.train(meshes[part], options.preset)
         row = {**dict.fromkeys(world.ROW, ""), **row, "asked": options.poses, "right": 0}
         poses = []
         try:
-            poses = find_in_bin(evaluation_of(models[part], options, row["features"]), bins, row)
+            poses = find_in_bin(evaluation_of(models[part], meshes[part], options, row["features"]),
+                                dataset.BOPFigures(meshes[part], models[part]), bins, row)
         except scripting.Failure as failure:
             row["failure"] = str(failure)
         record.add(row, poses)
@@ -258,7 +271,11 @@ def main():
     one.add_argument("--scenes", type=evaluation.numbers, help="such as 0-4,7 (default: all)")
     one.add_argument("--poses", type=scripting.count, default=5,
                      help="poses wanted of each object in an image; 0: all (default: %(default)s)")
-    one.add_argument("--out", metavar="CSV", required=True, help="write the poses as BOP results")
+    result = one.add_mutually_exclusive_group(required=True)
+    result.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
+    result.add_argument("--found", metavar="PATH",
+                        help="judge the poses that another program left instead of looking for them: a file of BOP results, or a "
+                             "folder with PATH/obj_OOOOOO/SSSSSS_IIIIII.txt, best first, 16 numbers each")
 
     one = datasets.add_parser("world", parents=[shared])
     one.set_defaults(run=run_world)

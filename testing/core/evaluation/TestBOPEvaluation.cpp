@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
 constexpr int Width = 320, Height = 240;
@@ -145,6 +147,31 @@ TEST(BOPEvaluation, RecallCountsEveryCopyOnce)
   EXPECT_EQ(twice.mssd[9], 1.0);
   EXPECT_EQ(evaluation.recall({}, truths, wall(600)).mssd[9], 0.0);
   EXPECT_EQ(evaluation.recall(estimates, {}, wall(600)).targets, 0);
+}
+
+TEST(BOPEvaluation, AveragePrecisionAt2To20Millimeters)
+{
+  const meam::BOPEvaluation evaluation(plate(), {});
+  const meam::Poses truths = { pose(at(0, 0, 500)), pose(at(100, 0, 500)), pose(at(200, 0, 500), 0.05) };
+  // 3 mm off, in the wrong place, 9 mm off, and one of the copy that need not be found, which does not count.
+  meam::Poses estimates = { pose(at(3, 0, 500)), pose(at(50, 0, 500)), pose(at(100, 9, 500)), pose(at(200, 0, 500)) };
+  for (int i = 0; i < 4; ++i)
+  {
+    estimates[i].score = 0.9 - 0.1 * i;
+  }
+  meam::BOPRanking ranking = evaluation.ranking(estimates, truths);
+  EXPECT_EQ(ranking.targets, 2);
+  EXPECT_EQ(ranking.poses[0].size(), 3u);
+  // Nothing at 2 mm; precision 1 up to a recall of 1/2 (51 of 101 steps) at 4 to 8 mm, then 2/3 at 10 to 20 mm.
+  EXPECT_NEAR(ranking.averagePrecision(), 10.0 * (3.0 * 51.0 + 6.0 * (51.0 + 50.0 * 2.0 / 3.0)) / 101.0, 1e-9);
+  // A likelier wrong pose in another image: 1/2 in place of 1, and of 2/3.
+  estimates[0].score = 0.95;
+  ranking.add(evaluation.ranking({ estimates[0] }, {}));
+  EXPECT_NEAR(ranking.averagePrecision(), 10.0 * (3.0 * 51.0 / 2.0 + 6.0 * 101.0 / 2.0) / 101.0, 1e-9);
+  EXPECT_TRUE(std::isnan(evaluation.ranking(estimates, {}).averagePrecision()));
+  EXPECT_EQ(evaluation.ranking({}, truths).averagePrecision(), 0.0);
+  // The same pose twice is right once.
+  EXPECT_FALSE(evaluation.ranking({ estimates[0], estimates[0] }, truths).poses[9][1].second);
 }
 
 TEST(BOPEvaluation, TheCameraIsFoundFromTheScan)
