@@ -45,7 +45,7 @@ with tempfile.TemporaryDirectory() as folder:
     result = subprocess.run([sys.executable, os.path.join(EXAMPLES, "gallery.py"), "--out", folder], capture_output=True,
                             text=True)
     check(result.returncode == 0 and result.stderr == "", f"status {result.returncode}: {result.stderr}")
-    check(names == set(os.listdir(folder)) and len(names) == 15, f"{sorted(names)} and {sorted(os.listdir(folder))}")
+    check(names == set(os.listdir(folder)) and len(names) == 17, f"{sorted(names)} and {sorted(os.listdir(folder))}")
     for name in names:
         size = os.path.getsize(os.path.join(folder, name))
         check(30000 < size < 120000, f"{name} has {size} bytes")

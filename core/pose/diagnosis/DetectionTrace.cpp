@@ -60,7 +60,7 @@ DetectionTrace::DetectionTrace(
   , Model(model)
   , Settings(settings)
 {
-  findPoses(scene, model, settings, nullptr, progress,
+  findPoses(scene, model, settings, &this->Report, progress,
     [this](PoseStage stage, const Poses& poses) {
       this->Stages.push_back({ stage, poses });
     });
@@ -73,6 +73,7 @@ const Poses& DetectionTrace::unlimited()
     PoseSelectionSettings all = this->Settings.selection;
     all.maximumPoses = 0;
     all.minimumProbability = 0.0;
+    all.evidence.rates = this->rates();
     this->Unlimited = selectPoses(posesOf(this->Stages, PoseStage::Verification), this->InScene, this->Model, all);
   }
   return *this->Unlimited;

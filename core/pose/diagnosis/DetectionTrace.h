@@ -51,6 +51,8 @@ public:
   const std::vector<Stage>& stages() const { return this->Stages; }
   /// What came out.
   const Poses& ranked() const { return this->Stages.back().poses; }
+  /// The scan's rates, by all candidates; none with the paper's verification.
+  const std::optional<EvidenceRates>& rates() const { return this->Report.rates; }
   /// What would come out without a limit on the number of poses and their probability: the first of them are ranked().
   /// Found when it is asked for.
   const Poses& unlimited();
@@ -62,6 +64,7 @@ private:
   const TrainedModel& Model;
   const DetectionSettings& Settings;
   std::vector<Stage> Stages;
+  DetectionReport Report;
   std::optional<Poses> Unlimited;
   std::optional<Poses> AllAlternatives;
 };

@@ -118,8 +118,7 @@ Eigen::Isometry3d PoseDiagnosis::fitted(const Eigen::Isometry3d& T_local_model) 
   {
     return T_local_model;
   }
-  const Poses both =
-    verifyPoses({ poseAt(T_local_model), pose }, this->InScene, this->Model, this->Detection.verification);
+  const Poses both = verifyPoses({ poseAt(T_local_model), pose }, this->InScene, this->Model, this->verification());
   return both.empty() ? T_local_model : both.front().T_scene_model;
 }
 
@@ -129,7 +128,7 @@ void PoseDiagnosis::score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local
   Poses poses = this->posesOf(PoseStage::Verification);
   poses.push_back(poseAt(T_local_model));
   poses.back().votes = mark;
-  const Poses scored = verifyPoses(poses, this->InScene, this->Model, this->Detection.verification);
+  const Poses scored = verifyPoses(poses, this->InScene, this->Model, this->verification());
   const auto place = std::find_if(scored.begin(), scored.end(), [](const Pose& pose) { return pose.votes == mark; });
   Pose result = poses.back();
   if (place != scored.end())
@@ -296,6 +295,13 @@ LossCause PoseDiagnosis::causeInSelection(Diagnosis& diagnosis, const Eigen::Iso
   }
   this->findTaker(diagnosis, all);
   return this->isTurnedAmong(all, T_local_model) ? LossCause::OtherRotation : LossCause::Taken;
+}
+
+PoseVerificationSettings PoseDiagnosis::verification() const
+{
+  PoseVerificationSettings settings = this->Detection.verification;
+  settings.evidence.rates = this->Trace.rates();
+  return settings;
 }
 
 bool PoseDiagnosis::isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T_local_model) const

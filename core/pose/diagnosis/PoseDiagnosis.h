@@ -112,6 +112,8 @@ private:
   static LossCause causeInVoting(const Diagnosis& diagnosis);
   LossCause causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   LossCause causeInSelection(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
+  /// As the refined poses were verified.
+  PoseVerificationSettings verification() const;
   bool isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T_local_model) const;
   const Poses& posesOf(PoseStage stage) const;
   PlaceTolerance tolerance() const;

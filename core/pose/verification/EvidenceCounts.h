@@ -69,7 +69,7 @@ struct EvidenceRatesSettings
 {
   EvidenceRates usual;
   double usualEdges = 500.0;   ///< so many edge points the usual rates count: of few candidates nothing can be told
-  double usualOutline = 50.0;  ///< the same in sides of patches
+  double usualOutline = 300.0; ///< the same in sides of patches
   double supportedShare = 0.1; ///< of the candidates, those that most speaks for
   double firstGain = 3.0;      ///< times the chance, but no more than usual: edges found, before anything is known
   int steps = 2;               ///< of what speaks for which candidates, and what that says of edges and outlines

@@ -19,7 +19,7 @@ enum class PointState : unsigned char
   Turned,  ///< there is a surface, but it faces elsewhere
   Hidden,  ///< something lies in front of it: says nothing about the pose
   Unknown, ///< surface where nothing was measured: says nothing about the pose by itself
-  Violated ///< the sensor saw past it, or it lies behind the floor or a wall: speaks against the pose
+  Violated ///< the sensor saw past it: speaks against the pose
 };
 
 /// What counts when poses are scored.
