@@ -14,9 +14,12 @@ class Error(Exception):
 
 def __getattr__(name):
     # Only now, so that ppfmeam.filters alone needs neither NumPy nor VTK's readers.
-    if name in ("Detections", "Diagnosis", "Grasps", "Model", "detect", "grasps", "load", "train", "why"):
+    if name in ("Detections", "Diagnosis", "Model", "detect", "load", "train", "why"):
         from . import api
         return getattr(api, name)
+    if name in ("Grasps", "Picks", "grasps", "pick"):
+        from . import picking
+        return getattr(picking, name)
     if name == "__version__":
         from .version import VERSION
         return VERSION

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""train(), detect(), why() and grasps(): files or NumPy arrays in, NumPy arrays out. What goes wrong is raised as ppfmeam.Error; what may be
-wrong is a warning."""
+"""train(), detect() and why(): files or NumPy arrays in, NumPy arrays out. What goes wrong is raised as ppfmeam.Error; what
+may be wrong is a warning."""
 import os
 
 import numpy
@@ -13,9 +13,6 @@ from . import Error, filters, scripting
 
 MODELS = (".meam", ".vtpc")
 DEPTH_IMAGES = (".png", ".tif", ".tiff")
-GRASPS_PROPOSED = {"parallel": "ParallelJaws", "suction": "Suction", "both": "Both", "off": "Off"}
-GRIPPER_LENGTHS = ("opening", "jaw_clearance", "finger_width", "finger_thickness", "finger_length", "tip_length",
-                   "body_length", "body_width", "cup_diameter", "cup_length")
 
 
 class Model:
@@ -92,64 +89,6 @@ class Diagnosis:
         self.points = vtk_to_numpy(data.GetPoints().GetData()).copy() if count else numpy.zeros((0, 3))
         names = data.GetPointData().GetAbstractArray("StateName")
         self.states = [names.GetValue(k) for k in range(count)]
-
-
-class Grasps:
-    """Where a gripper holds a part: `transforms` (N x 4 x 4, the part's coordinates, mm: z the way in, x along which jaws
-    close), `names`, `kinds` ("parallel" or "suction"), `widths` (mm, between the jaws), `free_turns` ("none", "approach" or
-    "closing": the axis about which any turn holds as well) and `qualities`, from 0 to 1. `data` is the VTK data object."""
-
-    def __init__(self, data):
-        def column(name, *shape):
-            return vtk_to_numpy(data.GetPointData().GetArray(name)).reshape(-1, *shape).copy()
-
-        names = data.GetPointData().GetAbstractArray("GraspName")
-        self.data = data
-        self.transforms = column("Transform", 4, 4)
-        self.names = [names.GetValue(k) for k in range(data.GetNumberOfPoints())]
-        self.kinds = [("parallel", "suction")[k] for k in column("Kind")]
-        self.widths = column("Width")
-        self.free_turns = [("none", "approach", "closing")[k] for k in column("FreeTurn")]
-        self.qualities = column("Quality")
-
-    def __len__(self):
-        return len(self.names)
-
-    def save(self, path):
-        """Writes the JSON that grasps() reads."""
-        scripting.require_folder_of(path)
-        writer = filters.vtkMEAMGraspWriter()
-        writer.SetInputDataObject(self.data)
-        writer.SetFileName(os.fspath(path))
-        scripting.update(writer, "Write")
-
-
-def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), grasps=20, symmetries=None, **gripper):
-    """Where a gripper holds a part: the grasps of a `file` (JSON), and those proposed from its mesh, best first.
-
-    cad, scale, offset: the part, as train() takes it. propose: parallel (the default without a file), suction, both, or off
-    (the default with one); `grasps` of each kind at most. symmetries: the part's Model; of proposals that are equal one comes
-    out. gripper: lengths in mm, opening, jaw_clearance, finger_width, finger_thickness, finger_length, tip_length,
-    body_length, body_width, cup_diameter, cup_length, as vtkMEAMGraspDefinition has them. Returns Grasps.
-    """
-    definition = filters.vtkMEAMGraspDefinition()
-    if isinstance(cad, vtkDataObject):
-        definition.SetInputDataObject(scripting.prepare_mesh(cad, offset, scale))
-    else:
-        definition.SetInputDataObject(scripting.read_mesh(os.fspath(cad), offset, scale))
-    if symmetries is not None:
-        definition.SetInputDataObject(1, symmetries.data)
-    if file is not None:
-        scripting.require_file(os.fspath(file))
-        definition.SetFileName(os.fspath(file))
-    wanted = chosen("propose", propose or ("parallel" if file is None else "off"), GRASPS_PROPOSED)
-    scripting.set_choice(definition, "Propose", GRASPS_PROPOSED[wanted])
-    definition.SetMaximumNumberOfGrasps(grasps)
-    for name, length in gripper.items():
-        if name not in GRIPPER_LENGTHS:
-            raise Error(f"a gripper has no length {name!r}; it has {', '.join(GRIPPER_LENGTHS)}")
-        getattr(definition, "Set" + "".join(word.capitalize() for word in name.split("_")))(length)
-    return Grasps(scripting.update(definition).GetOutput())
 
 
 def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended", features="both"):

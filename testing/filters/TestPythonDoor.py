@@ -158,6 +158,31 @@ try:
     raises("opening", ppfmeam.grasps, "part.stl", jaws=3)
     raises("propose", ppfmeam.grasps, "part.stl", propose="magnet")
 
+    # What the gripper can take of what was found.
+    with Quiet():
+        picks = ppfmeam.pick(found, grasps, scan, opening=60)
+        cup = ppfmeam.pick(found.poses, grasps, points, gripper="cup", bin="none")
+        place = numpy.diag((1.0, -1.0, -1.0, 1.0))
+        place[:3, 3] = picks.data.GetFieldData().GetArray("Bin").GetTuple(0)[3:12:4]
+        deep = ppfmeam.pick(found, grasps, bin=(place, 200, 200, 50, 4))
+    check(len(picks) == len(found) * len(grasps) and picks.transforms.shape == (len(picks), 4, 4), f"{len(picks)} picks")
+    check((picks.possible == [reason == "" for reason in picks.reasons]).all() and picks.report.endswith("."), picks.report)
+    check((numpy.diff(picks.possible.astype(int)) <= 0).all(), "possible ones come first")
+    check((numpy.sort(picks.instances * len(grasps) + picks.grasps) == numpy.arange(len(picks))).all(), "each grasp of each pose")
+    for row in numpy.flatnonzero(picks.possible)[:3]:
+        held = found.poses[picks.instances[row]] @ grasps.transforms[picks.grasps[row]]
+        check(numpy.linalg.norm(held[:3, 3] - picks.transforms[row][:3, 3]) < 1e-6, "the gripper stands at the grasp")
+    check(all(("kind of gripper" in reason) == (grasps.kinds[k] == "parallel") for k, reason in zip(cup.grasps, cup.reasons)),
+          f"a cup needs grasps for a cup: {cup.reasons}")
+    check(numpy.allclose(deep.data.GetFieldData().GetArray("Bin").GetTuple(0), (*place.ravel(), 200, 200, 50, 4)), "the bin given")
+    check(deep.robot_transforms is None and len(deep.clearances) == len(deep), "no robot")
+    raises("bin", ppfmeam.pick, found, grasps, scan, bin="box")
+    raises("4 x 4", ppfmeam.pick, found, grasps, scan, bin=(numpy.eye(3), 1, 1, 1))
+    raises("N x 4 x 4", ppfmeam.pick, numpy.eye(4), grasps, scan)
+    raises("no length", ppfmeam.pick, found, grasps, scan, fingers=3)
+    raises("no such file", ppfmeam.pick, found, grasps, scan, gripper="hook.stl")
+    raises("set Bin", ppfmeam.pick, found, grasps)
+
     # What is wrong is an exception, what may be wrong a warning.
     flat = points.reshape(-1, 3)
     raises("no such file", ppfmeam.train, "missing.stl")
