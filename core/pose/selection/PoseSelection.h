@@ -28,7 +28,7 @@ struct PoseSelectionSettings
   double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
   int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives
   int leastRefined = 60;           ///< so many, and all others that are so likely to be right, are worth refining
-  double worthRefining = 5e-6;     ///< probability, of poses that are not refined yet
+  double worthRefining = 3e-7;     ///< probability, of poses that are not refined yet
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
   EvidenceSettings evidence; ///< that poses are scored by once more

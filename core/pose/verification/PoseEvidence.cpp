@@ -102,7 +102,6 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   };
   const float farBehind = std::max(tolerance, static_cast<float>(settings.farBehind * model.diameter));
   EvidenceCounts& counts = evidence.counts;
-  double unused = 0.0;
   const double patch = settings.weights.patch * model.diameter;
   const double area = stride * model.verificationArea() / (patch * patch);
   const Eigen::Vector3f towards = T.linear() * model.visibility->towards(T_scene_model, this->InScene.sensor);
@@ -134,7 +133,10 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
         break;
       case DepthMap::Relation::NoSurface:
         state = stateOf(depth.relation(point, tolerance)); // what is beside a gap of one cell
-        (state != PointState::Unknown ? unused : isEnclosed(point) ? counts.enclosed : counts.unmeasured) += seen;
+        if (state == PointState::Unknown)
+        {
+          (isEnclosed(point) ? counts.enclosed : counts.unmeasured) += seen;
+        }
         break;
       case DepthMap::Relation::InFront:
       {
