@@ -40,16 +40,12 @@ class Detections:
     that is known."""
 
     def __init__(self, data):
-        def column(name, *shape):
-            array = data.GetPointData().GetArray(name)
-            return vtk_to_numpy(array).reshape(-1, *shape).copy() if array else numpy.zeros((0, *shape))
-
         self.data = data
-        self.poses = column("Transform", 4, 4)
-        self.scores = column("Score")
-        self.probabilities = column("Probability")
-        self.certainties = column("Certainty")
-        self.visible_fractions = column("VisibleFraction")
+        self.poses = scripting.column(data, "Transform", 4, 4)
+        self.scores = scripting.column(data, "Score")
+        self.probabilities = scripting.column(data, "Probability")
+        self.certainties = scripting.column(data, "Certainty")
+        self.visible_fractions = scripting.column(data, "VisibleFraction")
         self.seconds = scripting.field(data, "SecondsTotal") - scripting.field(data, "SecondsTraining")
         quality = data.GetFieldData().GetArray("ScanQuality")
         self.scan_quality = {quality.GetComponentName(i): quality.GetComponent(0, i)
@@ -60,11 +56,7 @@ class Detections:
 
     def save(self, path):
         """Writes .csv (BOP results), .json, or .txt (4x4 matrices)."""
-        scripting.require_folder_of(path)
-        writer = filters.vtkMEAMPoseWriter()
-        writer.SetInputDataObject(self.data)
-        writer.SetFileName(os.fspath(path))
-        scripting.update(writer, "Write")
+        scripting.write_with(filters.vtkMEAMPoseWriter(), self.data, path)
 
 
 class Diagnosis:
@@ -87,8 +79,7 @@ class Diagnosis:
         self.numbers = [tuple(column.GetValue(row) for column in columns) for row in range(table.GetNumberOfRows())]
         count = data.GetNumberOfPoints()
         self.points = vtk_to_numpy(data.GetPoints().GetData()).copy() if count else numpy.zeros((0, 3))
-        names = data.GetPointData().GetAbstractArray("StateName")
-        self.states = [names.GetValue(k) for k in range(count)]
+        self.states = scripting.texts(data, "StateName")
 
 
 def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended", features="both"):

@@ -6,7 +6,6 @@ import sys
 import time
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -21,10 +20,6 @@ ROW = (*BIN, "trial", "left", "found", "possible", "outcome", "reason", "mm", "d
 HEAD = ("| part | sensor | gripper | bins | trials | success | failure | success rate | left in the bins | detection ms | planning ms |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|")
 PAPER = "| part A (the paper) | structured light | jaws | 5 | 63 | 60 | 3 | 95.2 % | 0 | 889 | - |"
-
-
-def column(data, name):
-    return vtk_to_numpy(data.GetPointData().GetArray(name))
 
 
 def text(data, name, row):
@@ -116,7 +111,7 @@ class Bin:
 
     def take(self, instance):
         """A copy (from 0) goes; the others come to rest and are scanned. Whether any is left."""
-        stay = numpy.delete(column(self.truth, "Transform").reshape(-1, 4, 4), instance, axis=0)
+        stay = numpy.delete(scripting.column(self.truth, "Transform", 4, 4), instance, axis=0)
         if not len(stay):
             self.truth = None
             return False
@@ -167,7 +162,7 @@ def trials(station, copies, seed, film=None, pictures=None):
         picks = scripting.update(station.planning).GetOutput()
         planned = time.perf_counter()
         possible = [] if not picks.GetNumberOfPoints() else [
-            row for row in numpy.flatnonzero(column(picks, "Possible")) if text(picks, "GraspName", row) not in tried]
+            row for row in numpy.flatnonzero(scripting.column(picks, "Possible")) if text(picks, "GraspName", row) not in tried]
         number += 1
         row = {**dict.fromkeys(ROW, ""), "part": station.part, "sensor": station.sensor, "gripper": station.gripper.kind,
                "seed": seed, "trial": number, "left": bin.left, "found": found.GetNumberOfPoints(), "possible": len(possible),
@@ -180,13 +175,13 @@ def trials(station, copies, seed, film=None, pictures=None):
         station.trial.SetInputDataObject(0, scripting.with_value(picks, "Rank", pick + 1))
         station.trial.SetInputDataObject(2, bin.truth)
         outcome = scripting.update(station.trial).GetOutput()
-        instance = int(column(picks, "Instance")[pick])
+        instance = int(scripting.column(picks, "Instance")[pick])
         station.evaluation.SetInputDataObject(0, found)
         station.evaluation.SetInputDataObject(1, bin.truth)
         judged = scripting.update(station.evaluation).GetOutput()
         off = [judged.GetColumnByName(name).GetValue(instance - 1) for name in ("TranslationError", "RotationError")]
         row.update(outcome=text(outcome, "OutcomeName", 0), mm=f"{off[0]:.2f}", degrees=f"{off[1]:.1f}",
-                   reason=f"{text(picks, 'GraspName', pick)}, clearance {column(picks, 'Clearance')[pick]:.1f} mm")
+                   reason=f"{text(picks, 'GraspName', pick)}, clearance {scripting.column(picks, 'Clearance')[pick]:.1f} mm")
         if film or pictures:
             station.planning.SetShownGrippers(station.planning.AllPossible)
             gripper = scripting.with_value(scripting.update(station.planning).GetOutputDataObject(1), "Rank", pick + 1, cells=True)
@@ -198,7 +193,7 @@ def trials(station, copies, seed, film=None, pictures=None):
         yield row
         if row["outcome"] == "success":
             failures, tried = 0, set()
-            bin.take(int(column(outcome, "TrueInstance")[0]) - 1)
+            bin.take(int(scripting.column(outcome, "TrueInstance")[0]) - 1)
         else:
             failures += 1
             tried.add(text(picks, "GraspName", pick))  # another one next time

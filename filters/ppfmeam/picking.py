@@ -3,7 +3,6 @@
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonTransforms import vtkTransform
 
@@ -25,28 +24,20 @@ class Grasps:
     that of the part's mesh, and `gripper` the lengths that were given, by name."""
 
     def __init__(self, data, part, gripper):
-        def column(name, *shape):
-            return vtk_to_numpy(data.GetPointData().GetArray(name)).reshape(-1, *shape).copy()
-
-        names = data.GetPointData().GetAbstractArray("GraspName")
         self.data, self.part, self.gripper = data, part, gripper
-        self.transforms = column("Transform", 4, 4)
-        self.names = [names.GetValue(k) for k in range(data.GetNumberOfPoints())]
-        self.kinds = [("parallel", "suction")[k] for k in column("Kind")]
-        self.widths = column("Width")
-        self.free_turns = [("none", "approach", "closing")[k] for k in column("FreeTurn")]
-        self.qualities = column("Quality")
+        self.transforms = scripting.column(data, "Transform", 4, 4)
+        self.names = scripting.texts(data, "GraspName")
+        self.kinds = [("parallel", "suction")[k] for k in scripting.column(data, "Kind")]
+        self.widths = scripting.column(data, "Width")
+        self.free_turns = [("none", "approach", "closing")[k] for k in scripting.column(data, "FreeTurn")]
+        self.qualities = scripting.column(data, "Quality")
 
     def __len__(self):
         return len(self.names)
 
     def save(self, path):
         """Writes the JSON that grasps() reads."""
-        scripting.require_folder_of(path)
-        writer = filters.vtkMEAMGraspWriter()
-        writer.SetInputDataObject(self.data)
-        writer.SetFileName(os.fspath(path))
-        scripting.update(writer, "Write")
+        scripting.write_with(filters.vtkMEAMGraspWriter(), self.data, path)
 
 
 class Picks:
@@ -57,21 +48,14 @@ class Picks:
     to 1). `report` is a sentence; `data` is the VTK data object."""
 
     def __init__(self, data):
-        points = data.GetPointData()
-
         def column(name, *shape):
-            return vtk_to_numpy(points.GetArray(name)).reshape(-1, *shape).copy()
-
-        def texts(name):
-            array = points.GetAbstractArray(name)
-            return [array.GetValue(k) for k in range(data.GetNumberOfPoints())]
+            return scripting.column(data, name, *shape)
 
         self.data = data
         self.report = data.GetFieldData().GetAbstractArray("PickReport").GetValue(0)
         self.possible = column("Possible").astype(bool)
-        self.reasons, self.names = texts("Reason"), texts("GraspName")
-        self.transforms = column("Transform", 4, 4)
-        self.robot_transforms = column("RobotTransform", 4, 4) if points.GetArray("RobotTransform") else None
+        self.reasons, self.names = scripting.texts(data, "Reason"), scripting.texts(data, "GraspName")
+        self.transforms, self.robot_transforms = column("Transform", 4, 4), column("RobotTransform", 4, 4)
         self.instances, self.grasps = column("Instance") - 1, column("Grasp") - 1
         self.widths, self.clearances, self.reaches = column("Width"), column("Clearance"), column("Reach")
         self.tilts, self.covered, self.scores = column("Tilt"), column("Covered"), column("Score")

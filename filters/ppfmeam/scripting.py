@@ -12,7 +12,7 @@ import tempfile
 import warnings
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
@@ -433,6 +433,28 @@ def write_model(model, path):
                     os.rename(pieces, os.path.join(scratch, "new"))
                 os.rename(old, pieces)
             raise Failure(f"cannot write {path}: {error.strerror}") from None
+
+
+def write_with(writer, data, path):
+    """Writes a data object to a file."""
+    require_folder_of(path)
+    writer.SetInputDataObject(data)
+    writer.SetFileName(os.fspath(path))
+    update(writer, "Write")
+
+
+def column(data, name, *shape):
+    """A copy of a point array; `shape` of each value. None where there is no such array, without points an empty one."""
+    array = data.GetPointData().GetArray(name)
+    if array:
+        return vtk_to_numpy(array).reshape(-1, *shape).copy()
+    return None if data.GetNumberOfPoints() else numpy.zeros((0, *shape))
+
+
+def texts(data, name):
+    """The texts of a point array."""
+    array = data.GetPointData().GetAbstractArray(name)
+    return [array.GetValue(k) for k in range(data.GetNumberOfPoints())]
 
 
 def write_poses(poses, path, form, **numbers):

@@ -21,8 +21,8 @@ struct EvidenceWeights
   // Of the logarithms that the scan's own rates say (EvidenceRates):
   double outline = 0.7; ///< of a patch's side of outline
   double edge = 0.1;    ///< of one edge point
-  double manyLines =
-    16.0; ///< what edges and outlines say together grows with its logarithm beyond: they tell much the same
+  /// What edges and outline say together, for they tell much the same, grows beyond this by its logarithm.
+  double manyLines = 16.0;
 };
 
 /// How often something that a pose predicts is found in this scan.

@@ -35,7 +35,7 @@ PoseVerificationSettings votesVerificationSettings();
 /// Scores every pose against the scene, or by its votes, which become those of all that agree with it, and returns them
 /// best first, in the local frame: score, probability, visible
 /// fraction, and the view that shows what the sensor sees. Without a surface only edges count. `rates`, which may be
-/// null, gets how far the scan's edges can be trusted; the paper's score does not ask.
+/// null, gets how far the scan's edges and outlines can be trusted; the paper's score does not ask.
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
   const PoseVerificationSettings& settings = {}, const Progress& progress = {}, EvidenceRates* rates = nullptr);
 
