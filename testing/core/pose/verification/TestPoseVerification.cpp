@@ -169,7 +169,7 @@ TEST(PoseVerification, RightPosesAreLikelyAndWrongOnesAreNot)
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
   const meam::Pose right = scenes::verify({ at(T) }, scene(), scenes::bracket()).at(0);
   const meam::Pose wrong = scenes::verify({ scenes::displaced(T, 9.0, 20.0) }, scene(), scenes::bracket()).at(0);
-  EXPECT_GT(right.probability, 0.85);
+  EXPECT_GT(right.probability, 0.9);
   EXPECT_LT(wrong.probability, 0.1);
   EXPECT_EQ(meam::probabilityOrScore(right), right.probability);
 }
