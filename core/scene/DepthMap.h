@@ -55,6 +55,15 @@ public:
     return std::abs(behind) <= tolerance ? Relation::OnSurface : behind > 0.0f ? Relation::Hidden : Relation::InFront;
   }
 
+  /// Whether a point, as the sensor sees it, is no more than `margin` mm outside of the rectangle about everything that
+  /// was measured.
+  bool covers(const Eigen::Vector3f& point, float margin) const
+  {
+    const Eigen::Array2f index = this->indexOf(this->project(point));
+    const float cells = margin / static_cast<float>(this->CellSize);
+    return (index >= -cells).all() && index.x() < this->Width + cells && index.y() < this->Height + cells;
+  }
+
   /// Unit normal, towards the sensor, of the nearest layer at the line of sight through a point; zero where the sensor
   /// saw too little about it.
   Eigen::Vector3f normalAt(const Eigen::Vector3f& point) const;

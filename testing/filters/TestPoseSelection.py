@@ -67,7 +67,7 @@ check([count(candidates, PosesPerInstance=n, **wide) for n in (1, 2, 9)] == [1, 
 check(count(candidates, PosesPerInstance=9, ClusterAngle=0, **wide) == 3, "none is the same")
 check(count(candidates, method="Clusters", ClusterDistance=0.01) == 4, "small clusters")
 check(count(candidates, MaximumNumberOfPoses=1) == 1, "as many poses as asked for")
-check(count(candidates, MinimumProbability=0.3) == 1, "the likely one alone")
+check(count(candidates, MinimumProbability=0.9) == 1, "the likely one alone")
 for threads in (1, 2):
     check(tuples(run(selection(candidates, NumberOfThreads=threads)), "Transform") == tuples(best, "Transform"),
           f"{threads} threads")

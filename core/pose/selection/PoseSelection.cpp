@@ -31,6 +31,7 @@ public:
     , Collector(collector)
     , Rates(rates)
     , Comparison(comparison)
+    , Restarts(scene, model, comparison, settings.restarts)
     , Search(scene, model, settings.rotation)
     , Rotated(rotatedSettings(settings, model))
     , Decision(scene, model, comparison, Rotated, settings.decision)
@@ -40,9 +41,10 @@ public:
   /// Returns what it matched.
   Points finish(Pose& pose, PoseClusters& clusters, int index) const
   {
+    PoseComparison::Contender asItIs = clusters.contender(index);
+    pose = this->Restarts.best(pose, asItIs);
     if (!this->Model.symmetries.near.empty())
     {
-      PoseComparison::Contender asItIs = clusters.contender(index);
       this->rotate(pose, asItIs);
       this->Decision.decide(pose, asItIs);
     }
@@ -76,6 +78,7 @@ private:
   const EvidenceCollector& Collector;
   EvidenceRates Rates;
   const PoseComparison& Comparison;
+  RefinementRestarts Restarts;
   RotationSearch Search;
   PoseRefinementSettings Rotated;
   RotationDecision Decision;
@@ -130,6 +133,18 @@ Poses withoutShared(const std::vector<Finished>& found, const TrainedModel& mode
   return distinct;
 }
 
+/// A part that is not in the scan fits here and there, but nowhere well: of poses, best first, none is likelier than
+/// that the part is there at all, which the best one tells.
+void allowForAbsence(Poses& poses, const ProbabilityCalibration& calibration)
+{
+  const double present = poses.empty() ? 1.0 : probabilityOf(calibration.present.logOdds(poses.front().evidence));
+  for (Pose& pose : poses)
+  {
+    pose.evidence = withCertainty(pose.evidence, present);
+    pose.probability = probabilityOf(pose.evidence);
+  }
+}
+
 /// One for each instance, with its final pose; best first.
 Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings, const PoseClustersSettings& clustering, const Progress& progress)
@@ -155,7 +170,12 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     });
   std::stable_sort(
     finished.begin(), finished.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
-  return withoutShared(finished, model, clustering);
+  Poses instances = withoutShared(finished, model, clustering);
+  if (haveSurfaces(scene, model))
+  {
+    allowForAbsence(instances, settings.evidence.calibration);
+  }
+  return instances;
 }
 
 /// The first of each cluster, up to the symmetries.

@@ -7,6 +7,7 @@
 #include "pose/refinement/PoseRefinement.h"
 #include "pose/selection/PoseClusters.h"
 #include "pose/selection/PoseComparison.h"
+#include "pose/selection/RefinementRestarts.h"
 #include "pose/selection/RotationDecision.h"
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
@@ -24,7 +25,7 @@ struct PoseSelectionSettings
 {
   SelectionMethod method = SelectionMethod::Instances;
   PoseClustersSettings clusters;   ///< posesPerInstance is that of Alternatives; of the other methods it is 1
-  int alternatives = 2;            ///< of an instance (Alternatives)
+  int alternatives = 4;            ///< of an instance (Alternatives)
   double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
   int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives
   int leastRefined = 60;           ///< so many, and all others that are so likely to be right, are worth refining
@@ -33,6 +34,7 @@ struct PoseSelectionSettings
   // Instances
   EvidenceSettings evidence; ///< that poses are scored by once more
   PoseComparisonSettings comparison;
+  RefinementRestartsSettings restarts;
   RotationSearchSettings rotation;
   PoseRefinementSettings rotated = afterRotation(); ///< of another rotation, which is nearly right
   double rotatedDistance = 0.04;                    ///< of the diameter, its correspondences at the start
@@ -53,9 +55,9 @@ struct PoseSelectionSettings
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
 ///
 /// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is
-/// decided on the points that tell them apart. Then the pose is turned about the axis of a nearly round part, or by an
-/// approximate symmetry, where the scene speaks for it, which sets its certainty; it is aligned (alignRobustly) and
-/// scored.
+/// decided on the points that tell them apart. Then the pose is refined from others about it (RefinementRestarts) and
+/// turned about the axis of a nearly round part, or by an approximate symmetry, where the scene speaks for it, which
+/// sets its certainty; it is aligned (alignRobustly) and scored.
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings = {}, const Progress& progress = {});
 }

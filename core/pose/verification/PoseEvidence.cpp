@@ -153,9 +153,12 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   const double side = stride * model.visibility->cellSize() / patch;
   for (std::size_t k = 0; k < visible->outside.size(); k += stride)
   {
-    const DepthMap::Relation relation = depth.relationToMean(T * visible->outside[k], beside);
+    const Eigen::Vector3f point = T * visible->outside[k];
+    const DepthMap::Relation relation = depth.relationToMean(point, beside);
     counts.goesOn += relation == DepthMap::Relation::OnSurface ? side : 0.0;
-    counts.ends += relation == DepthMap::Relation::InFront ? side : 0.0;
+    const bool ends = relation == DepthMap::Relation::InFront ||
+                      (relation == DepthMap::Relation::NoSurface && depth.covers(point, static_cast<float>(patch)));
+    counts.ends += ends ? side : 0.0;
   }
   return evidence;
 }

@@ -3,26 +3,31 @@
 
 namespace meam
 {
-/// Logistic regression of whether a pose is right, but for a turn by a near-symmetry, on what was counted for it.
+/// The logarithm of the odds that something is so, as a line over what was counted or found.
 struct LogisticRegression
 {
   double constant;
-  double counted; ///< of EvidenceCounts::sum, or of what the edges say
+  double slope;
 
-  double logOdds(double sum) const { return this->constant + this->counted * sum; }
+  double logOdds(double counted) const { return this->constant + this->slope * counted; }
 };
 
-/// What turns counts into probabilities, with the default weights of evidence. `withSurface` was fitted on what comes
-/// out of simulated bins of all parts, seen by each kind of sensor, with the part in them or not; `edgesAlone` on the
-/// Tohoku dataset without its surface. examples/calibration.py tells how they hold for other scenes.
+/// What turns counts into probabilities, with the default weights of evidence. `withSurface` and `present` were fitted
+/// on what comes out of simulated bins of all parts, seen by each kind of sensor, with the part in them or not;
+/// `edgesAlone` on the Tohoku dataset without its surface. examples/calibration.py tells how they hold for other
+/// scenes.
 struct ProbabilityCalibration
 {
+  /// Of EvidenceCounts::sum: whether a pose is right, but for a turn by a near-symmetry.
   LogisticRegression withSurface{ -7.2, 0.64 };
-  LogisticRegression edgesAlone{ 2.9, 0.16 }; ///< of scenes without a surface
+  LogisticRegression edgesAlone{ 2.9, 0.16 }; ///< the same of EvidenceCounts::ofEdges, in scenes without a surface
+  /// Whether the part is in the scan at all, from the logarithm of its best pose's odds: in the bins with the part that
+  /// was 3 to 24, in those without it at most 0.7.
+  LogisticRegression present{ -3.75, 2.5 };
 };
 
-/// Logarithm of the odds that a pose is right: those of its place, where it has a part, and the certainty of its
-/// rotation there, [0, 1].
+/// Logarithm of the odds that a pose is right: those that it is when something else holds, and how certain that is,
+/// [0, 1]: its rotation, or that the part is in the scan.
 double withCertainty(double logOdds, double certainty);
 
 /// [0, 1], from the logarithm of odds.
