@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meam
@@ -27,10 +28,11 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
   : InScene(scene)
   , Model(model)
   , Comparison(comparison)
-  , WorthTrying(settings.worthTrying)
+  , Settings(settings)
 {
   this->Refinement.maximumDistance = settings.distanceShare * model.diameter;
   this->Refinement.iterations = settings.iterations;
+  this->Refinement.fullSteps = 0;
   this->Refinement.threads = 1; // poses are worked on in parallel
   if (model.surface.empty())
   {
@@ -38,38 +40,59 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
   }
   const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
   const Eigen::Matrix3d axes = principalAxes(model.surface.points, middle);
-  Symmetries exact = model.symmetries;
-  exact.near.clear();
-  const Eigen::Isometry3d asItIs = Eigen::Isometry3d::Identity();
-  for (int k = 0; k < 3; ++k)
+  const Symmetries same = asIfRound(model.symmetries);
+  std::vector<Eigen::Isometry3d> known{ Eigen::Isometry3d::Identity() };
+  const auto add = [&](int axis, double degrees, std::vector<Eigen::Isometry3d>& turns)
   {
-    for (const double degrees : { 180.0, -settings.turn, settings.turn })
+    const Eigen::Isometry3d turn = turnAbout(axes.col(axis), degrees * M_PI / 180.0, middle);
+    const auto isKnown = [&](const Eigen::Isometry3d& other)
+    { return rotationError(nearestEqual(turn, other, same), other) < 0.5 * settings.turn; };
+    if (std::none_of(known.begin(), known.end(), isKnown))
     {
-      const Eigen::Isometry3d turn = turnAbout(axes.col(k), degrees * M_PI / 180.0, middle);
-      if (rotationError(nearestEqual(turn, asItIs, exact), asItIs) > 0.5 * settings.turn)
-      {
-        this->Turns.push_back(turn);
-      }
+      known.push_back(turn);
+      turns.push_back(turn);
     }
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    add(axis, 180.0, this->HalfTurns);
+    add(axis, -settings.turn, this->SmallTurns);
+    add(axis, settings.turn, this->SmallTurns);
   }
 }
 
 Pose RefinementRestarts::best(const Pose& pose, PoseComparison::Contender& asItIs) const
 {
   Pose best = pose;
-  if (pose.probability < this->WorthTrying)
+  if (pose.probability < this->Settings.worthTrying)
   {
     return best;
   }
-  for (const Eigen::Isometry3d& turn : this->Turns)
+  const auto tryFrom = [&](const Eigen::Isometry3d& T_scene_model)
   {
     Pose other = pose;
-    other.T_scene_model = pose.T_scene_model * turn;
+    other.T_scene_model = T_scene_model;
     other = refinePoses({ other }, this->InScene, this->Model, this->Refinement)[0];
     if (this->Comparison.advantage(other.T_scene_model, asItIs, 0.0) > 0.0)
     {
       best = other;
       asItIs = this->Comparison.contender(best.T_scene_model);
+    }
+  };
+  const double hopeless = -asItIs.explained;
+  for (const Eigen::Isometry3d& turn : this->HalfTurns)
+  {
+    const Eigen::Isometry3d turned = pose.T_scene_model * turn;
+    if (this->Comparison.advantage(turned, asItIs, hopeless) > hopeless)
+    {
+      tryFrom(turned);
+    }
+  }
+  for (const Eigen::Isometry3d& turn : this->SmallTurns)
+  {
+    if (pose.probability < this->Settings.sure)
+    {
+      tryFrom(pose.T_scene_model * turn);
     }
   }
   return best;

@@ -12,12 +12,14 @@ struct RefinementRestartsSettings
   double turn = 10.0;         ///< degrees, beside half a turn
   double distanceShare = 0.1; ///< of the diameter, the correspondences at the start
   int iterations = 10;
-  double worthTrying = 1e-3; ///< probability of a pose before: less, and it stays as it is
+  double worthTrying = 1e-3; ///< probability of a pose before: less, and it stays as it is;
+  double sure = 0.9;         ///< more, and it is tried at half turns alone
 };
 
 /// Refines a pose once more from where it is turned about the part's principal axes: by half a turn, for thin parts fit
 /// nearly as well upside down, and by a little to both sides, for a flat part's refinement may end beside the truth.
-/// Calls may run in parallel.
+/// Turns by the part's symmetries, and about the axis of a nearly round one, are left out (RotationDecision and
+/// RotationSearch). Calls may run in parallel.
 class RefinementRestarts
 {
 public:
@@ -33,8 +35,8 @@ private:
   const Scene& InScene;
   const TrainedModel& Model;
   const PoseComparison& Comparison;
-  double WorthTrying;
+  RefinementRestartsSettings Settings;
   PoseRefinementSettings Refinement;
-  std::vector<Eigen::Isometry3d> Turns; ///< in the part's frame, without those that are exact symmetries
+  std::vector<Eigen::Isometry3d> HalfTurns, SmallTurns; ///< in the part's frame
 };
 }
