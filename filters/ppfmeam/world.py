@@ -29,10 +29,8 @@ class Lines:
             self.rows = [row for row in csv.DictReader(whole) if keep(row)]
             if whole and next(csv.reader(whole[:1])) != list(columns):
                 raise scripting.Failure(f"{path} is not of this version: remove it, or choose another folder")
-        # Anew, under another name first.
-        with open(path + ".part", "w", encoding="utf-8", newline="") as file:
+        with scripting.written(path, newline="") as file:
             self.write(file, columns, self.rows, head=True)
-        os.replace(path + ".part", path)
         self.columns = columns
 
     @staticmethod
@@ -43,7 +41,7 @@ class Lines:
         writer.writerows(rows)
 
     def add(self, rows):
-        with open(self.path, "a", encoding="utf-8", newline="") as file:
+        with scripting.writing(self.path), open(self.path, "a", encoding="utf-8", newline="") as file:
             self.write(file, self.columns, rows)
         self.rows += [{name: str(value) for name, value in row.items()} for row in rows]
 
@@ -56,10 +54,7 @@ class Record:
     """The bins that are done: DIR/world.csv, a row for each; DIR/poses.csv, the poses found in them; DIR/world.md."""
 
     def __init__(self, folder):
-        try:
-            os.makedirs(folder, exist_ok=True)
-        except OSError as error:
-            raise scripting.Failure(f"cannot write {folder}: {error.strerror}") from None
+        scripting.make_folder(folder)
         self.folder = folder
         self.bins = Lines(os.path.join(folder, "world.csv"), ROW)
         done = set(map(bin_of, self.bins.rows))

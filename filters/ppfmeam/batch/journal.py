@@ -25,13 +25,11 @@ class Journal:
     def open(self, run):
         """Makes the folder, or takes up what a run with the same `run` has left there. Keeps other runs out until
         close()."""
-        try:
+        with scripting.writing(self.folder):
             self.keep_others_out()
-            if not os.path.exists(self.path(RUN)):
-                with scripting.written(self.path(RUN)) as file:
-                    json.dump(run, file, indent=1)
-        except OSError as error:
-            raise scripting.Failure(f"cannot write {self.folder}: {error.strerror}") from None
+        if not os.path.exists(self.path(RUN)):
+            with scripting.written(self.path(RUN)) as file:
+                json.dump(run, file, indent=1)
         if scripting.read_json(self.path(RUN)) != run:
             raise scripting.Failure(f"{self.folder} is of a run that was stopped and had other parts, scans or "
                                     "options: go on with these, remove it, or choose another --out")
@@ -66,14 +64,12 @@ class Journal:
 
     def add(self, line):
         """A scan that is done."""
-        try:
+        with scripting.writing(self.folder):
             if not self.file:
                 self.file = self.new_file()
             text = (json.dumps(line) + "\n").encode()
             while text:  # a disk that has become full takes a part first
                 text = text[os.write(self.file, text):]
-        except OSError as error:
-            raise scripting.Failure(f"cannot write {self.folder}: {error.strerror}") from None
 
     def new_file(self):
         number = len(os.listdir(self.folder))
