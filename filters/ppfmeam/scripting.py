@@ -72,16 +72,14 @@ interruption = Interruption()
 
 def upstream(algorithm):
     """The algorithm and all that feed it."""
-    found = {}
-
-    def visit(filter):
+    # Not by a function that calls itself: it would keep them, and their data, until Python looks for garbage.
+    found, next_ones = {}, [algorithm]
+    while next_ones:
+        filter = next_ones.pop()
         if filter is not None and id(filter) not in found:
             found[id(filter)] = filter
-            for port in range(filter.GetNumberOfInputPorts()):
-                for connection in range(filter.GetNumberOfInputConnections(port)):
-                    visit(filter.GetInputAlgorithm(port, connection))
-
-    visit(algorithm)
+            next_ones += [filter.GetInputAlgorithm(port, connection) for port in range(filter.GetNumberOfInputPorts())
+                          for connection in range(filter.GetNumberOfInputConnections(port))]
     return list(found.values())
 
 
@@ -110,6 +108,20 @@ def written(path, newline=None, mode="w"):
     finally:
         if is_file and os.path.exists(part):
             os.remove(part)
+
+
+def append(file, lines):
+    """Adds a text of whole lines to an open file of bytes without a buffer. A process that is killed meanwhile leaves a part
+    of them, and so does a disk that becomes full: whole_lines() does without it."""
+    text = lines.encode()
+    while text:
+        text = text[file.write(text):]
+
+
+def whole_lines(path):
+    """The lines of a file that append() wrote."""
+    with open(path, encoding="utf-8", newline="\n") as file:
+        return [line for line in file if line.endswith("\n")]
 
 
 def make_folder(path):

@@ -57,9 +57,8 @@ class Journal:
         found = {}
         for name in sorted(os.listdir(self.folder)):
             if name.endswith(".jsonl"):
-                with open(self.path(name), encoding="utf-8", newline="\n") as file:
-                    whole = (json.loads(line) for line in file if line.endswith("}\n"))
-                    found.update((line["scan"], line) for line in whole)
+                lines = map(json.loads, scripting.whole_lines(self.path(name)))
+                found.update((line["scan"], line) for line in lines)
         return found
 
     def add(self, line):
@@ -67,16 +66,13 @@ class Journal:
         with scripting.writing(self.folder):
             if not self.file:
                 self.file = self.new_file()
-            text = (json.dumps(line) + "\n").encode()
-            while text:  # a disk that has become full takes a part first
-                text = text[os.write(self.file, text):]
+            scripting.append(self.file, json.dumps(line) + "\n")
 
     def new_file(self):
         number = len(os.listdir(self.folder))
-        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND
         while True:
             try:
-                return os.open(self.path(f"{number:06d}.jsonl"), flags, 0o666)
+                return open(self.path(f"{number:06d}.jsonl"), "xb", buffering=0)
             except FileExistsError:
                 number += 1
 
