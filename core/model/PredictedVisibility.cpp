@@ -244,17 +244,11 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
   auto visible =
     std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized(), pitchSteps * pitchStep));
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  if (this->Cache.emplace(key, visible).second) // another thread may have been faster
+  if (this->Cache.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
   {
-    this->Cached.push_back(key);
+    this->Cache.clear();
   }
-  // One by one, so that the memory taken stays the same.
-  if (this->Cached.size() > static_cast<std::size_t>(this->Settings.cachedDirections))
-  {
-    this->Cache.erase(this->Cached.front());
-    this->Cached.pop_front();
-  }
-  return visible;
+  return this->Cache.emplace(key, std::move(visible)).first->second;
 }
 
 PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards, double pitch) const

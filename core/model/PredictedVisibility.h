@@ -4,7 +4,6 @@
 #include "base/SoAPoints.h"
 #include "mesh/OccludingContours.h"
 
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -81,6 +80,5 @@ private:
 
   mutable std::mutex Mutex;
   mutable std::unordered_map<int, std::shared_ptr<const Visible>> Cache; ///< by direction
-  mutable std::deque<int> Cached;                                        ///< its keys, the oldest first
 };
 }
