@@ -94,7 +94,7 @@ Size sizeOf(const std::string& path, const std::string& bytes)
   const auto starts = [&](const std::string& magic) { return bytes.compare(0, magic.size(), magic) == 0; };
   if (starts("\x89PNG\r\n\x1a\n"))
   {
-    const bool isHeader = bytes.compare(12, 4, "IHDR") == 0;
+    const bool isHeader = numberAt(bytes, 12, 4, true) == 0x49484452; // IHDR
     return isHeader ? Size{ numberAt(bytes, 16, 4, true), numberAt(bytes, 20, 4, true) } : Size{};
   }
   if (starts("\xff\xd8"))
