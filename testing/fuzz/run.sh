@@ -22,8 +22,10 @@ fuzz() { # READER
   mkdir -p "$build/corpus/$reader" "$build/found"
   MEAM_READER=$reader "$build/bin/meamFuzz" -max_total_time="$seconds" -max_len=65536 -len_control=1000 \
     -dict="$here/words.dict" -timeout=10 -rss_limit_mb=4096 -use_value_profile=1 -print_final_stats=1 \
-    -artifact_prefix="$build/found/$reader-" "$build/corpus/$reader" "$here/corpus/$reader" >"$log" 2>&1
-  local status=$? runs coverage found=-
+    -artifact_prefix="$build/found/$reader-" "$build/corpus/$reader" "$here/corpus/$reader" >"$log" 2>&1 &
+  local status=0 runs coverage found=-
+  wait $! || status=$?
+  rm -rf "/dev/shm/meam-fuzz-$!-$reader" "${TMPDIR:-/tmp}/meam-fuzz-$!-$reader" # a crash leaves it
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   coverage=$(grep -o 'cov: [0-9]*' "$log" | tail -1)
   [ $status = 0 ] || found=$(sed -n 's/.*Test unit written to //p' "$log" | tail -1)
