@@ -2,7 +2,7 @@
 # Sets up the machine and brings one build up to date, quietly; the whole output is in build/PRESET.log and
 # its end is shown when something fails. Says nothing when nothing is to be done.
 #
-#   cmake/build.sh PRESET [TARGET...]        release, dev or vtk; the targets default to everything
+#   cmake/build.sh PRESET [TARGET...]        release, dev, vtk or fuzz; the targets default to everything
 #
 # The preset vtk links the core of build/release, which is built first.
 set -euo pipefail

@@ -5,6 +5,7 @@
 #   cmake/debian.sh            what the plugin, the Python package, the examples and the tests need
 #   cmake/debian.sh vtk        that and, for the vtk preset, a plain VTK in build/deps/vtk9
 #   cmake/debian.sh packages   that and what packaging/build.sh makes Debian packages with
+#   cmake/debian.sh fuzz       that and what testing/fuzz/run.sh builds with
 #
 # libpcl-dev and plain VTK's packages conflict with python3-paraview, hence the unpacking: of PCL only the
 # headers are needed (its runtime libraries install fine), plain VTK runs from where it is unpacked.
@@ -43,6 +44,7 @@ packages=(
   "${suite[@]}"
 )
 [ "${1:-}" != packages ] || packages+=(dpkg-dev file)
+[ "${1:-}" != fuzz ] || packages+=(clang libclang-rt-dev libomp-dev)
 unpack=(pcl:libpcl-dev)
 if [ "${1:-}" = vtk ]; then
   unpack+=(vtk9:{libvtk9-dev,"libvtk$vtk","libvtk$vtk-qt",vtk9,python3-vtk9})

@@ -47,17 +47,23 @@ Size sizeOfJPEG(const std::string& bytes)
   for (std::uint64_t at = 2; at + 9 < bytes.size() && numberAt(bytes, at, 1, true) == 0xff;)
   {
     const std::uint64_t marker = numberAt(bytes, at + 1, 1, true);
+    if (marker == 0)
+    {
+      break; // no marker: libjpeg looks for the next one
+    }
     if (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc)
     {
       return { numberAt(bytes, at + 7, 2, true), numberAt(bytes, at + 5, 2, true) };
     }
+    const bool isAlone = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd7); // TEM, RSTm: no length behind them
     // 0xff may be repeated in front of a marker.
-    at += marker == 0xff ? 1 : 2 + std::max<std::uint64_t>(numberAt(bytes, at + 2, 2, true), 2);
+    at += marker == 0xff ? 1 : isAlone ? 2 : 2 + std::max<std::uint64_t>(numberAt(bytes, at + 2, 2, true), 2);
   }
   return {};
 }
 
-/// The tags 256 and 257 of the first directory.
+/// The tags 256 and 257 of the first directory; of several the first one, as libtiff has it. None of another type than
+/// short or long: libtiff takes their values from elsewhere.
 Size sizeOfTIFF(const std::string& bytes)
 {
   const bool big = bytes[0] == 'M';
@@ -68,11 +74,17 @@ Size sizeOfTIFF(const std::string& bytes)
   {
     const std::uint64_t at = directory + 2 + 12 * tag;
     const std::uint64_t name = numberAt(bytes, at, 2, big);
-    const int width = numberAt(bytes, at + 2, 2, big) == 3 ? 2 : 4; // short or long
-    if (name == 256 || name == 257)
+    const std::uint64_t type = numberAt(bytes, at + 2, 2, big);
+    if (name != 256 && name != 257)
     {
-      (name == 256 ? size.width : size.height) = numberAt(bytes, at + 8, width, big);
+      continue;
     }
+    if (type != 3 && type != 4)
+    {
+      return {};
+    }
+    std::uint64_t& length = name == 256 ? size.width : size.height;
+    length = length == 0 ? numberAt(bytes, at + 8, type == 3 ? 2 : 4, big) : length;
   }
   return size;
 }
@@ -82,7 +94,8 @@ Size sizeOf(const std::string& path, const std::string& bytes)
   const auto starts = [&](const std::string& magic) { return bytes.compare(0, magic.size(), magic) == 0; };
   if (starts("\x89PNG\r\n\x1a\n"))
   {
-    return { numberAt(bytes, 16, 4, true), numberAt(bytes, 20, 4, true) };
+    const bool isHeader = numberAt(bytes, 12, 4, true) == 0x49484452; // IHDR
+    return isHeader ? Size{ numberAt(bytes, 16, 4, true), numberAt(bytes, 20, 4, true) } : Size{};
   }
   if (starts("\xff\xd8"))
   {

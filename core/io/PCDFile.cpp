@@ -172,6 +172,10 @@ Header parseHeader(const std::string& path, const std::string& bytes)
   }
 
   const std::size_t fields = header.fields.size();
+  if (fields == 0)
+  {
+    fail(path, "has no line FIELDS with the names of its values");
+  }
   const auto checkCount = [&](const char* key, const std::vector<std::string>& values)
   {
     if (!values.empty() && values.size() != fields)

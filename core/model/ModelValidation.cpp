@@ -11,10 +11,11 @@ namespace meam
 {
 namespace
 {
-constexpr double MostDiameter = 1e9; // mm
-constexpr double MostExtent = 2.0;   // of the points along an axis, over the diameter; 1 but for rounding
-constexpr float MostAngle = 3.15f;   // radians; pi but for rounding
-constexpr double Rotation = 1e-3;    // how far a matrix may be from a rotation, and an axis from a unit vector
+constexpr double LeastDiameter = 1e-6; // mm; of less single precision cannot take the inverse
+constexpr double MostDiameter = 1e9;   // mm
+constexpr double MostExtent = 2.0;     // of the points along an axis, over the diameter; 1 but for rounding
+constexpr float MostAngle = 3.15f;     // radians; pi but for rounding
+constexpr double Rotation = 1e-3;      // how far a matrix may be from a rotation, and an axis from a unit vector
 
 bool isMotion(const Eigen::Isometry3d& T)
 {
@@ -191,7 +192,7 @@ void requireModelVersion(double version)
 
 void requireModelSettings(const TrainedModel& model)
 {
-  if (!(model.diameter > 0.0 && model.diameter < MostDiameter))
+  if (!(model.diameter > LeastDiameter && model.diameter < MostDiameter))
   {
     refuseModel("has no diameter.");
   }

@@ -24,15 +24,14 @@ def write_json(path, data):
 
 def write_png(path, pixels):
     """H x W or H x W x 3 values of 8 or 16 bits, from the top left."""
-    os.makedirs(os.path.dirname(path), exist_ok=True)
+    scripting.make_folder(os.path.dirname(path))
     image = vtkImageData()
     image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
     values = numpy.ascontiguousarray(pixels[::-1]).reshape(pixels.shape[0] * pixels.shape[1], -1)
     image.GetPointData().SetScalars(numpy_to_vtk(values, deep=True))
     writer = vtkPNGWriter()
     writer.SetInputData(image)
-    writer.SetFileName(path)
-    scripting.update(writer, "Write")
+    scripting.write_by(writer, path)
 
 
 def pixels_of(image):
@@ -50,10 +49,12 @@ def numbers(data, name):
 def write_part(folder, mesh, entry, number=1):
     """models/: the mesh, and its entry (text) of models_info.json."""
     models = os.path.join(folder, "models")
-    os.makedirs(models, exist_ok=True)
+    scripting.make_folder(models)
     writer = vtkPLYWriter()
     writer.SetInputData(mesh)
-    writer.SetFileName(os.path.join(models, f"obj_{number:06d}.ply"))
+    path = os.path.join(models, f"obj_{number:06d}.ply")
+    scripting.require_room(models, mesh, path)
+    writer.SetFileName(path)
     scripting.update(writer, "Write")
     write_json(os.path.join(models, "models_info.json"), {str(number): json.loads(entry)})
 

@@ -127,7 +127,7 @@ class Film:
 
     def __init__(self, folder, name, station):
         self.folder, self.name, self.station, self.entries = folder, name, station, []
-        os.makedirs(os.path.join(folder, name), exist_ok=True)
+        scripting.make_folder(os.path.join(folder, name))
 
     def add(self, truth, gripper):
         instances = filters.vtkMEAMPoseInstances()
@@ -138,9 +138,8 @@ class Film:
             path = os.path.join(self.name, f"{kind}_{step:03}.vtp")
             writer = vtkXMLPolyDataWriter()
             writer.SetInputData(data)
-            writer.SetFileName(os.path.join(self.folder, path))
             writer.SetDataModeToBinary()
-            scripting.update(writer, "Write")
+            scripting.write_by(writer, os.path.join(self.folder, path))
             self.entries.append(f'    <DataSet timestep="{step}" part="{part}" name="{kind}" file="{path}"/>')
         with scripting.written(os.path.join(self.folder, self.name + ".pvd")) as file:
             file.write("\n".join(['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>",
@@ -227,10 +226,7 @@ def table(rows):
 def run(folder, parts, sensors, gripper, bins, copies, first, threads, show=False):
     """Table 9 in Markdown; DIR/cell.csv has a row for each trial and is gone on with, DIR/table9.md is the table, DIR/NAME.pvd
     the film of each bin and, when it is shown, DIR/NAME.png a strip of pictures. A bin that was interrupted starts anew."""
-    try:
-        os.makedirs(folder, exist_ok=True)
-    except OSError as error:
-        raise scripting.Failure(f"cannot write {folder}: {error.strerror}") from None
+    scripting.make_folder(folder)
     whole = world.Lines(os.path.join(folder, "bins.csv"), BIN)
     done = set(map(bin_of, whole.rows))
     record = world.Lines(os.path.join(folder, "cell.csv"), ROW, lambda row: bin_of(row) in done)

@@ -79,5 +79,4 @@ class Strip:
         data.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
         writer = vtkPNGWriter()
         writer.SetInputData(data)
-        writer.SetFileName(path)
-        scripting.update(writer, "Write")
+        scripting.write_by(writer, path)

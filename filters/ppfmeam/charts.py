@@ -12,6 +12,8 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
+from . import scripting
+
 SIZE = (960, 540)
 # Okabe and Ito's colours, which colour-blind people tell apart.
 COLORS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (86, 180, 233), (213, 94, 0), (240, 228, 66), (120, 120, 120))
@@ -86,5 +88,4 @@ def save(chart, series, path):
     shot.SetInput(view.GetRenderWindow())
     writer = vtkPNGWriter()
     writer.SetInputConnection(shot.GetOutputPort())
-    writer.SetFileName(path)
-    writer.Write()
+    scripting.write_by(writer, path)

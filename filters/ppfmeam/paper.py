@@ -289,10 +289,7 @@ def add_parser(datasets, shared):
 
 def run(options):
     """Returns how many searches failed."""
-    try:
-        os.makedirs(options.out, exist_ok=True)
-    except OSError as error:
-        raise scripting.Failure(f"cannot write {options.out}: {error.strerror}") from None
+    scripting.make_folder(options.out)
     scenes, copies, bins, trials = options.scenes, options.copies, cell.BINS, stage.TRIALS
     if options.quick:
         scenes, copies, bins, trials = min(scenes, QUICK), min(copies, QUICK_COPIES), 1, 1

@@ -15,7 +15,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401  the legend's letters
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
 from .filters import vtkMEAMPoseInstances
-from .scripting import Failure, update, with_value
+from .scripting import Failure, bytes_of, update, with_value, written
 
 WIDTH = 1600  # pixels
 JPEG_QUALITIES = range(85, 40, -5)
@@ -72,13 +72,14 @@ def write(window, path, most_bytes=None):
     jpeg = path.lower().endswith((".jpg", ".jpeg"))
     writer = vtkJPEGWriter() if jpeg else vtkPNGWriter()
     writer.SetInputConnection(grabber.GetOutputPort())
-    writer.SetFileName(path)
     for quality in JPEG_QUALITIES if jpeg else (None,):
         if jpeg:
             writer.SetQuality(quality)
-        update(writer, "Write")
-        if most_bytes is None or os.path.getsize(path) <= most_bytes:
+        content = bytes_of(writer)
+        if most_bytes is None or len(content) <= most_bytes:
             break
+    with written(path, mode="wb") as file:
+        file.write(content)
 
 
 def save_actors(path, actors, frame, size, labels=(), most_bytes=None):

@@ -72,30 +72,82 @@ interruption = Interruption()
 
 def upstream(algorithm):
     """The algorithm and all that feed it."""
-    found = {}
-
-    def visit(filter):
+    # Not by a function that calls itself: it would keep them, and their data, until Python looks for garbage.
+    found, next_ones = {}, [algorithm]
+    while next_ones:
+        filter = next_ones.pop()
         if filter is not None and id(filter) not in found:
             found[id(filter)] = filter
-            for port in range(filter.GetNumberOfInputPorts()):
-                for connection in range(filter.GetNumberOfInputConnections(port)):
-                    visit(filter.GetInputAlgorithm(port, connection))
-
-    visit(algorithm)
+            next_ones += [filter.GetInputAlgorithm(port, connection) for port in range(filter.GetNumberOfInputPorts())
+                          for connection in range(filter.GetNumberOfInputConnections(port))]
     return list(found.values())
 
 
 @contextlib.contextmanager
-def written(path, newline=None):
-    """A text file to write, which appears whole or not at all."""
-    part = f"{path}.{os.getpid()}.part"
+def writing(path):
+    """Of what goes wrong when a file or folder is written a Failure."""
     try:
-        with open(part, "w", encoding="utf-8", newline=newline) as file:
-            yield file
-        os.replace(part, path)
+        yield
+    except BrokenPipeError:  # of the output
+        raise
+    except OSError as error:
+        raise Failure(f"cannot write {path}: {error.strerror}") from None
+
+
+@contextlib.contextmanager
+def written(path, newline=None, mode="w"):
+    """A file to write, a text or with mode "wb" bytes, which appears whole or not at all."""
+    is_file = os.path.isfile(path) or not os.path.exists(path)  # a device or a pipe must not be renamed over
+    part = f"{path}.{os.getpid()}.part" if is_file else path
+    try:
+        with writing(path):
+            with open(part, mode, encoding=None if "b" in mode else "utf-8", newline=newline) as file:
+                yield file
+            if is_file:
+                os.replace(part, path)
     finally:
-        if os.path.exists(part):
+        if is_file and os.path.exists(part):
             os.remove(part)
+
+
+def append(file, lines):
+    """Adds a text of whole lines to an open file of bytes without a buffer. A process that is killed meanwhile leaves a part
+    of them, and so does a disk that becomes full: whole_lines() does without it."""
+    text = lines.encode()
+    while text:
+        text = text[file.write(text):]
+
+
+def whole_lines(path):
+    """The lines of a file that append() wrote."""
+    with open(path, encoding="utf-8", newline="\n") as file:
+        return [line for line in file if line.endswith("\n")]
+
+
+def make_folder(path):
+    """Makes a folder and those that it is in, unless they are there."""
+    with writing(path):
+        os.makedirs(path, exist_ok=True)
+
+
+def bytes_of(writer):
+    """What one of VTK's writers of images or of a single file of XML would write. Of a full disk some of them say nothing,
+    others end the program, so they get no file."""
+    if hasattr(writer, "WriteToMemoryOn"):  # of images
+        writer.WriteToMemoryOn()
+        update(writer, "Write")
+        return vtk_to_numpy(writer.GetResult()).tobytes()
+    writer.WriteToOutputStringOn()
+    update(writer, "Write")
+    text = writer.GetOutputString()
+    return text if isinstance(text, bytes) else text.encode()
+
+
+def write_by(writer, path):
+    """Writes a file by one of VTK's writers, whole or not at all."""
+    content = bytes_of(writer)
+    with written(path, mode="wb") as file:
+        file.write(content)
 
 
 def run(main):
@@ -399,6 +451,13 @@ def resolve_conflicts(found, models, scene, edges, preset="recommended", poses=0
     return update(resolution).GetOutput()
 
 
+def require_room(folder, data, path):
+    """Raises a Failure unless a folder takes a data object, whatever its form, for those of VTK's writers that bytes_of() does
+    not know."""
+    with writing(path), tempfile.TemporaryFile(dir=folder) as file:
+        os.posix_fallocate(file.fileno(), 0, 2048 * (data.GetActualMemorySize() + 1))  # KiB; a text is a third longer
+
+
 def write_model(model, path):
     """Writes a trained model, NAME.meam, or NAME.vtpc and the folder NAME beside it, whole or not at all."""
     name, extension = os.path.splitext(os.path.basename(path))
@@ -412,6 +471,7 @@ def write_model(model, path):
         return
     folder = os.path.dirname(os.path.abspath(path))
     with tempfile.TemporaryDirectory(dir=folder) as scratch:
+        require_room(scratch, model, path)
         writer = vtkXMLPartitionedDataSetCollectionWriter()
         writer.SetInputDataObject(model)
         writer.SetFileName(os.path.join(scratch, name + extension))

@@ -41,10 +41,7 @@ class Bins:
     def __init__(self, copies, folder=None):
         self.copies, self.folder, self.last = copies, folder, {}
         if folder:
-            try:
-                os.makedirs(folder, exist_ok=True)
-            except OSError as error:
-                raise scripting.Failure(f"cannot write {folder}: {error.strerror}") from None
+            scripting.make_folder(folder)
 
     def scene(self, part, sensor, seed):
         """The scan and the true poses of a bin. The last two bins are remembered."""
@@ -76,10 +73,8 @@ class Bins:
         for writer, path, data in reversed([*zip((vtkXMLStructuredGridWriter(), vtkXMLPolyDataWriter()), self.paths(name),
                                                  (scan, truth))]):
             writer.SetInputData(data)
-            writer.SetFileName(path + ".part")
             writer.SetDataModeToBinary()
-            scripting.update(writer, "Write")
-            os.replace(path + ".part", path)
+            scripting.write_by(writer, path)
         return scan, truth
 
     def paths(self, name):

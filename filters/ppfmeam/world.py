@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What was found in bins of many parts and sensors: files that a killed run leaves whole, and the table of it."""
 import csv
+import io
 import os
 
 import numpy
@@ -24,15 +25,12 @@ class Lines:
     def __init__(self, path, columns, keep=lambda row: True):
         self.path, self.rows = path, []
         if os.path.exists(path):
-            with open(path, encoding="utf-8", newline="") as file:
-                whole = [line for line in file if line.endswith("\n")]
+            whole = scripting.whole_lines(path)
             self.rows = [row for row in csv.DictReader(whole) if keep(row)]
             if whole and next(csv.reader(whole[:1])) != list(columns):
                 raise scripting.Failure(f"{path} is not of this version: remove it, or choose another folder")
-        # Anew, under another name first.
-        with open(path + ".part", "w", encoding="utf-8", newline="") as file:
+        with scripting.written(path, newline="") as file:
             self.write(file, columns, self.rows, head=True)
-        os.replace(path + ".part", path)
         self.columns = columns
 
     @staticmethod
@@ -43,8 +41,10 @@ class Lines:
         writer.writerows(rows)
 
     def add(self, rows):
-        with open(self.path, "a", encoding="utf-8", newline="") as file:
-            self.write(file, self.columns, rows)
+        text = io.StringIO()
+        self.write(text, self.columns, rows)
+        with scripting.writing(self.path), open(self.path, "ab", buffering=0) as file:
+            scripting.append(file, text.getvalue())
         self.rows += [{name: str(value) for name, value in row.items()} for row in rows]
 
 
@@ -56,10 +56,7 @@ class Record:
     """The bins that are done: DIR/world.csv, a row for each; DIR/poses.csv, the poses found in them; DIR/world.md."""
 
     def __init__(self, folder):
-        try:
-            os.makedirs(folder, exist_ok=True)
-        except OSError as error:
-            raise scripting.Failure(f"cannot write {folder}: {error.strerror}") from None
+        scripting.make_folder(folder)
         self.folder = folder
         self.bins = Lines(os.path.join(folder, "world.csv"), ROW)
         done = set(map(bin_of, self.bins.rows))

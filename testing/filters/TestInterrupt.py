@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ctrl-C in scripts: they end within a second, without a traceback, and leave no file that is not whole."""
+"""Ctrl-C in scripts: they end within a second, without a traceback, and leave no file that is not whole. What is watched for
+it goes when it is no longer needed."""
+import gc
 import os
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+import weakref
 
+from ppfmeam import filters, scripting
 from meamtest import check
 
 root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -39,3 +43,14 @@ with tempfile.TemporaryDirectory() as folder:
     bins = os.path.join(folder, "bins")
     left = interrupted(1.2, bins, "simulate.py", "--cad", part, "--scenes", "50", "--out", bins)
     check(not [name for name in left if name.endswith(".part")] and all(map(os.path.getsize, left)), f"left: {left}")
+
+# Not when Python looks for garbage: filters hold scans.
+signal.signal(signal.SIGINT, scripting.interruption.ask)
+gc.disable()
+source, thinned = filters.vtkMEAMSamplePartSource(), filters.vtkMEAMSurfaceSampling()
+thinned.SetInputConnection(source.GetOutputPort())
+scripting.update(thinned)
+check(len(scripting.upstream(thinned)) == 2, f"{scripting.upstream(thinned)}")
+held = [weakref.ref(source), weakref.ref(thinned)]
+del source, thinned
+check([reference() for reference in held] == [None, None], "filters are held after their use")

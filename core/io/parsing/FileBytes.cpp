@@ -81,7 +81,7 @@ std::string readFile(const std::string& path)
   file.seekg(0);
   if (!file.read(bytes.data(), size))
   {
-    throw Error(what + reason());
+    throw Error(what + (file.eof() ? ": it was cut off while it was read." : reason()));
   }
   return bytes;
 }

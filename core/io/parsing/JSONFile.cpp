@@ -12,7 +12,8 @@ namespace meam
 {
 namespace
 {
-constexpr int MostNested = 4; // arrays in arrays: a matrix has two
+constexpr int MostNested = 4;  // arrays in arrays: a matrix has two
+constexpr int MostLevels = 64; // of a file; copies and comparisons call themselves for each
 
 void append(const nlohmann::json& value, int nested, std::vector<double>& numbers, bool& good)
 {
@@ -32,9 +33,18 @@ void append(const nlohmann::json& value, int nested, std::vector<double>& number
 
 nlohmann::json parseJSON(const std::string& path, const std::string& text)
 {
+  const auto requireFlat = [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&)
+  {
+    if (depth > MostLevels)
+    {
+      throw Error("The file '" + path + "' has lists in lists " + std::to_string(MostLevels) +
+                  " times over: it is damaged, or no file of this kind.");
+    }
+    return true;
+  };
   try
   {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(text, requireFlat);
   }
   catch (const nlohmann::json::parse_error& error)
   {

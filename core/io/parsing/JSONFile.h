@@ -8,7 +8,8 @@
 
 namespace meam
 {
-/// What a JSON text holds. Throws Error, naming the file `path` it is from, when it is not JSON.
+/// What a JSON text holds. Throws Error, naming the file `path` it is from, when it is not JSON, or nested as no file
+/// for this program is.
 nlohmann::json parseJSON(const std::string& path, const std::string& text);
 
 /// The numbers of a JSON value: one, or those of an array and of arrays in it, in their order. Throws Error,

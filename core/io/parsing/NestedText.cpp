@@ -15,16 +15,17 @@ namespace
 {
 constexpr std::string_view Blanks = " \t\r";
 constexpr int MostNested = 32;
+constexpr std::size_t MostName = 256; // characters of a whole name; numbers with a longer one would fill the memory
 
 void append(const nlohmann::json& value, const std::string& name, int nested, NestedNumbers& numbers)
 {
+  if (nested > MostNested || name.size() > MostName)
+  {
+    return;
+  }
   if (value.is_number())
   {
     numbers[name] = value.get<double>();
-    return;
-  }
-  if (nested > MostNested)
-  {
     return;
   }
   const std::string start = name.empty() ? "" : name + ".";
@@ -112,13 +113,13 @@ NestedNumbers numbersInIndentedText(const std::string& text)
       name += level.name + ".";
     }
     const std::string_view value = trimmed(line.substr(colon + 1));
-    const std::string key(trimmed(line.substr(0, colon)));
+    const std::string key(trimmed(line.substr(0, colon)).substr(0, MostName));
     double number = 0.0;
     if (value.empty())
     {
       open.push_back({ indent, key, 0 });
     }
-    else if (parseNumber(value, number))
+    else if (name.size() + key.size() < MostName && parseNumber(value, number))
     {
       numbers[name + key] = number;
     }

@@ -25,13 +25,11 @@ class Journal:
     def open(self, run):
         """Makes the folder, or takes up what a run with the same `run` has left there. Keeps other runs out until
         close()."""
-        try:
+        with scripting.writing(self.folder):
             self.keep_others_out()
-            if not os.path.exists(self.path(RUN)):
-                with scripting.written(self.path(RUN)) as file:
-                    json.dump(run, file, indent=1)
-        except OSError as error:
-            raise scripting.Failure(f"cannot write {self.folder}: {error.strerror}") from None
+        if not os.path.exists(self.path(RUN)):
+            with scripting.written(self.path(RUN)) as file:
+                json.dump(run, file, indent=1)
         if scripting.read_json(self.path(RUN)) != run:
             raise scripting.Failure(f"{self.folder} is of a run that was stopped and had other parts, scans or "
                                     "options: go on with these, remove it, or choose another --out")
@@ -59,28 +57,22 @@ class Journal:
         found = {}
         for name in sorted(os.listdir(self.folder)):
             if name.endswith(".jsonl"):
-                with open(self.path(name), encoding="utf-8", newline="\n") as file:
-                    whole = (json.loads(line) for line in file if line.endswith("}\n"))
-                    found.update((line["scan"], line) for line in whole)
+                lines = map(json.loads, scripting.whole_lines(self.path(name)))
+                found.update((line["scan"], line) for line in lines)
         return found
 
     def add(self, line):
         """A scan that is done."""
-        try:
+        with scripting.writing(self.folder):
             if not self.file:
                 self.file = self.new_file()
-            text = (json.dumps(line) + "\n").encode()
-            while text:  # a disk that has become full takes a part first
-                text = text[os.write(self.file, text):]
-        except OSError as error:
-            raise scripting.Failure(f"cannot write {self.folder}: {error.strerror}") from None
+            scripting.append(self.file, json.dumps(line) + "\n")
 
     def new_file(self):
         number = len(os.listdir(self.folder))
-        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND
         while True:
             try:
-                return os.open(self.path(f"{number:06d}.jsonl"), flags, 0o666)
+                return open(self.path(f"{number:06d}.jsonl"), "xb", buffering=0)
             except FileExistsError:
                 number += 1
 

@@ -41,10 +41,7 @@ def write(path, names, lines):
             yield [name, len(line["rows"]), *(line[column] for column in SCANS[2:])]
 
     for to, columns, rows in ((path_of_scans(path), SCANS, scans()), (path, POSES, poses())):
-        try:
-            with scripting.written(to, newline="") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(columns)
-                writer.writerows(rows)
-        except OSError as error:
-            raise scripting.Failure(f"cannot write {to}: {error.strerror}") from None
+        with scripting.written(to, newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(columns)
+            writer.writerows(rows)

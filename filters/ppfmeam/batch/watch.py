@@ -134,11 +134,8 @@ class Watch:
         if poses is not None:
             scripting.write_poses(poses, self.result(path), FORMS[self.options.form], Time=seconds)
         else:
-            try:
-                with scripting.written(failed) as file:
-                    file.write(words + "\n")
-            except OSError as error:
-                raise scripting.Failure(f"cannot write {failed}: {error.strerror}") from None
+            with scripting.written(failed) as file:
+                file.write(words + "\n")
         old = self.result(path) if poses is None else failed
         if os.path.exists(old):
             os.remove(old)

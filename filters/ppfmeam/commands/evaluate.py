@@ -52,7 +52,7 @@ def run_part(part, options):
     deviation = options.noise(scripting.field(model, "Diameter"))
     failed = 0
     if options.out:
-        os.makedirs(os.path.join(options.out, f"Part_{part}"), exist_ok=True)
+        scripting.make_folder(os.path.join(options.out, f"Part_{part}"))
     for scene in options.scenes:
         out = options.out and os.path.join(options.out, f"Part_{part}", f"trans{scene}.txt")
         if out and os.path.exists(out):

@@ -53,10 +53,7 @@ def main():
         scripting.update(source)
         scan, truth, part, image = (source.GetOutputDataObject(port) for port in range(4))
         if scene == 0:
-            try:
-                os.makedirs(options.out, exist_ok=True)
-            except OSError as error:
-                raise scripting.Failure(f"cannot write {options.out}: {error.strerror}") from None
+            scripting.make_folder(options.out)
             bop.write_part(options.out, part, samples.GetFieldData().GetAbstractArray("ModelsInfo").GetValue(0))
             bop.write_camera(options.out, scan, image)
         bop.write_scene(options.out, scene, scan, truth, image)

@@ -54,6 +54,18 @@ TEST(ImageFile, coloursAreRedGreenBlue)
   EXPECT_EQ(read(images::encoded(".png", seen)).pixels, (std::vector<std::uint8_t>{ 3, 2, 1 })) << "alpha is dropped";
 }
 
+TEST(ImageFile, theSizeOfAJPEGIsThatOfTheFrameThatIsDecoded)
+{
+  // Behind a marker without a length, and far behind it another frame.
+  std::string bytes = images::encoded(".jpg", cv::Mat(16, 24, CV_8UC1, cv::Scalar(100)));
+  bytes.insert(2, "\xff\x01");
+  bytes.resize(4 + 0xffe0, ' ');
+  bytes += std::string("\xff\xc0\x00\x11\x08\x00\x01\x00\x01\x01", 10) + std::string(20, ' ');
+  const files::Folder folder;
+  EXPECT_EQ(meam::readImageSize(folder.write("image.jpg", bytes)), (std::array<int, 2>{ 24, 16 }));
+  EXPECT_EQ(read(bytes).pixels.size(), 16u * 24u);
+}
+
 TEST(ImageFile, sixteenBitsUseTheirWholeRange)
 {
   const cv::Mat deep = (cv::Mat_<std::uint16_t>(1, 3) << 0, 257 * 40, 65535);

@@ -50,7 +50,7 @@ TEST(ModelsInfo, badFiles)
   EXPECT_THROW(meam::readModelsInfo("/no/such/models_info.json", 1), meam::Error);
   expectError("{", "not JSON");
   expectError("[]", "no object 1");
-  expectError(std::string(300000, '[') + std::string(300000, ']'), "no object 1");
+  expectError(std::string(300000, '[') + std::string(300000, ']'), "lists in lists");
   expectError(R"({ "2": {} })", "no object 1");
   expectError(R"({ "1": 5 })", "no object 1");
   expectError(R"({ "1": { "symmetries_discrete": 5 } })", "not a list");

@@ -170,6 +170,7 @@ TEST(ModelFile, AModelThatIsNotSoundIsNotWritten)
   const std::vector<std::pair<std::string, std::function<void(meam::TrainedModel&)>>> damages = {
     { "diameter", [](auto& model) { model.diameter = 0.0; } },
     { "diameter", [](auto& model) { model.diameter = NAN; } },
+    { "diameter", [](auto& model) { model.diameter = 1e-45; } },
     { "farther apart", [](auto& model) { model.diameter = 1.0; } },
     { "farther apart", [](auto& model) { model.surface.points[0].x() = 1e6f; } },
     { "step", [](auto& model) { model.settings.distanceStep = 1.5; } },

@@ -21,3 +21,12 @@ TEST(NestedText, json)
   EXPECT_EQ(meam::numbersInJSONTree(nlohmann::json::parse(R"({"a": 1, "b": {"c": [2, {"d": 3}], "e": "text"}})")),
     (NestedNumbers{ { "a", 1 }, { "b.c.0", 2 }, { "b.c.1.d", 3 } }));
 }
+
+TEST(NestedText, namesAreOfALimitedLength)
+{
+  // Otherwise each number would take as much memory as the whole file.
+  const std::string name(300, 'n');
+  EXPECT_EQ(meam::numbersInJSONTree({ { name, { 1, 2 } }, { "a", { 3 } } }), (NestedNumbers{ { "a.0", 3 } }));
+  EXPECT_EQ(
+    meam::numbersInIndentedText(name + ":\n  b: 1\n" + name + ": 2\na:\n  b: 3\n"), (NestedNumbers{ { "a.b", 3 } }));
+}
