@@ -50,6 +50,6 @@ TriangleMesh meshOf(const GripperPiece& piece);
 /// The faces of the gripper around a part, in the grasp's frame, to look at.
 TriangleMesh meshOf(const Gripper& gripper, const Grasp& grasp);
 
-/// Throws Error for a length that is not positive, a clearance below 0, or an invalid mesh.
+/// Throws Error, with its name, for a length that is not positive, a clearance below 0, or an invalid mesh.
 void requireGripper(const Gripper& gripper);
 }
