@@ -7,6 +7,8 @@
 ///     meam::Model model = meam::loadModel("part.meam");              // in the cell; meam::detect, no GPL in it
 ///     for (const meam::DetectedPose& pose : meam::detect(model, meam::loadScan("scan.pcd")).poses) ...
 ///
+/// Where a gripper takes them: picks.h.
+///
 /// Lengths are in mm. Every failure is a meam::Error whose message says what is wrong and what to do. The same input
 /// gives the same result, for any number of threads.
 #pragma once
@@ -122,6 +124,16 @@ MEAM_EXPORT Model loadModel(const std::string& path);
 /// become the image. `scale` brings lengths to mm: 1000 for metres.
 MEAM_EXPORT Scan loadScan(const std::string& path, const std::string& cameraFile = {}, double scale = 1.0);
 
+/// A part's surface. Corners of a triangle go counter-clockwise seen from outside.
+struct Mesh
+{
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+/// Reads a mesh: .stl, .obj, .ply or .off, in the file's own unit.
+MEAM_EXPORT Mesh loadMesh(const std::string& path);
+
 /// Reads a calibration of OpenCV (YAML, XML, JSON) or BOP (camera.json), for Scan::imageCamera.
 MEAM_EXPORT Camera loadCamera(const std::string& path);
 
@@ -139,13 +151,6 @@ MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& came
 // ----------------------------------------------------------------------------------------------------------- training
 // Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.
 
-/// A part's surface. Corners of a triangle go counter-clockwise seen from outside; what is wrong with it is mended.
-struct Mesh
-{
-  std::vector<Eigen::Vector3f> vertices;
-  std::vector<Eigen::Vector3i> triangles;
-};
-
 struct TrainSettings
 {
   Preset preset = Preset::Recommended;
@@ -155,9 +160,6 @@ struct TrainSettings
   unsigned seed = 1;                                ///< of all random choices
 };
 
-/// Learns how a part looks from all sides. Takes seconds, on all processors.
+/// Learns how a part looks from all sides; what is wrong with its mesh is mended. Takes seconds, on all processors.
 MEAM_EXPORT Model train(const Mesh& mesh, const TrainSettings& settings = {}, const Progress& progress = {});
-
-/// Reads a mesh: .stl, .obj, .ply or .off, in the file's own unit.
-MEAM_EXPORT Mesh loadMesh(const std::string& path);
 }

@@ -3,6 +3,7 @@
 
 #include "base/Bounds.h"
 #include "pick/GraspProposal.h"
+#include "pick/PickSettings.h"
 #include "pick/io/GraspFile.h"
 #include "pick/proposal/GraspFitting.h"
 #include "vtkMEAMGraspConversion.h"
@@ -63,9 +64,9 @@ int vtkMEAMGraspDefinition::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-vtkMEAMClampedSettingMacro(vtkMEAMGraspDefinition, MaximumNumberOfGrasps, int, most, 0, VTK_INT_MAX);
-vtkMEAMClampedSettingMacro(vtkMEAMGraspDefinition, FrictionAngle, double, frictionAngle, 0.1, 89.0);
-vtkMEAMClampedSettingMacro(vtkMEAMGraspDefinition, Spread, double, spread, 0.0, VTK_DOUBLE_MAX);
+vtkMEAMSettingMacro(vtkMEAMGraspDefinition, MaximumNumberOfGrasps, int, most);
+vtkMEAMSettingMacro(vtkMEAMGraspDefinition, FrictionAngle, double, frictionAngle);
+vtkMEAMSettingMacro(vtkMEAMGraspDefinition, Spread, double, spread);
 
 meam::Grasp vtkMEAMGraspDefinition::LaidByHand() const
 {
@@ -106,6 +107,7 @@ int vtkMEAMGraspDefinition::RequestData(
       {
         const double start = meam::bounds(mesh.vertices).diagonal().norm();
         const meam::Grasp grasp = this->LaidByHand();
+        meam::requireWithin("hand width", grasp.width, 0.0, meam::Unbounded, " mm");
         grasps.push_back(grasp.width > 0.0 ? grasp : meam::fitGrasp(meam::MeshRays(mesh), grasp, gripper, start));
       }
       const meam::Progress progress = progressOf(this);

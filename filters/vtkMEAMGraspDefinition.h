@@ -122,7 +122,7 @@ public:
    * By hand: mm of the part between the jaws; 0: they close from their opening until they touch, with the origin in the
    * middle; a cup goes along its approach until it touches. Default: 0.
    */
-  vtkSetClampMacro(HandWidth, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(HandWidth, double);
   vtkGetMacro(HandWidth, double);
   ///@}
 

@@ -69,13 +69,13 @@ int vtkMEAMPickPlanning::RequestInformation(
   return 1;
 }
 
-vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, SafetyMargin, double, safetyMargin, 0.0, VTK_DOUBLE_MAX);
-vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, WayIn, double, wayIn, 0.0, VTK_DOUBLE_MAX);
-vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MinimumProbability, double, leastProbability, 0.0, 1.0);
-vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MaximumTilt, double, mostTilt, 0.0, 180.0);
-vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, MaximumCovered, double, mostCovered, 0.0, 100.0);
-vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, TurnStep, double, turnStep, 1.0, 360.0);
-vtkMEAMClampedSettingMacro(vtkMEAMPickPlanning, Tolerance, double, tolerance, 0.0, VTK_DOUBLE_MAX);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, SafetyMargin, double, safetyMargin);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, WayIn, double, wayIn);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, MinimumProbability, double, leastProbability);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumTilt, double, mostTilt);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumCovered, double, mostCovered);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, TurnStep, double, turnStep);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, Tolerance, double, tolerance);
 
 void vtkMEAMPickPlanning::SetGripper(int gripper)
 {

@@ -122,7 +122,7 @@ public:
 
   ///@{
   /** mm, thickness of the walls of a bin that is given. Default: 5. */
-  vtkSetClampMacro(BinWall, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(BinWall, double);
   vtkGetMacro(BinWall, double);
   ///@}
 

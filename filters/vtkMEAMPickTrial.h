@@ -41,13 +41,13 @@ public:
 
   ///@{
   /** mm of the gripper's way in that are looked at. Default: 80. */
-  vtkSetClampMacro(WayIn, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(WayIn, double);
   vtkGetMacro(WayIn, double);
   ///@}
 
   ///@{
   /** mm that a cup gives way, and that it may be off the surface. Default: 2. */
-  vtkSetClampMacro(CupSlack, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(CupSlack, double);
   vtkGetMacro(CupSlack, double);
   ///@}
 

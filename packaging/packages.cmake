@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Debian packages of what the install rules put into the components detect, train, dev, python and paraview. packaging/build.sh
+# Debian packages of what the install rules put into the components detect, pick, train, dev, python and paraview. packaging/build.sh
 # makes them; what only a package has (copyright, changelog, ParaView's list of plugins) is in the install rules here.
 set(PPFMEAM_MAINTAINER "PPFMEAM developers <root@localhost>" CACHE STRING "Maintainer of the Debian packages: Name <address>")
 set(debian_revision 1)
@@ -7,22 +7,26 @@ set(debian_version "${PROJECT_VERSION}-${debian_revision}")
 set(generated "${PROJECT_BINARY_DIR}/packaging")
 
 set(package_detect libppfmeam-detect)
+set(package_pick libppfmeam-pick)
 set(package_train libppfmeam-train)
 set(package_dev libppfmeam-dev)
 set(package_python python3-ppfmeam)
 set(package_paraview ppfmeam-paraview)
-set(components detect train dev python paraview)
+set(components detect pick train dev python paraview)
 
 set(CPACK_COMPONENT_DETECT_DESCRIPTION "6D poses of industrial parts in a bin, detection in C++
 Finds the copies of a part in an organized 3D scan with a model trained before:
 meam::detect, which holds nothing under the GPL.")
+set(CPACK_COMPONENT_PICK_DESCRIPTION "6D poses of industrial parts in a bin, picks in C++
+Plans where a gripper can take which of the parts that were found: meam::pick,
+which holds nothing under the GPL.")
 set(CPACK_COMPONENT_TRAIN_DESCRIPTION "6D poses of industrial parts in a bin, training in C++
-Trains the model of a part from its CAD file (meam::train) and reads images in
-files (meam::images). Under the GPL: CGAL is in the one, and Debian's image
+Trains the model of a part from its CAD file and proposes grasps of it
+(meam::train), and reads images in files (meam::images). Under the GPL: CGAL is in the one, and Debian's image
 readers, which the other links, need Poppler.")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "6D poses of industrial parts in a bin, C++ headers
 Headers and CMake files for find_package(PPFMEAM): meam::detect, meam::images,
-meam::train and, with python3-ppfmeam, the VTK module PPFMEAM::Filters.")
+meam::pick, meam::train and, with python3-ppfmeam, the VTK module PPFMEAM::Filters.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "6D poses of industrial parts in a bin, Python and command
 Finds the copies of an industrial part in a bin: a CAD file and an organized 3D
 scan go in, ranked 6D poses come out. The Python module ppfmeam with its VTK
@@ -42,13 +46,15 @@ set(paraview_depends "python3-paraview")
 if(unknown EQUAL 0)
   set(paraview_depends "python3-paraview (>= ${paraview_version}), python3-paraview (<< ${paraview_version}.)")
 endif()
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${package_detect} ${same}, ${package_train} ${same}, libeigen3-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${package_detect} ${same}, ${package_pick} ${same}, ${package_train} ${same}, libeigen3-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "${package_python} ${same}, paraview-dev, cmake")
+set(CPACK_DEBIAN_PICK_PACKAGE_DEPENDS "${package_detect} ${same}")
 set(CPACK_DEBIAN_TRAIN_PACKAGE_DEPENDS "${package_detect} ${same}")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python_depends}, ${paraview_depends}, python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "${package_paraview}, python3-mpi4py, xvfb")
 set(CPACK_DEBIAN_PARAVIEW_PACKAGE_DEPENDS "${package_python} ${same}")
 set(CPACK_DEBIAN_DETECT_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_PICK_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_TRAIN_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -57,9 +63,11 @@ set(CPACK_DEBIAN_PARAVIEW_PACKAGE_SECTION science)
 set(control "${PROJECT_SOURCE_DIR}/packaging/control")
 set(soversion "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
 file(WRITE "${generated}/detect/shlibs" "libmeamDetect ${soversion} ${package_detect} ${same}\n")
+file(WRITE "${generated}/pick/shlibs" "libmeamPick ${soversion} ${package_pick} ${same}\n")
 file(WRITE "${generated}/train/shlibs"
   "libmeamImages ${soversion} ${package_train} ${same}\nlibmeamTrain ${soversion} ${package_train} ${same}\n")
 set(CPACK_DEBIAN_DETECT_PACKAGE_CONTROL_EXTRA "${control}/triggers;${generated}/detect/shlibs")
+set(CPACK_DEBIAN_PICK_PACKAGE_CONTROL_EXTRA "${control}/triggers;${generated}/pick/shlibs")
 set(CPACK_DEBIAN_TRAIN_PACKAGE_CONTROL_EXTRA "${control}/triggers;${generated}/train/shlibs")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${control}/triggers;${control}/postinst;${control}/prerm")
 
@@ -74,6 +82,8 @@ set(gpl "Our sources are under the BSD 3-Clause licence. This package is built w
  /usr/share/common-licenses/GPL-3 is its text.")
 set(note_detect "Everything in this package is under the BSD 3-Clause licence; it is built with headers of PCL, FLANN, Boost, Eigen
  and nlohmann's JSON, and holds nothing under the GPL.")
+set(note_pick "Everything in this package is under the BSD 3-Clause licence; it is built with headers of FCL, OctoMap, Eigen and
+ nlohmann's JSON, and holds nothing under the GPL.")
 set(note_train "${gpl}")
 set(note_dev "The headers are under the BSD 3-Clause licence. What is linked with meam::train, with meam::images (Debian's GDAL
  and Poppler) or with PPFMEAM::Filters can be passed on under the GPL 3 only (/usr/share/common-licenses/GPL-3).")

@@ -64,5 +64,6 @@ bool comesFromScan(vtkSMSourceProxy* source, unsigned int port)
 bool isInScene(vtkPVDataInformation* data)
 {
   const auto has = [&](const char* name) { return data->GetArrayInformation(name, vtkDataObject::POINT) != nullptr; };
-  return isOrganized(data) || has("Transform") || has("RankColor") || has("EdgeSource");
+  const bool areGrasps = has("FreeTurn"); // on the part
+  return isOrganized(data) || (has("Transform") && !areGrasps) || has("RankColor") || has("EdgeSource");
 }

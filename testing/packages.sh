@@ -16,10 +16,12 @@ get() { apt-get install -q -y --no-install-recommends "$@" >>"$work/apt.log" 2>&
 export DEBIAN_FRONTEND=noninteractive
 apt-get update -q >"$work/apt.log"
 
-echo "== libppfmeam-detect alone: what a cell gets"
-get "$folder"/libppfmeam-detect_*.deb binutils
+echo "== libppfmeam-detect and libppfmeam-pick alone: what a cell gets"
+get "$folder"/libppfmeam-{detect,pick}_*.deb binutils
 if dpkg-query -W -f '${db:Status-Status} ${Package}\n' | grep -E '^installed .*(cgal|mpfr|poppler|gdal|paraview|vtk|openmesh|bullet)'; then failed "detection installs what it does not need"; fi
-readelf -d /usr/lib/libmeamDetect.so.0.2 | grep -E "(gmp|mpfr|OpenMesh|Bullet|imgcodecs|vtk)" && failed "libmeamDetect.so links what only training needs"
+for library in Detect Pick; do
+  readelf -d /usr/lib/libmeam$library.so.0.2 | grep -E "(gmp|mpfr|OpenMesh|Bullet|imgcodecs|vtk)" && failed "libmeam$library.so links what only training needs"
+done
 
 echo "== the command and the Python package"
 get "$folder"/python3-ppfmeam_*.deb
@@ -59,12 +61,14 @@ pvpython plugin.py || failed "the plugin"
 
 echo "== C++ with find_package(PPFMEAM)"
 get "$folder"/libppfmeam-{train,dev}_*.deb g++ make cmake
-bash "$here/install/libraries.sh" /usr/lib/libmeam{Detect,Images,Train}.so || failed "libraries"
+bash "$here/install/libraries.sh" /usr/lib/libmeam{Detect,Images,Pick,Train}.so || failed "libraries"
 cmake -S /usr/share/doc/libppfmeam-dev/examples/cpp -B cpp -DCMAKE_BUILD_TYPE=Release >cpp.log 2>&1 && cmake --build cpp >>cpp.log 2>&1 ||
   { cat cpp.log; failed "the examples do not compile"; }
 python3 "$here/install/scan.py" make "$work"
 cpp/find_parts part.stl scan.pcd part.meam >found.txt
 cpp/cell part.meam scan.pcd >cell.txt
+cpp/propose_grasps part.meam part.stl part.grasps.json
+cpp/pick part.meam part.stl part.grasps.json scan.pcd robot.json >picks.txt
 python3 "$here/install/scan.py" check "$work"
 
 echo "== removed again"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "door/DoorConversion.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
 #include "pose/MEAMPoseEstimation.h"
@@ -15,13 +16,7 @@ constexpr double AfterSceneEdges = 0.2; // share of the work, for the progress
 
 void requireScan(const Scan& scan)
 {
-  if (scan.width < 1 || scan.height < 1 ||
-      scan.points.size() != static_cast<std::size_t>(scan.width) * static_cast<std::size_t>(scan.height))
-  {
-    throw Error("The scan has " + std::to_string(scan.points.size()) + " points and a grid of " +
-                std::to_string(scan.width) + " x " + std::to_string(scan.height) +
-                ": give a point for each of its places.");
-  }
+  requireGrid(scan);
   if (scan.height == 1 && scan.edges.empty())
   {
     throw Error(

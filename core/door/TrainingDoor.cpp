@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/MeshFile.h"
 #include "meam.h"
 #include "mesh/preparation/MeshPreparation.h"
 #include "model/ModelTraining.h"
@@ -26,11 +25,5 @@ Model train(const Mesh& mesh, const TrainSettings& settings, const Progress& pro
   }
   return Model(std::make_shared<const TrainedModel>(
     trainModel(prepared.mesh, steps, subProgress(progress, AfterPreparation, 1.0))));
-}
-
-Mesh loadMesh(const std::string& path)
-{
-  TriangleMesh mesh = readMesh(path);
-  return { std::move(mesh.vertices), std::move(mesh.triangles) };
 }
 }

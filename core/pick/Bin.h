@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Geometry>
-
-#include <vector>
+#include "pick/PickTypes.h"
 
 namespace meam
 {
-/// An open box that parts lie in. Its frame has its origin in the middle of the floor and z up.
-struct Bin
-{
-  Eigen::Isometry3d T_scene_bin = Eigen::Isometry3d::Identity(); ///< mm
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();                ///< mm, inside: along x, along y, height of the walls
-  double wall = 5.0;                                             ///< mm, thickness of the walls and the floor
-};
-
 /// A box with its middle and its axes.
 struct PlacedBox
 {

@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "pick/PickCollisions.h"
+#include "pick/PickSettings.h"
 #include "pick/proposal/ContactPlaces.h"
 #include "pick/proposal/GraspSpread.h"
 #include "pick/proposal/GripperContact.h"
@@ -18,24 +19,29 @@ namespace
 constexpr double SamePlaces = 0.1;      // of the diameter, the spread where none is given
 constexpr double QualitySteps = 1e6;    // finer differences of quality are rounding
 constexpr double AlongAxis = 0.9;       // cosine: a direction of the CAD that is no reference for approaches
+constexpr double LeastTolerance = 1e-3; // mm
 constexpr double AfterCandidates = 0.8; // of the work, for the progress
 
 void requireSettings(const GraspProposalSettings& s)
 {
-  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
-  const bool counts = s.most >= 0 && s.contacts > 0 && s.approaches > 0 && s.approaches <= 360;
-  const bool lengths = s.spread >= 0.0 && s.leastWidth >= 0.0 && s.padTolerance > 0.0 && s.sealTolerance > 0.0 &&
-                       s.wayIn >= 0.0 && s.wayStep > 0.0;
-  const bool angles = within(s.frictionAngle, 0.1, 89.0) && within(s.mostBend, 0.0, 89.0) &&
-                      within(s.turnApart, 0.0, 180.0) && within(s.turnStep, 1.0, 90.0);
-  const bool shares = within(s.leastContact, 0.0, 1.0) && within(s.freeTurnLoss, 0.0, 1.0) &&
-                      within(s.centreWeight, 0.0, 1.0) && within(s.angleWeight, 0.0, 1.0) &&
-                      within(s.crowding, 0.0, 1.0);
-  if (!counts || !lengths || !angles || !shares)
-  {
-    throw Error("Grasps cannot be proposed with these settings: counts and lengths have to be positive, angles of "
-                "friction 0.1 to 89 degrees, shares and weights 0 to 1.");
-  }
+  requireWithin("maximum number of grasps", s.most, 0, Unbounded);
+  requireWithin("number of places to try", s.contacts, 1, Unbounded);
+  requireWithin("number of approaches", s.approaches, 1, 360);
+  requireWithin("spread of grasps", s.spread, 0.0, Unbounded, " mm");
+  requireWithin("least width", s.leastWidth, 0.0, Unbounded, " mm");
+  requireWithin("pads' tolerance", s.padTolerance, LeastTolerance, Unbounded, " mm");
+  requireWithin("seal's tolerance", s.sealTolerance, LeastTolerance, Unbounded, " mm");
+  requireWithin("way in", s.wayIn, 0.0, Unbounded, " mm");
+  requireWithin("step on the way in", s.wayStep, LeastTolerance, Unbounded, " mm");
+  requireWithin("friction angle", s.frictionAngle, 0.1, 89.0, " degrees");
+  requireWithin("bend under a cup", s.mostBend, 0.0, 89.0, " degrees");
+  requireWithin("turn between grasps at a place", s.turnApart, 0.0, 180.0, " degrees");
+  requireWithin("turn step", s.turnStep, 1.0, 90.0, " degrees");
+  requireWithin("least contact", s.leastContact, 0.0, 1.0);
+  requireWithin("loss of a free turn", s.freeTurnLoss, 0.0, 1.0);
+  requireWithin("weight of the centre", s.centreWeight, 0.0, 1.0);
+  requireWithin("weight of the angle", s.angleWeight, 0.0, 1.0);
+  requireWithin("crowding", s.crowding, 0.0, 1.0);
 }
 
 /// A direction of the CAD that does not run along the axis: down, because parts are drawn as they stand, or else along

@@ -2,15 +2,21 @@
 #include "pick/Gripper.h"
 
 #include "base/Error.h"
+#include "pick/PickSettings.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace meam
 {
 namespace
 {
-constexpr int RoundSides = 24; // of a cylinder to look at
+constexpr int RoundSides = 24;       // of a cylinder to look at
+constexpr double LeastLength = 1e-3; // mm, of a gripper's
+
+void requireLength(const char* name, double length)
+{
+  requireWithin(std::string("gripper's ") + name, length, LeastLength, Unbounded, " mm");
+}
 
 /// A prism along z around the middle: the corners of its outline one after the other, counter-clockwise.
 void addPrism(TriangleMesh& mesh, const GripperPiece& piece, const std::vector<Eigen::Vector2d>& outline)
@@ -118,18 +124,21 @@ void requireGripper(const Gripper& gripper)
     return;
   }
   const bool jaws = gripper.kind == GraspKind::Parallel;
-  const auto positive = [](std::initializer_list<double> lengths)
-  { return std::all_of(lengths.begin(), lengths.end(), [](double v) { return v > 0.0 && std::isfinite(v); }); };
-  if (!positive({ gripper.bodyLength, gripper.bodyWidth }) ||
-      !(jaws ? positive({ gripper.opening, gripper.fingerWidth, gripper.fingerThickness, gripper.fingerLength,
-                 gripper.tipLength })
-             : positive({ gripper.cupDiameter, gripper.cupLength })))
+  requireLength("body length", gripper.bodyLength);
+  requireLength("body width", gripper.bodyWidth);
+  if (jaws)
   {
-    throw Error("The gripper's lengths must be larger than 0 mm.");
+    requireLength("opening", gripper.opening);
+    requireLength("finger width", gripper.fingerWidth);
+    requireLength("finger thickness", gripper.fingerThickness);
+    requireLength("finger length", gripper.fingerLength);
+    requireLength("tip length", gripper.tipLength);
+    requireWithin("gripper's jaw clearance", gripper.jawClearance, 0.0, Unbounded, " mm");
   }
-  if (jaws && (!(gripper.jawClearance >= 0.0) || !std::isfinite(gripper.jawClearance)))
+  else
   {
-    throw Error("The clearance between the jaws and the part must be 0 mm or more.");
+    requireLength("cup diameter", gripper.cupDiameter);
+    requireLength("cup length", gripper.cupLength);
   }
   if (jaws && gripper.tipLength >= gripper.fingerLength)
   {

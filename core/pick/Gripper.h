@@ -2,31 +2,17 @@
 #pragma once
 
 #include "mesh/TriangleMesh.h"
-#include "pick/Grasp.h"
+#include "pick/PickTypes.h"
 
 #include <vector>
 
 namespace meam
 {
-/// A gripper by a few lengths, mm. In the grasp's frame it comes along z, and its jaws close along x.
-struct Gripper
+/// A gripper by its lengths, or any, as it stands open around the part, in the grasp's frame: its mesh, when it has
+/// faces, takes the place of the jaws or the cup.
+struct Gripper : GripperLengths
 {
-  GraspKind kind = GraspKind::Parallel;
-
-  double opening = 60.0;        ///< between the jaws, at most
-  double jawClearance = 3.0;    ///< on either side of the part, between it and a jaw on its way in
-  double fingerWidth = 12.0;    ///< of a jaw, along y
-  double fingerThickness = 8.0; ///< of a jaw, along x
-  double fingerLength = 50.0;   ///< from the body to the tips
-  double tipLength = 6.0;       ///< the tips reach so much farther than the grasp's origin
-  double bodyLength = 100.0;    ///< behind the fingers, or behind the cup
-  double bodyWidth = 60.0;      ///< across: of a gripper with jaws along y; of one with a cup its diameter
-  double cupDiameter = 20.0;
-  double cupLength = 30.0; ///< from the body to the rim
-
-  /// Any gripper, as it stands open around the part, in the grasp's frame; it takes the place of the jaws or the cup.
-  /// Empty: the lengths above.
-  TriangleMesh mesh{};
+  TriangleMesh mesh;
 };
 
 /// A convex piece of a gripper, its axes those of the grasp's frame.
@@ -50,6 +36,6 @@ TriangleMesh meshOf(const GripperPiece& piece);
 /// The faces of the gripper around a part, in the grasp's frame, to look at.
 TriangleMesh meshOf(const Gripper& gripper, const Grasp& grasp);
 
-/// Throws Error for a length that is not positive, a clearance below 0, or an invalid mesh.
+/// Throws Error, with its name, for a length that is not positive, a clearance below 0, or an invalid mesh.
 void requireGripper(const Gripper& gripper);
 }

@@ -2,6 +2,7 @@
 #include "pick/PickTrial.h"
 
 #include "pick/PickCollisions.h"
+#include "pick/PickSettings.h"
 
 namespace meam
 {
@@ -44,6 +45,8 @@ std::vector<PickTrial> tryPicks(const TriangleMesh& part, const Gripper& gripper
   const std::vector<Eigen::Isometry3d>& truths, const Bin* bin, const PickTrialSettings& settings,
   const Progress& progress)
 {
+  requireWithin("way in", settings.wayIn, 0.0, Unbounded, " mm");
+  requireWithin("cup's slack", settings.cupSlack, 0.0, Unbounded, " mm");
   PickCollisions world(part, gripper);
   world.setBin(bin);
   world.setInstances(truths);

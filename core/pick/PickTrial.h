@@ -35,7 +35,7 @@ struct PickTrialSettings
 
 /// Plays picks, grasps whose frames are the scene's (T_scene_grasp, mm), each for itself, among copies whose true poses
 /// are known: whether the gripper on its way touches the bin, or any copy before it holds one. Throws Error for an
-/// invalid mesh, gripper or bin.
+/// invalid mesh, gripper, bin or setting.
 std::vector<PickTrial> tryPicks(const TriangleMesh& part, const Gripper& gripper, const Grasps& picks,
   const std::vector<Eigen::Isometry3d>& truths, const Bin* bin, const PickTrialSettings& settings = {},
   const Progress& progress = {});

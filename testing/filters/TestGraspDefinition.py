@@ -108,7 +108,12 @@ check(is_empty(run(definition(part, connect(vtkMEAMSurfaceSampling(), part), wal
 # Errors.
 fails(definition(part, FileName=path("bad.grasps", '{"poses": []}')), "bad.grasps", "'format'")
 fails(definition(cloud([(0, 0, 0)])), "no faces")
-fails(definition(part, Opening=-1.0), "lengths")
+fails(definition(part, Opening=-1.0), "gripper's opening")
+for name, value, *words in (("FrictionAngle", 120.0, "friction angle", "0.1 to 89 degrees", "120"),
+                            ("MaximumNumberOfGrasps", -1, "maximum number of grasps", "0 or more", "-1"),
+                            ("Spread", -2.0, "spread", "0 mm or more", "-2")):
+    fails(definition(part, Propose=1, **{name: value}), *words)
+fails(definition(part, HandGrasp=1, HandWidth=-5.0), "hand width", "0 mm or more", "-5")
 for data, word in ((box(1, 1, 1), "Transform"), (cloud([(0, 0, 0)], Transform=[(2, *[0] * 15)]), "rotation")):
     refused = connect(vtkMEAMGraspWriter(), data)
     refused.SetFileName(path("refused.grasps"))

@@ -130,6 +130,17 @@ T_robot_camera: !!opencv-matrix
     fails(alone, "robot.yamlx")
     alone.SetRobotFrameFile(None)
 
+for name, value, *words in (("MaximumTilt", 500.0, "maximum tilt", "0 to 180 degrees", "500"),
+                            ("MinimumProbability", 1.5, "minimum probability", "0 to 1", "1.5"),
+                            ("MaximumCovered", -1.0, "maximum covered", "0 to 100 %", "-1"),
+                            ("SafetyMargin", -2.0, "safety margin", "0 mm or more", "-2"),
+                            ("WayIn", -80.0, "way in", "0 mm or more", "-80"),
+                            ("TurnStep", 0.0, "turn step", "1 to 360 degrees", "not 0"),
+                            ("Tolerance", -1.0, "tolerance", "0 mm or more", "-1")):
+    wrong = connect(vtkMEAMPickPlanning(), found, PART, above)
+    wrong.SetBinToNone()
+    getattr(wrong, "Set" + name)(value)
+    fails(wrong, *words)
 fails(connect(vtkMEAMPickPlanning(), found), "Part", "Grasps")
 fails(connect(vtkMEAMPickPlanning(), found, PART, above), "organized scan", "Bin")
 fails(connect(vtkMEAMPickPlanning(), found, PART, PART, scan()), "Transform", "GraspDefinition")
@@ -143,5 +154,5 @@ fails(flat, "bin", "larger than 0")
 flat.SetBinSize(10, 10, 100)
 fails(flat, "does not go into the bin")
 flat.SetOpening(-1)
-fails(flat, "gripper's lengths")
+fails(flat, "gripper's opening", "-1")
 prints(planning, "Gripper", "Opening", "Bin", "BinPosition", "BinSize", "SafetyMargin", "WayIn", "MaximumTilt", "Tolerance")

@@ -182,6 +182,10 @@ try:
     raises("no length", ppfmeam.pick, found, grasps, scan, fingers=3)
     raises("no such file", ppfmeam.pick, found, grasps, scan, gripper="hook.stl")
     raises("set Bin", ppfmeam.pick, found, grasps)
+    for option, words in (("tilt", "tilt has to be 0 to 180 degrees, not 500"), ("probability", "probability has to be 0 to 1"),
+                          ("covered", "covered share has to be 0 to 100 %"), ("margin", "margin has to be 0 mm"),
+                          ("way_in", "way in has to be 0 mm"), ("opening", "opening has to be")):
+        raises(words, ppfmeam.pick, found, grasps, scan, **{option: 500 if option in ("tilt", "probability", "covered") else -1})
 
     # What is wrong is an exception, what may be wrong a warning.
     flat = points.reshape(-1, 3)

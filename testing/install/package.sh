@@ -13,10 +13,10 @@ prefix=$folder/moved
 if grep -rlF -e "$source" -e "$build" -e "$folder/first" "$prefix/lib/cmake/PPFMEAM" "$prefix/include"; then
   echo "^ installed files that name folders of the build"; exit 1
 fi
-if grep -rhE '#include' "$prefix/include/meam" | grep -vE '#include (<(Eigen/.*|[a-z_]+)>|"(base|features|scene)/.*")'; then
-  echo "^ meam.h includes more than Eigen and its own headers"; exit 1
+if grep -rhE '#include' "$prefix/include/meam" | grep -vE '#include (<(Eigen/.*|[a-z_]+)>|"(meam\.h|(base|features|pick|scene)/.*)")'; then
+  echo "^ meam.h or picks.h includes more than Eigen and its own headers"; exit 1
 fi
-bash "$here/libraries.sh" "$prefix/lib/libmeam"{Detect,Images,Train}.so
+bash "$here/libraries.sh" "$prefix/lib/libmeam"{Detect,Images,Pick,Train}.so
 
 configure() { # FOLDER SOURCE
   cmake -S "$2" -B "$1" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" >"$1.log" 2>&1 &&
@@ -32,8 +32,13 @@ export PYTHONPATH=$prefix/$python_dir${PYTHONPATH:+:$PYTHONPATH}
 "$folder/module-build/read_scan" "$folder/scan.pcd"
 "$folder/cpp-build/find_parts" "$folder/part.stl" "$folder/scan.pcd" "$folder/part.meam" >"$folder/found.txt"
 "$folder/cpp-build/cell" "$folder/part.meam" "$folder/scan.pcd" >"$folder/cell.txt"
+"$folder/cpp-build/propose_grasps" "$folder/part.meam" "$folder/part.stl" "$folder/part.grasps.json"
+"$folder/cpp-build/pick" "$folder/part.meam" "$folder/part.stl" "$folder/part.grasps.json" "$folder/scan.pcd" "$folder/robot.json" \
+  >"$folder/picks.txt"
 "$python" "$here/scan.py" check "$folder"
-ldd "$folder/cpp-build/cell" | grep -E 'meamTrain|gmp|mpfr|OpenMesh|vtk|poppler' && { echo "^ a cell links what only training needs"; exit 1; }
+for program in cell pick; do
+  ldd "$folder/cpp-build/$program" | grep -E 'meamTrain|gmp|mpfr|OpenMesh|vtk|poppler' && { echo "^ $program links what only training needs"; exit 1; }
+done
 for wrong in missing.pcd part.stl; do
   if "$folder/cpp-build/cell" "$folder/part.meam" "$folder/$wrong" 2>"$folder/errors.txt"; then echo "no error: $wrong"; exit 1; fi
   grep -qF "$wrong" "$folder/errors.txt" || { cat "$folder/errors.txt"; exit 1; }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Planned picks over the scan: the gripper green or red, with a small legend, and beside it the rank of the pick or why the
-part cannot be taken. With PPFMEAM_PICTURE=FILE the picture goes there, that of docs/gallery.md."""
+part cannot be taken; grasps over the part. With PPFMEAM_PICTURE=FILE the picture goes there, that of docs/gallery.md."""
 import os
 import tempfile
 
@@ -29,6 +29,10 @@ grasps = simple.GraspDefinition(Input=part, **jaws)
 picks = simple.PickPlanning(Input=truth, Mesh=part, Grasps=grasps, Scan=scan, **jaws)
 view = simple.CreateRenderView()
 view.OrientationAxesVisibility, view.ViewSize = 0, [840, 650]
+held = simple.Show(part, view)
+simple.Show(grasps, view)
+check(held.Visibility == 1, "the part stays where its grasps are shown")
+simple.HideAll(view)
 simple.Show(scan, view)
 controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
 picks.UpdatePipeline()

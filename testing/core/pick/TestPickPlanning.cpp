@@ -275,7 +275,11 @@ TEST(PickPlanning, WrongInputIsOneSentence)
   EXPECT_NE(messageOf([&] { plan({ fromAbove() }, huge); }).find("does not go into the bin"), std::string::npos);
   meam::PickSettings settings;
   settings.mostTilt = 200.0;
-  EXPECT_NE(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }).find("tilt"), std::string::npos);
+  EXPECT_EQ(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }),
+    "The maximum tilt has to be 0 to 180 degrees, not 200.");
+  settings.mostTilt = 60.0;
+  settings.wayIn = NAN;
+  EXPECT_EQ(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }), "The way in has to be 0 mm or more, not nan.");
   meam::Pose nowhere = at(0, 0);
   nowhere.T_scene_model.translation().x() = NAN;
   meam::PickPlanner planner(block(), {}, { fromAbove() }, jaws());

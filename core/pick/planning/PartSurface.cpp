@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pick/PartSurface.h"
+#include "pick/planning/PartSurface.h"
 
 #include "base/Bounds.h"
 #include "base/Error.h"

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// From the structs of the door to the core's, for the files of the door that several libraries are made of.
+#pragma once
+
+#include "mesh/TriangleMesh.h"
+#include "pick/Gripper.h"
+#include "picks.h"
+
+namespace meam
+{
+/// Throws Error when the scan's points do not fill its grid.
+void requireGrid(const Scan& scan);
+
+/// The part's mesh. Throws Error for one that is invalid or not as large as the model's part.
+TriangleMesh partOf(const Model& model, const Mesh& part);
+
+Gripper gripperOf(const GripperModel& gripper);
+}

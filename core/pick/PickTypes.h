@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What planning picks is told of a part, a gripper and a bin: plain structs.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <string>
+#include <vector>
+
+namespace meam
+{
+/// What holds the part.
+enum class GraspKind
+{
+  Parallel, ///< two jaws that close on it
+  Suction   ///< a cup that sits on it
+};
+
+/// The axis of the grasp's frame about which the gripper may be turned by any angle and grasps as well.
+enum class FreeTurn
+{
+  None,
+  Approach, ///< z: a cup on a flat spot, jaws on a sphere
+  Closing   ///< x: jaws on the two faces of a disc
+};
+
+/// Where a gripper holds the part, in the CAD's coordinates. The frame's origin lies between the tips of the jaws, or
+/// in the middle of the cup's rim, when the part is held; z is the way in; along x the jaws close.
+struct Grasp
+{
+  std::string name;
+  GraspKind kind = GraspKind::Parallel;
+  Eigen::Isometry3d T_model_grasp = Eigen::Isometry3d::Identity(); ///< mm
+  double width = 0.0;                                              ///< mm, of the part between the jaws; 0 for a cup
+  FreeTurn freeTurn = FreeTurn::None;
+  double quality = 1.0; ///< [0, 1], how well it holds, as whoever made it thinks
+};
+
+using Grasps = std::vector<Grasp>;
+
+/// A gripper by a few lengths, mm. In the grasp's frame it comes along z, and its jaws close along x.
+struct GripperLengths
+{
+  GraspKind kind = GraspKind::Parallel;
+
+  double opening = 60.0;        ///< between the jaws, at most
+  double jawClearance = 3.0;    ///< on either side of the part, between it and a jaw on its way in
+  double fingerWidth = 12.0;    ///< of a jaw, along y
+  double fingerThickness = 8.0; ///< of a jaw, along x
+  double fingerLength = 50.0;   ///< from the body to the tips
+  double tipLength = 6.0;       ///< the tips reach so much farther than the grasp's origin
+  double bodyLength = 100.0;    ///< behind the fingers, or behind the cup
+  double bodyWidth = 60.0;      ///< across: of a gripper with jaws along y; of one with a cup its diameter
+  double cupDiameter = 20.0;
+  double cupLength = 30.0; ///< from the body to the rim
+};
+
+/// An open box that parts lie in. Its frame has its origin in the middle of the floor and z up.
+struct Bin
+{
+  Eigen::Isometry3d T_scene_bin = Eigen::Isometry3d::Identity(); ///< mm
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();                ///< mm, inside: along x, along y, height of the walls
+  double wall = 5.0;                                             ///< mm, thickness of the walls and the floor
+};
+}

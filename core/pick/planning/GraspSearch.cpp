@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pick/planning/GraspSearch.h"
+
+#include "base/Bounds.h"
+#include "base/Error.h"
+#include "pick/GraspTurns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace meam
+{
+namespace
+{
+constexpr double LeastLength = 1e-3; // mm, of a spacing
+
+/// A gripper that touches the part it holds only where it holds it, however little its pose is off: thicker by the
+/// margin but on the pads of the jaws, whose room is their clearance, and on the cup's rim, which gives way.
+Gripper widened(Gripper gripper, const PickSettings& settings)
+{
+  gripper.cupDiameter += 2.0 * settings.safetyMargin;
+  gripper.fingerWidth += 2.0 * settings.partMargin;
+  gripper.fingerThickness += settings.partMargin;
+  gripper.tipLength += settings.partMargin; // and so is the body nearer to the part
+  gripper.fingerLength = std::max(gripper.fingerLength, gripper.tipLength + settings.partMargin);
+  gripper.bodyWidth += 2.0 * settings.partMargin;
+  return gripper;
+}
+
+Grasp at(Grasp grasp, const Eigen::Isometry3d& T_model_grasp)
+{
+  grasp.T_model_grasp = T_model_grasp;
+  return grasp;
+}
+
+PickObstruction obstructionOf(Obstacle obstacle)
+{
+  return obstacle == Obstacle::Bin        ? PickObstruction::Bin
+         : obstacle == Obstacle::Instance ? PickObstruction::Instance
+                                          : PickObstruction::Measured;
+}
+}
+
+GraspSearch::GraspSearch(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps,
+  const Gripper& gripper, const PickSettings& settings)
+  : Claw(gripper)
+  , Settings(settings)
+  , Given(grasps)
+  , Box(bounds(part.vertices).cast<double>())
+  , Collisions(part, gripper)
+  , Surface(part, std::max(settings.surfaceSpacing * this->partSize(), LeastLength),
+      std::max(settings.mostTolerance * this->partSize(), LeastLength))
+{
+  if (grasps.empty())
+  {
+    throw Error("There is no grasp: define one at least, or have some proposed.");
+  }
+  const Gripper wide = widened(gripper, settings);
+  const PickCollisions own(part, wide);
+  const std::vector<Eigen::Isometry3d> symmetric = turnsOf(symmetries, settings.turnStep);
+  for (const Grasp& grasp : grasps)
+  {
+    requireGrasp(grasp);
+    const double outside = this->Box.exteriorDistance(grasp.T_model_grasp.translation());
+    if (outside > settings.mostOutside * this->partSize())
+    {
+      throw Error("The grasp '" + grasp.name + "' lies " + std::to_string(std::lround(outside)) +
+                  " mm outside the part: check that it is one of this part, in its coordinates and in mm.");
+    }
+    this->Frames.push_back(framesOf(grasp, symmetric, settings.turnStep, this->partSize()));
+    this->Touching.push_back({});
+    for (const auto& frame : this->Frames.back())
+    {
+      const double back = grasp.kind == GraspKind::Suction ? settings.cupSlack : 0.0;
+      const Grasp open = at(grasp, frame * Eigen::Translation3d(0.0, 0.0, -back));
+      this->Touching.back().push_back(this->fits(grasp) && own.touchesHeld(open, settings.wayIn, this->step()));
+    }
+  }
+}
+
+bool GraspSearch::tooWide(const Grasp& grasp) const
+{
+  return grasp.kind == GraspKind::Parallel && this->Claw.mesh.triangles.empty() &&
+         grasp.width + 2.0 * this->Claw.jawClearance > this->Claw.opening;
+}
+
+double GraspSearch::step() const { return std::max(this->Settings.safetyMargin, 1.0); }
+
+void GraspSearch::setObstacles(const Poses& poses, const std::optional<Bin>& bin, const PickSurroundings& around)
+{
+  std::vector<Eigen::Isometry3d> places;
+  for (const int copy : around.copies)
+  {
+    places.push_back(poses[copy].T_scene_model);
+  }
+  this->Collisions.setBin(bin ? &*bin : nullptr);
+  this->Collisions.setInstances(places);
+  this->Collisions.setMeasured(around.unexplained, around.voxelSize, this->Settings.fewestInVoxel);
+}
+
+Pick GraspSearch::pickAt(const Pose& pose, int copy, int index, const PickSurroundings& around) const
+{
+  const Grasp& grasp = this->Given[index];
+  Pick best;
+  best.obstruction = this->Claw.kind != grasp.kind ? PickObstruction::WrongKind : PickObstruction::TooWide;
+  best.T_scene_grasp = pose.T_scene_model * grasp.T_model_grasp;
+  if (!this->fits(grasp))
+  {
+    return best;
+  }
+  const double most = std::max(this->Settings.comfortableClearance, this->Settings.safetyMargin);
+  best.obstruction = PickObstruction::Tilted;
+  best.tilt = 180.0;
+  for (std::size_t turn = 0; turn < this->Frames[index].size(); ++turn)
+  {
+    Pick pick;
+    pick.T_scene_grasp = pose.T_scene_model * this->Frames[index][turn];
+    const double down = -pick.T_scene_grasp.linear().col(2).dot(around.up);
+    pick.tilt = std::acos(std::clamp(down, -1.0, 1.0)) * 180.0 / M_PI;
+    if (pick.tilt > this->Settings.mostTilt)
+    {
+      pick.obstruction = PickObstruction::Tilted;
+    }
+    else if (this->Touching[index][turn])
+    {
+      pick.obstruction = PickObstruction::PartItself;
+    }
+    else
+    {
+      const Clearance found = this->Collisions.clearance(
+        at(grasp, this->Frames[index][turn]), pick.T_scene_grasp, copy, this->Settings.wayIn, most, this->step());
+      pick.clearance = found.distance;
+      if (found.obstacle != Obstacle::None && found.distance < std::max(this->Settings.safetyMargin, 1e-9))
+      {
+        pick.obstruction = obstructionOf(found.obstacle);
+        pick.obstacle = found.obstacle == Obstacle::Instance ? around.copies[found.instance] : -1;
+      }
+    }
+    const auto order = [](const Pick& p)
+    { return std::make_tuple(p.possible() ? 0 : -static_cast<int>(p.obstruction), -p.clearance, p.tilt); };
+    if (pick.possible() != best.possible() ? pick.possible() : order(pick) < order(best))
+    {
+      best = pick;
+    }
+  }
+  return best;
+}
+}

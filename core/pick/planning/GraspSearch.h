@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/Symmetries.h"
+#include "pick/Gripper.h"
+#include "pick/Pick.h"
+#include "pick/PickCollisions.h"
+#include "pick/PickSettings.h"
+#include "pick/planning/PartSurface.h"
+#include "pick/planning/PickSurroundings.h"
+
+#include <optional>
+#include <vector>
+
+namespace meam
+{
+/// A part, its grasps and a gripper, and at which turns of a grasp it takes a copy.
+class GraspSearch
+{
+public:
+  /// Throws Error for an invalid mesh, gripper or grasp, for one outside the part, and without a grasp.
+  GraspSearch(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps, const Gripper& gripper,
+    const PickSettings& settings);
+
+  const Gripper& gripper() const { return this->Claw; }
+  const PickSettings& settings() const { return this->Settings; }
+  const Grasps& grasps() const { return this->Given; }
+  const PartSurface& surface() const { return this->Surface; }
+  double partSize() const { return this->Box.diagonal().norm(); } ///< mm, the diagonal of its box
+
+  /// What is in the way from now on.
+  void setObstacles(const Poses& poses, const std::optional<Bin>& bin, const PickSurroundings& around);
+
+  /// The best turn of a grasp of a copy; where none is possible the one that comes farthest.
+  Pick pickAt(const Pose& pose, int copy, int grasp, const PickSurroundings& around) const;
+
+private:
+  bool fits(const Grasp& grasp) const { return this->Claw.kind == grasp.kind && !this->tooWide(grasp); }
+  bool tooWide(const Grasp& grasp) const;
+  /// mm, between the places at which a gripper's mesh is looked at on its way.
+  double step() const;
+
+  Gripper Claw;
+  PickSettings Settings;
+  Grasps Given;
+  Eigen::AlignedBox3d Box; ///< of the mesh, mm
+  PickCollisions Collisions;
+  PartSurface Surface;
+  std::vector<std::vector<Eigen::Isometry3d>> Frames; ///< T_model_grasp of each grasp at all its turns
+  std::vector<std::vector<bool>> Touching;            ///< of each, whether the gripper touches the part that it holds
+};
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pick/Bin.h"
+#include "pick/PickSettings.h"
+#include "pick/planning/PartSurface.h"
+#include "pose/Pose.h"
+#include "scene/OrganizedCloud.h"
+
+#include <optional>
+#include <vector>
+
+namespace meam
+{
+/// A scan as planning sees it.
+struct PickSurroundings
+{
+  Points points;                                  ///< all, thinned
+  Points unexplained;                             ///< those of neither a copy nor the bin
+  double voxelSize = 0.0;                         ///< mm
+  double tolerance = 0.0;                         ///< mm
+  Eigen::Vector3d up = -Eigen::Vector3d::UnitZ(); ///< unit
+  double top = 0.0;                               ///< mm along `up`: the bin's rim, or the highest point
+  std::vector<int> copies;                        ///< poses that are likely enough to stand in the way
+  std::vector<std::vector<int>> pointsOf;         ///< of each copy
+};
+
+/// What lies around the copies of a part that is `partSize` mm large.
+PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin,
+  const PartSurface& surface, double partSize, const PickSettings& settings);
+
+/// Share, [0, 1], of a pose, the `copy`th of the copies, that lies under something, from above.
+double coveredShare(const Pose& pose, int copy, const PartSurface& surface, const PickSurroundings& around);
+
+/// How likely a pose is, [0, 1]; 1 of one of which nothing is known, such as a true one.
+double confidence(const Pose& pose);
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Where a gripper takes which of the parts that were found, and why not elsewhere.
+///
+///     const meam::Mesh part = meam::loadMesh("part.stl");            // in mm, as the model was trained with it
+///     const meam::Picker picker(model, part, meam::loadGrasps("part.grasps.json"), gripper);   // once for each part
+///     const meam::PickPlan plan = picker.plan(meam::detect(model, scan), scan);                // of each scan
+///     if (!plan.picks.empty() && plan.picks.front().possible) ...
+#pragma once
+
+#include "meam.h"
+#include "pick/PickTypes.h" // Grasp, Grasps, GripperLengths, Bin
+
+namespace meam
+{
+class PickPlanner;
+
+// -------------------------------------------------------------------------------------------------------------- picks
+// Library meam::pick; nothing under the GPL in it.
+
+/// A gripper by its lengths, or any, as it stands open around the part, in the grasp's frame: its mesh, when it has
+/// faces, takes the place of the jaws or the cup.
+struct GripperModel : GripperLengths
+{
+  Mesh mesh; ///< mm
+};
+
+struct PlanSettings
+{
+  double safetyMargin = 2.0;       ///< mm that the gripper keeps from all but the part that it takes
+  double wayIn = 80.0;             ///< mm, straight along the grasp's z, that have to be free
+  double minimumProbability = 0.5; ///< [0, 1], of a pose that is picked; less likely ones do not stand in the way
+  double maximumTilt = 60.0;       ///< degrees between the way in and straight down
+  double maximumCovered = 20.0;    ///< % of the part, from above, that may lie under something
+  double turnStep = 30.0;          ///< degrees between the turns that free and symmetric grasps are tried at
+  double tolerance = 0.0; ///< mm: measured points so near to a copy or to the bin are of it; 0: by the scan's noise
+};
+
+/// Where the bin and the robot are.
+struct Workplace
+{
+  bool hasBin = true;     ///< false: down is the way the sensor looks, and walls are what was measured of them
+  std::optional<Bin> bin; ///< none: it is found in the scan, by its rim
+  std::optional<Eigen::Isometry3d> T_robot_camera; ///< mm; takes the scan's points to the robot's frame
+};
+
+/// One grasp of one copy.
+struct PlannedPick
+{
+  bool possible = false;
+  std::string reason; ///< what is against it, in words; empty: nothing
+  /// mm; where the gripper stands when it holds the part: z the way in, along x the jaws close.
+  Eigen::Isometry3d T_scan_grasp = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> T_robot_grasp; ///< the same in the robot's frame, with a Workplace::T_robot_camera
+  int instance = -1;                              ///< index among the poses that were found
+  int grasp = -1;                                 ///< index among the grasps
+  std::string graspName;
+  double width = 0.0;     ///< mm, of the part between the jaws
+  double clearance = 0.0; ///< mm from all but the part, on the way in; up to 10, or the safety margin
+  double reach = 0.0;     ///< mm from the bin's rim, or from the highest point measured, down to the grasp
+  double tilt = 0.0;      ///< degrees between the way in and straight down
+  double covered = 0.0;   ///< [0, 1] of the part, from above
+  double score = 0.0;     ///< [0, 1], by which possible picks are ordered
+};
+
+struct PickPlan
+{
+  std::vector<PlannedPick> picks; ///< of each copy and each grasp one: the possible ones first, best first
+  std::string report;             ///< how many are possible, and what is against the others, in a sentence
+  std::optional<Bin> bin;         ///< that was given or found
+  double seconds = 0.0;
+};
+
+/// Plans picks of one part with one gripper.
+class MEAM_EXPORT Picker
+{
+public:
+  /// `part`: the mesh that the model was trained with, in mm; the model tells its symmetries. Throws Error for an
+  /// invalid mesh, gripper, grasp or setting, a mesh that is not as large as the model's part, and without a grasp.
+  Picker(const Model& model, const Mesh& part, const Grasps& grasps, const GripperModel& gripper,
+    const PlanSettings& settings = {});
+
+  /// The scan may be without points when the bin is given, or when there is none: then only the other copies and the
+  /// bin are in the way. One call at a time. Throws Error for a pose that is not finite, a bin that is not found, and a
+  /// gripper that does not go into it.
+  PickPlan plan(
+    const Detections& found, const Scan& scan, const Workplace& place = {}, const Progress& progress = {}) const;
+
+private:
+  std::shared_ptr<PickPlanner> Planner;
+  std::vector<Grasp> Given;
+};
+
+/// Finds an open rectangular bin in an organized scan from above, by its rim; for cells whose bin stays where it is.
+MEAM_EXPORT Bin detectBin(const Scan& scan, const Progress& progress = {});
+
+/// A grasp by a point between the tips of the jaws or in the middle of the cup's rim, mm, the way in and, of jaws, the
+/// direction in which they close; directions of any length, closing is made perpendicular to the way in.
+MEAM_EXPORT Grasp graspAt(GraspKind kind, const Eigen::Vector3d& position, const Eigen::Vector3d& approach,
+  const Eigen::Vector3d& closing = Eigen::Vector3d::Zero(), double width = 0.0);
+
+/// Reads the grasps of a part, NAME.grasps.json by custom.
+MEAM_EXPORT Grasps loadGrasps(const std::string& path);
+
+/// Writes such a file, whole or not at all.
+MEAM_EXPORT void saveGrasps(const std::string& path, const Grasps& grasps);
+
+/// Reads T_robot_camera, mm, from a file of ppfmeam hand-eye, OpenCV or ROS.
+MEAM_EXPORT Eigen::Isometry3d loadRobotFrame(const std::string& path);
+
+// ---------------------------------------------------------------------------------------------------------- proposals
+// Library meam::train, with CGAL, which is under the GPL.
+
+struct ProposeSettings
+{
+  int maximumGrasps = 20;
+  double frictionAngle = 15.0; ///< degrees between the closing direction and the surface's normals
+  double spread = 0.0;         ///< mm: nearer than this two grasps are one; 0: 10 % of the part's diameter
+  unsigned seed = 1;           ///< of the places that are tried
+  int threads = 0;             ///< 0: one for each processor
+};
+
+/// Grasps from the part's faces, spread over it, best first, for the jaws or the cup that the gripper has. `part` in
+/// mm, as the model was trained with it; of grasps that its symmetries make equal one comes out.
+MEAM_EXPORT Grasps proposeGrasps(const Model& model, const Mesh& part, const GripperModel& gripper,
+  const ProposeSettings& settings = {}, const Progress& progress = {});
+}

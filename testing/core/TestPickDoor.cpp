@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What picks.h declares, through the shared libraries; the core beside them says what is right.
+#include "TestFiles.h"
+#include "TestScene.h"
+#include "calibration/RobotFrameFile.h"
+#include "mesh/preparation/MeshPreparation.h"
+#include "pick/GraspProposal.h"
+#include "pick/PickPlanning.h"
+#include "picks.h"
+
+#include <cmath>
+#include <functional>
+
+namespace
+{
+using Eigen::Vector3d;
+
+meam::Model bracketModel() { return meam::Model(std::make_shared<const meam::TrainedModel>(scenes::bracket())); }
+
+/// 60 x 40 x 15 mm; its longer leg is 12 mm wide.
+meam::Mesh bracketMesh()
+{
+  const meam::TriangleMesh mesh = parts::lBracket();
+  return { mesh.vertices, mesh.triangles };
+}
+
+meam::Grasp acrossTheLeg()
+{
+  meam::Grasp grasp = meam::graspAt(meam::GraspKind::Parallel, { 40, 6, 7 }, { 0, 0, 2 }, { 0, 3, 0 }, 12.0);
+  grasp.name = "leg";
+  return grasp;
+}
+
+/// On a floor 500 mm below the sensor.
+meam::Detections twoBrackets()
+{
+  meam::Detections found;
+  for (const double x : { -50.0, 10.0 })
+  {
+    meam::DetectedPose pose;
+    pose.T_scan_part.translation() = Vector3d(x, -20, 485);
+    pose.probability = x < 0.0 ? 0.9 : 0.3;
+    found.poses.push_back(pose);
+  }
+  return found;
+}
+
+meam::Bin bin()
+{
+  meam::Bin result;
+  result.T_scene_bin.linear() = Vector3d(1, -1, -1).asDiagonal();
+  result.T_scene_bin.translation().z() = 500.0;
+  result.size = Vector3d(300, 200, 100);
+  return result;
+}
+
+/// A point each mm of a floor, with a rim 60 mm above it around 160 x 120 mm.
+meam::Scan scanOfBin()
+{
+  meam::Scan scan;
+  scan.width = 240;
+  scan.height = 200;
+  for (int row = 0; row < scan.height; ++row)
+  {
+    for (int column = 0; column < scan.width; ++column)
+    {
+      const float x = static_cast<float>(column) - 119.5f, y = static_cast<float>(row) - 99.5f;
+      const float u = std::abs(x), v = std::abs(y);
+      scan.points.emplace_back(x, y, u < 85 && v < 65 && (u > 80 || v > 60) ? 440.0f : 500.0f);
+    }
+  }
+  return scan;
+}
+
+meam::Workplace given()
+{
+  meam::Workplace place;
+  place.bin = bin();
+  return place;
+}
+
+meam::GripperModel slim()
+{
+  meam::GripperModel gripper;
+  gripper.opening = 40.0;
+  gripper.fingerWidth = 6.0;
+  gripper.fingerThickness = 4.0;
+  gripper.bodyWidth = 20.0;
+  return gripper;
+}
+}
+
+TEST(PickDoor, PlansWhatTheCorePlans)
+{
+  meam::PlanSettings settings;
+  settings.minimumProbability = 0.5;
+  const meam::Grasp leg = acrossTheLeg();
+  const meam::Grasp cup = meam::graspAt(meam::GraspKind::Suction, { 40, 6, 0 }, { 0, 0, 1 });
+  const meam::Picker picker(bracketModel(), bracketMesh(), { leg, cup }, slim(), settings);
+  meam::Workplace place = given();
+  place.T_robot_camera = Eigen::Translation3d(100, 200, 300) * Eigen::AngleAxisd(M_PI, Vector3d::UnitX());
+  const meam::PickPlan plan = picker.plan(twoBrackets(), {}, place);
+
+  meam::Gripper gripper;
+  static_cast<meam::GripperLengths&>(gripper) = slim();
+  meam::Poses poses(2);
+  for (int k = 0; k < 2; ++k)
+  {
+    poses[k].T_scene_model = twoBrackets().poses[k].T_scan_part;
+    poses[k].probability = twoBrackets().poses[k].probability;
+  }
+  const meam::Picks picks =
+    meam::PickPlanner(parts::lBracket(), scenes::bracket().symmetries, { leg, cup }, gripper).plan(poses, {}, bin());
+  ASSERT_EQ(plan.picks.size(), picks.size());
+  ASSERT_EQ(picks.size(), 4u);
+  for (std::size_t k = 0; k < picks.size(); ++k)
+  {
+    EXPECT_EQ(plan.picks[k].T_scan_grasp.matrix(), picks[k].T_scene_grasp.matrix());
+    EXPECT_TRUE(plan.picks[k].T_robot_grasp->isApprox(*place.T_robot_camera * picks[k].T_scene_grasp, 1e-12));
+    EXPECT_EQ(plan.picks[k].possible, picks[k].possible());
+    EXPECT_EQ(plan.picks[k].reason, picks[k].possible() ? "" : meam::describe(picks[k]));
+    EXPECT_EQ(plan.picks[k].instance, picks[k].pose);
+    EXPECT_EQ(plan.picks[k].clearance, picks[k].clearance);
+    EXPECT_EQ(plan.picks[k].reach, picks[k].reach);
+    EXPECT_EQ(plan.picks[k].tilt, picks[k].tilt);
+    EXPECT_EQ(plan.picks[k].score, picks[k].score);
+  }
+  EXPECT_TRUE(plan.picks[0].possible);
+  EXPECT_EQ(plan.picks[0].graspName, "leg");
+  EXPECT_EQ(plan.picks[0].width, 12.0);
+  EXPECT_EQ(plan.report, meam::describe(picks));
+  EXPECT_TRUE(plan.bin.has_value());
+  EXPECT_FALSE(picker.plan(twoBrackets(), {}, given()).picks[0].T_robot_grasp.has_value());
+
+  settings.minimumProbability = 0.2; // the other one is picked, too
+  const meam::PickPlan both =
+    meam::Picker(bracketModel(), bracketMesh(), { leg }, slim(), settings).plan(twoBrackets(), {}, given());
+  EXPECT_TRUE(both.picks[0].possible && both.picks[1].possible) << both.report;
+}
+
+TEST(PickDoor, FindsTheBin)
+{
+  const meam::Bin found = meam::detectBin(scanOfBin());
+  EXPECT_TRUE(found.size.isApprox(Vector3d(160, 120, 60), 0.03)) << found.size.transpose();
+  const meam::Picker picker(bracketModel(), bracketMesh(), { acrossTheLeg() }, slim());
+  const meam::PickPlan plan = picker.plan({}, scanOfBin());
+  ASSERT_TRUE(plan.bin.has_value());
+  EXPECT_EQ(plan.bin->size, found.size);
+  meam::Workplace none;
+  none.hasBin = false;
+  EXPECT_FALSE(picker.plan({}, scanOfBin(), none).bin.has_value());
+  const auto stop = [](double) { return false; };
+  EXPECT_THROW(picker.plan({}, scanOfBin(), {}, stop), meam::Aborted);
+}
+
+TEST(PickDoor, ProposesGraspsAndKeepsThem)
+{
+  meam::ProposeSettings settings;
+  settings.maximumGrasps = 6;
+  settings.threads = 2;
+  const meam::Grasps grasps = meam::proposeGrasps(bracketModel(), bracketMesh(), slim(), settings);
+  meam::Gripper gripper;
+  static_cast<meam::GripperLengths&>(gripper) = slim();
+  meam::GraspProposalSettings proposal;
+  proposal.most = 6;
+  const meam::Grasps expected =
+    meam::proposeGrasps(meam::prepareMesh(parts::lBracket()).mesh, scenes::bracket().symmetries, gripper, proposal);
+  ASSERT_EQ(grasps.size(), 6u);
+  ASSERT_EQ(expected.size(), 6u);
+  const files::Folder folder;
+  meam::saveGrasps(folder.path("bracket.grasps.json"), grasps);
+  const meam::Grasps loaded = meam::loadGrasps(folder.path("bracket.grasps.json"));
+  ASSERT_EQ(loaded.size(), 6u);
+  for (std::size_t k = 0; k < grasps.size(); ++k)
+  {
+    EXPECT_EQ(grasps[k].T_model_grasp.matrix(), expected[k].T_model_grasp.matrix());
+    EXPECT_TRUE(loaded[k].T_model_grasp.isApprox(grasps[k].T_model_grasp, 1e-12));
+    EXPECT_EQ(loaded[k].name, grasps[k].name);
+  }
+  const meam::PickPlan plan =
+    meam::Picker(bracketModel(), bracketMesh(), loaded, slim()).plan(twoBrackets(), {}, given());
+  EXPECT_EQ(plan.picks.size(), 12u);
+}
+
+TEST(PickDoor, TakesAGripperOfAnyShape)
+{
+  meam::GripperModel wall = slim();
+  const meam::TriangleMesh box = parts::box({ -200, 10, -50 }, { 200, 20, 5 });
+  wall.mesh = { box.vertices, box.triangles };
+  const meam::PickPlan plan =
+    meam::Picker(bracketModel(), bracketMesh(), { acrossTheLeg() }, wall).plan(twoBrackets(), {}, given());
+  EXPECT_FALSE(plan.picks[0].possible); // it reaches through both walls
+}
+
+TEST(PickDoor, ReadsTheRobotsFrame)
+{
+  const files::Folder folder;
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = Vector3d(1, 2, 3);
+  meam::writeRobotFrame(folder.path("robot.json"), T);
+  EXPECT_TRUE(meam::loadRobotFrame(folder.path("robot.json")).isApprox(T));
+}
+
+TEST(PickDoor, WrongInputIsOneSentence)
+{
+  const auto errorOf = [](const std::function<void()>& act) { return files::errorOf(act); };
+  meam::Mesh metres = bracketMesh();
+  for (auto& vertex : metres.vertices)
+  {
+    vertex /= 1000.0f;
+  }
+  const meam::Grasps leg{ acrossTheLeg() };
+  meam::PlanSettings steep;
+  steep.maximumTilt = 500.0;
+  const meam::Model model = bracketModel();
+  EXPECT_TRUE(files::contains(errorOf([&] { meam::Picker({}, bracketMesh(), leg, slim()); }), "model is empty"));
+  EXPECT_TRUE(files::contains(errorOf([&] { meam::Picker(model, metres, leg, slim()); }), "in mm"));
+  EXPECT_TRUE(files::contains(errorOf([&] { meam::Picker(model, {}, leg, slim()); }), "no faces"));
+  EXPECT_TRUE(files::contains(errorOf([&] { meam::Picker(model, bracketMesh(), {}, slim()); }), "no grasp"));
+  EXPECT_TRUE(files::contains(
+    errorOf([&] { meam::Picker(model, bracketMesh(), leg, slim(), steep); }), "tilt has to be 0 to 180"));
+  EXPECT_TRUE(files::contains(errorOf([&] { meam::proposeGrasps(model, metres, slim()); }), "in mm"));
+  const meam::Picker picker(model, bracketMesh(), leg, slim());
+  EXPECT_TRUE(files::contains(errorOf([&] { picker.plan(twoBrackets(), {}); }), "organized scan"));
+  meam::Scan torn = scanOfBin();
+  torn.points.pop_back();
+  EXPECT_TRUE(files::contains(errorOf([&] { picker.plan(twoBrackets(), torn, given()); }), "a point for each"));
+  EXPECT_TRUE(files::contains(errorOf([&] { meam::loadGrasps("none.json"); }), "none.json"));
+  EXPECT_TRUE(files::contains(errorOf(
+                                [] {
+                                  meam::graspAt(meam::GraspKind::Parallel, { 0, 0, 0 }, { 0, 0, 1 }, { 0, 0, 1 }, 5.0);
+                                }),
+    "not parallel"));
+}
