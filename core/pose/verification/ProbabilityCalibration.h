@@ -22,8 +22,8 @@ struct ProbabilityCalibration
   LogisticRegression withSurface{ -7.2, 0.64 };
   LogisticRegression edgesAlone{ 2.9, 0.16 }; ///< the same of EvidenceCounts::ofEdges, in scenes without a surface
   /// Whether the part is in the scan at all, from the logarithm of its best pose's odds: in the bins with the part that
-  /// was 3 to 24, in those without it at most 0.7.
-  LogisticRegression present{ -3.75, 2.5 };
+  /// was 3 to 24 (1.5 in one of 320 x 240 pixels), in those without it at most 0.7.
+  LogisticRegression present{ -3.3, 3.0 };
 };
 
 /// Logarithm of the odds that a pose is right: those that it is when something else holds, and how certain that is,
