@@ -19,11 +19,11 @@ struct LogisticRegression
 struct ProbabilityCalibration
 {
   /// Of EvidenceCounts::sum: whether a pose is right, but for a turn by a near-symmetry.
-  LogisticRegression withSurface{ -7.2, 0.64 };
+  LogisticRegression withSurface{ -6.8, 0.64 };
   LogisticRegression edgesAlone{ 2.9, 0.16 }; ///< the same of EvidenceCounts::ofEdges, in scenes without a surface
   /// Whether the part is in the scan at all, from the logarithm of its best pose's odds: in the bins with the part that
-  /// was 3 to 24 (1.5 in one of 320 x 240 pixels), in those without it at most 0.7.
-  LogisticRegression present{ -3.3, 3.0 };
+  /// was 3 to 24 (2 in one of 320 x 240 pixels), in those without it at most 1.1.
+  LogisticRegression present{ -4.5, 3.0 };
 };
 
 /// Logarithm of the odds that a pose is right: those that it is when something else holds, and how certain that is,
