@@ -73,7 +73,7 @@ shutil.copy(f"bins/test/{names[4][:6]}/gray/000000.png", "folder/image.png")
 flat = numpy.column_stack((points[:, :2], numpy.full(W * H, 700.0)))
 flat[numpy.isnan(points).any(axis=1)] = numpy.nan
 write_pcd("folder/c.pcd", numpy.column_stack((flat, 0 * grey)), W, H, "x y z intensity")
-finished(*command("folder", "--model", "plate.meam", "--probability", "0.5", "--out", "folder.csv"))
+finished(*command("folder", "--model", "plate.meam", "--probability", "0.1", "--out", "folder.csv"))
 found = {}
 for row in rows("folder.csv"):
     found.setdefault(row["scan"], []).append(row["R"] + row["t"])

@@ -137,7 +137,12 @@ Poses withoutShared(const std::vector<Finished>& found, const TrainedModel& mode
 /// that the part is there at all, which the best one tells.
 void allowForAbsence(Poses& poses, const ProbabilityCalibration& calibration)
 {
-  const double present = poses.empty() ? 1.0 : probabilityOf(calibration.present.logOdds(poses.front().evidence));
+  if (poses.empty())
+  {
+    return;
+  }
+  const double present =
+    std::max(calibration.leastPresent, probabilityOf(calibration.present.logOdds(poses.front().evidence)));
   for (Pose& pose : poses)
   {
     pose.evidence = withCertainty(pose.evidence, present);

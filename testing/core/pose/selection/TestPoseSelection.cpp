@@ -158,7 +158,8 @@ TEST(PoseSelection, NoPoseIsLikelierThanThatThePartIsThereAtAll)
   const meam::Pose alone = last({ displaced(wrong) });
   const meam::Pose besideTheTrueOne = last({ displaced(wrong), displaced(scenes::threeCopies()[0]) });
   ASSERT_TRUE(alone.T_scene_model.isApprox(besideTheTrueOne.T_scene_model, 1e-9));
-  EXPECT_LT(alone.probability, 0.1 * besideTheTrueOne.probability);
+  EXPECT_LT(alone.probability, 0.3 * besideTheTrueOne.probability);
+  EXPECT_GT(alone.probability, 0.2 * besideTheTrueOne.probability) << "it may be alone";
   calibration.present = { 0.0, 0.0 }; // an even chance, whatever the best pose
   EXPECT_NEAR(last({ displaced(scenes::threeCopies()[0]) }).probability, 0.5, 0.02);
   calibration.present = { 100.0, 0.0 };
