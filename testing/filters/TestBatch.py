@@ -73,7 +73,7 @@ shutil.copy(f"bins/test/{names[4][:6]}/gray/000000.png", "folder/image.png")
 flat = numpy.column_stack((points[:, :2], numpy.full(W * H, 700.0)))
 flat[numpy.isnan(points).any(axis=1)] = numpy.nan
 write_pcd("folder/c.pcd", numpy.column_stack((flat, 0 * grey)), W, H, "x y z intensity")
-finished(*command("folder", "--model", "plate.meam", "--probability", "0.1", "--out", "folder.csv"))
+finished(*command("folder", "--model", "plate.meam", "--probability", "0.3", "--out", "folder.csv"))
 found = {}
 for row in rows("folder.csv"):
     found.setdefault(row["scan"], []).append(row["R"] + row["t"])
@@ -82,7 +82,7 @@ check(found["a.pcd"] == found["b.pcd"] != [""] and found["c.pcd"] == [""], f"{fo
 write_pcd("bare.pcd", points, W, H, "x y z")
 with open("list.txt", "w", encoding="utf-8") as file:
     file.write("# scan and image\nbare.pcd\tfolder/image.png\nnone.pcd\nfolder/a.pcd\n")
-finished(*command("list.txt", "--model", "plate.meam", "--probability", "0.5", "--out", "list.csv"))
+finished(*command("list.txt", "--model", "plate.meam", "--probability", "0.3", "--out", "list.csv"))
 found = {row["scan"]: row for row in rows("list.csv")}
 check(list(found) == ["bare.pcd", "none.pcd", "folder/a.pcd"], f"the list's scans in its order: {list(found)}")
 check(found["none.pcd"]["failure"].startswith("cannot read none.pcd"), f"{found}")
