@@ -39,6 +39,10 @@ meam::Poses toPoses(vtkPolyData* input)
     throw Error("The poses have no point array 'Transform' of 16 components: use the output of PoseDetection or of a "
                 "pose file.");
   }
+  if (pointArray(input, "FreeTurn", 1))
+  {
+    throw Error("The poses are grasps on a part: use the output of MEAMPoseEstimation or of a pose file.");
+  }
   vtkDataArray* scores = pointArray(input, "Score", 1);
   vtkDataArray* votes = pointArray(input, "Votes", 1);
   vtkDataArray* views = pointArray(input, "ViewId", 1);

@@ -8,10 +8,9 @@
 
 namespace meam
 {
-/// Numbers by the names that lead to them, as in "transform.translation.x".
+/// Numbers by the names that lead to them, as in "transform.translation.x"; those with names of more than 256
+/// characters are left out.
 using NestedNumbers = std::map<std::string, double>;
-
-// Numbers whose names are longer than 256 characters are left out.
 
 /// The numbers of a JSON value. Places in arrays are names from 0 on.
 NestedNumbers numbersInJSONTree(const nlohmann::json& value);

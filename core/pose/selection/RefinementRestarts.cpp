@@ -32,8 +32,8 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
 {
   this->Refinement.maximumDistance = settings.distanceShare * model.diameter;
   this->Refinement.iterations = settings.iterations;
-  this->Refinement.fullSteps = 0;
-  this->Refinement.threads = 1; // poses are worked on in parallel
+  this->Refinement.fullSteps = 0; // some points tell which start is best; the final alignment takes all
+  this->Refinement.threads = 1;   // poses are worked on in parallel
   if (model.surface.empty())
   {
     return;
