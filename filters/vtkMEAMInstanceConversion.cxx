@@ -3,7 +3,6 @@
 
 #include "pose/PoseUncertainty.h"
 #include "vtkMEAMCloudConversion.h"
-#include "vtkMEAMMeshConversion.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
@@ -14,6 +13,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSphereSource.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -72,6 +72,20 @@ void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, const
   attributes->AddArray(colors);
 }
 
+/// A mesh with its points, mapped, as those of `instance`.
+void fromCopy(vtkPolyData* mesh, const meam::Points& points, const Eigen::Affine3f& map, vtkPolyData* instance)
+{
+  vtkNew<vtkPoints> moved;
+  moved->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Eigen::Vector3f point = map * points[i];
+    moved->SetPoint(static_cast<vtkIdType>(i), point.data());
+  }
+  instance->CopyStructure(mesh);
+  instance->SetPoints(moved);
+}
+
 /// A piece for each pose that is drawn, with the values of the pose.
 template <typename Piece>
 void appendDrawn(const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
@@ -108,26 +122,25 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
   const meam::Points points = toCloud(part).points;
   meam::requirePoints(points, "The CAD mesh");
   const auto copyAt = [&](const meam::Pose& pose, vtkPolyData* instance)
-  {
-    const Eigen::Isometry3f T_scene_model = pose.T_scene_model.cast<float>();
-    vtkNew<vtkPoints> moved;
-    moved->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const Eigen::Vector3f point = T_scene_model * points[i];
-      moved->SetPoint(static_cast<vtkIdType>(i), point.data());
-    }
-    instance->CopyStructure(part);
-    instance->SetPoints(moved);
-  };
+  { fromCopy(part, points, Eigen::Affine3f(pose.T_scene_model.cast<float>()), instance); };
   appendDrawn(poses, rankOf, settings, progress, copyAt, output);
 }
 
 void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, double deviations,
   const std::function<int(std::size_t)>& rankOf, const InstanceSettings& settings, vtkPolyData* output)
 {
+  constexpr int resolution = 24; // round enough for the eye, and with points on all axes
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(1.0);
+  ball->SetPhiResolution(resolution + 1);
+  ball->SetThetaResolution(resolution);
+  ball->Update();
+  const meam::Points points = toCloud(ball->GetOutput()).points;
   const auto ellipsoidAt = [&](const meam::Pose& pose, vtkPolyData* ellipsoid)
-  { fromMesh(meam::uncertaintyEllipsoid(pose, part.middle, deviations), ellipsoid); };
+  {
+    const Eigen::Affine3d map = meam::uncertaintyEllipsoid(pose, part.middle, deviations);
+    fromCopy(ball->GetOutput(), points, map.cast<float>(), ellipsoid);
+  };
   appendDrawn(poses, rankOf, settings, {}, ellipsoidAt, output);
 }
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/BackgroundRemoval.h"
 
-#include "base/Random.h"
+#include "base/PCLConversion.h"
 #include "scene/Enclosure.h"
 #include "scene/edges/GridSurface.h"
 
+#include <pcl/sample_consensus/ransac.h>
+#include <pcl/sample_consensus/sac_model_plane.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <optional>
 
 namespace meam
 {
@@ -56,45 +59,29 @@ std::vector<int> spread(const std::vector<int>& indices)
   return result;
 }
 
-/// The plane with the most points within the tolerance (RANSAC, then least squares); false when there is none.
-bool largestPlane(const Points& points, double tolerance, Plane& plane)
+/// The plane with the most points within the tolerance (RANSAC, then least squares); none of points on a line.
+std::optional<Plane> largestPlane(const Points& points, double tolerance)
 {
-  const auto near = [&](const Plane& candidate)
+  constexpr std::size_t leastPoints = 3;
+  if (points.size() < leastPoints)
   {
-    return [&candidate, limit = static_cast<float>(tolerance)](const Eigen::Vector3f& point)
-    { return candidate.absDistance(point) <= limit; };
-  };
-  Random random(1);
-  std::ptrdiff_t most = 2;
-  double samples = MostSamples; // needed, as the largest plane so far tells
-  for (int sample = 0; sample < samples && points.size() >= 3; ++sample)
-  {
-    const Eigen::Vector3f& a = points[random.index(points.size())];
-    const Eigen::Vector3f& b = points[random.index(points.size())];
-    const Eigen::Vector3f& c = points[random.index(points.size())];
-    const Eigen::Vector3f normal = (b - a).cross(c - a);
-    if (!(normal.norm() > 1e-3f * (b - a).norm() * (c - a).norm()))
-    {
-      continue; // on a line
-    }
-    const Plane candidate(normal.normalized(), a);
-    const std::ptrdiff_t count = std::count_if(points.begin(), points.end(), near(candidate));
-    if (count > most)
-    {
-      most = count;
-      plane = candidate;
-      const double share = static_cast<double>(count) / static_cast<double>(points.size());
-      samples = std::min(samples, std::log(MissedOnce) / std::log(1.0 - std::min(std::pow(share, 3.0), 0.999)));
-    }
+    return {};
   }
-  if (most < 3)
+  pcl::RandomSampleConsensus<pcl::PointXYZ> search(
+    pcl::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(toPCL(points)), tolerance);
+  search.setMaxIterations(MostSamples);
+  search.setProbability(1.0 - MissedOnce);
+  std::vector<int> inliers;
+  if (!search.computeModel() || (search.getInliers(inliers), inliers.size() < leastPoints))
   {
-    return false;
+    return {};
   }
-  Points inliers;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(inliers), near(plane));
-  plane = fitPlane(inliers, {}).plane;
-  return true;
+  Points on;
+  for (const int i : inliers)
+  {
+    on.push_back(points[i]);
+  }
+  return fitPlane(on, {}).plane;
 }
 }
 
@@ -143,28 +130,28 @@ BackgroundRemoval removeBackground(
     {
       points.push_back(cloud.points[i]);
     }
-    Plane plane;
-    if (!largestPlane(points, tolerance, plane))
+    const std::optional<Plane> plane = largestPlane(points, tolerance);
+    if (!plane)
     {
       break;
     }
-    const auto size = static_cast<double>(std::count_if(left.begin(), left.end(), on(plane)));
+    const auto size = static_cast<double>(std::count_if(left.begin(), left.end(), on(*plane)));
     const auto behind = static_cast<double>(std::count_if(
-      left.begin(), left.end(), [&](int i) { return plane.signedDistance(cloud.points[i]) < -tolerance; }));
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), on(plane)), candidates.end());
+      left.begin(), left.end(), [&](int i) { return plane->signedDistance(cloud.points[i]) < -tolerance; }));
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), on(*plane)), candidates.end());
     if (size < fewest || behind > MostBehind * static_cast<double>(left.size()))
     {
       continue;
     }
-    result.planes.push_back(plane);
+    result.planes.push_back(*plane);
     for (const int i : left)
     {
-      if (on(plane)(i))
+      if (on(*plane)(i))
       {
         result.reasons[i] = Background::Plane;
       }
     }
-    left.erase(std::remove_if(left.begin(), left.end(), on(plane)), left.end());
+    left.erase(std::remove_if(left.begin(), left.end(), on(*plane)), left.end());
   }
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/BinDetection.h"
 
+#include "TestScale.h"
 #include "simulation/BinScene.h"
 #include "simulation/parts/SamplePart.h"
 
@@ -66,7 +67,13 @@ TEST(BinDetection, FindsTheRimUnderWhatIsHigher)
 
 TEST(BinDetection, FindsTheSimulatedOne)
 {
-  const meam::BinScene scene = meam::simulateBin(meam::makeSamplePart());
+  meam::BinSceneSettings settings;
+  if (SmallData)
+  {
+    settings.copies = 5;
+    settings.width = settings.height = 300;
+  }
+  const meam::BinScene scene = meam::simulateBin(meam::makeSamplePart(), settings);
   const meam::Bin bin = meam::detectBin(scene.cloud);
   EXPECT_LT((bin.size - scene.bin.size).cwiseAbs().maxCoeff(), 0.02 * scene.binSize);
   EXPECT_LT((bin.T_scene_bin.translation() - scene.bin.T_scene_bin.translation()).norm(), 0.02 * scene.binSize);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/ConflictResolution.h"
 
+#include "TestScale.h"
 #include "TestScene.h"
 #include "mesh/TriangleMesh.h"
 
@@ -75,6 +76,10 @@ using Types = std::vector<int>;
 
 TEST(ConflictResolution, PartsSideBySideAreFoundOnceEach)
 {
+  if (SmallData)
+  {
+    GTEST_SKIP() << "all of what detects parts has its own tests";
+  }
   // Two brackets and two plates; each type is looked for in the whole scene.
   const std::vector<scenes::Copy> copies = { { parts::lBracket(), scenes::lying(0, 0, 20) },
     { parts::lBracket(), scenes::lying(90, 10, 131, false) }, { parts::windowPlate(), scenes::lying(10, 75, 35) },

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/RotationDecision.h"
 
+#include "TestScale.h"
 #include "TestScene.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace
 {
@@ -51,7 +53,7 @@ meam::Pose decided(const meam::TriangleMesh& part, double degrees, double probab
 
 TEST(RotationDecision, ANearlyRoundPartIsTurnedToWhereItsFlatIs)
 {
-  for (const double degrees : { 0.0, 10.0, 40.0, 170.0 })
+  for (const double degrees : SmallData ? std::vector{ 40.0 } : std::vector{ 0.0, 10.0, 40.0, 170.0 })
   {
     const meam::Pose found = decided(cutDisc(), degrees);
     EXPECT_LT(meam::rotationError(found.T_scene_model, turned(0)), 5.0) << degrees << ": half a step";
