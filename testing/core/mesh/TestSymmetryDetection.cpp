@@ -2,7 +2,6 @@
 #include "mesh/SymmetryDetection.h"
 
 #include "TestParts.h"
-#include "TestScale.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
@@ -15,7 +14,7 @@ namespace
 meam::PointCloud sampled(const meam::TriangleMesh& mesh)
 {
   meam::SurfaceSamplingSettings settings;
-  settings.spacing = (SmallData ? 0.03 : 0.02) * meam::diameter(mesh.vertices);
+  settings.spacing = 0.02 * meam::diameter(mesh.vertices);
   return meam::sampleSurface(mesh, settings);
 }
 
