@@ -127,6 +127,21 @@ void showDiagnosis(vtkSMProxy* representation, const ShownData& shown)
   }
 }
 
+/// Hides answers of other filters, which would stand in the same place.
+void hideAnswers(vtkSMRenderViewProxy* view, vtkSMSourceProxy* but)
+{
+  const vtkSMPropertyHelper representations(view, "Representations");
+  for (unsigned int k = 0; k < representations.GetNumberOfElements(); ++k)
+  {
+    vtkSMProxy* representation = representations.GetAsProxy(k);
+    const ShownData shown(representation);
+    if (shown.isOurs() && shown.source != but && std::strcmp(representation->GetXMLName(), "TextSourceRepresentation") == 0)
+    {
+      hide(view, shown.source, shown.port);
+    }
+  }
+}
+
 /// An answer in words comes up with the first output of its filter.
 void showAnswer(vtkSMRenderViewProxy* view, const ShownData& shown)
 {
@@ -134,6 +149,7 @@ void showAnswer(vtkSMRenderViewProxy* view, const ShownData& shown)
   {
     if (std::strcmp(shown.source->GetOutputPortName(port), "Answer") == 0)
     {
+      hideAnswers(view, shown.source);
       vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
       controller->Show(shown.source, port, view);
     }
@@ -152,6 +168,17 @@ void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
     {
       hide(view, part, port);
     }
+  }
+}
+
+/// Hides the labels of the poses when those of the picks take their place.
+void hidePoses(vtkSMRenderViewProxy* view, const ShownData& shown)
+{
+  auto* input = vtkSMInputProperty::SafeDownCast(shown.source->GetProperty("Input"));
+  auto* poses = input && input->GetNumberOfProxies() == 1 ? vtkSMSourceProxy::SafeDownCast(input->GetProxy(0)) : nullptr;
+  if (poses && shown.port == 0 && std::strcmp(shown.source->GetVTKClassName(), "vtkMEAMPickPlanning") == 0)
+  {
+    hide(view, poses, input->GetOutputPortForConnection(0));
   }
 }
 
@@ -270,6 +297,7 @@ private:
     {
       hidePart(view, shown.source);
       hideInputs(view, shown.source);
+      hidePoses(view, shown);
       if (!isSeenFromSensor(view) && comesFromScan(shown.source, shown.port))
       {
         double bounds[6];

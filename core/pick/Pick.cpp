@@ -99,7 +99,8 @@ std::string describe(const Picks& picks)
     copies += counts[k];
     if (k > 0 && counts[k] > 0)
     {
-      others += (others.empty() ? "; the others: " : ", ") + std::to_string(counts[k]) + " " + AllWords[k].copies;
+      const char* const before = !others.empty() ? ", " : counts[0] > 0 ? "; the others: " : ": ";
+      others += before + std::to_string(counts[k]) + " " + AllWords[k].copies;
     }
   }
   return std::to_string(counts[0]) + " of " + std::to_string(copies) + " copies can be picked, by " +
@@ -114,7 +115,8 @@ std::string adviceOn(const Picks& picks)
   {
     if (counts[k] > 0)
     {
-      text += (text.empty() ? "Copies " : " Copies ") + std::string(AllWords[k].copies) + ": " + AllWords[k].advice + ".";
+      text +=
+        (text.empty() ? "Copies " : " Copies ") + std::string(AllWords[k].copies) + ": " + AllWords[k].advice + ".";
     }
   }
   return text;

@@ -36,10 +36,12 @@ TEST(Pick, ACopyIsCountedWithTheGraspThatComesFarthest)
   const meam::Picks picks{ pickOf(0, PickObstruction::None), pickOf(1, PickObstruction::Tilted),
     pickOf(1, PickObstruction::Bin), pickOf(2, PickObstruction::Tilted), pickOf(2, PickObstruction::Tilted),
     pickOf(0, PickObstruction::Measured), pickOf(3, PickObstruction::Tilted) };
-  EXPECT_EQ(meam::describe(picks), "1 of 4 copies can be picked, by 1 of 7 picks; the others: 2 without a grasp from above, "
-                                   "1 too near to the bin.");
+  EXPECT_EQ(meam::describe(picks),
+    "1 of 4 copies can be picked, by 1 of 7 picks; the others: 2 without a grasp from above, "
+    "1 too near to the bin.");
   EXPECT_EQ(meam::adviceOn(picks),
-    "Copies without a grasp from above: raise the maximum tilt, have more grasps proposed or define one by hand, or take "
+    "Copies without a grasp from above: raise the maximum tilt, have more grasps proposed or define one by hand, or "
+    "take "
     "another gripper. Copies too near to the bin: take a slimmer or longer gripper, or lower the safety margin.");
 }
 
@@ -50,5 +52,7 @@ TEST(Pick, ThereIsNoAdviceWhereAllCopiesCanBePicked)
   EXPECT_EQ(meam::adviceOn(picks), "");
   EXPECT_EQ(meam::describe(meam::Picks{}), "There is no copy to pick.");
   EXPECT_EQ(meam::adviceOn({}), "");
+  EXPECT_EQ(meam::describe({ pickOf(0, PickObstruction::Covered) }),
+    "0 of 1 copies can be picked, by 0 of 1 picks: 1 covered.");
 }
 }
