@@ -99,8 +99,7 @@ std::string describe(const Picks& picks)
     copies += counts[k];
     if (k > 0 && counts[k] > 0)
     {
-      const char* const before = !others.empty() ? ", " : counts[0] > 0 ? "; the others: " : ": ";
-      others += before + std::to_string(counts[k]) + " " + AllWords[k].copies;
+      others += (others.empty() ? "; the others: " : ", ") + std::to_string(counts[k]) + " " + AllWords[k].copies;
     }
   }
   return std::to_string(counts[0]) + " of " + std::to_string(copies) + " copies can be picked, by " +

@@ -67,7 +67,7 @@ def answer():
 
 
 report, advice = said(picks, "PickReport"), said(picks, "PickAdvice")
-check(report == "0 of 2 copies can be picked, by 0 of 4 picks: 2 too near to another copy.", report)
+check(report == "0 of 2 copies can be picked, by 0 of 4 picks; the others: 2 too near to another copy.", report)
 check(advice.startswith("Copies too near to another copy: pick the other copies first"), advice)
 check(answer().replace("\n", " ") == f"{report} {advice}" and max(map(len, answer().split("\n"))) <= 75, answer())
 planning.SetMaximumTilt(0)

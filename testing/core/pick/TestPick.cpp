@@ -52,7 +52,5 @@ TEST(Pick, ThereIsNoAdviceWhereAllCopiesCanBePicked)
   EXPECT_EQ(meam::adviceOn(picks), "");
   EXPECT_EQ(meam::describe(meam::Picks{}), "There is no copy to pick.");
   EXPECT_EQ(meam::adviceOn({}), "");
-  EXPECT_EQ(meam::describe({ pickOf(0, PickObstruction::Covered) }),
-    "0 of 1 copies can be picked, by 0 of 1 picks: 1 covered.");
 }
 }
