@@ -69,7 +69,6 @@ class Station:
         self.estimation.SetInputDataObject(self.model)
         self.estimation.SetMaximumNumberOfPoses(0)
         self.estimation.SetMinimumProbability(PROBABILITY)
-        self.estimation.SetPartIsPresent(True)  # a cell counts what it takes, and stops when none is left
         self.estimation.SetNumberOfThreads(threads)
         self.planning = filters.vtkMEAMPickPlanning()
         self.planning.SetInputDataObject(1, self.mesh)
