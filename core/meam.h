@@ -84,6 +84,9 @@ struct DetectSettings
   Features features = Features::Both; ///< by which poses are looked for; with the preset Paper edges alone
   int maximumPoses = 5;               ///< the best ones; 0: all
   double minimumProbability = 0.0;    ///< [0, 1], of each
+  /// Known to be in the scan, as in a cell that counts what it takes: poses are not less likely because it may be
+  /// missing.
+  bool partIsPresent = false;
   /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
   /// preset's
   double referenceShare = 0.0;

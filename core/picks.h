@@ -65,7 +65,8 @@ struct PlannedPick
 struct PickPlan
 {
   std::vector<PlannedPick> picks; ///< of each copy and each grasp one: the possible ones first, best first
-  std::string report;             ///< how many are possible, and what is against the others, in a sentence
+  std::string report;             ///< how many copies can be picked, and what is against the others, in a sentence
+  std::string advice;             ///< what to change for the others; empty: all can be picked
   std::optional<Bin> bin;         ///< that was given or found
   double seconds = 0.0;
 };

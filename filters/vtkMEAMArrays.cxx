@@ -15,16 +15,20 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace vtkMEAMConversion
 {
 namespace
 {
 using meam::Error;
+
+constexpr std::size_t LineLength = 75; // letters, of an answer
 
 template <typename Scalar>
 using Vectors = std::vector<Eigen::Matrix<Scalar, 3, 1>>;
@@ -38,6 +42,21 @@ void copyTuples(const T* values, Vectors<Scalar>& points)
     points[i] = { static_cast<Scalar>(values[3 * i]), static_cast<Scalar>(values[3 * i + 1]),
       static_cast<Scalar>(values[3 * i + 2]) };
   }
+}
+
+/// The words in lines of no more than so many letters.
+std::string inLines(const std::string& text, std::size_t most)
+{
+  std::istringstream words(text);
+  std::string lines, word;
+  std::size_t length = 0; // of the last line
+  while (words >> word)
+  {
+    const bool isNext = length > 0 && length + 1 + word.size() > most;
+    lines += (length == 0 ? "" : isNext ? "\n" : " ") + word;
+    length = isNext || length == 0 ? word.size() : length + 1 + word.size();
+  }
+  return lines;
 }
 }
 
@@ -151,5 +170,13 @@ void setFieldText(vtkDataObject* output, const char* name, const std::string& te
   array->SetName(name);
   array->InsertNextValue(text);
   output->GetFieldData()->AddArray(array);
+}
+
+void fromAnswer(const std::string& answer, const std::string& advice, vtkTable* output)
+{
+  vtkNew<vtkStringArray> text;
+  text->SetName("Text");
+  text->InsertNextValue(inLines(answer, LineLength) + (advice.empty() ? "" : "\n") + inLines(advice, LineLength));
+  output->AddColumn(text);
 }
 }

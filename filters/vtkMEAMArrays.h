@@ -19,6 +19,7 @@ class vtkDataSet;
 class vtkFloatArray;
 class vtkPoints;
 class vtkPolyData;
+class vtkTable;
 
 namespace vtkMEAMConversion
 {
@@ -50,6 +51,9 @@ void setDiameter(vtkDataObject* output, double diameter);
 void setFieldValue(vtkDataObject* output, const char* name, double value);
 /// The same of a text.
 void setFieldText(vtkDataObject* output, const char* name, const std::string& text);
+
+/// An answer and what to do about it as a table with one row, `Text`: in lines, to show in a view.
+void fromAnswer(const std::string& answer, const std::string& advice, vtkTable* output);
 }
 
 #endif

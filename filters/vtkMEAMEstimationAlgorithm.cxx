@@ -221,6 +221,10 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   {
     settings.detection.referenceShare = this->ReferenceShare;
   }
+  if (this->PartIsPresent)
+  {
+    meam::assumePresence(settings);
+  }
   return work;
 }
 
@@ -231,6 +235,7 @@ void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->Features)) << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
   os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
+  os << indent << "PartIsPresent: " << this->PartIsPresent << "\n";
   os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "ImageEdges: " << this->ImageEdges << "\n";

@@ -21,8 +21,10 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTable.h"
 
 #include <optional>
+#include <string>
 
 vtkStandardNewMacro(vtkMEAMPickPlanning);
 
@@ -50,7 +52,7 @@ vtkMEAMPickPlanning::vtkMEAMPickPlanning()
   : Settings(std::make_unique<meam::PickSettings>())
 {
   this->SetNumberOfInputPorts(5);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 vtkMEAMPickPlanning::~vtkMEAMPickPlanning() { this->SetRobotFrameFile(nullptr); }
@@ -59,6 +61,12 @@ int vtkMEAMPickPlanning::FillInputPortInformation(int port, vtkInformation* info
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 3 ? "vtkPointSet" : "vtkPolyData");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMPickPlanning::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 3 ? "vtkTable" : "vtkPolyData");
   return 1;
 }
 
@@ -104,6 +112,7 @@ int vtkMEAMPickPlanning::RequestData(
   auto* output = vtkPolyData::GetData(outputVector, 0);
   auto* grippers = vtkPolyData::GetData(outputVector, 1);
   auto* walls = vtkPolyData::GetData(outputVector, 2);
+  auto* answer = vtkTable::GetData(outputVector, 3);
   return vtkMEAMRun(
     this,
     [&]
@@ -147,7 +156,11 @@ int vtkMEAMPickPlanning::RequestData(
         robot.T_scene_model = meam::readRobotFrame(this->RobotFrameFile);
         addInFrame(picks, robot, "RobotTransform", output);
       }
-      setFieldText(output, "PickReport", meam::describe(picks));
+      const std::string report = meam::describe(picks);
+      const std::string advice = meam::adviceOn(picks);
+      setFieldText(output, "PickReport", report);
+      setFieldText(output, "PickAdvice", advice);
+      fromAnswer(report, advice, answer);
       fromGrippers(picks, grasps, gripper, shown, grippers);
       if (!gripperInput)
       {
@@ -159,7 +172,7 @@ int vtkMEAMPickPlanning::RequestData(
         fromBin(*bin, walls);
       }
     },
-    output, grippers, walls);
+    output, grippers, walls, answer);
 }
 
 void vtkMEAMPickPlanning::PrintSelf(ostream& os, vtkIndent indent)

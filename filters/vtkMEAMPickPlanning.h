@@ -24,13 +24,17 @@
  * `Grasp` (from 1: which pose, which grasp), `GraspName` (text), `Kind` and `Width` (of the grasp), `Obstacle` (the
  * instance in the way, 0: none), `Clearance`, `Reach` (mm, down from the bin's rim or the highest point), `Tilt`
  * (degrees), `Covered` and `Score` ([0, 1]); with a RobotFrameFile `RobotTransform` (16, row-major T_robot_grasp, mm).
- * Field data: `PickReport`, in a sentence; `Gripper` (11, named: kind and lengths; not of a mesh); with a bin `Bin`
- * (20: its frame, row-major, inner length, inner width, height, wall; mm).
+ * Field data: `PickReport`, in a sentence: how many copies can be picked, and what keeps the gripper from the others;
+ * `PickAdvice`: what to change for these, a sentence for each reason, empty where all can be picked; `Gripper` (11,
+ * named: kind and lengths; not of a mesh); with a bin `Bin` (20: its frame, row-major, inner length, inner width,
+ * height, wall; mm).
  *
  * Output port 1: the gripper at the picks, a vtkPolyData with `Possible` (active scalars), `Rank` and `Obstruction` for
  * its cells.
  *
  * Output port 2: the bin's floor and walls, a vtkPolyData; empty without a bin.
+ *
+ * Output port 3: vtkTable with one row, `Text`: report and advice in lines, to show in a view.
  */
 #ifndef vtkMEAMPickPlanning_h
 #define vtkMEAMPickPlanning_h
@@ -198,6 +202,7 @@ protected:
   ~vtkMEAMPickPlanning() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

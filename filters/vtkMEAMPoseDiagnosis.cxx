@@ -20,14 +20,12 @@
 #include "vtkTable.h"
 
 #include <functional>
-#include <sstream>
 #include <string>
 
 vtkStandardNewMacro(vtkMEAMPoseDiagnosis);
 
 namespace
 {
-constexpr std::size_t LineLength = 75; // letters, of the answer
 constexpr double AfterDetection = 0.8; // of the work, for the progress
 const char* const StateNames[] = { "matched", "turned", "hidden", "not measured", "violated" };
 
@@ -101,30 +99,6 @@ void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* ou
     output->AddColumn(column);
   }
 }
-
-/// The words in lines of no more than so many letters.
-std::string inLines(const std::string& text, std::size_t most)
-{
-  std::istringstream words(text);
-  std::string lines, word;
-  std::size_t length = 0; // of the last line
-  while (words >> word)
-  {
-    const bool isNext = length > 0 && length + 1 + word.size() > most;
-    lines += (length == 0 ? "" : isNext ? "\n" : " ") + word;
-    length = isNext || length == 0 ? word.size() : length + 1 + word.size();
-  }
-  return lines;
-}
-
-/// Verdict and advice as a text to show in a view.
-void fromAnswer(const std::string& verdict, const std::string& advice, vtkTable* output)
-{
-  vtkNew<vtkStringArray> text;
-  text->SetName("Text");
-  text->InsertNextValue(inLines(verdict, LineLength) + (advice.empty() ? "" : "\n") + inLines(advice, LineLength));
-  output->AddColumn(text);
-}
 }
 
 /// A detection, and what it was made of.
@@ -174,9 +148,10 @@ vtkMEAMPoseDiagnosis::Detection& vtkMEAMPoseDiagnosis::Detect(vtkInformationVect
 {
   const char* camera = this->GetCameraFile();
   std::vector<double> made{ static_cast<double>(this->GetPreset()), static_cast<double>(this->GetFeatures()),
-    static_cast<double>(this->GetMaximumNumberOfPoses()), this->GetMinimumProbability(), this->GetReferenceShare(),
-    static_cast<double>(this->GetSeed()), this->GetImageEdges() ? 1.0 : 0.0, this->GetDepthEdges() ? 1.0 : 0.0,
-    this->GetCreases() ? 1.0 : 0.0, this->GetCADScale(), static_cast<double>(this->Projection), this->Fit ? 1.0 : 0.0,
+    static_cast<double>(this->GetMaximumNumberOfPoses()), this->GetMinimumProbability(),
+    this->GetPartIsPresent() ? 1.0 : 0.0, this->GetReferenceShare(), static_cast<double>(this->GetSeed()),
+    this->GetImageEdges() ? 1.0 : 0.0, this->GetDepthEdges() ? 1.0 : 0.0, this->GetCreases() ? 1.0 : 0.0,
+    this->GetCADScale(), static_cast<double>(this->Projection), this->Fit ? 1.0 : 0.0,
     static_cast<double>(std::hash<std::string>()(camera ? camera : "")) };
   for (const double* vector : { this->GetCADOffset(), this->ViewDirection, this->SensorPosition })
   {

@@ -104,7 +104,7 @@ void showPlain(vtkSMProxy* representation, vtkPVDataInformation* data)
   }
 }
 
-/// A text of ours, the answer of Pose Diagnosis: where nothing else is, in letters of a map.
+/// A text of ours, the answer of a filter: where nothing else is, in letters of a map.
 void showText(vtkSMProxy* representation)
 {
   constexpr int UpperLeftCorner = 4, Left = 0;
@@ -114,23 +114,46 @@ void showText(vtkSMProxy* representation)
   representation->UpdateVTKObjects();
 }
 
-/// The points of Pose Diagnosis, which often lie under other parts, are in front of these; beside them stands the answer.
-void showDiagnosis(vtkSMRenderViewProxy* view, vtkSMProxy* representation, const ShownData& shown)
+/// The points of Pose Diagnosis, which often lie under other parts, are in front of these.
+void showDiagnosis(vtkSMProxy* representation, const ShownData& shown)
 {
-  constexpr unsigned int Points = 0, Answer = 3;
-  if (std::strcmp(shown.source->GetVTKClassName(), "vtkMEAMPoseDiagnosis") != 0 || shown.port != Points)
-  {
-    return;
-  }
-  if (representation->GetProperty("ShaderReplacements"))
+  if (shown.port == 0 && std::strcmp(shown.source->GetVTKClassName(), "vtkMEAMPoseDiagnosis") == 0 &&
+      representation->GetProperty("ShaderReplacements"))
   {
     vtkSMPropertyHelper(representation, "UseShaderReplacements").Set(1);
     vtkSMPropertyHelper(representation, "ShaderReplacements").Set(InFront);
     vtkSMPropertyHelper(representation, "PointSize").Set(3.0);
     representation->UpdateVTKObjects();
   }
-  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  controller->Show(shown.source, Answer, view);
+}
+
+/// Hides answers of other filters, which would stand in the same place.
+void hideAnswers(vtkSMRenderViewProxy* view, vtkSMSourceProxy* but)
+{
+  const vtkSMPropertyHelper representations(view, "Representations");
+  for (unsigned int k = 0; k < representations.GetNumberOfElements(); ++k)
+  {
+    vtkSMProxy* representation = representations.GetAsProxy(k);
+    const ShownData shown(representation);
+    if (shown.isOurs() && shown.source != but && std::strcmp(representation->GetXMLName(), "TextSourceRepresentation") == 0)
+    {
+      hide(view, shown.source, shown.port);
+    }
+  }
+}
+
+/// An answer in words comes up with the first output of its filter.
+void showAnswer(vtkSMRenderViewProxy* view, const ShownData& shown)
+{
+  for (unsigned int port = 1; shown.port == 0 && port < shown.source->GetNumberOfOutputPorts(); ++port)
+  {
+    if (std::strcmp(shown.source->GetOutputPortName(port), "Answer") == 0)
+    {
+      hideAnswers(view, shown.source);
+      vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+      controller->Show(shown.source, port, view);
+    }
+  }
 }
 
 /// Hides the part that was searched, which lies where the sensor is, when its poses are shown.
@@ -145,6 +168,17 @@ void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
     {
       hide(view, part, port);
     }
+  }
+}
+
+/// Hides the labels of the poses when those of the picks take their place.
+void hidePoses(vtkSMRenderViewProxy* view, const ShownData& shown)
+{
+  auto* input = vtkSMInputProperty::SafeDownCast(shown.source->GetProperty("Input"));
+  auto* poses = input && input->GetNumberOfProxies() == 1 ? vtkSMSourceProxy::SafeDownCast(input->GetProxy(0)) : nullptr;
+  if (poses && shown.port == 0 && std::strcmp(shown.source->GetVTKClassName(), "vtkMEAMPickPlanning") == 0)
+  {
+    hide(view, poses, input->GetOutputPortForConnection(0));
   }
 }
 
@@ -256,13 +290,15 @@ private:
       showText(representation);
       return;
     }
-    showDiagnosis(view, representation, shown);
+    showDiagnosis(representation, shown);
+    showAnswer(view, shown);
     showScan(representation, shown.data());
     if (isInScene(shown.data()))
     {
       hidePart(view, shown.source);
       hideInputs(view, shown.source);
-      if (!view->HasAnnotation(SeenFromSensor) && comesFromScan(shown.source, shown.port))
+      hidePoses(view, shown);
+      if (!isSeenFromSensor(view) && comesFromScan(shown.source, shown.port))
       {
         double bounds[6];
         shown.data()->GetBounds(bounds);
@@ -276,6 +312,8 @@ private:
   Legends InViews;
 };
 }
+
+bool isSeenFromSensor(vtkSMProxy* view) { return view->HasAnnotation(SeenFromSensor); }
 
 void setMEAMDisplayDefaults()
 {

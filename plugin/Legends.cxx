@@ -49,6 +49,12 @@ void Legends::onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend)
   {
     showSmall(legend);
   }
+  if (name && std::strcmp(name, "Possible.PVLookupTable") == 0) // above the picks stands the answer
+  {
+    constexpr int LowerCenter = 3;
+    vtkSMPropertyHelper(legend, "WindowLocation").Set(LowerCenter);
+    legend->UpdateVTKObjects();
+  }
   this->Known.emplace_back(view, legend);
   this->hideUnused(legend);
   legend->AddObserver(vtkCommand::PropertyModifiedEvent, this, &Legends::onModified);

@@ -2,6 +2,7 @@
 #include "PoseToolBar.h"
 
 #include "OpenData.h"
+#include "PartView.h"
 #include "ScoreCharts.h"
 #include "Tutorial.h"
 
@@ -195,6 +196,7 @@ void build()
     }
   }
   addTutorial(window);
+  addPartView();
   qApp->installEventFilter(new InputNames(window));
 }
 }

@@ -276,8 +276,11 @@ def cell(commands):
         rows += [line for line in lines if line.startswith("|") and line not in rows]
         failures += [line for line in lines if line.startswith("- ")]
     return ("Table 9 of the paper with a simulated cell ([picking.md](picking.md#a-cell-simulated)): 12 parts in a bin, five bins each, "
-            "picked until none is left or none can be picked; one thread. Seeds 6 to 10, which nothing was chosen on.\n\n" + "\n".join(rows)
-            + "\n\nEvery failure, and every bin that was left:\n\n" + "\n".join(failures))
+            "picked until none is left or none can be picked; one thread. Seeds 6 to 10, which nothing was chosen on. A *trial* is one "
+            "way of the gripper among the true parts; *success*: it holds a part and has touched nothing else. *Left in the bins*: parts "
+            "of which none could be picked when the cell stopped.\n\n" + "\n".join(rows)
+            + "\n\nEvery trial that failed, and every bin that was left: how many parts of it are found, and what keeps the gripper "
+            "from these.\n\n" + "\n".join(failures))
 
 
 def paper_reading(commands):

@@ -98,6 +98,11 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
     steps.detection.referenceShare = settings.referenceShare;
   }
 
+  if (settings.partIsPresent)
+  {
+    assumePresence(steps);
+  }
+
   Detections result;
   result.quality = input.quality;
   const Progress ofPoses = subProgress(progress, AfterSceneEdges, 1.0);

@@ -95,6 +95,7 @@ PickPlan Picker::plan(const Detections& found, const Scan& scan, const Workplace
     plan.picks.push_back(planned);
   }
   plan.report = describe(picks);
+  plan.advice = adviceOn(picks);
   plan.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return plan;
 }

@@ -1,96 +1,123 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/Pick.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <set>
+#include <map>
 
 namespace meam
 {
-std::string describe(const Pick& pick)
+namespace
 {
-  switch (pick.obstruction)
-  {
-    case PickObstruction::None:
-      return "possible";
-    case PickObstruction::Uncertain:
-      return "the pose is too uncertain";
-    case PickObstruction::Covered:
-      return "covered from above to " + std::to_string(static_cast<int>(std::lround(100.0 * pick.covered))) + " %";
-    case PickObstruction::WrongKind:
-      return "the grasp is for another kind of gripper";
-    case PickObstruction::TooWide:
-      return "the part is too wide there for the jaws";
-    case PickObstruction::Tilted:
-      return "tilted by " + std::to_string(static_cast<int>(std::lround(pick.tilt))) + " degrees";
-    case PickObstruction::PartItself:
-      return "collides with the part itself";
-    case PickObstruction::Bin:
-      return "collides with the bin";
-    case PickObstruction::Instance:
-      return "collides with instance " + std::to_string(pick.obstacle + 1);
-    case PickObstruction::Measured:
-      return "collides with something measured";
-  }
-  return {};
+/// What is said of an obstruction; # is its number: a share, an angle, an instance, a rank.
+struct Words
+{
+  const char* reason;
+  const char* label;
+  const char* copies; ///< that come no farther, after their number
+  const char* advice; ///< what to change for these
+};
+
+constexpr int Obstructions = static_cast<int>(PickObstruction::Measured) + 1;
+constexpr std::array<Words, Obstructions> AllWords{ {
+  { "possible", "pick #", "", "" },
+  { "the pose is too uncertain", "uncertain", "too uncertain", "lower the minimum probability, or scan again" },
+  { "covered from above to # %", "# % covered", "covered",
+    "pick what lies on them first, or raise the maximum covered" },
+  { "the grasp is for another kind of gripper", "wrong kind", "without a grasp for this kind of gripper",
+    "choose the other kind, or have grasps proposed for this one" },
+  { "the part is too wide there for the jaws", "too wide", "too wide for the jaws",
+    "take a gripper with a larger opening, or other grasps" },
+  { "tilted by # degrees", "tilted", "without a grasp from above",
+    "raise the maximum tilt, have more grasps proposed or define one by hand, or take another gripper" },
+  { "collides with the part itself", "hits the part", "hit by the gripper on its way in",
+    "take a slimmer gripper, or have more grasps proposed" },
+  { "collides with the bin", "hits the bin", "too near to the bin",
+    "take a slimmer or longer gripper, or lower the safety margin" },
+  { "collides with instance #", "hits #", "too near to another copy",
+    "pick the other copies first, take a slimmer gripper, or lower the safety margin" },
+  { "collides with something measured", "hits something", "too near to something measured",
+    "clear it away, take a slimmer gripper, or lower the safety margin" },
+} };
+
+const Words& wordsOf(PickObstruction obstruction) { return AllWords[static_cast<std::size_t>(obstruction)]; }
+
+std::string withNumber(std::string words, const Pick& pick, int rank)
+{
+  const double number = pick.obstruction == PickObstruction::Covered    ? 100.0 * pick.covered
+                        : pick.obstruction == PickObstruction::Tilted   ? pick.tilt
+                        : pick.obstruction == PickObstruction::Instance ? pick.obstacle + 1.0
+                                                                        : rank;
+  const std::size_t at = words.find('#');
+  return at == std::string::npos ? words : words.replace(at, 1, std::to_string(std::lround(number)));
 }
 
-std::string labelOf(const Pick& pick, int rank)
+/// How far the picks of each copy come; copies that can be picked come to none.
+std::map<int, PickObstruction> farthestOfCopies(const Picks& picks)
 {
-  switch (pick.obstruction)
+  std::map<int, PickObstruction> farthest;
+  for (const Pick& pick : picks)
   {
-    case PickObstruction::None:
-      return "pick " + std::to_string(rank);
-    case PickObstruction::Uncertain:
-      return "uncertain";
-    case PickObstruction::Covered:
-      return std::to_string(std::lround(100.0 * pick.covered)) + " % covered";
-    case PickObstruction::WrongKind:
-      return "wrong kind";
-    case PickObstruction::TooWide:
-      return "too wide";
-    case PickObstruction::Tilted:
-      return "tilted";
-    case PickObstruction::PartItself:
-      return "hits the part";
-    case PickObstruction::Bin:
-      return "hits the bin";
-    case PickObstruction::Instance:
-      return "hits " + std::to_string(pick.obstacle + 1);
-    case PickObstruction::Measured:
-      return "hits something";
+    const auto [known, first] = farthest.insert({ pick.pose, pick.obstruction });
+    if (!first && known->second != PickObstruction::None)
+    {
+      known->second = pick.possible() ? PickObstruction::None : std::max(known->second, pick.obstruction);
+    }
   }
-  return {};
+  return farthest;
 }
+
+/// Copies by what keeps the gripper from them.
+std::array<int, Obstructions> countsOf(const Picks& picks)
+{
+  std::array<int, Obstructions> counts{};
+  for (const auto& [pose, obstruction] : farthestOfCopies(picks))
+  {
+    ++counts[static_cast<std::size_t>(obstruction)];
+  }
+  return counts;
+}
+}
+
+std::string describe(const Pick& pick) { return withNumber(wordsOf(pick.obstruction).reason, pick, 0); }
+
+std::string labelOf(const Pick& pick, int rank) { return withNumber(wordsOf(pick.obstruction).label, pick, rank); }
 
 std::string describe(const Picks& picks)
 {
-  static const char* const names[] = { "possible", "of uncertain poses", "covered", "of another kind of gripper",
-    "too wide", "tilted", "against the part itself", "against the bin", "against another copy",
-    "against something measured" };
-  std::array<int, std::size(names)> counts{};
-  std::set<int> all;
-  std::set<int> graspable;
-  for (const Pick& pick : picks)
+  if (picks.empty())
   {
-    ++counts[static_cast<std::size_t>(pick.obstruction)];
-    all.insert(pick.pose);
-    if (pick.possible())
+    return "There is no copy to pick.";
+  }
+  const std::array<int, Obstructions> counts = countsOf(picks);
+  const auto possible = std::count_if(picks.begin(), picks.end(), [](const Pick& pick) { return pick.possible(); });
+  int copies = 0;
+  std::string others;
+  for (std::size_t k = 0; k < counts.size(); ++k)
+  {
+    copies += counts[k];
+    if (k > 0 && counts[k] > 0)
     {
-      graspable.insert(pick.pose);
+      others += (others.empty() ? "; the others: " : ", ") + std::to_string(counts[k]) + " " + AllWords[k].copies;
     }
   }
-  std::string text = std::to_string(graspable.size()) + " of " + std::to_string(all.size()) +
-                     " copies can be picked, by " + std::to_string(counts[0]) + " of " + std::to_string(picks.size()) +
-                     " picks";
+  return std::to_string(counts[0]) + " of " + std::to_string(copies) + " copies can be picked, by " +
+         std::to_string(possible) + " of " + std::to_string(picks.size()) + " picks" + others + ".";
+}
+
+std::string adviceOn(const Picks& picks)
+{
+  const std::array<int, Obstructions> counts = countsOf(picks);
+  std::string text;
   for (std::size_t k = 1; k < counts.size(); ++k)
   {
     if (counts[k] > 0)
     {
-      text += (text.find(';') == std::string::npos ? "; " : ", ") + std::to_string(counts[k]) + " " + names[k];
+      text +=
+        (text.empty() ? "Copies " : " Copies ") + std::string(AllWords[k].copies) + ": " + AllWords[k].advice + ".";
     }
   }
-  return text + ".";
+  return text;
 }
 }

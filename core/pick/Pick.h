@@ -47,6 +47,9 @@ std::string describe(const Pick& pick);
 /// The same in a word or two, to stand in a picture: "pick 1" of one that is possible, by its rank.
 std::string labelOf(const Pick& pick, int rank);
 
-/// How many are possible, of how many copies, and what the others come to, in a sentence.
+/// How many are possible, of how many copies, and of the other copies what keeps the gripper from them however it is
+/// held, in a sentence.
 std::string describe(const Picks& picks);
+/// What to change for the copies that cannot be picked, a sentence for each reason; empty where all can.
+std::string adviceOn(const Picks& picks);
 }

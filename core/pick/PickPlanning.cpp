@@ -75,6 +75,7 @@ Picks PickPlanner::plan(
       Pick pick;
       pick.T_scene_grasp = poses[k].T_scene_model * search.grasps()[g].T_model_grasp;
       pick.obstruction = likely ? PickObstruction::Covered : PickObstruction::Uncertain;
+      pick.tilt = tiltOf(pick.T_scene_grasp, around.up);
       if (free)
       {
         pick = search.pickAt(poses[k], static_cast<int>(copy), static_cast<int>(g), around);

@@ -71,6 +71,8 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
   return settings;
 }
 
+void assumePresence(DetectionSettings& settings) { settings.selection.evidence.calibration.leastPresent = 1.0; }
+
 Scene sceneOf(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings, StageTimes* times,
   const Progress& progress)
 {

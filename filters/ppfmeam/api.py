@@ -101,7 +101,7 @@ def load(path):
 
 def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
            probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended",
-           features="both", seed=1, threads=0):
+           features="both", seed=1, threads=0, present=False):
     """Finds the copies of a part in a scan.
 
     part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm).
@@ -111,14 +111,15 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     pixel for each point, unless `image_camera`, a calibration file, says which other camera took it.
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
-    poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1.
+    poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1. present: the part is known to be in the
+    scan, as in a cell that counts what it takes: no pose is less likely because it may be missing.
     image_edges, depth_edges, creases: where edges are looked for, the last two not with preset paper. references: the share
     of points that vote, 0: the preset's. preset: recommended, paper, without-meam, ppf or b2b, the one that the part was trained with; the others than
     recommended have features of their own. features: edges, surface or both, as train() has them. threads: 0 for all cores.
     """
     estimation = filters.vtkMEAMPoseEstimation()
     set_inputs(estimation, part, scan, image, boundary, camera, image_camera, scale, cad_scale, poses, probability, image_edges,
-               depth_edges, creases, references, preset, features, seed, threads)
+               depth_edges, creases, references, preset, features, seed, threads, present)
     return Detections(scripting.update(estimation).GetOutput())
 
 
@@ -162,7 +163,7 @@ def diagnosed(filter):
 
 def set_inputs(filter, part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
                probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended",
-               features="both", seed=1, threads=0):
+               features="both", seed=1, threads=0, present=False):
     """The inputs and properties of a filter that detects."""
     filter.SetInputDataObject(part_of(part, cad_scale))
     filter.SetInputDataObject(1, scan_of(scan, camera, scale))
@@ -175,7 +176,7 @@ def set_inputs(filter, part, scan, image=None, boundary=None, camera=None, image
         filter.SetCameraFile(os.fspath(image_camera))
     scripting.set_preset(filter, chosen("preset", preset, scripting.PRESETS))
     scripting.set_choice(filter, "Features", chosen("features", features, scripting.FEATURES))
-    for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, ImageEdges=image_edges,
+    for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, PartIsPresent=present, ImageEdges=image_edges,
                             DepthEdges=depth_edges, Creases=creases, ReferenceShare=references, Seed=seed,
                             NumberOfThreads=threads).items():
         getattr(filter, "Set" + name)(value)

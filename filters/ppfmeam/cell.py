@@ -204,7 +204,8 @@ def trials(station, copies, seed, film=None, pictures=None):
                "detect_ms": f"{detect_ms:.0f}", "plan_ms": f"{plan_ms:.0f}"}
         if not possible or in_a_row >= MOST_FAILURES:
             failed = picks.GetNumberOfPoints() and scripting.column(picks, "Possible").any()
-            reason = "given up after failures" if failed else picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0)
+            reason = ("given up after failures" if failed else "none of them is found" if not found.GetNumberOfPoints()
+                      else picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0))
             yield {**row, "reason": reason}
             return
         pick = possible[0]

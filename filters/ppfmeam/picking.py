@@ -45,14 +45,15 @@ class Picks:
     nothing), `transforms` (N x 4 x 4, takes the gripper's coordinates to the scan's, mm: z the way in), `robot_transforms`
     (the same in the robot's frame, with a robot_frame; else None), `instances` (which pose, from 0), `grasps` (which grasp, from
     0), `names` (of the grasps), `widths` (mm), `clearances` and `reaches` (mm), `tilts` (degrees), `covered` and `scores` (from 0
-    to 1). `report` is a sentence; `data` is the VTK data object."""
+    to 1). `report` tells in a sentence what keeps the gripper from copies that cannot be picked, `advice` what to change for
+    them (empty: all can be picked); `data` is the VTK data object."""
 
     def __init__(self, data):
         def column(name, *shape):
             return scripting.column(data, name, *shape)
 
         self.data = data
-        self.report = data.GetFieldData().GetAbstractArray("PickReport").GetValue(0)
+        self.report, self.advice = (data.GetFieldData().GetAbstractArray(name).GetValue(0) for name in ("PickReport", "PickAdvice"))
         self.possible = column("Possible").astype(bool)
         self.reasons, self.names = scripting.texts(data, "Reason"), scripting.texts(data, "GraspName")
         self.transforms, self.robot_transforms = column("Transform", 4, 4), column("RobotTransform", 4, 4)

@@ -55,11 +55,32 @@ check([t[0] for t in tuples(picks, "Possible")] == [0, 0, 0, 0], "the two copies
 check("collides with instance 2" in names(picks) and "collides with instance 1" in names(picks), names(picks))
 check(sum("tilted by 90 degrees" == name for name in names(picks)) == 2, names(picks))
 check(sorted(t[0] for t in tuples(picks, "Instance")) == [1, 1, 2, 2], "instances are counted from 1")
-report = picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0)
-check(report == "0 of 2 copies can be picked, by 0 of 4 picks; 2 tilted, 2 against another copy.", report)
+
+
+def said(picks, name):
+    return picks.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def answer():
+    """In lines, as it stands in the view."""
+    return planning.GetOutputDataObject(3).GetColumnByName("Text").GetValue(0)
+
+
+report, advice = said(picks, "PickReport"), said(picks, "PickAdvice")
+check(report == "0 of 2 copies can be picked, by 0 of 4 picks; the others: 2 too near to another copy.", report)
+check(advice.startswith("Copies too near to another copy: pick the other copies first"), advice)
+check(answer().replace("\n", " ") == f"{report} {advice}" and max(map(len, answer().split("\n"))) <= 75, answer())
+planning.SetMaximumTilt(0)
+planning.SetInputDataObject(2, cloud([(0, 0, 0)], Transform=[(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1)], Width=[20]))
+slanted = run(planning)
+check("2 without a grasp from above" in said(slanted, "PickReport"), said(slanted, "PickReport"))
+check("raise the maximum tilt" in said(slanted, "PickAdvice"), said(slanted, "PickAdvice"))
+planning.SetMaximumTilt(60)
+planning.SetInputDataObject(2, above)
 
 planning.SetSafetyMargin(0.5)
 picks = run(planning)
+check(said(picks, "PickAdvice") == "" and answer() == said(picks, "PickReport"), "where all can be picked nothing is advised")
 check([t[0] for t in tuples(picks, "Possible")] == [1, 1, 0, 0], "with less margin both can be picked")
 check([t[0] for t in tuples(picks, "Rank")] == [1, 2, 3, 4], "ranks")
 check(abs(tuples(picks, "Clearance")[0][0] - 1.0) < 1e-3, tuples(picks, "Clearance"))

@@ -167,6 +167,7 @@ try:
         deep = ppfmeam.pick(found, grasps, bin=(place, 200, 200, 50, 4))
     check(len(picks) == len(found) * len(grasps) and picks.transforms.shape == (len(picks), 4, 4), f"{len(picks)} picks")
     check((picks.possible == [reason == "" for reason in picks.reasons]).all() and picks.report.endswith("."), picks.report)
+    check((picks.advice == "") == (set(picks.instances) == set(picks.instances[picks.possible])), f"{picks.report} {picks.advice}")
     check((numpy.diff(picks.possible.astype(int)) <= 0).all(), "possible ones come first")
     check((numpy.sort(picks.instances * len(grasps) + picks.grasps) == numpy.arange(len(picks))).all(), "each grasp of each pose")
     for row in numpy.flatnonzero(picks.possible)[:3]:

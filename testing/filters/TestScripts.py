@@ -55,6 +55,13 @@ transforms = numpy.array(read("a.txt").split(), float).reshape(-1, 4, 4)
 true = numpy.array(tuples(truth, "Transform")).reshape(-1, 4, 4)
 for found in transforms:
     check(min(numpy.abs(found - t).max() for t in true) < 1, f"not a true pose: {found}")
+# pick.py: a sentence, and each possible pick with its matrix.
+text = works("pick.py", "part.stl", "scan.pcd", "--cup", "8")
+told = re.match(r"(\d+) of (\d+) copies can be picked, by (\d+) of \d+ picks", text)
+check(told and 0 < int(told[1]) <= int(told[2]) and (int(told[1]) < int(told[2])) == ("Copies " in text), text)
+check(len(re.findall(r"^part \d+ by suction \d+, clearance \d+\.\d mm\n\[\[", text, re.MULTILINE)) == int(told[3]), text)
+refuses("no such file", "pick.py", "part.stl", "missing.pcd")
+refuses("opening", "pick.py", "part.stl", "scan.pcd", "--opening", "-5")
 # The trained model, and the image as a file, give the same poses.
 text = works("train.py", "--cad", "part.stl", "--out", "model.vtpc")
 check("model.vtpc" in text and os.path.isdir("model"), "the model is written")

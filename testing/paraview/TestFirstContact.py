@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of three scans is opened,
-MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked why a hidden part was missed. The
-state that is saved then is opened by pvpython, which looks at it. The tutorial shows its text and opens its example; the
-dialog of the menu names its inputs.
+MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked why a hidden part was missed; grasps
+are proposed, and picks planned. The state that is saved then is opened by pvpython, which looks at it. The
+tutorial shows its text and opens its example; the dialog of the menu names its inputs.
 
 Usage: TestFirstContact.py PARAVIEW PVPYTHON REPOSITORY; with PPFMEAM_PICTURE=FOLDER pictures of the whole window go there,
 those of docs/gallery.md (needs python3-pil).
@@ -16,11 +16,13 @@ import tempfile
 import time
 from xml.sax.saxutils import quoteattr
 
+from clicks import (APPLY, BROWSER, PROPERTIES, WINDOW, accept_inputs, choice, connect, event, files, filter_of_menu, item,
+                    menu, number)
+
 RED, GREEN, VIOLET = (220, 30, 30), (40, 170, 50), (150, 60, 190)
 SCANS = 3
-WINDOW = "pqClientMainWindow"
-PANEL = "propertiesDock/propertiesPanel"
-POINT = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/InteractiveHandle"
+POINT = PROPERTIES + "/InteractiveHandle"
+CUP = 10  # mm: between the holes of the plate
 
 
 def check(condition, message):
@@ -28,29 +30,26 @@ def check(condition, message):
         raise AssertionError(message)
 
 
-def event(widget, command, arguments=""):
-    return f'<pqevent object="{WINDOW}/{widget}" command="{command}" arguments="{arguments}" />'
-
-
-def menu(name, entry):
-    return event(f"menubar/{name}", "activate", entry)
-
-
-def files(action, dialog, path):
-    return [menu("menu_File", action), event(dialog, "filesSelected", path)]
-
-
 def clicks(folder, hidden):
     """What is clicked, in stages that end with a picture of the gallery."""
-    apply = event(f"{PANEL}/Accept", "activate")
-    yield "first_contact", [
-        *files("actionFileOpen", "FileOpenDialog", f"{folder}/bins/models/obj_000001.ply"),
-        *files("actionFileOpen", "FileOpenDialog", f"{folder}/bins/camera.json"),
-        event("PoseEstimationToolbar/EstimatePoses", "activate"), apply]
+    yield "first_contact", estimation(folder)
     yield "series", [event("PoseEstimationToolbar/ShowCharts", "activate"), event("VCRToolbar/actionVCRPlay", "activate")]
     yield "why", [
         event("PoseEstimationToolbar/AskWhy", "activate"),
-        *(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", hidden)), apply]
+        *(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", hidden)), APPLY]
+
+
+def estimation(folder):
+    return [*files("actionFileOpen", "FileOpenDialog", f"{folder}/bins/models/obj_000001.ply"),
+            *files("actionFileOpen", "FileOpenDialog", f"{folder}/bins/camera.json"),
+            event("PoseEstimationToolbar/EstimatePoses", "activate"), APPLY]
+
+
+def picks():
+    """Grasps of the part, proposed for a cup, and picks of the poses."""
+    return [*item(BROWSER, 0), *filter_of_menu("GraspDefinition"), choice("Propose", "Suction"), number("CupDiameter", CUP), APPLY,
+            *item(BROWSER, 2), *filter_of_menu("PickPlanning"), *connect("Mesh", 0), *connect("Grasps", 0, 0, 0),
+            *connect("Scan", 1, 0), accept_inputs(), choice("Gripper", "Suction cup"), number("CupDiameter", CUP), APPLY]
 
 
 def tutorial(folder, text):
@@ -59,8 +58,7 @@ def tutorial(folder, text):
     return [
         menu("menu_Help", "actionPPFMEAMTutorial"),
         f'<pqcheck object="{WINDOW}/PPFMEAMTutorial/Page/Text" property="plainText" arguments={quoteattr(text, {chr(10): "&#10;"})} />',
-        event("menubar", "activate", "menuFilters"),
-        menu("menuFilters/PoseEstimation", "MEAMPoseEstimation"),
+        *filter_of_menu("MEAMPoseEstimation"),
         f'<pqcheck object="{WINDOW}/{select}/Input" property="text" arguments="Part" />',
         f'<pqcheck object="{WINDOW}/{select}/Scene" property="text" arguments="Scan" />',
         event("SelectInputDialog/buttonBox/1QPushButton1", "activate"),
@@ -154,12 +152,12 @@ def share(picture, color):
     return (near & (level - pixels.min(axis=1) > 40)).mean()
 
 
-def shown_in(view):
+def shown_in(view, hidden=False):
     """The representations of data, by kind of source and its port."""
     def key(representation):
         data = representation.Input
         return (data.GetXMLName() if hasattr(data, "GetXMLName") else data.SMProxy.GetXMLName()), data.Port
-    return {key(r): r for r in view.Representations if hasattr(r, "Input") and r.Visibility}
+    return {key(r): r for r in view.Representations if hasattr(r, "Input") and (r.Visibility or hidden)}
 
 
 def output(source, port=0):
@@ -174,18 +172,19 @@ def look(folder):
     found, why = simple.FindSource("MEAMPoseEstimation1"), simple.FindSource("PoseDiagnosis1")
     times = simple.GetTimeKeeper()
     check(list(times.TimestepValues) == list(range(SCANS)) and times.Time == SCANS - 1, f"the series stands at {times.Time}")
-    view = next(v for v in simple.GetViews() if v.GetXMLName() == "RenderView")
+    view = next(v for v in simple.GetViews() if ("BOPReader", 0) in shown_in(v))
     shown = shown_in(view)
-    check(sorted(shown) == [("BOPReader", 0), ("MEAMPoseEstimation", 0), ("MEAMPoseEstimation", 2), ("PoseDiagnosis", 0),
-                            ("PoseDiagnosis", 3)], f"shown: {sorted(shown)}")
-    labels = shown["MEAMPoseEstimation", 0]
+    check(sorted(shown) == [("BOPReader", 0), ("MEAMPoseEstimation", 2), ("PickPlanning", 0), ("PickPlanning", 1),
+                            ("PickPlanning", 3), ("PoseDiagnosis", 0)], f"shown: {sorted(shown)}")
+    labels = shown_in(view, hidden=True)["MEAMPoseEstimation", 0]
     check((labels.Representation, labels.LabelArray) == ("Pose Labels", "Label"), f"labels: {labels.Representation}")
     check(list(shown["MEAMPoseEstimation", 2].ColorArrayName) == ["POINTS", "Rank"], "the parts are not coloured by rank")
     check(shown["BOPReader", 0].MapScalars == 0, "the scan is not grey")
     check(tuple(view.CameraViewUp) == (0, -1, 0), f"seen from {view.CameraPosition}, up {view.CameraViewUp}")
     bars = [r.Title for r in view.Representations if r.GetXMLName() == "ScalarBarWidgetRepresentation" and r.Visibility]
-    check(sorted(bars) == ["Rank", "State"], f"legends: {bars}")
+    check(sorted(bars) == ["Possible", "Rank", "State"], f"legends: {bars}")
     simple.Render(view)
+    look_at_picks(simple, view, folder)
     check(output(found).GetNumberOfPoints() >= 2, f"{output(found).GetNumberOfPoints()} poses")
     check(output(found).GetPointData().GetAbstractArray("Label").GetValue(0).startswith("1: "), "the label of the first")
     picture = os.path.join(folder, "view.png")
@@ -211,6 +210,29 @@ def look_at_charts(simple, found):
     check(labels == [stages.GetValue(k) for k in range(stages.GetNumberOfValues())], f"bars of {labels}")
 
 
+def look_at_picks(simple, view, folder):
+    """The gripper at its picks, green and red, with labels and an answer; beside it the part with its grasps."""
+    picks, shown = simple.FindSource("PickPlanning1"), shown_in(view)
+    labels = output(picks).GetPointData().GetAbstractArray("Label")
+    labels = [label for label in (labels.GetValue(k) for k in range(labels.GetNumberOfValues())) if label]
+    check("pick 1" in labels and any(not label.startswith("pick") for label in labels), f"labels: {labels}")
+    text = output(picks, 3).GetValueByName(0, "Text").ToString()
+    check(re.match(r"\d of 5 copies can be picked", text) and "\nCopies " in text, f"the answer in the view: {text}")
+    beside = sorted(key for v in simple.GetViews() if v.GetXMLName() == "RenderView" and v != view for key in shown_in(v))
+    check([name for name, _ in beside] == ["GraspDefinition", "GraspDefinition", "PLYReader"], f"beside the scan: {beside}")
+    picture = os.path.join(folder, "picks.png")
+    others = [r for key, r in shown.items() if key not in (("PickPlanning", 1), ("PickPlanning", 0))]
+    for representation in others:
+        representation.Visibility = 0
+    simple.SaveScreenshot(picture, view, ImageResolution=[640, 480])
+    for color in (RED, GREEN):
+        check(share(picture, color) > 0.005, f"{share(picture, color)} of {picture} has the colour {color}")
+    for representation in others:
+        representation.Visibility = 1
+    for port in (0, 1, 3):
+        shown["PickPlanning", port].Visibility = 0
+
+
 def look_at_example(path):
     """The button took the example's part and scan."""
     import xml.etree.ElementTree as ElementTree
@@ -234,8 +256,11 @@ def main(paraview, pvpython, repository):
             events += stage
             if pictures:
                 shoot(paraview, folder, events, os.path.join(pictures, f"application_{name}.jpg"))
-        events += files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm")
-        play(paraview, folder, events + tutorial(folder, plain(os.path.join(repository, "docs", "tutorial.md"))))
+        if pictures:
+            shoot(paraview, folder, estimation(folder) + picks(), os.path.join(pictures, "application_picks.jpg"))
+        events += picks() + files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm")
+        events += tutorial(folder, plain(os.path.join(repository, "docs", "tutorial.md")))
+        play(paraview, folder, events)
         look_at_example(os.path.join(folder, "example.pvsm"))
         subprocess.run([pvpython, os.path.abspath(__file__), "--look", folder], check=True)
 

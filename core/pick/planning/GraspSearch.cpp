@@ -42,6 +42,12 @@ PickObstruction obstructionOf(Obstacle obstacle)
 }
 }
 
+double tiltOf(const Eigen::Isometry3d& T_scene_grasp, const Eigen::Vector3d& up)
+{
+  const double down = -T_scene_grasp.linear().col(2).dot(up);
+  return std::acos(std::clamp(down, -1.0, 1.0)) * 180.0 / M_PI;
+}
+
 GraspSearch::GraspSearch(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps,
   const Gripper& gripper, const PickSettings& settings)
   : Claw(gripper)
@@ -116,8 +122,7 @@ Pick GraspSearch::pickAt(const Pose& pose, int copy, int index, const PickSurrou
   {
     Pick pick;
     pick.T_scene_grasp = pose.T_scene_model * this->Frames[index][turn];
-    const double down = -pick.T_scene_grasp.linear().col(2).dot(around.up);
-    pick.tilt = std::acos(std::clamp(down, -1.0, 1.0)) * 180.0 / M_PI;
+    pick.tilt = tiltOf(pick.T_scene_grasp, around.up);
     if (pick.tilt > this->Settings.mostTilt)
     {
       pick.obstruction = PickObstruction::Tilted;

@@ -14,6 +14,9 @@
 
 namespace meam
 {
+/// Degrees between a gripper's way in and straight down.
+double tiltOf(const Eigen::Isometry3d& T_scene_grasp, const Eigen::Vector3d& up);
+
 /// A part, its grasps and a gripper, and at which turns of a grasp it takes a copy.
 class GraspSearch
 {

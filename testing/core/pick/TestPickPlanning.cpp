@@ -153,6 +153,12 @@ TEST(PickPlanning, WhatIsCoveredStays)
   const meam::Pick pick = onlyPick({ at(0, 0) }, cloud);
   EXPECT_EQ(pick.obstruction, meam::PickObstruction::Covered);
   EXPECT_NEAR(pick.covered, 13.0 / 40.0, 0.05);
+  meam::Grasp side = fromAbove();
+  side.T_model_grasp = meam::graspFrame({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 });
+  meam::PickPlanner planner(block(), {}, { side, fromAbove() }, jaws());
+  const meam::Picks picks = planner.plan({ at(0, 0) }, cloud, bin());
+  EXPECT_EQ(picks[0].grasp, 1) << "what is shown of it is the grasp that comes from above";
+  EXPECT_NEAR(picks[1].tilt, 90.0, 1e-6);
   meam::PickSettings bold;
   bold.mostCovered = 50.0;
   EXPECT_NE(onlyPick({ at(0, 0) }, cloud, fromAbove(), bold).obstruction, meam::PickObstruction::Covered);
@@ -235,7 +241,8 @@ TEST(PickPlanning, TheBestComesFirstAndTheImpossibleLast)
   EXPECT_EQ(picks[1].pose, 0);
   EXPECT_EQ(picks[2].pose, 2);
   EXPECT_FALSE(picks[2].possible());
-  EXPECT_EQ(meam::describe(picks), "2 of 3 copies can be picked, by 2 of 3 picks; 1 of uncertain poses.");
+  EXPECT_EQ(meam::describe(picks), "2 of 3 copies can be picked, by 2 of 3 picks; the others: 1 too uncertain.");
+  EXPECT_EQ(meam::adviceOn(picks), "Copies too uncertain: lower the minimum probability, or scan again.");
 }
 
 TEST(PickPlanning, MovesWithTheScene)
