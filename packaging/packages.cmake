@@ -22,11 +22,12 @@ Plans where a gripper can take which of the parts that were found: meam::pick,
 which holds nothing under the GPL.")
 set(CPACK_COMPONENT_TRAIN_DESCRIPTION "6D poses of industrial parts in a bin, training in C++
 Trains the model of a part from its CAD file and proposes grasps of it
-(meam::train), and reads images in files (meam::images). Under the GPL: CGAL is in the one, and Debian's image
-readers, which the other links, need Poppler.")
+(meam::train), and reads images in files (meam::images). Under the GPL: CGAL
+is in the one, and Debian's image readers, which the other links, need Poppler.")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "6D poses of industrial parts in a bin, C++ headers
 Headers and CMake files for find_package(PPFMEAM): meam::detect, meam::images,
-meam::pick, meam::train and, with python3-ppfmeam, the VTK module PPFMEAM::Filters.")
+meam::pick, meam::train and, with python3-ppfmeam and paraview-dev, the VTK
+module PPFMEAM::Filters.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "6D poses of industrial parts in a bin, Python and command
 Finds the copies of an industrial part in a bin: a CAD file and an organized 3D
 scan go in, ranked 6D poses come out. The Python module ppfmeam with its VTK

@@ -71,6 +71,12 @@ cpp/propose_grasps part.meam part.stl part.grasps.json
 cpp/pick part.meam part.stl part.grasps.json scan.pcd robot.json >picks.txt
 python3 "$here/install/scan.py" check "$work"
 
+echo "== the VTK module in C++"
+get paraview-dev
+cmake -S "$here/install/module" -B module >module.log 2>&1 && cmake --build module >>module.log 2>&1 ||
+  { cat module.log; failed "a program with PPFMEAM::Filters does not compile"; }
+module/read_scan scan.pcd || failed "a program with PPFMEAM::Filters"
+
 echo "== removed again"
 apt-get purge -q -y 'ppfmeam-paraview' 'python3-ppfmeam' 'libppfmeam-*' >>"$work/apt.log" 2>&1 || { tail -n 20 "$work/apt.log"; failed "purge"; }
 left=$(find /usr /etc /var/lib/dpkg/info -iname '*ppfmeam*' -o -name 'libmeam*' -o -path /usr/bin/paraview.conf)
