@@ -135,7 +135,7 @@ void hideAnswers(vtkSMRenderViewProxy* view, vtkSMSourceProxy* but)
   {
     vtkSMProxy* representation = representations.GetAsProxy(k);
     const ShownData shown(representation);
-    if (shown.isOurs() && shown.source != but && std::strcmp(representation->GetXMLName(), "TextSourceRepresentation") == 0)
+    if (isOurs(shown.source) && shown.source != but && std::strcmp(representation->GetXMLName(), "TextSourceRepresentation") == 0)
     {
       hide(view, shown.source, shown.port);
     }
@@ -281,7 +281,7 @@ private:
       return;
     }
     showPlain(representation, shown.data());
-    if (!shown.isOurs())
+    if (!isOurs(shown.source))
     {
       return;
     }

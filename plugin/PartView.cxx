@@ -31,14 +31,8 @@
 
 namespace
 {
-constexpr double ShareOfScan = 0.6;                     // of the width
+constexpr double ShareOfScan = 0.6;                 // of the width
 constexpr const char* OfPart = "PPFMEAM.PartFrame"; // annotation of a view beside a scan
-
-bool isOurs(pqPipelineSource* source)
-{
-  const char* name = source->getSourceProxy()->GetVTKClassName();
-  return name && std::strncmp(name, "vtkMEAM", std::strlen("vtkMEAM")) == 0;
-}
 
 /// Outputs that the view shows and that lie in the part's frame.
 QList<pqOutputPort*> outputsOfPart(pqPipelineSource* source, pqView* view)
@@ -109,7 +103,7 @@ void showPart(pqPipelineSource* source, pqRenderView* view)
 void showBeside(pqPipelineSource* source)
 {
   auto* scan = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
-  if (!source || !scan || !isOurs(source) || !isSeenFromSensor(scan->getViewProxy()))
+  if (!source || !scan || !isOurs(source->getSourceProxy()) || !isSeenFromSensor(scan->getViewProxy()))
   {
     return;
   }

@@ -26,9 +26,9 @@ ShownData::ShownData(vtkSMProxy* representation)
 
 vtkPVDataInformation* ShownData::data() const { return this->source->GetDataInformation(this->port); }
 
-bool ShownData::isOurs() const
+bool isOurs(vtkSMSourceProxy* source)
 {
-  const char* name = this->source ? this->source->GetVTKClassName() : nullptr;
+  const char* name = source ? source->GetVTKClassName() : nullptr;
   return name && std::strncmp(name, "vtkMEAM", std::strlen("vtkMEAM")) == 0;
 }
 

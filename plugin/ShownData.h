@@ -14,10 +14,10 @@ struct ShownData
   explicit ShownData(vtkSMProxy* representation);
 
   vtkPVDataInformation* data() const;
-  /// Whether the source is one of this plugin.
-  bool isOurs() const;
 };
 
+/// Whether a source is one of this plugin; null is none.
+bool isOurs(vtkSMSourceProxy* source);
 /// An organized cloud, which is in its sensor's frame.
 bool isOrganized(vtkPVDataInformation* data);
 /// Whether the output, or what it was made of, is an organized cloud.

@@ -8,7 +8,7 @@ import sys
 
 from ppfmeam import evaluation, filters, scripting, simulation
 
-SENSORS = simulation.SENSORS[0], simulation.SENSORS[2]
+SENSORS = ("structured-light", "time-of-flight")
 BIN = 6  # diameters of the part, the bin's side
 VIEW = 1.1  # sides of the bin, what the sensor sees across: the bin's rim is nearer than its floor
 

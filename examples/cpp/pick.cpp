@@ -29,7 +29,7 @@ try
   settings.maximumPoses = 0; // what is not picked stands in the way
   settings.minimumProbability = 0.5;
   const meam::PickPlan plan = picker.plan(meam::detect(model, scan, settings), scan, place);
-  std::cerr << plan.report << '\n' << plan.advice << '\n';
+  std::cerr << plan.report << ' ' << plan.advice << '\n';
   for (const meam::PlannedPick& pick : plan.picks)
   {
     if (pick.possible)
