@@ -166,8 +166,9 @@ void PoseClusters::choose(int k, const std::vector<int>& before, std::vector<cha
 {
   std::vector<int> alternatives;
   std::copy_if(before.begin(), before.end(), std::back_inserter(alternatives), [&](int other) { return stays[other]; });
-  const bool isKnown = std::any_of(alternatives.begin(), alternatives.end(),
-    [&](int other) { return this->turnBetween(k, other) < this->Settings.angle; });
+  const bool isKnown =
+    !this->Comparison && std::any_of(alternatives.begin(), alternatives.end(),
+                           [&](int other) { return this->turnBetween(k, other) < this->Settings.angle; });
   if (isKnown)
   {
     return;

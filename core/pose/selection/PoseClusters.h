@@ -18,7 +18,8 @@ struct PoseClustersSettings
   {
     return this->distance > 0.0 ? this->distance : this->distanceShare * diameter;
   }
-  double angle = 15.0;      ///< poses of one instance that are turned less than this (degrees) are the same
+  /// Poses of one instance that are turned less than this (degrees) are the same, when they are not compared.
+  double angle = 15.0;
   int posesPerInstance = 1; ///< that stay
   /// Share of the matched points from which on two poses are of one instance, when these are compared: two parts do not
   /// have their surface in the same place.
@@ -34,7 +35,8 @@ class PoseClusters
 {
 public:
   /// Poses up to the symmetries `same`, near ones among them, are the same. `comparison` decides between poses of an
-  /// instance; null: the one that comes first stays. `collector` may be null without it.
+  /// instance, be they turned or the same but better refined; null: the one that comes first stays. `collector` may be
+  /// null without it.
   PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
     const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
     int threads);

@@ -69,3 +69,21 @@ TEST(PoseClusters, WhatASymmetryMakesEqualIsNoAlternative)
   nearQuarters.near = { { quarters(1) }, { quarters(2) }, { quarters(3) } };
   EXPECT_EQ(staying(poses, settings, nearQuarters), (Indices{ 0, 3 })) << "approximate ones as well";
 }
+
+TEST(PoseClusters, OfTheSameTurnTheBetterRefinedStays)
+{
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  const meam::PoseComparison comparison(scene, scenes::bracket());
+  const Eigen::Isometry3d truth = scenes::threeCopies()[0];
+  meam::Poses poses{ scenes::displaced(truth, 1.0, 4.0), scenes::displaced(truth), scenes::displaced(truth, 0.5, 2.0) };
+  const auto staying = [&](double evidenceOfFirst)
+  {
+    poses[0].evidence = evidenceOfFirst;
+    poses[1].evidence = poses[2].evidence = 1.0;
+    const meam::Symmetries none;
+    return meam::PoseClusters(poses, none, scenes::bracket(), &collector, &comparison, {}, 2).select({});
+  };
+  EXPECT_EQ(staying(1.5), (Indices{ 1 })) << "evidence hardly differs: the scene tells, point by point";
+  EXPECT_EQ(staying(1.0 + meam::PoseClustersSettings{}.equalEvidence), (Indices{ 0 })) << "clearly more evidence";
+}
