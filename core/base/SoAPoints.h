@@ -25,6 +25,12 @@ struct SoAPoints
     this->y.resize(size);
     this->z.resize(size);
   }
+  void reserve(std::size_t size)
+  {
+    this->x.reserve(size);
+    this->y.reserve(size);
+    this->z.reserve(size);
+  }
   void set(std::size_t k, const Eigen::Vector3f& point)
   {
     this->x[k] = point.x();
@@ -55,6 +61,11 @@ struct SoAOrientedPoints
   {
     this->points.resize(size);
     this->directions.resize(size);
+  }
+  void reserve(std::size_t size)
+  {
+    this->points.reserve(size);
+    this->directions.reserve(size);
   }
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace meam
 {
@@ -93,38 +94,60 @@ bool isInside(const std::vector<float>& buffer, int side, int cell, int border)
 /// them.
 Points outsideOf(const std::vector<float>& buffer, const View& view, int border)
 {
-  const int side = view.side;
-  const int steps[] = { -1, 1, -side, side };
-  const auto isEmpty = [&](const float* cell, int step)
+  constexpr float unknown = std::numeric_limits<float>::infinity();
+  const int side = view.side, off = border + 1;
+  thread_local std::vector<float> heights; // of the cells outside; `unknown` between two calls
+  thread_local std::vector<int> outer;
+  heights.resize(buffer.size(), unknown);
+  outer.clear();
+  const auto look = [&](int cell, int step) // from a cell that is seen
   {
-    bool empty = true;
-    for (int off = 1; empty && off <= border; ++off)
+    bool isFree = true;
+    for (int k = 1; isFree && k <= off; ++k)
     {
-      empty = cell[off * step] == Nothing;
+      isFree = buffer[cell + k * step] == Nothing;
     }
-    return empty;
-  };
-  Points outside;
-  for (int v = border + 1; v + border + 1 < side; ++v)
-  {
-    for (int u = border + 1; u + border + 1 < side; ++u)
+    if (isFree)
     {
-      const float* const cell = &buffer[static_cast<std::size_t>(v) * side + u];
-      float height = std::numeric_limits<float>::infinity();
-      for (const int step : steps)
+      float& height = heights[cell + off * step];
+      if (height == unknown)
       {
-        const float beyond = cell[(border + 1) * step];
-        if (beyond != Nothing && isEmpty(cell, step))
+        outer.push_back(cell + off * step);
+      }
+      height = std::min(height, buffer[cell]);
+    }
+  };
+  const auto isInside = [&](int k) { return k >= off && k + off < side; };
+  for (int v = 0; v < side; ++v)
+  {
+    for (int u = 0; u < side; ++u)
+    {
+      const int cell = v * side + u;
+      if (buffer[cell] == Nothing)
+      {
+        continue;
+      }
+      for (const int sign : { -1, 1 })
+      {
+        if (isInside(v) && isInside(u + sign * off))
         {
-          height = std::min(height, beyond);
+          look(cell, sign);
+        }
+        if (isInside(u) && isInside(v + sign * off))
+        {
+          look(cell, sign * side);
         }
       }
-      if (*cell == Nothing && height < std::numeric_limits<float>::infinity())
-      {
-        const float right = (u + 0.5f) / view.inverseCell - view.half, down = (v + 0.5f) / view.inverseCell - view.half;
-        outside.push_back(view.frame * Eigen::Vector3f(height, right, down));
-      }
     }
+  }
+  std::sort(outer.begin(), outer.end());
+  Points outside;
+  outside.reserve(outer.size());
+  for (const int cell : outer)
+  {
+    const float right = (cell % side + 0.5f) / view.inverseCell - view.half;
+    const float down = (cell / side + 0.5f) / view.inverseCell - view.half;
+    outside.push_back(view.frame * Eigen::Vector3f(std::exchange(heights[cell], unknown), right, down));
   }
   return outside;
 }
@@ -281,12 +304,14 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   thread_local std::vector<int> inSight;
   projected(this->SharpEdges.points, others);
   keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, inSight);
+  const std::vector<OccludingContours::Point> contours = this->Contours.from(towards, inset);
+  visible.edges.reserve(inSight.size() + contours.size());
   for (const int k : inSight)
   {
     visible.edges.add(this->SharpEdges.points[k] + this->Middle, this->SharpEdges.directions[k]);
   }
   const float outward = static_cast<float>(this->Settings.outward * cell + inset);
-  for (const OccludingContours::Point& contour : this->Contours.from(towards, inset))
+  for (const OccludingContours::Point& contour : contours)
   {
     if (!isHidden(nearest, across, contour.point - this->Middle, outward * contour.normal, tolerance))
     {
@@ -298,6 +323,8 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
     static_cast<float>(this->Settings.grazingCosine), others.heights.data());
   keepInSight(others, nearest, tolerance, inSight);
+  visible.surface.reserve(inSight.size());
+  visible.isInner.reserve(inSight.size());
   for (const int k : inSight)
   {
     visible.surface.push_back(this->VerificationIndices[k]);

@@ -21,7 +21,7 @@ struct PredictedVisibilitySettings
   double edgeSlope = 1.5;      ///< slope allowed for at an edge point, whose surface is not known
   double grazingCosine = 0.15; ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
   double outward = 1.5;        ///< cells from a contour to where the buffer tells whether the part hides it
-  int directionSteps = 64;     ///< of each coordinate of the direction to the sensor from 0 to 1: 0.9 degrees
+  int directionSteps = 32;     ///< of each coordinate of the direction to the sensor from 0 to 1: 1.8 degrees
   int widestBorder = 4;        ///< cells
   double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double inset = 0.5;  ///< of them: where a smooth surface ends the last point is measured so far inside

@@ -59,8 +59,14 @@ check(len(came_out) >= 5 and len(set(came_out)) == len(came_out), f"each that ca
 check(sum(1 for r, v in zip(ranks, visible) if v > 0.9 and r) >= 4, f"those in sight are found: {ranks}, {visible}")
 hidden = [v for verdict, v in zip(verdicts, visible) if verdict.startswith("Hidden: something lies in front of")]
 check(hidden and max(hidden) < 0.5, f"hidden parts: {hidden}, {verdicts}")
-shares = [int(verdict.split("probability of ")[1].split(" %")[0]) for verdict in verdicts if "with a probability of" in verdict]
-check(shares and max(shares) <= 50, f"those that are too unlikely: {shares}")
+# The least likely one is too unlikely when more is asked for.
+last = max(came_out)
+(least,) = tuples(found, "Probability")[last - 1]
+diagnosis.SetRankOfPose(ranks.index(last) + 1)
+diagnosis.SetMinimumProbability(0.5 * (least + 1.0))
+verdict = text(run(diagnosis), "Verdict")
+check(f"with a probability of {100 * least:.0f} %" in verdict, f"{verdict}: it has {least}")
+diagnosis.SetMinimumProbability(0.5)
 
 # The points lie on the scan where they match, and have their names.
 best = ranks.index(1)

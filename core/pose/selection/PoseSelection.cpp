@@ -50,7 +50,8 @@ public:
     }
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
     const PoseEvidence evidence = this->Collector.collect(pose.T_scene_model);
-    scoreByEvidence(pose, evidence, this->Rates, this->Settings.evidence, this->InScene, this->Model);
+    setSeen(pose, evidence, this->InScene, this->Model);
+    weighEvidence(pose, evidence.counts, this->Rates, this->Settings.evidence, this->InScene, this->Model);
     return evidence.matched();
   }
 

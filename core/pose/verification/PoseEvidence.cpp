@@ -68,7 +68,10 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   const auto visible = model.visibility->visible(T_scene_model, this->InScene.sensor, depth.pitch());
   const float tolerance = this->Tolerance;
   PoseEvidence evidence;
-  for (std::size_t k = 0; k < visible->edges.size(); k += stride * this->Settings.edgeStride)
+  const std::size_t edgeStride = stride * this->Settings.edgeStride;
+  evidence.edges.reserve(visible->edges.size() / edgeStride + 1);
+  evidence.edgeStates.reserve(visible->edges.size() / edgeStride + 1);
+  for (std::size_t k = 0; k < visible->edges.size(); k += edgeStride)
   {
     const Eigen::Vector3f point = T * visible->edges.points[k];
     const Eigen::Vector3f tangent = T.linear() * visible->edges.directions[k];

@@ -80,16 +80,20 @@ int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model)
   return isNamed ? pose.viewId : model.visibility->view(pose.T_scene_model, scene.sensor);
 }
 
-void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceRates& rates,
-  const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model)
+void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const TrainedModel& model)
 {
   pose.viewId = model.visibility->view(pose.T_scene_model, scene.sensor);
   pose.visibleFraction = evidence.visibleFraction();
   pose.score = evidence.score();
+}
+
+void weighEvidence(Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates,
+  const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model)
+{
   const ProbabilityCalibration& calibration = settings.calibration;
   const double ofPlace = haveSurfaces(scene, model)
-                           ? calibration.withSurface.logOdds(evidence.counts.sum(settings.weights, rates))
-                           : calibration.edgesAlone.logOdds(evidence.counts.ofEdges(settings.weights, rates));
+                           ? calibration.withSurface.logOdds(counts.sum(settings.weights, rates))
+                           : calibration.edgesAlone.logOdds(counts.ofEdges(settings.weights, rates));
   pose.evidence = withCertainty(ofPlace, pose.certainty);
   pose.probability = probabilityOf(pose.evidence);
 }
@@ -129,7 +133,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     viewEdges.push_back(model.edgesOfView(static_cast<int>(v)).points);
   }
   Poses scored = poses;
-  std::vector<PoseEvidence> evidence(byEvidence ? poses.size() : 0);
+  std::vector<EvidenceCounts> counts(byEvidence ? poses.size() : 0);
   parallelFor(static_cast<int>(scored.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
@@ -137,7 +141,9 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
       {
         if (byEvidence)
         {
-          evidence[i] = collector.collect(scored[i].T_scene_model, settings.pointStride);
+          const PoseEvidence evidence = collector.collect(scored[i].T_scene_model, settings.pointStride);
+          counts[i] = evidence.counts;
+          setSeen(scored[i], evidence, scene, model);
         }
         else
         {
@@ -155,12 +161,6 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
   }
   if (byEvidence)
   {
-    std::vector<EvidenceCounts> counts;
-    counts.reserve(evidence.size());
-    for (const PoseEvidence& ofOne : evidence)
-    {
-      counts.push_back(ofOne.counts);
-    }
     const EvidenceRates rates =
       settings.evidence.rates ? *settings.evidence.rates : evidenceRates(counts, settings.evidence.weights);
     if (ofScan)
@@ -169,7 +169,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     }
     for (std::size_t i = 0; i < scored.size(); ++i)
     {
-      scoreByEvidence(scored[i], evidence[i], rates, settings.evidence, scene, model);
+      weighEvidence(scored[i], counts[i], rates, settings.evidence, scene, model);
     }
   }
   std::stable_sort(scored.begin(), scored.end(), isBetter);

@@ -42,9 +42,10 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
 /// The appearance model of a pose: its own, when it names one, otherwise the nearest to the sensor.
 int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);
 
-/// Sets what the evidence says of a pose: score, evidence and probability (by its certainty, too), visible fraction and
-/// view.
-void scoreByEvidence(Pose& pose, const PoseEvidence& evidence, const EvidenceRates& rates,
+/// Sets what the evidence says of a pose at the place where it was collected: score, visible fraction and view.
+void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const TrainedModel& model);
+/// Sets evidence and probability of a pose, by its certainty, too.
+void weighEvidence(Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates,
   const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model);
 
 /// The rates of a scene: those that are known, or by candidates of a part, every `stride`-th point of each.
