@@ -4,10 +4,12 @@
 #include "pose/PoseUncertainty.h"
 #include "vtkMEAMCloudConversion.h"
 
-#include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -19,8 +21,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace vtkMEAMConversion
 {
@@ -40,79 +44,144 @@ bool isDrawn(const meam::Pose& pose, double minimumProbability)
   return !(pose.probability > 0.0) || pose.probability >= minimumProbability;
 }
 
-/// The same values for all points or cells of an instance.
-void describe(vtkDataSetAttributes* attributes, vtkIdType count, int rank, const meam::Pose& pose)
+/// A pose that is drawn.
+struct Drawn
 {
+  const meam::Pose* pose;
+  int rank;
+};
+
+/// Values of the pose for all points or cells of its copy. `kinds`: of each kind of cell how many a copy has; those of
+/// one kind stand together.
+void describe(vtkDataSetAttributes* attributes, const std::vector<Drawn>& drawn, const std::vector<vtkIdType>& kinds)
+{
+  const vtkIdType size =
+    static_cast<vtkIdType>(drawn.size()) * std::accumulate(kinds.begin(), kinds.end(), vtkIdType(0));
+  /// Calls fill(drawn, begin, count) for all ranges.
+  const auto forEachRange = [&](const auto& fill)
+  {
+    vtkIdType begin = 0;
+    for (const vtkIdType count : kinds)
+    {
+      for (const Drawn& one : drawn)
+      {
+        fill(one, begin, count);
+        begin += count;
+      }
+    }
+  };
   vtkNew<vtkIntArray> ranks;
   ranks->SetName("Rank");
-  ranks->SetNumberOfTuples(count);
-  ranks->FillValue(rank);
+  ranks->SetNumberOfTuples(size);
+  forEachRange([&](const Drawn& one, vtkIdType begin, vtkIdType count)
+    { std::fill_n(ranks->GetPointer(begin), count, one.rank); });
   attributes->SetScalars(ranks);
 
-  const std::pair<const char*, double> values[] = { { "Score", pose.score }, { "Probability", pose.probability },
-    { "Certainty", pose.certainty }, { "VisibleFraction", pose.visibleFraction } };
+  const std::pair<const char*, double meam::Pose::*> values[] = { { "Score", &meam::Pose::score },
+    { "Probability", &meam::Pose::probability }, { "Certainty", &meam::Pose::certainty },
+    { "VisibleFraction", &meam::Pose::visibleFraction } };
   for (const auto& [name, value] : values)
   {
     vtkNew<vtkDoubleArray> array;
     array->SetName(name);
-    array->SetNumberOfTuples(count);
-    array->FillValue(value);
+    array->SetNumberOfTuples(size);
+    forEachRange([&, value = value](const Drawn& one, vtkIdType begin, vtkIdType count)
+      { std::fill_n(array->GetPointer(begin), count, one.pose->*value); });
     attributes->AddArray(array);
   }
 
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetName("RankColor");
   colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(count);
-  const unsigned char* color = RankColors[std::min(rank, 6) - 1];
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    std::copy_n(color, 3, colors->GetPointer(3 * i));
-  }
+  colors->SetNumberOfTuples(size);
+  forEachRange(
+    [&](const Drawn& one, vtkIdType begin, vtkIdType count)
+    {
+      const unsigned char* color = RankColors[std::min(one.rank, 6) - 1];
+      for (vtkIdType i = begin; i < begin + count; ++i)
+      {
+        std::copy_n(color, 3, colors->GetPointer(3 * i));
+      }
+    });
   attributes->AddArray(colors);
 }
 
-/// A mesh with its points, mapped, as those of `instance`.
-void fromCopy(vtkPolyData* mesh, const meam::Points& points, const Eigen::Affine3f& map, vtkPolyData* instance)
+/// The cells so many times, each time of the next `points` points.
+void repeat(vtkCellArray* cells, vtkIdType points, vtkIdType copies, vtkCellArray* repeated)
 {
-  vtkNew<vtkPoints> moved;
-  moved->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
+  const vtkIdType count = cells->GetNumberOfCells(), corners = cells->GetNumberOfConnectivityIds();
+  vtkNew<vtkIdTypeArray> offsets, connectivity;
+  offsets->SetNumberOfValues(copies * count + 1);
+  connectivity->SetNumberOfValues(copies * corners);
+  vtkIdType *offset = offsets->GetPointer(0), *corner = connectivity->GetPointer(0);
+  *offset++ = 0;
+  for (vtkIdType i = 0; i < count; ++i)
   {
-    const Eigen::Vector3f point = map * points[i];
-    moved->SetPoint(static_cast<vtkIdType>(i), point.data());
+    vtkIdType size;
+    const vtkIdType* ids;
+    cells->GetCellAtId(i, size, ids);
+    corner = std::copy_n(ids, size, corner);
+    *offset++ = corner - connectivity->GetPointer(0);
   }
-  instance->CopyStructure(mesh);
-  instance->SetPoints(moved);
+  for (vtkIdType copy = 1; copy < copies; ++copy)
+  {
+    corner = std::transform(corner - corners, corner, corner, [&](vtkIdType id) { return id + points; });
+    offset = std::transform(offset - count, offset, offset, [&](vtkIdType end) { return end + corners; });
+  }
+  repeated->SetData(offsets, connectivity);
 }
 
-/// A piece for each pose that is drawn, with the values of the pose.
-template <typename Piece>
-void appendDrawn(const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
-  const InstanceSettings& settings, const meam::Progress& progress, Piece&& pieceAt, vtkPolyData* output)
+/// A copy of the shape for each pose that is drawn, where mapOf(pose) takes it, with the values of the pose.
+template <typename MapOf>
+void fromCopies(vtkPolyData* shape, const meam::Points& points, const meam::Poses& poses,
+  const std::function<int(std::size_t)>& rankOf, const InstanceSettings& settings, const meam::Progress& progress,
+  MapOf&& mapOf, vtkPolyData* output)
 {
   const std::size_t copies = settings.most > 0 ? std::min(poses.size(), settings.most) : poses.size();
-  vtkNew<vtkAppendPolyData> append;
+  std::vector<Drawn> drawn;
   for (std::size_t k = 0; k < copies; ++k)
   {
-    meam::report(progress, static_cast<double>(k) / copies);
     if (isDrawn(poses[k], settings.minimumProbability))
     {
-      vtkNew<vtkPolyData> piece;
-      pieceAt(poses[k], piece);
-      const int rank = rankOf(k);
-      describe(piece->GetPointData(), piece->GetNumberOfPoints(), rank, poses[k]);
-      describe(piece->GetCellData(), piece->GetNumberOfCells(), rank, poses[k]);
-      append->AddInputDataObject(piece);
+      drawn.push_back({ &poses[k], rankOf(k) });
     }
   }
-  if (append->GetNumberOfInputConnections(0) > 0)
+  if (drawn.empty())
   {
-    append->Update();
-    output->CopyStructure(append->GetOutput());
-    output->GetPointData()->ShallowCopy(append->GetOutput()->GetPointData());
-    output->GetCellData()->ShallowCopy(append->GetOutput()->GetCellData());
+    return;
   }
+  const vtkIdType size = static_cast<vtkIdType>(points.size());
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents(3);
+  places->SetNumberOfTuples(size * static_cast<vtkIdType>(drawn.size()));
+  float* place = places->GetPointer(0);
+  for (std::size_t k = 0; k < drawn.size(); ++k)
+  {
+    meam::report(progress, static_cast<double>(k) / drawn.size());
+    const Eigen::Affine3f map = mapOf(*drawn[k].pose);
+    for (const Eigen::Vector3f& point : points)
+    {
+      Eigen::Map<Eigen::Vector3f>{ place } = map * point;
+      place += 3;
+    }
+  }
+  vtkNew<vtkPoints> moved;
+  moved->SetData(places);
+  output->SetPoints(moved);
+  vtkCellArray* const cells[] = { shape->GetVerts(), shape->GetLines(), shape->GetPolys(), shape->GetStrips() };
+  vtkNew<vtkCellArray> repeated[4];
+  std::vector<vtkIdType> kinds;
+  for (int kind = 0; kind < 4; ++kind)
+  {
+    repeat(cells[kind], size, static_cast<vtkIdType>(drawn.size()), repeated[kind]);
+    kinds.push_back(cells[kind]->GetNumberOfCells());
+  }
+  output->SetVerts(repeated[0]);
+  output->SetLines(repeated[1]);
+  output->SetPolys(repeated[2]);
+  output->SetStrips(repeated[3]);
+  describe(output->GetPointData(), drawn, { size });
+  describe(output->GetCellData(), drawn, kinds);
 }
 }
 
@@ -121,9 +190,9 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
 {
   const meam::Points points = toCloud(part).points;
   meam::requirePoints(points, "The CAD mesh");
-  const auto copyAt = [&](const meam::Pose& pose, vtkPolyData* instance)
-  { fromCopy(part, points, Eigen::Affine3f(pose.T_scene_model.cast<float>()), instance); };
-  appendDrawn(poses, rankOf, settings, progress, copyAt, output);
+  fromCopies(
+    part, points, poses, rankOf, settings, progress,
+    [](const meam::Pose& pose) { return Eigen::Affine3f(pose.T_scene_model.cast<float>()); }, output);
 }
 
 void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, double deviations,
@@ -135,13 +204,11 @@ void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, d
   ball->SetPhiResolution(resolution + 1);
   ball->SetThetaResolution(resolution);
   ball->Update();
-  const meam::Points points = toCloud(ball->GetOutput()).points;
-  const auto ellipsoidAt = [&](const meam::Pose& pose, vtkPolyData* ellipsoid)
-  {
-    const Eigen::Affine3d map = meam::uncertaintyEllipsoid(pose, part.middle, deviations);
-    fromCopy(ball->GetOutput(), points, map.cast<float>(), ellipsoid);
-  };
-  appendDrawn(poses, rankOf, settings, {}, ellipsoidAt, output);
+  fromCopies(
+    ball->GetOutput(), toCloud(ball->GetOutput()).points, poses, rankOf, settings, {},
+    [&](const meam::Pose& pose)
+    { return Eigen::Affine3f(meam::uncertaintyEllipsoid(pose, part.middle, deviations).cast<float>()); },
+    output);
 }
 
 void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output)

@@ -69,6 +69,7 @@ class Station:
         self.estimation.SetInputDataObject(self.model)
         self.estimation.SetMaximumNumberOfPoses(0)
         self.estimation.SetMinimumProbability(PROBABILITY)
+        self.estimation.SetPartIsPresent(True)  # a cell knows how many were thrown in
         self.estimation.SetNumberOfThreads(threads)
         self.planning = filters.vtkMEAMPickPlanning()
         self.planning.SetInputDataObject(1, self.mesh)

@@ -11,10 +11,17 @@ std::vector<int> explainEdges(const LocalCloud& edges, const Poses& poses, const
   const FitLengths& lengths, int threads)
 {
   const float near = static_cast<float>(std::max(lengths.explained * model.diameter, least));
-  std::vector<Eigen::Isometry3f> toPart;
+  const float reach = model.edgeDistance.radius() + near;
+  struct Placed
+  {
+    Eigen::Isometry3f toPart;
+    Eigen::Vector3f middle; ///< of the part, where the edge points are
+  };
+  std::vector<Placed> placed;
   for (const Pose& pose : poses)
   {
-    toPart.push_back((edges.T_local_scene * pose.T_scene_model).inverse().cast<float>());
+    const Eigen::Isometry3f T = (edges.T_local_scene * pose.T_scene_model).cast<float>();
+    placed.push_back({ T.inverse(), T * model.edgeDistance.middle() });
   }
   const Points& points = edges.cloud.points;
   std::vector<int> explained(points.size(), -1);
@@ -23,9 +30,13 @@ std::vector<int> explainEdges(const LocalCloud& edges, const Poses& poses, const
     {
       for (int i = begin; i < end; ++i)
       {
-        const auto first = std::find_if(toPart.begin(), toPart.end(),
-          [&](const Eigen::Isometry3f& T) { return model.edgeDistance.at(T * points[i]) <= near; });
-        explained[i] = first == toPart.end() ? -1 : static_cast<int>(first - toPart.begin());
+        const auto first = std::find_if(placed.begin(), placed.end(),
+          [&](const Placed& part)
+          {
+            return (points[i] - part.middle).squaredNorm() <= reach * reach &&
+                   model.edgeDistance.at(part.toPart * points[i]) <= near;
+          });
+        explained[i] = first == placed.end() ? -1 : static_cast<int>(first - placed.begin());
       }
     });
   return explained;
