@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts of examples/ that measure, on a dataset of one scene: evaluate.py, compare_models.py, ablation.py,
-calibration.py. With --long more of their choices."""
+"""The scripts of examples/ that measure, on a dataset of one scene or on simulated bins: evaluate.py, compare_models.py,
+ablation.py, calibration.py, robustness.py. With --long more of their choices."""
 import csv
 import math
 import os
@@ -11,7 +11,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ppfmeam.filters import vtkMEAMPoseWriter, vtkMEAMSceneEdgeExtraction
 from meamtest import LONG, check, connect, points, poses, run, tuples
-from scripttest import read, refuses, scan_of_bin, script, works, write_pcd, write_stl
+from scripttest import EXAMPLES, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
 scan, truth, mesh = scan_of_bin()
 places = vtk_to_numpy(scan.GetPoints().GetData())
@@ -121,6 +121,15 @@ failed, absent = csv.DictReader(read("broken/world.csv").splitlines())
 check(result.returncode == 1 and "1 failed" in result.stderr, result.stderr)
 check("hole_plate" in failed["failure"] and failed["right"] == "0" and absent["failure"] == "", f"{failed}")
 
+# robustness.py: a bin that gets worse.
+PART = os.path.join(EXAMPLES, "parts", "hole_plate.stl")
+if LONG:
+    result = script("robustness.py", "--cad", PART, "--copies", "3", "--scenes", "1", "--poses", "3", "--out", "curve.csv")
+    check(result.returncode == 0, result.stderr)
+    rows = list(csv.DictReader(read("curve.csv").splitlines()))
+    check(len(rows) == 17 and len(result.stdout.splitlines()) == 1 + 18, "a row for each level, the usual one is in both curves")
+    check(float(rows[0]["strict"]) == 100, f"three of three where the depth has no noise: {rows[0]}")
+
 # Bad input.
 for arguments, word in ((("--parts", "nothing"), "there is no nothing"), (("--sensors", "eye"), "there is no eye"), (("--features", "ears"), "there is no ears")):
     result = script("evaluate.py", "world", *arguments, "--out", "o")
@@ -129,3 +138,6 @@ refuses("cannot read nowhere", "ablation.py", "nowhere")
 refuses("cannot read nowhere", "compare_models.py", "--tohoku", "nowhere", "--out", "o.md")
 result = script("evaluate.py", "tohoku", "nowhere", "--out", "o")
 check(result.returncode == 1 and "cannot read nowhere" in result.stderr and not os.path.exists("o"), result.stderr)
+for arguments in (("--cad", "nothing.stl"), ("--cad", PART, "--scenes", "0"), ("--cad", PART, "--out", "no/such/curve.csv")):
+    result = script("robustness.py", *arguments)
+    check(result.returncode != 0 and "Traceback" not in result.stderr and result.stderr, f"{arguments}: {result.stderr}")

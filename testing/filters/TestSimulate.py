@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""simulate.py writes datasets whose depth, image, masks and truth fit each other; evaluate.py finds the parts in them,
-and robustness.py in worse and worse bins."""
+"""simulate.py writes datasets whose depth, image, masks and truth fit each other; evaluate.py finds the parts in them."""
 import csv
 import json
 import os
-import subprocess
-import sys
-import tempfile
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -15,16 +11,10 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 
 from ppfmeam.filters import vtkMEAMSamplePartSource
 from meamtest import check, close, run
+from scripttest import EXAMPLES, script
 
-EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
 PART = os.path.join(EXAMPLES, "parts", "hole_plate.stl")
 COPIES = 4
-folder = tempfile.TemporaryDirectory()
-os.chdir(folder.name)
-
-
-def script(name, *arguments):
-    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], capture_output=True, text=True)
 
 
 def simulate(*arguments):
@@ -159,14 +149,3 @@ for name, words in (("other.csv", "its objects are 7"), ("empty", "folders such 
           done.stderr)
 done = script("evaluate.py", "bop", "plates", "--found", "nowhere")
 check(done.returncode == 1 and done.stderr == "evaluate.py: cannot read nowhere: No such file or directory\n", done.stderr)
-
-# One bin that gets worse.
-done = script("robustness.py", "--cad", PART, "--copies", "3", "--scenes", "1", "--poses", "3", "--out", "curve.csv")
-check(done.returncode == 0, done.stderr)
-with open("curve.csv", newline="", encoding="utf-8") as table:
-    rows = list(csv.DictReader(table))
-check(len(rows) == 17 and len(done.stdout.splitlines()) == 1 + 18, "a row for each level, the usual one is in both curves")
-check(float(rows[0]["strict"]) == 100, f"three of three where the depth has no noise: {rows[0]}")
-for arguments in (["--cad", "nothing.stl"], ["--cad", PART, "--scenes", "0"], ["--cad", PART, "--out", "no/such/curve.csv"]):
-    done = script("robustness.py", *arguments)
-    check(done.returncode != 0 and "Traceback" not in done.stderr and done.stderr, f"{arguments}: {done.stderr}")
