@@ -23,6 +23,7 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,10 +109,14 @@ int vtkMEAMPoseEstimation::RequestData(
         setFieldValue(output, "EdgesByChance", report.rates->edges.chance);
       }
       const meam::StageTimes& times = report.times;
-      const std::pair<const char*, double> seconds[] = { { "Training", work.secondsTraining },
+      std::vector<std::pair<const char*, double>> seconds{ { "Training", work.secondsTraining },
         { "SceneEdges", work.secondsEdges }, { "Scene", work.secondsLoading + times.scene },
         { "Tangents", times.tangents }, { "Detection", times.detection }, { "Screening", times.screening },
         { "Verification", times.verification }, { "Refinement", times.refinement }, { "Selection", times.selection } };
+      const double total = vtkTimerLog::GetUniversalTime() - start;
+      const double known = std::accumulate(
+        seconds.begin(), seconds.end(), 0.0, [](double sum, const auto& stage) { return sum + stage.second; });
+      seconds.emplace_back("Output", total - known);
       vtkNew<vtkStringArray> names;
       names->SetName("Stage");
       vtkNew<vtkDoubleArray> durations;
@@ -138,7 +143,7 @@ int vtkMEAMPoseEstimation::RequestData(
       setFieldValue(output, "ScenePoints", static_cast<double>(scene.measured.size()));
       setFieldValue(output, "SceneEdgePoints", static_cast<double>(scene.edges.cloud.size()));
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
-      setFieldValue(output, "SecondsTotal", vtkTimerLog::GetUniversalTime() - start);
+      setFieldValue(output, "SecondsTotal", total);
     },
     output, edges, parts, scores, stages);
 }

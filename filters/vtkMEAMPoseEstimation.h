@@ -23,13 +23,13 @@
  * scene edge lies on, where the part is and anywhere: how far this scan's edges can be trusted), `SecondsTraining`,
  * `SecondsSceneEdges`, `SecondsScene`,
  * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
- * `SecondsSelection`, which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and
- * `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the
- * preset Recommended `Tangent`, unless they came in, and `Rank` (active scalars): of the first pose that has an edge of
- * the part there, 0 of edge points that no pose explains. Output port 2: the part at each pose that is more likely
- * right than wrong, as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a vtkTable
- * with a row for each pose, to plot: `Pose` (its rank), `Probability`, `Score`, `VisibleFraction`,
- * `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
+ * `SecondsSelection`, `SecondsOutput` (to fill the outputs), which add up to `SecondsTotal`, and the counts
+ * `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a
+ * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in, and `Rank` (active
+ * scalars): of the first pose that has an edge of the part there, 0 of edge points that no pose explains. Output port
+ * 2: the part at each pose that is more likely right than wrong, as vtkMEAMPoseInstances has it; of a trained model
+ * points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank), `Probability`,
+ * `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h

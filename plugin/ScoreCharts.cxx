@@ -29,7 +29,7 @@ constexpr int FontSize = 10;
 constexpr int Scores = 3, Times = 4;    // outputs of MEAM Pose Estimation
 /// Above each other, so that there is room for them.
 constexpr const char* Stages[] = { "Training", "\nScene Edges", "\n\nScene", "Tangents", "\nDetection",
-  "\n\nScreening", "Verification", "\nRefinement", "\n\nSelection" };
+  "\n\nScreening", "Verification", "\nRefinement", "\n\nSelection", "Output" };
 
 pqView* addView(pqPipelineSource* estimation, const char* title, vtkSMViewLayoutProxy* layout, int cell)
 {

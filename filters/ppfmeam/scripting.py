@@ -33,7 +33,7 @@ READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, "
 IMAGES = (vtkPNGReader, vtkJPEGReader, vtkBMPReader, vtkTIFFReader)
 WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
-          "Total")
+          "Output", "Total")
 
 
 class Interruption:

@@ -68,13 +68,13 @@ struct EvidenceCounts
 struct EvidenceRatesSettings
 {
   EvidenceRates usual;
-  double usualEdges = 500.0;   ///< so many edge points the usual rates count: of few candidates nothing can be told
-  double usualOutline = 300.0; ///< the same in sides of patches
-  double supportedShare = 0.1; ///< of the candidates, those that most speaks for
-  double firstGain = 3.0;      ///< times the chance, but no more than usual: edges found, before anything is known
-  int steps = 2;               ///< of what speaks for which candidates, and what that says of edges and outlines
-  double leastGain = 0.02;     ///< that something is found more often where the part is
-  double leastEnds = 0.75;     ///< of a part's outline end, whatever the candidates say: there may be none of the part
+  double usualEdges = 500.0;    ///< so many edge points the usual rates count: of few candidates nothing can be told
+  double usualOutline = 300.0;  ///< the same in sides of patches
+  double supportedShare = 0.05; ///< of the candidates, those that most speaks for
+  double firstGain = 3.0;       ///< times the chance, but no more than usual: edges found, before anything is known
+  int steps = 2;                ///< of what speaks for which candidates, and what that says of edges and outlines
+  double leastGain = 0.02;      ///< that something is found more often where the part is
+  double leastEnds = 0.75;      ///< of a part's outline end, whatever the candidates say: there may be none of the part
 };
 
 /// The rates of a scan, from what was counted of its candidates, in turns (expectation maximization): of all candidates

@@ -81,6 +81,7 @@ TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
   }
   meam::EvidenceRatesSettings settings;
   settings.usualEdges = 30.0;
+  settings.supportedShare = 0.1; // two
   const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, settings);
   EXPECT_NEAR(rates.edges.found, (1800.0 + 30.0 * 0.75) / 2030.0, 1e-12);
   EXPECT_NEAR(rates.edges.chance, (1800.0 + 18 * 100.0 + 30.0 * 0.3) / 20030.0, 1e-12);
@@ -109,6 +110,7 @@ TEST(PoseEvidence, RatesOfOutlinesAreThoseOfTheScan)
   }
   meam::EvidenceRatesSettings settings;
   settings.usualOutline = 100.0;
+  settings.supportedShare = 0.1; // one
   settings.usual.outline = { 0.9, 0.5 };
   const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, settings);
   EXPECT_NEAR(rates.outline.found, (95.0 + 90.0) / 200.0, 1e-12);
