@@ -9,7 +9,6 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -109,33 +108,18 @@ void describe(vtkDataSetAttributes* attributes, const std::vector<Drawn>& drawn,
 /// The cells so many times, each time of the next `points` points.
 void repeat(vtkCellArray* cells, vtkIdType points, vtkIdType copies, vtkCellArray* repeated)
 {
-  const vtkIdType count = cells->GetNumberOfCells(), corners = cells->GetNumberOfConnectivityIds();
-  vtkNew<vtkIdTypeArray> offsets, connectivity;
-  offsets->SetNumberOfValues(copies * count + 1);
-  connectivity->SetNumberOfValues(copies * corners);
-  vtkIdType *offset = offsets->GetPointer(0), *corner = connectivity->GetPointer(0);
-  *offset++ = 0;
-  for (vtkIdType i = 0; i < count; ++i)
+  repeated->AllocateExact(copies * cells->GetNumberOfCells(), copies * cells->GetNumberOfConnectivityIds());
+  for (vtkIdType copy = 0; copy < copies; ++copy)
   {
-    vtkIdType size;
-    const vtkIdType* ids;
-    cells->GetCellAtId(i, size, ids);
-    corner = std::copy_n(ids, size, corner);
-    *offset++ = corner - connectivity->GetPointer(0);
+    repeated->Append(cells, copy * points);
   }
-  for (vtkIdType copy = 1; copy < copies; ++copy)
-  {
-    corner = std::transform(corner - corners, corner, corner, [&](vtkIdType id) { return id + points; });
-    offset = std::transform(offset - count, offset, offset, [&](vtkIdType end) { return end + corners; });
-  }
-  repeated->SetData(offsets, connectivity);
 }
 
 /// A copy of the shape for each pose that is drawn, where mapOf(pose) takes it, with the values of the pose.
 template <typename MapOf>
 void fromCopies(vtkPolyData* shape, const meam::Points& points, const meam::Poses& poses,
   const std::function<int(std::size_t)>& rankOf, const InstanceSettings& settings, const meam::Progress& progress,
-  MapOf&& mapOf, vtkPolyData* output)
+  const MapOf& mapOf, vtkPolyData* output)
 {
   const std::size_t copies = settings.most > 0 ? std::min(poses.size(), settings.most) : poses.size();
   std::vector<Drawn> drawn;

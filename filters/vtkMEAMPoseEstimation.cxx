@@ -23,7 +23,6 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +73,7 @@ int vtkMEAMPoseEstimation::RequestData(
       meam::DetectionReport report;
       const meam::Poses poses = meam::estimatePoses(
         model, scene, work.settings, &report, meam::subProgress(progressOf(this), Work::Prepared, 1.0));
+      const double found = vtkTimerLog::GetUniversalTime();
       for (const std::string& warning :
         { meam::unitsWarning(scene.edges.cloud.points, model.diameter), meam::doubtsOf(poses) })
       {
@@ -109,14 +109,12 @@ int vtkMEAMPoseEstimation::RequestData(
         setFieldValue(output, "EdgesByChance", report.rates->edges.chance);
       }
       const meam::StageTimes& times = report.times;
-      std::vector<std::pair<const char*, double>> seconds{ { "Training", work.secondsTraining },
+      const double filled = vtkTimerLog::GetUniversalTime(); // but for the tables
+      const std::pair<const char*, double> seconds[] = { { "Training", work.secondsTraining },
         { "SceneEdges", work.secondsEdges }, { "Scene", work.secondsLoading + times.scene },
         { "Tangents", times.tangents }, { "Detection", times.detection }, { "Screening", times.screening },
-        { "Verification", times.verification }, { "Refinement", times.refinement }, { "Selection", times.selection } };
-      const double total = vtkTimerLog::GetUniversalTime() - start;
-      const double known = std::accumulate(
-        seconds.begin(), seconds.end(), 0.0, [](double sum, const auto& stage) { return sum + stage.second; });
-      seconds.emplace_back("Output", total - known);
+        { "Verification", times.verification }, { "Refinement", times.refinement }, { "Selection", times.selection },
+        { "Output", filled - found } };
       vtkNew<vtkStringArray> names;
       names->SetName("Stage");
       vtkNew<vtkDoubleArray> durations;
@@ -143,7 +141,7 @@ int vtkMEAMPoseEstimation::RequestData(
       setFieldValue(output, "ScenePoints", static_cast<double>(scene.measured.size()));
       setFieldValue(output, "SceneEdgePoints", static_cast<double>(scene.edges.cloud.size()));
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
-      setFieldValue(output, "SecondsTotal", total);
+      setFieldValue(output, "SecondsTotal", filled - start);
     },
     output, edges, parts, scores, stages);
 }

@@ -59,7 +59,7 @@ public:
 
   ///@{
   /**
-   * Poses of one instance that are turned less than this are the same, in degrees. Default: 15.
+   * Clusters, Alternatives: Poses of one instance that are turned less than this are the same, in degrees. Default: 15.
    */
   virtual void SetClusterAngle(double value);
   virtual double GetClusterAngle();
@@ -67,7 +67,7 @@ public:
 
   ///@{
   /**
-   * Alternatives: poses kept of one instance. Default: 2.
+   * Alternatives: poses kept of one instance. Default: 4.
    */
   virtual void SetPosesPerInstance(int value);
   virtual int GetPosesPerInstance();

@@ -123,7 +123,10 @@ void showBeside(pqPipelineSource* source)
     {
       vtkSMProxy* inFront = port->getRepresentation(scan)->getProxy();
       controller->Hide(port->getSourceProxy(), port->getPortNumber(), scan->getViewProxy());
-      vtkSMPVRepresentationProxy::HideScalarBarIfNotNeeded(inFront, scan->getViewProxy());
+      if (auto* hidden = vtkSMPVRepresentationProxy::SafeDownCast(inFront))
+      {
+        hidden->HideScalarBarIfNotNeeded(scan->getViewProxy());
+      }
       controller->Show(port->getSourceProxy(), port->getPortNumber(), view->getViewProxy());
     }
     if (!known)

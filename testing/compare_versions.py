@@ -185,7 +185,7 @@ def compare(old, new):
         def median(result, of):
             return statistics.median(of(scene) for scene in result["scenes"])
         walls = [median(result, lambda scene: scene["wall"]) for result in (before, after)]
-        stages = [median(result, lambda scene: sum(ms for stage, ms in scene["ms"].items() if stage != "Total")) for result in (before, after)]
+        stages = [median(result, lambda scene: sum(ms for stage, ms in scene["ms"].items() if stage not in ("Output", "Total"))) for result in (before, after)]
         print(f"{part:30s} {row[0]:5d}  {row[1]:5d}   {row[2]:5d}  {row[3]:5d}      {before['figures']['StrictRate']:6.1f}"
               f" {after['figures']['StrictRate']:5.1f}    {before['figures']['Recall']:6.1f} {after['figures']['Recall']:5.1f}"
               f"   {walls[0]:6.0f} {walls[1]:5.0f} {walls[1] / walls[0]:5.2f}      {stages[0]:6.0f} {stages[1]:5.0f}")

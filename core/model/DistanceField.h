@@ -40,6 +40,8 @@ public:
   /// A ball around all that the distances are from.
   const Eigen::Vector3f& middle() const { return this->Middle; }
   float radius() const { return this->Radius; }
+  /// mm about `middle`: all points that are nearer than the reach lie in this ball.
+  float outerRadius() const { return (0.5f * this->Extent.matrix().norm() + 1.0f) / this->InverseCell; }
 
 private:
   static constexpr std::uint8_t Farthest = 255; ///< of what a cell stores: `reach` or more

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace meam
 {
@@ -96,10 +95,8 @@ Points outsideOf(const std::vector<float>& buffer, const View& view, int border)
 {
   constexpr float unknown = std::numeric_limits<float>::infinity();
   const int side = view.side, off = border + 1;
-  thread_local std::vector<float> heights; // of the cells outside; `unknown` between two calls
-  thread_local std::vector<int> outer;
-  heights.resize(buffer.size(), unknown);
-  outer.clear();
+  thread_local std::vector<float> heights; // of the cells outside
+  heights.assign(buffer.size(), unknown);
   const auto look = [&](int cell, int step) // from a cell that is seen
   {
     bool isFree = true;
@@ -110,14 +107,10 @@ Points outsideOf(const std::vector<float>& buffer, const View& view, int border)
     if (isFree)
     {
       float& height = heights[cell + off * step];
-      if (height == unknown)
-      {
-        outer.push_back(cell + off * step);
-      }
       height = std::min(height, buffer[cell]);
     }
   };
-  const auto isInside = [&](int k) { return k >= off && k + off < side; };
+  const auto isWithin = [&](int k) { return k >= off && k + off < side; };
   for (int v = 0; v < side; ++v)
   {
     for (int u = 0; u < side; ++u)
@@ -129,25 +122,29 @@ Points outsideOf(const std::vector<float>& buffer, const View& view, int border)
       }
       for (const int sign : { -1, 1 })
       {
-        if (isInside(v) && isInside(u + sign * off))
+        if (isWithin(v) && isWithin(u + sign * off))
         {
           look(cell, sign);
         }
-        if (isInside(u) && isInside(v + sign * off))
+        if (isWithin(u) && isWithin(v + sign * off))
         {
           look(cell, sign * side);
         }
       }
     }
   }
-  std::sort(outer.begin(), outer.end());
   Points outside;
-  outside.reserve(outer.size());
-  for (const int cell : outer)
+  for (int v = 0; v < side; ++v)
   {
-    const float right = (cell % side + 0.5f) / view.inverseCell - view.half;
-    const float down = (cell / side + 0.5f) / view.inverseCell - view.half;
-    outside.push_back(view.frame * Eigen::Vector3f(std::exchange(heights[cell], unknown), right, down));
+    for (int u = 0; u < side; ++u)
+    {
+      const float height = heights[v * side + u];
+      if (height < unknown)
+      {
+        const float right = (u + 0.5f) / view.inverseCell - view.half, down = (v + 0.5f) / view.inverseCell - view.half;
+        outside.push_back(view.frame * Eigen::Vector3f(height, right, down));
+      }
+    }
   }
   return outside;
 }

@@ -19,7 +19,7 @@ FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "re
            "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
            "mean_deg": "MeanRotationError"}
 LEAST_FIT = 0.5  # median score of true poses: 0.84 and more on their own scenes, 0.13 and less on others
-STAGES = scripting.STAGES[2:-2]
+STAGES = scripting.STAGES[scripting.STAGES.index("Scene"):scripting.STAGES.index("Selection") + 1]
 NOISE_HELP = ("normal noise of every coordinate of the scenes' points: mm, or %% of the part's diameter, such as 0.3 or 1%% "
               "(default: %(default)s)")
 

@@ -70,7 +70,7 @@ check(runs == ["vtkMEAMPoseInstances"] * 3, f"what ran: {runs}")
 (first,), (second,) = tuples(poses, "Evidence")
 check(tuples(poses, "Rank") == [(1,), (2,)] and first >= second > 0, f"evidence {first}, {second}")
 parts = [seconds(filter, stage) for stage in STAGES]
-check(all(s >= 0 for s in parts) and math.isclose(sum(parts[:-1]), parts[-1]),
+check(all(s >= 0 for s in parts) and 0.97 * parts[-1] <= sum(parts[:-1]) <= parts[-1] * 1.001,
       f"the stages add up to the total: {parts}")
 check(field(poses, "Diameter") == field(truth, "Diameter"), "the diameter travels along")
 report = poses.GetFieldData().GetAbstractArray("Report").GetValue(0)

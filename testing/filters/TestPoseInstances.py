@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A box at every pose, in the colour of its rank, and how uncertain it is."""
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseInstances
 from meamtest import box, check, close, cloud, connect, fails, field, is_empty, points, poses, prints, run, set_fields, tuples
@@ -55,6 +55,16 @@ for name in ("Probability", "Certainty", "VisibleFraction"):
 check(run(connect(vtkMEAMPoseInstances(), poses(), part)).GetNumberOfPoints() == 0, "no poses, no copies")
 points_only = run(connect(vtkMEAMPoseInstances(), found, cloud([(0, 0, 0), (1, 0, 0)])))
 check(points_only.GetNumberOfVerts() == 4, "a part of points is fine")
+mixed, lines, strips = cloud([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), vtkCellArray(), vtkCellArray()
+lines.InsertNextCell(3, [0, 1, 2])
+strips.InsertNextCell(4, [0, 1, 2, 3])
+mixed.SetLines(lines)
+mixed.SetStrips(strips)
+copies = run(connect(vtkMEAMPoseInstances(), found, mixed))
+check([copies.GetCellData().GetArray("Rank").GetValue(i) for i in range(12)] == [1] * 4 + [2] * 4 + [1, 2, 1, 2],
+      "values stand with the cells, kind by kind")
+second = copies.GetCell(9).GetPointIds()
+check([second.GetId(i) for i in range(3)] == [4, 5, 6], "the second line is of the second copy")
 
 # How uncertain a pose is, when asked for: an ellipsoid about the part's middle, and of what does not tell it an error.
 deviations = (0.1, 0.2, 0.3)

@@ -34,9 +34,9 @@ struct PoseClustersSettings
 class PoseClusters
 {
 public:
-  /// Poses up to the symmetries `same`, near ones among them, are the same. `comparison` decides between poses of an
-  /// instance, be they turned or the same but better refined; null: the one that comes first stays. `collector` may be
-  /// null without it.
+  /// Without a `comparison` the pose that comes first stays, and poses up to the symmetries `same`, near ones among
+  /// them, are the same. With one it decides between all poses of an instance, turned or not. `collector` may be null
+  /// without it.
   PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
     const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
     int threads);

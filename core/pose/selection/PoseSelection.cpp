@@ -157,9 +157,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
 {
   const EvidenceCollector collector(scene, model, settings.evidence);
   const PoseComparison comparison(scene, model, settings.comparison);
-  Symmetries exact = model.symmetries;
-  exact.near.clear();
-  PoseClusters clusters(scored, exact, model, &collector, &comparison, clustering, settings.threads);
+  PoseClusters clusters(scored, model.symmetries, model, &collector, &comparison, clustering, settings.threads);
   const std::vector<int> selected = clusters.select(subProgress(progress, 0.0, 0.3));
   const EvidenceRates rates =
     evidenceRatesOf(scored, collector, settings.evidence, settings.rateStride, settings.threads);

@@ -11,7 +11,7 @@ std::vector<int> explainEdges(const LocalCloud& edges, const Poses& poses, const
   const FitLengths& lengths, int threads)
 {
   const float near = static_cast<float>(std::max(lengths.explained * model.diameter, least));
-  const float reach = model.edgeDistance.radius() + near;
+  const float reach = model.edgeDistance.outerRadius();
   struct Placed
   {
     Eigen::Isometry3f toPart;

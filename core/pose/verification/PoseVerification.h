@@ -42,9 +42,9 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
 /// The appearance model of a pose: its own, when it names one, otherwise the nearest to the sensor.
 int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);
 
-/// Sets what the evidence says of a pose at the place where it was collected: score, visible fraction and view.
+/// Sets score, visible fraction and view by the evidence collected at the pose.
 void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const TrainedModel& model);
-/// Sets evidence and probability of a pose, by its certainty, too.
+/// Sets evidence and probability: by what was counted, the scan's rates and the pose's certainty.
 void weighEvidence(Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates,
   const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model);
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 TEST(EdgeExplanation, EdgesOfAKnownPoseAreExplainedByItAndOthersByNone)
 {
@@ -39,4 +40,27 @@ TEST(EdgeExplanation, WithoutPosesNothingIsExplained)
   const meam::LocalCloud edges = meam::toLocalCloud(scenes::seenFromAbove(scenes::threeCopies()).edges);
   const std::vector<int> explained = meam::explainEdges(edges, {}, scenes::bracket());
   EXPECT_EQ(std::count(explained.begin(), explained.end(), -1), static_cast<long>(edges.cloud.size()));
+}
+
+TEST(EdgeExplanation, ExplainedIsWhatLiesNearAnEdgeOfThePart)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const meam::Pose pose = scenes::displaced(scenes::threeCopies()[1]);
+  const Eigen::Vector3d middle = pose.T_scene_model * model.edgeDistance.middle().cast<double>();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> within(-0.8, 0.8); // of the diameter: beyond the part on all sides
+  meam::LocalCloud around;
+  for (int k = 0; k < 20000; ++k)
+  {
+    const Eigen::Vector3d off(within(random), within(random), within(random));
+    around.cloud.points.push_back((middle + model.diameter * off).cast<float>());
+  }
+  const double near = 0.02 * model.diameter;
+  const std::vector<int> explained = meam::explainEdges(around, { pose }, model, near);
+  for (std::size_t k = 0; k < explained.size(); ++k)
+  {
+    const Eigen::Vector3f inPart = pose.T_scene_model.inverse().cast<float>() * around.cloud.points[k];
+    ASSERT_EQ(explained[k] == 0, model.edgeDistance.at(inPart) <= static_cast<float>(near)) << inPart.transpose();
+  }
+  EXPECT_GT(std::count(explained.begin(), explained.end(), 0), 50);
 }
