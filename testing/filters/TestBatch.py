@@ -13,14 +13,14 @@ from scripttest import refuses, script, works, write_pcd
 from vtkmodules.util.numpy_support import vtk_to_numpy
 import numpy
 
-SCENES = 5
+SCENES = 4
 model, scan = dataset("bins", SCENES)
 scripting.write_model(model, "plate.meam")
 names = [f"{scene:06d}/000000" for scene in range(SCENES)]
 
 # A dataset: the poses of `detect`, in the order of the scenes; nothing else is left behind.
 text = finished(*command("bins", "--model", "plate.meam", "--out", "poses.csv"))
-check(text.startswith("poses.csv: 5 scans, 0 failed, "), text)
+check(text.startswith(f"poses.csv: {SCENES} scans, 0 failed, "), text)
 poses = rows("poses.csv")
 check(list(dict.fromkeys(row["scan"] for row in poses)) == names, "the scans in their order")
 check(all(row["obj_id"] == "1" and not row["failure"] for row in poses), "rows of object 1")
@@ -46,7 +46,7 @@ result = script("batch.py", "bins", "--model", "plate.meam", "--poses", "1", "--
 check(result.returncode == 1 and "had other parts, scans or options" in result.stderr, result.stderr)
 name = next(name for name in sorted(os.listdir("killed.csv.run")) if name.endswith(".jsonl"))
 with open(f"killed.csv.run/{name}", "a", encoding="utf-8") as file:
-    file.write('{"scan": "000004/000000", "rows": [[1, 1, "0.')  # what a process leaves that is killed as it writes
+    file.write('{"scan": "000003/000000", "rows": [[1, 1, "0.')  # what a process leaves that is killed as it writes
 finished(*command("bins", "--model", "plate.meam", "--out", "killed.csv"))
 check(content("killed.csv") == content("poses.csv"), "another table after a kill")
 
@@ -69,7 +69,7 @@ points = vtk_to_numpy(scan.GetPoints().GetData())
 grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).astype(numpy.float32)
 write_pcd("folder/b.pcd", numpy.column_stack((points, grey)), W, H, "x y z intensity")
 shutil.copy("folder/b.pcd", "folder/a.pcd")
-shutil.copy(f"bins/test/{names[4][:6]}/gray/000000.png", "folder/image.png")
+shutil.copy(f"bins/test/{names[-1][:6]}/gray/000000.png", "folder/image.png")
 flat = numpy.column_stack((points[:, :2], numpy.full(W * H, 700.0)))
 flat[numpy.isnan(points).any(axis=1)] = numpy.nan
 write_pcd("folder/c.pcd", numpy.column_stack((flat, 0 * grey)), W, H, "x y z intensity")
