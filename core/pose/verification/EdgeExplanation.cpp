@@ -20,8 +20,8 @@ std::vector<int> explainEdges(const LocalCloud& edges, const Poses& poses, const
   std::vector<Placed> placed;
   for (const Pose& pose : poses)
   {
-    const Eigen::Isometry3f T = (edges.T_local_scene * pose.T_scene_model).cast<float>();
-    placed.push_back({ T.inverse(), T * model.edgeDistance.middle() });
+    const Eigen::Isometry3d T = edges.T_local_scene * pose.T_scene_model;
+    placed.push_back({ T.inverse().cast<float>(), (T * model.edgeDistance.middle().cast<double>()).cast<float>() });
   }
   const Points& points = edges.cloud.points;
   std::vector<int> explained(points.size(), -1);
