@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace meam
 {
@@ -36,45 +35,36 @@ double EvidenceCounts::sum(const EvidenceWeights& weights, const EvidenceRates& 
   return this->ofSurface(weights) + this->ofLines(weights, rates);
 }
 
-EvidenceRates evidenceRates(
-  const std::vector<EvidenceCounts>& candidates, const EvidenceWeights& weights, const EvidenceRatesSettings& settings)
+EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, const EvidenceWeights& weights,
+  const LogisticRegression& likely, const EvidenceRatesSettings& settings)
 {
   using Count = double EvidenceCounts::*;
-  std::vector<int> order(candidates.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto rate = [&](std::size_t best, Count found, Count missing, double usual, double usualCount)
+  std::vector<double> right(candidates.size()); // probabilities
+  const auto rateOf = [&](Count found, Count missing, const EvidenceRate& usual, double usualCount, double leastFound)
   {
-    double foundTimes = usualCount * usual, all = usualCount;
-    for (std::size_t k = 0; k < best; ++k)
+    double rightFound = usualCount * usual.found, ofRight = usualCount;
+    double wrongFound = usualCount * usual.chance, ofWrong = usualCount;
+    for (std::size_t k = 0; k < candidates.size(); ++k)
     {
-      const EvidenceCounts& counts = candidates[order[k]];
-      foundTimes += counts.*found;
-      all += counts.*found + counts.*missing;
+      const double foundTimes = candidates[k].*found, all = foundTimes + candidates[k].*missing;
+      rightFound += right[k] * foundTimes;
+      ofRight += right[k] * all;
+      wrongFound += (1.0 - right[k]) * foundTimes;
+      ofWrong += (1.0 - right[k]) * all;
     }
-    return foundTimes / all;
+    const double gain = settings.leastGain;
+    const double chance = std::min(wrongFound / ofWrong, 1.0 - 2.0 * gain);
+    return EvidenceRate{ std::clamp(rightFound / ofRight, std::max(leastFound, chance + gain), 1.0 - gain), chance };
   };
-  const auto edgeRate = [&](std::size_t best, double usual)
-  { return rate(best, &EvidenceCounts::edgesFound, &EvidenceCounts::edgesMissing, usual, settings.usualEdges); };
-  const auto outlineRate = [&](std::size_t best, double usual)
-  { return rate(best, &EvidenceCounts::ends, &EvidenceCounts::goesOn, usual, settings.usualOutline); };
-  const double gain = settings.leastGain;
-  const EvidenceRates& usual = settings.usual;
-  EvidenceRates rates;
-  rates.edges.chance = std::min(edgeRate(candidates.size(), usual.edges.chance), 1.0 - 2.0 * gain);
-  rates.edges.found =
-    std::max(std::min(settings.firstGain * rates.edges.chance, usual.edges.found), rates.edges.chance + gain);
-  rates.outline.chance = std::min(outlineRate(candidates.size(), usual.outline.chance), 1.0 - 2.0 * gain);
-  rates.outline.found = std::max(usual.outline.found, rates.outline.chance + gain);
-  std::vector<double> sums(candidates.size());
+  EvidenceRates rates = settings.usual;
   for (int step = 0; step < settings.steps; ++step)
   {
-    std::transform(candidates.begin(), candidates.end(), sums.begin(),
-      [&](const EvidenceCounts& counts) { return counts.sum(weights, rates); });
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sums[a] > sums[b]; });
-    const auto supported = static_cast<std::size_t>(std::ceil(settings.supportedShare * candidates.size()));
-    rates.edges.found = std::clamp(edgeRate(supported, usual.edges.found), rates.edges.chance + gain, 1.0 - gain);
-    rates.outline.found = std::clamp(outlineRate(supported, usual.outline.found),
-      std::max(settings.leastEnds, rates.outline.chance + gain), 1.0 - gain);
+    std::transform(candidates.begin(), candidates.end(), right.begin(),
+      [&](const EvidenceCounts& counts) { return probabilityOf(likely.logOdds(counts.sum(weights, rates))); });
+    rates.edges = rateOf(
+      &EvidenceCounts::edgesFound, &EvidenceCounts::edgesMissing, settings.usual.edges, settings.usualEdges, 0.0);
+    rates.outline = rateOf(&EvidenceCounts::ends, &EvidenceCounts::goesOn, settings.usual.outline,
+      settings.usualOutline, settings.leastEnds);
   }
   return rates;
 }

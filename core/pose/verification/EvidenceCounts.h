@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pose/verification/ProbabilityCalibration.h"
+
 #include <vector>
 
 namespace meam
@@ -68,17 +70,16 @@ struct EvidenceCounts
 struct EvidenceRatesSettings
 {
   EvidenceRates usual;
-  double usualEdges = 500.0;    ///< so many edge points the usual rates count: of few candidates nothing can be told
-  double usualOutline = 300.0;  ///< the same in sides of patches
-  double supportedShare = 0.05; ///< of the candidates, those that most speaks for
-  double firstGain = 3.0;       ///< times the chance, but no more than usual: edges found, before anything is known
-  int steps = 2;                ///< of what speaks for which candidates, and what that says of edges and outlines
-  double leastGain = 0.02;      ///< that something is found more often where the part is
-  double leastEnds = 0.75;      ///< of a part's outline end, whatever the candidates say: there may be none of the part
+  double usualEdges = 150.0;  ///< so many edge points the usual rates count: of few candidates nothing can be told
+  double usualOutline = 90.0; ///< the same in sides of patches
+  int steps = 4;              ///< of how likely the candidates are, and what that says of edges and outlines
+  double leastGain = 0.02;    ///< that something is found more often where the part is
+  double leastEnds = 0.75;    ///< of a part's outline end, whatever the candidates say: there may be none of the part
 };
 
-/// The rates of a scan, from what was counted of its candidates, in turns (expectation maximization): of all candidates
-/// most are wrong; those that most speaks for, by the rates of the turn before, are mostly right.
+/// The rates of a scan, from what was counted of its candidates, by expectation maximization: each tells how often
+/// something is found where the part is as far as it is `likely` to be right, from the sum of its evidence by the rates
+/// of the step before, and how often it is found anywhere as far as it is wrong.
 EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, const EvidenceWeights& weights,
-  const EvidenceRatesSettings& settings = {});
+  const LogisticRegression& likely, const EvidenceRatesSettings& settings = {});
 }

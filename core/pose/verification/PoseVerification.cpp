@@ -114,7 +114,7 @@ EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& 
         counts[i] = collector.collect(candidates[i].T_scene_model, stride).counts;
       }
     });
-  return evidenceRates(counts, settings.weights);
+  return evidenceRates(counts, settings.weights, settings.calibration.withSurface);
 }
 
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
@@ -161,8 +161,9 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
   }
   if (byEvidence)
   {
+    const EvidenceSettings& evidence = settings.evidence;
     const EvidenceRates rates =
-      settings.evidence.rates ? *settings.evidence.rates : evidenceRates(counts, settings.evidence.weights);
+      evidence.rates ? *evidence.rates : evidenceRates(counts, evidence.weights, evidence.calibration.withSurface);
     if (ofScan)
     {
       *ofScan = rates;

@@ -70,22 +70,31 @@ TEST(PoseEvidence, CountsAddUpByTheirWeights)
 
 TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
 {
-  // Of twenty candidates the surface speaks for two: they find nine edges of ten, the others one of ten.
+  // Of twenty candidates the surface leaves no doubt which two are right: they find nine edges of ten, the others one
+  // of ten.
   std::vector<meam::EvidenceCounts> candidates(20);
   for (std::size_t k = 0; k < candidates.size(); ++k)
   {
     const bool isRight = k == 3 || k == 11;
-    candidates[k].there = isRight ? 20.0 : 1.0 + 0.1 * k;
+    candidates[k].there = isRight ? 100.0 : 0.0;
+    candidates[k].past = isRight ? 0.0 : 100.0;
     candidates[k].edgesFound = isRight ? 900.0 : 100.0;
     candidates[k].edgesMissing = isRight ? 100.0 : 900.0;
   }
   meam::EvidenceRatesSettings settings;
   settings.usualEdges = 30.0;
-  settings.supportedShare = 0.1; // two
-  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, settings);
+  const meam::LogisticRegression likely{ -50.0, 1.0 };
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, likely, settings);
   EXPECT_NEAR(rates.edges.found, (1800.0 + 30.0 * 0.75) / 2030.0, 1e-12);
-  EXPECT_NEAR(rates.edges.chance, (1800.0 + 18 * 100.0 + 30.0 * 0.3) / 20030.0, 1e-12);
-  const meam::EvidenceRates usual = meam::evidenceRates({}, {});
+  EXPECT_NEAR(rates.edges.chance, (18 * 100.0 + 30.0 * 0.3) / 18030.0, 1e-12);
+  // A candidate of which nothing is known but that it is as likely right as wrong counts half.
+  meam::EvidenceWeights bySurface;
+  bySurface.edge = bySurface.outline = 0.0;
+  candidates[3].there = 50.0;
+  EXPECT_NEAR(meam::evidenceRates(candidates, bySurface, likely, settings).edges.found,
+    (450.0 + 900.0 + 30.0 * 0.75) / 1530.0, 1e-12);
+  candidates[3].there = 100.0;
+  const meam::EvidenceRates usual = meam::evidenceRates({}, {}, likely);
   EXPECT_DOUBLE_EQ(usual.edges.found, 0.75);
   EXPECT_DOUBLE_EQ(usual.edges.chance, 0.3);
   // Edges that are found where the part is no more often than elsewhere never speak against it.
@@ -93,7 +102,7 @@ TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
   {
     std::swap(counts.edgesFound, counts.edgesMissing);
   }
-  const meam::EvidenceRates misleading = meam::evidenceRates(candidates, {});
+  const meam::EvidenceRates misleading = meam::evidenceRates(candidates, {}, likely);
   EXPECT_GT(misleading.edges.found, misleading.edges.chance);
   EXPECT_LT(misleading.edges.found - misleading.edges.chance, 0.03);
 }
@@ -104,20 +113,26 @@ TEST(PoseEvidence, RatesOfOutlinesAreThoseOfTheScan)
   std::vector<meam::EvidenceCounts> candidates(10);
   for (std::size_t k = 0; k < candidates.size(); ++k)
   {
-    candidates[k].there = k == 4 ? 20.0 : 1.0;
+    candidates[k].there = k == 4 ? 100.0 : 0.0;
+    candidates[k].past = k == 4 ? 0.0 : 100.0;
     candidates[k].ends = k == 4 ? 95.0 : 10.0;
     candidates[k].goesOn = k == 4 ? 5.0 : 90.0;
   }
   meam::EvidenceRatesSettings settings;
   settings.usualOutline = 100.0;
-  settings.supportedShare = 0.1; // one
+  const meam::LogisticRegression likely{ -50.0, 1.0 };
   settings.usual.outline = { 0.9, 0.5 };
-  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, settings);
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, likely, settings);
   EXPECT_NEAR(rates.outline.found, (95.0 + 90.0) / 200.0, 1e-12);
-  EXPECT_NEAR(rates.outline.chance, (95.0 + 9 * 10.0 + 50.0) / 1100.0, 1e-12);
-  // Where there is no part no outline ends; a part's would.
-  candidates.erase(candidates.begin() + 4);
-  EXPECT_DOUBLE_EQ(meam::evidenceRates(candidates, {}, settings).outline.found, settings.leastEnds);
+  EXPECT_NEAR(rates.outline.chance, (9 * 10.0 + 50.0) / 1000.0, 1e-12);
+  // However few outlines end where the surface is, three quarters of a part's would.
+  candidates[4].ends = 5.0;
+  candidates[4].goesOn = 9995.0;
+  meam::EvidenceWeights bySurface;
+  bySurface.edge = bySurface.outline = 0.0;
+  EXPECT_DOUBLE_EQ(meam::evidenceRates(candidates, bySurface, likely, settings).outline.found, settings.leastEnds);
+  candidates.erase(candidates.begin() + 4); // the others tell nothing
+  EXPECT_NEAR(meam::evidenceRates(candidates, {}, likely, settings).outline.found, 0.9, 1e-12);
 }
 
 TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
