@@ -197,17 +197,6 @@ def bins(commands):
             "at MSSD of 2 to 20 mm, ADD and ADI are at a tenth of D.\n\n" + table(["part", *columns.values(), *measures], rows))
 
 
-def references(commands):
-    make_bins(commands)
-    shares = ("0.03", "0.06", "0.1", "0.2")
-    rows = []
-    for name in BIN_PARTS:
-        found = [bin_figures(commands, name, "--references", share, "--threads", "2") for share in shares]
-        rows.append([name] + [f"{row['recall']} %, {row['ms']} ms" for row in found])
-    return ("Recall and median ms a scan on two threads, edges included, by the share P_ref of the edge points that are "
-            "reference points.\n\n" + table(["part", *shares], rows))
-
-
 def robustness(commands):
     parts = list(BIN_PARTS)[:4]  # those of our own
     found = {}
@@ -388,7 +377,6 @@ TABLES = {  # name: the heading, what makes it, whether it takes a few minutes a
     "calibration": ("How likely a pose is right", calibration, False),
     "calibration-bins": ("How likely a pose is right in simulated bins", calibration_bins, False),
     "bins": ("Simulated bins", bins, False),
-    "references": ("Reference points in simulated bins", references, False),
     "robustness": ("Noise and image quality in simulated bins", robustness, False),
     "world": ("Parts and sensors", world, False),
     "paper": ("The paper's own experiments", paper, False),
