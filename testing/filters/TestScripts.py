@@ -60,6 +60,8 @@ text = works("pick.py", "part.stl", "scan.pcd", "--cup", "8")
 told = re.match(r"(\d+) of (\d+) copies can be picked, by (\d+) of \d+ picks", text)
 check(told and 0 < int(told[1]) <= int(told[2]) and (int(told[1]) < int(told[2])) == ("Copies " in text), text)
 check(len(re.findall(r"^part \d+ by suction \d+, clearance \d+\.\d mm\n\[\[", text, re.MULTILINE)) == int(told[3]), text)
+without = re.match(r"(\d+) of", works("pick.py", "part.stl", "scan.pcd", "--cup", "8", "--no-bin"))
+check(without and int(without[1]) >= int(told[1]), "no fewer copies can be picked where no walls are in the way")
 refuses("no such file", "pick.py", "part.stl", "missing.pcd")
 refuses("opening", "pick.py", "part.stl", "scan.pcd", "--opening", "-5")
 # The trained model, and the image as a file, give the same poses.
