@@ -276,7 +276,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   const int borderCells = static_cast<int>(
     std::clamp(std::round(this->Settings.border * pitch / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
   const double inset = this->Settings.inset * pitch;
-  Visible visible{ towards, {}, {}, {}, {} };
+  Visible visible{ towards, {}, {}, {}, {}, {} };
   const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
   const float tolerance = static_cast<float>(this->Settings.tolerance * this->Diameter);
   const float half = static_cast<float>(this->Diameter); // a point is never farther from the middle
@@ -315,6 +315,12 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
       visible.edges.add(contour.point, contour.tangent);
     }
   }
+  Points edges(visible.edges.size());
+  for (std::size_t k = 0; k < edges.size(); ++k)
+  {
+    edges[k] = visible.edges.points[k];
+  }
+  visible.edgeGrid = PointGrid(edges, this->Settings.edgeCell * this->Diameter);
   projected(this->VerificationPoints.points, others);
   const SoAPoints& normals = this->VerificationPoints.directions;
   allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,

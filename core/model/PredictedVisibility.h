@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/SoAPoints.h"
+#include "base/PointGrid.h"
 #include "mesh/OccludingContours.h"
 
 #include <memory>
@@ -23,6 +23,7 @@ struct PredictedVisibilitySettings
   double outward = 1.5;        ///< cells from a contour to where the buffer tells whether the part hides it
   int directionSteps = 32;     ///< of each coordinate of the direction to the sensor from 0 to 1: 1.8 degrees
   int widestBorder = 4;        ///< cells
+  double edgeCell = 0.1;       ///< of the grid that finds visible edges
   double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double inset = 0.5;  ///< of them: where a smooth surface ends the last point is measured so far inside
   double pitchStep = 0.0005; ///< to which point distances are rounded
@@ -52,6 +53,7 @@ public:
   {
     Eigen::Vector3f from;      ///< the direction to the sensor, rounded to a step
     SoAOrientedPoints edges;   ///< with tangents: those of sharp edges, then of the contours that this direction makes
+    PointGrid edgeGrid;        ///< of these
     std::vector<int> surface;  ///< indices of verification points
     std::vector<char> isInner; ///< of these, whether they lie further than the border inside the part's outline
     /// Beside the part's outline, outside, at the depth of its border: points a cell further off than the border, a

@@ -36,13 +36,13 @@ double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
   return explained;
 }
 
-PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_scene_model) const
+void PoseComparison::predict(Contender& one) const
 {
   const TrainedModel& model = this->Model;
   const float far = this->Unexplained;
-  const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const auto visible =
-    this->Model.visibility->visible(T_scene_model, this->InScene.sensor, this->InScene.depth.pitch());
+  const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
+  one.visible = model.visibility->visible(one.T_scene_model, this->InScene.sensor, this->InScene.depth.pitch());
+  const PredictedVisibility::Visible& visible = *one.visible;
   std::vector<DepthMap::Relation> relations;
   const auto those = [&](const SoAPoints& points, DepthMap::Relation wanted)
   {
@@ -60,17 +60,20 @@ PoseComparison::Prediction PoseComparison::predicted(const Eigen::Isometry3d& T_
     return found;
   };
   SoAPoints surface;
-  surface.resize(this->Settings.freeSpace ? visible->surface.size() : 0);
+  surface.resize(this->Settings.freeSpace ? visible.surface.size() : 0);
   for (std::size_t k = 0; k < surface.size(); ++k)
   {
-    surface.set(k, model.surface.points[visible->surface[k]]);
+    surface.set(k, model.surface.points[visible.surface[k]]);
   }
-  return { those(surface, DepthMap::Relation::InFront), those(visible->edges.points, DepthMap::Relation::OnSurface) };
+  one.predicted = { those(surface, DepthMap::Relation::InFront),
+    those(visible.edges.points, DepthMap::Relation::OnSurface) };
 }
 
 PoseComparison::Contender PoseComparison::contender(const Eigen::Isometry3d& T_scene_model) const
 {
-  return { T_scene_model, this->explained(T_scene_model), this->predicted(T_scene_model) };
+  Contender one{ T_scene_model, this->explained(T_scene_model), nullptr, {} };
+  this->predict(one);
+  return one;
 }
 
 double PoseComparison::contradicted(const Contender& one, const Contender& other) const
@@ -109,14 +112,14 @@ double PoseComparison::advantage(const Contender& one, const Contender& other) c
 
 double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const
 {
-  Contender one{ T_scene_model, this->explained(T_scene_model), {} };
+  Contender one{ T_scene_model, this->explained(T_scene_model), nullptr, {} };
   const double most = this->advantageAtMost(one, other);
   if (most < enough)
   {
     return most;
   }
-  one.predicted = this->predicted(T_scene_model);
-  return most - this->contradicted(one, other);
+  this->predict(one);
+  return this->advantage(one, other);
 }
 
 double PoseComparison::advantageAtMost(const Contender& one, const Contender& other) const
@@ -135,6 +138,12 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
   const Eigen::Vector3f middleA = a.cast<float>() * whole.middle();
   const Eigen::Vector3f middleB = b.cast<float>() * whole.middle();
   const Eigen::Vector3f between = 0.5f * (middleA + middleB);
+  // What a scene edge counts that an edge of the part explains.
+  const auto ofEdge = [&](const Contender& pose, const Eigen::Vector3f& inModel)
+  {
+    const bool inSight = !pose.visible || pose.visible->edgeGrid.nearest(inModel, near) >= 0;
+    return inSight ? this->Settings.edge : this->Settings.hidden * this->Settings.edge;
+  };
   const PointGrid& measured = this->InScene.edgeGrid();
   double sum = one.explained - other.explained + this->contradicted(other, one);
   measured.forEachBlock(between, whole.radius() + near + (middleA - between).norm(),
@@ -146,18 +155,16 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
       edges.at(toB, points, begin, count, ofB);
       for (int k = 0; k < count; ++k)
       {
-        const double weight = ofA[k] < near && ofB[k] >= far   ? this->Settings.edge
-                              : ofB[k] < near && ofA[k] >= far ? -this->Settings.edge
-                                                               : 0.0;
-        if (weight == 0.0)
+        const bool byA = ofA[k] < near && ofB[k] >= far, byB = ofB[k] < near && ofA[k] >= far;
+        if (!byA && !byB)
         {
           continue;
         }
         const Eigen::Vector3f point = points[begin + k];
-        if (model.surface.empty() || surface.at(toA * point) < far ||
-            surface.at(toB * point) < far) // else another object's
+        const Eigen::Vector3f inA = toA * point, inB = toB * point;
+        if (model.surface.empty() || surface.at(inA) < far || surface.at(inB) < far) // else another object's
         {
-          sum += weight;
+          sum += byA ? ofEdge(one, inA) : -ofEdge(other, inB);
         }
       }
     });

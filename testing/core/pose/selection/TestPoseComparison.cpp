@@ -2,6 +2,7 @@
 #include "pose/selection/PoseComparison.h"
 
 #include "TestScene.h"
+#include "base/Bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -132,6 +133,26 @@ TEST(PoseComparison, WhatBothPredictDoesNotCountUnlessEachIsComparedByAllThatItP
   };
   EXPECT_NEAR(advantage(true, true), advantage(false, true), 1e-9);
   EXPECT_GT(std::abs(advantage(true, false) - advantage(false, false)), 1.0);
+}
+
+TEST(PoseComparison, EdgesThatShouldBeOutOfSightCountHalf)
+{
+  // A scene edge runs where the lower edge of the true pose's cut corner is, which the plate hides.
+  scenes::Seen seen = scenes::seenFromAbove({ scenes::Copy{ parts::cutPlate(), Eigen::Isometry3d::Identity() } });
+  const float below = meam::bounds(parts::cutPlate().vertices).min().z();
+  for (float along = 0.1f; along < 0.9f; along += 0.02f)
+  {
+    seen.edges.points.push_back({ 6.0f + 24.0f * along, 30.0f - 10.0f * along, below });
+  }
+  seen = scenes::withTangents(seen, plate().diameter);
+  const auto advantage = [&](double hidden)
+  {
+    meam::PoseComparisonSettings settings;
+    settings.hidden = hidden;
+    return advantageIn(seen, settings);
+  };
+  EXPECT_GT(advantage(1.0), advantage(0.0) + 20.0);
+  EXPECT_NEAR(advantage(meam::PoseComparisonSettings{}.hidden), 0.5 * (advantage(0.0) + advantage(1.0)), 1e-9);
 }
 
 TEST(PoseComparison, EdgesAloneDecide)
