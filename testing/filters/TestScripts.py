@@ -89,11 +89,12 @@ refuses("other files", "train.py", "--cad", "bracket.stl", "--out", "mine.vtpc")
 check(read(os.path.join("mine", "drawing.step")) == "precious", "the folder of the user is gone")
 os.remove(os.path.join("mine", "drawing.step"))
 os.rmdir("mine")
-# An offset of the CAD is an offset of the poses.
-works("detect.py", "--cad", "part.stl", "--cad-offset", "0", "0", "5", "--scene", "scan.pcd", "--poses", "2",
+# An offset of the CAD is an offset of the poses, whichever are the best by a hair.
+works("detect.py", "--cad", "part.stl", "--cad-offset", "0", "0", "5", "--scene", "scan.pcd", "--poses", "0",
       "--matrices", "d.txt", "--preset", "recommended")
-for moved in numpy.array(read("d.txt").split(), float).reshape(-1, 4, 4):
-    shift = min(numpy.abs(moved @ (0, 0, 5, 1) - transform[:, 3]).max() for transform in transforms)
+moved = numpy.array(read("d.txt").split(), float).reshape(-1, 4, 4) @ (0, 0, 5, 1)
+for transform in transforms:
+    shift = numpy.abs(moved - transform[:, 3]).max(axis=1).min()
     check(shift < 0.2, f"the offset part is {shift} mm away")
 
 # Two types of part: the left half of a bin of one, the right half of a bin of the other, seen by the same camera.

@@ -34,7 +34,7 @@ public:
     , Restarts(scene, model, comparison, settings.restarts)
     , Search(scene, model, settings.rotation)
     , Rotated(rotatedSettings(settings, model))
-    , Decision(scene, model, comparison, Rotated, settings.decision)
+    , Decision(scene, model, comparison, collector, Rates, settings.evidence, Rotated, settings.decision)
   {
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/RotationDecision.h"
 
+#include "pose/verification/PoseVerification.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,10 +22,14 @@ double overlapAfter(const Eigen::Isometry3d& turn, const TrainedModel& model, do
 }
 
 RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
+  const EvidenceCollector& collector, const EvidenceRates& rates, const EvidenceSettings& evidence,
   const PoseRefinementSettings& rotated, const RotationDecisionSettings& settings)
   : InScene(scene)
   , Model(model)
   , Comparison(comparison)
+  , Collector(collector)
+  , Rates(rates)
+  , Evidence(evidence)
   , Rotated(rotated)
   , Settings(settings)
 {
@@ -53,18 +59,32 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
   }
 }
 
+double RotationDecision::evidence(const Eigen::Isometry3d& T_scene_model) const
+{
+  const EvidenceCounts counts = this->Collector.collect(T_scene_model).counts;
+  return placeLogOdds(counts, this->Rates, this->Evidence, this->InScene, this->Model);
+}
+
 void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) const
 {
   const double sure = this->Settings.sureAdvantage;
+  const double hopeless = -this->Settings.negligible * sure;
   const std::size_t nearSymmetries = this->Model.symmetries.near.size();
-  const std::size_t turns = pose.probability < this->Settings.worthAsking ? nearSymmetries : this->Turns.size();
+  const bool isLikely = pose.probability >= this->Settings.worthAsking;
+  const std::size_t turns = isLikely ? this->Turns.size() : nearSymmetries;
   for (int round = 0; round < this->Settings.rounds; ++round)
   {
     std::vector<double> advantages{ 0.0 };
+    const double asItIsOdds = isLikely ? this->evidence(pose.T_scene_model) : 0.0;
     for (std::size_t k = 0; k < turns; ++k)
     {
-      advantages.push_back(
-        this->Comparison.advantage(pose.T_scene_model * this->Turns[k], asItIs, -this->Settings.negligible * sure));
+      const Eigen::Isometry3d turned = pose.T_scene_model * this->Turns[k];
+      double advantage = this->Comparison.advantage(turned, asItIs, hopeless);
+      if (isLikely && advantage > hopeless)
+      {
+        advantage += sure * (this->evidence(turned) - asItIsOdds);
+      }
+      advantages.push_back(advantage);
     }
     const auto best = std::max_element(advantages.begin(), advantages.end());
     double odds = 0.0; // of all turns against the best

@@ -4,6 +4,7 @@
 #include "pose/Pose.h"
 #include "pose/refinement/PoseRefinement.h"
 #include "pose/selection/PoseComparison.h"
+#include "pose/verification/PoseEvidence.h"
 
 namespace meam
 {
@@ -13,7 +14,7 @@ struct RotationDecisionSettings
   double overlap = 0.8;        ///< of its surface, that comes to lie on the surface when it is nearly round at a turn
   double sureAdvantage = 13.0; ///< points that make a rotation e times likelier than another, as simulated bins have it
   double negligible = 6.0;     ///< times that: a rotation so unlikely is one in four hundred
-  double worthAsking = 0.02;   ///< probability of a pose before: less, and only its near-symmetries are asked about
+  double worthAsking = 0.02;   ///< probability of a pose before: less, and only its near-symmetries are compared
   int rounds = 3;              ///< of turns that the scene speaks for more
 };
 
@@ -23,18 +24,25 @@ struct RotationDecisionSettings
 class RotationDecision
 {
 public:
-  /// Keeps references to all; `rotated` refines a pose that was turned by a step.
+  /// Keeps references to all but the rates; `rotated` refines a pose that was turned by a step.
   RotationDecision(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
+    const EvidenceCollector& collector, const EvidenceRates& rates, const EvidenceSettings& evidence,
     const PoseRefinementSettings& rotated, const RotationDecisionSettings& settings);
 
-  /// Turns the pose to where the scene speaks for it most, and sets its certainty: how likely that rotation is among
-  /// all. `asItIs` is the pose as a contender.
+  /// Turns the pose to where the scene speaks for it most, by the comparison and, of a pose that is likely, by the
+  /// evidence, and sets its certainty: how likely that rotation is among all. `asItIs` is the pose as a contender.
   void decide(Pose& pose, PoseComparison::Contender asItIs) const;
 
 private:
+  /// Logarithm of the odds of a pose by its evidence.
+  double evidence(const Eigen::Isometry3d& T_scene_model) const;
+
   const Scene& InScene;
   const TrainedModel& Model;
   const PoseComparison& Comparison;
+  const EvidenceCollector& Collector;
+  EvidenceRates Rates;
+  const EvidenceSettings& Evidence;
   const PoseRefinementSettings& Rotated;
   RotationDecisionSettings Settings;
   std::vector<Eigen::Isometry3d> Turns; ///< in the part's frame, without the identity; the near-symmetries first

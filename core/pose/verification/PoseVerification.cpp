@@ -87,14 +87,18 @@ void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const
   pose.score = evidence.score();
 }
 
+double placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, const EvidenceSettings& settings,
+  const Scene& scene, const TrainedModel& model)
+{
+  const ProbabilityCalibration& calibration = settings.calibration;
+  return haveSurfaces(scene, model) ? calibration.withSurface.logOdds(counts.sum(settings.weights, rates))
+                                    : calibration.edgesAlone.logOdds(counts.ofEdges(settings.weights, rates));
+}
+
 void weighEvidence(Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates,
   const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model)
 {
-  const ProbabilityCalibration& calibration = settings.calibration;
-  const double ofPlace = haveSurfaces(scene, model)
-                           ? calibration.withSurface.logOdds(counts.sum(settings.weights, rates))
-                           : calibration.edgesAlone.logOdds(counts.ofEdges(settings.weights, rates));
-  pose.evidence = withCertainty(ofPlace, pose.certainty);
+  pose.evidence = withCertainty(placeLogOdds(counts, rates, settings, scene, model), pose.certainty);
   pose.probability = probabilityOf(pose.evidence);
 }
 

@@ -42,7 +42,9 @@ meam::Pose decided(const meam::TriangleMesh& part, double degrees, double probab
   const meam::PoseComparison comparison(scene, model());
   meam::PoseRefinementSettings rotated;
   rotated.maximumDistance = 0.04 * model().diameter;
-  const meam::RotationDecision decision(scene, model(), comparison, rotated, {});
+  const meam::EvidenceSettings evidence;
+  const meam::EvidenceCollector collector(scene, model(), evidence);
+  const meam::RotationDecision decision(scene, model(), comparison, collector, {}, evidence, rotated, {});
   meam::Pose pose = scenes::displaced(scene.T_local_scene() * turned(degrees));
   pose.probability = probability;
   decision.decide(pose, comparison.contender(pose.T_scene_model));
