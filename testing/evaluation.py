@@ -26,7 +26,7 @@ BENCHMARKS = os.path.join(ROOT, "build", "release", "bin", "meamBenchmarks")
 DOCUMENT, README = os.path.join(ROOT, "docs", "evaluation.md"), os.path.join(ROOT, "README.md")
 HEAD = """# Evaluation
 
-What was measured, table by table; each is written by `testing/evaluation.py --only NAME` from the commands above it, and says when, with which commit and on which machine. `DATA` is the folder that `PPFMEAM_DATA` names, `OUT` one for files in between. Times are those of a machine that may have had other work (see the load); rates and errors come out the same again. Since commit d743a2f poses of one rotation are compared, too, and what the scan's edges are worth is told by fewer candidates: tables of our own method of an earlier commit tell of the versions before.
+What was measured, table by table; each is written by `testing/evaluation.py --only NAME` from the commands above it, and says when, with which commit and on which machine. `DATA` is the folder that `PPFMEAM_DATA` names, `OUT` one for files in between. Times are those of a machine that may have had other work (see the load); rates and errors come out the same again. Since commit c618c19 the scan's rates of edges come from all candidates, edges out of the sensor's sight count half where two poses are compared, and near-symmetric rotations are decided by the evidence, too: tables of our own method of an earlier commit tell of the versions before.
 
 - *strict*: right poses / poses asked for, five a scene; each true instance counts once, a missing pose is wrong. Right is within 10 % of D and 5 degrees.
 - *first*: scenes whose first pose is right.
@@ -67,9 +67,20 @@ class Commands:
                 program = [os.path.join(ROOT, "testing", "display.sh"), *program]
         else:
             program = [BENCHMARKS]
+        return self.output_of(program + [path_of(word) for word in arguments])
+
+    def run_tool(self, tool, *words):
+        """The output of a program of testing/."""
+        self.lines.append(" ".join([f"testing/{tool}", *words]))
+        program = [os.path.join(ROOT, "testing", tool)]
+        if tool.endswith(".py"):
+            program = [sys.executable, "-W", "ignore", *program]
+        return self.output_of(program + [path_of(word) for word in words]).strip()
+
+    def output_of(self, program, given=None):
+        """Of the command that was noted last; it gets `given` (text) to read."""
         print(self.lines[-1], file=sys.stderr, flush=True)
-        done = subprocess.run(program + [path_of(word) for word in arguments], stdout=subprocess.PIPE, text=True, cwd=ROOT,
-                              check=False)
+        done = subprocess.run(program, input=given, stdout=subprocess.PIPE, text=True, cwd=ROOT, check=False)
         if done.returncode:
             raise Failure(f"{self.lines[-1]} ended with {done.returncode}")
         return done.stdout
@@ -242,12 +253,10 @@ def paper(commands):
 
 
 def wrong_poses(commands):
-    commands.lines.append("testing/wrong_poses.py DATA/tohoku OUT/paper/bins 5")
-    told = subprocess.run([sys.executable, "-W", "ignore", os.path.join(ROOT, "testing", "wrong_poses.py"), path_of("DATA/tohoku"),
-                           path_of("OUT/paper/bins"), "5"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    told = commands.run_tool("wrong_poses.py", "DATA/tohoku", "OUT/paper/bins", "5")
     return ("Where the five best poses of a scene go, five scenes of each part. *Half a turn*: right place, turned by more than 150 degrees; "
             "*on the bin*: most of the part's vertices are where the sensor sees the bin; *evidence*: what our verification says of the "
-            "candidates in place of their votes.\n\n" + told.strip() + "\n\n"
+            "candidates in place of their votes.\n\n" + told + "\n\n"
             "Votes say what fits and never what does not. The bin's floor and walls are planes as most faces of these parts are, so the pair "
             "feature's best poses lie on them; where the bin is taken out they lie at a part, and most are turned by half: pairs of normals "
             "fit both faces of a thin plate, both ways round, and the holes and outlines that tell them apart make no pairs. What evidence "
@@ -273,17 +282,13 @@ def cell(commands):
 
 
 def paper_reading(commands):
-    commands.lines.append("testing/paper_reading.py DATA/tohoku")
-    told = subprocess.run([sys.executable, os.path.join(ROOT, "testing", "paper_reading.py"), path_of("DATA/tohoku")],
-                          stdout=subprocess.PIPE, text=True, check=True).stdout
+    told = commands.run_tool("paper_reading.py", "DATA/tohoku")
     return ("What the paper's text leaves open, one choice after the other, on scenes 0 to 9: strict. A value that is better than "
-            "the one before is kept.\n\n" + told.strip())
+            "the one before is kept.\n\n" + told)
 
 
 def rivals(commands):
-    commands.lines.append("testing/rivals/tohoku.sh build/release DATA/tohoku OUT/rivals 10")
-    told = subprocess.run([os.path.join(ROOT, "testing", "rivals", "tohoku.sh"), os.path.join(ROOT, "build", "release"),
-                           path_of("DATA/tohoku"), path_of("OUT/rivals"), "10"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    told = commands.run_tool("rivals/tohoku.sh", "build/release", "DATA/tohoku", "OUT/rivals", "10")
     rows = []
     for name, preset in (("PPF-MEAM, recommended", ()), ("original PPF of this program", ("--method", "ppf"))):
         ours = tohoku_rows(commands, "--scenes", "0-9", "--threads", "1", *preset)
@@ -311,12 +316,9 @@ def rings(commands):
 
 
 def resolution(commands):
-    commands.lines.append("testing/resolution.py DATA/scanner/V2D63xModel.ply 1 10 5 2.5 1.25 0.6")
-    told = subprocess.run([sys.executable, os.path.join(ROOT, "testing", "resolution.py"),
-                           path_of("DATA/scanner/V2D63xModel.ply"), "1", "10", "5", "2.5", "1.25", "0.6"],
-                          stdout=subprocess.PIPE, text=True, check=True).stdout
+    told = commands.run_tool("resolution.py", "DATA/scanner/V2D63xModel.ply", "1", "10", "5", "2.5", "1.25", "0.6")
     return ("A housing of 122 mm alone in a simulated bin, ten bins each: the first pose right (right anywhere). The housing in "
-            "[the real scan](gallery.md#a-housing-time-of-flight) has pixels of 5 mm.\n\n" + told.strip())
+            "[the real scan](gallery.md#a-housing-time-of-flight) has pixels of 5 mm.\n\n" + told)
 
 
 def benchmarks(commands, names, repetitions):
@@ -361,8 +363,7 @@ def slopes(commands):
         raise Failure(f"there is no {BENCHMARKS}: cmake/build.sh release meamBenchmarks")
     told = commands.run("benchmarks", "--benchmark_filter=By.*Points/", "--benchmark_format=json")
     commands.lines[-1] += " | testing/benchmarks/slopes.py"
-    fitted = subprocess.run([sys.executable, os.path.join(ROOT, "testing", "benchmarks", "slopes.py")], input=told,
-                            stdout=subprocess.PIPE, text=True, check=True).stdout
+    fitted = commands.output_of([sys.executable, os.path.join(ROOT, "testing", "benchmarks", "slopes.py")], told)
     return "How the time grows: time = c points^slope, one thread.\n\n```\n" + fitted.strip() + "\n```"
 
 

@@ -8,6 +8,10 @@
 set -euo pipefail
 build=$1 data=$2 out=$3 scenes=${4:-10}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+if [ ! -x "$build/bin/meamRivalOpenCV" ] || [ ! -x "$build/bin/meamRivalPCL" ]; then
+  echo "there are no rivals in $build: cmake -DPPFMEAM_BUILD_RIVALS=ON $build && cmake --build $build" >&2
+  exit 1
+fi
 offset() { if [ "$1" = 3 ]; then echo "-20.9645 -17.4974 -9.3144"; else echo "0 0 0"; fi; } # Part 3's STL is in another frame
 for name in OpenCV PCL; do
   for refined in "" --refined; do
