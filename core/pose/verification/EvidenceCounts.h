@@ -18,7 +18,7 @@ struct EvidenceWeights
   double past = -2.5;       ///< that the sensor looked past, at something near behind it
   double farPast = -8.0;    ///< and at something far behind it
   double hidden = -0.1;     ///< with something before it
-  double enclosed = -6.0;   ///< behind the bin's floor or a wall
+  double enclosed = -6.0;   ///< of the part's body behind the bin's floor or a wall, seen or not
   double unmeasured = -0.1; ///< where nothing was measured; gaps of one cell of the depth map do not count
   // Of the logarithms that the scan's own rates say (EvidenceRates):
   double outline = 0.7; ///< of a patch's side of outline

@@ -97,12 +97,6 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
            : relation == DepthMap::Relation::NoSurface || !settings.freeSpace ? PointState::Unknown
                                                                               : PointState::Violated;
   };
-  const auto isEnclosed = [&](const Eigen::Vector3f& point)
-  {
-    const std::vector<Plane>& planes = this->InScene.enclosure;
-    return std::any_of(
-      planes.begin(), planes.end(), [&](const Plane& plane) { return plane.signedDistance(point) < -tolerance; });
-  };
   const float farBehind = std::max(tolerance, static_cast<float>(settings.farBehind * model.diameter));
   EvidenceCounts& counts = evidence.counts;
   const double patch = settings.weights.patch * model.diameter;
@@ -131,15 +125,12 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
         break;
       }
       case DepthMap::Relation::Hidden:
-        (isEnclosed(point) ? counts.enclosed : counts.hidden) += seen;
+        counts.hidden += seen;
         state = PointState::Hidden;
         break;
       case DepthMap::Relation::NoSurface:
         state = stateOf(depth.relation(point, tolerance)); // what is beside a gap of one cell
-        if (state == PointState::Unknown)
-        {
-          (isEnclosed(point) ? counts.enclosed : counts.unmeasured) += seen;
-        }
+        counts.unmeasured += state == PointState::Unknown ? seen : 0.0;
         break;
       case DepthMap::Relation::InFront:
       {
@@ -162,6 +153,19 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     const bool ends = relation == DepthMap::Relation::InFront ||
                       (relation == DepthMap::Relation::NoSurface && depth.covers(point, static_cast<float>(patch)));
     counts.ends += ends ? side : 0.0;
+  }
+  // What ends all around may be the part's own face, as of parts side by side on no floor.
+  const double outline = counts.ends + counts.goesOn;
+  const double enclosed = 0.25 * area * (outline > 0.0 ? counts.goesOn / outline : 1.0); // a body shows a quarter
+  const float behind = -static_cast<float>(settings.behind) * tolerance;
+  for (const Plane& plane : this->InScene.enclosure)
+  {
+    const Plane inModel(T.linear().transpose() * plane.normal(), plane.signedDistance(T.translation()));
+    for (std::size_t k = 0; k < model.verificationPoints.size(); k += stride)
+    {
+      const bool isBehind = inModel.signedDistance(model.surface.points[model.verificationPoints[k]]) < behind;
+      counts.enclosed += isBehind ? enclosed : 0.0;
+    }
   }
   return evidence;
 }

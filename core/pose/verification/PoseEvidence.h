@@ -34,6 +34,7 @@ struct EvidenceSettings
   double facing = 0.8;    ///< cosine between the part's normal and the measured one, from which on the surface fits
   double farBehind = 0.1; ///< of the diameter: what the sensor saw so far behind the part is far
   double flattest = 0.3;  ///< cosine: the tolerance along the line of sight grows up to surfaces seen so flatly
+  double behind = 3.0;    ///< times the tolerance: so far behind the bin's floor or a wall a part cannot reach
   double outlineTolerance = 1.5;      ///< times the tolerance: a surface beyond the outline that goes on
   int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same
   ProbabilityCalibration calibration; ///< of these weights

@@ -154,7 +154,7 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   EXPECT_EQ(right.enclosed, 0.0);
   sunk.translation().z() -= 2.0 * scenes::bracket().diameter;
   const meam::EvidenceCounts below = collector.collect(scene.T_local_scene() * sunk).counts;
-  EXPECT_GT(below.enclosed, 0.9 * (below.enclosed + below.hidden + below.unmeasured + below.there));
+  EXPECT_GT(below.enclosed, 0.5 * (below.hidden + below.unmeasured + below.there));
 }
 
 TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)
