@@ -155,6 +155,14 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   sunk.translation().z() -= 2.0 * scenes::bracket().diameter;
   const meam::EvidenceCounts below = collector.collect(scene.T_local_scene() * sunk).counts;
   EXPECT_GT(below.enclosed, 0.5 * (below.hidden + below.unmeasured + below.there));
+  // Nor with its upper side in the floor, where all that should be seen is there: its body would be below.
+  const Eigen::AlignedBox3f part = meam::bounds(scenes::bracket().surface.points);
+  Eigen::Isometry3d lying = Eigen::Isometry3d::Identity();
+  lying.translation() << parts.max().x() + 50.0, parts.center().y(), parts.min().z() - 10.0 - part.max().z();
+  const meam::EvidenceCounts inTheFloor = collector.collect(scene.T_local_scene() * lying).counts;
+  EXPECT_GT(inTheFloor.there, 10.0 * (inTheFloor.hidden + inTheFloor.past));
+  EXPECT_GT(inTheFloor.goesOn, inTheFloor.ends);
+  EXPECT_GT(inTheFloor.enclosed, 0.2 * inTheFloor.there);
 }
 
 TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)
