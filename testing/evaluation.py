@@ -26,7 +26,7 @@ BENCHMARKS = os.path.join(ROOT, "build", "release", "bin", "meamBenchmarks")
 DOCUMENT, README = os.path.join(ROOT, "docs", "evaluation.md"), os.path.join(ROOT, "README.md")
 HEAD = """# Evaluation
 
-What was measured, table by table; each is written by `testing/evaluation.py --only NAME` from the commands above it, and says when, with which commit and on which machine. `DATA` is the folder that `PPFMEAM_DATA` names, `OUT` one for files in between. Times are those of a machine that may have had other work (see the load); rates and errors come out the same again. Since commit c618c19 the scan's rates of edges come from all candidates, edges out of the sensor's sight count half where two poses are compared, and near-symmetric rotations are decided by the evidence, too: tables of our own method of an earlier commit tell of the versions before.
+What was measured, table by table; each is written by `testing/evaluation.py --only NAME` from the commands above it, and says when, with which commit and on which machine. `DATA` is the folder that `PPFMEAM_DATA` names, `OUT` one for files in between. Times are those of a machine that may have had other work (see the load); rates and errors come out the same again. Since commit c618c19 the scan's rates of edges come from all candidates, edges out of the sensor's sight count half where two poses are compared, and near-symmetric rotations are decided by the evidence, too; since 2869804 no body reaches through the bin's floor: tables of our own method of earlier commits tell of the versions before.
 
 - *strict*: right poses / poses asked for, five a scene; each true instance counts once, a missing pose is wrong. Right is within 10 % of D and 5 degrees.
 - *first*: scenes whose first pose is right.
