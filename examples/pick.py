@@ -15,7 +15,7 @@ def main():
     parser.add_argument("scan", help="an organized cloud of the bin, from above")
     parser.add_argument("--opening", type=float, default=60.0, metavar="MM", help="of the jaws (default: %(default)s)")
     parser.add_argument("--cup", type=float, metavar="MM", help="diameter of a suction cup, in place of the jaws")
-    parser.add_argument("--no-bin", action="store_true", help="parts on a table: no walls to look for and to keep from")
+    parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")
     options = parser.parse_args()
     if options.cup is None:
         gripper, kind, lengths = "jaws", "parallel", {"opening": options.opening}

@@ -167,7 +167,7 @@ def calibration(commands):
 def calibration_bins(commands):
     make_bins(commands)
     told = commands.run("calibration.py", "--bop", ",".join(f"OUT/bins/{name}" for name in BIN_PARTS)).strip()
-    return ("Gear, regulator and lug had no part in the fit, nor had these bins.\n\n" + told)
+    return "Gear, regulator and lug had no part in the fit, nor had these bins.\n\n" + told
 
 
 def make_bins(commands):

@@ -13,7 +13,7 @@ from scripttest import refuses, script, works, write_pcd
 from vtkmodules.util.numpy_support import vtk_to_numpy
 import numpy
 
-SCENES = 4
+SCENES = 5
 model, scan = dataset("bins", SCENES)
 scripting.write_model(model, "plate.meam")
 names = [f"{scene:06d}/000000" for scene in range(SCENES)]
@@ -46,7 +46,7 @@ result = script("batch.py", "bins", "--model", "plate.meam", "--poses", "1", "--
 check(result.returncode == 1 and "had other parts, scans or options" in result.stderr, result.stderr)
 name = next(name for name in sorted(os.listdir("killed.csv.run")) if name.endswith(".jsonl"))
 with open(f"killed.csv.run/{name}", "a", encoding="utf-8") as file:
-    file.write('{"scan": "000003/000000", "rows": [[1, 1, "0.')  # what a process leaves that is killed as it writes
+    file.write('{"scan": "000004/000000", "rows": [[1, 1, "0.')  # what a process leaves that is killed as it writes
 finished(*command("bins", "--model", "plate.meam", "--out", "killed.csv"))
 check(content("killed.csv") == content("poses.csv"), "another table after a kill")
 

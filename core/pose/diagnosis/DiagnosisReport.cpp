@@ -157,6 +157,9 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
     case LossCause::NotMeasured:
       return "Not measured: at " + percent(evidence.surfaceShare(PointState::Unknown)) +
              " of the surface there is no point of the scan" + afterwards();
+    case LossCause::Enclosed:
+      return "No part can be there: " + percent(evidence.behind) +
+             " of its surface would lie behind the bin's floor or a wall" + afterwards();
     case LossCause::Hidden:
       return "Hidden: something lies in front of " + percent(1.0 - diagnosis.place->visibleFraction) +
              " of the part's side towards the sensor" + afterwards();
@@ -207,6 +210,10 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
       return "Measure the part from another side or with another exposure.";
     case LossCause::Hidden:
       return "Take out what lies on it, and scan again.";
+    case LossCause::Enclosed:
+      return "When there is a part, it is the floor that is wrong: a plane behind which nothing was measured. Scan "
+             "what is "
+             "below, too.";
     case LossCause::SurfaceMissing:
       return "Lower LeastSurface of Pose Screening.";
     case LossCause::NoPose:
@@ -262,6 +269,7 @@ std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)
   {
     add("surface", name, evidence.surface(state), points);
   }
+  add("surface", "share of the whole part behind the bin's floor or a wall", evidence.behind, alone);
   const VoteCounts counts = countsOf(diagnosis.votes);
   add("voting", "points on the part that are reference points", counts.references, counts.points);
   add("voting", "reference points that elect the pose", counts.electing, counts.references);

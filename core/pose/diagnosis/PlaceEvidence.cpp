@@ -31,6 +31,7 @@ PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& sc
   const EvidenceCollector collector(scene, model, everyEdge);
   PlaceEvidence found;
   found.points = collector.collect(T_scene_model);
+  found.behind = collector.shareBehind(T_scene_model);
   const auto visible = model.visibility->visible(T_scene_model, scene.sensor, scene.depth.pitch());
   const Eigen::Matrix3f turn = T_scene_model.linear().cast<float>();
   const double tolerance = settings.tolerance > 0.0 ? settings.tolerance : settings.lengths.fits * model.diameter;

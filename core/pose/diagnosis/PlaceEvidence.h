@@ -14,6 +14,7 @@ struct PlaceEvidence
   int edgesNear = 0;    ///< with a scene edge near, whichever way it runs
   int edgesMatched = 0; ///< with one near that runs their way, as verification counts
   int edgesAligned = 0; ///< with one near whose tangent is within `alignedAngle`
+  double behind = 0.0;  ///< share of the part's whole surface behind the bin's floor or a wall, [0, 1]
 
   /// How many of the surface points are in a state.
   int surface(PointState state) const;

@@ -219,7 +219,9 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
   const PlaceEvidence& evidence = diagnosis.evidence;
   const double least = this->Settings.leastThere;
   const double missing = evidence.surfaceShare(PointState::Violated) + evidence.surfaceShare(PointState::Unknown);
+  const bool isEnclosed = evidence.points.counts.enclosed > this->Settings.leastEnclosed;
   return diagnosis.place->visibleFraction < this->Settings.leastVisible ? LossCause::Hidden
+         : isEnclosed                                                   ? LossCause::Enclosed
          : evidence.surfaceShare(PointState::Violated) > least          ? LossCause::NotThere
          : missing > least                                              ? LossCause::NotMeasured
                                                                         : cause;

@@ -14,11 +14,12 @@ struct PoseDiagnosisSettings
   double foundAngle = 5.0;    ///< degrees: what comes out and is turned by more is another rotation
   double alignedAngle = 10.0; ///< degrees, between tangents of the scene and of the part that are alike
   double leastVisible = 0.25; ///< share of the part's side towards the sensor: with less visible it is hidden
-  double leastThere = 0.5;  ///< share of the surface that nothing hides: with more seen past or unmeasured, that is why
-  double onSurface = 0.025; ///< of the diameter: a picked point this near to a pose's surface lies on it
-  double lookedFor = 0.5;   ///< of the diameter: points this near to a picked one, or to a part's middle, all vote
-  int peaksLookedFor = 3;   ///< candidates of each of them, when a place is looked for by a picked point
-  bool fit = true;          ///< a place given as a pose is fitted to the scene first where that leaves it nearby
+  double leastThere = 0.5; ///< share of the surface that nothing hides: with more seen past or unmeasured, that is why
+  double leastEnclosed = 1.0; ///< patches of its body behind the bin's floor or a wall: with more, that is why
+  double onSurface = 0.025;   ///< of the diameter: a picked point this near to a pose's surface lies on it
+  double lookedFor = 0.5;     ///< of the diameter: points this near to a picked one, or to a part's middle, all vote
+  int peaksLookedFor = 3;     ///< candidates of each of them, when a place is looked for by a picked point
+  bool fit = true;            ///< a place given as a pose is fitted to the scene first where that leaves it nearby
   VoteSupportSettings votes;
 };
 
@@ -29,6 +30,7 @@ enum class LossCause
   NoPose,         ///< no pose of the part has its surface at the picked point
   NotThere,       ///< the sensor saw past most of the surface
   NotMeasured,    ///< nothing was measured where most of the surface is
+  Enclosed,       ///< some of it would be behind the bin's floor or a wall
   Hidden,         ///< something lies in front of it
   FewEdges,       ///< no more edges on it than anywhere
   NoReference,    ///< points on it would have elected it, but are no reference points

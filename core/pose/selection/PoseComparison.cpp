@@ -107,22 +107,28 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
 
 double PoseComparison::advantage(const Contender& one, const Contender& other) const
 {
-  return this->advantageAtMost(one, other) - this->contradicted(one, other);
+  return this->advantageElsewhere(one, other) + this->advantageByEdges(one, other) - this->contradicted(one, other);
 }
 
 double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const
 {
   Contender one{ T_scene_model, this->explained(T_scene_model), nullptr, {} };
-  const double most = this->advantageAtMost(one, other);
+  const double elsewhere = this->advantageElsewhere(one, other);
+  const double most = elsewhere + this->advantageByEdges(one, other);
   if (most < enough)
   {
     return most;
   }
   this->predict(one);
-  return this->advantage(one, other);
+  return elsewhere + this->advantageByEdges(one, other) - this->contradicted(one, other);
 }
 
-double PoseComparison::advantageAtMost(const Contender& one, const Contender& other) const
+double PoseComparison::advantageElsewhere(const Contender& one, const Contender& other) const
+{
+  return one.explained - other.explained + this->contradicted(other, one);
+}
+
+double PoseComparison::advantageByEdges(const Contender& one, const Contender& other) const
 {
   const TrainedModel& model = this->Model;
   const float far = this->Unexplained;
@@ -141,11 +147,11 @@ double PoseComparison::advantageAtMost(const Contender& one, const Contender& ot
   // What a scene edge counts that an edge of the part explains.
   const auto ofEdge = [&](const Contender& pose, const Eigen::Vector3f& inModel)
   {
-    const bool inSight = !pose.visible || pose.visible->edgeGrid.nearest(inModel, near) >= 0;
-    return inSight ? this->Settings.edge : this->Settings.hidden * this->Settings.edge;
+    const bool isVisible = !pose.visible || pose.visible->edgeGrid.nearest(inModel, near) >= 0;
+    return isVisible ? this->Settings.edge : this->Settings.hidden * this->Settings.edge;
   };
   const PointGrid& measured = this->InScene.edgeGrid();
-  double sum = one.explained - other.explained + this->contradicted(other, one);
+  double sum = 0.0;
   measured.forEachBlock(between, whole.radius() + near + (middleA - between).norm(),
     [&](int begin, int count)
     {

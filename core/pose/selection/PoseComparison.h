@@ -13,7 +13,7 @@ struct PoseComparisonSettings
 {
   FitLengths lengths;
   double edge = 3.0;     ///< a scene edge point that one of the two alone explains: images have fewer edges than points
-  double hidden = 0.5;   ///< times that, by an edge that should be out of sight: what is in sight is not known exactly
+  double hidden = 0.5;   ///< times that, by an edge that the part itself hides: what is visible is not known exactly
   double past = 2.25;    ///< a predicted surface point that the sensor saw past: so much sparser than measured ones
   double missing = 1.0;  ///< a predicted edge point on measured surface without an edge: images lose edges
   bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
@@ -42,7 +42,7 @@ public:
   {
     Eigen::Isometry3d T_scene_model;
     double explained;
-    std::shared_ptr<const PredictedVisibility::Visible> visible; ///< none: all that may be
+    std::shared_ptr<const PredictedVisibility::Visible> visible; ///< none: not asked yet
     Prediction predicted;
   };
   Contender contender(const Eigen::Isometry3d& T_scene_model) const;
@@ -56,10 +56,13 @@ public:
 
 private:
   double explained(const Eigen::Isometry3d& T_scene_model) const;
-  /// Sets what the sensor should see and what is predicted.
+  /// Sets `visible` and `predicted`.
   void predict(Contender& one) const;
-  /// Without what contradicts `one`, which need not know what it predicts.
-  double advantageAtMost(const Contender& one, const Contender& other) const;
+  /// By the measured surface, and by what contradicts the other; `one` need not know what it predicts.
+  double advantageElsewhere(const Contender& one, const Contender& other) const;
+  /// By scene edges that one of them alone explains. Where `one` does not know what it predicts all of its edges count
+  /// as visible: it is no less.
+  double advantageByEdges(const Contender& one, const Contender& other) const;
   /// What `one` predicts and the other does not, and is not there: surface, and edges on surface.
   double contradicted(const Contender& one, const Contender& other) const;
 

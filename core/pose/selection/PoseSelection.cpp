@@ -34,7 +34,7 @@ public:
     , Restarts(scene, model, comparison, settings.restarts)
     , Search(scene, model, settings.rotation)
     , Rotated(rotatedSettings(settings, model))
-    , Decision(scene, model, comparison, collector, Rates, settings.evidence, Rotated, settings.decision)
+    , Decision(scene, model, comparison, collector, Rates, Rotated, settings.decision)
   {
   }
 
@@ -51,7 +51,7 @@ public:
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
     const PoseEvidence evidence = this->Collector.collect(pose.T_scene_model);
     setSeen(pose, evidence, this->InScene, this->Model);
-    weighEvidence(pose, evidence.counts, this->Rates, this->Settings.evidence, this->InScene, this->Model);
+    weighEvidence(pose, evidence.counts, this->Rates, this->Collector);
     return evidence.matched();
   }
 

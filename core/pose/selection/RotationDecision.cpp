@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/RotationDecision.h"
 
-#include "pose/verification/PoseVerification.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,14 +20,13 @@ double overlapAfter(const Eigen::Isometry3d& turn, const TrainedModel& model, do
 }
 
 RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
-  const EvidenceCollector& collector, const EvidenceRates& rates, const EvidenceSettings& evidence,
-  const PoseRefinementSettings& rotated, const RotationDecisionSettings& settings)
+  const EvidenceCollector& collector, const EvidenceRates& rates, const PoseRefinementSettings& rotated,
+  const RotationDecisionSettings& settings)
   : InScene(scene)
   , Model(model)
   , Comparison(comparison)
   , Collector(collector)
   , Rates(rates)
-  , Evidence(evidence)
   , Rotated(rotated)
   , Settings(settings)
 {
@@ -61,8 +58,7 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
 
 double RotationDecision::evidence(const Eigen::Isometry3d& T_scene_model) const
 {
-  const EvidenceCounts counts = this->Collector.collect(T_scene_model).counts;
-  return placeLogOdds(counts, this->Rates, this->Evidence, this->InScene, this->Model);
+  return this->Collector.logOdds(this->Collector.collect(T_scene_model).counts, this->Rates);
 }
 
 void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) const

@@ -26,8 +26,8 @@ class RotationDecision
 public:
   /// Keeps references to all but the rates; `rotated` refines a pose that was turned by a step.
   RotationDecision(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
-    const EvidenceCollector& collector, const EvidenceRates& rates, const EvidenceSettings& evidence,
-    const PoseRefinementSettings& rotated, const RotationDecisionSettings& settings);
+    const EvidenceCollector& collector, const EvidenceRates& rates, const PoseRefinementSettings& rotated,
+    const RotationDecisionSettings& settings);
 
   /// Turns the pose to where the scene speaks for it most, by the comparison and, of a pose that is likely, by the
   /// evidence, and sets its certainty: how likely that rotation is among all. `asItIs` is the pose as a contender.
@@ -42,7 +42,6 @@ private:
   const PoseComparison& Comparison;
   const EvidenceCollector& Collector;
   EvidenceRates Rates;
-  const EvidenceSettings& Evidence;
   const PoseRefinementSettings& Rotated;
   RotationDecisionSettings Settings;
   std::vector<Eigen::Isometry3d> Turns; ///< in the part's frame, without the identity; the near-symmetries first

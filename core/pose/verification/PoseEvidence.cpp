@@ -60,6 +60,39 @@ bool EvidenceCollector::nearEdge(const Eigen::Vector3f& point) const
   return this->InScene.edgeGrid().nearest(point, this->Tolerance) >= 0;
 }
 
+double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const
+{
+  const ProbabilityCalibration& calibration = this->Settings.calibration;
+  return haveSurfaces(this->InScene, this->Model)
+           ? calibration.withSurface.logOdds(counts.sum(this->Settings.weights, rates))
+           : calibration.edgesAlone.logOdds(counts.ofEdges(this->Settings.weights, rates));
+}
+
+double EvidenceCollector::shareBehind(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
+{
+  const TrainedModel& model = this->Model;
+  const DistanceField& whole = model.surfaceDistance;
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const float behind = -static_cast<float>(this->Settings.behind) * this->Tolerance;
+  double share = 0.0;
+  for (const Plane& plane : this->InScene.enclosure)
+  {
+    const Plane inModel(T.linear().transpose() * plane.normal(), plane.signedDistance(T.translation()));
+    if (inModel.signedDistance(whole.middle()) > whole.radius() + behind)
+    {
+      continue;
+    }
+    std::size_t found = 0, all = 0;
+    for (std::size_t k = 0; k < model.verificationPoints.size(); k += stride)
+    {
+      found += inModel.signedDistance(model.surface.points[model.verificationPoints[k]]) < behind ? 1 : 0;
+      ++all;
+    }
+    share += all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 0.0;
+  }
+  return std::min(share, 1.0);
+}
+
 PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
 {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
@@ -156,17 +189,10 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   }
   // What ends all around may be the part's own face, as of parts side by side on no floor.
   const double outline = counts.ends + counts.goesOn;
-  const double enclosed = 0.25 * area * (outline > 0.0 ? counts.goesOn / outline : 1.0); // a body shows a quarter
-  const float behind = -static_cast<float>(settings.behind) * tolerance;
-  for (const Plane& plane : this->InScene.enclosure)
-  {
-    const Plane inModel(T.linear().transpose() * plane.normal(), plane.signedDistance(T.translation()));
-    for (std::size_t k = 0; k < model.verificationPoints.size(); k += stride)
-    {
-      const bool isBehind = inModel.signedDistance(model.surface.points[model.verificationPoints[k]]) < behind;
-      counts.enclosed += isBehind ? enclosed : 0.0;
-    }
-  }
+  const double goesOn = outline > 0.0 ? counts.goesOn / outline : 1.0;
+  constexpr double shown = 0.25; // of its surface a body shows, on average
+  counts.enclosed = goesOn * shown * this->shareBehind(T_scene_model, stride) * model.verificationPoints.size() *
+                    model.verificationArea() / (patch * patch);
   return evidence;
 }
 }

@@ -71,6 +71,10 @@ public:
   EvidenceCollector(const Scene& scene, const TrainedModel& model, const EvidenceSettings& settings = {});
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
+  /// Logarithm of the odds that the part is where this was counted.
+  double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
+  /// The share of the part's whole surface, seen or not, that lies behind the bin's floor or a wall, [0, 1].
+  double shareBehind(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
   /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.
   bool nearEdge(const Eigen::Vector3f& point) const;
 

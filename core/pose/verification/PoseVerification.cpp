@@ -87,18 +87,10 @@ void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const
   pose.score = evidence.score();
 }
 
-double placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, const EvidenceSettings& settings,
-  const Scene& scene, const TrainedModel& model)
+void weighEvidence(
+  Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates, const EvidenceCollector& collector)
 {
-  const ProbabilityCalibration& calibration = settings.calibration;
-  return haveSurfaces(scene, model) ? calibration.withSurface.logOdds(counts.sum(settings.weights, rates))
-                                    : calibration.edgesAlone.logOdds(counts.ofEdges(settings.weights, rates));
-}
-
-void weighEvidence(Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates,
-  const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model)
-{
-  pose.evidence = withCertainty(placeLogOdds(counts, rates, settings, scene, model), pose.certainty);
+  pose.evidence = withCertainty(collector.logOdds(counts, rates), pose.certainty);
   pose.probability = probabilityOf(pose.evidence);
 }
 
@@ -174,7 +166,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     }
     for (std::size_t i = 0; i < scored.size(); ++i)
     {
-      weighEvidence(scored[i], counts[i], rates, settings.evidence, scene, model);
+      weighEvidence(scored[i], counts[i], rates, collector);
     }
   }
   std::stable_sort(scored.begin(), scored.end(), isBetter);

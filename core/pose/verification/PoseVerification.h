@@ -44,12 +44,9 @@ int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);
 
 /// Sets score, visible fraction and view by the evidence collected at the pose.
 void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const TrainedModel& model);
-/// Logarithm of the odds that a part is where a pose has it, by what was counted there and the scan's rates.
-double placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, const EvidenceSettings& settings,
-  const Scene& scene, const TrainedModel& model);
 /// Sets evidence and probability: by what was counted, the scan's rates and the pose's certainty.
-void weighEvidence(Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates,
-  const EvidenceSettings& settings, const Scene& scene, const TrainedModel& model);
+void weighEvidence(
+  Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates, const EvidenceCollector& collector);
 
 /// The rates of a scene: those that are known, or by candidates of a part, every `stride`-th point of each.
 EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& collector,

@@ -2,6 +2,7 @@
 #include "pose/diagnosis/PoseDiagnosis.h"
 
 #include "TestScene.h"
+#include "base/Bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -122,6 +123,30 @@ TEST(PoseDiagnosis, APartUnderAnotherIsHidden)
   EXPECT_EQ(diagnosis.cause, LossCause::Hidden);
   EXPECT_TRUE(diagnosis.lostIn);
   EXPECT_LT(diagnosis.place->visibleFraction, 0.05);
+}
+
+TEST(PoseDiagnosis, NoPartLiesInTheFloor)
+{
+  scenes::Seen seen = threeCopiesSeen();
+  for (float x = -160.0f; x < 260.0f; x += 1.0f)
+  {
+    for (float y = -160.0f; y < 260.0f; y += 1.0f)
+    {
+      seen.surface.emplace_back(x, y, -1.0f);
+    }
+  }
+  // Beside the copies, with its upper side in the floor.
+  Eigen::Isometry3d in = scenes::lying(50, 200, 0);
+  const Eigen::AlignedBox3f part = meam::bounds(meam::moved(scenes::bracket().surface.points, in));
+  in.pretranslate(Eigen::Vector3d(0, 0, -1.0 - part.max().z()));
+  meam::PoseDiagnosisSettings asItIs;
+  asItIs.fit = false;
+  const meam::Diagnosis diagnosis = diagnose(seen, in, meam::detectionSettings(meam::Preset::Recommended), asItIs);
+  EXPECT_EQ(diagnosis.cause, LossCause::Enclosed);
+  EXPECT_GT(diagnosis.evidence.behind, 0.5);
+  EXPECT_GT(diagnosis.evidence.points.counts.enclosed, 3.0);
+  EXPECT_LT(diagnosis.place->probability, 0.01);
+  EXPECT_EQ(diagnose(seen, Here).cause, LossCause::None) << "what lies on the floor is not in it";
 }
 
 TEST(PoseDiagnosis, WhereNothingIsTheSensorSawPastThePart)

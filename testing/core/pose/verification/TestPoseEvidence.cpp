@@ -154,7 +154,12 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   EXPECT_EQ(right.enclosed, 0.0);
   sunk.translation().z() -= 2.0 * scenes::bracket().diameter;
   const meam::EvidenceCounts below = collector.collect(scene.T_local_scene() * sunk).counts;
-  EXPECT_GT(below.enclosed, 0.5 * (below.hidden + below.unmeasured + below.there));
+  const meam::TrainedModel& bracket = scenes::bracket();
+  const double patch = meam::EvidenceWeights{}.patch * bracket.diameter;
+  EXPECT_EQ(collector.shareBehind(scene.T_local_scene() * sunk), 1.0);
+  EXPECT_NEAR(
+    below.enclosed, 0.25 * bracket.verificationPoints.size() * bracket.verificationArea() / (patch * patch), 1e-9)
+    << "all of it, as far as a body shows its surface";
   // Nor with its upper side in the floor, where all that should be seen is there: its body would be below.
   const Eigen::AlignedBox3f part = meam::bounds(scenes::bracket().surface.points);
   Eigen::Isometry3d lying = Eigen::Isometry3d::Identity();
