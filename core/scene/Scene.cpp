@@ -55,6 +55,17 @@ Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFr
                         [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter); } });
   const double tolerance = std::max(settings.enclosureTolerance * diameter, settings.enclosureNoises * quality.noise);
   this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter);
+  this->isOnLongLine =
+    onLongLines(this->edgePoints(), this->edgeIndex, diameter, tolerance, settings.longLines, settings.threads);
+  Points onLines;
+  for (std::size_t i = 0; i < this->isOnLongLine.size(); ++i)
+  {
+    if (this->isOnLongLine[i])
+    {
+      onLines.push_back(this->edgePoints().points[i]);
+    }
+  }
+  this->longLines = PointGrid(onLines, settings.depthCell * diameter);
   if (!measured.empty() && !this->hasSurface())
   {
     throw Error(

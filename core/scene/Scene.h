@@ -8,6 +8,7 @@
 #include "scene/Enclosure.h"
 #include "scene/ScanQuality.h"
 #include "scene/Sensor.h"
+#include "scene/edges/LongLines.h"
 
 namespace meam
 {
@@ -17,9 +18,10 @@ struct SceneSettings
   double edgeCell = 0.08;           ///< of the edge index; refinement starts with correspondences of 10 %
   double depthCell = 0.02;          ///< of the depth map: some points of a usual scan each
   double surfaceCell = 0.05;        ///< of the measured surface's grid
-  double enclosureTolerance = 0.03; ///< from the bin's floor and walls, and no less than
+  double enclosureTolerance = 0.03; ///< from the bin's floor, walls and rim, and no less than
   double enclosureNoises = 3.0;     ///< times the scan's noise
-  int threads = 0;                  ///< 0: one for each processor
+  LongLineSettings longLines;
+  int threads = 0; ///< 0: one for each processor
 };
 
 /// A bin at the time of detection, prepared for parts of one diameter: built once, in the frame of its edge points, in
@@ -47,7 +49,9 @@ struct Scene
   double partDiameter;
   EdgeIndex edgeIndex;
   DepthMap depth;
-  PointGrid surface;            ///< of depth.means()
-  std::vector<Plane> enclosure; ///< the bin's floor and walls, as far as they are in sight
+  PointGrid surface;                       ///< of depth.means()
+  std::vector<Plane> enclosure;            ///< the bin's floor and walls, as far as they are in sight
+  std::vector<unsigned char> isOnLongLine; ///< of each edge point: the line is longer than the part
+  PointGrid longLines;                     ///< of these edge points
 };
 }

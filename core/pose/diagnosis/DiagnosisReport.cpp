@@ -260,6 +260,8 @@ std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)
   add("edges", "predicted edge points with a scene edge near", evidence.edgesNear, evidence.edges);
   add("edges", "of these that run the same way", evidence.edgesMatched, evidence.edges);
   add("edges", "of these with a tangent that agrees", evidence.edgesAligned, evidence.edges);
+  add("edges", "of these on lines longer than the part, as the bin's rim: they do not count",
+    evidence.points.counts.edgesOfBin, evidence.edgesMatched);
   const double points = static_cast<double>(evidence.points.surface.size());
   const std::pair<PointState, const char*> states[] = { { PointState::Matched, "matched" },
     { PointState::Turned, "turned: a surface that faces elsewhere" },

@@ -56,6 +56,7 @@ struct EvidenceCounts
   double ends = 0.0, goesOn = 0.0;
   // Edge points
   double edgesFound = 0.0, edgesMissing = 0.0;
+  double edgesOfBin = 0.0; ///< found on lines that are longer than the part: they say nothing
 
   /// What the surface says.
   double ofSurface(const EvidenceWeights& weights) const;

@@ -108,12 +108,15 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   {
     const Eigen::Vector3f point = T * visible->edges.points[k];
     const Eigen::Vector3f tangent = T.linear() * visible->edges.directions[k];
-    const bool matched = this->InScene.edgeIndex.nearest(point, tangent, tolerance).edge >= 0;
+    const int edge = this->InScene.edgeIndex.nearest(point, tangent, tolerance).edge;
+    const bool matched = edge >= 0;
     // Also where no surface was measured: beside parts on no ground nothing else speaks against a pose.
     const PointState state = matched                                                          ? PointState::Matched
                              : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
                                                                                               : PointState::Violated;
-    evidence.counts.edgesFound += matched ? stride : 0.0;
+    const bool isOfBin = matched && this->InScene.isOnLongLine[edge];
+    evidence.counts.edgesFound += matched && !isOfBin ? stride : 0.0;
+    evidence.counts.edgesOfBin += isOfBin ? stride : 0.0;
     evidence.counts.edgesMissing += state == PointState::Violated ? stride : 0.0;
     evidence.edges.push_back(point);
     evidence.edgeStates.push_back(state);
@@ -185,7 +188,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     counts.goesOn += relation == DepthMap::Relation::OnSurface ? side : 0.0;
     const bool ends = relation == DepthMap::Relation::InFront ||
                       (relation == DepthMap::Relation::NoSurface && depth.covers(point, static_cast<float>(patch)));
-    counts.ends += ends ? side : 0.0;
+    counts.ends += ends && this->InScene.longLines.nearest(point, beside) < 0 ? side : 0.0;
   }
   // What ends all around may be the part's own face, as of parts side by side on no floor.
   const double outline = counts.ends + counts.goesOn;

@@ -170,6 +170,44 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   EXPECT_GT(inTheFloor.enclosed, 0.2 * inTheFloor.there);
 }
 
+TEST(PoseEvidence, EdgesOnLinesLongerThanThePartSayNothing)
+{
+  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const meam::Scene scene = scenes::prepared(seen);
+  ASSERT_EQ(std::count(scene.isOnLongLine.begin(), scene.isOnLongLine.end(), 1), 0);
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  const Eigen::Isometry3d T = scene.T_local_scene() * scenes::threeCopies()[0];
+  const meam::PoseEvidence alone = collector.collect(T);
+  EXPECT_EQ(alone.counts.edgesOfBin, 0.0);
+  // An edge that runs along a straight one of the part and far beyond it, as where the part stands in a rim.
+  std::size_t on = 0; // of the part's edge points, where the line passes
+  while (alone.edgeStates[on] != meam::PointState::Matched)
+  {
+    ++on;
+  }
+  scenes::Seen withRim = seen;
+  const Eigen::Isometry3d back = scene.T_local_scene().inverse();
+  const int edge = scene.edgeGrid().nearest(alone.edges[on], scenes::bracket().diameter);
+  const Eigen::Vector3f middle = (back * alone.edges[on].cast<double>()).cast<float>();
+  const Eigen::Vector3f along = (back.linear() * scene.edgePoints().tangents[edge].cast<double>()).cast<float>();
+  const float reach = static_cast<float>(scenes::bracket().diameter);
+  for (float s = -reach; s <= reach; s += 1.0f)
+  {
+    withRim.edges.points.push_back(middle + s * along);
+    withRim.edges.tangents.push_back(along);
+  }
+  withRim.edges.weights.resize(withRim.edges.size(), 1.0f);
+  const meam::Scene rim = scenes::prepared(withRim);
+  const meam::EvidenceCounts there =
+    meam::EvidenceCollector(rim, scenes::bracket()).collect(rim.T_local_scene() * scenes::threeCopies()[0]).counts;
+  EXPECT_GT(there.edgesOfBin, 10.0);
+  EXPECT_GT(there.edgesFound, 0.0) << "the other edges are the part's own";
+  EXPECT_LT(there.edgesFound, alone.counts.edgesFound - 5.0);
+  EXPECT_LT(there.ends, alone.counts.ends);
+  EXPECT_NEAR(there.edgesFound + there.edgesOfBin + there.edgesMissing,
+    alone.counts.edgesFound + alone.counts.edgesMissing, 0.05 * alone.edges.size());
+}
+
 TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)
 {
   const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
