@@ -68,24 +68,30 @@ double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRa
            : calibration.edgesAlone.logOdds(counts.ofEdges(this->Settings.weights, rates));
 }
 
+bool EvidenceCollector::isBehind(const Eigen::Vector3f& point) const
+{
+  const std::vector<Plane>& planes = this->InScene.enclosure;
+  return std::any_of(
+    planes.begin(), planes.end(), [&](const Plane& plane) { return plane.signedDistance(point) < this->behind(); });
+}
+
 double EvidenceCollector::shareBehind(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
 {
   const TrainedModel& model = this->Model;
   const DistanceField& whole = model.surfaceDistance;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const float behind = -static_cast<float>(this->Settings.behind) * this->Tolerance;
   double share = 0.0;
   for (const Plane& plane : this->InScene.enclosure)
   {
     const Plane inModel(T.linear().transpose() * plane.normal(), plane.signedDistance(T.translation()));
-    if (inModel.signedDistance(whole.middle()) > whole.radius() + behind)
+    if (inModel.signedDistance(whole.middle()) > whole.radius() + this->behind())
     {
       continue;
     }
     std::size_t found = 0, all = 0;
     for (std::size_t k = 0; k < model.verificationPoints.size(); k += stride)
     {
-      found += inModel.signedDistance(model.surface.points[model.verificationPoints[k]]) < behind ? 1 : 0;
+      found += inModel.signedDistance(model.surface.points[model.verificationPoints[k]]) < this->behind() ? 1 : 0;
       ++all;
     }
     share += all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 0.0;
@@ -181,20 +187,23 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   }
   const float beside = static_cast<float>(settings.outlineTolerance) * tolerance;
   const double side = stride * model.visibility->cellSize() / patch;
+  double under = 0.0; // of the outline, what a floor or a wall covers
   for (std::size_t k = 0; k < visible->outside.size(); k += stride)
   {
     const Eigen::Vector3f point = T * visible->outside[k];
     const DepthMap::Relation relation = depth.relationToMean(point, beside);
     counts.goesOn += relation == DepthMap::Relation::OnSurface ? side : 0.0;
+    under += relation == DepthMap::Relation::Hidden && this->isBehind(point) ? side : 0.0;
     const bool ends = relation == DepthMap::Relation::InFront ||
                       (relation == DepthMap::Relation::NoSurface && depth.covers(point, static_cast<float>(patch)));
     counts.ends += ends && this->InScene.longLines.nearest(point, beside) < 0 ? side : 0.0;
   }
-  // What ends all around may be the part's own face, as of parts side by side on no floor.
-  const double outline = counts.ends + counts.goesOn;
-  const double goesOn = outline > 0.0 ? counts.goesOn / outline : 1.0;
-  constexpr double shown = 0.25; // of its surface a body shows, on average
-  counts.enclosed = goesOn * shown * this->shareBehind(T_scene_model, stride) * model.verificationPoints.size() *
+  // What ends all around may be the part's own face, as of parts side by side on no floor. Outline that is covered goes
+  // on below.
+  const double covered = counts.goesOn + under;
+  const double outline = counts.ends + covered;
+  counts.enclosed = (outline > 0.0 ? covered / outline : 1.0) * this->Settings.bodyShown *
+                    this->shareBehind(T_scene_model, stride) * static_cast<double>(model.verificationPoints.size()) *
                     model.verificationArea() / (patch * patch);
   return evidence;
 }

@@ -170,6 +170,39 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   EXPECT_GT(inTheFloor.enclosed, 0.2 * inTheFloor.there);
 }
 
+TEST(PoseEvidence, OutlineUnderTheFloorDoesNotEnd)
+{
+  // A pose under a floor's border: beyond the border, where the sensor sees farther, its outline ends.
+  scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const Eigen::AlignedBox3f parts = meam::bounds(seen.surface);
+  const float low = parts.min().z() - 10.0f, border = parts.max().x() + 50.0f;
+  for (float x = parts.min().x() - 100.0f; x < border; x += 1.0f)
+  {
+    for (float y = parts.min().y() - 100.0f; y < parts.max().y() + 100.0f; y += 1.0f)
+    {
+      seen.surface.push_back({ x, y, low });
+    }
+  }
+  const float diameter = static_cast<float>(scenes::bracket().diameter);
+  for (float x = border; x < border + diameter; x += 3.0f)
+  {
+    for (float y = parts.center().y() - diameter; y < parts.center().y() + diameter; y += 3.0f)
+    {
+      seen.surface.push_back({ x, y, low - 3.0f * diameter });
+    }
+  }
+  const meam::Scene scene = scenes::prepared(seen);
+  ASSERT_EQ(scene.enclosure.size(), 1u);
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  const Eigen::AlignedBox3f part = meam::bounds(scenes::bracket().surface.points);
+  Eigen::Isometry3d under = Eigen::Isometry3d::Identity();
+  under.translation() << border - part.center().x(), parts.center().y() - part.center().y(), low - 0.5 * diameter;
+  const meam::EvidenceCounts counts = collector.collect(scene.T_local_scene() * under).counts;
+  EXPECT_GT(counts.ends, 1.0);
+  EXPECT_LT(counts.goesOn, 0.1 * counts.ends);
+  EXPECT_GT(counts.enclosed, 1.0);
+}
+
 TEST(PoseEvidence, EdgesOnLinesLongerThanThePartSayNothing)
 {
   const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
