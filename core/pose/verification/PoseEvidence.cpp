@@ -193,9 +193,8 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   // What ends all around may be the part's own face, as of parts side by side on no floor.
   const double outline = counts.ends + counts.goesOn;
   const double goesOn = outline > 0.0 ? counts.goesOn / outline : 1.0;
-  constexpr double shown = 0.25; // of its surface a body shows, on average
-  counts.enclosed = goesOn * shown * this->shareBehind(T_scene_model, stride) * model.verificationPoints.size() *
-                    model.verificationArea() / (patch * patch);
+  counts.enclosed = goesOn * settings.shown * this->shareBehind(T_scene_model, stride) *
+                    model.verificationPoints.size() * model.verificationArea() / (patch * patch);
   return evidence;
 }
 }
