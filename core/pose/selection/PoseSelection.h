@@ -52,6 +52,13 @@ struct PoseSelectionSettings
   }
 };
 
+/// The paper's settings (Section 6) in place of the recommended ones.
+PoseSelectionSettings paperSelectionSettings();
+/// Those before refinement of the methods that rank poses by their votes.
+PoseSelectionSettings votesSelectionSettings();
+/// The recommended ones before refinement.
+PoseSelectionSettings candidateSelectionSettings();
+
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
 ///
 /// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is
