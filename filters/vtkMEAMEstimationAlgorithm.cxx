@@ -64,10 +64,10 @@ public:
       const auto trained = train(mesh, settings, progress);
       shareTraining(mesh, numbers, trained);
       this->Part = trained;
-      return trained;
+      return this->Part;
     }
     this->Part = known;
-    return known;
+    return this->Part;
   }
 
 private:

@@ -179,6 +179,7 @@ int bringVotersForward(TrainedModel& model)
   }
   model.edges = model.edges.subset(order);
   std::vector<std::uint32_t> views;
+  views.reserve(order.size());
   for (const int i : order)
   {
     views.push_back(model.edgeViews[i]);

@@ -156,7 +156,7 @@ Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const De
   spent.scene = watch.lap() - spent.tangents;
   const Poses poses = findPoses(scene, model, settings, &told, subProgress(progress, 0.1, 1.0));
   watch.lap();
-  const Poses ranked = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
+  Poses ranked = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
   spent.selection += watch.lap();
   return ranked;
 }
