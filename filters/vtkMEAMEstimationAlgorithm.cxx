@@ -3,6 +3,7 @@
 
 #include "mesh/preparation/MeshPreparation.h"
 #include "model/ModelTraining.h"
+#include "pose/DetectionChoices.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMEstimationWork.h"
 #include "vtkMEAMMeshConversion.h"
@@ -63,10 +64,10 @@ public:
       const auto trained = train(mesh, settings, progress);
       shareTraining(mesh, numbers, trained);
       this->Part = trained;
-      return trained;
+      return this->Part;
     }
     this->Part = known;
-    return known;
+    return this->Part;
   }
 
 private:
@@ -81,12 +82,8 @@ private:
     const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
     auto part = std::make_shared<vtkMEAMConversion::TrainedPart>();
     vtkMEAMConversion::fromMesh(prepared.mesh, part->shape);
-    meam::TrainingSettings training = meam::trainingSettings(static_cast<meam::Preset>(preset));
-    training.sampling.seed = static_cast<unsigned>(seed);
-    if (meam::takesFeatures(static_cast<meam::Preset>(preset)))
-    {
-      training.hashing.features = static_cast<meam::Features>(features);
-    }
+    const meam::TrainingSettings training = meam::trainingSettings(
+      static_cast<meam::Preset>(preset), static_cast<meam::Features>(features), static_cast<unsigned>(seed));
     part->model = std::make_shared<const meam::TrainedModel>(
       meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0)));
     return part;
@@ -150,6 +147,18 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   auto* boundary = vtkPolyData::GetData(inputVector[2]);
   auto* image = vtkImageData::GetData(inputVector[3]);
   const meam::Progress progress = progressOf(this);
+  meam::DetectionChoices choices;
+  choices.preset = static_cast<meam::Preset>(this->Preset);
+  choices.features = static_cast<meam::Features>(this->Features);
+  choices.maximumPoses = this->MaximumNumberOfPoses;
+  choices.minimumProbability = this->MinimumProbability;
+  choices.partIsPresent = this->PartIsPresent;
+  choices.referenceShare = this->ReferenceShare;
+  choices.imageEdges = this->ImageEdges;
+  choices.depthEdges = this->DepthEdges;
+  choices.creases = this->Creases;
+  choices.seed = static_cast<unsigned>(this->Seed);
+  choices.threads = this->NumberOfThreads;
   Work work;
   double last = vtkTimerLog::GetUniversalTime();
   const auto watch = [&last]
@@ -183,11 +192,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   {
     const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
     meam::requirePoints(cloud.points, "The scene");
-    meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(static_cast<meam::Preset>(this->Preset));
-    extraction.imageEdges = this->ImageEdges;
-    extraction.depthEdges &= this->DepthEdges;
-    extraction.creases &= this->Creases;
-    extraction.threads = this->NumberOfThreads;
+    meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(choices);
     meam::Image pixels;
     if (this->ImageEdges)
     {
@@ -195,9 +200,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
       extraction.camera = cameraOf(this->CameraFile, image, cloud);
     }
     work.found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
-    scene.edges = meam::toLocalCloud(work.found.cloud, this->NumberOfThreads);
-    scene.edges.fromScan = true;
-    scene.quality = work.found.quality;
+    meam::setFoundEdges(work.found, this->NumberOfThreads, scene);
   }
   work.secondsEdges = watch();
   scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
@@ -209,22 +212,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
     meam::subProgress(progress, AfterSceneEdges, Work::Prepared));
   work.secondsTraining = watch();
 
-  meam::DetectionSettings& settings = work.settings;
-  settings = meam::detectionSettings(static_cast<meam::Preset>(this->Preset), this->MaximumNumberOfPoses,
-    this->NumberOfThreads, this->MinimumProbability);
-  settings.detection.seed = static_cast<unsigned>(this->Seed);
-  if (meam::takesFeatures(static_cast<meam::Preset>(this->Preset)))
-  {
-    settings.detection.features = static_cast<meam::Features>(this->Features);
-  }
-  if (this->ReferenceShare > 0.0)
-  {
-    settings.detection.referenceShare = this->ReferenceShare;
-  }
-  if (this->PartIsPresent)
-  {
-    meam::assumePresence(settings);
-  }
+  work.settings = meam::detectionSettings(choices);
   return work;
 }
 

@@ -6,6 +6,7 @@
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 #include "vtkMEAMSharedData.h"
 #include "vtkMEAMSymmetryConversion.h"
 
@@ -24,30 +25,34 @@ struct vtkMEAMHashing::SharedData
 
 vtkMEAMHashing::vtkMEAMHashing()
   : Shared(new SharedData)
+  , Settings(new meam::MEAMHashingSettings)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetParametersToRecommended();
 }
 
 vtkMEAMHashing::~vtkMEAMHashing() = default;
 
-void vtkMEAMHashing::SetParametersToPaper() { this->SetParameters(meam::paperHashingSettings()); }
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, Features, int, features, Edges, Both)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, SurfaceDistanceStep, double, surface.distanceStep, 0.001, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, SurfaceAngleStep, double, surface.angleStep, 1.0, 90.0)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, SurfaceLeafSize, double, surface.leafSize, 0.001, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, Feature, int, feature, Paper, Oriented)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, DistanceStep, double, distanceStep, 0.001, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, AngleStep, double, angleStep, 1.0, 90.0)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, ViewMerging, int, merging, Points, None)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, VoxelSize, double, voxelSize, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, LeafSize, double, leafSize, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMHashing, CoVisibilityDirections, int, coVisibilityDirections, 0, 32)
 
-void vtkMEAMHashing::SetParametersToRecommended() { this->SetParameters({}); }
-
-void vtkMEAMHashing::SetParameters(const meam::MEAMHashingSettings& settings)
+void vtkMEAMHashing::SetParametersToPaper()
 {
-  this->Features = static_cast<int>(settings.features);
-  this->SurfaceDistanceStep = settings.surface.distanceStep;
-  this->SurfaceAngleStep = settings.surface.angleStep;
-  this->SurfaceLeafSize = settings.surface.leafSize;
-  this->Feature = static_cast<int>(settings.feature);
-  this->DistanceStep = settings.distanceStep;
-  this->AngleStep = settings.angleStep;
-  this->ViewMerging = static_cast<int>(settings.merging);
-  this->VoxelSize = settings.voxelSize;
-  this->LeafSize = settings.leafSize;
-  this->CoVisibilityDirections = settings.coVisibilityDirections;
+  *this->Settings = meam::paperHashingSettings();
+  this->Modified();
+}
+
+void vtkMEAMHashing::SetParametersToRecommended()
+{
+  *this->Settings = {};
   this->Modified();
 }
 
@@ -69,18 +74,6 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
   auto* output = vtkPartitionedDataSetCollection::GetData(outputVector);
   const auto work = [&]
   {
-    meam::MEAMHashingSettings settings;
-    settings.features = static_cast<meam::Features>(this->Features);
-    settings.surface.distanceStep = this->SurfaceDistanceStep;
-    settings.surface.angleStep = this->SurfaceAngleStep;
-    settings.surface.leafSize = this->SurfaceLeafSize;
-    settings.feature = static_cast<meam::PairFeatureKind>(this->Feature);
-    settings.distanceStep = this->DistanceStep;
-    settings.angleStep = this->AngleStep;
-    settings.merging = static_cast<meam::ViewMerging>(this->ViewMerging);
-    settings.voxelSize = this->VoxelSize;
-    settings.leafSize = this->LeafSize;
-    settings.coVisibilityDirections = this->CoVisibilityDirections;
     const meam::PointCloud surface = toCloud(samples);
     if (samples)
     {
@@ -92,7 +85,7 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
     }
     const meam::PartSurface part{ surface, diameterOf(input), symmetriesOf(samples) };
     const auto model = std::make_shared<const meam::TrainedModel>(
-      meam::hashModels(toAppearanceModels(input), part, settings, progressOf(this)));
+      meam::hashModels(toAppearanceModels(input), part, *this->Settings, progressOf(this)));
     fromTrainedModel(*model, output);
     shareModel(output, model);
     this->Shared->Model = model;
@@ -103,15 +96,15 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
 void vtkMEAMHashing::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->Features)) << "\n";
-  os << indent << "SurfaceDistanceStep: " << this->SurfaceDistanceStep << "\n";
-  os << indent << "SurfaceAngleStep: " << this->SurfaceAngleStep << "\n";
-  os << indent << "SurfaceLeafSize: " << this->SurfaceLeafSize << "\n";
-  os << indent << "Feature: " << (this->Feature == Paper ? "Paper" : "Oriented") << "\n";
-  os << indent << "DistanceStep: " << this->DistanceStep << "\n";
-  os << indent << "AngleStep: " << this->AngleStep << "\n";
-  os << indent << "ViewMerging: " << this->ViewMerging << "\n";
-  os << indent << "VoxelSize: " << this->VoxelSize << "\n";
-  os << indent << "LeafSize: " << this->LeafSize << "\n";
-  os << indent << "CoVisibilityDirections: " << this->CoVisibilityDirections << "\n";
+  os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->GetFeatures())) << "\n";
+  os << indent << "SurfaceDistanceStep: " << this->GetSurfaceDistanceStep() << "\n";
+  os << indent << "SurfaceAngleStep: " << this->GetSurfaceAngleStep() << "\n";
+  os << indent << "SurfaceLeafSize: " << this->GetSurfaceLeafSize() << "\n";
+  os << indent << "Feature: " << (this->GetFeature() == Paper ? "Paper" : "Oriented") << "\n";
+  os << indent << "DistanceStep: " << this->GetDistanceStep() << "\n";
+  os << indent << "AngleStep: " << this->GetAngleStep() << "\n";
+  os << indent << "ViewMerging: " << this->GetViewMerging() << "\n";
+  os << indent << "VoxelSize: " << this->GetVoxelSize() << "\n";
+  os << indent << "LeafSize: " << this->GetLeafSize() << "\n";
+  os << indent << "CoVisibilityDirections: " << this->GetCoVisibilityDirections() << "\n";
 }

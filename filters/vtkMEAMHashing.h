@@ -77,8 +77,8 @@ public:
    * (1): surface points with normals, which carry smooth, round and thick ones; needs the samples of the surface. Both
    * (2). Default: Both.
    */
-  vtkSetClampMacro(Features, int, Edges, Both);
-  vtkGetMacro(Features, int);
+  virtual void SetFeatures(int value);
+  virtual int GetFeatures();
   void SetFeaturesToEdges() { this->SetFeatures(Edges); }
   void SetFeaturesToSurface() { this->SetFeatures(Surface); }
   void SetFeaturesToBoth() { this->SetFeatures(Both); }
@@ -86,14 +86,14 @@ public:
 
   ///@{
   /** Of surface points: step of distances as a share of the part's diameter, in (0, 1]. Default: 0.05. */
-  vtkSetClampMacro(SurfaceDistanceStep, double, 0.001, 1.0);
-  vtkGetMacro(SurfaceDistanceStep, double);
+  virtual void SetSurfaceDistanceStep(double value);
+  virtual double GetSurfaceDistanceStep();
   ///@}
 
   ///@{
   /** Of surface points: step of angles in degrees, 1 to 90; also of the votes' turn about the normal. Default: 12. */
-  vtkSetClampMacro(SurfaceAngleStep, double, 1.0, 90.0);
-  vtkGetMacro(SurfaceAngleStep, double);
+  virtual void SetSurfaceAngleStep(double value);
+  virtual double GetSurfaceAngleStep();
   ///@}
 
   ///@{
@@ -101,8 +101,8 @@ public:
    * Of the surface points in a cube of this side, a share of the part's diameter, one makes pairs and votes, in the
    * model as in a scene. Default: 0.05.
    */
-  vtkSetClampMacro(SurfaceLeafSize, double, 0.001, 1.0);
-  vtkGetMacro(SurfaceLeafSize, double);
+  virtual void SetSurfaceLeafSize(double value);
+  virtual double GetSurfaceLeafSize();
   ///@}
 
   ///@{
@@ -110,22 +110,22 @@ public:
    * Of edge points. Paper (0): the distance and three acute angles, Equation (1). Oriented (1): both tangents are
    * turned along the pair, so the third angle is full and mirror images differ: fewer wrong votes. Default: Oriented.
    */
-  vtkSetClampMacro(Feature, int, Paper, Oriented);
-  vtkGetMacro(Feature, int);
+  virtual void SetFeature(int value);
+  virtual int GetFeature();
   void SetFeatureToPaper() { this->SetFeature(Paper); }
   void SetFeatureToOriented() { this->SetFeature(Oriented); }
   ///@}
 
   ///@{
   /** Step of distances as a share of the part's diameter, in (0, 1]. Default: 0.07. */
-  vtkSetClampMacro(DistanceStep, double, 0.001, 1.0);
-  vtkGetMacro(DistanceStep, double);
+  virtual void SetDistanceStep(double value);
+  virtual double GetDistanceStep();
   ///@}
 
   ///@{
   /** Step of angles in degrees, 1 to 90; also of the votes' turn about the tangent. Default: 7.2. The paper: 3.6. */
-  vtkSetClampMacro(AngleStep, double, 1.0, 90.0);
-  vtkGetMacro(AngleStep, double);
+  virtual void SetAngleStep(double value);
+  virtual double GetAngleStep();
   ///@}
 
   ///@{
@@ -134,8 +134,8 @@ public:
    * (1): each view keeps its own, and a pair that several views show is stored once, by voxel code, Equation (2)
    * of the paper. None (2): all pairs of each view are stored, as many tables as views. Default: Points.
    */
-  vtkSetClampMacro(ViewMerging, int, Points, None);
-  vtkGetMacro(ViewMerging, int);
+  virtual void SetViewMerging(int value);
+  virtual int GetViewMerging();
   void SetViewMergingToPoints() { this->SetViewMerging(Points); }
   void SetViewMergingToVoxelCodes() { this->SetViewMerging(VoxelCodes); }
   void SetViewMergingToNone() { this->SetViewMerging(None); }
@@ -143,8 +143,8 @@ public:
 
   ///@{
   /** Points of two views nearer than this are the same, in mm; 0: 1.5 % of the part's diameter. Default: 0. */
-  vtkSetClampMacro(VoxelSize, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(VoxelSize, double);
+  virtual void SetVoxelSize(double value);
+  virtual double GetVoxelSize();
   ///@}
 
   ///@{
@@ -153,8 +153,8 @@ public:
    * as in a scene; all of them judge and refine poses. 0: 4 % of the part's diameter. Otherwise every edge point makes
    * pairs. Default: 0.
    */
-  vtkSetClampMacro(LeafSize, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(LeafSize, double);
+  virtual void SetLeafSize(double value);
+  virtual double GetLeafSize();
   ///@}
 
   ///@{
@@ -162,8 +162,8 @@ public:
    * Number of directions, up to 32, from which two points have to be visible together to make a pair;
    * 0: only the views themselves, as in the paper. Default: 26.
    */
-  vtkSetClampMacro(CoVisibilityDirections, int, 0, 32);
-  vtkGetMacro(CoVisibilityDirections, int);
+  virtual void SetCoVisibilityDirections(int value);
+  virtual int GetCoVisibilityDirections();
   ///@}
 
   /** The parameters of the paper, Section 6. */
@@ -184,19 +184,7 @@ private:
   struct SharedData;
   std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
 
-  void SetParameters(const meam::MEAMHashingSettings& settings);
-
-  int Features;
-  double SurfaceDistanceStep;
-  double SurfaceAngleStep;
-  double SurfaceLeafSize;
-  int Feature;
-  double DistanceStep;
-  double AngleStep;
-  int ViewMerging;
-  double VoxelSize;
-  double LeafSize;
-  int CoVisibilityDirections;
+  std::unique_ptr<meam::MEAMHashingSettings> Settings;
 };
 
 #endif

@@ -39,14 +39,25 @@ bool vtkMEAMPoseSelection::GetFreeSpace() { return this->Settings->evidence.free
 
 void vtkMEAMPoseSelection::SetParametersToPaper()
 {
-  *this->Settings = {};
-  this->SetMethod(Clusters);
+  *this->Settings = meam::paperSelectionSettings();
   this->Modified();
 }
 
 void vtkMEAMPoseSelection::SetParametersToRecommended()
 {
   *this->Settings = {};
+  this->Modified();
+}
+
+void vtkMEAMPoseSelection::SetParametersToCandidates()
+{
+  *this->Settings = meam::candidateSelectionSettings();
+  this->Modified();
+}
+
+void vtkMEAMPoseSelection::SetParametersToVotes()
+{
+  *this->Settings = meam::votesSelectionSettings();
   this->Modified();
 }
 

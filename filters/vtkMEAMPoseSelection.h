@@ -75,8 +75,8 @@ public:
 
   ///@{
   /**
-   * Poses kept of all, the best ones; 0: no limit; of alternatives 60 and all
-   * others whose probability is above 0.02. Default: 0.
+   * Poses kept of all, the best ones; 0: no limit; of Alternatives the best 60, or all whose probability is above 3e-7
+   * where these are more. Default: 0.
    */
   virtual void SetMaximumNumberOfPoses(int value);
   virtual int GetMaximumNumberOfPoses();
@@ -122,6 +122,10 @@ public:
   void SetParametersToPaper();
   /** The parameters that measure better: the defaults. Sensor and number of threads stay. */
   void SetParametersToRecommended();
+  /** The recommended parameters of this step before refinement. Sensor and number of threads stay. */
+  void SetParametersToCandidates();
+  /** Those of the methods that rank poses by their votes, before refinement. Sensor and number of threads stay. */
+  void SetParametersToVotes();
 
 protected:
   vtkMEAMPoseSelection();

@@ -35,6 +35,18 @@ void vtkMEAMPoseVerification::SetParametersToRecommended()
   this->Modified();
 }
 
+void vtkMEAMPoseVerification::SetParametersToCandidates()
+{
+  *this->Settings = meam::candidateVerificationSettings();
+  this->Modified();
+}
+
+void vtkMEAMPoseVerification::SetParametersToVotes()
+{
+  *this->Settings = meam::votesVerificationSettings();
+  this->Modified();
+}
+
 void vtkMEAMPoseVerification::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;

@@ -99,6 +99,10 @@ public:
   void SetParametersToPaper();
   /** The parameters that measure better: the defaults. Sensor and number of threads stay. */
   void SetParametersToRecommended();
+  /** The recommended parameters of this step before refinement. Sensor and number of threads stay. */
+  void SetParametersToCandidates();
+  /** Those of the methods that rank poses by their votes. Sensor and number of threads stay. */
+  void SetParametersToVotes();
 
 protected:
   vtkMEAMPoseVerification();

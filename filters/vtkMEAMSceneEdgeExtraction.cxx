@@ -6,6 +6,7 @@
 #include "vtkMEAMScanConversion.h"
 #include "vtkMEAMSceneEdgeConversion.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -19,12 +20,43 @@
 vtkStandardNewMacro(vtkMEAMSceneEdgeExtraction);
 
 vtkMEAMSceneEdgeExtraction::vtkMEAMSceneEdgeExtraction()
+  : Settings(new meam::SceneEdgeExtractionSettings(meam::sceneEdgeSettings(meam::Preset::Recommended)))
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
 }
 
 vtkMEAMSceneEdgeExtraction::~vtkMEAMSceneEdgeExtraction() { this->SetCameraFile(nullptr); }
+
+vtkMEAMSettingMacro(vtkMEAMSceneEdgeExtraction, ImageEdges, bool, imageEdges)
+vtkMEAMSettingMacro(vtkMEAMSceneEdgeExtraction, DepthEdges, bool, depthEdges)
+vtkMEAMSettingMacro(vtkMEAMSceneEdgeExtraction, Creases, bool, creases)
+vtkMEAMClampedSettingMacro(vtkMEAMSceneEdgeExtraction, CreaseAngle, double, creaseAngle, 1.0, 179.0)
+vtkMEAMSettingMacro(vtkMEAMSceneEdgeExtraction, ImageTangents, bool, tangents)
+vtkMEAMClampedSettingMacro(vtkMEAMSceneEdgeExtraction, Smoothing, double, image.smoothing, 0.0, 50.0)
+vtkMEAMClampedSettingMacro(vtkMEAMSceneEdgeExtraction, LowThreshold, double, image.lowThreshold, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMSceneEdgeExtraction, HighThreshold, double, image.highThreshold, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMSceneEdgeExtraction, SearchRadius, int, searchRadius, 0, 50)
+vtkMEAMClampedSettingMacro(vtkMEAMSceneEdgeExtraction, DepthJump, double, depthJump, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMSceneEdgeExtraction, NumberOfThreads, int, threads, 0, VTK_INT_MAX)
+
+void vtkMEAMSceneEdgeExtraction::SetParametersToPaper()
+{
+  this->SetParameters(meam::sceneEdgeSettings(meam::Preset::Paper));
+}
+
+void vtkMEAMSceneEdgeExtraction::SetParametersToRecommended()
+{
+  this->SetParameters(meam::sceneEdgeSettings(meam::Preset::Recommended));
+}
+
+void vtkMEAMSceneEdgeExtraction::SetParameters(const meam::SceneEdgeExtractionSettings& settings)
+{
+  const int threads = this->Settings->threads;
+  *this->Settings = settings;
+  this->Settings->threads = threads;
+  this->Modified();
+}
 
 int vtkMEAMSceneEdgeExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -80,22 +112,11 @@ int vtkMEAMSceneEdgeExtraction::RequestData(
     this,
     [&]
     {
-      meam::SceneEdgeExtractionSettings settings;
-      settings.imageEdges = this->ImageEdges;
-      settings.depthEdges = this->DepthEdges;
-      settings.creases = this->Creases;
-      settings.creaseAngle = this->CreaseAngle;
-      settings.tangents = this->ImageTangents;
-      settings.image.smoothing = this->Smoothing;
-      settings.image.lowThreshold = this->LowThreshold;
-      settings.image.highThreshold = this->HighThreshold;
-      settings.searchRadius = this->SearchRadius;
-      settings.depthJump = this->DepthJump;
-      settings.threads = this->NumberOfThreads;
-      const meam::OrganizedCloud cloud = vtkMEAMConversion::toOrganizedCloud(scene, this->NumberOfThreads);
+      meam::SceneEdgeExtractionSettings settings = *this->Settings;
+      const meam::OrganizedCloud cloud = vtkMEAMConversion::toOrganizedCloud(scene, this->GetNumberOfThreads());
       meam::requirePoints(cloud.points, "The scene");
       meam::Image image;
-      if (this->ImageEdges)
+      if (this->GetImageEdges())
       {
         image = imageInput ? vtkMEAMConversion::toImage(imageInput) : vtkMEAMConversion::imageOfCloud(scene);
         settings.camera = vtkMEAMConversion::cameraOf(this->CameraFile, imageInput, cloud);
@@ -121,16 +142,16 @@ int vtkMEAMSceneEdgeExtraction::RequestData(
 void vtkMEAMSceneEdgeExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "ImageEdges: " << this->ImageEdges << "\n";
-  os << indent << "DepthEdges: " << this->DepthEdges << "\n";
-  os << indent << "Creases: " << this->Creases << "\n";
-  os << indent << "CreaseAngle: " << this->CreaseAngle << " degrees\n";
-  os << indent << "ImageTangents: " << this->ImageTangents << "\n";
+  os << indent << "ImageEdges: " << this->GetImageEdges() << "\n";
+  os << indent << "DepthEdges: " << this->GetDepthEdges() << "\n";
+  os << indent << "Creases: " << this->GetCreases() << "\n";
+  os << indent << "CreaseAngle: " << this->GetCreaseAngle() << " degrees\n";
+  os << indent << "ImageTangents: " << this->GetImageTangents() << "\n";
   os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
-  os << indent << "Smoothing: " << this->Smoothing << " pixels\n";
-  os << indent << "LowThreshold: " << this->LowThreshold << "\n";
-  os << indent << "HighThreshold: " << this->HighThreshold << "\n";
-  os << indent << "SearchRadius: " << this->SearchRadius << " pixels\n";
-  os << indent << "DepthJump: " << this->DepthJump << " mm\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Smoothing: " << this->GetSmoothing() << " pixels\n";
+  os << indent << "LowThreshold: " << this->GetLowThreshold() << "\n";
+  os << indent << "HighThreshold: " << this->GetHighThreshold() << "\n";
+  os << indent << "SearchRadius: " << this->GetSearchRadius() << " pixels\n";
+  os << indent << "DepthJump: " << this->GetDepthJump() << " mm\n";
+  os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << "\n";
 }

@@ -32,6 +32,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct SceneEdgeExtractionSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMSceneEdgeExtraction : public vtkPolyDataAlgorithm
 {
 public:
@@ -44,29 +51,29 @@ public:
 
   ///@{
   /** Edges of the image. Default: true. */
-  vtkSetMacro(ImageEdges, bool);
-  vtkGetMacro(ImageEdges, bool);
+  virtual void SetImageEdges(bool value);
+  virtual bool GetImageEdges();
   vtkBooleanMacro(ImageEdges, bool);
   ///@}
 
   ///@{
   /** Points at which the surface ends in front of another one, from the cloud alone. Default: true. */
-  vtkSetMacro(DepthEdges, bool);
-  vtkGetMacro(DepthEdges, bool);
+  virtual void SetDepthEdges(bool value);
+  virtual bool GetDepthEdges();
   vtkBooleanMacro(DepthEdges, bool);
   ///@}
 
   ///@{
   /** Points at which two pieces of the surface meet at an angle, from the cloud alone. Default: true. */
-  vtkSetMacro(Creases, bool);
-  vtkGetMacro(Creases, bool);
+  virtual void SetCreases(bool value);
+  virtual bool GetCreases();
   vtkBooleanMacro(Creases, bool);
   ///@}
 
   ///@{
   /** Degrees: pieces of the surface that meet at less make no crease. Default: 30. */
-  vtkSetClampMacro(CreaseAngle, double, 1.0, 179.0);
-  vtkGetMacro(CreaseAngle, double);
+  virtual void SetCreaseAngle(double value);
+  virtual double GetCreaseAngle();
   ///@}
 
   ///@{
@@ -74,8 +81,8 @@ public:
    * Tangents from the direction of the edge in the image and the local surface, in place of those that
    * vtkMEAMTangentEstimation finds among the points. Default: true.
    */
-  vtkSetMacro(ImageTangents, bool);
-  vtkGetMacro(ImageTangents, bool);
+  virtual void SetImageTangents(bool value);
+  virtual bool GetImageTangents();
   vtkBooleanMacro(ImageTangents, bool);
   ///@}
 
@@ -91,26 +98,26 @@ public:
 
   ///@{
   /** Pixels: sigma of the Gaussian before Canny; 0 for none. Default: 1. */
-  vtkSetClampMacro(Smoothing, double, 0.0, 50.0);
-  vtkGetMacro(Smoothing, double);
+  virtual void SetSmoothing(double value);
+  virtual double GetSmoothing();
   ///@}
 
   ///@{
   /** Grey values (Sobel): where an edge ends; 0 for 40 % of the high threshold. Default: 0. */
-  vtkSetClampMacro(LowThreshold, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(LowThreshold, double);
+  virtual void SetLowThreshold(double value);
+  virtual double GetLowThreshold();
   ///@}
 
   ///@{
   /** Grey values (Sobel): where an edge begins; 0 finds it from the image's gradients. Default: 0. */
-  vtkSetClampMacro(HighThreshold, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(HighThreshold, double);
+  virtual void SetHighThreshold(double value);
+  virtual double GetHighThreshold();
   ///@}
 
   ///@{
   /** Grid steps around an edge pixel in which its depth is looked for. Default: 1. */
-  vtkSetClampMacro(SearchRadius, int, 0, 50);
-  vtkGetMacro(SearchRadius, int);
+  virtual void SetSearchRadius(int value);
+  virtual int GetSearchRadius();
   ///@}
 
   ///@{
@@ -118,15 +125,20 @@ public:
    * mm: neighbours that differ by more in depth are of two surfaces; 0 for three times the distance of
    * neighbouring points and five times the noise. Default: 0.
    */
-  vtkSetClampMacro(DepthJump, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(DepthJump, double);
+  virtual void SetDepthJump(double value);
+  virtual double GetDepthJump();
   ///@}
 
   ///@{
   /** Threads to work with; 0: one for each processor. The result does not depend on it. Default: 0. */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
+  virtual void SetNumberOfThreads(int value);
+  virtual int GetNumberOfThreads();
   ///@}
+
+  /** The paper's: edges of the image alone, without tangents. CameraFile and the number of threads stay. */
+  void SetParametersToPaper();
+  /** The parameters that measure better: the defaults. CameraFile and the number of threads stay. */
+  void SetParametersToRecommended();
 
 protected:
   vtkMEAMSceneEdgeExtraction();
@@ -142,18 +154,10 @@ private:
   vtkMEAMSceneEdgeExtraction(const vtkMEAMSceneEdgeExtraction&) = delete;
   void operator=(const vtkMEAMSceneEdgeExtraction&) = delete;
 
-  bool ImageEdges = true;
-  bool DepthEdges = true;
-  bool Creases = true;
-  double CreaseAngle = 30.0;
-  bool ImageTangents = true;
+  void SetParameters(const meam::SceneEdgeExtractionSettings& settings);
+
+  std::unique_ptr<meam::SceneEdgeExtractionSettings> Settings;
   char* CameraFile = nullptr;
-  double Smoothing = 1.0;
-  double LowThreshold = 0.0;
-  double HighThreshold = 0.0;
-  int SearchRadius = 1;
-  double DepthJump = 0.0;
-  int NumberOfThreads = 0;
 };
 
 #endif

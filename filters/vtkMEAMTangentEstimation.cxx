@@ -7,6 +7,7 @@
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -18,10 +19,23 @@
 vtkStandardNewMacro(vtkMEAMTangentEstimation);
 
 vtkMEAMTangentEstimation::vtkMEAMTangentEstimation()
+  : Settings(new meam::TangentEstimationSettings)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetParametersToRecommended();
 }
+
+vtkMEAMTangentEstimation::~vtkMEAMTangentEstimation() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, Method, int, method, Tiles, LineSegments)
+vtkMEAMSettingMacro(vtkMEAMTangentEstimation, LeafSize, double, leafSize)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, Radius, double, radius, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, InlierDistance, double, inlierDistance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, SegmentLength, double, segmentLength, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, TilePixels, int, tilePixels, 1, 100000)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, PixelSize, double, pixelSize, 1e-9, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, LineDistance, double, lineDistance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, LineSupport, double, lineSupport, 0.0, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMTangentEstimation, NumberOfThreads, int, threads, 0, VTK_INT_MAX)
 
 void vtkMEAMTangentEstimation::SetParametersToPaper() { this->SetParameters(meam::paperTangentSettings()); }
 
@@ -29,15 +43,9 @@ void vtkMEAMTangentEstimation::SetParametersToRecommended() { this->SetParameter
 
 void vtkMEAMTangentEstimation::SetParameters(const meam::TangentEstimationSettings& settings)
 {
-  this->Method = static_cast<int>(settings.method);
-  this->LeafSize = settings.leafSize;
-  this->Radius = settings.radius;
-  this->InlierDistance = settings.inlierDistance;
-  this->SegmentLength = settings.segmentLength;
-  this->TilePixels = settings.tilePixels;
-  this->PixelSize = settings.pixelSize;
-  this->LineDistance = settings.lineDistance;
-  this->LineSupport = settings.lineSupport;
+  const int threads = this->Settings->threads;
+  *this->Settings = settings;
+  this->Settings->threads = threads;
   this->Modified();
 }
 
@@ -64,17 +72,7 @@ int vtkMEAMTangentEstimation::RequestData(
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
   const auto work = [&]
   {
-    meam::TangentEstimationSettings settings;
-    settings.method = static_cast<meam::TangentMethod>(this->Method);
-    settings.leafSize = this->LeafSize;
-    settings.radius = this->Radius;
-    settings.inlierDistance = this->InlierDistance;
-    settings.segmentLength = this->SegmentLength;
-    settings.tilePixels = this->TilePixels;
-    settings.pixelSize = this->PixelSize;
-    settings.lineDistance = this->LineDistance;
-    settings.lineSupport = this->LineSupport;
-    settings.threads = this->NumberOfThreads;
+    const meam::TangentEstimationSettings& settings = *this->Settings;
     const double diameter = model ? diameterOf(model) : diameterOf(input);
     if (model && !(diameter > 0.0))
     {
@@ -89,7 +87,7 @@ int vtkMEAMTangentEstimation::RequestData(
       }
       const meam::Sensor sensor = sensorOf(OrthographicProjection, this->ViewDirection, this->ViewDirection, nullptr);
       const meam::ThinnedEdges edges = meam::estimateTangents(
-        toLocalCloud(scene, this->NumberOfThreads), diameter, sensor.direction, settings, progress);
+        toLocalCloud(scene, this->GetNumberOfThreads()), diameter, sensor.direction, settings, progress);
       fromThinnedEdges(edges, scene, vtkPolyData::SafeDownCast(output));
       return;
     }
@@ -104,16 +102,16 @@ void vtkMEAMTangentEstimation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const char* methods[] = { "Tiles", "RobustLine", "LineSegments" };
-  os << indent << "Method: " << methods[this->Method] << "\n";
-  os << indent << "LeafSize: " << this->LeafSize << "\n";
-  os << indent << "Radius: " << this->Radius << "\n";
-  os << indent << "InlierDistance: " << this->InlierDistance << "\n";
-  os << indent << "SegmentLength: " << this->SegmentLength << "\n";
-  os << indent << "TilePixels: " << this->TilePixels << "\n";
-  os << indent << "PixelSize: " << this->PixelSize << "\n";
-  os << indent << "LineDistance: " << this->LineDistance << "\n";
-  os << indent << "LineSupport: " << this->LineSupport << "\n";
+  os << indent << "Method: " << methods[this->GetMethod()] << "\n";
+  os << indent << "LeafSize: " << this->GetLeafSize() << "\n";
+  os << indent << "Radius: " << this->GetRadius() << "\n";
+  os << indent << "InlierDistance: " << this->GetInlierDistance() << "\n";
+  os << indent << "SegmentLength: " << this->GetSegmentLength() << "\n";
+  os << indent << "TilePixels: " << this->GetTilePixels() << "\n";
+  os << indent << "PixelSize: " << this->GetPixelSize() << "\n";
+  os << indent << "LineDistance: " << this->GetLineDistance() << "\n";
+  os << indent << "LineSupport: " << this->GetLineSupport() << "\n";
   os << indent << "ViewDirection: " << this->ViewDirection[0] << " " << this->ViewDirection[1] << " "
      << this->ViewDirection[2] << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << "\n";
 }

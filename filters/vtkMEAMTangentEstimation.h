@@ -26,6 +26,8 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPassInputTypeAlgorithm.h"
 
+#include <memory>
+
 namespace meam
 {
 struct TangentEstimationSettings;
@@ -50,8 +52,8 @@ public:
    * Tiles (0, the paper's), RobustLine (1), or LineSegments (2): robust lines of those points alone that lie on line
    * segments, as the feature B2B has it (Choi et al. 2012, the paper's [23]). Default: RobustLine.
    */
-  vtkSetClampMacro(Method, int, Tiles, LineSegments);
-  vtkGetMacro(Method, int);
+  virtual void SetMethod(int value);
+  virtual int GetMethod();
   void SetMethodToTiles() { this->SetMethod(Tiles); }
   void SetMethodToRobustLine() { this->SetMethod(RobustLine); }
   void SetMethodToLineSegments() { this->SetMethod(LineSegments); }
@@ -62,8 +64,8 @@ public:
    * One point is kept for each cube of this side, in mm; 0: 3 % of the part's diameter in a scene, 2 % in a model;
    * negative: all points are kept. Default: 0. The paper: 1.
    */
-  vtkSetMacro(LeafSize, double);
-  vtkGetMacro(LeafSize, double);
+  virtual void SetLeafSize(double value);
+  virtual double GetLeafSize();
   ///@}
 
   ///@{
@@ -71,8 +73,8 @@ public:
    * RobustLine, LineSegments: radius of the sphere in mm; 0: 6 % of the part's diameter, up to 12 % where a scene's
    * points are noisy or sparse, and no less than the length of a segment. Default: 0.
    */
-  vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Radius, double);
+  virtual void SetRadius(double value);
+  virtual double GetRadius();
   ///@}
 
   ///@{
@@ -80,8 +82,8 @@ public:
    * RobustLine, LineSegments: points this near to the line are on it, in mm; 0: 1.2 % of the part's diameter, up to 3 %
    * where a scene's points are noisy. Default: 0.
    */
-  vtkSetClampMacro(InlierDistance, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(InlierDistance, double);
+  virtual void SetInlierDistance(double value);
+  virtual double GetInlierDistance();
   ///@}
 
   ///@{
@@ -89,32 +91,32 @@ public:
    * LineSegments: a run of points on a line that is shorter, in mm, is no segment; 0: 15 % of the part's diameter.
    * Default: 0.
    */
-  vtkSetClampMacro(SegmentLength, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(SegmentLength, double);
+  virtual void SetSegmentLength(double value);
+  virtual double GetSegmentLength();
   ///@}
 
   ///@{
   /** Tiles: height and width of a tile in pixels of the projection plane. Default: 10. */
-  vtkSetClampMacro(TilePixels, int, 1, 100000);
-  vtkGetMacro(TilePixels, int);
+  virtual void SetTilePixels(int value);
+  virtual int GetTilePixels();
   ///@}
 
   ///@{
   /** Tiles: size of a pixel of the projection plane in mm; the paper does not say. Default: 0.5. */
-  vtkSetClampMacro(PixelSize, double, 1e-9, VTK_DOUBLE_MAX);
-  vtkGetMacro(PixelSize, double);
+  virtual void SetPixelSize(double value);
+  virtual double GetPixelSize();
   ///@}
 
   ///@{
   /** Tiles: points this near to the line support it, in mm (D_thresh). Default: 0.3. */
-  vtkSetClampMacro(LineDistance, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(LineDistance, double);
+  virtual void SetLineDistance(double value);
+  virtual double GetLineDistance();
   ///@}
 
   ///@{
   /** Tiles: share of a tile's points that has to support a line, in [0, 1] (S_thresh). Default: 0.18. */
-  vtkSetClampMacro(LineSupport, double, 0.0, 1.0);
-  vtkGetMacro(LineSupport, double);
+  virtual void SetLineSupport(double value);
+  virtual double GetLineSupport();
   ///@}
 
   ///@{
@@ -128,8 +130,8 @@ public:
 
   ///@{
   /** Threads to work with; 0: one for each processor. The tangents do not depend on it. Default: 0. */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
+  virtual void SetNumberOfThreads(int value);
+  virtual int GetNumberOfThreads();
   ///@}
 
   /** The parameters of the paper, Section 6. The view direction and the number of threads stay. */
@@ -139,7 +141,7 @@ public:
 
 protected:
   vtkMEAMTangentEstimation();
-  ~vtkMEAMTangentEstimation() override = default;
+  ~vtkMEAMTangentEstimation() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -149,17 +151,8 @@ private:
 
   void SetParameters(const meam::TangentEstimationSettings& settings);
 
-  int Method;
-  double LeafSize;
-  double Radius;
-  double InlierDistance;
-  double SegmentLength;
-  int TilePixels;
-  double PixelSize;
-  double LineDistance;
-  double LineSupport;
+  std::unique_ptr<meam::TangentEstimationSettings> Settings;
   double ViewDirection[3] = { 0.0, 0.0, -1.0 };
-  int NumberOfThreads = 0;
 };
 
 #endif

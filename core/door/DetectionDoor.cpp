@@ -2,9 +2,8 @@
 #include "door/DoorConversion.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
-#include "pose/MEAMPoseEstimation.h"
+#include "pose/DetectionChoices.h"
 #include "scene/Units.h"
-#include "scene/edges/SceneEdgeExtraction.h"
 
 #include <chrono>
 
@@ -45,33 +44,43 @@ Sensor sensorOf(const Scan& scan)
   return sensor;
 }
 
-/// The scan's edge points as extracted, with what the scan shows of the sensor, or as given, in their local frame.
-LocalCloud edgesOf(const Scan& scan, const DetectSettings& settings, ScanQuality& quality, const Progress& progress)
+DetectionChoices choicesOf(const DetectSettings& settings)
+{
+  DetectionChoices choices;
+  choices.preset = settings.preset;
+  choices.features = settings.features;
+  choices.maximumPoses = settings.maximumPoses;
+  choices.minimumProbability = settings.minimumProbability;
+  choices.partIsPresent = settings.partIsPresent;
+  choices.referenceShare = settings.referenceShare;
+  choices.imageEdges = settings.imageEdges;
+  choices.depthEdges = settings.depthEdges;
+  choices.creases = settings.creases;
+  choices.seed = settings.seed;
+  choices.threads = settings.threads;
+  return choices;
+}
+
+/// Sets the scan's edge points as given, or as extracted, with what the scan shows of the sensor.
+void setEdges(const Scan& scan, const DetectionChoices& choices, SceneInput& input, const Progress& progress)
 {
   if (!scan.edges.empty())
   {
     requirePoints(scan.edges, "The scan's edge cloud");
     PointCloud edges;
     edges.points = scan.edges;
-    return toLocalCloud(edges, settings.threads);
+    input.edges = toLocalCloud(edges, choices.threads);
+    return;
   }
-  SceneEdgeExtractionSettings extraction = sceneEdgeSettings(settings.preset);
-  extraction.imageEdges = settings.imageEdges;
-  extraction.depthEdges &= settings.depthEdges;
-  extraction.creases &= settings.creases;
+  SceneEdgeExtractionSettings extraction = sceneEdgeSettings(choices);
   extraction.camera = scan.imageCamera;
-  extraction.threads = settings.threads;
-  if (settings.imageEdges && scan.image.pixels.empty())
+  if (extraction.imageEdges && scan.image.pixels.empty())
   {
     throw Error("The scan has no image: give one, registered or with its camera, or turn imageEdges off to "
                 "look for depthEdges and creases alone.");
   }
-  const SceneEdges found =
-    extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress);
-  quality = found.quality;
-  LocalCloud edges = toLocalCloud(found.cloud, settings.threads);
-  edges.fromScan = true;
-  return edges;
+  setFoundEdges(extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress),
+    choices.threads, input);
 }
 }
 
@@ -80,33 +89,17 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   const auto start = std::chrono::steady_clock::now();
   const TrainedModel& trained = model.trained();
   requireScan(scan);
+  const DetectionChoices choices = choicesOf(settings);
   SceneInput input;
   input.sensor = sensorOf(scan);
-  input.edges = edgesOf(scan, settings, input.quality, subProgress(progress, 0.0, AfterSceneEdges));
+  setEdges(scan, choices, input, subProgress(progress, 0.0, AfterSceneEdges));
   input.measured = toLocalPoints(scan.points, input.edges.T_local_scene, settings.threads);
   requirePoints(scan.points.size(), input.measured.size(), "The scan");
-
-  DetectionSettings steps =
-    detectionSettings(settings.preset, settings.maximumPoses, settings.threads, settings.minimumProbability);
-  steps.detection.seed = settings.seed;
-  if (takesFeatures(settings.preset))
-  {
-    steps.detection.features = settings.features;
-  }
-  if (settings.referenceShare > 0.0)
-  {
-    steps.detection.referenceShare = settings.referenceShare;
-  }
-
-  if (settings.partIsPresent)
-  {
-    assumePresence(steps);
-  }
 
   Detections result;
   result.quality = input.quality;
   const Progress ofPoses = subProgress(progress, AfterSceneEdges, 1.0);
-  const Poses poses = estimatePoses(trained, input, steps, nullptr, ofPoses);
+  const Poses poses = estimatePoses(trained, input, detectionSettings(choices), nullptr, ofPoses);
   for (const Pose& pose : poses)
   {
     result.poses.push_back(

@@ -17,12 +17,7 @@ Model train(const Mesh& mesh, const TrainSettings& settings, const Progress& pro
   preparation.offset = settings.offset;
   const PreparedMesh prepared =
     prepareMesh({ mesh.vertices, mesh.triangles }, preparation, subProgress(progress, 0.0, AfterPreparation));
-  TrainingSettings steps = trainingSettings(settings.preset);
-  steps.sampling.seed = settings.seed;
-  if (takesFeatures(settings.preset))
-  {
-    steps.hashing.features = settings.features;
-  }
+  const TrainingSettings steps = trainingSettings(settings.preset, settings.features, settings.seed);
   return Model(std::make_shared<const TrainedModel>(
     trainModel(prepared.mesh, steps, subProgress(progress, AfterPreparation, 1.0))));
 }

@@ -87,7 +87,7 @@ std::vector<EdgeType> boundaryTypes(const PointCloud& cloud, const std::vector<i
   types.reserve(boundary.size());
   std::vector<double> directions;
   const auto isGrazing = [&](int index, const Eigen::Vector3d& towards)
-  { return std::abs(cloud.normals[index].cast<double>().dot(towards)) < GrazingCosine; };
+  { return std::abs(cloud.normals[index].cast<double>().dot(towards)) < EdgeOnCosine; };
   for (const int i : boundary)
   {
     const Eigen::Vector3d point = cloud.points[i].cast<double>();

@@ -22,8 +22,8 @@ namespace
 constexpr std::size_t MostEntries = 50000000; // 2 GB while it is made
 constexpr double DefaultVoxelShare = 0.015;   // of the diameter
 constexpr double SurfaceLeafShare = 0.015;    // of the diameter, for verification
-constexpr float GrazingCosine = 0.1f;         // of 84 degrees: flatter a sensor sees no surface
-constexpr float ParallelTangents = 0.94f;     // cosine of 20 degrees: the same edge in two views
+constexpr float FacingCosine = 0.1f;          // of 84 degrees: a point that is turned farther away faces elsewhere
+constexpr float SameEdgeCosine = 0.94f;       // of 20 degrees, between the tangents of one edge in two views
 
 /// Collects the edge points of all views.
 void collectEdges(
@@ -52,7 +52,7 @@ void collectEdges(
       for (std::size_t k = 0; model.settings.merging == ViewMerging::Points && k < known; ++k)
       {
         const float distance = (edges.points[k] - cloud.points[i]).squaredNorm();
-        if (distance <= nearest && std::abs(edges.tangents[k].dot(cloud.tangents[i])) > ParallelTangents)
+        if (distance <= nearest && std::abs(edges.tangents[k].dot(cloud.tangents[i])) > SameEdgeCosine)
         {
           nearest = distance;
           same = static_cast<int>(k);
@@ -179,6 +179,7 @@ int bringVotersForward(TrainedModel& model)
   }
   model.edges = model.edges.subset(order);
   std::vector<std::uint32_t> views;
+  views.reserve(order.size());
   for (const int i : order)
   {
     views.push_back(model.edgeViews[i]);
@@ -258,7 +259,7 @@ std::uint32_t facedOf(std::uint32_t visible, const Eigen::Vector3f& normal, cons
 {
   for (std::size_t c = 0; c < towards.size(); ++c)
   {
-    visible &= normal.dot(towards[c]) > GrazingCosine ? ~0u : ~(1u << c);
+    visible &= normal.dot(towards[c]) > FacingCosine ? ~0u : ~(1u << c);
   }
   return visible;
 }

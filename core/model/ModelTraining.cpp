@@ -31,6 +31,17 @@ TrainingSettings trainingSettings(Preset preset)
   return settings;
 }
 
+TrainingSettings trainingSettings(Preset preset, Features features, unsigned seed)
+{
+  TrainingSettings settings = trainingSettings(preset);
+  settings.sampling.seed = seed;
+  if (takesFeatures(preset))
+  {
+    settings.hashing.features = features;
+  }
+  return settings;
+}
+
 TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress)
 {
   const double partDiameter = diameter(mesh.vertices);

@@ -24,6 +24,8 @@ struct TrainingSettings
 };
 
 TrainingSettings trainingSettings(Preset preset);
+/// The same with what a user decides: the features, of a preset that leaves them to the user, and the seed.
+TrainingSettings trainingSettings(Preset preset, Features features, unsigned seed);
 
 /// The offline phase, from a prepared mesh (mm) to the trained model.
 TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress = {});

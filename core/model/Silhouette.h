@@ -7,7 +7,7 @@ namespace meam
 {
 /// A surface that is seen flatter (0.12: 7 degrees) is no more than a line in an image: for the wall of a
 /// hole that is seen along its axis, the hole's rim is where the visible surface ends.
-constexpr double GrazingCosine = 0.12;
+constexpr double EdgeOnCosine = 0.12;
 
 /// A small image of what a viewpoint sees of a part: the cells that the part covers, the background
 /// around it, and background that it encloses, such as what shows through a hole.

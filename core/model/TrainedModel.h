@@ -75,11 +75,11 @@ struct TrainedModel
 
   // What deriveFields() makes of the above.
   std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
-  DistanceField surfaceDistance;       ///< up to TruncationDistance times the diameter
+  DistanceField surfaceDistance;       ///< up to TruncationDistance
   DistanceField edgeDistance;
   std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
-  static constexpr double TruncationDistance = 0.03;
-  static constexpr double SurfaceSpacing = 0.018; ///< of the diameter, a little over that of the surface points
+  static constexpr double TruncationDistance = 0.03;     ///< of the diameter: tolerances are less
+  static constexpr double SurfaceSpacing = 0.018;        ///< of the diameter, a little over that of the surface points
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
   void deriveFields();

@@ -196,7 +196,7 @@ std::optional<VisibleEdges::SeenPoint> VisibleEdges::seeFeature(
       ++seen;
       const double cosine = normal.dot(towards);
       normals += std::copysign(1.0, cosine) * normal;
-      plainlySeen += std::abs(cosine) > GrazingCosine ? 1 : 0;
+      plainlySeen += std::abs(cosine) > EdgeOnCosine ? 1 : 0;
       if (std::abs(cosine) > best)
       {
         best = std::abs(cosine);

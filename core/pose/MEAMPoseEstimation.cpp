@@ -33,10 +33,9 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
     settings.tangents = paperTangentSettings();
     settings.detection = paperDetectionSettings();
     settings.candidateVerification = paperVerificationSettings();
-    settings.candidateSelection.method = SelectionMethod::Clusters;
+    settings.candidateSelection = settings.selection = paperSelectionSettings();
     settings.refinement = paperRefinementSettings();
     settings.verification = paperVerificationSettings();
-    settings.selection.method = SelectionMethod::Clusters;
     if (preset == Preset::B2B)
     {
       settings.tangents.method = TangentMethod::LineSegments;
@@ -49,14 +48,14 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
     if (preset == Preset::OriginalPPF || preset == Preset::B2B)
     {
       settings.candidateVerification = settings.verification = votesVerificationSettings();
-      settings.candidateSelection.maximumPoses = 30; // as many as the paper's from six views
+      settings.candidateSelection = votesSelectionSettings();
     }
   }
   else
   {
     settings.screening.emplace().threads = threads;
-    settings.candidateVerification.pointStride = 2;
-    settings.candidateSelection.method = SelectionMethod::Alternatives;
+    settings.candidateVerification = candidateVerificationSettings();
+    settings.candidateSelection = candidateSelectionSettings();
   }
   settings.selection.maximumPoses = maximumPoses;
   settings.selection.minimumProbability = minimumProbability;
@@ -70,8 +69,6 @@ DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads
   settings.selection.threads = threads;
   return settings;
 }
-
-void assumePresence(DetectionSettings& settings) { settings.selection.evidence.calibration.leastPresent = 1.0; }
 
 Scene sceneOf(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings, StageTimes* times,
   const Progress& progress)
@@ -133,7 +130,7 @@ Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model,
 Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
   DetectionReport* report, const Progress& progress, const PoseObserver& observer)
 {
-  constexpr double votingShare = 0.45; // of the work
+  constexpr double votingShare = 0.45; // not tuned: of the progress
   Stopwatch watch;
   Poses candidates = detectPoses(scene, model, settings.detection, subProgress(progress, 0.0, votingShare));
   if (report)
@@ -159,7 +156,7 @@ Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const De
   spent.scene = watch.lap() - spent.tangents;
   const Poses poses = findPoses(scene, model, settings, &told, subProgress(progress, 0.1, 1.0));
   watch.lap();
-  const Poses ranked = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
+  Poses ranked = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
   spent.selection += watch.lap();
   return ranked;
 }

@@ -33,9 +33,6 @@ struct DetectionSettings
 DetectionSettings detectionSettings(
   Preset preset, int maximumPoses = 5, int threads = 0, double minimumProbability = 0.0);
 
-/// Of a part that is known to be in the scan: no pose is less likely because it may be missing.
-void assumePresence(DetectionSettings& settings);
-
 /// Seconds spent in each stage of the online phase.
 struct StageTimes
 {

@@ -8,6 +8,11 @@
 
 namespace meam
 {
+namespace
+{
+bool isRatherRight(const Pose& pose) { return probabilityOrScore(pose) >= 0.5; }
+}
+
 Pose moved(const Pose& pose, const Eigen::Isometry3d& motion)
 {
   Pose result = pose;
@@ -47,14 +52,13 @@ Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
   return result;
 }
 
-std::string describe(const Poses& poses, double likely)
+std::string describe(const Poses& poses)
 {
   if (poses.empty())
   {
     return "No part was found.";
   }
-  const auto count = std::count_if(
-    poses.begin(), poses.end(), [likely](const Pose& pose) { return probabilityOrScore(pose) >= likely; });
+  const auto count = std::count_if(poses.begin(), poses.end(), isRatherRight);
   const std::string of = " of " + std::to_string(poses.size()) + (poses.size() == 1 ? " pose" : " poses");
   if (count > 0)
   {
@@ -66,11 +70,9 @@ std::string describe(const Poses& poses, double likely)
          std::to_string(std::lround(100.0 * probabilityOrScore(*best))) + " %.";
 }
 
-std::string doubtsOf(const Poses& poses, double likely)
+std::string doubtsOf(const Poses& poses)
 {
-  const bool isSure =
-    std::any_of(poses.begin(), poses.end(), [likely](const Pose& pose) { return probabilityOrScore(pose) >= likely; });
-  return isSure ? std::string() : describe(poses, likely);
+  return std::any_of(poses.begin(), poses.end(), isRatherRight) ? std::string() : describe(poses);
 }
 
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)

@@ -68,11 +68,10 @@ inline double probabilityOrScore(const Pose& pose) { return pose.probability > 0
 /// Whether `a` comes before `b` among the poses of one scene.
 inline bool isBetter(const Pose& a, const Pose& b) { return a.evidence > b.evidence; }
 
-/// In one sentence whether parts were found, and how sure that is: of poses whose probabilities are known those that
-/// are `likely` or more count.
-std::string describe(const Poses& poses, double likely = 0.5);
+/// In one sentence whether parts were found, and how sure that is: what counts is more likely right than wrong.
+std::string describe(const Poses& poses);
 /// The same where nothing is likely, and nothing where something is.
-std::string doubtsOf(const Poses& poses, double likely = 0.5);
+std::string doubtsOf(const Poses& poses);
 
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);

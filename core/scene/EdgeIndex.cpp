@@ -9,7 +9,7 @@ namespace meam
 {
 namespace
 {
-constexpr float ParallelTangents = 0.85f; // cosine
+constexpr float ParallelTangents = 0.85f; // cosine of 32 degrees: an edge that runs the way of the query
 constexpr float NearlyParallel = 0.8f;    // five degrees more
 constexpr int Lanes = 8;                  // edge points looked at together
 constexpr int MostRanges = 64;

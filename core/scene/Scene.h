@@ -18,8 +18,8 @@ struct SceneSettings
   double edgeCell = 0.08;           ///< of the edge index; refinement starts with correspondences of 10 %
   double depthCell = 0.02;          ///< of the depth map: some points of a usual scan each
   double surfaceCell = 0.05;        ///< of the measured surface's grid
-  double enclosureTolerance = 0.03; ///< from the bin's floor, walls and rim, and no less than
-  double enclosureNoises = 3.0;     ///< times the scan's noise
+  double enclosureTolerance = 0.03; ///< what was measured so near to a plane or a line of the bin lies on it, and no
+  double enclosureNoises = 3.0;     ///< less than so many times the scan's noise
   LongLineSettings longLines;
   int threads = 0; ///< 0: one for each processor
 };

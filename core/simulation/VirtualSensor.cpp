@@ -16,7 +16,7 @@ namespace
 {
 using Eigen::Vector3d;
 
-constexpr double GrazingCosine = 0.12; // of 83 degrees
+constexpr double FlattestMeasured = 0.12; // cosine of 83 degrees: of flatter surface nothing comes back
 // Depths that differ by more are not one surface for the sensor: as if its two eyes were a quarter of the distance
 // apart and shifts of a pixel told surfaces apart. In pixels on the surface.
 constexpr double PatchDepth = 4.0;
@@ -210,7 +210,7 @@ OrganizedCloud measureDepth(
     }
     const Vector3d ray = rayThrough(i, camera);
     const double cosine = std::abs(view.normals[i].dot(ray)) / (view.normals[i].norm() * ray.norm());
-    if (draws.drop[i] < quality.dropout || hidden[i] || cosine < GrazingCosine || cosine > mirror ||
+    if (draws.drop[i] < quality.dropout || hidden[i] || cosine < FlattestMeasured || cosine > mirror ||
         (radius > 0 && patches.share(column, row, radius, radius > 3 ? 2 : 1) < 0.5) ||
         (draws.jump[i] < quality.jumpDropout && patches.share(column, row, 1, 1) < 1.0))
     {

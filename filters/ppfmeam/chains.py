@@ -40,14 +40,11 @@ class Detection:
                 self.detection.SetParametersToOriginalPPF()
                 self.refinement.SetParametersToRecommended()
             if preset in ("b2b", "ppf"):
-                self.candidates.SetMethodToVotes()
-                self.candidates.SetPosesPerView(0)
-                self.verification.SetMethodToVotes()
-                self.verification.SetPosesPerView(0)
-                self.alternatives.SetMaximumNumberOfPoses(30)
+                for step in (self.candidates, self.alternatives, self.verification):
+                    step.SetParametersToVotes()
         else:
-            self.candidates.SetPointStride(2)
-            self.alternatives.SetMethodToAlternatives()
+            for step in (self.candidates, self.alternatives):
+                step.SetParametersToCandidates()
         for before, step in zip(self.steps, self.steps[1:]):
             step.SetInputConnection(before.GetOutputPort())
         for step in self.steps:

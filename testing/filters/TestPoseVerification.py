@@ -157,5 +157,9 @@ fails(connect(vtkMEAMPoseVerification(), candidates, model), "the input Scene Ed
 filter = vtkMEAMPoseVerification()
 filter.SetParametersToPaper()
 check((filter.GetMethod(), filter.GetTolerance(), filter.GetPosesPerView()) == (0, 1.5, 20), "the paper's parameters")
+filter.SetParametersToVotes()
+check((filter.GetMethod(), filter.GetPosesPerView()) == (2, 0), "those of methods that rank by votes")
+filter.SetParametersToCandidates()
+check((filter.GetMethod(), filter.GetPointStride()) == (1, 2), "before refinement every second point")
 prints(filter, "Method", "Tolerance", "FreeSpace", "PointStride", "MinimumScore", "PosesPerView", "Projection",
        "ViewDirection", "SensorPosition", "NumberOfThreads")

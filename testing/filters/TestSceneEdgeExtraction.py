@@ -142,5 +142,12 @@ fails(edges_of(scan(layers=2), picture(step)), "40 x 30 x 2")
 fails(edges_of(scan(), picture(step, 30, 20)), "30 x 20", "40 x 30")
 fails(edges_of(scan(), vtkImageData()), "no pixels")
 fails(edges_of(box(1, 1, 1)), "vtkStructuredGrid")
+filter.SetNumberOfThreads(2)
+filter.SetParametersToPaper()
+check((filter.GetImageEdges(), filter.GetDepthEdges(), filter.GetCreases(), filter.GetImageTangents()) ==
+      (True, False, False, False), "the paper's: edges of the image alone")
+check(filter.GetNumberOfThreads() == 2, "the number of threads stays")
+filter.SetParametersToRecommended()
+check(filter.GetDepthEdges() and filter.GetCreases() and filter.GetImageTangents(), "the recommended: all")
 prints(filter, "ImageEdges", "DepthEdges", "Creases", "CreaseAngle", "ImageTangents", "CameraFile", "NumberOfThreads",
        "Smoothing", "LowThreshold", "HighThreshold", "SearchRadius", "DepthJump")

@@ -34,7 +34,6 @@ PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& sc
   found.behind = collector.shareBehind(T_scene_model);
   const auto visible = model.visibility->visible(T_scene_model, scene.sensor, scene.depth.pitch());
   const Eigen::Matrix3f turn = T_scene_model.linear().cast<float>();
-  const double tolerance = settings.tolerance > 0.0 ? settings.tolerance : settings.lengths.fits * model.diameter;
   const double aligned = std::cos(alignedAngle * M_PI / 180.0);
   for (std::size_t k = 0; k < found.points.edges.size(); ++k)
   {
@@ -46,7 +45,7 @@ PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& sc
     const Eigen::Vector3f& point = found.points.edges[k];
     const Eigen::Vector3f tangent = turn * visible->edges.directions[k];
     bool isAligned = false;
-    scene.edgeGrid().forEachWithin(point, tolerance,
+    scene.edgeGrid().forEachWithin(point, collector.tolerance(),
       [&](int edge, float) { isAligned |= std::abs(scene.edgePoints().tangents[edge].dot(tangent)) >= aligned; });
     ++found.edges;
     found.edgesNear += collector.nearEdge(point) ? 1 : 0;

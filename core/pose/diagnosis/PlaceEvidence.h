@@ -24,7 +24,7 @@ struct PlaceEvidence
   double surfaceShare(PointState state) const;
 };
 
-/// `alignedAngle`: degrees.
+/// `alignedAngle`: degrees, as PoseDiagnosisSettings has it.
 PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& scene, const TrainedModel& model,
-  const EvidenceSettings& settings = {}, double alignedAngle = 10.0);
+  const EvidenceSettings& settings, double alignedAngle);
 }

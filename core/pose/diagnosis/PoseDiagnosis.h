@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pose/SamePose.h"
 #include "pose/diagnosis/DetectionTrace.h"
 #include "pose/diagnosis/PlaceEvidence.h"
 #include "pose/voting/VoteSupport.h"
@@ -9,10 +10,10 @@ namespace meam
 {
 struct PoseDiagnosisSettings
 {
-  double distance = 0.1;      ///< of the diameter, and
-  double angle = 15.0;        ///< degrees: a candidate this near to the place leads to it
-  double foundAngle = 5.0;    ///< degrees: what comes out and is turned by more is another rotation
-  double alignedAngle = 10.0; ///< degrees, between tangents of the scene and of the part that are alike
+  double distance = SamePose().distance; ///< of the diameter, and
+  double angle = SamePose().angle;       ///< degrees: a candidate this near to the place leads to it
+  double foundAngle = 5.0;               ///< degrees: what comes out and is turned by more is another rotation
+  double alignedAngle = 10.0;            ///< degrees, between tangents of the scene and of the part that are alike
   double leastVisible = 0.25; ///< share of the part's side towards the sensor: with less visible it is hidden
   double leastThere = 0.5; ///< share of the surface that nothing hides: with more seen past or unmeasured, that is why
   double leastEnclosed = 1.0; ///< patches of its body behind the bin's floor or a wall: with more, that is why

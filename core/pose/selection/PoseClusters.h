@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "pose/Pose.h"
+#include "pose/SamePose.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/verification/PoseEvidence.h"
 
@@ -13,13 +14,13 @@ namespace meam
 struct PoseClustersSettings
 {
   double distance = 0.0; ///< mm, poses whose middles are nearer than this are of one instance; 0: 10 % of the diameter
-  double distanceShare = 0.1;
+  double distanceShare = SamePose().distance;
   double distanceFor(double diameter) const
   {
     return this->distance > 0.0 ? this->distance : this->distanceShare * diameter;
   }
   /// Poses of one instance that are turned less than this (degrees) are the same, when they are not compared.
-  double angle = 15.0;
+  double angle = SamePose().angle;
   int posesPerInstance = 1; ///< that stay
   /// Share of the matched points from which on two poses are of one instance, when these are compared: two parts do not
   /// have their surface in the same place.

@@ -206,6 +206,27 @@ Poses selectClusters(const Poses& scored, const TrainedModel& model, const PoseS
 }
 }
 
+PoseSelectionSettings paperSelectionSettings()
+{
+  PoseSelectionSettings settings;
+  settings.method = SelectionMethod::Clusters;
+  return settings;
+}
+
+PoseSelectionSettings votesSelectionSettings()
+{
+  PoseSelectionSettings settings = paperSelectionSettings();
+  settings.maximumPoses = 30; // as many as the paper's from six views
+  return settings;
+}
+
+PoseSelectionSettings candidateSelectionSettings()
+{
+  PoseSelectionSettings settings;
+  settings.method = SelectionMethod::Alternatives;
+  return settings;
+}
+
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings, const Progress& progress)
 {

@@ -28,8 +28,8 @@ struct PoseSelectionSettings
   int alternatives = 4;            ///< of an instance (Alternatives)
   double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
   int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives
-  int leastRefined = 60;           ///< so many, and all others that are so likely to be right, are worth refining
-  double worthRefining = 3e-7;     ///< probability, of poses that are not refined yet
+  int leastRefined = 60;           ///< so many are worth refining, and all that are likelier than this where these
+  double worthRefining = 3e-7;     ///< are more: probability, of poses that are not refined yet
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
   EvidenceSettings evidence; ///< that poses are scored by once more
@@ -51,6 +51,13 @@ struct PoseSelectionSettings
     return settings;
   }
 };
+
+/// The paper's settings (Section 6) in place of the recommended ones.
+PoseSelectionSettings paperSelectionSettings();
+/// Those before refinement of the methods that rank poses by their votes.
+PoseSelectionSettings votesSelectionSettings();
+/// The recommended ones before refinement.
+PoseSelectionSettings candidateSelectionSettings();
 
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
 ///

@@ -202,7 +202,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   // on below.
   const double covered = counts.goesOn + under;
   const double outline = counts.ends + covered;
-  counts.enclosed = (outline > 0.0 ? covered / outline : 1.0) * this->Settings.bodyShown *
+  counts.enclosed = (outline > 0.0 ? covered / outline : 1.0) * settings.shown *
                     this->shareBehind(T_scene_model, stride) * static_cast<double>(model.verificationPoints.size()) *
                     model.verificationArea() / (patch * patch);
   return evidence;

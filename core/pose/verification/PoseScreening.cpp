@@ -20,6 +20,7 @@ public:
     , Model(model)
     , Tolerance(static_cast<float>(settings.evidence.tolerance > 0.0 ? settings.evidence.tolerance
                                                                      : settings.evidence.lengths.fits * model.diameter))
+    , Unmeasured(settings.unmeasured)
     , FreeSpace(settings.evidence.freeSpace)
   {
     const std::vector<int>& points = model.verificationPoints;
@@ -29,8 +30,8 @@ public:
     }
   }
 
-  /// Of the surface points that face the sensor and that nothing hides the share that is there, [0, 1]; of those where
-  /// nothing was measured half.
+  /// Of the surface points that face the sensor and that nothing hides the share that is there, [0, 1]; those where
+  /// nothing was measured count in part.
   double share(const Eigen::Isometry3d& T_scene_model) const
   {
     const Eigen::Isometry3f T = T_scene_model.cast<float>();
@@ -58,13 +59,14 @@ public:
       unknown += std::exchange(violated, 0);
     }
     const int inSight = matched + violated + unknown;
-    return inSight > 0 ? (matched + 0.5 * unknown) / inSight : 0.0;
+    return inSight > 0 ? (matched + this->Unmeasured * unknown) / inSight : 0.0;
   }
 
 private:
   const Scene& InScene;
   const TrainedModel& Model;
   float Tolerance;
+  double Unmeasured; ///< what a point counts where nothing was measured
   bool FreeSpace;
   SoAOrientedPoints Points;
 };
@@ -92,7 +94,7 @@ std::vector<double> surfaceShares(
 Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedModel& model,
   const PoseScreeningSettings& settings, const Progress& progress)
 {
-  constexpr std::size_t posesPerReport = 256; // each is compared with all that stay: very many take long
+  constexpr std::size_t posesPerReport = 256; // not tuned: each is compared with all that stay: very many take long
   const std::vector<double> shares = surfaceShares(candidates, scene, model, settings);
   const double least = static_cast<int>(candidates.size()) > settings.enough ? settings.leastSurface : 0.0;
   const double distance = settings.distance > 0.0 ? settings.distance : settings.distanceShare * model.diameter;

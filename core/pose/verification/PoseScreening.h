@@ -12,9 +12,10 @@ namespace meam
 {
 struct PoseScreeningSettings
 {
-  EvidenceSettings evidence;
+  EvidenceSettings evidence; ///< of it tolerance, lengths and freeSpace, whatever the scan's noise is
   RotationSearchSettings rotation;
   double leastSurface = 0.5; ///< share of the pose's surface towards the sensor that has to be there
+  double unmeasured = 0.5;   ///< of a point that is there: what one counts where nothing was measured
   int enough = 100;          ///< of so many candidates or fewer none has to go for want of surface
   double distance = 0.0;     ///< mm, candidates nearer to each other are duplicates; 0: 4 % of the diameter
   double distanceShare = 0.04;
@@ -31,7 +32,7 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
   const PoseScreeningSettings& settings = {}, const Progress& progress = {});
 
 /// The share of each pose's surface towards the sensor that is there, [0, 1], as screening finds it: of what nothing
-/// hides, and of what was not measured half. 1 without a surface.
+/// hides, and of what was not measured a part (`unmeasured`). 1 without a surface.
 std::vector<double> surfaceShares(
   const Poses& poses, const Scene& scene, const TrainedModel& model, const PoseScreeningSettings& settings = {});
 }

@@ -64,6 +64,13 @@ PoseVerificationSettings votesVerificationSettings()
   return settings;
 }
 
+PoseVerificationSettings candidateVerificationSettings()
+{
+  PoseVerificationSettings settings;
+  settings.pointStride = 2;
+  return settings;
+}
+
 PoseVerificationSettings paperVerificationSettings()
 {
   PoseVerificationSettings settings;

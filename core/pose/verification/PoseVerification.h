@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "pose/Pose.h"
+#include "pose/SamePose.h"
 #include "pose/verification/PoseEvidence.h"
 
 namespace meam
@@ -19,18 +20,20 @@ struct PoseVerificationSettings
   VerificationMethod method = VerificationMethod::VisibleEvidence;
   EvidenceSettings evidence; ///< of EdgeCoverage the tolerance, the rest of VisibleEvidence
   // Votes
-  double agreeingDistance = 0.1; ///< of the diameter: poses agree whose middles are nearer
-  double agreeingAngle = 15.0;   ///< degrees, and that are turned less
-  int pointStride = 1;           ///< of the predicted points one of so many is looked at: 2 is enough for candidates
-  double minimumScore = 0.0;     ///< poses below are dropped
-  int posesPerView = 0;          ///< N_pv: best poses kept for each appearance model; 0: no limit
-  int threads = 0;               ///< 0: one for each processor
+  double agreeingDistance = SamePose().distance; ///< of the diameter: poses agree whose middles are nearer
+  double agreeingAngle = SamePose().angle;       ///< degrees, and that are turned less
+  int pointStride = 1;       ///< of the predicted points one of so many is looked at: 2 is enough for candidates
+  double minimumScore = 0.0; ///< poses below are dropped
+  int posesPerView = 0;      ///< N_pv: best poses kept for each appearance model; 0: no limit
+  int threads = 0;           ///< 0: one for each processor
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.
 PoseVerificationSettings paperVerificationSettings();
 /// Those of the methods that rank poses by their votes.
 PoseVerificationSettings votesVerificationSettings();
+/// The recommended ones before refinement.
+PoseVerificationSettings candidateVerificationSettings();
 
 /// Scores every pose against the scene, or by its votes, which become those of all that agree with it, and returns them
 /// best first, in the local frame: score, probability, visible

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pose/SamePose.h"
 #include "pose/voting/PoseDetection.h"
 
 #include <vector>
@@ -9,12 +10,12 @@ namespace meam
 {
 struct VoteSupportSettings
 {
-  double onPart = 0.02;    ///< of the diameter: a scene point this near to the part is on it
-  double cellReach = 0.06; ///< of the diameter: model points this near to a scene point may stand for it
-  double distance = 0.1;   ///< of the diameter: a turn of a model point whose pose is nearer than this,
-  double angle = 15.0;     ///< and turned by less (degrees), votes for the pose
-  double turnStep = 7.2;   ///< degrees, between the equal poses of a round part that are looked at
-  int ranks = 10;          ///< peaks of a reference point that are looked at
+  double onPart = 0.02;                  ///< of the diameter: a scene point this near to the part is on it
+  double cellReach = 0.06;               ///< of the diameter: model points this near to a scene point may stand for it
+  double distance = SamePose().distance; ///< of the diameter: a turn of a model point whose pose is nearer than this,
+  double angle = SamePose().angle;       ///< and turned by less (degrees), votes for the pose
+  double turnStep = 7.2;                 ///< degrees, between the equal poses of a round part that are looked at
+  int ranks = 10;                        ///< peaks of a reference point that are looked at
 };
 
 /// What a scene point on the part votes for as a reference point.

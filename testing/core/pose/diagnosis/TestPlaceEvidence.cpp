@@ -9,10 +9,12 @@ using meam::PointState;
 
 namespace
 {
+constexpr double Aligned = 10.0; // degrees
+
 meam::PlaceEvidence evidenceAt(const scenes::Seen& seen, const Eigen::Isometry3d& T_scene_model)
 {
   const meam::Scene scene = scenes::prepared(scenes::withTangents(seen));
-  return meam::evidenceAt(scene.T_local_scene() * T_scene_model, scene, scenes::bracket());
+  return meam::evidenceAt(scene.T_local_scene() * T_scene_model, scene, scenes::bracket(), {}, Aligned);
 }
 }
 
@@ -39,10 +41,27 @@ TEST(PlaceEvidence, EdgesOfAnotherDirectionAreNearAndNoMore)
     tangent = Eigen::Vector3f::UnitZ(); // all edges in sight lie flat but the few along z
   }
   const meam::Scene scene = scenes::prepared(seen);
-  const meam::PlaceEvidence evidence = meam::evidenceAt(scene.T_local_scene() * T, scene, scenes::bracket());
+  const meam::PlaceEvidence evidence =
+    meam::evidenceAt(scene.T_local_scene() * T, scene, scenes::bracket(), {}, Aligned);
   EXPECT_GT(evidence.edgesNear, 0.97 * evidence.edges);
   EXPECT_LT(evidence.edgesMatched, 0.1 * evidence.edges);
   EXPECT_LT(evidence.edgesAligned, 0.1 * evidence.edges);
+}
+
+TEST(PlaceEvidence, OfANoisyScanEdgesAreLookedForAsFarAsVerificationDoes)
+{
+  const Eigen::Isometry3d T = scenes::lying(0, 0, 20);
+  const double diameter = scenes::bracket().diameter;
+  meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove({ T })));
+  const Eigen::Isometry3d above = Eigen::Translation3d(0.0, 0.0, 0.04 * diameter) * T; // farther than edges are apart
+  const auto evidence = [&]
+  { return meam::evidenceAt(scene.T_local_scene() * above, scene, scenes::bracket(), {}, Aligned); };
+  const meam::PlaceEvidence withoutNoise = evidence();
+  EXPECT_LT(withoutNoise.edgesAligned, 0.3 * withoutNoise.edges); // those that run upwards
+  scene.quality.noise = 0.04 * diameter;
+  const meam::PlaceEvidence withNoise = evidence();
+  EXPECT_GT(withNoise.edgesNear, 0.9 * withNoise.edges);
+  EXPECT_GT(withNoise.edgesAligned, 0.7 * withNoise.edges);
 }
 
 TEST(PlaceEvidence, WhatIsHiddenDoesNotCount)
