@@ -127,11 +127,11 @@ def seen(edges, truth, scan):
 
 
 class Record:
-    """The searches that are done: DIR/paper.csv, a row for each, and DIR/poses.csv, one for each of the best poses. Poses of other programs
-    are judged anew."""
+    """The searches that are done: DIR/paper.csv, a row for each, and DIR/poses.csv, one for each of the best poses. Searches that
+    failed are made again, and poses of other programs judged again."""
 
     def __init__(self, folder):
-        self.searches = world.Lines(os.path.join(folder, "paper.csv"), ROW, lambda row: not row["method"].startswith(FOUND))
+        self.searches = world.Lines(os.path.join(folder, "paper.csv"), ROW, lambda row: not (row["failure"] or row["method"].startswith(FOUND)))
         self.done = set(map(run_of, self.searches.rows))
         self.poses = world.Lines(os.path.join(folder, "poses.csv"), POSE, lambda row: run_of(row) in self.done)
 
@@ -208,7 +208,7 @@ def add_parser(datasets, shared):
                           "each, and its times, where DIR/seconds.txt has lines such as Part_1/Scenes/Scene0.pcd 0.5; again for more")
     one.add_argument("--out", metavar="DIR", required=True,
                      help="write there paper.csv, a row for each scene, and poses.csv, one for each pose, from which a run goes on "
-                          "that was stopped; of each table a .md, a .csv and a chart; and the bins")
+                          "that was stopped, scenes that failed again; of each table a .md, a .csv and a chart; and the bins")
 
 
 def tables_of(options):

@@ -147,6 +147,16 @@ def failures_of(rows):
             f"their poses are missing: {reason}" for reason, of in reasons.items()]
 
 
+def wrong_poses(poses):
+    """Of poses of the recommended preset those that are wrong, in words."""
+    wrong = [f"- {pose['part']}, scene {pose['seed']}, rank {pose['rank']}: {pose['outcome']}, {float(pose['mm']):.1f} mm and "
+             f"{float(pose['degrees']):.0f} degrees off, right with {100 * float(pose['probability']):.0f} % as it says itself"
+             for pose in poses if pose["outcome"] != OUTCOMES[0]]
+    if wrong:
+        return "\n".join(["Wrong poses of the recommended preset:", "", *wrong])
+    return f"None of the {len(poses)} poses of the recommended preset is wrong." if poses else ""
+
+
 def details(number, table, rows, poses, folder):
     """What the poses of a table are, which of the recommended preset are wrong, and the figures of the BOP benchmark where it
     has them, in Markdown, which is also written, with the table as CSV."""
@@ -163,17 +173,9 @@ def details(number, table, rows, poses, folder):
              + ("; and the BOP benchmark's recalls over copies of which at least a tenth is visible, AP2-20 by the ranks in each bin."
                 if figures else "."))
     cells = [[name, *("-" if value is None else f"{value:.1f} %" for value in values)] for name, values in lines]
-    wrong = [f"- {pose['part']}, scene {pose['seed']}, rank {pose['rank']}: {pose['outcome']}, {float(pose['mm']):.1f} mm and "
-             f"{float(pose['degrees']):.0f} degrees off, said to be right with {100 * float(pose['probability']):.0f} %"
-             for pose in poses if pose["outcome"] != OUTCOMES[0]
-             and any(belongs(pose, table, "recommended", where) for _, where in table.columns)]
-    if "recommended" in table.methods:
-        told = "\n".join(["Its wrong poses of the recommended preset:", "", *wrong] if wrong else
-                         ["None of its poses of the recommended preset is wrong."])
-    else:
-        told = ""
     write_csv(folder, f"table{number}_poses.csv", head, lines)
-    return write_text(folder, f"table{number}_poses.md", "\n\n".join(filter(None, (about, markdown(head, cells), told))) + "\n")
+    wrong = wrong_poses([pose for pose in poses for _, where in table.columns if belongs(pose, table, "recommended", where)])
+    return write_text(folder, f"table{number}_poses.md", "\n\n".join(filter(None, (about, markdown(head, cells), wrong))) + "\n")
 
 
 def written(number, table, rows, folder):

@@ -101,8 +101,8 @@ def trial(stage, seed):
 
 
 def measure(folder, part, preset, threads, seeds):
-    """The rows of the trials; DIR/figure13_trials.csv has one for each and is gone on with."""
-    lines = world.Lines(os.path.join(folder, "figure13_trials.csv"), ROW)
+    """The rows of the trials; DIR/figure13_trials.csv has one for each and is gone on with; those that failed are made again."""
+    lines = world.Lines(os.path.join(folder, "figure13_trials.csv"), ROW, lambda row: not row["failure"])
     wanted = [(part, preset, str(seed)) for seed in seeds]
     done = {tuple(row[name] for name in TRIAL) for row in lines.rows}
     todo = [kind for kind in wanted if kind not in done]
