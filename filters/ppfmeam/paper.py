@@ -255,8 +255,9 @@ def run(options):
     record = Record(options.out)
     rows = searches([tables[number] for number in numbers], options, scenes, copies)
     measure(rows, record, Scenes(options.out, copies, options.tohoku, found), options.threads)
-    wanted = set(map(run_of, rows))
-    of_these, poses = ([row for row in lines.rows if run_of(row) in wanted] for lines in (record.searches, record.poses))
+    order = {run_of(row): number for number, row in enumerate(rows)}
+    of_these, poses = (sorted((row for row in lines.rows if run_of(row) in order), key=lambda row: order[run_of(row)])
+                       for lines in (record.searches, record.poses))
     for number in numbers:
         table = tables[number]
         print(papertables.written(number, table, of_these, options.out), flush=True)
