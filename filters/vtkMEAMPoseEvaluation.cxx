@@ -149,7 +149,8 @@ int vtkMEAMPoseEvaluation::RequestData(
       meam::Poses all;
       vtkNew<vtkIntArray> sceneOf, outcomes;
       sceneOf->SetName("Scene");
-      outcomes->SetName("Outcome");
+      outcomes->SetName(
+        "PoseOutcome"); // vtkMEAMPickTrial has an `Outcome` of other values, and a view one color map for a name
       for (int i = 0; i < scenes; ++i)
       {
         const meam::Poses estimates = toPoses(vtkPolyData::GetData(inputVector[0], i));
@@ -184,7 +185,7 @@ int vtkMEAMPoseEvaluation::RequestData(
       fromPoses(all, judged);
       judged->GetPointData()->AddArray(sceneOf);
       judged->GetPointData()->AddArray(outcomes);
-      judged->GetPointData()->SetActiveScalars("Outcome");
+      judged->GetPointData()->SetActiveScalars("PoseOutcome");
       setDiameter(output, settings.diameter);
       setFieldValue(output, "PaperRate", figures.paperRate);
       setFieldValue(output, "StrictRate", figures.strictRate);

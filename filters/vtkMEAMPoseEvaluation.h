@@ -34,7 +34,7 @@
  * it is visible enough), `FoundBy` (rank of the first pose that found it, 0: missed), `NearestRank` (of the pose whose
  * middle is nearest, 0: there is none), `VisibleFraction`, `TranslationError` (mm) and `RotationError` (degrees) of the
  * pose that found it, or else of the nearest. Output port 2: the estimated poses of all scenes, a vtkPolyData with the
- * arrays of every pose, `Scene` and `Outcome`, which a view colours them by.
+ * arrays of every pose, `Scene` and `PoseOutcome`, the `Outcome` of the table, which a view colours them by.
  */
 #ifndef vtkMEAMPoseEvaluation_h
 #define vtkMEAMPoseEvaluation_h

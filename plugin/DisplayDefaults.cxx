@@ -114,15 +114,18 @@ void showText(vtkSMProxy* representation)
   representation->UpdateVTKObjects();
 }
 
-/// The points of Pose Diagnosis, which often lie under other parts, are in front of these.
-void showDiagnosis(vtkSMProxy* representation, const ShownData& shown)
+/// Points of ours that often lie under other parts are in front of these: those of Pose Diagnosis, and the poses of Pose
+/// Evaluation, which are few.
+void showInFront(vtkSMProxy* representation, const ShownData& shown)
 {
-  if (shown.port == 0 && std::strcmp(shown.source->GetVTKClassName(), "vtkMEAMPoseDiagnosis") == 0 &&
-      representation->GetProperty("ShaderReplacements"))
+  const char* name = shown.source->GetVTKClassName();
+  const bool isDiagnosis = shown.port == 0 && std::strcmp(name, "vtkMEAMPoseDiagnosis") == 0;
+  const bool isEvaluation = shown.port == 2 && std::strcmp(name, "vtkMEAMPoseEvaluation") == 0;
+  if ((isDiagnosis || isEvaluation) && representation->GetProperty("ShaderReplacements"))
   {
     vtkSMPropertyHelper(representation, "UseShaderReplacements").Set(1);
     vtkSMPropertyHelper(representation, "ShaderReplacements").Set(InFront);
-    vtkSMPropertyHelper(representation, "PointSize").Set(3.0);
+    vtkSMPropertyHelper(representation, "PointSize").Set(isDiagnosis ? 3.0 : 12.0);
     representation->UpdateVTKObjects();
   }
 }
@@ -290,7 +293,7 @@ private:
       showText(representation);
       return;
     }
-    showDiagnosis(representation, shown);
+    showInFront(representation, shown);
     showAnswer(view, shown);
     showScan(representation, shown.data());
     if (isInScene(shown.data()))

@@ -5,7 +5,8 @@
 /// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `State`, of vtkMEAMPoseDiagnosis: green
 /// where a point matches, yellow where the surface faces elsewhere, violet where it is hidden, blue where nothing was
 /// measured, red where the sensor saw past it or found no edge. `Possible` and `Obstruction`, of vtkMEAMPickPlanning: green
-/// where a pick is possible, red where it is not.
+/// where a pick is possible, red where it is not. `PoseOutcome`, of vtkMEAMPoseEvaluation: green where a pose is right, yellow where a
+/// better one has found the same copy, violet where it is turned too far, red where it is at another place.
 inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": { "PVLookupTable": {
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,
@@ -36,4 +37,10 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "IndexedColors": [ 0.157, 0.667, 0.196,  0.588, 0.588, 0.588,  0.588, 0.235, 0.745,  0.3, 0.3, 0.3,  0.4, 0.4, 0.4,
                      0.961, 0.804, 0.118,  0.941, 0.471, 0.745,  0.157, 0.353, 0.863,  0.863, 0.118, 0.118,
                      0.95, 0.5, 0.1 ]
+} }, "PoseOutcome": { "PVLookupTable": {
+  "IndexedLookup": 1,
+  "AutomaticRescaleRangeMode": -1,
+  "AnnotationsInitialized": 1,
+  "Annotations": [ "0", "right", "1", "duplicate", "2", "wrong turn", "3", "wrong place" ],
+  "IndexedColors": [ 0.157, 0.667, 0.196,  0.961, 0.804, 0.118,  0.588, 0.235, 0.745,  0.863, 0.118, 0.118 ]
 } } } })";

@@ -9,7 +9,7 @@ import numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from . import filters, scripting, simulation, world
+from . import charts, filters, scripting, simulation, world
 
 COPIES = 12  # in a bin, as in the paper
 BINS = 5
@@ -19,7 +19,7 @@ GRASPS = 300  # all that differ: at a wall or among others few of a part's can b
 TILT = 75  # degrees: parts lean steeply at the walls
 SHARES = (0, 1)  # of the edge points that vote: the preset's, and when nothing can be picked all
 SAME_PLACE = 5  # mm: a part so near to where a trial failed is taken last
-BIN = ("part", "sensor", "gripper", "seed")
+BIN = ("part", "sensor", "gripper", "seed", "copies")
 ROW = (*BIN, "trial", "left", "found", "possible", "outcome", "reason", "mm", "degrees", "detect_ms", "plan_ms")
 HEAD = ("| part | sensor | gripper | bins | trials | success | failure | success rate | left in the bins | detection ms | planning ms |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|")
@@ -201,7 +201,7 @@ def trials(station, copies, seed, film=None, pictures=None):
                 break
         number += 1
         row = {**dict.fromkeys(ROW, ""), "part": station.part, "sensor": station.sensor, "gripper": station.gripper.kind,
-               "seed": seed, "trial": number, "left": bin.left, "found": found.GetNumberOfPoints(), "possible": len(possible),
+               "seed": seed, "copies": copies, "trial": number, "left": bin.left, "found": found.GetNumberOfPoints(), "possible": len(possible),
                "detect_ms": f"{detect_ms:.0f}", "plan_ms": f"{plan_ms:.0f}"}
         if not possible or in_a_row >= MOST_FAILURES:
             failed = picks.GetNumberOfPoints() and scripting.column(picks, "Possible").any()
@@ -262,17 +262,31 @@ def table(rows):
     return "\n".join(lines) + "\n" + ("\nFailures, and bins that were left:\n\n" + "\n".join(failures) + "\n" if failures else "")
 
 
+def chart(folder, rows):
+    """Of Table 9 a bar chart, where there is a display."""
+    kinds = list(dict.fromkeys((row["part"], row["sensor"], row["gripper"]) for row in rows))
+    success, picked = [95.2], [100.0]  # the paper's
+    for kind in kinds:
+        of_kind = [row for row in rows if (row["part"], row["sensor"], row["gripper"]) == kind]
+        right, tried = sum(row["outcome"] == "success" for row in of_kind), sum(row["outcome"] != "" for row in of_kind)
+        left = sum(int(row["left"]) for row in of_kind if not row["outcome"])
+        success.append(100 * right / tried if tried else numpy.nan)
+        picked.append(100 * right / (right + left) if right + left else numpy.nan)
+    charts.bars(os.path.join(folder, "table9.png"), "Table 9. Pickup success rate", ["the paper", *map(", ".join, kinds)],
+                {"trials with success": success, "parts picked": picked}, "%")
+
+
 def run(folder, parts, sensors, gripper, bins, copies, first, threads, show=False):
-    """Table 9 in Markdown; DIR/cell.csv has a row for each trial and is gone on with, DIR/table9.md is the table, DIR/NAME.pvd
-    the film of each bin and, when it is shown, DIR/NAME.png a strip of pictures. A bin that was interrupted starts anew."""
+    """Table 9 in Markdown; DIR/cell.csv has a row for each trial and is gone on with, DIR/table9.md is the table, with
+    a display DIR/table9.png a chart of it, DIR/NAME.pvd the film of each bin and, when it is shown, DIR/NAME.png a strip of pictures. A bin that was interrupted starts anew."""
     scripting.make_folder(folder)
     whole = world.Lines(os.path.join(folder, "bins.csv"), BIN)
     done = set(map(bin_of, whole.rows))
     record = world.Lines(os.path.join(folder, "cell.csv"), ROW, lambda row: bin_of(row) in done)
-    wanted = [(part, sensor, gripper, str(seed)) for part in parts for sensor in sensors for seed in range(first, first + bins)]
+    wanted = [(part, sensor, gripper, str(seed), str(copies)) for part in parts for sensor in sensors for seed in range(first, first + bins)]
     todo = [each for each in wanted if each not in done]
     station, start = None, time.time()
-    for count, (part, sensor, _, seed) in enumerate(todo):
+    for count, (part, sensor, _, seed, _) in enumerate(todo):
         if station is None or (station.part, station.sensor) != (part, sensor):
             station = Station(part, sensor, gripper, threads)
         name = f"{part}_{sensor}_{gripper}_{seed}"
@@ -289,11 +303,12 @@ def run(folder, parts, sensors, gripper, bins, copies, first, threads, show=Fals
         if strip:
             strip.write(os.path.join(folder, name + ".png"))
         record.add(rows)
-        whole.add([dict(zip(BIN, (part, sensor, gripper, seed)))])
+        whole.add([dict(zip(BIN, (part, sensor, gripper, seed, copies)))])
         left = (time.time() - start) / (count + 1) * (len(todo) - count - 1)
         print(f"bin {len(wanted) - len(todo) + count + 1} of {len(wanted)} is done; {left / 60:.0f} min left", file=sys.stderr, flush=True)
-    text = ("Table 9. Pickup success rate: a simulated cell with " + str(copies) + " parts in a bin.\n\n"
-            + table([row for row in record.rows if bin_of(row) in set(wanted)]))
+    rows = [row for row in record.rows if bin_of(row) in set(wanted)]
+    text = "Table 9. Pickup success rate: a simulated cell with " + str(copies) + " parts in a bin.\n\n" + table(rows)
+    chart(folder, rows)
     with scripting.written(os.path.join(folder, "table9.md")) as file:
         file.write(text)
     return text

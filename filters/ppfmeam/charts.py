@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bar and line charts as pictures."""
 import os
+import sys
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -17,6 +18,16 @@ from . import scripting
 SIZE = (960, 540)
 # Okabe and Ito's colours, which colour-blind people tell apart.
 COLORS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (86, 180, 233), (213, 94, 0), (240, 228, 66), (120, 120, 120))
+
+
+def there_is_display():
+    return bool(os.environ.get("DISPLAY"))
+
+
+def tell_of_display():
+    """Says on stderr why there are no charts, and how to get them."""
+    if not there_is_display():
+        print("no charts were made, there is no display: the same command after `xvfb-run -a` adds them to what is done", file=sys.stderr)
 
 
 def bars(path, title, groups, series, unit):
@@ -72,7 +83,7 @@ def add(chart, kind, table, column, name):
 
 
 def save(chart, series, path):
-    if not os.environ.get("DISPLAY"):
+    if not there_is_display():
         return
     highest = numpy.nanmax([1e-9, *(value for values in series.values() for value in values)])
     chart.GetAxis(vtkAxis.LEFT).SetBehavior(vtkAxis.FIXED)

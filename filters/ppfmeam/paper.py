@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The experiments of the paper (Liu et al., Sensors 2018, Section 6): its tables and Figure 13, with parts of our own in
 place of its parts A to D, which were never published, beside the paper's figures."""
+import argparse
 import os
 import sys
 import time
@@ -10,83 +11,24 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 
-from . import cell, charts, dataset, evaluation, filters, scripting, simulation, stage, world
+from . import cell, charts, dataset, evaluation, filters, papertables, scripting, simulation, stage, world
+from .papertables import COPIES, FOUND, OUTCOMES, PARTS, POSE, ROW, TABLES, name_of, run_of
 
-PARTS = ("ridged_disc", "arc_lever", "flap", "hole_plate")  # in place of A, B, C and D
-LETTERS = "ABCD"
 POSES = 5  # wanted of a scene
-QUICK = 3  # scenes of each part in a quick run
-QUICK_COPIES = 8
-QUICK_VIEWS = 6  # training with more takes a minute
-METHODS = {"recommended": "PPF-MEAM, recommended", "paper": "PPF-MEAM as in the paper", "without-meam": "B2B-TL without MEAM",
-           "ppf": "original PPF", "b2b": "B2B"}
-VIEWS = (1, 2, 6, 14, 26)
+QUICK = 1  # scene of each part in a quick run
+QUICK_COPIES = 6
+QUICK_VIEWS = (1, 6)  # training with more takes a minute
+QUICK_PICKS = 3  # copies in the bin of Table 9
 EDGE_TOLERANCE = 0.01  # of the diameter: an edge point so far behind what is measured there is hidden
-COPIES = 20  # in a bin
-RUN = ("source", "part", "method", "views", "seed", "copies")  # a search in a scene
-OUTCOMES = ("right", "duplicate", "wrong turn", "wrong place")  # of a pose, by vtkMEAMPoseEvaluation's numbers
-ROW = (*RUN, "poses", *OUTCOMES, "asked", *dataset.BIN_FIGURES, "ms", "failure")
-
-
-class Figure:
-    """What a table of the paper says: by the methods of its rows the values of its columns, and its average."""
-
-    def __init__(self, title, source, columns, methods, paper, value):
-        self.title, self.source, self.columns, self.methods, self.paper, self.value = title, source, columns, methods, paper, value
-
-
-def rate(rows):
-    """Percent of the poses that come out, as the paper counts."""
-    poses = sum(int(row["poses"] or 0) for row in rows)
-    return 100 * sum(int(row["right"] or 0) for row in rows) / poses if poses else float("nan")
-
-
-def strict(rows):
-    """Percent of the poses asked for: a missing one is wrong."""
-    asked = sum(int(row["asked"]) for row in rows)
-    return 100 * sum(int(row["right"] or 0) for row in rows) / asked if asked else float("nan")
-
-
-def milliseconds(rows):
-    times = [float(row["ms"]) for row in rows if row["ms"]]
-    return float(numpy.median(times)) if times else float("nan")
-
-
-def by_part(parts, views=6):
-    return [(letter, {"part": part, "views": str(views)}) for letter, part in parts]
-
-
-OURS = by_part(zip(LETTERS, PARTS))
-TOHOKU = by_part((str(part), f"tohoku_{part}") for part in (1, 2, 3))
-COMPARED = ("paper", "recommended", "ppf")
-OF_VIEWS = [(str(count), {"part": PARTS[0], "views": str(count)}) for count in VIEWS]
-OF_PART_A = [("A", {"part": PARTS[0], "views": "6"})]
-TABLES = {  # the paper's figures by method, column by column; its own method stands for ours in both presets
-    1: Figure("Table 1. Recognition rate, synthetic scenes with perfect edges", "perfect", OURS, COMPARED,
-              {"paper": (100, 99.3, 100, 100), "ppf": (49, 66, 71.3, 90)}, rate),
-    2: Figure("Table 2. Speed, synthetic scenes with perfect edges (ms a scene)", "perfect", OURS, COMPARED,
-              {"paper": (1276, 401, 987, 892), "ppf": (3033, 1470, 1754, 4430)}, milliseconds),
-    3: Figure("Table 3. Recognition rate, edges of the image (the paper's real scans were never published: a simulated "
-              "structured-light sensor)", "image", OURS, COMPARED, {"paper": (97, 97, 98.3, 97), "ppf": (8, 72, 58.3, 89)}, rate),
-    4: Figure("Table 4. Speed, edges of the image (ms a scene)", "image", OURS, COMPARED,
-              {"paper": (1322, 1353, 1271, 1360), "ppf": (2752, 3673, 1765, 1438)}, milliseconds),
-    5: Figure("Table 5. Recognition rate by the number N of appearance models, part A, edges of the image", "image", OF_VIEWS,
-              ("paper",), {"paper": (69, 93, 97, 95, None)}, rate),
-    6: Figure("Table 6. Recognition rate with MEAM, without it, and of the original PPF, part A, edges of the image", "image",
-              OF_PART_A, ("paper", "without-meam", "ppf", "b2b", "recommended"),
-              {"paper": (97,), "without-meam": (91,), "ppf": (8,)}, rate),
-    7: Figure("Table 7. Recognition rate, Tohoku University 6D Pose Estimation Dataset", "tohoku", TOHOKU,
-              ("paper", "recommended", "without-meam", "ppf", "b2b"), {"paper": (96.7, 97.3, 100), "ppf": (92, 96.7, 100)}, rate),
-    8: Figure("Table 8. Speed, Tohoku University 6D Pose Estimation Dataset (ms a scene)", "tohoku", TOHOKU,
-              ("paper", "recommended", "without-meam", "ppf", "b2b"), {}, milliseconds),
-}
+TOHOKU_PARTS = (1, 2, 3)
 
 
 class Scenes:
-    """Scenes with their true poses, by source: `perfect`, `image` or `tohoku`."""
+    """Scenes with their true poses, by source: `perfect`, `image` or `tohoku`; `found`: by the names of other programs the
+    folders with the poses that they left of the dataset."""
 
-    def __init__(self, bins, copies, data):
-        self.bins, self.data = bins, data
+    def __init__(self, bins, copies, data, found=None):
+        self.bins, self.data, self.found = bins, data, found or {}
         self.simulated = simulation.Bins(copies, bins and os.path.join(bins, "bins"))
         self.meshes, self.models, self.edges = {}, {}, {}
 
@@ -98,6 +40,7 @@ class Scenes:
 
     def model(self, part, method, views):
         """A trained model; those of a part are kept until another's is asked for."""
+        method = "recommended" if method.startswith(FOUND) else method  # it tells when poses are equal
         kind = (part, method, views)
         if kind not in self.models:
             self.models = {known: model for known, model in self.models.items() if known[0] == part}
@@ -107,17 +50,35 @@ class Scenes:
             self.models[kind] = training.model()
         return self.models[kind]
 
-    def find(self, run, row):
+    def find(self, run, row, model):
         """The poses and the true ones of a row's scene, and the scan of a bin with its image."""
         part, seed = row["part"], int(row["seed"])
         if row["source"] == "tohoku":
-            truth = evaluation.tohoku_truth(self.data, int(part[-1]), seed)
-            return run.find(*evaluation.tohoku_clouds(self.data, int(part[-1]), seed)), truth, None
+            surface, edges = evaluation.tohoku_clouds(self.data, int(part[-1]), seed)
+            truth = evaluation.with_visibility(evaluation.tohoku_truth(self.data, int(part[-1]), seed), model, edges, surface)
+            return self.stored(row) if row["method"].startswith(FOUND) else run.find(surface, edges), truth, None
         scan, truth = self.simulated.scene(part, simulation.SENSORS[0], seed)
         if row["source"] == "image":
             return run.find(scan), truth, scan
         exact, edges = self.perfect(part, truth)
         return run.find(exact, edges), truth, None
+
+    def stored(self, row):
+        """The poses that another program left."""
+        return dataset.stored_poses(os.path.join(self.found[name_of(row["method"])], f"Part_{row['part'][-1]}", f"trans{row['seed']}.txt"))
+
+    def seconds(self, row):
+        """How long another program took, where it has left that in seconds.txt: lines of the scan's path and seconds."""
+        path = os.path.join(self.found[name_of(row["method"])], "seconds.txt")
+        scan = os.path.join(f"Part_{row['part'][-1]}", "Scenes", f"Scene{row['seed']}.pcd")
+        for line in scripting.whole_lines(path) if os.path.exists(path) else ():
+            name, _, seconds = line.strip().rpartition(" ")
+            if name.endswith(scan):
+                try:
+                    return float(seconds)
+                except ValueError:
+                    raise scripting.Failure(f"{path}: {line.strip()} does not end with a number of seconds") from None
+        return None
 
     def perfect(self, part, truth):
         """The parts at those true poses, without the bin, as a sensor without any error sees them, and the edge points of
@@ -165,106 +126,66 @@ def seen(edges, truth, scan):
     return cloud
 
 
-def planned(tables, scenes, first, copies=COPIES):
-    """The searches that the tables need, those of one model one after the other."""
-    rows = {}
-    for number in tables:
-        table = TABLES[number]
-        for method in table.methods:
-            for _, where in table.columns:
-                for seed in range(first, first + scenes):
-                    at = seed - first if table.source == "tohoku" else seed
-                    row = {"source": table.source, "method": method, "seed": str(at),
-                           "copies": "" if table.source == "tohoku" else str(copies), **where}
-                    rows[tuple(row[name] for name in RUN)] = row
-    return sorted(rows.values(), key=lambda row: (row["part"], row["method"], int(row["views"]), row["source"], int(row["seed"])))
+class Record:
+    """The searches that are done: DIR/paper.csv, a row for each, and DIR/poses.csv, one for each of the best poses. Searches that
+    failed are made again, and poses of other programs judged again."""
+
+    def __init__(self, folder):
+        self.searches = world.Lines(os.path.join(folder, "paper.csv"), ROW, lambda row: not (row["failure"] or row["method"].startswith(FOUND)))
+        self.done = set(map(run_of, self.searches.rows))
+        self.poses = world.Lines(os.path.join(folder, "poses.csv"), POSE, lambda row: run_of(row) in self.done)
+
+    def add(self, row, poses):
+        """A search and its poses; the search last, with it it is done."""
+        self.poses.add(poses)
+        self.searches.add([row])
+        self.done.add(run_of(row))
 
 
-def belongs(row, table, method, where):
-    return row["source"] == table.source and row["method"] == method and all(row[name] == value for name, value in where.items())
+def search(row, scenes, threads):
+    """A row's search: the row, complete, and a row for each of its best poses."""
+    result = {**dict.fromkeys(ROW, ""), **row, "asked": POSES}
+    try:
+        mesh, model = scenes.mesh(row["part"]), scenes.model(row["part"], row["method"], row["views"])
+        of_others = row["method"].startswith(FOUND)
+        run = evaluation.Evaluation(model, "recommended" if of_others else row["method"], POSES, threads, mesh=mesh)
+        poses, truth, scan = scenes.find(run, row, model)
+        run.add(poses, truth)
+        if scan:
+            benchmark = dataset.BOPFigures(mesh, model)
+            benchmark.add(poses, truth, scan)
+            result.update(benchmark.row(run.figures()["AP_mm"]))
+        outcomes, mm, degrees = (run.judged(name)[:POSES].tolist() for name in ("Outcome", "TranslationError", "RotationError"))
+        seconds = scenes.seconds(row) if of_others else (run.times[0]["Total"] - run.times[0]["Training"]) / 1000
+        result.update(poses=len(outcomes), **{name: outcomes.count(kind) for kind, name in enumerate(OUTCOMES)},
+                      ms="" if seconds is None else f"{1000 * seconds:.0f}")
+    except scripting.Failure as failure:
+        return {**result, "failure": str(failure)}, []
+    known = poses.GetPointData().GetArray("Probability")
+    return result, [{**{name: row[name] for name in papertables.RUN}, "rank": k + 1,
+                     "probability": f"{known.GetValue(k):.5f}" if known else "", "outcome": OUTCOMES[outcome],
+                     "mm": f"{mm[k]:.4f}", "degrees": f"{degrees[k]:.4f}"} for k, outcome in enumerate(outcomes)]
 
 
-def measure(rows, done, scenes, threads):
+def measure(rows, record, scenes, threads):
     """Runs the searches that are not done; each is a row as soon as it is."""
-    known = {tuple(row[name] for name in RUN) for row in done.rows}
-    todo = [row for row in rows if tuple(row[name] for name in RUN) not in known]
+    todo = [row for row in rows if run_of(row) not in record.done]
     start = time.time()
     for count, row in enumerate(todo):
-        result = {**dict.fromkeys(ROW, ""), **row, "asked": POSES}
-        try:
-            mesh, model = scenes.mesh(row["part"]), scenes.model(row["part"], row["method"], row["views"])
-            run = evaluation.Evaluation(model, row["method"], POSES, threads, mesh=mesh)
-            poses, truth, scan = scenes.find(run, row)
-            run.add(poses, truth)
-            if scan:
-                benchmark = dataset.BOPFigures(mesh, model)
-                benchmark.add(poses, truth, scan)
-                result.update(benchmark.row(run.figures()["AP_mm"]))
-            outcomes = run.judged("Outcome")[:POSES].tolist()
-            result.update(poses=len(outcomes), **{name: outcomes.count(kind) for kind, name in enumerate(OUTCOMES)},
-                          ms=f"{run.times[0]['Total'] - run.times[0]['Training']:.0f}")
-        except scripting.Failure as failure:
-            result["failure"] = str(failure)
-        done.add([result])
+        result, poses = search(row, scenes, threads)
+        record.add(result, poses)
         left = (time.time() - start) / (count + 1) * (len(todo) - count - 1)
-        print(f"{len(rows) - len(todo) + count + 1} of {len(rows)}: {METHODS[row['method']]}, {row['part']}, {row['source']} scene "
+        print(f"{len(rows) - len(todo) + count + 1} of {len(rows)}: {name_of(row['method'])}, {row['part']}, {row['source']} scene "
               f"{row['seed']}: {result['failure'] or str(result['right']) + ' right'}; {left / 60:.0f} min left",
               file=sys.stderr, flush=True)
 
 
-def details(number, rows, folder):
-    """What the poses of a table are, and the figures of the BOP benchmark where it has them, in Markdown, which is also
-    written."""
-    table = TABLES[number]
-    figures = dataset.BIN_FIGURES[1:] if table.source == "image" else ()
-    head = ["method", *OUTCOMES, "missing", *figures]
-    lines = [f"The poses of Table {number}, of those asked for"
-             + ("; and the BOP benchmark's recalls over copies of which at least a tenth is visible, AP2-20 by the ranks in each bin."
-                if figures else "."), "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    for method in table.methods:
-        of_method = [row for row in rows for _, where in table.columns if belongs(row, table, method, where)]
-        asked = sum(int(row["asked"]) for row in of_method)
-        shares = [100 * sum(int(row[name] or 0) for row in of_method) / asked if asked else None for name in OUTCOMES]
-        values = [*shares, None if None in shares else 100 - sum(shares), *(dataset.mean_of(of_method, name) for name in figures)]
-        lines.append("| " + " | ".join([METHODS[method]] + ["-" if value is None else f"{value:.1f} %" for value in values]) + " |")
-    text = "\n".join(lines) + "\n"
-    with scripting.written(os.path.join(folder, f"table{number}_poses.md")) as file:
-        file.write(text)
-    return text
-
-
-def written(number, rows, folder):
-    """The table in Markdown, which is also written, as CSV and, where there is a display, as a chart."""
-    table = TABLES[number]
-    names = [name if table.source != "tohoku" else "Part " + name for name, _ in table.columns]
-    head = ["method", *names] + (["average"] if len(names) > 1 and number != 5 else [])
-    lines, bars = [], {}
-    for method in table.methods:
-        of_method = [[row for row in rows if belongs(row, table, method, where)] for _, where in table.columns]
-        values = [table.value(of) for of in of_method]
-        bars[METHODS[method]] = values
-        lines.append((METHODS[method], values))
-        if table.value is rate:
-            lines.append((METHODS[method] + ", of the poses asked for", [strict(of) for of in of_method]))
-        if method in table.paper:
-            lines.append((METHODS[method] + ": the paper says", table.paper[method]))
-            bars[METHODS[method] + " (paper)"] = [value if value is not None else float("nan") for value in table.paper[method]]
-    unit = " %" if table.value is rate else ""
-
-    def cells(values):
-        shown = ["-" if value is None or value != value else f"{value:.{1 if unit else 0}f}{unit}" for value in values]
-        mean = numpy.mean([value for value in values if value is not None]) if len(head) > len(names) + 1 else None
-        return shown + ([f"{mean:.{1 if unit else 0}f}{unit}"] if mean is not None else [])
-
-    text = "\n".join([table.title + ".", "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-                     + ["| " + " | ".join([name, *cells(values)]) + " |" for name, values in lines]) + "\n"
-    for extension, content in (("md", text), ("csv", "\n".join([",".join(head[:len(names) + 1])] + [
-            ",".join([f'"{name}"', *("" if value is None else f"{value:.2f}" for value in values)]) for name, values in lines]) + "\n")):
-        with scripting.written(os.path.join(folder, f"table{number}.{extension}")) as file:
-            file.write(content)
-    charts.bars(os.path.join(folder, f"table{number}.png"), table.title.partition(" (")[0], names, bars,
-                "%" if unit else "ms a scene")
-    return text
+def found_by(text):
+    """For argparse: NAME=DIR."""
+    name, equals, folder = text.partition("=")
+    if not (name and equals and folder):
+        raise argparse.ArgumentTypeError(f"it has to be NAME=DIR, not {text}")
+    return name, folder
 
 
 def add_parser(datasets, shared):
@@ -277,52 +198,78 @@ def add_parser(datasets, shared):
     which.add_argument("--all", action="store_true", help="all of them")
     one.add_argument("--scenes", type=scripting.count, default=30, help="of each part (default: %(default)s)")
     one.add_argument("--quick", action="store_true",
-                     help=f"to see it run: no more than {QUICK} scenes of each part, {QUICK_COPIES} copies and {QUICK_VIEWS} appearance "
-                          "models, one bin of Table 9 and one trial of Figure 13")
+                     help=f"to see it run: {QUICK} scene of each part, {QUICK_COPIES} copies, {' and '.join(map(str, QUICK_VIEWS))} appearance models, "
+                          f"of Table 9 one bin of {QUICK_PICKS} parts and of Figure 13 one trial")
     one.add_argument("--seed", type=scripting.count, default=1, help="of the first bin, the next has the next one")
     one.add_argument("--copies", type=scripting.count, default=COPIES, help="in a bin (default: %(default)s)")
     one.add_argument("--tohoku", metavar="DIR", help="where the Tohoku dataset is, for tables 7 and 8")
+    one.add_argument("--found", metavar="NAME=DIR", type=found_by, action="append", default=[],
+                     help="in tables 7 and 8 also the poses that another program left in DIR/Part_P/transI.txt, best first, 16 numbers "
+                          "each, and its times, where DIR/seconds.txt has lines such as Part_1/Scenes/Scene0.pcd 0.5; again for more")
     one.add_argument("--out", metavar="DIR", required=True,
-                     help="write there paper.csv, a row for each scene, from which a run goes on that was stopped; of each table "
-                          "a .md, a .csv and a chart; and the bins")
+                     help="write there paper.csv, a row for each scene, and poses.csv, one for each pose, from which a run goes on "
+                          "that was stopped, scenes that failed again; of each table a .md, a .csv and a chart; and the bins")
+
+
+def tables_of(options):
+    """The numbers of the tables to make of scenes, and whether Table 9 is wanted; says what is wrong with the options."""
+    numbers = list(TABLES) if options.all else options.table or []
+    for number in numbers:
+        if number not in TABLES and number != 9:
+            raise scripting.Failure(f"there is no table {number}; known are 1 to 9")
+    for name in ("scenes", "copies"):
+        if getattr(options, name) < 1:
+            raise scripting.Failure(f"--{name} has to be 1 or more")
+    of_dataset = [number for number in numbers if number in TABLES and TABLES[number].source == "tohoku"]
+    if options.tohoku and not os.path.isdir(options.tohoku):
+        raise scripting.Failure(f"cannot read {options.tohoku}: --tohoku has to be the folder that holds Part_1, Part_2 and Part_3")
+    if of_dataset and not options.tohoku:
+        if not options.all:
+            raise scripting.Failure(f"table {of_dataset[0]} needs the Tohoku dataset: --tohoku DIR")
+        print("tables 7 and 8 are left out: they need the Tohoku dataset, --tohoku DIR", file=sys.stderr)
+        numbers = [number for number in numbers if number not in of_dataset]
+    if options.found and not (of_dataset and options.tohoku):
+        raise scripting.Failure("--found is for tables 7 and 8, which need --tohoku DIR")
+    for _, folder in options.found:
+        evaluation.require_found(folder, TOHOKU_PARTS)
+    return [number for number in numbers if number != 9], options.all or 9 in numbers
+
+
+def searches(tables, options, scenes, copies):
+    """The rows to measure: of the dataset as many scenes as there are, and of a part that is not there one, which says so."""
+    there = {f"tohoku_{part}": evaluation.tohoku_scenes(options.tohoku, part, scenes) or [0] for part in TOHOKU_PARTS} if options.tohoku else {}
+    return [row for row in papertables.planned(tables, scenes, options.seed, copies)
+            if (row["source"] != "tohoku" or int(row["seed"]) in there[row["part"]])
+            and not (options.quick and int(row["views"]) not in QUICK_VIEWS)]
 
 
 def run(options):
     """Returns how many searches failed."""
+    numbers, picking = tables_of(options)
     scripting.make_folder(options.out)
-    scenes, copies, bins, trials = options.scenes, options.copies, cell.BINS, stage.TRIALS
+    scenes, copies, bins, parts, trials = options.scenes, options.copies, cell.BINS, cell.COPIES, stage.TRIALS
     if options.quick:
-        scenes, copies, bins, trials = min(scenes, QUICK), min(copies, QUICK_COPIES), 1, 1
-    tables = list(TABLES) if options.all else options.table or []
-    picking = options.all or 9 in tables
-    tables = [number for number in tables if number != 9]
-    unknown = [number for number in tables if number not in TABLES]
-    if unknown:
-        raise scripting.Failure(f"there is no table {unknown[0]}; known are 1 to 9")
-    if not options.tohoku:
-        without = [number for number in tables if TABLES[number].source == "tohoku"]
-        if without and not options.all:
-            raise scripting.Failure(f"table {without[0]} needs the Tohoku dataset: --tohoku DIR")
-        tables = [number for number in tables if number not in without]
-    elif not options.all or os.path.isdir(options.tohoku):
-        scripting.require_file(os.path.join(options.tohoku, "Part_1", "Part_1.STL"))
-    done = world.Lines(os.path.join(options.out, "paper.csv"), ROW)
-    rows = planned(tables, scenes, options.seed, copies)
-    if options.quick:
-        rows = [row for row in rows if int(row["views"]) <= QUICK_VIEWS]
-    # Of the dataset as many scenes as there are.
-    rows = [row for row in rows if row["source"] != "tohoku" or os.path.exists(
-        os.path.join(options.tohoku, f"Part_{row['part'][-1]}", "Results", f"trans{row['seed']}.txt"))]
-    measure(rows, done, Scenes(options.out, copies, options.tohoku), options.threads)
-    wanted = {tuple(row[name] for name in RUN) for row in rows}
-    of_these = [row for row in done.rows if tuple(row[name] for name in RUN) in wanted]
-    for number in tables:
-        print(written(number, of_these, options.out), flush=True)
-        if TABLES[number].value is rate and len(TABLES[number].methods) > 1:
-            print(details(number, of_these, options.out), flush=True)
+        scenes, copies, bins, parts, trials = min(scenes, QUICK), min(copies, QUICK_COPIES), 1, QUICK_PICKS, 1
+    found = dict(options.found)
+    tables = papertables.with_others(found)
+    record = Record(options.out)
+    rows = searches([tables[number] for number in numbers], options, scenes, copies)
+    measure(rows, record, Scenes(options.out, copies, options.tohoku, found), options.threads)
+    order = {run_of(row): number for number, row in enumerate(rows)}
+    of_these, poses = (sorted((row for row in lines.rows if run_of(row) in order), key=lambda row: order[run_of(row)])
+                       for lines in (record.searches, record.poses))
+    for number in numbers:
+        table = tables[number]
+        print(papertables.written(number, table, of_these, options.out), flush=True)
+        if table.value is papertables.rate and len(table.methods) > 1:
+            print(papertables.details(number, table, of_these, poses, options.out), flush=True)
+    failed = sum(row["failure"] != "" for row in of_these)
     if picking:
-        print(cell.run(options.out, [PARTS[0]], [simulation.SENSORS[0]], "cup", min(bins, scenes), cell.COPIES,
+        print(cell.run(options.out, [PARTS[0]], [simulation.SENSORS[0]], "cup", min(bins, scenes), parts,
                        options.seed, options.threads), flush=True)
     if options.all or options.figure:
-        print(stage.run(options.out, PARTS[0], options.preset, options.threads, options.seed, trials), flush=True)
-    return sum(row["failure"] != "" for row in of_these)
+        text, lost = stage.run(options.out, PARTS[0], options.preset, options.threads, options.seed, trials)
+        print(text, flush=True)
+        failed += lost
+    charts.tell_of_display()
+    return failed

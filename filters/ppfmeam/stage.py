@@ -3,16 +3,22 @@
 compared with it, with the noise of the sensor."""
 import math
 import os
+import sys
+import time
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from . import charts, filters, scripting, simulation
+from . import charts, filters, scripting, simulation, world
 
 MOVES = (5, 10, 15, 20)  # mm
 TURNS = (5, 10, 15, 20)  # degrees
 TRIALS = 10
-SCANS = 1 + len(MOVES) + len(TURNS)  # of a trial
+ABOUT = "xz"  # axes of the turns: the paper's stage has theta_x, across the sensor's view; z is along it
+STEPS = [("mm", amount) for amount in MOVES] + [(f"degrees about {axis}", amount) for axis in ABOUT for amount in TURNS]
+SCANS = 1 + len(STEPS)  # of a trial
+TRIAL = ("part", "preset", "seed")
+ROW = (*TRIAL, *(f"{amount} {unit}" for unit, amount in STEPS), "failure")  # errors; empty: no pose was found
 
 
 def moved(transform, distance):
@@ -22,11 +28,13 @@ def moved(transform, distance):
     return step @ transform
 
 
-def turned(transform, middle, degrees):
-    """About the stage's axis, the sensor's z, through the part's middle."""
-    angle = math.radians(degrees)
+def turned(transform, middle, degrees, axis="z"):
+    """About an axis through the part's middle that is parallel to one of the sensor's."""
+    angle, (i, j) = math.radians(degrees), {"x": (1, 2), "z": (0, 1)}[axis]
     turn = numpy.eye(4)
-    turn[:2, :2] = (math.cos(angle), -math.sin(angle)), (math.sin(angle), math.cos(angle))
+    turn[i, i] = turn[j, j] = math.cos(angle)
+    turn[j, i] = math.sin(angle)
+    turn[i, j] = -turn[j, i]
     turn[:3, 3] = middle - turn[:3, :3] @ middle
     return turn @ transform
 
@@ -38,7 +46,9 @@ class Stage:
         self.mesh = simulation.part_mesh(part)
         self.middle = numpy.array(self.mesh.GetCenter())
         self.estimation = filters.vtkMEAMPoseEstimation()
-        self.estimation.SetInputDataObject(scripting.train(self.mesh, preset))
+        model = scripting.train(self.mesh, preset)
+        self.estimation.SetInputDataObject(model)
+        self.height = scripting.field(model, "Diameter") / 2  # above the floor, so that it can be turned about x
         scripting.set_preset(self.estimation, preset)
         self.estimation.SetMaximumNumberOfPoses(1)
         self.estimation.SetNumberOfThreads(threads)
@@ -51,10 +61,12 @@ class Stage:
         return source
 
     def lying(self, seed):
-        """The pose of the part as it comes to rest."""
+        """The pose of the part as it comes to rest, lifted by the stage."""
         source = self.source(seed)
         scripting.update(source)
-        return vtk_to_numpy(source.GetOutputDataObject(1).GetPointData().GetArray("Transform")).reshape(4, 4)
+        transform = vtk_to_numpy(source.GetOutputDataObject(1).GetPointData().GetArray("Transform")).reshape(4, 4).copy()
+        transform[2, 3] -= self.height
+        return transform
 
     def found(self, transform, seed):
         """The pose that is found of the part at a pose, seen with noise of its own; None where none is."""
@@ -74,36 +86,64 @@ def errors(before, after, middle, distance=None, degrees=None):
     return abs(math.degrees(math.acos(max(-1.0, min(1.0, (numpy.trace(turn) - 1) / 2)))) - degrees)
 
 
+def trial(stage, seed):
+    """The errors of a trial's steps, None where no pose was found."""
+    start = stage.lying(seed)
+    before = stage.found(start, seed)
+    middle = start[:3, :3] @ stage.middle + start[:3, 3]
+    result = []
+    for number, (unit, amount) in enumerate(STEPS, 1):
+        there = moved(start, amount) if unit == "mm" else turned(start, middle, amount, unit[-1])
+        after = stage.found(there, seed + number)
+        known = before is not None and after is not None
+        result.append(errors(before, after, stage.middle, **{"distance" if unit == "mm" else "degrees": amount}) if known else None)
+    return result
+
+
+def measure(folder, part, preset, threads, seeds):
+    """The rows of the trials; DIR/figure13_trials.csv has one for each and is gone on with; those that failed are made again."""
+    lines = world.Lines(os.path.join(folder, "figure13_trials.csv"), ROW, lambda row: not row["failure"])
+    wanted = [(part, preset, str(seed)) for seed in seeds]
+    done = {tuple(row[name] for name in TRIAL) for row in lines.rows}
+    todo = [kind for kind in wanted if kind not in done]
+    stage, start = Stage(part, preset, threads) if todo else None, time.time()
+    for count, kind in enumerate(todo):
+        row = {**dict.fromkeys(ROW, ""), **dict(zip(TRIAL, kind))}
+        try:
+            of_steps = trial(stage, int(row["seed"]))
+            row.update((name, "" if error is None else f"{error:.5f}") for name, error in zip(ROW[len(TRIAL):], of_steps))
+        except scripting.Failure as failure:
+            row["failure"] = str(failure)
+        lines.add([row])
+        left = (time.time() - start) / (count + 1) * (len(todo) - count - 1)
+        print(f"Figure 13, trial {len(wanted) - len(todo) + count + 1} of {len(wanted)}"
+              f"{': ' + row['failure'] if row['failure'] else ''}; {left / 60:.0f} min left", file=sys.stderr, flush=True)
+    return [row for row in lines.rows if tuple(row[name] for name in TRIAL) in wanted]
+
+
 def run(folder, part, preset, threads, first, trials=TRIALS):
-    """The table in Markdown, which is also written, as CSV and as charts where there is a display."""
-    stage = Stage(part, preset, threads)
-    steps = [("mm", distance) for distance in MOVES] + [("degrees", degrees) for degrees in TURNS]
-    measured = {step: [] for step in steps}
-    for trial in range(trials):
-        seed = first + trial * SCANS
-        start = stage.lying(seed)
-        before = stage.found(start, seed)
-        middle = start[:3, :3] @ stage.middle + start[:3, 3]
-        for number, (unit, amount) in enumerate(steps, 1):
-            there = moved(start, amount) if unit == "mm" else turned(start, middle, amount)
-            after = stage.found(there, seed + number)
-            if before is not None and after is not None:
-                asked = {"distance" if unit == "mm" else "degrees": amount}
-                measured[unit, amount].append(errors(before, after, stage.middle, **asked))
+    """The table in Markdown, which is also written, as CSV and as charts where there is a display; and how many trials failed."""
+    trials_done = measure(folder, part, preset, threads, [first + trial * SCANS for trial in range(trials)])
     lines = [f"Figure 13. Relative errors of a {part} that is moved and turned by known amounts, {trials} trial{'s' if trials > 1 else ''}, preset {preset}.", "",
              "| step | found in | mean error | largest |", "|---|---|---|---|"]
-    rows = ["unit,step,found,mean,largest"]
-    for unit, amount in steps:
-        of_step = measured[unit, amount] or [math.nan]
-        found, mean, largest = len(measured[unit, amount]), numpy.mean(of_step), max(of_step)
-        lines.append(f"| {amount} {unit} | {found} of {trials} | {mean:.3f} {unit} | {largest:.3f} {unit} |")
-        rows.append(f"{unit},{amount},{found},{mean:.5f},{largest:.5f}")
+    rows, figures = ["unit,step,found,mean,largest"], {}
+    for unit, amount in STEPS:
+        known = [float(row[f"{amount} {unit}"]) for row in trials_done if row[f"{amount} {unit}"]]
+        mean, largest = (numpy.mean(known), max(known)) if known else (math.nan, math.nan)
+        figures.setdefault(unit, []).append((mean, largest))
+        told = [f"{error:.3f} {unit.split()[0]}" if known else "-" for error in (mean, largest)]
+        lines.append(f"| {amount} {unit} | {len(known)} of {trials} | {told[0]} | {told[1]} |")
+        rows.append(f"{unit},{amount},{len(known)}," + (f"{mean:.5f},{largest:.5f}" if known else ","))
+    lines += ["", "The paper turns its part about theta_x alone, and shows its errors in a chart without numbers."]
+    failed = [row for row in trials_done if row["failure"]]
+    lines += [line for row in failed for line in ("", f"The trial of seed {row['seed']} failed: {row['failure']}")]
     text = "\n".join(lines) + "\n"
     for name, content in (("figure13.md", text), ("figure13.csv", "\n".join(rows) + "\n")):
         with scripting.written(os.path.join(folder, name)) as file:
             file.write(content)
-    for unit, amounts, word in (("mm", MOVES, "moved"), ("degrees", TURNS, "turned")):
-        charts.lines(os.path.join(folder, f"figure13_{word}.png"), f"The part {word} on a stage", amounts,
-                     {"mean error": [numpy.mean(measured[unit, amount] or [math.nan]) for amount in amounts],
-                      "largest error": [max(measured[unit, amount] or [math.nan]) for amount in amounts]}, unit, f"error, {unit}")
-    return text
+    for unit, of_unit in figures.items():
+        means, largest = zip(*of_unit)
+        word = "moved" if unit == "mm" else "turned about " + unit[-1]
+        charts.lines(os.path.join(folder, f"figure13_{word.replace(' ', '_')}.png"), f"The part {word} on a stage",
+                     MOVES if unit == "mm" else TURNS, {"mean error": means, "largest error": largest}, unit, f"error, {unit.split()[0]}")
+    return text, len(failed)

@@ -9,6 +9,7 @@ import shutil
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from ppfmeam import world
 from ppfmeam.filters import vtkMEAMPoseWriter, vtkMEAMSceneEdgeExtraction
 from meamtest import LONG, check, connect, points, poses, run, tuples
 from scripttest import EXAMPLES, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
@@ -35,6 +36,8 @@ check(len(read("result/Part_1/trans0.txt").split()) == 32, "two matrices are wri
 row, = csv.DictReader(read("result/tohoku.csv").splitlines())
 check(row["part"] == "1" and float(row["strict"]) >= 50 and float(row["ms"]) > 0, f"the row is {row}")
 check(f"{float(row['strict']):.1f}" in text, "the table shows the same")
+shown = dict(zip(text.splitlines()[0].split(), text.splitlines()[1].split()))
+check(shown["R@99"] == f"{float(row['recall_99']):.1f}" and 0 < float(row["recall_99"]) <= float(row["recall"]), f"recall at 99 %: {text}")
 result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0,1", "--poses", "2", "--out", "result")
 check(result.returncode == 1 and "scene 1: cannot read" in result.stderr and "1 failed, see above" in result.stderr, result.stderr)
 rows = list(csv.DictReader(read("result/tohoku.csv").splitlines()))
@@ -52,6 +55,17 @@ result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "1"
 check(result.returncode == 1 and "scene 1: the true poses fit" in result.stderr and "another part or another scene" in result.stderr, result.stderr)
 text = works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--found", "result")
 check(text.splitlines()[1].split()[4] == f"{float(row['strict']):.1f}", "our own poses, judged again")
+# --why: a row for each true instance, with the reason of one that is not there.
+for name in ("Scene", "Scene_boundary"):
+    shutil.copy(f"data/Part_1/Scenes/{name}0.pcd", f"data/Part_1/Scenes/{name}2.pcd")
+writer = connect(vtkMEAMPoseWriter(), poses(*[tuple(t.ravel()) for t in (*(up @ true), away[0])]))
+writer.SetFileName("data/Part_1/Results/trans2.txt")
+writer.Write()
+works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "2", "--poses", "2", "--why", "why.csv")
+*rows, missed = csv.DictReader(read("why.csv").splitlines())
+check(len(rows) == len(true) and all((row["found by"] == "") == (row["why"] != "") for row in (*rows, missed)), f"{rows} {missed}")
+check(missed["lost in"] == "voting" and "lost in voting" in missed["why"] and missed["found by"] == "", f"{missed}")
+refuses("leave --found out", "evaluate.py", "tohoku", "data", "--parts", "1", "--found", "result", "--why", "w.csv")
 refuses("result has no folder Part_2 with the poses of part 2", "evaluate.py", "tohoku", "data", "--parts", "2", "--found", "result")
 # Noise: the same again with the same one.
 noisy = [works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--noise", noise,
@@ -100,6 +114,14 @@ check(rows[1]["right"] == "0" and rows[1]["mm"] == "", f"{rows[1]}")
 check(50 < float(rows[0]["AR"]) <= 100 and 50 < float(rows[0]["AP2-20"]) <= 100 and rows[1]["targets"] == "0", f"{rows}")
 check(0 < int(rows[0]["half_visible_found"]) <= int(rows[0]["half_visible"]) <= 3 and rows[1]["half_visible"] == "0", f"{rows}")
 found = list(csv.DictReader(read("world/poses.csv").splitlines()))
+check(sum(row["found"] == "1" for row in found) == int(rows[0]["half_visible_found"]), "half visible ones that were found")
+at = [cell.strip() for cell in table.splitlines()[0].split("|")].index("R@99")
+shown = [cell.strip() for cell in table.splitlines()[2].split("|")][at]
+check(0 < float(shown.rstrip(" %")) <= 100, f"recall at 99 %: {shown}")
+likely = [{"probability": f"{0.9 - k / 1000}", "found": "1"} for k in range(150)] + [{"probability": "0.05", "found": "1"}]
+check(world.recall_at_precision_99(likely + [{"probability": "0.1", "found": "0"}] * 2, 200) == 75, "150 before two wrong ones")
+check(world.recall_at_precision_99(likely + [{"probability": "0.1", "found": "0"}, {"probability": "0.1", "found": ""}], 200) == 75.5,
+      "one of 152 is wrong, and one does not count")
 check(len(found) == sum(int(row["poses"]) for row in rows), "a row for each pose")
 check(f"{len(found)} poses" in table and sorted(os.listdir("bins"))[0] == "hole_plate_time-of-flight_3_1.vtp", table)
 whole = read("world/world.csv")

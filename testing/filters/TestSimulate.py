@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -123,6 +124,7 @@ with open("plates.csv", newline="", encoding="utf-8") as table:
     found = list(csv.DictReader(table))
 check(len(found) >= 6, "poses of both bins")
 check(0 < float(lines[1].split()[8]) <= 100 and lines[0].split()[8] == "AP2-20", lines[0])
+check(0 < float(lines[1].split()[9]) <= 100 and lines[0].split()[9] == "R@99", lines[0])
 
 # The same poses, judged from that file, worst first, and from files of matrices, best first; the order of all is in the file alone.
 with open("back.csv", "w", newline="", encoding="utf-8") as table:
@@ -147,5 +149,18 @@ for name, words in (("other.csv", "its objects are 7"), ("empty", "folders such 
     done = script("evaluate.py", "bop", "plates", "--found", name)
     check(done.returncode == 1 and done.stderr == f"evaluate.py: {name} has no poses of object 1: {words if name == 'other.csv' else 'it needs ' + words}\n",
           done.stderr)
+# True poses of another bin: said of each image, and nothing counts as found; why each instance was missed.
+shutil.copytree("plates", "swapped")
+for name in ("scene_gt.json", "scene_gt_info.json"):
+    shutil.copy(f"plates/test/000001/{name}", f"swapped/test/000000/{name}")
+done = script("evaluate.py", "bop", "swapped", "--scenes", "0", "--found", "back.csv")
+check(done.returncode == 1 and "scene 0, image 0, object 1: the true poses fit" in done.stderr and "another part or another scene" in done.stderr,
+      done.stderr)
+check(done.stdout.splitlines()[1].split()[4] == "0.0", done.stdout)
+done = script("evaluate.py", "bop", "plates", "--scenes", "0", "--out", "again.csv", "--why", "why.csv")
+check(done.returncode == 0, done.stderr)
+with open("why.csv", newline="", encoding="utf-8") as table:
+    rows = list(csv.DictReader(table))
+check(len(rows) == COPIES and all((row["found by"] == "") == (row["why"] != "") and row["visible"] for row in rows), f"{rows}")
 done = script("evaluate.py", "bop", "plates", "--found", "nowhere")
 check(done.returncode == 1 and done.stderr == "evaluate.py: cannot read nowhere: No such file or directory\n", done.stderr)

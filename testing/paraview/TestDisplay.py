@@ -151,3 +151,29 @@ check(answer.WindowLocation == "Upper Left Corner" and answer.FontSize == 12, f"
 view = simple.CreateRenderView()
 scan = simple.Show(simple.OutputPort(simple.BinSceneSource(Copies=2, Width=160, Height=120, Colored=1), 0), view)
 check(list(scan.ColorArrayName) == ["POINTS", "RGB"] and scan.MapScalars == 0, "the colours of the image")
+
+# Poses that are judged: a point for each in front of all else, in the colours of what they are, with a small legend.
+def row(x, cosine=1, sine=0):
+    return f"{cosine} {-sine} 0 {x}  {sine} {cosine} 0 0  0 0 1 600  0 0 0 1\n"
+
+
+for name, text in (("found.txt", row(-60) + row(-58) + row(0, 0, 1) + row(50)), ("true.txt", row(-60) + row(0))):
+    with open(os.path.join(folder.name, name), "w") as file:
+        file.write(text)
+found, true = (simple.PoseReader(FileName=os.path.join(folder.name, name)) for name in ("found.txt", "true.txt"))
+judged = simple.PoseEvaluation(Input=found, TruePoses=true, Diameter=50.0)
+view = simple.CreateRenderView()
+view.OrientationAxesVisibility = 0
+check(2 in shown_by_default(judged) and 1 not in shown_by_default(judged), f"ports {shown_by_default(judged)} are shown")
+simple.SetActiveView(view)
+points = simple.Show(simple.OutputPort(judged, 2), view)
+check(list(points.ColorArrayName) == ["POINTS", "PoseOutcome"] and points.PointSize > 5, f"coloured by {points.ColorArrayName}")
+table = simple.GetColorTransferFunction("PoseOutcome")
+check(list(table.Annotations) == ["0", "right", "1", "duplicate", "2", "wrong turn", "3", "wrong place"], f"{table.Annotations}")
+points.SetScalarBarVisibility(view, True)
+check(simple.GetScalarBar(table, view).ScalarBarLength < 0.3, "the legend is not small")
+points.SetScalarBarVisibility(view, False)
+simple.ResetCamera(view)
+picture = pixels(view)
+for name, color in (("green", RANKS["green"]), ("yellow", RANKS["yellow"]), ("violet", (150, 60, 190)), ("red", RANKS["red"])):
+    check(share(picture, color) > 0.0001, f"no {name} point: {share(picture, color)}")

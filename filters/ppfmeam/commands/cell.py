@@ -3,11 +3,11 @@
 parts, the part is taken away and the others settle, until the bin is empty or nothing can be picked. Prints Table 9 of the
 paper, with every failure and its reason.
 
-DIR gets cell.csv, a row for each trial, from which a run goes on that was stopped; table9.md; and of each bin a film that
-ParaView plays (.pvd)."""
+DIR gets cell.csv, a row for each trial, from which a run goes on that was stopped; table9.md, with a display a chart of it; and of each bin a film
+that ParaView plays (.pvd)."""
 import argparse
 
-from .. import cell, scripting, simulation
+from .. import cell, charts, scripting, simulation
 
 
 def options_of_user():
@@ -34,3 +34,4 @@ def main():
         picture.require_display()
     print(cell.run(options.out, options.part or ["ridged_disc"], options.sensor or [simulation.SENSORS[0]], options.gripper,
                    options.bins, options.copies, options.seed, options.threads, options.pictures))
+    charts.tell_of_display()

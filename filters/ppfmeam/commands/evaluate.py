@@ -15,6 +15,7 @@ A pose is right when a true one is within 10 % of the part's diameter and 5 degr
   top1    scenes whose first pose is right
   recall, AP  (average precision) of all poses that come out, over instances that are at least half visible
   AP2-20  the benchmark's for industrial parts: AP at MSSD less than 2, 4, ..., 20 mm, over instances at least a tenth visible
+  R@99    recall by the likeliest poses of all scenes, as long as 99 % of them are right
   ADD, ADI    recall at a tenth of the diameter, over instances that are at least a tenth visible, by as many poses
   MSSD, MSPD, VSD  of the benchmark: recall over its ten thresholds; AR is the mean of the three. These are of all poses
   that come out; the file holds --poses of each object
@@ -32,10 +33,10 @@ import time
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .. import dataset, evaluation, paper, scripting, simulation, world
+from .. import dataset, evaluation, instances, paper, scripting, simulation, world
 
-COLUMNS = ("scenes  poses   paper  strict    top1  recall      AP  AP2-20  median error: mm  degrees (axis  roll)  ms/scene")
-ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6.1f}  {recall:6.1f}  {AP:6.1f}  {AP_mm:6.1f}"
+COLUMNS = ("scenes  poses   paper  strict    top1  recall      AP  AP2-20    R@99  median error: mm  degrees (axis  roll)  ms/scene")
+ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6.1f}  {recall:6.1f}  {AP:6.1f}  {AP_mm:6.1f}  {recall_99:6.1f}"
        "  {mm:16.3f}  {deg:7.3f} ({axis_deg:.3f} {roll_deg:.3f})  {ms:8.0f}")
 
 
@@ -44,7 +45,16 @@ def evaluation_of(model, mesh, options, features):
     return evaluation.Evaluation(model, options.preset, options.poses, options.threads, options.references, features, mesh)
 
 
-def run_part(part, options):
+def instances_of(options):
+    """What collects the rows of --why, or None."""
+    if options.why and options.found:
+        raise scripting.Failure("--why tells of our own search: leave --found out")
+    scripting.require_folder_of(options.why)
+    return instances.Instances(references=options.references, features=options.features, preset=options.preset,
+                               threads=options.threads) if options.why else None
+
+
+def run_part(part, options, lost):
     """Trains, runs every scene and returns the row of the table, and how many scenes failed."""
     mesh = evaluation.tohoku_mesh(options.folder, part)
     model = scripting.train(mesh, options.preset, options.features)
@@ -61,11 +71,14 @@ def run_part(part, options):
         try:
             truth = evaluation.tohoku_truth(options.folder, part, scene)
             surface, edges = evaluation.tohoku_clouds(options.folder, part, scene)
+            noisy = evaluation.with_noise((surface, edges), deviation, scene)
             poses = (dataset.stored_poses(os.path.join(options.found, f"Part_{part}", f"trans{scene}.txt")) if options.found
-                     else run.find(*evaluation.with_noise((surface, edges), deviation, scene)))
+                     else run.find(*noisy))
             truth = evaluation.with_visibility(truth, model, edges, surface)
             if out:
                 scripting.write_poses(poses, out, "Matrices", MaximumNumberOfPoses=options.poses)
+            if lost:
+                lost.add({"part": part, "scene": scene}, run, poses, truth, noisy[0], boundary=noisy[1])
         except scripting.Failure as failure:
             print(f"part {part}, scene {scene}: {failure}", file=sys.stderr)
             failed += 1
@@ -83,17 +96,18 @@ def print_stages(rows):
 
 def tohoku(options):
     """Part by part; returns how many scenes failed."""
-    rows, failures = [], 0
-    for part in options.parts if options.found else ():
-        if not os.path.isdir(os.path.join(options.found, f"Part_{part}")):
-            raise scripting.Failure(f"{options.found} has no folder Part_{part} with the poses of part {part}: choose --parts that it has")
+    rows, failures, lost = [], 0, instances_of(options)
+    if options.found:
+        evaluation.require_found(options.found, options.parts)
     print("part  " + COLUMNS)
     for part in options.parts:
-        row, failed = run_part(part, options)
+        row, failed = run_part(part, options, lost)
         rows.append(row)
         failures += failed
         print(ROW.format(**row), flush=True)
     print_stages(rows)
+    if lost:
+        lost.write(options.why)
     if options.out:
         with scripting.written(os.path.join(options.out, "tohoku.csv"), newline="") as file:
             writer = csv.DictWriter(file, list(rows[0]))
@@ -113,10 +127,36 @@ def find_objects(image, runs, camera, stored):
     return found
 
 
+def judge(image, found, runs, benchmark, camera, lost):
+    """Judges the poses of each object in an image, but for one that is not in it; returns how many failed."""
+    failures, edges = 0, None
+    for number, run in runs.items():
+        truth, poses = image.truth_of(number), found.get(number, vtkPolyData())
+        if not truth.GetNumberOfPoints():
+            continue
+        try:
+            edges = edges or evaluation.scene_edges(image.scan, image.beside, camera)
+            evaluation.with_visibility(truth, run.model, edges, image.scan)
+            if lost:
+                beside = {"image": image.beside, "image_camera": camera} if image.beside else {}
+                lost.add({"part": number, "scene": image.scene, "image": image.number}, run, poses, truth, image.scan, **beside)
+        except scripting.Failure as failure:
+            print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
+            failures, poses = failures + 1, vtkPolyData()
+        try:
+            benchmark[number].add(poses, truth, image.scan)
+        except scripting.Failure as failure:
+            print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
+            failures += 1
+        run.add(poses, truth)
+    return failures
+
+
 def bop(options):
     """Image by image, all objects in each; returns how many of these failed."""
     if options.out:
         scripting.require_folder_of(options.out)
+    lost = instances_of(options)
     data = dataset.Dataset(options.folder, options.split)
     objects = options.objects or data.objects()
     stored = options.found and dataset.Found(options.found, objects)
@@ -140,17 +180,9 @@ def bop(options):
                 failures += len(runs) - len(found)
                 if results:
                     results.add(image, found, options.poses)
-                for number, run in runs.items():
-                    truth = image.truth_of(number)
-                    if truth.GetNumberOfPoints():  # an object that is not in an image is not judged
-                        poses = found.get(number, vtkPolyData())
-                        run.add(poses, truth)
-                        try:
-                            benchmark[number].add(poses, truth, image.scan)
-                        except scripting.Failure as failure:
-                            print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
-                            failures += 1
-                        judged[number] += 1
+                failures += judge(image, found, runs, benchmark, data.beside(), lost)
+                for number in runs:
+                    judged[number] += image.truth_of(number).GetNumberOfPoints() > 0
     rows = [{"part": number, "scenes": judged[number], **run.figures()} for number, run in runs.items() if judged[number]]
     if rows:
         print("obj.  " + COLUMNS)
@@ -160,6 +192,8 @@ def bop(options):
         for row in rows:
             print(f"{row['part']:4d}            " + "  ".join(f"{r:6.1f}" for r in benchmark[row["part"]].recalls().values()))
         print_stages(rows)
+    if lost:
+        lost.write(options.why)
     return failures
 
 
@@ -188,6 +222,7 @@ def find_in_bin(run, benchmark, bins, row):
     probability = vtk_to_numpy(poses.GetPointData().GetArray("Probability")) if len(right) else ()
     here = {name: row[name] for name in world.BIN}
     return [{**here, "rank": i + 1, "probability": f"{probability[i]:.5f}", "right": right[i],
+             "found": 0 if not right[i] else int(not duplicate[i]) if instance[i] in half else "",
              "mm": f"{mm[i]:.4f}", "degrees": f"{degrees[i]:.4f}"} for i in range(len(right))]
 
 
@@ -251,6 +286,9 @@ def main():
 
     stored = argparse.ArgumentParser(add_help=False)
     stored.add_argument("folder", metavar="DIR", help="where the dataset is")
+    stored.add_argument("--why", metavar="CSV",
+                        help="write a row for each true instance: the pose that found it, or the stage that lost it and why, which takes "
+                             "another search of each scene that misses one")
     scripting.add_features_argument(stored)
     one = datasets.add_parser("tohoku", parents=[stored, shared])
     one.set_defaults(run=tohoku)
