@@ -20,7 +20,6 @@ from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
-from vtkmodules.vtkIOImage import vtkBMPReader, vtkJPEGReader, vtkPNGReader, vtkTIFFReader
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
@@ -30,7 +29,6 @@ from . import filters, meshfiles
 
 READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, ".ply": vtkPLYReader,
            ".stl": vtkSTLReader, ".obj": vtkOBJReader}
-IMAGES = (vtkPNGReader, vtkJPEGReader, vtkBMPReader, vtkTIFFReader)
 WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total")
@@ -347,13 +345,7 @@ def prepare_mesh(data, offset=(0, 0, 0), scale=1.0):
 
 def read_image(path):
     """The image in a PNG, JPEG, BMP or TIFF file."""
-    require_file(path)
-    reader = next((kind() for kind in IMAGES if kind().CanReadFile(path)), None)
-    if not reader:
-        raise Failure(f"{path} is not a PNG, JPEG, BMP or TIFF image")
-    if isinstance(reader, vtkTIFFReader):
-        reader.SetOrientationType(4)  # else it turns files upside down whose first row is the upper one
-    return read_with(reader, path)
+    return read_with(filters.vtkMEAMImageReader(), path)
 
 
 def read_scan(path, scale=1.0, camera=None):
