@@ -19,17 +19,13 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
-from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
 from . import Error as Failure
-from . import filters, meshfiles
+from . import filters
 
-READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, ".ply": vtkPLYReader,
-           ".stl": vtkSTLReader, ".obj": vtkOBJReader}
-WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
+EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj")
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total")
 
@@ -302,14 +298,14 @@ def read_with(reader, path):
 def read(path, scale=1.0):
     """The mesh or the cloud in a .pcd, .off, .ply, .stl or .obj file, its coordinates times a factor."""
     extension = os.path.splitext(path)[1].lower()
-    if extension not in READERS:
-        raise Failure(f"{path}: unknown kind of file; known are {', '.join(READERS)}")
-    require_file(path)
-    if not WHOLE.get(extension, os.path.exists)(path):
-        raise Failure(f"{path} is cut off, or no {extension[1:].upper()} file")
-    data = read_with(READERS[extension](), path)
-    if data.GetNumberOfPoints() == 0:
-        raise Failure(f"{path} has no points: it is empty, cut off, or no {extension[1:].upper()} file")
+    if extension not in EXTENSIONS:
+        raise Failure(f"{path}: unknown kind of file; known are {', '.join(EXTENSIONS)}")
+    reader = filters.vtkMEAMMeshReader()
+    if extension == ".pcd":
+        reader = filters.vtkMEAMPCDReader()
+    elif extension == ".ply" and filters.vtkMEAMPLYReader().CanReadFile(path):  # without faces
+        reader = filters.vtkMEAMPLYReader()
+    data = read_with(reader, path)
     return scaled(data, scale, path)
 
 
