@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 from ppfmeam import scripting
-from batchtest import H, W, command, content, dataset, finished, killed, rows
+from batchtest import H, W, command, content, dataset, deadly, finished, killed, rows, survives
 from meamtest import check
 from scripttest import refuses, script, works, write_pcd
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -49,6 +49,12 @@ with open(f"killed.csv.run/{name}", "a", encoding="utf-8") as file:
     file.write('{"scan": "000004/000000", "rows": [[1, 1, "0.')  # what a process leaves that is killed as it writes
 finished(*command("bins", "--model", "plate.meam", "--out", "killed.csv"))
 check(content("killed.csv") == content("poses.csv"), "another table after a kill")
+
+# A scan that ends the process, as a crash in a library does, is a row when the run is taken up; the others are as they were.
+survives("deadly.csv", *deadly("bins", "--model", "plate.meam", "--threads", "2", "--out", "deadly.csv"))
+check([row for row in rows("deadly.csv") if not row["failure"]] == [row for row in poses if row["scan"] != names[2]],
+      "the others are not as they were")
+check([row["scan"] for row in rows("deadly.scans.csv")] == names, "the scans in their order")
 
 # A scan that cannot be read, and a scene, is a row with its reason.
 with open(f"bins/test/{names[1][:6]}/depth/000000.png", "r+b") as file:

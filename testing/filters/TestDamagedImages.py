@@ -40,7 +40,7 @@ for extension, kind in WRITERS.items():
         cut.append(f"cut{k}.{extension}")
         with open(cut[-1], "wb") as file:
             file.write(whole[:int(share * len(whole))])
-    for k in range(10):
+    for k in range(6):
         flipped.append(f"flipped{k}.{extension}")
         damaged = bytearray(whole)
         for place in random.integers(0, (60, 400, len(whole))[k % 3], 3):

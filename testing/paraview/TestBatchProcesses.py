@@ -8,7 +8,8 @@ import tempfile
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "filters"))
 
-from batchtest import BATCH, children, command, content, dataset, finished, killed, rows  # noqa: E402
+from batchtest import (BATCH, children, command, content, dataset, deadly, finished, killed,  # noqa: E402
+                       rows, survives)  # noqa: E402
 from meamtest import check, skip  # noqa: E402
 from ppfmeam import scripting  # noqa: E402
 
@@ -60,6 +61,11 @@ check(content("killed.csv") == content("one.csv"), "another table after a kill o
 killed("all.csv", lambda process: process, *python("all.csv"))
 finished(*command(*run("all.csv")))
 check(content("all.csv") == content("one.csv"), "another table after a kill of all")
+
+# A scan that ends its process: the same row, and table, as of one process.
+for out, start in (("deadly1.csv", ()), ("deadly2.csv", TWO)):
+    survives(out, *start, *deadly(*run(out)))
+check(content("deadly1.csv") == content("deadly2.csv"), "another table after a crash")
 
 # One sentence, by the first process.
 result = subprocess.run(pvbatch("none/x.csv"), capture_output=True, text=True)
