@@ -104,12 +104,16 @@ def written(path, newline=None, mode="w"):
             os.remove(part)
 
 
+def write_all(file, content):
+    """Adds bytes to an open file without a buffer."""
+    while content:
+        content = content[file.write(content):]
+
+
 def append(file, lines):
-    """Adds a text of whole lines to an open file of bytes without a buffer. A process that is killed meanwhile leaves a part
-    of them, and so does a disk that becomes full: whole_lines() does without it."""
-    text = lines.encode()
-    while text:
-        text = text[file.write(text):]
+    """Adds a text of whole lines to such a file. A process that is killed meanwhile leaves a part of them, and so does a disk
+    that becomes full: whole_lines() does without it."""
+    write_all(file, lines.encode())
 
 
 def whole_lines(path):
