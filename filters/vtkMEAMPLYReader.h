@@ -3,7 +3,7 @@
  * @class vtkMEAMPLYReader
  * @brief Reads the points of a PLY file, which is never organized; with the camera they come back onto its pixels.
  *
- * Ascii or binary; faces are skipped (VTK's own reader reads meshes).
+ * Ascii or binary; faces are skipped (vtkMEAMMeshReader reads meshes).
  *
  * Output port 0:
  * - without a camera: a vtkPolyData with a vertex for each point; points that are not finite are left out.

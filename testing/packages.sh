@@ -13,6 +13,8 @@ trap 'rm -rf "$work"' EXIT
 cd "$work" # nothing of the checkout is on a path
 failed() { echo "FAILED: $*" >&2; exit 1; }
 get() { apt-get install -q -y --no-install-recommends "$@" >>"$work/apt.log" 2>&1 || { tail -n 30 "$work/apt.log"; failed "apt-get install $*"; }; }
+soversion=$(sed -n 's/^project(PPFMEAM VERSION \([0-9]*\.[0-9]*\)\..*/\1/p' "$here/../CMakeLists.txt")
+[ -n "$soversion" ] || failed "CMakeLists.txt names no version"
 export DEBIAN_FRONTEND=noninteractive
 apt-get update -q >"$work/apt.log"
 
@@ -20,12 +22,13 @@ echo "== libppfmeam-detect and libppfmeam-pick alone: what a cell gets"
 get "$folder"/libppfmeam-{detect,pick}_*.deb binutils
 if dpkg-query -W -f '${db:Status-Status} ${Package}\n' | grep -E '^installed .*(cgal|mpfr|poppler|gdal|paraview|vtk|openmesh|bullet)'; then failed "detection installs what it does not need"; fi
 for library in Detect Pick; do
-  readelf -d /usr/lib/libmeam$library.so.0.2 | grep -E "(gmp|mpfr|OpenMesh|Bullet|imgcodecs|vtk)" && failed "libmeam$library.so links what only training needs"
+  [ -e /usr/lib/libmeam$library.so."$soversion" ] || failed "there is no libmeam$library.so.$soversion"
+  readelf -d /usr/lib/libmeam$library.so."$soversion" | grep -E "(gmp|mpfr|OpenMesh|Bullet|imgcodecs|vtk)" && failed "libmeam$library.so links what only training needs"
 done
 
 echo "== the command and the Python package"
 get "$folder"/python3-ppfmeam_*.deb
-[ ! -e /usr/lib/libmeamTrain.so.0.2 ] || failed "Python needs no C++ library"
+[ ! -e /usr/lib/libmeamTrain.so."$soversion" ] || failed "Python needs no C++ library"
 version=$(dpkg-query -W -f '${Version}' python3-ppfmeam)
 [ "$(ppfmeam --version)" = "ppfmeam ${version%-*}" ] || failed "ppfmeam --version says $(ppfmeam --version)"
 ppfmeam --help | grep -q '^  detect ' || failed "ppfmeam --help"
@@ -76,6 +79,10 @@ get paraview-dev
 cmake -S "$here/install/module" -B module >module.log 2>&1 && cmake --build module >>module.log 2>&1 ||
   { cat module.log; failed "a program with PPFMEAM::Filters does not compile"; }
 module/read_scan scan.pcd || failed "a program with PPFMEAM::Filters"
+
+echo "== lintian"
+get lintian
+lintian --fail-on error "$folder"/*.deb >lintian.log 2>&1 || { grep '^E' lintian.log; failed "lintian finds errors"; }
 
 echo "== removed again"
 apt-get purge -q -y 'ppfmeam-paraview' 'python3-ppfmeam' 'libppfmeam-*' >>"$work/apt.log" 2>&1 || { tail -n 20 "$work/apt.log"; failed "purge"; }

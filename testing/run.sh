@@ -4,7 +4,8 @@
 #
 #   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
 #
-# Tests with the label `long` (all scenes of a dataset, thousands of damaged files) are left out without --long.
+# Tests with the label `long` (all scenes of a dataset, thousands of damaged files, libFuzzer for a minute a reader) are left
+# out without --long.
 # The dataset tests look for data in $PPFMEAM_DATA and are skipped without it.
 set -uo pipefail
 without=(-LE '^long$')
@@ -21,7 +22,10 @@ run() { # PRESET, "what", build target or "", ctest arguments...
   local preset=$1 what=$2 target=$3; shift 3
   echo "== $preset: $what"
   "$root/cmake/build.sh" "$preset" ${target:+"$target"} || { failed+=("$preset (build)"); return; }
-  found=$((found + $(ctest --test-dir "$root/build/$preset" -N "${without[@]}" "$@" | sed -n 's/^Total Tests: //p')))
+  local chosen
+  chosen=$(ctest --test-dir "$root/build/$preset" -N "${without[@]}" "$@")
+  found=$((found + $(sed -n 's/^Total Tests: //p' <<<"$chosen")))
+  if grep -q ': fuzz$' <<<"$chosen"; then "$root/cmake/build.sh" fuzz meamFuzz || failed+=("fuzz (build)"); fi
   ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${without[@]}" "$@" || failed+=("$preset")
 }
 run release "core, filters, plugin" "" "$@"

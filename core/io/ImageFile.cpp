@@ -130,11 +130,44 @@ Size checkedSize(const std::string& path, const std::string& bytes)
   return size;
 }
 
+/// Whether a PNG file has its last chunk.
+bool isWholePNG(const std::string& bytes)
+{
+  std::uint64_t at = 8;
+  while (at + 12 <= bytes.size() && numberAt(bytes, at + 4, 4, true) != 0x49454e44) // IEND
+  {
+    at += 12 + numberAt(bytes, at, 4, true);
+  }
+  return at + 12 <= bytes.size();
+}
+
+/// Whether a BMP file has all of its rows; of a packed one only its decoder can tell.
+bool isWholeBMP(const std::string& bytes, const Size& size)
+{
+  constexpr std::uint64_t PlainHeader = 40;
+  if (numberAt(bytes, 14, 4, false) < PlainHeader || numberAt(bytes, 30, 4, false) != 0)
+  {
+    return true;
+  }
+  const std::uint64_t row = (size.width * numberAt(bytes, 28, 2, false) + 31) / 32 * 4;
+  return numberAt(bytes, 10, 4, false) + row * size.height <= bytes.size();
+}
+
+/// Finds most files that are cut off before a decoder writes to the console about them.
+bool isWhole(const std::string& bytes, const Size& size)
+{
+  return bytes[0] == '\x89' ? isWholePNG(bytes) : bytes[0] != 'B' || isWholeBMP(bytes, size);
+}
+
 /// What OpenCV makes of the file, channels and depth as they are.
 cv::Mat decode(const std::string& path)
 {
   const std::string bytes = readFile(path);
   const Size size = checkedSize(path, bytes);
+  if (!isWhole(bytes, size))
+  {
+    fail(path, "is cut off or damaged");
+  }
   cv::Mat pixels;
   try
   {

@@ -8,8 +8,11 @@
 #include "io/parsing/TextLines.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstdint>
 #include <cstring>
+#include <unordered_map>
 
 namespace meam
 {
@@ -34,14 +37,36 @@ Eigen::Vector3f pointOf(const std::string& path, TextLines& lines)
   return point.cast<float>();
 }
 
-/// Every three vertices are a triangle.
-TriangleMesh soupOf(Points vertices)
+struct HashOfBits
+{
+  std::size_t operator()(const std::array<std::uint32_t, 3>& bits) const
+  {
+    return (bits[0] * 0x9e3779b97f4a7c15u ^ bits[1]) * 0x9e3779b97f4a7c15u ^ bits[2] * 0xc2b2ae3d27d4eb4fu;
+  }
+};
+
+/// Every three corners are a triangle; corners at the same place share a vertex.
+TriangleMesh joined(const Points& corners)
 {
   TriangleMesh mesh;
-  mesh.vertices = std::move(vertices);
-  for (int i = 0; i + 2 < static_cast<int>(mesh.vertices.size()); i += 3)
+  std::unordered_map<std::array<std::uint32_t, 3>, int, HashOfBits> places;
+  std::vector<int> vertices;
+  vertices.reserve(corners.size());
+  for (const Eigen::Vector3f& corner : corners)
   {
-    mesh.triangles.emplace_back(i, i + 1, i + 2);
+    const Eigen::Vector3f place = corner.array() + 0.0f; // -0 is 0
+    std::array<std::uint32_t, 3> bits;
+    std::memcpy(bits.data(), place.data(), sizeof(bits));
+    const auto [known, isNew] = places.emplace(bits, static_cast<int>(mesh.vertices.size()));
+    if (isNew)
+    {
+      mesh.vertices.push_back(corner);
+    }
+    vertices.push_back(known->second);
+  }
+  for (std::size_t i = 0; i + 2 < vertices.size(); i += 3)
+  {
+    mesh.triangles.emplace_back(vertices[i], vertices[i + 1], vertices[i + 2]);
   }
   return mesh;
 }
@@ -64,7 +89,7 @@ TriangleMesh readTextSTL(const std::string& path, const std::string& bytes)
   {
     fail(path, "is cut off or damaged: it does not end with endsolid after whole triangles");
   }
-  return soupOf(std::move(vertices));
+  return joined(vertices);
 }
 
 constexpr std::size_t STLHeader = 80;   // bytes, then the number of triangles
@@ -89,7 +114,7 @@ TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes)
     std::memcpy(
       vertices[3 * i].data(), bytes.data() + start + STLTriangle * i + STLNormal, 3 * sizeof(Eigen::Vector3f));
   }
-  return soupOf(std::move(vertices));
+  return joined(vertices);
 }
 
 TriangleMesh readSTL(const std::string& path)

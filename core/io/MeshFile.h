@@ -8,7 +8,8 @@
 namespace meam
 {
 /// Reads a mesh, in the file's own unit, by the file's extension: .stl (ascii or binary), .obj, .ply or .off. Polygons
-/// are cut into triangles; all but the shape is skipped. Throws Error, naming the file and what is wrong with it, also
-/// when it has no faces.
+/// are cut into triangles; all but the shape is skipped. The triangles of an STL file share the vertices that lie at
+/// exactly the same place, in the order in which these come first. Throws Error, naming the file and what is wrong with
+/// it, also when it has no faces.
 TriangleMesh readMesh(const std::string& path);
 }

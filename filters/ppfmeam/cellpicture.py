@@ -7,7 +7,7 @@ import tempfile
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
 from . import filters, picture, scripting
 
@@ -69,7 +69,7 @@ class Strip:
         width, height = TILE[0] * min(len(self.tiles), TILES_IN_ROW), TILE[1] * rows
         pixels = numpy.full((height, width, 3), 255, numpy.uint8)
         for place, tile in enumerate(self.tiles):
-            image = scripting.read_with(vtkPNGReader(), tile)
+            image = scripting.read_image(tile)
             image = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(TILE[1], TILE[0], -1)
             row, column = divmod(place, TILES_IN_ROW)
             low = height - TILE[1] * (row + 1)  # VTK's images start at the lower left

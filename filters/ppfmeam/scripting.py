@@ -19,19 +19,13 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
-from vtkmodules.vtkIOImage import vtkBMPReader, vtkJPEGReader, vtkPNGReader, vtkTIFFReader
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
-from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
 from . import Error as Failure
-from . import filters, meshfiles
+from . import filters
 
-READERS = {".pcd": filters.vtkMEAMPCDReader, ".off": filters.vtkMEAMOFFReader, ".ply": vtkPLYReader,
-           ".stl": vtkSTLReader, ".obj": vtkOBJReader}
-IMAGES = (vtkPNGReader, vtkJPEGReader, vtkBMPReader, vtkTIFFReader)
-WHOLE = {".stl": meshfiles.whole_stl, ".ply": meshfiles.whole_ply}
+EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj")
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total")
 
@@ -110,12 +104,16 @@ def written(path, newline=None, mode="w"):
             os.remove(part)
 
 
+def write_all(file, content):
+    """Adds bytes to an open file without a buffer."""
+    while content:
+        content = content[file.write(content):]
+
+
 def append(file, lines):
-    """Adds a text of whole lines to an open file of bytes without a buffer. A process that is killed meanwhile leaves a part
-    of them, and so does a disk that becomes full: whole_lines() does without it."""
-    text = lines.encode()
-    while text:
-        text = text[file.write(text):]
+    """Adds a text of whole lines to such a file. A process that is killed meanwhile leaves a part of them, and so does a disk
+    that becomes full: whole_lines() does without it."""
+    write_all(file, lines.encode())
 
 
 def whole_lines(path):
@@ -304,14 +302,14 @@ def read_with(reader, path):
 def read(path, scale=1.0):
     """The mesh or the cloud in a .pcd, .off, .ply, .stl or .obj file, its coordinates times a factor."""
     extension = os.path.splitext(path)[1].lower()
-    if extension not in READERS:
-        raise Failure(f"{path}: unknown kind of file; known are {', '.join(READERS)}")
-    require_file(path)
-    if not WHOLE.get(extension, os.path.exists)(path):
-        raise Failure(f"{path} is cut off, or no {extension[1:].upper()} file")
-    data = read_with(READERS[extension](), path)
-    if data.GetNumberOfPoints() == 0:
-        raise Failure(f"{path} has no points: it is empty, cut off, or no {extension[1:].upper()} file")
+    if extension not in EXTENSIONS:
+        raise Failure(f"{path}: unknown kind of file; known are {', '.join(EXTENSIONS)}")
+    reader = filters.vtkMEAMMeshReader()
+    if extension == ".pcd":
+        reader = filters.vtkMEAMPCDReader()
+    elif extension == ".ply" and filters.vtkMEAMPLYReader().CanReadFile(path):  # without faces
+        reader = filters.vtkMEAMPLYReader()
+    data = read_with(reader, path)
     return scaled(data, scale, path)
 
 
@@ -347,13 +345,7 @@ def prepare_mesh(data, offset=(0, 0, 0), scale=1.0):
 
 def read_image(path):
     """The image in a PNG, JPEG, BMP or TIFF file."""
-    require_file(path)
-    reader = next((kind() for kind in IMAGES if kind().CanReadFile(path)), None)
-    if not reader:
-        raise Failure(f"{path} is not a PNG, JPEG, BMP or TIFF image")
-    if isinstance(reader, vtkTIFFReader):
-        reader.SetOrientationType(4)  # else it turns files upside down whose first row is the upper one
-    return read_with(reader, path)
+    return read_with(filters.vtkMEAMImageReader(), path)
 
 
 def read_scan(path, scale=1.0, camera=None):

@@ -84,7 +84,7 @@ def costs(options, folder):
     options.threads = 1
     source = scans.source(options)
     rows, listing = timed(source.list)
-    search, loading = timed(lambda: run.Search(options, Plan(options.model)))
+    search, loading = timed(lambda: run.Search(options, Plan(options.model), [options.model]))
     lines = [search.line(row) for row in rows]
     texts = [json.dumps(line) + "\n" for line in lines]
     journal = os.path.join(folder, "lines")

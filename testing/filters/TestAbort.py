@@ -38,8 +38,8 @@ from ppfmeam.filters import (
 from meamtest import Errors, MovedView, Trained, bracket, check, connect, is_empty, png, poses, run
 
 # Their work takes milliseconds, whatever their input.
-QUICK = {"vtkMEAMGraspWriter", "vtkMEAMHandEyeCalibration", "vtkMEAMModelReader", "vtkMEAMModelWriter",
-         "vtkMEAMPoseEvaluation", "vtkMEAMPoseReader", "vtkMEAMPoseWriter", "vtkMEAMSamplePartSource"}
+QUICK = {"vtkMEAMGraspWriter", "vtkMEAMHandEyeCalibration", "vtkMEAMImageReader", "vtkMEAMMeshReader", "vtkMEAMModelReader",
+         "vtkMEAMModelWriter", "vtkMEAMPoseEvaluation", "vtkMEAMPoseReader", "vtkMEAMPoseWriter", "vtkMEAMSamplePartSource"}
 ROWS = [[(500,)] * 8] * 200  # a depth image
 folder = tempfile.TemporaryDirectory()
 

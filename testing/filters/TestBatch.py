@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`ppfmeam batch` in one process: datasets, folders and lists, broken scans, a killed run, what cannot be read or
 written."""
+import contextlib
+import io
 import os
+import re
 import resource
 import shutil
 import subprocess
+from unittest import mock
 
 from ppfmeam import scripting
-from batchtest import H, W, command, content, dataset, finished, killed, rows
+from ppfmeam.batch import progress
+from batchtest import H, W, command, content, dataset, deadly, finished, killed, rows, survives
 from meamtest import check
 from scripttest import refuses, script, works, write_pcd
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -36,6 +41,21 @@ of_scans = rows("poses.scans.csv")
 check([row["scan"] for row in of_scans] == names and all(float(row["find_s"]) > 0 for row in of_scans), "the times")
 check(not os.path.exists("poses.csv.run"), "what is done is left behind")
 
+# How far it is, and how long it takes yet, of what this run has done; in a terminal the line is written over itself.
+heard, terminal = io.StringIO(), os.openpty()
+with contextlib.redirect_stderr(heard), mock.patch.object(progress.time, "monotonic", side_effect=[0, 5, 30, 35, 60]):
+    shown = progress.Progress(1000, 20)
+    for done, failed in ((2, 0), (10, 2), (11, 2), (960, 3)):
+        shown.show(done, failed)
+    shown.end()
+check(heard.getvalue() == "30 of 1000 scans, 2 failed, 0.33 a second, 48 min left\n980 of 1000 scans, 3 failed, 16.00 a second, "
+      "1 s left\n", heard.getvalue())
+subprocess.run(command("bins", "--model", "plate.meam", "--out", "shown.csv"), stderr=terminal[1], stdout=subprocess.DEVNULL,
+               check=True)
+lines = os.read(terminal[0], 100000).decode().split("\r\x1b[K")[1:]
+check(lines and all(re.fullmatch(rf"[1-{SCENES}] of {SCENES} scans, 0 failed, \d+\.\d\d a second, \d+ s left(\r\n)?", line)
+                    for line in lines) and lines[-1].endswith("\r\n"), f"{lines}")
+
 # The dataset's own objects, which are trained, and any number of threads.
 finished(*command("bins", "--threads", "1", "--out", "own.csv"))
 check(content("own.csv") == content("poses.csv"), "another table with one thread and the dataset's own object")
@@ -49,6 +69,12 @@ with open(f"killed.csv.run/{name}", "a", encoding="utf-8") as file:
     file.write('{"scan": "000004/000000", "rows": [[1, 1, "0.')  # what a process leaves that is killed as it writes
 finished(*command("bins", "--model", "plate.meam", "--out", "killed.csv"))
 check(content("killed.csv") == content("poses.csv"), "another table after a kill")
+
+# A scan that ends the process, as a crash in a library does, is a row when the run is taken up; the others are as they were.
+survives("deadly.csv", *deadly("bins", "--model", "plate.meam", "--threads", "2", "--out", "deadly.csv"))
+check([row for row in rows("deadly.csv") if not row["failure"]] == [row for row in poses if row["scan"] != names[2]],
+      "the others are not as they were")
+check([row["scan"] for row in rows("deadly.scans.csv")] == names, "the scans in their order")
 
 # A scan that cannot be read, and a scene, is a row with its reason.
 with open(f"bins/test/{names[1][:6]}/depth/000000.png", "r+b") as file:

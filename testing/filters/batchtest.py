@@ -61,7 +61,7 @@ def children(process):
 def killed(out, victim, *command):
     """Starts a run and kills the process that victim(its number) names once a scan is done: kill -9."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not any(map(os.path.getsize, glob.glob(f"{out}.run/*.jsonl"))):
+    while not any(b'"rows"' in content(path) for path in glob.glob(f"{out}.run/*.jsonl")):
         check(process.poll() is None, f"the run has ended before a scan was done: {process.returncode}")
         time.sleep(0.01)
     os.kill(victim(process.pid), signal.SIGKILL)
@@ -75,6 +75,42 @@ def finished(*command):
     done = subprocess.run(command, capture_output=True, text=True)
     check(done.returncode == 0, f"{command}: {done.returncode}, {done.stderr}")
     return done.stdout
+
+
+# A run in which a scan ends the process that reads it.
+DEADLY = """
+import os, signal, sys
+from ppfmeam import scripting
+from ppfmeam.batch import scans
+from ppfmeam.commands import batch
+
+read = scans.BOP.read
+
+def crash(self, name, *rest):
+    if name == "000002/000000":
+        os.kill(os.getpid(), signal.SIGSEGV)
+    return read(self, name, *rest)
+
+scans.BOP.read = crash
+sys.argv[0] = "batch.py"
+scripting.run(batch.main)
+"""
+
+
+def deadly(*arguments):
+    """The command of a run that the scan 000002/000000 crashes."""
+    with open("deadly.py", "w", encoding="utf-8") as file:
+        file.write(DEADLY)
+    return (sys.executable, "deadly.py", *arguments)
+
+
+def survives(out, *command):
+    """A run that crashes goes on when it is started again, and the scan that has crashed it is a row."""
+    first = subprocess.run(command, capture_output=True, text=True)
+    check(first.returncode != 0 and not os.path.exists(out), f"nothing has crashed: {first.returncode}, {first.stderr}")
+    finished(*command)
+    failures = {row["scan"]: row["failure"] for row in rows(out) if row["failure"]}
+    check(failures.get("000002/000000") == "it ended the process that searched it: SIGSEGV", f"{failures}")
 
 
 def command(*arguments):

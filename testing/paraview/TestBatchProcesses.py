@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`ppfmeam batch` by two processes: the table of one, also after one of them or all were killed, and one sentence for
 what goes wrong. Arguments: mpirun and pvbatch."""
+import glob
 import os
 import subprocess
 import sys
@@ -8,7 +9,8 @@ import tempfile
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "filters"))
 
-from batchtest import BATCH, children, command, content, dataset, finished, killed, rows  # noqa: E402
+from batchtest import (BATCH, children, command, content, dataset, deadly, finished, killed,  # noqa: E402
+                       rows, survives)  # noqa: E402
 from meamtest import check, skip  # noqa: E402
 from ppfmeam import scripting  # noqa: E402
 
@@ -53,6 +55,63 @@ for start, name in ((pvbatch, "paraview.csv"), (python, "python.csv")):
 finished(*TWO, PVBATCH, "--symmetric", BATCH, "bins", "--cad", "bins/models/obj_000001.ply", "--out", "cad.csv")
 check(len(rows("cad.csv")) == len(rows("one.csv")), "a part from its CAD file")
 
+# Models are read once from the disk: copies in memory, one on each machine, which go. With "apart" each process is taken for
+# one of another machine.
+with open("listening.py", "w", encoding="utf-8") as file:
+    file.write("""
+import os, sys
+from ppfmeam import scripting
+from ppfmeam.batch import nearby, ranks
+from ppfmeam.commands import batch
+
+read, pieces = scripting.read_model, nearby.pieces
+
+def listen(path):
+    said("read", path)
+    return read(path)
+
+def listen_to_pieces(path):
+    said("copied", path) if ranks_made.rank == 0 else None
+    return pieces(path)
+
+def said(what, path):
+    with open(f"heard.{os.getpid()}", "a") as file:
+        print(what, path, file=file)
+
+class Apart(ranks.MPIRanks):
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.here, self.leads, self.leaders = self.comm.Split(self.rank), True, self.comm
+
+if sys.argv[1] == "apart":
+    ranks.MPIRanks = Apart
+scripting.read_model, nearby.pieces = listen, listen_to_pieces
+make = ranks.ranks
+
+def ranks_of_run():
+    global ranks_made
+    ranks_made = make()
+    return ranks_made
+
+batch.ranks = ranks_of_run
+sys.argv = ["batch.py", *sys.argv[2:]]
+scripting.run(batch.main)
+""")
+scripting.write_model(model, "plate.vtpc")
+for form, where in (("meam", "together"), ("vtpc", "together"), ("meam", "apart")):
+    out = f"{form}.{where}.csv"
+    finished(*TWO, sys.executable, "listening.py", where, "bins", "--model", f"plate.{form}", "--out", out)
+    check(content(out) == content("one.csv"), f"{out}: another table")
+    heard = []
+    for name in glob.glob("heard.*"):
+        with open(name, encoding="utf-8") as file:
+            heard += [line.split() for line in file]
+        os.remove(name)
+    of_disk, of_memory = ([path for what, path in heard if what == kind] for kind in ("copied", "read"))
+    check(len(of_disk) == len(set(of_disk)) and f"plate.{form}" in of_disk, f"{out}: {heard}")
+    check(len(of_memory) == 2 and len(set(of_memory)) == (2 if where == "apart" else 1), f"{out}: {heard}")
+    check(not any(map(os.path.exists, of_memory)) and f"plate.{form}" not in of_memory, f"{out}: {heard}")
+
 # kill -9 of one process, and of the one that has started them; then alone.
 killed("killed.csv", lambda process: children(process)[1], *pvbatch("killed.csv"))
 finished(*pvbatch("killed.csv"))
@@ -61,7 +120,18 @@ killed("all.csv", lambda process: process, *python("all.csv"))
 finished(*command(*run("all.csv")))
 check(content("all.csv") == content("one.csv"), "another table after a kill of all")
 
+# A scan that ends its process: the same row, and table, as of one process.
+for out, start in (("deadly1.csv", ()), ("deadly2.csv", TWO)):
+    survives(out, *start, *deadly(*run(out)))
+check(content("deadly1.csv") == content("deadly2.csv"), "another table after a crash")
+
 # One sentence, by the first process.
 result = subprocess.run(pvbatch("none/x.csv"), capture_output=True, text=True)
 lines = [line for line in result.stderr.splitlines() if line.startswith("batch.py: ")]
 check(result.returncode != 0 and lines == ["batch.py: cannot write none/x.csv: no such folder"], result.stderr)
+with open("cut.meam", "wb") as file:
+    file.write(content("plate.meam")[:5000])
+result = subprocess.run((*TWO, *command("bins", "--model", "cut.meam", "--out", "cut.csv")), capture_output=True, text=True)
+lines = [line for line in result.stderr.splitlines() if line.startswith("batch.py: ")]
+check(result.returncode != 0 and len(lines) == 1 and "'cut.meam'" in lines[0] and "cut off" in lines[0], result.stderr)
+check(not os.path.exists("cut.csv.run"), "a run that did nothing leaves its folder")

@@ -57,7 +57,7 @@ def main():
         maker.join()
         options = argparse.Namespace(scans=bins, split="test", preset="recommended", features="both", poses=5,
                                      probability=0, references=0, threads=given.threads)
-        search, model = run.Search(options, Plan(path)), ppfmeam.load(path)
+        search, model = run.Search(options, Plan(path), [path]), ppfmeam.load(path)
         rows = scans.source(options).list()
         found, sizes, start = {}, [], time.monotonic()
         for count in range(1, given.scenes + 1):

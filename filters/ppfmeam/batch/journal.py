@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run has done so far, in a folder beside its result: a file of each process, a line of JSON for each scan. A
-run that was killed is taken up from there; the folder goes when the result is written."""
+"""What a run has done so far, in a folder beside its result: a file of each process, with two lines of JSON for each scan,
+before it is searched and when it is done. A run that was killed is taken up from there; the folder goes when the result is written."""
 import fcntl
 import json
 import os
@@ -53,13 +53,21 @@ class Journal:
             time.sleep(PAUSE)
 
     def lines(self):
-        """By the scan's name what is known of it. What a killed process left of its last line is not."""
-        found = {}
+        """By the scan's name what is known of it, and the names of the scans that were started and not done. What a
+        killed process left of its last line is not known."""
+        found, started = {}, set()
         for name in sorted(os.listdir(self.folder)):
             if name.endswith(".jsonl"):
-                lines = map(json.loads, scripting.whole_lines(self.path(name)))
-                found.update((line["scan"], line) for line in lines)
-        return found
+                for line in map(json.loads, scripting.whole_lines(self.path(name))):
+                    if "started" in line:
+                        started.add(line["started"])
+                    else:
+                        found[line["scan"]] = line
+        return found, started.difference(found)
+
+    def start(self, scan):
+        """A scan, by its name, that is searched next."""
+        self.add({"started": scan})
 
     def add(self, line):
         """A scan that is done."""

@@ -7,7 +7,9 @@ import warnings
 from .. import finding, scripting
 from ..version import VERSION
 from . import parts, progress, scans, table
+from .apart import Ended, apart
 from .journal import Journal
+from .nearby import nearby
 from .ranks import SERVICE_PAUSE, together
 
 ELSEWHERE = ("out", "threads", "watch", "form")  # options that change no pose
@@ -23,8 +25,11 @@ class Plan:
         journal.open({"version": VERSION, "parts": [part.digest() for part in wanted],
                       "scans": os.path.abspath(options.scans),
                       **{name: value for name, value in vars(options).items() if name not in ("scans", *ELSEWHERE)}})
-        done = journal.lines()
-        self.todo = [scan for scan in self.scans if scan[0] not in done]
+        done, started = journal.lines()
+        # Those come first that may have ended a process: before it has threads a process can be copied to search them.
+        suspects = [scan for scan in self.scans if scan[0] in started]
+        self.todo = suspects + [scan for scan in self.scans if scan[0] not in done and scan[0] not in started]
+        self.suspects = len(suspects)
         self.objects = [part.number for part in wanted]
         self.models = parts.trained(wanted, journal.folder)
 
@@ -39,9 +44,17 @@ class Plan:
 class Search:
     """Reads scans and finds the parts in them."""
 
-    def __init__(self, options, plan):
+    def __init__(self, options, plan, copies):
+        """`copies`: where the models' files are read."""
         self.source, self.objects = scans.source(options), plan.objects
-        self.finder = finding.Finder([scripting.read_model(path) for path in plan.models], options)
+        self.finder = finding.Finder([self.model(*paths) for paths in zip(plan.models, copies)], options)
+
+    @staticmethod
+    def model(path, copy):
+        try:
+            return scripting.read_model(copy)
+        except scripting.Failure as failure:
+            raise scripting.Failure(str(failure).replace(copy, path)) from None
 
     def line(self, scan, rank=0):
         """All that becomes known of a scan; what fails is a reason."""
@@ -57,10 +70,20 @@ class Search:
                 failure = str(error)
             except Exception as error:  # whatever is wrong with a scan, the others are not to wait for it
                 failure = f"{type(error).__name__}: {error}"
-        end = time.monotonic()
-        return {"scan": scan[0], "rows": rows, "failure": failure, "read_s": f"{read - start:.4f}",
-                "find_s": f"{end - read:.4f}", "process": rank,
-                "warning": "; ".join(str(warning.message) for warning in heard)}
+        return self.told(scan, rank, read - start, time.monotonic() - read, failure, rows, heard)
+
+    def line_apart(self, scan, rank=0):
+        """The same of a scan that may end the process which searches it."""
+        start = time.monotonic()
+        try:
+            return apart(lambda: self.line(scan, rank))
+        except Ended as how:
+            return self.told(scan, rank, 0, time.monotonic() - start, f"it ended the process that searched it: {how}")
+
+    @staticmethod
+    def told(scan, rank, read, find, failure, rows=(), heard=()):
+        return {"scan": scan[0], "rows": list(rows), "failure": failure, "read_s": f"{read:.4f}", "find_s": f"{find:.4f}",
+                "process": rank, "warning": "; ".join(str(warning.message) for warning in heard)}
 
 
 def work(ranks, journal, search, plan):
@@ -78,7 +101,9 @@ def work(ranks, journal, search, plan):
         while ranks.serves and show() < total:
             time.sleep(SERVICE_PAUSE)
         while not ranks.serves and (place := ranks.take(failed)) < total:
-            line = search.line(plan.todo[place], ranks.rank)
+            scan = plan.todo[place]
+            journal.start(scan[0])
+            line = (search.line_apart if place < plan.suspects else search.line)(scan, ranks.rank)
             journal.add(line)
             failed = line["failure"] != ""
             show()
@@ -92,7 +117,7 @@ def work(ranks, journal, search, plan):
 
 def finish(options, plan, journal):
     """Writes the result and says what is in it."""
-    lines = journal.lines()
+    lines, _ = journal.lines()
     table.write(options.out, plan.names(), lines)
     journal.remove()
     lines = [lines[name] for name in plan.names()]
@@ -109,7 +134,8 @@ def run(options, ranks):
     try:
         plan = ranks.share(together(ranks, lambda: Plan(options, journal) if ranks.rank == 0 else None))
         if plan.todo:
-            search = together(ranks, lambda: Search(options, plan))
+            with nearby(ranks, plan.models) as copies:
+                search = together(ranks, lambda: Search(options, plan, copies))
             together(ranks, lambda: work(ranks, journal, search, plan))
     except scripting.Failure:
         journal.remove_unused()

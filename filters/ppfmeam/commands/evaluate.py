@@ -238,7 +238,7 @@ def world_bins(options):
 
 def run_world(options):
     """Bin by bin; returns how many searches failed."""
-    record, bins = world.Record(options.out), simulation.Bins(options.copies, options.scenes)
+    bins, record = simulation.Bins(options.copies, options.scenes), world.Record(options.out)
     planned = list(world_bins(options))
     todo = [row for row in planned if world.bin_of(row) not in record.done]
     meshes, models, start = {}, {}, time.time()

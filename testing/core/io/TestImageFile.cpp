@@ -93,6 +93,20 @@ TEST(ImageFile, badFiles)
   expectError(flipped, "damaged");
 }
 
+TEST(ImageFile, filesThatAreCutOffSayNothingOnTheConsole)
+{
+  for (const char* form : { ".png", ".bmp" })
+  {
+    const std::string whole = images::encoded(form, cv::Mat(16, 24, CV_8UC3, cv::Scalar(10, 20, 200)));
+    for (const std::size_t length : { whole.size() / 2, whole.size() - 1 })
+    {
+      testing::internal::CaptureStderr();
+      expectError(whole.substr(0, length), "cut off");
+      EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << form << " of " << length << " bytes";
+    }
+  }
+}
+
 TEST(ImageFile, absurdSizesAreRefusedBeforeMemoryIsTaken)
 {
   const auto with = [](std::string bytes, std::size_t at, const std::string& value)

@@ -144,6 +144,20 @@ TEST(MeshFile, TheSameMeshInEveryForm)
   }
 }
 
+TEST(MeshFile, TrianglesOfAnSTLShareTheirVertices)
+{
+  meam::TriangleMesh mesh;
+  mesh.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { -0.0f, 0, 0 } };
+  mesh.triangles = { { 2, 0, 1 }, { 2, 1, 3 }, { 4, 3, 1 } };
+  const files::Folder folder;
+  for (const std::string& bytes : { asciiSTL(mesh), binarySTL(mesh) })
+  {
+    const meam::TriangleMesh found = meam::readMesh(folder.write("part.stl", bytes));
+    EXPECT_EQ(found.vertices, (meam::Points{ { 0, 1, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }));
+    EXPECT_EQ(found.triangles, (std::vector<Eigen::Vector3i>{ { 0, 1, 2 }, { 0, 2, 3 }, { 1, 3, 2 } }));
+  }
+}
+
 TEST(MeshFile, ASolidWordDoesNotMakeTheFileText)
 {
   const files::Folder folder;

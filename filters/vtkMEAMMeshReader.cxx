@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMMeshReader.h"
+
+#include "io/MeshFile.h"
+#include "mesh/TriangleMesh.h"
+#include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMRun.h"
+
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkMEAMMeshReader);
+
+vtkMEAMMeshReader::vtkMEAMMeshReader() { this->SetNumberOfInputPorts(0); }
+
+vtkMEAMMeshReader::~vtkMEAMMeshReader() { this->SetFileName(nullptr); }
+
+int vtkMEAMMeshReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const auto work = [&]
+  {
+    if (!this->FileName || !*this->FileName)
+    {
+      throw meam::Error("No file is given: set FileName to the name of a .stl, .obj, .ply or .off file.");
+    }
+    vtkMEAMConversion::fromMesh(meam::readMesh(this->FileName), output);
+  };
+  return vtkMEAMRun(this, work, output);
+}
+
+void vtkMEAMMeshReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}

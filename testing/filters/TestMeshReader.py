@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes of every kind: the triangles of VTK's readers, also through the scripts; and files that are damaged or cut off."""
+import os
+import tempfile
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOBJWriter, vtkSTLReader, vtkSTLWriter
+from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
+
+from ppfmeam import scripting
+from ppfmeam.filters import vtkMEAMMeshReader
+from meamtest import bracket, check, cloud, connect, fails, mesh, points, prints, run
+
+KINDS = {"ascii.stl": (vtkSTLWriter, vtkSTLReader), "binary.stl": (vtkSTLWriter, vtkSTLReader),
+         "ascii.ply": (vtkPLYWriter, vtkPLYReader), "binary.ply": (vtkPLYWriter, vtkPLYReader),
+         "part.obj": (vtkOBJWriter, vtkOBJReader)}
+folder = tempfile.TemporaryDirectory()
+
+
+def file(name, content=None):
+    path = os.path.join(folder.name, name)
+    if content is not None:
+        with open(path, "wb") as written:
+            written.write(content)
+    return path
+
+
+def reader(path, kind=vtkMEAMMeshReader):
+    result = kind()
+    result.SetFileName(path)
+    return result
+
+
+def write(path, data, writer):
+    writer = connect(writer(), data)
+    writer.SetFileName(path)
+    if os.path.basename(path).startswith("ascii"):
+        writer.SetFileTypeToASCII()
+    elif not path.endswith(".obj"):
+        writer.SetFileTypeToBinary()
+    writer.Write()
+    return path
+
+
+def shape(data):
+    return vtk_to_numpy(data.GetPoints().GetData()), vtk_to_numpy(data.GetPolys().GetConnectivityArray())
+
+
+part = run(connect(vtkTriangleFilter(), bracket()))
+random = numpy.random.default_rng(1)
+for name, (writer, theirs) in KINDS.items():
+    path = write(file(name), part, writer)
+    expected = shape(run(reader(path, theirs)))
+    for found in (shape(run(reader(path))), shape(scripting.read(path))):
+        check(all(a.shape == b.shape and (a == b).all() for a, b in zip(found, expected)), f"another mesh of {name}")
+    check(len(expected[0]) == 12 and len(expected[1]) == 3 * 20, f"{name}: {len(expected[0])} vertices")
+
+    # Damaged files end no program: they are a mesh or a sentence.
+    with open(path, "rb") as whole:
+        content = whole.read()
+    failed = 0
+    for k in range(60):
+        damaged = bytearray(content[:random.integers(len(content))] if k % 2 else content)
+        for place in random.integers(0, len(damaged) if damaged else 0, 3 * (1 - k % 2)):
+            damaged[place] = random.integers(256)
+        bad = file("bad" + os.path.splitext(name)[1], damaged)
+        try:
+            check(scripting.read(bad).GetNumberOfPoints() > 0, f"{name}: no points")
+        except scripting.Failure as failure:
+            check(bad in str(failure), f"{name}: {failure}")
+            failed += 1
+    check(failed > 20, f"{name}: {failed} of 60 damaged files are refused")
+
+# A polygon is cut; a file of points alone is a cloud for the scripts and no mesh.
+square = write(file("square.ply"), mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)]), vtkPLYWriter)
+check(run(reader(square)).GetNumberOfPolys() == 2, "a square is two triangles")
+only = write(file("points.ply"), cloud([(1, 2, 3), (4, 5, 6)]), vtkPLYWriter)
+fails(reader(only), "no faces")
+check(points(scripting.read(only, 2)) == [(2, 4, 6), (8, 10, 12)], "a cloud")
+
+fails(vtkMEAMMeshReader(), "no file")
+fails(reader("/no/such/part.stl"), "/no/such/part.stl")
+fails(reader(__file__), "extension")
+# An error takes the old output away.
+same = reader(square)
+run(same)
+same.SetFileName(only)
+fails(same, "no faces")
+prints(same, "FileName")
