@@ -58,8 +58,11 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
 void requireSettings(const PoseDetectionSettings& settings)
 {
   const auto isShare = [](double share) { return share > 0.0 && share <= 1.0; };
+  if (!(settings.boundaryReferences > 0.0 && settings.scanReferences > 0.0))
+  {
+    throw Error("The reference points of a copy must be a positive number.");
+  }
   if (!(settings.referenceShare >= 0.0 && settings.referenceShare <= 1.0) || !isShare(settings.referredShare) ||
-      !isShare(settings.boundaryReferenceShare) || !isShare(settings.scanReferenceShare) ||
       !isShare(settings.surfaceReferenceShare) || !isShare(settings.boundarySurfaceShare))
   {
     throw Error("The shares of reference and referred points must be in (0, 1].");
@@ -88,6 +91,20 @@ DirectedPoints surfacePointsOf(const Scene& scene, double leaf, const PoseDetect
     }
   }
   return result;
+}
+
+/// How many copies would show so many thinned edge points as these.
+double copiesOf(const DirectedPoints& thinned, const TrainedModel& model)
+{
+  std::size_t shown = 0;
+  std::uint32_t views = 0;
+  for (const std::uint32_t ofPoint : model.edgeViews)
+  {
+    shown += static_cast<std::size_t>(__builtin_popcount(ofPoint));
+    views |= ofPoint;
+  }
+  return shown > 0 ? static_cast<double>(thinned.points.size()) * __builtin_popcount(views) / static_cast<double>(shown)
+                   : 0.0;
 }
 
 PairKeys keysOf(const DirectedPoints& points, const PairFeatureQuantizer& quantizer)
@@ -136,25 +153,19 @@ VotingRound edgeRound(const LocalCloud& sceneEdges, const TrainedModel& model, c
   const PointCloud finite = finitePoints(sceneEdges.cloud);
   requireSameUnits(finite.points, model.diameter);
   requireSettings(settings);
-  const double share = settings.referenceShare > 0.0 ? settings.referenceShare
-                       : sceneEdges.fromScan         ? settings.scanReferenceShare
-                                                     : settings.boundaryReferenceShare;
-  const int least = sceneEdges.fromScan ? settings.leastScanReferences : settings.leastReferences;
   DirectedPoints edges{ finite.points, finite.tangents };
   for (Eigen::Vector3f& tangent : edges.directions)
   {
     tangent = tangent.x() < 0.0f ? Eigen::Vector3f(-tangent) : tangent; // the sign is that of the first axis
   }
+  DirectedPoints referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
+  const double ofCopy = sceneEdges.fromScan ? settings.scanReferences : settings.boundaryReferences;
+  const double needed = settings.referenceShare > 0.0 ? 0.0 : ofCopy * copiesOf(referred, model);
+  const int least = std::max(sceneEdges.fromScan ? settings.leastScanReferences : settings.leastReferences,
+    static_cast<int>(std::min(std::ceil(needed), static_cast<double>(edges.points.size()))));
   const double cell = settings.choiceCell * model.diameter;
-  std::vector<int> references;
-  DirectedPoints referred;
-  inParallel(settings.threads, { [&] { references = chooseShare(edges.points, share, least, cell, settings.seed); },
-                                 [&]
-                                 {
-                                   referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
-                                   referred = referred.subset(
-                                     chooseShare(referred.points, settings.referredShare, 1, cell, settings.seed + 1));
-                                 } });
+  std::vector<int> references = chooseShare(edges.points, settings.referenceShare, least, cell, settings.seed);
+  referred = referred.subset(chooseShare(referred.points, settings.referredShare, 1, cell, settings.seed + 1));
   const PartPairs part{ model.edges.points, model.edges.tangents, model.table, model.quantizer(),
     model.settings.angleStep * M_PI / 180.0, model.diameter, std::numeric_limits<std::size_t>::max() };
   return { true, part, std::move(edges), std::move(references), std::move(referred) };

@@ -13,13 +13,13 @@ namespace meam
 struct PoseDetectionSettings
 {
   Features features = Features::Both; ///< of those that the model holds
-  /// P_ref: share of the scene's edge points, and of its surface points, used as reference points; 0: by where the
-  /// edges come from.
+  /// P_ref: share of the scene's edge points, and of its surface points, used as reference points; 0: as many as the
+  /// scene needs, by how many copies its edges would make (PairVoting.h) and where they come from.
   double referenceShare = 0.0;
-  double boundaryReferenceShare = 0.03; ///< P_ref of an exact boundary
+  double boundaryReferences = 25.0; ///< for each copy, of an exact boundary
   /// P_ref of edges found in a scan, by its image or its depth: many are not the part's, and some are displaced, so
   /// fewer references lead to a candidate (docs/evaluation.md).
-  double scanReferenceShare = 0.2;
+  double scanReferences = 100.0;
   int leastReferences = 100;      ///< that a few copies are found by in a small scene
   int leastScanReferences = 3000; ///< the same of edges found in a scan
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size

@@ -184,9 +184,9 @@ TEST(PoseEvidence, OutlineUnderTheFloorDoesNotEnd)
     }
   }
   const float diameter = static_cast<float>(scenes::bracket().diameter);
-  for (float x = border; x < border + diameter; x += 3.0f)
+  for (float x = border; x < border + diameter; x += 6.0f)
   {
-    for (float y = parts.center().y() - diameter; y < parts.center().y() + diameter; y += 3.0f)
+    for (float y = parts.center().y() - diameter; y < parts.center().y() + diameter; y += 6.0f)
     {
       seen.surface.push_back({ x, y, low - 3.0f * diameter });
     }
