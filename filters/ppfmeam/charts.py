@@ -16,8 +16,9 @@ from vtkmodules.vtkViewsContext2D import vtkContextView
 from . import scripting
 
 SIZE = (960, 540)
-# Okabe and Ito's colours, which colour-blind people tell apart.
-COLORS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (86, 180, 233), (213, 94, 0), (240, 228, 66), (120, 120, 120))
+# Okabe and Ito's colours, which colour-blind people tell apart, and a few for more.
+COLORS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (86, 180, 233), (213, 94, 0), (240, 228, 66), (120, 120, 120),
+          (0, 0, 0), (140, 80, 30), (170, 225, 170), (100, 30, 140))
 
 
 def there_is_display():

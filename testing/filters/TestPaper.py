@@ -18,7 +18,7 @@ from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-from ppfmeam import paper, papertables, stage
+from ppfmeam import paper, papertables, scripting, stage
 from meamtest import check, close
 from scripttest import refuses
 
@@ -68,6 +68,42 @@ turned = stage.turned(still, middle, 19)
 check(close([stage.errors(still, turned, middle, degrees=20)], [1.0], 1e-6), "the error of a turn")
 check(numpy.allclose(turned[:3, :3] @ middle + turned[:3, 3], middle), "a turn moves the middle")
 check(numpy.allclose(stage.turned(still, middle, 90, "x")[:3, :3] @ (0, 1, 0), (0, 0, 1)), "a turn about x")
+
+
+
+class Stand:
+    """In place of the stage: 0.5 mm are added to steps of 10 mm, nothing is found after 20 mm, and scans of one trial fail."""
+
+    fails, middle, trials = True, middle, []
+
+    def __init__(self, *_):
+        pass
+
+    def lying(self, seed):
+        self.trials.append(seed)
+        return numpy.eye(4)
+
+    def found(self, transform, seed):
+        if self.fails and seed > stage.SCANS:
+            raise scripting.Failure("the lamp is out")
+        x = transform[0, 3] - (middle - transform[:3, :3] @ middle)[0]
+        return None if abs(x - 20) < 1e-6 else stage.moved(transform, 0.5) if abs(x - 10) < 1e-6 else transform
+
+
+# A trial that fails is a row with its reason, and the only one that is made again.
+with tempfile.TemporaryDirectory() as folder:
+    stage.Stage, whole_stage = Stand, stage.Stage
+    text, failed = stage.run(folder, "plate", "paper", 1, 1, 2)
+    check(failed == 1 and "The trial of seed 14 failed: the lamp is out" in text, text)
+    check("| 10 mm | 1 of 2 | 0.500 mm | 0.500 mm |" in text and "| 20 mm | 0 of 2 | - | - |" in text, text)
+    check("| 15 degrees about x | 1 of 2 | 0.000 degrees" in text, text)
+    with open(os.path.join(folder, "figure13_trials.csv"), encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    check([row["failure"] for row in rows] == ["", "the lamp is out"] and rows[0]["20 mm"] == "", f"{rows}")
+    Stand.fails, Stand.trials = False, Stand.trials[:0]
+    text, failed = stage.run(folder, "plate", "paper", 1, 1, 2)
+    check(failed == 0 and Stand.trials == [14] and "| 10 mm | 2 of 2 |" in text, f"{Stand.trials}: {text}")
+    stage.Stage = whole_stage
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EVALUATE = [sys.executable, os.path.join(HERE, "..", "..", "examples", "evaluate.py"), "paper"]
