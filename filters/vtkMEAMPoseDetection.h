@@ -60,8 +60,8 @@ public:
   /**
    * Share of the scene's edge points, and of its surface points, that are reference points, in [0, 1] (P_ref). More
    * finds more of the hidden copies and takes longer. 0: by how many copies the edges would make: in a scan (edges with
-   * `EdgeSource`) 100 edge points for each copy, at least 3000, and 0.07 of the surface, at least 300; of an exact
-   * boundary 25 for each copy, at least 100, and 0.01 of the surface beside it, at least 50.
+   * `EdgeSource`) 40 edge points for each copy, at least 3000, and 0.07 of the surface, at least 300; of an exact
+   * boundary 10 for each copy, at least 100, and 0.01 of the surface beside it, at least 50.
    * Default: 0.
    */
   virtual void SetReferenceShare(double value);

@@ -71,8 +71,8 @@ double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRa
 bool EvidenceCollector::isBehind(const Eigen::Vector3f& point) const
 {
   const std::vector<Plane>& planes = this->InScene.enclosure;
-  return std::any_of(
-    planes.begin(), planes.end(), [&](const Plane& plane) { return plane.signedDistance(point) < this->behind(); });
+  return std::any_of(planes.begin(), planes.end(),
+    [&](const Plane& plane) { return plane.signedDistance(point) < this->behindPlane(); });
 }
 
 double EvidenceCollector::shareBehind(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
@@ -84,14 +84,14 @@ double EvidenceCollector::shareBehind(const Eigen::Isometry3d& T_scene_model, st
   for (const Plane& plane : this->InScene.enclosure)
   {
     const Plane inModel(T.linear().transpose() * plane.normal(), plane.signedDistance(T.translation()));
-    if (inModel.signedDistance(whole.middle()) > whole.radius() + this->behind())
+    if (inModel.signedDistance(whole.middle()) > whole.radius() + this->behindPlane())
     {
       continue;
     }
     std::size_t found = 0, all = 0;
     for (std::size_t k = 0; k < model.verificationPoints.size(); k += stride)
     {
-      found += inModel.signedDistance(model.surface.points[model.verificationPoints[k]]) < this->behind() ? 1 : 0;
+      found += inModel.signedDistance(model.surface.points[model.verificationPoints[k]]) < this->behindPlane() ? 1 : 0;
       ++all;
     }
     share += all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 0.0;

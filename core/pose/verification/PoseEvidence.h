@@ -83,7 +83,7 @@ public:
 
 private:
   /// mm; less than nothing: so far behind the bin's floor or a wall.
-  float behind() const { return -static_cast<float>(this->Settings.behind) * this->Tolerance; }
+  float behindPlane() const { return -static_cast<float>(this->Settings.behind) * this->Tolerance; }
   bool isBehind(const Eigen::Vector3f& point) const;
 
   const Scene& InScene;

@@ -12,7 +12,7 @@ namespace meam
 {
 struct PoseScreeningSettings
 {
-  EvidenceSettings evidence; ///< of it tolerance, lengths and freeSpace, whatever the scan's noise is
+  EvidenceSettings evidence; ///< only tolerance, lengths and freeSpace count; noise does not widen the tolerance
   RotationSearchSettings rotation;
   double leastSurface = 0.5; ///< share of the pose's surface towards the sensor that has to be there
   double unmeasured = 0.5;   ///< of a point that is there: what one counts where nothing was measured

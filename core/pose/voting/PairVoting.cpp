@@ -93,15 +93,16 @@ DirectedPoints surfacePointsOf(const Scene& scene, double leaf, const PoseDetect
   return result;
 }
 
-/// How many copies would show so many thinned edge points as these.
+/// How many copies would show so many thinned edge points, by what an appearance model has of the part's, thinned
+/// alike.
 double copiesOf(const DirectedPoints& thinned, const TrainedModel& model)
 {
   std::size_t shown = 0;
   std::uint32_t views = 0;
-  for (const std::uint32_t ofPoint : model.edgeViews)
+  for (int k = 0; k < model.table.votingPoints; ++k)
   {
-    shown += static_cast<std::size_t>(__builtin_popcount(ofPoint));
-    views |= ofPoint;
+    shown += static_cast<std::size_t>(__builtin_popcount(model.edgeViews[k]));
+    views |= model.edgeViews[k];
   }
   return shown > 0 ? static_cast<double>(thinned.points.size()) * __builtin_popcount(views) / static_cast<double>(shown)
                    : 0.0;

@@ -14,14 +14,12 @@ struct PoseDetectionSettings
 {
   Features features = Features::Both; ///< of those that the model holds
   /// P_ref: share of the scene's edge points, and of its surface points, used as reference points; 0: as many as the
-  /// scene needs, by how many copies its edges would make (PairVoting.h) and where they come from.
+  /// scene needs, of the edges by how many copies they would make, and by where they come from.
   double referenceShare = 0.0;
-  double boundaryReferences = 25.0; ///< for each copy, of an exact boundary
-  /// P_ref of edges found in a scan, by its image or its depth: many are not the part's, and some are displaced, so
-  /// fewer references lead to a candidate (docs/evaluation.md).
-  double scanReferences = 100.0;
-  int leastReferences = 100;      ///< that a few copies are found by in a small scene
-  int leastScanReferences = 3000; ///< the same of edges found in a scan
+  double boundaryReferences = 10.0; ///< for each copy, of an exact boundary
+  double scanReferences = 40.0;     ///< the same of edges found in a scan: many are not the part's, some are displaced
+  int leastReferences = 100;        ///< that a few copies are found by in a small scene
+  int leastScanReferences = 3000;   ///< the same of edges found in a scan
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/edges/LongLines.h"
 
+#include "base/Error.h"
 #include "base/Parallel.h"
 
 #include <algorithm>
@@ -50,18 +51,23 @@ Points walk(const PointCloud& edges, const EdgeIndex& index, const Eigen::Vector
 std::vector<unsigned char> onLongLines(const PointCloud& edges, const EdgeIndex& index, double partDiameter,
   double tolerance, const LongLineSettings& settings, int threads)
 {
+  if (!(settings.step > 0.0))
+  {
+    throw Error("The step along lines of edges must be positive.");
+  }
   const auto inMM = [&](double share) { return static_cast<float>(share * partDiameter); };
   const Lengths lengths{ inMM(settings.step), inMM(settings.straight), static_cast<float>(tolerance),
     static_cast<float>(settings.parallel), settings.mostMissing };
   const float least = inMM(settings.leastLength);
-  std::vector<Points> lines((edges.size() + settings.stride - 1) / settings.stride);
+  const std::vector<int> seeds = thinPoints(edges.points, settings.seedCell * partDiameter);
+  std::vector<Points> lines(seeds.size());
   parallelFor(static_cast<int>(lines.size()), threads, {},
     [&](int begin, int end, int)
     {
       for (int s = begin; s < end; ++s)
       {
-        const Eigen::Vector3f& start = edges.points[s * settings.stride];
-        Eigen::Vector3f direction = edges.tangents[s * settings.stride];
+        const Eigen::Vector3f& start = edges.points[seeds[s]];
+        Eigen::Vector3f direction = edges.tangents[seeds[s]];
         const Points ahead = walk(edges, index, start, direction, lengths);
         direction = -direction;
         Points line = walk(edges, index, start, direction, lengths);

@@ -169,7 +169,7 @@ TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
   const std::size_t ofBoundary = candidates();
   // All edges of the part are more than one view of it shows.
   EXPECT_GE(ofBoundary, 20u);
-  EXPECT_LE(ofBoundary, 60u);
+  EXPECT_LE(ofBoundary, 80u);
   edges.fromScan = true;
   EXPECT_NEAR(static_cast<double>(candidates()), 2.0 * static_cast<double>(ofBoundary), 1.0);
   meam::LocalCloud two = edges;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 namespace
 {
@@ -57,6 +59,33 @@ TEST(LongLines, GapsOfAStepAreCrossedAndLongerOnesAreNot)
   addLine({ 0, 0, 500 }, { 1, 0, 0 }, 80, wide); // parts in a row, a fifth of their size apart
   addLine({ 101, 0, 500 }, { 1, 0, 0 }, 80, wide);
   EXPECT_EQ(onLines(wide), 0);
+}
+
+TEST(LongLines, OneIsFoundAmongManyOthersWhateverTheirOrder)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(-250.0f, 250.0f);
+  meam::PointCloud edges;
+  addLine({ -70, 0, 500 }, { 1, 0, 0 }, 140, edges);
+  const int count = static_cast<int>(edges.size());
+  for (int k = 0; k < 5000; ++k)
+  {
+    edges.points.emplace_back(place(random), place(random), 500.0f + 0.3f * place(random));
+    edges.tangents.push_back(Eigen::Vector3f(place(random), place(random), place(random)).normalized());
+  }
+  const int found = onLines(edges);
+  EXPECT_GE(found, count);
+  EXPECT_LT(found, count + 20);
+  meam::PointCloud other;
+  std::vector<int> order(edges.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), random);
+  for (const int i : order)
+  {
+    other.points.push_back(edges.points[i]);
+    other.tangents.push_back(edges.tangents[i]);
+  }
+  EXPECT_EQ(onLines(other), found);
 }
 
 TEST(LongLines, ACircleIsNone)
