@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the documents name exists: linked files, files in backquotes (but for Blur, the example of a new step), and the
-# settings in docs/method.md; and they use the words of the glossary. Prints what breaks that and fails.
+# settings in docs/parameters.md; and they use the words of the glossary. Prints what breaks that and fails.
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
 status=0
 missing() { echo "$1: $2"; status=1; }
@@ -22,7 +22,44 @@ done
 if grep -nwiE 'settles?|settled|glances?|own frame|in sight|looked past|judged points' "${documents[@]}"; then
   missing docs "the glossary has the field's words for these"
 fi
+# The settings of docs/parameters.md: all fields of each struct that it names, with their defaults as the headers of core/
+# have them ("STRUCT FIELD DEFAULT"), but for threads and structs within; and its properties are those of xml/.
+parameters=docs/parameters.md
+mapfile -t headers < <(find core -name '*.h')
+has=$(sed -nE 's/^\| `([a-z][A-Za-z]*)` \| ([^|]*[^| ]) \|.*/field \1 \2/p; s/^`([A-Z][A-Za-z]*)`.*/struct \1/p' "$parameters" |
+  awk '$1 == "struct" { name = $2 } $1 == "field" { sub(/^field /, ""); print name, $0 }' | sort)
+structs=$(sed -nE 's/^`([A-Z][A-Za-z]*)`.*/\1/p' "$parameters")
+[ "$(wc -l <<<"$structs")" -gt 1 ] || missing "$parameters" "no settings struct is named"
+wanted=$(awk -v named="$structs" '
+  BEGIN { split(named, list); for (i in list) { isNamed[list[i]] = 1 } }
+  /^struct [A-Za-z]+$/ { name = $2 }
+  /^};/ { name = "" }
+  name in isNamed && /^  [A-Za-z].*( = .*|[{] .* [}]);/ {
+    sub(/;.*/, "")
+    sub(/[{] /, " = ")
+    sub(/ [}]/, "")
+    field = value = $0
+    sub(/ = .*/, "", field)
+    sub(/.* /, "", field)
+    sub(/^[^=]* = /, "", value)
+    gsub(/[A-Za-z0-9]+::/, "", value)
+    sub(/^true$/, "on", value)
+    sub(/^false$/, "off", value)
+    gsub(/\.0 /, " ", value)
+    sub(/\.0$/, "", value)
+    of[name "." field] = value
+  }
+  END {
+    for (key in of) {
+      other = of[key]
+      value = sub(/\(\)\./, ".", other) ? of[other] : of[key]
+      if (key !~ /\.threads$/) { sub(/\./, " ", key); print key, value }
+    }
+  }' "${headers[@]}" | sort)
+differ=$(diff <(echo "$wanted") <(echo "$has") | sed -nE 's/^< /core has /p; s/^> /the page has /p')
+[ -z "$differ" ] || missing "$parameters" "$differ"
 while read -r name; do
-  grep -rqwF --include='*.h' "$name" core || missing docs/method.md "no header of core/ knows the setting $name"
-done < <(grep '^\*Settings\*' docs/method.md | grep -oE '`[A-Za-z]+`' | tr -d '`' | sort -u)
+  missing "$parameters" "neither core/ nor xml/ knows $name"
+done < <(grep -oE '`[A-Z][A-Za-z]*`' "$parameters" | tr -d '`' | sort -u |
+  comm -23 - <(grep -rohE --include='*.h' --include='*.xml' '[A-Z][A-Za-z]*' core xml | sort -u))
 exit $status

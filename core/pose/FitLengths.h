@@ -4,7 +4,7 @@
 namespace meam
 {
 /// Lengths that several steps mean, as shares of the part's diameter: they follow how finely parts of any size are
-/// sampled, trained and measured in a usual bin (docs/method.md).
+/// sampled, trained and measured in a usual bin (docs/parameters.md).
 struct FitLengths
 {
   double fits = 0.03;        ///< a model point this near to the scene fits
