@@ -289,7 +289,7 @@ def run(folder, parts, sensors, gripper, bins, copies, first, threads, show=Fals
     for count, (part, sensor, _, seed, _) in enumerate(todo):
         if station is None or (station.part, station.sensor) != (part, sensor):
             station = Station(part, sensor, gripper, threads)
-        name = f"{part}_{sensor}_{gripper}_{seed}"
+        name = f"{part}_{sensor}_{gripper}_{copies}_{seed}"
         film = Film(folder, name, station)
         strip = None
         if show:

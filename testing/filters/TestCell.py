@@ -16,7 +16,7 @@ from meamtest import check, run, skip
 if not os.environ.get("DISPLAY"):
     skip("no display")
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
-NAME = "ridged_disc_structured-light_cup_1"
+NAME = "ridged_disc_structured-light_cup_3_1"
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
 
@@ -62,8 +62,9 @@ whole = content("out/cell.csv")
 again = cell("--out", "out")
 check(again.returncode == 0 and again.stderr == "" and again.stdout == done.stdout, f"nothing is left to do: {again.stderr}")
 check(content("out/cell.csv") == whole, "and nothing is changed")
+bins = content("out/bins.csv")
 with open("out/bins.csv", "w", encoding="utf-8") as file:
-    file.write("part,sensor,gripper,seed\n")  # as if the run had been killed before the bin was done
+    file.write(bins[:-3])  # as if the run had been killed while it noted that the bin is done
 torn = cell("--out", "out")
 check(torn.returncode == 0, torn.stderr)
 
@@ -74,6 +75,11 @@ def without_times(text):
 
 check(without_times(content("out/cell.csv")) == without_times(whole), "a bin that was interrupted starts anew and is the same")
 
+os.mkdir("old")
+with open("old/bins.csv", "w", encoding="utf-8") as file:
+    file.write(bins.replace(",copies", ""))
+old = cell("--out", "old")
+check(old.returncode != 0 and "is not of this version" in old.stderr, f"columns of another version: {old.stderr}")
 for word, arguments in (("1 or more", ("--bins", "0")), ("10000", ("--copies", "10001")), ("cannot write", ("--out", "/proc/no"))):
     wrong = cell("--out", "wrong", *arguments)
     check(wrong.returncode != 0 and word in wrong.stderr and not os.path.exists("wrong"), f"{arguments}: {wrong.stderr}")
