@@ -9,12 +9,14 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 
 from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
+    vtkMEAMPoseDetection,
     vtkMEAMPoseEstimation,
     vtkMEAMPoseEvaluation,
     vtkMEAMPoseInstances,
     vtkMEAMPoseWriter,
     vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
+    vtkMEAMTangentEstimation,
 )
 from meamtest import (Errors, Trained, Warnings, check, cloud, collection, connect, fails, field, image, is_empty,
                       points, prints, run, scaled, tuples)
@@ -159,12 +161,20 @@ before, after = ([p for p, in tuples(data, "Probability")] for data in (doubted,
 check(sorted(tuples(doubted, "Transform")) == sorted(tuples(known, "Transform")), "the same poses")
 check(all(a <= b for a, b in zip(before, after)) and before[-1] < after[-1], f"{before} {after}")
 
-# The preset's share of reference points follows where the edges come from; another one leads to other candidates.
+# The number of reference points follows where the edges come from; another one leads to other candidates.
 check(found(estimation(model, scan, MaximumNumberOfPoses=0, ReferenceShare=1))
       != found(estimation(model, scan, MaximumNumberOfPoses=0)), "of a scan")
 elsewhere = cloud(points(ready), Tangent=tuples(ready, "Tangent"))
 few = found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0))
-check(few == found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0, ReferenceShare=0.03)),
+candidates = {}
+for name, edges in (("scan", ready), ("elsewhere", elsewhere)):
+    edges = run(connect(vtkMEAMTangentEstimation(), edges, model))
+    detection = connect(vtkMEAMPoseDetection(), edges, model)
+    detection.SetFeatures(0)
+    candidates[name] = run(detection).GetNumberOfPoints()
+check(100 <= candidates["elsewhere"] < 0.5 * candidates["scan"], f"{candidates}")
+share = (candidates["elsewhere"] - 0.5) / edges.GetNumberOfPoints()  # each is of one reference point
+check(few == found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0, ReferenceShare=share)),
       "of edges from elsewhere")
 check(few != found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0, ReferenceShare=0.5)), "another share")
 
