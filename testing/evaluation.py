@@ -240,8 +240,9 @@ def robustness(commands):
 
 
 def world(commands):
-    if os.path.exists(path_of("OUT/world/world.csv")):
-        os.remove(path_of("OUT/world/world.csv"))  # of another version; the bins are the same
+    for name in ("world.csv", "poses.csv"):
+        if os.path.exists(path_of(f"OUT/world/{name}")):
+            os.remove(path_of(f"OUT/world/{name}"))  # of another version; the bins are the same
     return ("A bin of 20 copies, of a seed that nothing was fitted on, of each part and each kind of sensor, by edges, by the surface and by both, with "
             "the image of the sensor, and one of the next part, in which the part is not. *AR*, *AP2-20*: the BOP "
             "benchmark's, of all copies of which at least a tenth is visible; AP at MSSD of 2 to 20 mm by the ranks in each bin. *R@99*: with the poses found where the part is not. *claim - rate*: mean probability of all poses less the share of the right "

@@ -114,7 +114,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1. present: the part is known to be in the
     scan, as in a cell that counts what it takes: no pose is less likely because it may be missing.
     image_edges, depth_edges, creases: where edges are looked for, the last two not with preset paper. references: the share
-    of points that vote, 0: the preset's. preset: recommended, paper, without-meam, ppf or b2b, the one that the part was trained with; the others than
+    of points that vote, 0: as many as the scene needs, by how many copies its edges would make. preset: recommended, paper, without-meam, ppf or b2b, the one that the part was trained with; the others than
     recommended have features of their own. features: edges, surface or both, as train() has them. threads: 0 for all cores.
     """
     estimation = filters.vtkMEAMPoseEstimation()

@@ -208,7 +208,8 @@ def share(text):
 def add_reference_argument(parser):
     parser.add_argument("--references", type=share, default=0, metavar="SHARE",
                         help="share of the scene's points that are reference points, more finds more of the hidden "
-                             "copies and takes longer (default: the preset's; recommended: 0.2, of a boundary cloud 0.03)")
+                             "copies and takes longer (default: as many as the scene needs, by how many copies its edges would make; of "
+                             "other methods than meam and of preset paper 0.2)")
 
 
 PRESETS = {"recommended": "Recommended", "paper": "Paper", "without-meam": "WithoutMEAM", "ppf": "OriginalPPF", "b2b": "B2B"}
