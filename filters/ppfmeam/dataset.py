@@ -17,12 +17,17 @@ BESIDE = ("rgb_beside", "gray_beside")  # images of the camera of image_camera.j
 
 def points_where(points, name, value):
     """Those whose array has the value."""
+    return points_between(points, name, value, value)
+
+
+def points_between(points, name, least, most):
+    """Those whose array has a value from `least` to `most`."""
     if not points.GetNumberOfPoints():
         return points
     threshold = vtkThresholdPoints()
     threshold.SetInputData(points)
     threshold.SetInputArrayToProcess(0, 0, 0, vtkPolyData.FIELD_ASSOCIATION_POINTS, name)
-    threshold.ThresholdBetween(value, value)
+    threshold.ThresholdBetween(least, most)
     return scripting.update(threshold).GetOutput()
 
 

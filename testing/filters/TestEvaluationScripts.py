@@ -7,20 +7,36 @@ import os
 import shutil
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from ppfmeam import world
-from ppfmeam.filters import vtkMEAMPoseWriter, vtkMEAMSceneEdgeExtraction
-from meamtest import LONG, check, connect, points, poses, run, tuples
+from ppfmeam import evaluation, scripting, world
+from ppfmeam.filters import vtkMEAMPoseWriter
+from meamtest import LONG, Trained, check, connect, points, poses, run, tuples
 from scripttest import EXAMPLES, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
 scan, truth, mesh = scan_of_bin()
 places = vtk_to_numpy(scan.GetPoints().GetData())
 true = numpy.array(tuples(truth, "Transform")).reshape(-1, 4, 4)
 
+# True poses of which only the hidden ones are wrong fit, those of which only the hidden ones are right do not, in any order.
+model = run(Trained(mesh).model)
+edges = evaluation.scene_edges(scan)
+away = true.copy()
+away[:, :3, 3] += (40, 40, 20)
+for mixed, fits in ((numpy.concatenate((true[:1], away[1:3])), True), (numpy.concatenate((away[:1], true[1:3])), False)):
+    for order in ([0, 1, 2], [2, 1, 0]):
+        known = scripting.poses_of(mixed[order])
+        visible = numpy_to_vtk(numpy.array((0.9, 0.2, 0.1))[order], deep=True)
+        visible.SetName("VisibleFraction")
+        known.GetPointData().AddArray(visible)
+        try:
+            evaluation.with_visibility(evaluation.half_visible(known), model, edges, scan)
+            check(fits, f"wrong where they are seen, in the order {order}")
+        except scripting.Failure as failure:
+            check(not fits and "another scene" in str(failure), f"right where they are seen, in the order {order}: {failure}")
+
 # evaluate.py: the dataset is seen from above, z up. The second scene is missing.
 up = numpy.diag((1.0, -1.0, -1.0, 1.0))
-edges = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
 os.makedirs("data/Part_1/Scenes")
 os.makedirs("data/Part_1/Results")
 write_stl("data/Part_1/Part_1.STL", mesh)
@@ -51,7 +67,10 @@ away[:, :3, 3] += (40, 40, 20)
 writer = connect(vtkMEAMPoseWriter(), poses(*[tuple(t.ravel()) for t in away]))
 writer.SetFileName("data/Part_1/Results/trans1.txt")
 writer.Write()
-result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "1")
+os.makedirs("away/Part_1")
+shutil.copy("data/Part_1/Results/trans1.txt", "away/Part_1")
+result = script("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "1", "--found", "away")
+check(result.stdout.splitlines()[1].split()[4] == "0.0", f"poses that equal true ones of another scene: {result.stdout}")
 check(result.returncode == 1 and "scene 1: the true poses fit" in result.stderr and "another part or another scene" in result.stderr, result.stderr)
 text = works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--found", "result")
 check(text.splitlines()[1].split()[4] == f"{float(row['strict']):.1f}", "our own poses, judged again")

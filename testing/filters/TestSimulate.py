@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """simulate.py writes datasets whose depth, image, masks and truth fit each other; evaluate.py finds the parts in them."""
+import contextlib
 import csv
+import io
 import json
 import os
 import shutil
@@ -10,6 +12,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 
+from ppfmeam import dataset, evaluation, scripting
+from ppfmeam.commands import evaluate
 from ppfmeam.filters import vtkMEAMSamplePartSource
 from meamtest import check, close, run
 from scripttest import EXAMPLES, script
@@ -162,5 +166,31 @@ check(done.returncode == 0, done.stderr)
 with open("why.csv", newline="", encoding="utf-8") as table:
     rows = list(csv.DictReader(table))
 check(len(rows) == COPIES and all((row["found by"] == "") == (row["why"] != "") and row["visible"] for row in rows), f"{rows}")
+# A diagnosis that fails is told of, once; what is found still counts.
+class Undiagnosed:
+    def add(self, *_, **__):
+        raise scripting.Failure("no diagnosis")
+
+
+data = dataset.Dataset("plates")
+model, mesh = data.train(1, "recommended"), data.mesh(1)
+whole = data.scene(0).image(0)
+poses = {1: dataset.Found("back.csv", [1]).poses(whole, 1)}
+figures = []
+for lost in (None, Undiagnosed()):
+    judged, benchmark, failed, errors = evaluation.Evaluation(model, mesh=mesh), dataset.BOPFigures(mesh, model), set(), io.StringIO()
+    with contextlib.redirect_stderr(errors):
+        evaluate.judge(whole, poses, {1: judged}, {1: benchmark}, None, lost, failed)
+    told = "scene 0, image 0, object 1"
+    check(failed == ({told} if lost else set()) and errors.getvalue() == (f"{told}: no diagnosis\n" if lost else ""), errors.getvalue())
+    figures.append((judged.figures()["recall"], benchmark.recalls()))
+check(figures[0] == figures[1] and figures[0][0] > 0, f"{figures}")
+# An object that fails twice is one that failed.
+failed = set()
+with contextlib.redirect_stderr(io.StringIO()) as errors:
+    for _ in range(2):
+        with evaluate.told("here", failed):
+            raise scripting.Failure("no")
+check(len(failed) == 1 and errors.getvalue() == "here: no\n" * 2, errors.getvalue())
 done = script("evaluate.py", "bop", "plates", "--found", "nowhere")
 check(done.returncode == 1 and done.stderr == "evaluate.py: cannot read nowhere: No such file or directory\n", done.stderr)

@@ -54,36 +54,45 @@ def instances_of(options):
                                threads=options.threads) if options.why else None
 
 
-def run_part(part, options, lost):
-    """Trains, runs every scene and returns the row of the table, and how many scenes failed."""
+@contextlib.contextmanager
+def told(where, failed):
+    """Says what fails there, and adds it to those that failed."""
+    try:
+        yield
+    except scripting.Failure as failure:
+        print(f"{where}: {failure}", file=sys.stderr)
+        failed.add(where)
+
+
+def run_part(part, options, lost, failed):
+    """Trains, runs every scene and returns the row of the table; scenes that fail are added to `failed`."""
     mesh = evaluation.tohoku_mesh(options.folder, part)
     model = scripting.train(mesh, options.preset, options.features)
     run = evaluation_of(model, mesh, options, options.features)
     deviation = options.noise(scripting.field(model, "Diameter"))
-    failed = 0
     if options.out:
         scripting.make_folder(os.path.join(options.out, f"Part_{part}"))
     for scene in options.scenes:
         out = options.out and os.path.join(options.out, f"Part_{part}", f"trans{scene}.txt")
         if out and os.path.exists(out):
             os.remove(out)  # of an earlier run
-        truth, poses = vtkPolyData(), vtkPolyData()
-        try:
+        truth, poses, where = vtkPolyData(), vtkPolyData(), f"part {part}, scene {scene}"
+        with told(where, failed):
             truth = evaluation.tohoku_truth(options.folder, part, scene)
             surface, edges = evaluation.tohoku_clouds(options.folder, part, scene)
-            noisy = evaluation.with_noise((surface, edges), deviation, scene)
-            poses = (dataset.stored_poses(os.path.join(options.found, f"Part_{part}", f"trans{scene}.txt")) if options.found
-                     else run.find(*noisy))
             truth = evaluation.with_visibility(truth, model, edges, surface)
+            if options.found:
+                poses = dataset.stored_poses(os.path.join(options.found, f"Part_{part}", f"trans{scene}.txt"))
+            else:
+                surface, edges = evaluation.with_noise((surface, edges), deviation, scene)
+                poses = run.find(surface, edges)
             if out:
                 scripting.write_poses(poses, out, "Matrices", MaximumNumberOfPoses=options.poses)
-            if lost:
-                lost.add({"part": part, "scene": scene}, run, poses, truth, noisy[0], boundary=noisy[1])
-        except scripting.Failure as failure:
-            print(f"part {part}, scene {scene}: {failure}", file=sys.stderr)
-            failed += 1
         run.add(poses, truth)
-    return {"part": part, "scenes": len(options.scenes), **run.figures()}, failed
+        if lost and where not in failed:
+            with told(where, failed):
+                lost.add({"part": part, "scene": scene}, run, poses, truth, surface, boundary=edges)
+    return {"part": part, "scenes": len(options.scenes), **run.figures()}
 
 
 def print_stages(rows):
@@ -96,14 +105,13 @@ def print_stages(rows):
 
 def tohoku(options):
     """Part by part; returns how many scenes failed."""
-    rows, failures, lost = [], 0, instances_of(options)
+    rows, failed, lost = [], set(), instances_of(options)
     if options.found:
         evaluation.require_found(options.found, options.parts)
     print("part  " + COLUMNS)
     for part in options.parts:
-        row, failed = run_part(part, options, lost)
+        row = run_part(part, options, lost, failed)
         rows.append(row)
-        failures += failed
         print(ROW.format(**row), flush=True)
     print_stages(rows)
     if lost:
@@ -113,43 +121,41 @@ def tohoku(options):
             writer = csv.DictWriter(file, list(rows[0]))
             writer.writeheader()
             writer.writerows(rows)
-    return failures
+    return len(failed)
 
 
-def find_objects(image, runs, camera, stored):
-    """The poses of each object in an image, or those stored; says which objects fail and leaves them out."""
+def place_of(image, number):
+    """What messages call an object in an image."""
+    return f"scene {image.scene}, image {image.number}, object {number}"
+
+
+def find_objects(image, runs, camera, stored, failed):
+    """The poses of each object in an image, or those stored; those that fail are left out and added to `failed`."""
     found = {}
     for number, run in runs.items():
-        try:
+        with told(place_of(image, number), failed):
             found[number] = stored.poses(image, number) if stored else run.find(image.scan, None, image.beside, camera)
-        except scripting.Failure as failure:
-            print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
     return found
 
 
-def judge(image, found, runs, benchmark, camera, lost):
-    """Judges the poses of each object in an image, but for one that is not in it; returns how many failed."""
-    failures, edges = 0, None
+def judge(image, found, runs, benchmark, camera, lost, failed):
+    """Judges the poses of each object in an image, but for one that is not in it; those that fail are added to `failed`."""
+    edges = None
     for number, run in runs.items():
-        truth, poses = image.truth_of(number), found.get(number, vtkPolyData())
+        truth, poses, where = image.truth_of(number), vtkPolyData(), place_of(image, number)
         if not truth.GetNumberOfPoints():
             continue
-        try:
+        with told(where, failed):
             edges = edges or evaluation.scene_edges(image.scan, image.beside, camera)
-            evaluation.with_visibility(truth, run.model, edges, image.scan)
-            if lost:
-                beside = {"image": image.beside, "image_camera": camera} if image.beside else {}
-                lost.add({"part": number, "scene": image.scene, "image": image.number}, run, poses, truth, image.scan, **beside)
-        except scripting.Failure as failure:
-            print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
-            failures, poses = failures + 1, vtkPolyData()
-        try:
+            evaluation.with_visibility(evaluation.half_visible(truth), run.model, edges, image.scan)
+            poses = found.get(number, poses)
+        with told(where, failed):
             benchmark[number].add(poses, truth, image.scan)
-        except scripting.Failure as failure:
-            print(f"scene {image.scene}, image {image.number}, object {number}: {failure}", file=sys.stderr)
-            failures += 1
         run.add(poses, truth)
-    return failures
+        if lost and where not in failed:
+            beside = {"image": image.beside, "image_camera": camera} if image.beside else {}
+            with told(where, failed):
+                lost.add({"part": number, "scene": image.scene, "image": image.number}, run, poses, truth, image.scan, **beside)
 
 
 def bop(options):
@@ -165,7 +171,7 @@ def bop(options):
         model, mesh = data.train(number, options.preset, options.features), data.mesh(number)
         runs[number] = evaluation_of(model, mesh, options, options.features)
         benchmark[number] = dataset.BOPFigures(mesh, model)
-    judged, failures = dict.fromkeys(runs, 0), 0
+    judged, failed = dict.fromkeys(runs, 0), set()
     with scripting.written(options.out, newline="") if options.out else contextlib.nullcontext() as file:
         results = dataset.Results(file) if file else None
         for scene in map(data.scene, options.scenes or data.scenes()):
@@ -174,13 +180,12 @@ def bop(options):
                     image = scene.image(step)
                 except scripting.Failure as failure:
                     print(failure, file=sys.stderr)
-                    failures += 1
+                    failed.add((scene.folder, step))
                     continue
-                found = find_objects(image, runs, data.beside(), stored)
-                failures += len(runs) - len(found)
+                found = find_objects(image, runs, data.beside(), stored, failed)
                 if results:
                     results.add(image, found, options.poses)
-                failures += judge(image, found, runs, benchmark, data.beside(), lost)
+                judge(image, found, runs, benchmark, data.beside(), lost, failed)
                 for number in runs:
                     judged[number] += image.truth_of(number).GetNumberOfPoints() > 0
     rows = [{"part": number, "scenes": judged[number], **run.figures()} for number, run in runs.items() if judged[number]]
@@ -194,7 +199,7 @@ def bop(options):
         print_stages(rows)
     if lost:
         lost.write(options.why)
-    return failures
+    return len(failed)
 
 
 def find_in_bin(run, benchmark, bins, row):
@@ -336,4 +341,4 @@ def main():
     options = parser.parse_args()
     failures = options.run(options)
     if failures:
-        raise scripting.Failure(f"{failures} failed, see above; where the true poses could be read nothing counts as found")
+        raise scripting.Failure(f"{failures} failed, see above; where the search or the check of the true poses failed nothing counts as found")
