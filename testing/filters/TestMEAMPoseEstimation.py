@@ -16,6 +16,7 @@ from ppfmeam.filters import (
     vtkMEAMPoseWriter,
     vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
+    vtkMEAMTangentEstimation,
 )
 from meamtest import (Errors, Trained, Warnings, check, cloud, collection, connect, fails, field, image, is_empty,
                       points, prints, run, scaled, tuples)
@@ -167,11 +168,12 @@ elsewhere = cloud(points(ready), Tangent=tuples(ready, "Tangent"))
 few = found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0))
 candidates = {}
 for name, edges in (("scan", ready), ("elsewhere", elsewhere)):
+    edges = run(connect(vtkMEAMTangentEstimation(), edges, model))
     detection = connect(vtkMEAMPoseDetection(), edges, model)
     detection.SetFeatures(0)
     candidates[name] = run(detection).GetNumberOfPoints()
 check(100 <= candidates["elsewhere"] < 0.5 * candidates["scan"], f"{candidates}")
-share = (candidates["elsewhere"] - 0.5) / elsewhere.GetNumberOfPoints()  # each is of one reference point
+share = (candidates["elsewhere"] - 0.5) / edges.GetNumberOfPoints()  # each is of one reference point
 check(few == found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0, ReferenceShare=share)),
       "of edges from elsewhere")
 check(few != found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0, ReferenceShare=0.5)), "another share")
