@@ -92,7 +92,7 @@ for number, word in ((signal.SIGKILL, "SIGKILL"), (signal.SIGRTMIN + 6, f"signal
 def killed_in_scan():
     """The numbers of the run's process and of the one that searched."""
     arguments = ("bins", "--model", "plate.meam", "--threads", "1", "--out", "endless.csv")
-    process = subprocess.Popen(deadly(*arguments, what="open(f'in.{os.getpid()}', 'w').close(), time.sleep(1000)"),
+    process = subprocess.Popen(deadly(*arguments, what="open(f'in.{os.getpid()}', 'w').close(), time.sleep(60)"),
                                stderr=subprocess.DEVNULL)
     while not (found := glob.glob("in.*")):
         check(process.poll() is None, f"the run has ended: {process.returncode}")
