@@ -42,7 +42,12 @@ int vtkMEAMImageReader::RequestInformation(vtkInformation*, vtkInformationVector
   const std::array<int, 2> size = sizeOf(this->FileName);
   // Of a file that cannot be read a pixel is promised, so that RequestData is asked and says what is wrong.
   const int extent[6] = { 0, std::max(size[0], 1) - 1, 0, std::max(size[1], 1) - 1, 0, 0 };
-  outputVector->GetInformationObject(0)->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  if (size[0] > 0)
+  {
+    vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_UNSIGNED_CHAR, -1); // how many tells only the whole file
+  }
   return 1;
 }
 

@@ -82,7 +82,7 @@ module/read_scan scan.pcd || failed "a program with PPFMEAM::Filters"
 
 echo "== lintian"
 get lintian
-lintian --fail-on error "$folder"/*.deb >lintian.log 2>&1 || { grep '^E' lintian.log; failed "lintian finds errors"; }
+lintian --fail-on error "$folder"/*.deb >lintian.log 2>&1 || { grep '^E' lintian.log || cat lintian.log; failed "lintian finds errors"; }
 
 echo "== removed again"
 apt-get purge -q -y 'ppfmeam-paraview' 'python3-ppfmeam' 'libppfmeam-*' >>"$work/apt.log" 2>&1 || { tail -n 20 "$work/apt.log"; failed "purge"; }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace meam
 {
@@ -17,6 +18,9 @@ namespace
 // No file that a camera writes has more pixels, and none of the formats packs more of them into a byte.
 constexpr std::uint64_t MostPixels = 1 << 26;
 constexpr std::uint64_t MostPixelsOfByte = 4096;
+
+// Where the size stands in nearly all files: a JPEG may have a preview before it, a TIFF its pixels.
+constexpr std::int64_t HeadLength = 1 << 16;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
@@ -113,15 +117,15 @@ Size sizeOf(const std::string& path, const std::string& bytes)
   fail(path, "is not a PNG, JPEG, BMP or TIFF image");
 }
 
-/// The size, once it is sure that the file can have it.
-Size checkedSize(const std::string& path, const std::string& bytes)
+/// The size that a file's first bytes tell, once it is sure that a file of that length can have it.
+Size checkedSize(const std::string& path, const std::string& bytes, std::uint64_t length)
 {
   const Size size = sizeOf(path, bytes);
   if (size.width == 0 || size.height == 0)
   {
     fail(path, "is cut off or damaged: its header has no size");
   }
-  const std::uint64_t most = std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * bytes.size());
+  const std::uint64_t most = std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * length);
   if (size.width > most || size.height > most || size.width * size.height > most)
   {
     fail(path, "promises " + std::to_string(size.width) + " x " + std::to_string(size.height) +
@@ -163,7 +167,7 @@ bool isWhole(const std::string& bytes, const Size& size)
 cv::Mat decode(const std::string& path)
 {
   const std::string bytes = readFile(path);
-  const Size size = checkedSize(path, bytes);
+  const Size size = checkedSize(path, bytes, bytes.size());
   if (!isWhole(bytes, size))
   {
     fail(path, "is cut off or damaged");
@@ -189,7 +193,19 @@ cv::Mat decode(const std::string& path)
 
 std::array<int, 2> readImageSize(const std::string& path)
 {
-  const Size size = checkedSize(path, readFile(path));
+  std::string bytes = readFile(path, HeadLength);
+  std::uint64_t length = bytes.size();
+  if (bytes.size() == HeadLength)
+  {
+    std::error_code failure;
+    length = std::filesystem::file_size(path, failure);
+    const Size size = sizeOf(path, bytes);
+    if (size.width == 0 || size.height == 0)
+    {
+      bytes = readFile(path);
+    }
+  }
+  const Size size = checkedSize(path, bytes, length);
   return { static_cast<int>(size.width), static_cast<int>(size.height) };
 }
 

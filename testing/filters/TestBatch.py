@@ -2,16 +2,21 @@
 """`ppfmeam batch` in one process: datasets, folders and lists, broken scans, a killed run, what cannot be read or
 written."""
 import contextlib
+import fcntl
+import glob
 import io
 import os
 import re
 import resource
 import shutil
+import signal
 import subprocess
+import time
 from unittest import mock
 
 from ppfmeam import scripting
 from ppfmeam.batch import progress
+from ppfmeam.batch.apart import Ended, apart
 from batchtest import H, W, command, content, dataset, deadly, finished, killed, rows, survives
 from meamtest import check
 from scripttest import refuses, script, works, write_pcd
@@ -75,6 +80,45 @@ survives("deadly.csv", *deadly("bins", "--model", "plate.meam", "--threads", "2"
 check([row for row in rows("deadly.csv") if not row["failure"]] == [row for row in poses if row["scan"] != names[2]],
       "the others are not as they were")
 check([row["scan"] for row in rows("deadly.scans.csv")] == names, "the scans in their order")
+for number, word in ((signal.SIGKILL, "SIGKILL"), (signal.SIGRTMIN + 6, f"signal {signal.SIGRTMIN + 6}")):
+    try:
+        apart(lambda: os.kill(os.getpid(), number))
+        raise AssertionError(f"{word} has ended nothing")
+    except Ended as how:
+        check(str(how) == word, f"{how} instead of {word}")
+
+
+# A scan without an end: a run is killed in it, and again when a copy of its process searches it. The copy ends, too.
+def killed_in_scan():
+    """The numbers of the run's process and of the one that searched."""
+    arguments = ("bins", "--model", "plate.meam", "--threads", "1", "--out", "endless.csv")
+    process = subprocess.Popen(deadly(*arguments, what="open(f'in.{os.getpid()}', 'w').close(), time.sleep(60)"),
+                               stderr=subprocess.DEVNULL)
+    while not (found := glob.glob("in.*")):
+        check(process.poll() is None, f"the run has ended: {process.returncode}")
+        time.sleep(0.01)
+    os.remove(found[0])
+    process.kill()
+    process.wait()
+    return process.pid, int(found[0][3:])
+
+
+def is_free(path):
+    with open(path, encoding="utf-8") as file, contextlib.suppress(BlockingIOError):
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return True
+
+
+process, searcher = killed_in_scan()
+check(process == searcher, "a copy searches what no run was killed in")
+process, searcher = killed_in_scan()
+check(process != searcher, "what a run was killed in is searched by no copy")
+end = time.monotonic() + 5
+while not is_free("endless.csv.run/lock"):
+    check(time.monotonic() < end, "a copy of a process that was killed holds the lock")
+    time.sleep(0.01)
+finished(*command("bins", "--model", "plate.meam", "--out", "endless.csv"))
+check(content("endless.csv") == content("poses.csv"), "another table after a scan without an end")
 
 # A scan that cannot be read, and a scene, is a row with its reason.
 with open(f"bins/test/{names[1][:6]}/depth/000000.png", "r+b") as file:

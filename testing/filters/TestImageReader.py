@@ -5,8 +5,9 @@ import tempfile
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_UNSIGNED_SHORT
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, VTK_UNSIGNED_SHORT
 from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOImage import (vtkBMPReader, vtkBMPWriter, vtkJPEGReader, vtkJPEGWriter, vtkPNGReader, vtkPNGWriter,
                                    vtkTIFFReader, vtkTIFFWriter)
 
@@ -31,6 +32,12 @@ def reader(path, kind=vtkMEAMImageReader):
 
 def scalars(image):
     return vtk_to_numpy(image.GetPointData().GetScalars())
+
+
+def bytes_read():
+    """By this process until now."""
+    with open("/proc/self/io", encoding="ascii") as io:
+        return int(io.readline().split()[1])
 
 
 # Rows from the lower left; grey or colour, 8 bits out of 16, no alpha.
@@ -86,6 +93,23 @@ for extension, (writer, theirs) in KINDS.items():
             check(bool(errors.messages) or same.GetOutput().GetDimensions() == (W, H, 1), f"{path} up to byte {place}")
             if extension == "png" and place < len(content) / 2:
                 check(errors.messages, f"half of {path} is an image")
+
+# What the pipeline asks before it reads: the size and type of the pixels, of which the head of the file tells.
+noise = vtkImageData()
+noise.SetDimensions(1000, 1000, 1)
+noise.GetPointData().SetScalars(numpy_to_vtk(random.integers(0, 256, 1000000).astype(numpy.uint8), deep=True))
+for extension in ("png", "bmp", "jpg"):
+    written = connect(KINDS[extension][0](), noise)
+    written.SetFileName(file(f"noise.{extension}"))
+    written.Write()
+    asked = reader(file(f"noise.{extension}"))
+    before = bytes_read()
+    asked.CanReadFile(asked.GetFileName())
+    asked.UpdateInformation()
+    check(bytes_read() - before < 200000, f"{bytes_read() - before} bytes are read of {asked.GetFileName()}")
+    info = asked.GetOutputInformation(0)
+    check(info.Get(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT()) == (0, 999, 0, 999, 0, 0), f"{info}")
+    check(vtkImageData.GetScalarType(info) == VTK_UNSIGNED_CHAR, f"{info}")
 
 fails(vtkMEAMImageReader(), "no file")
 fails(reader("/no/such/image.png"), "/no/such/image.png")

@@ -77,9 +77,9 @@ def finished(*command):
     return done.stdout
 
 
-# A run in which a scan ends the process that reads it.
+# A run in which a scan ends the process that reads it, or keeps it for ever.
 DEADLY = """
-import os, signal, sys
+import os, signal, sys, time
 from ppfmeam import scripting
 from ppfmeam.batch import scans
 from ppfmeam.commands import batch
@@ -88,7 +88,7 @@ read = scans.BOP.read
 
 def crash(self, name, *rest):
     if name == "000002/000000":
-        os.kill(os.getpid(), signal.SIGSEGV)
+        WHAT
     return read(self, name, *rest)
 
 scans.BOP.read = crash
@@ -97,10 +97,10 @@ scripting.run(batch.main)
 """
 
 
-def deadly(*arguments):
-    """The command of a run that the scan 000002/000000 crashes."""
+def deadly(*arguments, what="os.kill(os.getpid(), signal.SIGSEGV)"):
+    """The command of a run that the scan 000002/000000 crashes, or does something else to."""
     with open("deadly.py", "w", encoding="utf-8") as file:
-        file.write(DEADLY)
+        file.write(DEADLY.replace("WHAT", what))
     return (sys.executable, "deadly.py", *arguments)
 
 

@@ -62,7 +62,7 @@ void writeFile(const std::string& path, const std::string& bytes)
   }
 }
 
-std::string readFile(const std::string& path)
+std::string readFile(const std::string& path, std::int64_t most)
 {
   const std::string what = "The file '" + path + "' cannot be read";
   std::error_code failure;
@@ -72,7 +72,7 @@ std::string readFile(const std::string& path)
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
+  const std::int64_t size = file ? std::min<std::int64_t>(file.tellg(), most) : -1;
   if (size < 0)
   {
     throw Error(what + reason());

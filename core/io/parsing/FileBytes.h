@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace meam
@@ -9,8 +10,9 @@ namespace meam
 /// a file. Throws Error, naming the file, when that is not possible.
 void writeFile(const std::string& path, const std::string& bytes);
 
-/// All bytes of a file. Throws Error, naming the file, when it is missing or unreadable.
-std::string readFile(const std::string& path);
+/// The bytes of a file, at most so many from its start. Throws Error, naming the file, when it is missing or
+/// unreadable.
+std::string readFile(const std::string& path, std::int64_t most = INT64_MAX);
 
 /// The extension of a file's name in lower case: ".ply".
 std::string extensionOf(const std::string& path);

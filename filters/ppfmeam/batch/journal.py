@@ -24,7 +24,7 @@ class Journal:
 
     def open(self, run):
         """Makes the folder, or takes up what a run with the same `run` has left there. Keeps other runs out until
-        close()."""
+        this process ends."""
         with scripting.writing(self.folder):
             self.keep_others_out()
         if not os.path.exists(self.path(RUN)):

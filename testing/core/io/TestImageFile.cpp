@@ -66,6 +66,22 @@ TEST(ImageFile, theSizeOfAJPEGIsThatOfTheFrameThatIsDecoded)
   EXPECT_EQ(read(bytes).pixels.size(), 16u * 24u);
 }
 
+TEST(ImageFile, theSizeMayStandFarBehindTheStart)
+{
+  cv::Mat noise(300, 400, CV_8UC1);
+  cv::randu(noise, 0, 256);
+  const files::Folder folder;
+  for (const char* form : { ".png", ".bmp", ".tiff", ".jpg" })
+  {
+    std::string bytes = images::encoded(form, noise);
+    if (form == std::string(".jpg"))
+    {
+      bytes.insert(2, "\xff\xe1\xff\xff" + std::string(0xfffd, ' ')); // a preview
+    }
+    EXPECT_EQ(meam::readImageSize(folder.write("image", bytes)), (std::array<int, 2>{ 400, 300 })) << form;
+  }
+}
+
 TEST(ImageFile, sixteenBitsUseTheirWholeRange)
 {
   const cv::Mat deep = (cv::Mat_<std::uint16_t>(1, 3) << 0, 257 * 40, 65535);
