@@ -26,7 +26,7 @@ BENCHMARKS = os.path.join(ROOT, "build", "release", "bin", "meamBenchmarks")
 DOCUMENT, README = os.path.join(ROOT, "docs", "evaluation.md"), os.path.join(ROOT, "README.md")
 HEAD = """# Evaluation
 
-What was measured, table by table; each is written by `testing/evaluation.py --only NAME` from the commands above it, and says when, with which commit and on which machine. `DATA` is the folder that `PPFMEAM_DATA` names, `OUT` one for files in between. Times are those of a machine that may have had other work (see the load); rates and errors come out the same again.
+What was measured, table by table; each is written by `testing/evaluation.py --only NAME` from the commands above it, and says when, with which commit and on which machine. `DATA` is the folder that `PPFMEAM_DATA` names, `OUT` one for files in between. Times are those of a machine that may have had other work (see the load); rates and errors come out the same again. A table tells of the version that it names; what has changed since stands in [CHANGELOG.md](../CHANGELOG.md).
 
 - *strict*: right poses / poses asked for, five a scene; each true instance counts once, a missing pose is wrong. Right is within 10 % of D and 5 degrees.
 - *first*: scenes whose first pose is right.
