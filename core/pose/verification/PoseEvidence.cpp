@@ -202,9 +202,12 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   // on below.
   const double covered = counts.goesOn + under;
   const double outline = counts.ends + covered;
-  counts.enclosed = (outline > 0.0 ? covered / outline : 1.0) * settings.shown *
-                    this->shareBehind(T_scene_model, stride) * static_cast<double>(model.verificationPoints.size()) *
-                    model.verificationArea() / (patch * patch);
+  const double goesOn = outline > 0.0 ? covered / outline : 1.0;
+  if (goesOn > 0.0)
+  {
+    counts.enclosed = goesOn * settings.shown * this->shareBehind(T_scene_model, stride) *
+                      static_cast<double>(model.verificationPoints.size()) * model.verificationArea() / (patch * patch);
+  }
   return evidence;
 }
 }
