@@ -19,12 +19,12 @@ struct LogisticRegression
 struct ProbabilityCalibration
 {
   /// Of EvidenceCounts::sum: whether a pose is right, but for a turn by a near-symmetry.
-  LogisticRegression withSurface{ -6.8, 0.64 };
+  LogisticRegression withSurface{ -6.3, 0.64 };
   LogisticRegression edgesAlone{ 2.9, 0.16 }; ///< the same of EvidenceCounts::ofEdges, in scenes without a surface
   /// Whether the part is in the scan at all, from the logarithm of its best pose's odds: in the bins with the part that
-  /// was 3 to 24, in those without it at most 1.1.
-  LogisticRegression present{ -4.5, 3.0 };
-  double leastPresent = 0.25; ///< however badly that fits: it may be alone, with its notch out of sight
+  /// was 3.5 to 24, in those without it at most 1.6.
+  LogisticRegression present{ -6.0, 3.0 };
+  double leastPresent = 0.2; ///< however badly that fits: it may be alone, with its notch out of sight
 };
 
 /// Logarithm of the odds that a pose is right: those that it is when something else holds, and how certain that is,
