@@ -2,20 +2,17 @@
 #include "TestScene.h"
 
 #include <cmath>
+#include <map>
 
 namespace scenes
 {
 const meam::TrainedModel& bracket(meam::Preset preset)
 {
-  if (preset == meam::Preset::Paper)
-  {
-    static const meam::TrainedModel paper =
-      meam::trainModel(parts::lBracket(), meam::trainingSettings(meam::Preset::Paper));
-    return paper;
-  }
-  static const meam::TrainedModel recommended =
-    meam::trainModel(parts::lBracket(), meam::trainingSettings(meam::Preset::Recommended));
-  return recommended;
+  static std::map<meam::Preset, meam::TrainedModel> models;
+  const auto known = models.find(preset);
+  return known != models.end()
+           ? known->second
+           : models.emplace(preset, meam::trainModel(parts::lBracket(), meam::trainingSettings(preset))).first->second;
 }
 
 Seen seenFromAbove(const std::vector<Copy>& copies)
