@@ -10,7 +10,8 @@ function(meam_add_script_test name labels)
   set_tests_properties(${name} PROPERTIES
     LABELS "${labels}" ENVIRONMENT "${PPFMEAM_ENVIRONMENT}" SKIP_RETURN_CODE 77 TIMEOUT 600)
   if("render" IN_LIST labels)
-    set_tests_properties(${name} PROPERTIES RESOURCE_LOCK display) # applications with windows wait for each other
+    # Applications with windows wait for each other: theirs is the longest chain, which starts first.
+    set_tests_properties(${name} PROPERTIES RESOURCE_LOCK display COST 30)
   endif()
 endfunction()
 

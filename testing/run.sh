@@ -4,8 +4,8 @@
 #
 #   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
 #
-# Tests with the label `long` (all scenes of a dataset, thousands of damaged files, libFuzzer for a minute a reader) are left
-# out without --long.
+# Tests with the label `long` (all scenes of a dataset, thousands of damaged files, libFuzzer for a minute a reader) and the
+# build of the benchmarks are left out without --long.
 # The dataset tests look for data in $PPFMEAM_DATA and are skipped without it.
 set -uo pipefail
 without=(-LE '^long$')
@@ -29,6 +29,7 @@ run() { # PRESET, "what", build target or "", ctest arguments...
   ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${without[@]}" "$@" || failed+=("$preset")
 }
 run release "core, filters, plugin" "" "$@"
+if [ ${#without[@]} = 0 ]; then "$root/cmake/build.sh" release meamBenchmarks || failed+=("benchmarks (build)"); fi
 run dev "core under the sanitizers" "" "$@"
 run vtk "filters under plain VTK" runtime -L filters "$@"
 

@@ -11,178 +11,35 @@
 namespace parts
 {
 /// An axis-aligned box, outward triangles.
-inline meam::TriangleMesh box(const Eigen::Vector3f& low, const Eigen::Vector3f& high)
-{
-  meam::TriangleMesh mesh;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    mesh.vertices.emplace_back(
-      corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(), corner & 4 ? high.z() : low.z());
-  }
-  for (const auto& [a, b, c, d] : std::vector<std::array<int, 4>>{
-         { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } })
-  {
-    mesh.triangles.emplace_back(a, b, c);
-    mesh.triangles.emplace_back(a, c, d);
-  }
-  return mesh;
-}
+meam::TriangleMesh box(const Eigen::Vector3f& low, const Eigen::Vector3f& high);
 
 /// A prism over a polygon in the xy plane (counter-clockwise, star-shaped about its first corner).
-inline meam::TriangleMesh prism(const std::vector<Eigen::Vector2f>& outline, float height)
-{
-  meam::TriangleMesh mesh;
-  const int n = static_cast<int>(outline.size());
-  for (const float z : { 0.0f, height })
-  {
-    for (const auto& corner : outline)
-    {
-      mesh.vertices.emplace_back(corner.x(), corner.y(), z);
-    }
-  }
-  for (int i = 1; i + 1 < n; ++i)
-  {
-    mesh.triangles.emplace_back(0, i + 1, i);
-    mesh.triangles.emplace_back(n, n + i, n + i + 1);
-  }
-  for (int i = 0; i < n; ++i)
-  {
-    const int j = (i + 1) % n;
-    mesh.triangles.emplace_back(i, j, n + j);
-    mesh.triangles.emplace_back(i, n + j, n + i);
-  }
-  return mesh;
-}
+meam::TriangleMesh prism(const std::vector<Eigen::Vector2f>& outline, float height);
 
 /// An L of unequal legs, 60 x 40 x 15 mm: no rotation maps it onto itself. The first corner is the
 /// inner one, from which all others are seen.
-inline meam::TriangleMesh lBracket()
-{
-  return prism({ { 18, 12 }, { 18, 40 }, { 0, 40 }, { 0, 0 }, { 60, 0 }, { 60, 12 } }, 15);
-}
+meam::TriangleMesh lBracket();
 
 /// A plate of 60 x 40 x 10 mm with a window of 14 x 20 mm towards one corner: no rotation maps it onto itself.
-inline meam::TriangleMesh windowPlate()
-{
-  meam::TriangleMesh mesh;
-  for (const float z : { 0.0f, 10.0f })
-  {
-    for (const auto& corner : { Eigen::Vector2f(0, 0), { 60, 0 }, { 60, 40 }, { 0, 40 }, //
-           { 40, 14 }, { 54, 14 }, { 54, 34 }, { 40, 34 } })
-    {
-      mesh.vertices.emplace_back(corner.x(), corner.y(), z);
-    }
-  }
-  const auto quad = [&](int a, int b, int c, int d)
-  {
-    mesh.triangles.emplace_back(a, b, c);
-    mesh.triangles.emplace_back(a, c, d);
-  };
-  for (int i = 0; i < 4; ++i)
-  {
-    const int j = (i + 1) % 4;
-    quad(8 + i, 8 + j, 12 + j, 12 + i); // top: the lower 8 corners are the bottom's, 4 outer and 4 of the window
-    quad(i, 4 + i, 4 + j, j);
-    quad(i, j, 8 + j, 8 + i);
-    quad(4 + i, 12 + i, 12 + j, 4 + j);
-  }
-  return mesh;
-}
+meam::TriangleMesh windowPlate();
 
 /// A gear of ten teeth, one of which is missing: turns by 36 degrees are near-symmetries.
-inline meam::TriangleMesh gear()
-{
-  constexpr int Corners = 40;
-  meam::TriangleMesh mesh;
-  for (const float z : { 0.0f, 10.0f })
-  {
-    for (int k = 0; k < Corners; ++k)
-    {
-      const bool tooth = k % 4 < 2 && k >= 4;
-      const double angle = k * M_PI / 20.0;
-      mesh.vertices.emplace_back((tooth ? 34.0 : 28.0) * std::cos(angle), (tooth ? 34.0 : 28.0) * std::sin(angle), z);
-    }
-  }
-  mesh.vertices.emplace_back(0, 0, 0);
-  mesh.vertices.emplace_back(0, 0, 10);
-  for (int k = 0; k < Corners; ++k)
-  {
-    const int next = (k + 1) % Corners;
-    mesh.triangles.push_back({ next, k, 2 * Corners });
-    mesh.triangles.push_back({ Corners + k, Corners + next, 2 * Corners + 1 });
-    mesh.triangles.push_back({ k, next, Corners + next });
-    mesh.triangles.push_back({ k, Corners + next, Corners + k });
-  }
-  return mesh;
-}
+meam::TriangleMesh gear();
 
 /// A square plate of 60 x 60 x 10 mm with one corner cut off: quarter turns and flips are near-symmetries.
-inline meam::TriangleMesh cutPlate()
-{
-  return prism({ { -30, -30 }, { 30, -30 }, { 30, 20 }, { 6, 30 }, { -30, 30 } }, 10);
-}
+meam::TriangleMesh cutPlate();
 
-inline Eigen::Isometry3d motion(std::mt19937& random, double reach)
-{
-  const auto number = [&] { return random() / 2147483648.0 - 1.0; };
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::Quaterniond(number(), number(), number(), number()).normalized().toRotationMatrix();
-  T.translation() = reach * Eigen::Vector3d(number(), number(), number());
-  return T;
-}
+Eigen::Isometry3d motion(std::mt19937& random, double reach);
 
-inline meam::Points moved(const meam::Points& points, const Eigen::Isometry3d& T)
-{
-  meam::Points result;
-  for (const auto& point : points)
-  {
-    result.push_back((T * point.cast<double>()).cast<float>());
-  }
-  return result;
-}
+meam::Points moved(const meam::Points& points, const Eigen::Isometry3d& T);
 
-inline meam::PointCloud moved(const meam::PointCloud& cloud, const Eigen::Isometry3d& T)
-{
-  Eigen::Isometry3d R = Eigen::Isometry3d::Identity();
-  R.linear() = T.linear();
-  meam::PointCloud result = cloud;
-  result.points = moved(cloud.points, T);
-  result.normals = moved(cloud.normals, R);
-  result.tangents = moved(cloud.tangents, R);
-  return result;
-}
+meam::PointCloud moved(const meam::PointCloud& cloud, const Eigen::Isometry3d& T);
 
-inline meam::PrecisePoints moved(const meam::PrecisePoints& points, const Eigen::Isometry3d& T)
-{
-  meam::PrecisePoints result;
-  for (const auto& point : points)
-  {
-    result.push_back(T * point);
-  }
-  return result;
-}
+meam::PrecisePoints moved(const meam::PrecisePoints& points, const Eigen::Isometry3d& T);
 
-inline meam::PrecisePoints precise(const meam::Points& points)
-{
-  meam::PrecisePoints result;
-  for (const auto& point : points)
-  {
-    result.push_back(point.cast<double>());
-  }
-  return result;
-}
+meam::PrecisePoints precise(const meam::Points& points);
 
 /// Of the edge points those that stay, with tangents and weights.
-inline meam::PointCloud withTangents(const meam::PointCloud& edges, double partDiameter,
-  const Eigen::Vector3d& viewDirection, const meam::TangentEstimationSettings& settings = {})
-{
-  const meam::ThinnedEdges found =
-    meam::estimateTangents(meam::toLocalCloud(edges), partDiameter, viewDirection, settings);
-  Eigen::Isometry3d toScene = Eigen::Isometry3d::Identity();
-  toScene.linear() = found.edges.T_local_scene.linear().transpose();
-  meam::PointCloud result = edges.subset(found.indices);
-  result.tangents = moved(found.edges.cloud.tangents, toScene);
-  result.weights = found.edges.cloud.weights;
-  return result;
-}
+meam::PointCloud withTangents(const meam::PointCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
+  const meam::TangentEstimationSettings& settings = {});
 }

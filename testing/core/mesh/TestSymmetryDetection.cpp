@@ -2,6 +2,7 @@
 #include "mesh/SymmetryDetection.h"
 
 #include "TestParts.h"
+#include "TestScale.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
@@ -11,10 +12,11 @@
 
 namespace
 {
-meam::PointCloud sampled(const meam::TriangleMesh& mesh)
+/// By points so far from each other, in diameters.
+meam::PointCloud sampled(const meam::TriangleMesh& mesh, double spacing = SmallData ? 0.03 : 0.02)
 {
   meam::SurfaceSamplingSettings settings;
-  settings.spacing = 0.02 * meam::diameter(mesh.vertices);
+  settings.spacing = spacing * meam::diameter(mesh.vertices);
   return meam::sampleSurface(mesh, settings);
 }
 
@@ -57,7 +59,7 @@ TEST(SymmetryDetection, OfAFlatSheetTheHalfTurn)
   meam::TriangleMesh sheet;
   sheet.vertices = { { 0, 0, 0 }, { 60, 0, 0 }, { 60, 40, 0 }, { 0, 40, 0 } };
   sheet.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  const meam::Symmetries found = meam::detectSymmetries(sampled(sheet)); // its other side is no surface
+  const meam::Symmetries found = meam::detectSymmetries(sampled(sheet, 0.02)); // its other side is no surface
   EXPECT_TRUE(found.continuous.empty());
   ASSERT_EQ(found.discrete.size(), 1u);
   EXPECT_TRUE(contains(found.discrete, { 0, 0, 1 }, 180.0));
@@ -97,9 +99,10 @@ TEST(SymmetryDetection, OfACylinderAnAxisAndAFlip)
 TEST(SymmetryDetection, OfASphereAllRotations)
 {
   meam::PointCloud sphere;
-  for (int i = 0; i < 4000; ++i)
+  constexpr int Points = SmallData ? 2000 : 4000;
+  for (int i = 0; i < Points; ++i)
   {
-    const double z = 1.0 - (2.0 * i + 1.0) / 4000;
+    const double z = 1.0 - (2.0 * i + 1.0) / Points;
     const double radius = std::sqrt(1.0 - z * z);
     const double angle = 2.399963229728653 * i;
     sphere.normals.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
@@ -134,7 +137,7 @@ TEST(SymmetryDetection, ANotchMakesItNearAndTheDeviationShowsWhereItIs)
 {
   // A square plate, 40 x 40 x 10, with one of its corners cut off by 8 mm.
   const meam::PointCloud surface =
-    sampled(parts::prism({ { -20, -20 }, { 20, -20 }, { 20, 20 }, { -12, 20 }, { -20, 12 } }, 10));
+    sampled(parts::prism({ { -20, -20 }, { 20, -20 }, { 20, 20 }, { -12, 20 }, { -20, 12 } }, 10), 0.02);
   const meam::Symmetries found = meam::detectSymmetries(surface);
   std::vector<Eigen::Isometry3d> near;
   for (const auto& symmetry : found.near)

@@ -59,8 +59,7 @@ TEST(MEAMPoseEstimation, EveryPresetFindsCopiesOfABracket)
     { meam::Preset::WithoutMEAM, 1 }, { meam::Preset::OriginalPPF, 1 }, { meam::Preset::B2B, 2 } };
   for (const auto& [preset, copies] : least)
   {
-    const meam::TrainedModel model = meam::trainModel(parts::lBracket(), meam::trainingSettings(preset));
-    const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(preset, 8));
+    const meam::Poses poses = scenes::estimatePoses(scenes::bracket(preset), scene, meam::detectionSettings(preset, 8));
     EXPECT_GE(instancesFound(poses, 0.5, 1.5), copies) << meam::nameOf(preset);
   }
 }

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestScene.h"
+
+#include <cmath>
+#include <map>
+
+namespace scenes
+{
+const meam::TrainedModel& bracket(meam::Preset preset)
+{
+  static std::map<meam::Preset, meam::TrainedModel> models;
+  const auto known = models.find(preset);
+  return known != models.end()
+           ? known->second
+           : models.emplace(preset, meam::trainModel(parts::lBracket(), meam::trainingSettings(preset))).first->second;
+}
+
+Seen seenFromAbove(const std::vector<Copy>& copies)
+{
+  meam::SurfaceSamplingSettings sampling;
+  sampling.spacing = 0.7;
+  sampling.seed = 7; // other points than the model's
+  meam::PointCloud all;
+  for (const auto& [part, T] : copies)
+  {
+    const meam::PointCloud copy = parts::moved(meam::sampleSurface(part, sampling), T);
+    all.points.insert(all.points.end(), copy.points.begin(), copy.points.end());
+    all.normals.insert(all.normals.end(), copy.normals.begin(), copy.normals.end());
+  }
+  meam::AppearanceModel view;
+  view.cloud = all.subset(meam::visiblePoints(all.points, { 0, 0, 2000 }, 1000.0));
+  Seen seen;
+  seen.surface = view.cloud.points;
+  seen.edges.points = meam::extractBoundary({ view })[0].cloud.points;
+  seen.sensor.perspective = false;
+  seen.sensor.direction = -Eigen::Vector3d::UnitZ();
+  return seen;
+}
+
+Seen seenFromAbove(const std::vector<Eigen::Isometry3d>& poses)
+{
+  std::vector<Copy> copies;
+  for (const auto& T : poses)
+  {
+    copies.push_back({ parts::lBracket(), T });
+  }
+  return seenFromAbove(copies);
+}
+
+Seen withTangents(Seen seen, double partDiameter)
+{
+  seen.edges = parts::withTangents(seen.edges, partDiameter, seen.sensor.direction);
+  return seen;
+}
+
+meam::Scene prepared(const Seen& seen, double partDiameter)
+{
+  meam::LocalCloud edges = meam::toLocalCloud(seen.edges);
+  const meam::Points measured = meam::toLocalPoints(seen.surface, edges.T_local_scene);
+  return meam::Scene(std::move(edges), measured, seen.sensor, partDiameter);
+}
+
+meam::Poses detect(const meam::PointCloud& edges, const meam::TrainedModel& model,
+  const meam::PoseDetectionSettings& settings, const meam::Progress& progress)
+{
+  const meam::LocalCloud local = meam::toLocalCloud(edges);
+  return meam::toSceneFrame(meam::detectPoses(local, model, settings, progress), local.T_local_scene, model.symmetries);
+}
+
+meam::Poses screen(const meam::Poses& poses, const meam::Scene& scene, const meam::TrainedModel& model,
+  const meam::PoseScreeningSettings& settings, const meam::Progress& progress)
+{
+  return inLocalFrame(poses, scene, model,
+    [&](const meam::Poses& local) { return meam::screenPoses(local, scene, model, settings, progress); });
+}
+
+meam::Poses verify(const meam::Poses& poses, const meam::Scene& scene, const meam::TrainedModel& model,
+  const meam::PoseVerificationSettings& settings, const meam::Progress& progress)
+{
+  return inLocalFrame(poses, scene, model,
+    [&](const meam::Poses& local) { return meam::verifyPoses(local, scene, model, settings, progress); });
+}
+
+meam::Poses select(const meam::Poses& poses, const meam::Scene& scene, const meam::TrainedModel& model,
+  const meam::PoseSelectionSettings& settings, const meam::Progress& progress)
+{
+  return inLocalFrame(poses, scene, model,
+    [&](const meam::Poses& local) { return meam::selectPoses(local, scene, model, settings, progress); });
+}
+
+meam::Poses refine(const meam::Poses& poses, const meam::Scene& scene, const meam::TrainedModel& model,
+  const meam::PoseRefinementSettings& settings, const meam::Progress& progress)
+{
+  return inLocalFrame(poses, scene, model,
+    [&](const meam::Poses& local) { return meam::refinePoses(local, scene, model, settings, progress); });
+}
+
+meam::Pose align(const meam::Pose& pose, const meam::Scene& scene, const meam::TrainedModel& model)
+{
+  return inLocalFrame({ pose }, scene, model,
+    [&](const meam::Poses& local) { return meam::Poses{ meam::alignRobustly(local[0], scene, model) }; })[0];
+}
+
+meam::Poses estimatePoses(const meam::TrainedModel& model, const Seen& seen, const meam::DetectionSettings& settings,
+  meam::DetectionReport* report, const meam::Progress& progress)
+{
+  const int threads = settings.tangents.threads;
+  meam::SceneInput input{ meam::toLocalCloud(seen.edges, threads), {}, seen.sensor };
+  input.measured = meam::toLocalPoints(seen.surface, input.edges.T_local_scene, threads);
+  return meam::estimatePoses(model, input, settings, report, progress);
+}
+
+Eigen::Isometry3d lying(double x, double y, double degrees, bool up)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(Eigen::Vector3d(x, y, up ? 0.0 : 15.0));
+  T.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitZ()));
+  if (!up)
+  {
+    T.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  }
+  return T;
+}
+
+const std::vector<Eigen::Isometry3d>& threeCopies()
+{
+  static const std::vector<Eigen::Isometry3d> poses = { lying(0, 0, 20), lying(90, 10, 131, false),
+    lying(20, 90, -77) };
+  return poses;
+}
+
+meam::Poses disturbedCopies(double millimetres, double degrees)
+{
+  std::mt19937 random(11);
+  meam::Poses poses;
+  for (const auto& T : threeCopies())
+  {
+    const Eigen::Vector3d axis = parts::motion(random, 1.0).linear().col(0);
+    const Eigen::Vector3d shift = parts::motion(random, 1.0).linear().col(1);
+    meam::Pose pose;
+    pose.T_scene_model = T;
+    pose.T_scene_model.translate(millimetres * shift);
+    pose.T_scene_model.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, axis));
+    pose.viewId = T.linear()(2, 2) > 0 ? 0 : 1; // seen from its +z or its -z
+    pose.score = 0.5;
+    pose.votes = 12;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+meam::Pose displaced(const Eigen::Isometry3d& T, double millimetres, double degrees)
+{
+  meam::Pose pose;
+  pose.T_scene_model = T;
+  pose.T_scene_model.translate(Eigen::Vector3d(millimetres, 0, 0));
+  pose.T_scene_model.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitZ()));
+  pose.viewId = 0;
+  return pose;
+}
+}
