@@ -4,6 +4,7 @@
 #include "scene/preparation/BackgroundRemoval.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -49,7 +50,17 @@ Eigen::AlignedBox3f boxOf(const double region[6])
 }
 }
 
-vtkMEAMBackgroundRemoval::vtkMEAMBackgroundRemoval() { this->SetNumberOfInputPorts(2); }
+vtkMEAMBackgroundRemoval::vtkMEAMBackgroundRemoval()
+  : Settings(new meam::BackgroundRemovalSettings)
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkMEAMBackgroundRemoval::~vtkMEAMBackgroundRemoval() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMBackgroundRemoval, NumberOfPlanes, int, planes, 0, 20)
+vtkMEAMClampedSettingMacro(vtkMEAMBackgroundRemoval, Tolerance, double, tolerance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMBackgroundRemoval, LeastShare, double, leastShare, 0.0, 100.0)
 
 int vtkMEAMBackgroundRemoval::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -87,11 +98,8 @@ int vtkMEAMBackgroundRemoval::RequestData(
     this,
     [&]
     {
-      meam::BackgroundRemovalSettings settings;
+      meam::BackgroundRemovalSettings settings = *this->Settings;
       settings.region = boxOf(this->Region);
-      settings.planes = this->NumberOfPlanes;
-      settings.tolerance = this->Tolerance;
-      settings.leastShare = this->LeastShare;
       const meam::OrganizedCloud cloud = vtkMEAMConversion::toOrganizedCloud(scene);
       meam::Image mask;
       if (maskInput)
@@ -133,7 +141,7 @@ void vtkMEAMBackgroundRemoval::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << value;
   }
   os << " mm\n";
-  os << indent << "NumberOfPlanes: " << this->NumberOfPlanes << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << " mm\n";
-  os << indent << "LeastShare: " << this->LeastShare << " %\n";
+  os << indent << "NumberOfPlanes: " << this->GetNumberOfPlanes() << "\n";
+  os << indent << "Tolerance: " << this->GetTolerance() << " mm\n";
+  os << indent << "LeastShare: " << this->GetLeastShare() << " %\n";
 }

@@ -22,6 +22,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkStructuredGridAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct BackgroundRemovalSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMBackgroundRemoval : public vtkStructuredGridAlgorithm
 {
 public:
@@ -43,8 +50,8 @@ public:
 
   ///@{
   /** Planes that are removed at most, the largest first. Default: 1. */
-  vtkSetClampMacro(NumberOfPlanes, int, 0, 20);
-  vtkGetMacro(NumberOfPlanes, int);
+  virtual void SetNumberOfPlanes(int value);
+  virtual int GetNumberOfPlanes();
   ///@}
 
   ///@{
@@ -52,19 +59,19 @@ public:
    * mm: points nearer to a plane are on it; 0 for twice the distance of neighbouring points and three times the
    * noise. Default: 0.
    */
-  vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Tolerance, double);
+  virtual void SetTolerance(double value);
+  virtual double GetTolerance();
   ///@}
 
   ///@{
   /** % of the points that mask and region leave: a plane with fewer stays. Default: 10. */
-  vtkSetClampMacro(LeastShare, double, 0.0, 100.0);
-  vtkGetMacro(LeastShare, double);
+  virtual void SetLeastShare(double value);
+  virtual double GetLeastShare();
   ///@}
 
 protected:
   vtkMEAMBackgroundRemoval();
-  ~vtkMEAMBackgroundRemoval() override = default;
+  ~vtkMEAMBackgroundRemoval() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -74,10 +81,8 @@ private:
   vtkMEAMBackgroundRemoval(const vtkMEAMBackgroundRemoval&) = delete;
   void operator=(const vtkMEAMBackgroundRemoval&) = delete;
 
+  std::unique_ptr<meam::BackgroundRemovalSettings> Settings;
   double Region[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-  int NumberOfPlanes = 1;
-  double Tolerance = 0.0;
-  double LeastShare = 10.0;
 };
 
 #endif

@@ -11,6 +11,7 @@
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -85,10 +86,21 @@ void addCamera(const meam::Camera& camera, vtkDataObject* data)
 }
 
 vtkMEAMBinSceneSource::vtkMEAMBinSceneSource()
+  : Settings(new meam::BinSceneSettings)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(4);
 }
+
+vtkMEAMBinSceneSource::~vtkMEAMBinSceneSource() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, Copies, int, copies, 1, 10000)
+vtkMEAMSettingMacro(vtkMEAMBinSceneSource, Settle, bool, settle)
+vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, Seed, int, seed, 0, VTK_INT_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, BinSize, double, binSize, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, SensorHeight, double, sensorHeight, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMSettingMacro(vtkMEAMBinSceneSource, Colored, bool, colored)
+vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, Baseline, double, baseline, 0.0, VTK_DOUBLE_MAX)
 
 int vtkMEAMBinSceneSource::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -133,8 +145,11 @@ int vtkMEAMBinSceneSource::RequestData(
     [&]
     {
       const meam::TriangleMesh mesh = input ? toMesh(input) : meam::makeSamplePart();
-      meam::BinSceneSettings settings = meam::binSettings(static_cast<meam::SensorKind>(this->Sensor));
-      settings.copies = this->Copies;
+      meam::BinSceneSettings settings = *this->Settings;
+      const meam::BinSceneSettings ofSensor = meam::binSettings(static_cast<meam::SensorKind>(this->Sensor));
+      settings.width = ofSensor.width;
+      settings.height = ofSensor.height;
+      settings.quality = ofSensor.quality;
       if (standing)
       {
         if (standing->GetNumberOfPoints() == 0)
@@ -146,14 +161,8 @@ int vtkMEAMBinSceneSource::RequestData(
           settings.poses.push_back(pose.T_scene_model);
         }
       }
-      settings.settle = this->Settle;
-      settings.seed = static_cast<unsigned>(this->Seed);
-      settings.binSize = this->BinSize;
-      settings.sensorHeight = this->SensorHeight;
       choose(this->Width, settings.width);
       choose(this->Height, settings.height);
-      settings.colored = this->Colored;
-      settings.baseline = this->Baseline;
       meam::SensorQuality& quality = settings.quality;
       choose(this->DepthNoise, quality.depthNoise);
       choose(this->DepthStep, quality.depthStep);
@@ -174,10 +183,10 @@ int vtkMEAMBinSceneSource::RequestData(
       const meam::BinScene scene = meam::simulateBin(mesh, settings, progressOf(this));
 
       fromOrganizedCloud(scene.cloud, scan);
-      if (this->Baseline == 0.0)
+      if (settings.baseline == 0.0)
       {
-        scan->GetPointData()->SetScalars(
-          arrayOf<vtkUnsignedCharArray>(this->Colored ? "RGB" : "Intensity", scene.image.channels, scene.image.pixels));
+        scan->GetPointData()->SetScalars(arrayOf<vtkUnsignedCharArray>(
+          settings.colored ? "RGB" : "Intensity", scene.image.channels, scene.image.pixels));
       }
       scan->GetPointData()->AddArray(arrayOf<vtkIntArray>("Instance", 1, scene.instanceOfPixel));
       addCamera(scene.sensor, scan);
@@ -204,16 +213,16 @@ int vtkMEAMBinSceneSource::RequestData(
 void vtkMEAMBinSceneSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Copies: " << this->Copies << "\n";
-  os << indent << "Settle: " << this->Settle << "\n";
-  os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "BinSize: " << this->BinSize << " mm\n";
-  os << indent << "SensorHeight: " << this->SensorHeight << " mm\n";
+  os << indent << "Copies: " << this->GetCopies() << "\n";
+  os << indent << "Settle: " << this->GetSettle() << "\n";
+  os << indent << "Seed: " << this->GetSeed() << "\n";
+  os << indent << "BinSize: " << this->GetBinSize() << " mm\n";
+  os << indent << "SensorHeight: " << this->GetSensorHeight() << " mm\n";
   os << indent << "Sensor: " << this->Sensor << "\n";
   os << indent << "Width: " << this->Width << " pixels\n";
   os << indent << "Height: " << this->Height << " pixels\n";
-  os << indent << "Colored: " << this->Colored << "\n";
-  os << indent << "Baseline: " << this->Baseline << " mm\n";
+  os << indent << "Colored: " << this->GetColored() << "\n";
+  os << indent << "Baseline: " << this->GetBaseline() << " mm\n";
   os << indent << "DepthNoise: " << this->DepthNoise << " mm\n";
   os << indent << "DepthStep: " << this->DepthStep << " mm\n";
   os << indent << "Dropout: " << this->Dropout << "\n";

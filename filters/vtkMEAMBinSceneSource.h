@@ -33,6 +33,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkStructuredGridAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct BinSceneSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMBinSceneSource : public vtkStructuredGridAlgorithm
 {
 public:
@@ -42,33 +49,33 @@ public:
 
   ///@{
   /** Copies of the part in the bin. Default: 20. */
-  vtkSetClampMacro(Copies, int, 1, 10000);
-  vtkGetMacro(Copies, int);
+  virtual void SetCopies(int value);
+  virtual int GetCopies();
   ///@}
 
   ///@{
   /** Copies at the poses of input port 1 are let go and come to rest. Default: false. */
-  vtkSetMacro(Settle, bool);
-  vtkGetMacro(Settle, bool);
+  virtual void SetSettle(bool value);
+  virtual bool GetSettle();
   vtkBooleanMacro(Settle, bool);
   ///@}
 
   ///@{
   /** The same seed gives the same scene. Default: 1. */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
-  vtkGetMacro(Seed, int);
+  virtual void SetSeed(int value);
+  virtual int GetSeed();
   ///@}
 
   ///@{
   /** mm: inner side of the bin; 0 follows the part and the copies. Default: 0. */
-  vtkSetClampMacro(BinSize, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(BinSize, double);
+  virtual void SetBinSize(double value);
+  virtual double GetBinSize();
   ///@}
 
   ///@{
   /** mm: sensor above the floor; 0 for three times the bin's side. Default: 0. */
-  vtkSetClampMacro(SensorHeight, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(SensorHeight, double);
+  virtual void SetSensorHeight(double value);
+  virtual double GetSensorHeight();
   ///@}
 
   enum Sensors
@@ -105,15 +112,15 @@ public:
 
   ///@{
   /** The image has red, green and blue, or grey alone. Default: false. */
-  vtkSetMacro(Colored, bool);
-  vtkGetMacro(Colored, bool);
+  virtual void SetColored(bool value);
+  virtual bool GetColored();
   vtkBooleanMacro(Colored, bool);
   ///@}
 
   ///@{
   /** mm: from the sensor to a camera beside it that takes the image; 0: the image is the sensor's. Default: 0. */
-  vtkSetClampMacro(Baseline, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Baseline, double);
+  virtual void SetBaseline(double value);
+  virtual double GetBaseline();
   ///@}
 
   ///@{
@@ -259,7 +266,7 @@ public:
 
 protected:
   vtkMEAMBinSceneSource();
-  ~vtkMEAMBinSceneSource() override = default;
+  ~vtkMEAMBinSceneSource() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -270,16 +277,10 @@ private:
   vtkMEAMBinSceneSource(const vtkMEAMBinSceneSource&) = delete;
   void operator=(const vtkMEAMBinSceneSource&) = delete;
 
-  int Copies = 20;
-  bool Settle = false;
-  int Seed = 1;
-  double BinSize = 0.0;
-  double SensorHeight = 0.0;
+  std::unique_ptr<meam::BinSceneSettings> Settings;
   int Sensor = StructuredLight;
   int Width = -1;
   int Height = -1;
-  bool Colored = false;
-  double Baseline = 0.0;
   double DepthNoise = -1.0;
   double DepthStep = -1.0;
   double Dropout = -1.0;

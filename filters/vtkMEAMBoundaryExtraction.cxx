@@ -6,6 +6,7 @@
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -16,14 +17,17 @@
 vtkStandardNewMacro(vtkMEAMBoundaryExtraction);
 
 vtkMEAMBoundaryExtraction::vtkMEAMBoundaryExtraction()
+  : Settings(new meam::BoundaryExtractionSettings)
 {
-  const meam::BoundaryExtractionSettings settings;
   this->SetNumberOfInputPorts(2);
-  this->Method = static_cast<int>(settings.method);
-  this->Radius = settings.radius;
-  this->Angle = settings.angle;
-  this->SharpAngle = settings.sharpAngle;
 }
+
+vtkMEAMBoundaryExtraction::~vtkMEAMBoundaryExtraction() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMBoundaryExtraction, Method, int, method, PointBoundary, MeshEdges)
+vtkMEAMClampedSettingMacro(vtkMEAMBoundaryExtraction, Radius, double, radius, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMBoundaryExtraction, Angle, double, angle, 0.0, 360.0)
+vtkMEAMClampedSettingMacro(vtkMEAMBoundaryExtraction, SharpAngle, double, sharpAngle, 1.0, 179.0)
 
 int vtkMEAMBoundaryExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -44,14 +48,9 @@ int vtkMEAMBoundaryExtraction::RequestData(
   auto* output = vtkPartitionedDataSetCollection::GetData(outputVector);
   const auto work = [&]
   {
-    meam::BoundaryExtractionSettings settings;
-    settings.method = static_cast<meam::BoundaryMethod>(this->Method);
-    settings.radius = this->Radius;
-    settings.angle = this->Angle;
-    settings.sharpAngle = this->SharpAngle;
     const meam::TriangleMesh mesh = meshInput ? toMesh(meshInput) : meam::TriangleMesh();
     fromAppearanceModels(
-      meam::extractBoundary(toAppearanceModels(input), settings, meshInput ? &mesh : nullptr, progressOf(this)),
+      meam::extractBoundary(toAppearanceModels(input), *this->Settings, meshInput ? &mesh : nullptr, progressOf(this)),
       output);
   };
   return vtkMEAMRun(this, work, output);
@@ -60,8 +59,8 @@ int vtkMEAMBoundaryExtraction::RequestData(
 void vtkMEAMBoundaryExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << (this->Method == MeshEdges ? "MeshEdges" : "PointBoundary") << "\n";
-  os << indent << "Radius: " << this->Radius << "\n";
-  os << indent << "Angle: " << this->Angle << "\n";
-  os << indent << "SharpAngle: " << this->SharpAngle << "\n";
+  os << indent << "Method: " << (this->GetMethod() == MeshEdges ? "MeshEdges" : "PointBoundary") << "\n";
+  os << indent << "Radius: " << this->GetRadius() << "\n";
+  os << indent << "Angle: " << this->GetAngle() << "\n";
+  os << indent << "SharpAngle: " << this->GetSharpAngle() << "\n";
 }

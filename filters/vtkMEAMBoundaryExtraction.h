@@ -30,6 +30,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct BoundaryExtractionSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMBoundaryExtraction : public vtkPartitionedDataSetCollectionAlgorithm
 {
 public:
@@ -48,8 +55,8 @@ public:
 
   ///@{
   /** PointBoundary (0, the paper's) or MeshEdges (1). Default: PointBoundary. */
-  vtkSetClampMacro(Method, int, PointBoundary, MeshEdges);
-  vtkGetMacro(Method, int);
+  virtual void SetMethod(int value);
+  virtual int GetMethod();
   void SetMethodToPointBoundary() { this->SetMethod(PointBoundary); }
   void SetMethodToMeshEdges() { this->SetMethod(MeshEdges); }
   ///@}
@@ -57,25 +64,25 @@ public:
   ///@{
   /** Point boundary: neighbourhood of a point in mm; 0: 2.5 times the distance between neighbouring points. Default: 0.
    */
-  vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Radius, double);
+  virtual void SetRadius(double value);
+  virtual double GetRadius();
   ///@}
 
   ///@{
   /** Point boundary: a point with a wider gap between its neighbours is on it, in degrees. Default: 90. */
-  vtkSetClampMacro(Angle, double, 0.0, 360.0);
-  vtkGetMacro(Angle, double);
+  virtual void SetAngle(double value);
+  virtual double GetAngle();
   ///@}
 
   ///@{
   /** Mesh edges: faces that meet at more than this, in degrees, make a sharp edge. Default: 30. */
-  vtkSetClampMacro(SharpAngle, double, 1.0, 179.0);
-  vtkGetMacro(SharpAngle, double);
+  virtual void SetSharpAngle(double value);
+  virtual double GetSharpAngle();
   ///@}
 
 protected:
   vtkMEAMBoundaryExtraction();
-  ~vtkMEAMBoundaryExtraction() override = default;
+  ~vtkMEAMBoundaryExtraction() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -83,10 +90,7 @@ private:
   vtkMEAMBoundaryExtraction(const vtkMEAMBoundaryExtraction&) = delete;
   void operator=(const vtkMEAMBoundaryExtraction&) = delete;
 
-  int Method;
-  double Radius;
-  double Angle;
-  double SharpAngle;
+  std::unique_ptr<meam::BoundaryExtractionSettings> Settings;
 };
 
 #endif

@@ -7,6 +7,7 @@
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSettings.h"
 #include "vtkMEAMSharedData.h"
 
 #include "vtkDoubleArray.h"
@@ -62,7 +63,17 @@ void setDiameters(const std::vector<Part>& parts, vtkPolyData* output)
 }
 }
 
-vtkMEAMConflictResolution::vtkMEAMConflictResolution() { this->SetNumberOfInputPorts(4); }
+vtkMEAMConflictResolution::vtkMEAMConflictResolution()
+  : Settings(new meam::ConflictResolutionSettings)
+{
+  this->SetNumberOfInputPorts(4);
+}
+
+vtkMEAMConflictResolution::~vtkMEAMConflictResolution() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMConflictResolution, Tolerance, double, tolerance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMConflictResolution, MaximumShared, double, shared, 0.0, 1.0)
+vtkMEAMClampedSettingMacro(vtkMEAMConflictResolution, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX)
 
 int vtkMEAMConflictResolution::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -115,16 +126,13 @@ int vtkMEAMConflictResolution::RequestData(
         parts.push_back(part);
       }
       std::vector<meam::PartDetections> detections;
+      detections.reserve(parts.size());
       for (const Part& part : parts)
       {
         detections.push_back({ *part.scene, *part.model, part.found->poses });
       }
-      meam::ConflictResolutionSettings settings;
-      settings.tolerance = this->Tolerance;
-      settings.shared = this->MaximumShared;
-      settings.maximumPoses = this->MaximumNumberOfPoses;
-      settings.threads = this->NumberOfThreads;
-      const std::vector<meam::PartPose> stay = meam::resolveConflicts(detections, settings, progressOf(this));
+      this->Settings->threads = this->NumberOfThreads;
+      const std::vector<meam::PartPose> stay = meam::resolveConflicts(detections, *this->Settings, progressOf(this));
       meam::Poses poses;
       for (const meam::PartPose& pose : stay)
       {
@@ -141,7 +149,7 @@ int vtkMEAMConflictResolution::RequestData(
 void vtkMEAMConflictResolution::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Tolerance: " << this->Tolerance << " mm\n";
-  os << indent << "MaximumShared: " << this->MaximumShared << "\n";
-  os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
+  os << indent << "Tolerance: " << this->GetTolerance() << " mm\n";
+  os << indent << "MaximumShared: " << this->GetMaximumShared() << "\n";
+  os << indent << "MaximumNumberOfPoses: " << this->GetMaximumNumberOfPoses() << "\n";
 }

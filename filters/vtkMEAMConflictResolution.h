@@ -25,6 +25,13 @@
 
 #include "vtkMEAMSensorAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct ConflictResolutionSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMConflictResolution : public vtkMEAMSensorAlgorithm
 {
 public:
@@ -41,25 +48,25 @@ public:
    * 0: 2 % of the smallest part's diameter, but 1 % of the own diameter of parts that are more than twice as large.
    * Default: 0.
    */
-  vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Tolerance, double);
+  virtual void SetTolerance(double value);
+  virtual double GetTolerance();
   ///@}
 
   ///@{
   /** Poses that share more of what they explain, in [0, 1], are in conflict; 1: none are. Default: 0.5. */
-  vtkSetClampMacro(MaximumShared, double, 0.0, 1.0);
-  vtkGetMacro(MaximumShared, double);
+  virtual void SetMaximumShared(double value);
+  virtual double GetMaximumShared();
   ///@}
 
   ///@{
   /** Poses that come out, the best ones of all parts; 0: all that stay. Default: 0. */
-  vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
-  vtkGetMacro(MaximumNumberOfPoses, int);
+  virtual void SetMaximumNumberOfPoses(int value);
+  virtual int GetMaximumNumberOfPoses();
   ///@}
 
 protected:
   vtkMEAMConflictResolution();
-  ~vtkMEAMConflictResolution() override = default;
+  ~vtkMEAMConflictResolution() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -68,9 +75,7 @@ private:
   vtkMEAMConflictResolution(const vtkMEAMConflictResolution&) = delete;
   void operator=(const vtkMEAMConflictResolution&) = delete;
 
-  double Tolerance = 0.0;
-  double MaximumShared = 0.5;
-  int MaximumNumberOfPoses = 0;
+  std::unique_ptr<meam::ConflictResolutionSettings> Settings;
 };
 
 #endif

@@ -8,6 +8,7 @@
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
@@ -16,11 +17,14 @@
 vtkStandardNewMacro(vtkMEAMFeatureEdges);
 
 vtkMEAMFeatureEdges::vtkMEAMFeatureEdges()
+  : Settings(new meam::FeatureEdgesSettings)
 {
-  const meam::FeatureEdgesSettings settings;
-  this->Angle = settings.angle;
-  this->Spacing = settings.spacing;
 }
+
+vtkMEAMFeatureEdges::~vtkMEAMFeatureEdges() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMFeatureEdges, Angle, double, angle, 0.1, 179.0)
+vtkMEAMClampedSettingMacro(vtkMEAMFeatureEdges, Spacing, double, spacing, 0.0, VTK_DOUBLE_MAX)
 
 int vtkMEAMFeatureEdges::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
@@ -30,11 +34,8 @@ int vtkMEAMFeatureEdges::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
-    meam::FeatureEdgesSettings settings;
-    settings.angle = this->Angle;
-    settings.spacing = this->Spacing;
     const meam::TriangleMesh mesh = toMesh(input);
-    fromCloud(meam::extractFeatureEdges(mesh, settings, progressOf(this)), output);
+    fromCloud(meam::extractFeatureEdges(mesh, *this->Settings, progressOf(this)), output);
     setDiameter(output, meam::diameter(mesh.vertices));
   };
   return vtkMEAMRun(this, work, output);
@@ -43,6 +44,6 @@ int vtkMEAMFeatureEdges::RequestData(
 void vtkMEAMFeatureEdges::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Angle: " << this->Angle << "\n";
-  os << indent << "Spacing: " << this->Spacing << "\n";
+  os << indent << "Angle: " << this->GetAngle() << "\n";
+  os << indent << "Spacing: " << this->GetSpacing() << "\n";
 }

@@ -20,6 +20,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct FeatureEdgesSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMFeatureEdges : public vtkPolyDataAlgorithm
 {
 public:
@@ -29,27 +36,26 @@ public:
 
   ///@{
   /** Faces that meet at more than this make a sharp edge, in degrees. Default: 30. */
-  vtkSetClampMacro(Angle, double, 0.1, 179.0);
-  vtkGetMacro(Angle, double);
+  virtual void SetAngle(double value);
+  virtual double GetAngle();
   ///@}
 
   ///@{
   /** Distance between neighbouring points along an edge in mm; 0: 1 % of the part's diameter. Default: 0. */
-  vtkSetClampMacro(Spacing, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Spacing, double);
+  virtual void SetSpacing(double value);
+  virtual double GetSpacing();
   ///@}
 
 protected:
   vtkMEAMFeatureEdges();
-  ~vtkMEAMFeatureEdges() override = default;
+  ~vtkMEAMFeatureEdges() override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkMEAMFeatureEdges(const vtkMEAMFeatureEdges&) = delete;
   void operator=(const vtkMEAMFeatureEdges&) = delete;
 
-  double Angle;
-  double Spacing;
+  std::unique_ptr<meam::FeatureEdgesSettings> Settings;
 };
 
 #endif

@@ -5,6 +5,7 @@
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -14,15 +15,17 @@
 vtkStandardNewMacro(vtkMEAMMeshPreparation);
 
 vtkMEAMMeshPreparation::vtkMEAMMeshPreparation()
+  : Settings(new meam::MeshPreparationSettings)
 {
-  const meam::MeshPreparationSettings settings;
-  this->Scale = settings.scale;
-  std::copy_n(settings.offset.data(), 3, this->Offset);
-  this->KeptComponents = static_cast<int>(settings.keptComponents);
-  this->HoleSize = settings.holeSize;
-  this->MaximumError = settings.maximumError;
-  this->EdgeLength = settings.edgeLength;
 }
+
+vtkMEAMMeshPreparation::~vtkMEAMMeshPreparation() = default;
+
+vtkMEAMSettingMacro(vtkMEAMMeshPreparation, Scale, double, scale)
+vtkMEAMClampedSettingMacro(vtkMEAMMeshPreparation, KeptComponents, int, keptComponents, All, Largest)
+vtkMEAMClampedSettingMacro(vtkMEAMMeshPreparation, HoleSize, double, holeSize, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMMeshPreparation, MaximumError, double, maximumError, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMMeshPreparation, EdgeLength, double, edgeLength, 0.0, VTK_DOUBLE_MAX)
 
 int vtkMEAMMeshPreparation::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
@@ -32,13 +35,8 @@ int vtkMEAMMeshPreparation::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
-    meam::MeshPreparationSettings settings;
-    settings.scale = this->Scale;
+    meam::MeshPreparationSettings settings = *this->Settings;
     settings.offset = Eigen::Vector3d(this->Offset);
-    settings.keptComponents = static_cast<meam::KeptComponents>(this->KeptComponents);
-    settings.holeSize = this->HoleSize;
-    settings.maximumError = this->MaximumError;
-    settings.edgeLength = this->EdgeLength;
     const meam::PreparedMesh prepared = meam::prepareMesh(toMesh(input), settings, progressOf(this));
     fromMesh(prepared.mesh, output);
     const meam::MeshReport& report = prepared.report;
@@ -69,10 +67,10 @@ int vtkMEAMMeshPreparation::RequestData(
 void vtkMEAMMeshPreparation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Scale: " << this->Scale << "\n";
+  os << indent << "Scale: " << this->GetScale() << "\n";
   os << indent << "Offset: " << this->Offset[0] << " " << this->Offset[1] << " " << this->Offset[2] << "\n";
-  os << indent << "KeptComponents: " << (this->KeptComponents == Largest ? "Largest" : "All") << "\n";
-  os << indent << "HoleSize: " << this->HoleSize << "\n";
-  os << indent << "MaximumError: " << this->MaximumError << "\n";
-  os << indent << "EdgeLength: " << this->EdgeLength << "\n";
+  os << indent << "KeptComponents: " << (this->GetKeptComponents() == Largest ? "Largest" : "All") << "\n";
+  os << indent << "HoleSize: " << this->GetHoleSize() << "\n";
+  os << indent << "MaximumError: " << this->GetMaximumError() << "\n";
+  os << indent << "EdgeLength: " << this->GetEdgeLength() << "\n";
 }

@@ -26,6 +26,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct MeshPreparationSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMMeshPreparation : public vtkPolyDataAlgorithm
 {
 public:
@@ -35,8 +42,8 @@ public:
 
   ///@{
   /** Factor on the coordinates that brings them to mm: 1000 for a mesh in metres. Default: 1. */
-  vtkSetMacro(Scale, double);
-  vtkGetMacro(Scale, double);
+  virtual void SetScale(double value);
+  virtual double GetScale();
   ///@}
 
   ///@{
@@ -54,8 +61,8 @@ public:
 
   ///@{
   /** Which connected components are kept. Default: All. */
-  vtkSetClampMacro(KeptComponents, int, All, Largest);
-  vtkGetMacro(KeptComponents, int);
+  virtual void SetKeptComponents(int value);
+  virtual int GetKeptComponents();
   void SetKeptComponentsToAll() { this->SetKeptComponents(All); }
   void SetKeptComponentsToLargest() { this->SetKeptComponents(Largest); }
   ///@}
@@ -65,14 +72,14 @@ public:
    * Holes are closed whose border, all the way round, is at most this long, in mm; 0: none. The outer border of a
    * sheet is not a hole. Default: 0.
    */
-  vtkSetClampMacro(HoleSize, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(HoleSize, double);
+  virtual void SetHoleSize(double value);
+  virtual double GetHoleSize();
   ///@}
 
   ///@{
   /** The mesh is simplified as far as its surface moves by no more than this, in mm; 0: not at all. Default: 0. */
-  vtkSetClampMacro(MaximumError, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumError, double);
+  virtual void SetMaximumError(double value);
+  virtual double GetMaximumError();
   ///@}
 
   ///@{
@@ -80,25 +87,21 @@ public:
    * The mesh is remade of even triangles with edges of this length in mm, after it is simplified; sharp edges and
    * borders stay where they are. 0: not at all. Default: 0.
    */
-  vtkSetClampMacro(EdgeLength, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(EdgeLength, double);
+  virtual void SetEdgeLength(double value);
+  virtual double GetEdgeLength();
   ///@}
 
 protected:
   vtkMEAMMeshPreparation();
-  ~vtkMEAMMeshPreparation() override = default;
+  ~vtkMEAMMeshPreparation() override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkMEAMMeshPreparation(const vtkMEAMMeshPreparation&) = delete;
   void operator=(const vtkMEAMMeshPreparation&) = delete;
 
-  double Scale;
-  double Offset[3];
-  int KeptComponents;
-  double HoleSize;
-  double MaximumError;
-  double EdgeLength;
+  std::unique_ptr<meam::MeshPreparationSettings> Settings;
+  double Offset[3] = { 0.0, 0.0, 0.0 };
 };
 
 #endif

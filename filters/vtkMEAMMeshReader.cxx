@@ -25,7 +25,7 @@ int vtkMEAMMeshReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
     {
       throw meam::Error("No file is given: set FileName to the name of a .stl, .obj, .ply or .off file.");
     }
-    vtkMEAMConversion::fromMesh(meam::readMesh(this->FileName), output);
+    vtkMEAMConversion::fromMesh(meam::readMesh(this->FileName, vtkMEAMConversion::progressOf(this)), output);
   };
   return vtkMEAMRun(this, work, output);
 }

@@ -4,7 +4,8 @@
  * @brief Reads the mesh of a part: STL, OBJ, PLY or OFF, by the file's extension.
  *
  * What is damaged or cut off is an error. Polygons are cut into triangles; all but the shape is skipped. The triangles
- * of an STL file share the vertices that lie at exactly the same place.
+ * of an STL file share the vertices that lie at exactly the same place. OFF is ascii, also COFF, NOFF, STOFF and their
+ * combinations.
  *
  * Output port 0: vtkPolyData, the triangles, in the file's unit; vtkMEAMMeshPreparation brings them to mm.
  */

@@ -7,6 +7,7 @@
 #include "vtkMEAMPickConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -22,7 +23,16 @@
 
 vtkStandardNewMacro(vtkMEAMPickTrial);
 
-vtkMEAMPickTrial::vtkMEAMPickTrial() { this->SetNumberOfInputPorts(4); }
+vtkMEAMPickTrial::vtkMEAMPickTrial()
+  : Settings(new meam::PickTrialSettings)
+{
+  this->SetNumberOfInputPorts(4);
+}
+
+vtkMEAMPickTrial::~vtkMEAMPickTrial() = default;
+
+vtkMEAMSettingMacro(vtkMEAMPickTrial, WayIn, double, wayIn)
+vtkMEAMSettingMacro(vtkMEAMPickTrial, CupSlack, double, cupSlack)
 
 int vtkMEAMPickTrial::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -71,15 +81,11 @@ int vtkMEAMPickTrial::RequestData(
           "The picks have no field data 'Gripper': use the output of Pick Planning as it is, and connect "
           "the gripper's mesh when they were planned with one.");
       }
-      meam::PickTrialSettings settings;
-      settings.wayIn = this->WayIn;
-      settings.cupSlack = this->CupSlack;
-
       meam::Grasps tried;
       std::copy_if(picks.begin(), picks.end(), std::back_inserter(tried),
         [&](const meam::Grasp& pick) { return possible[&pick - picks.data()]; });
       const std::vector<meam::PickTrial> trials =
-        meam::tryPicks(mesh, *gripper, tried, truths, bin ? &*bin : nullptr, settings, progress);
+        meam::tryPicks(mesh, *gripper, tried, truths, bin ? &*bin : nullptr, *this->Settings, progress);
 
       vtkNew<vtkIntArray> outcomes, instances;
       vtkNew<vtkStringArray> names;
@@ -105,6 +111,6 @@ int vtkMEAMPickTrial::RequestData(
 void vtkMEAMPickTrial::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "WayIn: " << this->WayIn << " mm\n";
-  os << indent << "CupSlack: " << this->CupSlack << " mm\n";
+  os << indent << "WayIn: " << this->GetWayIn() << " mm\n";
+  os << indent << "CupSlack: " << this->GetCupSlack() << " mm\n";
 }

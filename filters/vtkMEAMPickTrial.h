@@ -21,6 +21,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct PickTrialSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMPickTrial : public vtkPolyDataAlgorithm
 {
 public:
@@ -41,19 +48,19 @@ public:
 
   ///@{
   /** mm of the gripper's way in that are looked at. Default: 80. */
-  vtkSetMacro(WayIn, double);
-  vtkGetMacro(WayIn, double);
+  virtual void SetWayIn(double value);
+  virtual double GetWayIn();
   ///@}
 
   ///@{
   /** mm that a cup gives way, and that it may be off the surface. Default: 2. */
-  vtkSetMacro(CupSlack, double);
-  vtkGetMacro(CupSlack, double);
+  virtual void SetCupSlack(double value);
+  virtual double GetCupSlack();
   ///@}
 
 protected:
   vtkMEAMPickTrial();
-  ~vtkMEAMPickTrial() override = default;
+  ~vtkMEAMPickTrial() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -62,8 +69,7 @@ private:
   vtkMEAMPickTrial(const vtkMEAMPickTrial&) = delete;
   void operator=(const vtkMEAMPickTrial&) = delete;
 
-  double WayIn = 80.0;
-  double CupSlack = 2.0;
+  std::unique_ptr<meam::PickTrialSettings> Settings;
 };
 
 #endif

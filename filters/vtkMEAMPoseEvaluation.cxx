@@ -9,6 +9,7 @@
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSettings.h"
 #include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkDoubleArray.h"
@@ -66,10 +67,20 @@ private:
 }
 
 vtkMEAMPoseEvaluation::vtkMEAMPoseEvaluation()
+  : Settings(new meam::PoseEvaluationSettings)
 {
   this->SetNumberOfInputPorts(4);
   this->SetNumberOfOutputPorts(3);
 }
+
+vtkMEAMPoseEvaluation::~vtkMEAMPoseEvaluation() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMPoseEvaluation, Diameter, double, diameter, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(
+  vtkMEAMPoseEvaluation, TranslationTolerance, double, translationTolerance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseEvaluation, RotationTolerance, double, rotationTolerance, 0.0, 180.0)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseEvaluation, PosesAskedFor, int, posesAskedFor, 0, VTK_INT_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseEvaluation, MinimumVisibleFraction, double, minimumVisibleFraction, 0.0, 1.0)
 
 int vtkMEAMPoseEvaluation::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -117,8 +128,7 @@ int vtkMEAMPoseEvaluation::RequestData(
                           std::to_string(inputVector[1]->GetNumberOfInformationObjects()) +
                           ": connect both of each scene.");
       }
-      meam::PoseEvaluationSettings settings;
-      settings.diameter = this->Diameter;
+      meam::PoseEvaluationSettings settings = *this->Settings;
       for (int port = 0; port < 2; ++port)
       {
         for (int i = 0; i < scenes && !(settings.diameter > 0.0); ++i)
@@ -128,11 +138,7 @@ int vtkMEAMPoseEvaluation::RequestData(
       }
       settings.middle = Eigen::Map<const Eigen::Vector3d>(middleOf(vtkDataObject::GetData(inputVector[2])).data());
       settings.symmetries = symmetriesOf(vtkDataObject::GetData(inputVector[2]));
-      settings.translationTolerance = this->TranslationTolerance;
-      settings.rotationTolerance = this->RotationTolerance;
-      settings.posesAskedFor = this->PosesAskedFor;
       settings.axis = Eigen::Map<const Eigen::Vector3d>(this->Axis);
-      settings.minimumVisibleFraction = this->MinimumVisibleFraction;
 
       vtkPolyData* mesh = vtkPolyData::GetData(inputVector[3]);
       std::optional<meam::BOPEvaluation> benchmark;
@@ -212,10 +218,10 @@ int vtkMEAMPoseEvaluation::RequestData(
 void vtkMEAMPoseEvaluation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Diameter: " << this->Diameter << " mm\n";
-  os << indent << "TranslationTolerance: " << this->TranslationTolerance << " %\n";
-  os << indent << "RotationTolerance: " << this->RotationTolerance << " degrees\n";
-  os << indent << "PosesAskedFor: " << this->PosesAskedFor << "\n";
+  os << indent << "Diameter: " << this->GetDiameter() << " mm\n";
+  os << indent << "TranslationTolerance: " << this->GetTranslationTolerance() << " %\n";
+  os << indent << "RotationTolerance: " << this->GetRotationTolerance() << " degrees\n";
+  os << indent << "PosesAskedFor: " << this->GetPosesAskedFor() << "\n";
   os << indent << "Axis: " << this->Axis[0] << " " << this->Axis[1] << " " << this->Axis[2] << "\n";
-  os << indent << "MinimumVisibleFraction: " << this->MinimumVisibleFraction << "\n";
+  os << indent << "MinimumVisibleFraction: " << this->GetMinimumVisibleFraction() << "\n";
 }

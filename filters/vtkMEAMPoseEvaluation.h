@@ -42,6 +42,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkTableAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct PoseEvaluationSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMPoseEvaluation : public vtkTableAlgorithm
 {
 public:
@@ -56,26 +63,26 @@ public:
 
   ///@{
   /** mm, the part's largest vertex distance; 0 takes it from the poses' field data. Default: 0. */
-  vtkSetClampMacro(Diameter, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Diameter, double);
+  virtual void SetDiameter(double value);
+  virtual double GetDiameter();
   ///@}
 
   ///@{
   /** % of the diameter: a right pose is nearer to a true one. Default: 10. */
-  vtkSetClampMacro(TranslationTolerance, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(TranslationTolerance, double);
+  virtual void SetTranslationTolerance(double value);
+  virtual double GetTranslationTolerance();
   ///@}
 
   ///@{
   /** Degrees: a right pose is turned by less against a true one. Default: 5. */
-  vtkSetClampMacro(RotationTolerance, double, 0.0, 180.0);
-  vtkGetMacro(RotationTolerance, double);
+  virtual void SetRotationTolerance(double value);
+  virtual double GetRotationTolerance();
   ///@}
 
   ///@{
   /** Best poses of a scene that count; missing ones are wrong. 0: all there are. Default: 5. */
-  vtkSetClampMacro(PosesAskedFor, int, 0, VTK_INT_MAX);
-  vtkGetMacro(PosesAskedFor, int);
+  virtual void SetPosesAskedFor(int value);
+  virtual int GetPosesAskedFor();
   ///@}
 
   ///@{
@@ -86,13 +93,13 @@ public:
 
   ///@{
   /** Share of a true instance, in [0, 1], that has to be visible to count for the recall. Default: 0.5. */
-  vtkSetClampMacro(MinimumVisibleFraction, double, 0.0, 1.0);
-  vtkGetMacro(MinimumVisibleFraction, double);
+  virtual void SetMinimumVisibleFraction(double value);
+  virtual double GetMinimumVisibleFraction();
   ///@}
 
 protected:
   vtkMEAMPoseEvaluation();
-  ~vtkMEAMPoseEvaluation() override = default;
+  ~vtkMEAMPoseEvaluation() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -103,12 +110,8 @@ private:
   vtkMEAMPoseEvaluation(const vtkMEAMPoseEvaluation&) = delete;
   void operator=(const vtkMEAMPoseEvaluation&) = delete;
 
-  double Diameter = 0.0;
-  double TranslationTolerance = 10.0;
-  double RotationTolerance = 5.0;
-  int PosesAskedFor = 5;
+  std::unique_ptr<meam::PoseEvaluationSettings> Settings;
   double Axis[3] = { 0.0, 0.0, 1.0 };
-  double MinimumVisibleFraction = 0.5;
 };
 
 #endif

@@ -4,6 +4,7 @@
 #include "vtkMEAMInstanceConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
@@ -17,10 +18,16 @@
 vtkStandardNewMacro(vtkMEAMPoseInstances);
 
 vtkMEAMPoseInstances::vtkMEAMPoseInstances()
+  : Settings(new vtkMEAMConversion::InstanceSettings)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
 }
+
+vtkMEAMPoseInstances::~vtkMEAMPoseInstances() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMPoseInstances, MaximumNumberOfInstances, int, most, 0, VTK_INT_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseInstances, MinimumProbability, double, minimumProbability, 0.0, 1.0)
 
 int vtkMEAMPoseInstances::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -46,10 +53,7 @@ int vtkMEAMPoseInstances::RequestData(
       vtkDataArray* ranks = posesInput->GetPointData()->GetArray("Rank");
       const auto rankOf = [&](std::size_t k)
       { return ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : static_cast<int>(k) + 1; };
-      vtkMEAMConversion::InstanceSettings settings;
-      settings.most = this->MaximumNumberOfInstances;
-      settings.minimumProbability = this->MinimumProbability;
-      vtkMEAMConversion::fromInstances(mesh, poses, rankOf, settings, progress, output);
+      vtkMEAMConversion::fromInstances(mesh, poses, rankOf, *this->Settings, progress, output);
       if (this->UncertaintyScale > 0.0)
       {
         const auto extent = vtkMEAMConversion::partExtentOf(posesInput);
@@ -59,7 +63,8 @@ int vtkMEAMPoseInstances::RequestData(
           throw meam::Error("The poses do not tell how uncertain they are: connect those of MEAM Pose Estimation, "
                             "or set UncertaintyScale to 0.");
         }
-        vtkMEAMConversion::fromUncertainties(poses, *extent, this->UncertaintyScale, rankOf, settings, ellipsoids);
+        vtkMEAMConversion::fromUncertainties(
+          poses, *extent, this->UncertaintyScale, rankOf, *this->Settings, ellipsoids);
       }
     },
     output, ellipsoids);
@@ -68,7 +73,7 @@ int vtkMEAMPoseInstances::RequestData(
 void vtkMEAMPoseInstances::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumNumberOfInstances: " << this->MaximumNumberOfInstances << "\n";
-  os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
+  os << indent << "MaximumNumberOfInstances: " << this->GetMaximumNumberOfInstances() << "\n";
+  os << indent << "MinimumProbability: " << this->GetMinimumProbability() << "\n";
   os << indent << "UncertaintyScale: " << this->UncertaintyScale << "\n";
 }

@@ -23,6 +23,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory>
+
+namespace vtkMEAMConversion
+{
+struct InstanceSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMPoseInstances : public vtkPolyDataAlgorithm
 {
 public:
@@ -35,8 +42,8 @@ public:
 
   ///@{
   /** Copies made, the best poses; 0 for all. Default: 0. */
-  vtkSetClampMacro(MaximumNumberOfInstances, int, 0, VTK_INT_MAX);
-  vtkGetMacro(MaximumNumberOfInstances, int);
+  virtual void SetMaximumNumberOfInstances(int value);
+  virtual int GetMaximumNumberOfInstances();
   ///@}
 
   ///@{
@@ -44,8 +51,8 @@ public:
    * Poses that are less likely to be right get no copy; poses whose probability is not known (0), such as true ones,
    * do. Default: 0.5, those that are more likely right than wrong.
    */
-  vtkSetClampMacro(MinimumProbability, double, 0.0, 1.0);
-  vtkGetMacro(MinimumProbability, double);
+  virtual void SetMinimumProbability(double value);
+  virtual double GetMinimumProbability();
   ///@}
 
   ///@{
@@ -56,7 +63,7 @@ public:
 
 protected:
   vtkMEAMPoseInstances();
-  ~vtkMEAMPoseInstances() override = default;
+  ~vtkMEAMPoseInstances() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -65,8 +72,7 @@ private:
   vtkMEAMPoseInstances(const vtkMEAMPoseInstances&) = delete;
   void operator=(const vtkMEAMPoseInstances&) = delete;
 
-  int MaximumNumberOfInstances = 0;
-  double MinimumProbability = 0.5;
+  std::unique_ptr<vtkMEAMConversion::InstanceSettings> Settings;
   double UncertaintyScale = 0.0;
 };
 

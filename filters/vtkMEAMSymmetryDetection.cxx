@@ -8,6 +8,7 @@
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 #include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkFieldData.h"
@@ -28,13 +29,14 @@ constexpr double ReachShare = 0.1; // of the diameter: larger deviations are sho
 }
 
 vtkMEAMSymmetryDetection::vtkMEAMSymmetryDetection()
+  : Settings(new meam::SymmetryDetectionSettings)
 {
-  const meam::SymmetryDetectionSettings settings;
-  this->Tolerance = settings.tolerance;
-  this->LeastOverlap = settings.leastOverlap;
 }
 
 vtkMEAMSymmetryDetection::~vtkMEAMSymmetryDetection() { this->SetModelsInfoFile(nullptr); }
+
+vtkMEAMClampedSettingMacro(vtkMEAMSymmetryDetection, Tolerance, double, tolerance, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMSymmetryDetection, LeastOverlap, double, leastOverlap, 0.0, 1.0)
 
 int vtkMEAMSymmetryDetection::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
@@ -44,14 +46,11 @@ int vtkMEAMSymmetryDetection::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
-    meam::SymmetryDetectionSettings settings;
-    settings.tolerance = this->Tolerance;
-    settings.leastOverlap = this->LeastOverlap;
     const meam::PointCloud surface = toCloud(input);
     const bool known = this->ModelsInfoFile && *this->ModelsInfoFile;
     const meam::Symmetries exact =
       known ? meam::readModelsInfo(this->ModelsInfoFile, this->ObjectId) : meam::Symmetries();
-    meam::Symmetries found = meam::detectSymmetries(surface, settings, progressOf(this));
+    meam::Symmetries found = meam::detectSymmetries(surface, *this->Settings, progressOf(this));
     found = known ? meam::withKnownExact(found, exact) : found;
 
     output->ShallowCopy(input);
@@ -76,8 +75,8 @@ int vtkMEAMSymmetryDetection::RequestData(
 void vtkMEAMSymmetryDetection::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "LeastOverlap: " << this->LeastOverlap << "\n";
+  os << indent << "Tolerance: " << this->GetTolerance() << "\n";
+  os << indent << "LeastOverlap: " << this->GetLeastOverlap() << "\n";
   os << indent << "ShownNearSymmetry: " << this->ShownNearSymmetry << "\n";
   os << indent << "ModelsInfoFile: " << (this->ModelsInfoFile ? this->ModelsInfoFile : "(none)") << "\n";
   os << indent << "ObjectId: " << this->ObjectId << "\n";

@@ -22,6 +22,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct SymmetryDetectionSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMSymmetryDetection : public vtkPolyDataAlgorithm
 {
 public:
@@ -31,14 +38,14 @@ public:
 
   ///@{
   /** Distance in mm that the turned surface may keep from itself; 0: 1 % of the diameter. Default: 0. */
-  vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Tolerance, double);
+  virtual void SetTolerance(double value);
+  virtual double GetTolerance();
   ///@}
 
   ///@{
   /** Share of the surface that a near-symmetry has to map onto the surface, in [0, 1]. Default: 0.8. */
-  vtkSetClampMacro(LeastOverlap, double, 0.0, 1.0);
-  vtkGetMacro(LeastOverlap, double);
+  virtual void SetLeastOverlap(double value);
+  virtual double GetLeastOverlap();
   ///@}
 
   ///@{
@@ -71,8 +78,7 @@ private:
   vtkMEAMSymmetryDetection(const vtkMEAMSymmetryDetection&) = delete;
   void operator=(const vtkMEAMSymmetryDetection&) = delete;
 
-  double Tolerance;
-  double LeastOverlap;
+  std::unique_ptr<meam::SymmetryDetectionSettings> Settings;
   int ShownNearSymmetry = 0;
   char* ModelsInfoFile = nullptr;
   int ObjectId = 1;

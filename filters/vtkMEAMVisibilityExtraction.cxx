@@ -7,6 +7,7 @@
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -14,21 +15,22 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
-
 vtkStandardNewMacro(vtkMEAMVisibilityExtraction);
 
 vtkMEAMVisibilityExtraction::vtkMEAMVisibilityExtraction()
+  : Settings(new meam::VisibilityExtractionSettings)
 {
-  const meam::VisibilityExtractionSettings settings;
   this->SetNumberOfInputPorts(2);
-  this->Method = static_cast<int>(settings.method);
-  std::copy_n(settings.coneDirection.data(), 3, this->ConeDirection);
-  this->ConeAngle = settings.coneAngle;
-  this->NumberOfViewpoints = settings.viewpoints;
-  this->RadiusFactor = settings.radiusFactor;
-  this->ViewpointDistance = settings.viewpointDistance;
 }
+
+vtkMEAMVisibilityExtraction::~vtkMEAMVisibilityExtraction() = default;
+
+vtkMEAMClampedSettingMacro(vtkMEAMVisibilityExtraction, Method, int, method, HiddenPointRemoval, MeshVisibility)
+vtkMEAMClampedSettingMacro(vtkMEAMVisibilityExtraction, NumberOfViewpoints, int, viewpoints, 0, 1000)
+vtkMEAMClampedSettingMacro(vtkMEAMVisibilityExtraction, ConeAngle, double, coneAngle, 1.0, 180.0)
+vtkMEAMClampedSettingMacro(vtkMEAMVisibilityExtraction, RadiusFactor, double, radiusFactor, 1.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(
+  vtkMEAMVisibilityExtraction, ViewpointDistance, double, viewpointDistance, 1.0, VTK_DOUBLE_MAX)
 
 int vtkMEAMVisibilityExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -49,13 +51,8 @@ int vtkMEAMVisibilityExtraction::RequestData(
   auto* output = vtkPartitionedDataSetCollection::GetData(outputVector);
   const auto work = [&]
   {
-    meam::VisibilityExtractionSettings settings;
-    settings.method = static_cast<meam::VisibilityMethod>(this->Method);
-    settings.viewpoints = this->NumberOfViewpoints;
+    meam::VisibilityExtractionSettings settings = *this->Settings;
     settings.coneDirection = Eigen::Vector3d(this->ConeDirection);
-    settings.coneAngle = this->ConeAngle;
-    settings.radiusFactor = this->RadiusFactor;
-    settings.viewpointDistance = this->ViewpointDistance;
     const meam::PointCloud surface = toCloud(input);
     meam::requirePoints(surface.points, "The part's surface");
     const meam::TriangleMesh mesh = meshInput ? toMesh(meshInput) : meam::TriangleMesh();
@@ -69,11 +66,11 @@ int vtkMEAMVisibilityExtraction::RequestData(
 void vtkMEAMVisibilityExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << (this->Method == MeshVisibility ? "MeshVisibility" : "HiddenPointRemoval") << "\n";
-  os << indent << "NumberOfViewpoints: " << this->NumberOfViewpoints << "\n";
+  os << indent << "Method: " << (this->GetMethod() == MeshVisibility ? "MeshVisibility" : "HiddenPointRemoval") << "\n";
+  os << indent << "NumberOfViewpoints: " << this->GetNumberOfViewpoints() << "\n";
   os << indent << "ConeDirection: " << this->ConeDirection[0] << " " << this->ConeDirection[1] << " "
      << this->ConeDirection[2] << "\n";
-  os << indent << "ConeAngle: " << this->ConeAngle << "\n";
-  os << indent << "RadiusFactor: " << this->RadiusFactor << "\n";
-  os << indent << "ViewpointDistance: " << this->ViewpointDistance << "\n";
+  os << indent << "ConeAngle: " << this->GetConeAngle() << "\n";
+  os << indent << "RadiusFactor: " << this->GetRadiusFactor() << "\n";
+  os << indent << "ViewpointDistance: " << this->GetViewpointDistance() << "\n";
 }

@@ -29,6 +29,13 @@
 #include "ppfmeamFiltersModule.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
+#include <memory>
+
+namespace meam
+{
+struct VisibilityExtractionSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMVisibilityExtraction : public vtkPartitionedDataSetCollectionAlgorithm
 {
 public:
@@ -47,8 +54,8 @@ public:
 
   ///@{
   /** HiddenPointRemoval (0, the paper's) or MeshVisibility (1). Default: HiddenPointRemoval. */
-  vtkSetClampMacro(Method, int, HiddenPointRemoval, MeshVisibility);
-  vtkGetMacro(Method, int);
+  virtual void SetMethod(int value);
+  virtual int GetMethod();
   void SetMethodToHiddenPointRemoval() { this->SetMethod(HiddenPointRemoval); }
   void SetMethodToMeshVisibility() { this->SetMethod(MeshVisibility); }
   ///@}
@@ -60,8 +67,8 @@ public:
    * 0: the whole part, nothing hidden; method and cone play no part. A trained model takes up to 32.
    * Default: 6.
    */
-  vtkSetClampMacro(NumberOfViewpoints, int, 0, 1000);
-  vtkGetMacro(NumberOfViewpoints, int);
+  virtual void SetNumberOfViewpoints(int value);
+  virtual int GetNumberOfViewpoints();
   ///@}
 
   ///@{
@@ -75,8 +82,8 @@ public:
    * Viewpoints that are farther from the cone's direction, in degrees, are left out; a number other than
    * 1, 2, 6, 14 and 26 is spread inside. 180: all around. Default: 180.
    */
-  vtkSetClampMacro(ConeAngle, double, 1.0, 180.0);
-  vtkGetMacro(ConeAngle, double);
+  virtual void SetConeAngle(double value);
+  virtual double GetConeAngle();
   ///@}
 
   ///@{
@@ -84,19 +91,19 @@ public:
    * Hidden point removal: radius of the inversion sphere over the distance of the farthest point. Smaller loses the
    * rims of holes, larger lets the back side through. Default: 1000.
    */
-  vtkSetClampMacro(RadiusFactor, double, 1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(RadiusFactor, double);
+  virtual void SetRadiusFactor(double value);
+  virtual double GetRadiusFactor();
   ///@}
 
   ///@{
   /** Distance of the viewpoints from the middle of the part, in part diameters. Default: 10. */
-  vtkSetClampMacro(ViewpointDistance, double, 1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(ViewpointDistance, double);
+  virtual void SetViewpointDistance(double value);
+  virtual double GetViewpointDistance();
   ///@}
 
 protected:
   vtkMEAMVisibilityExtraction();
-  ~vtkMEAMVisibilityExtraction() override = default;
+  ~vtkMEAMVisibilityExtraction() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -104,12 +111,8 @@ private:
   vtkMEAMVisibilityExtraction(const vtkMEAMVisibilityExtraction&) = delete;
   void operator=(const vtkMEAMVisibilityExtraction&) = delete;
 
-  int Method;
-  int NumberOfViewpoints;
-  double ConeDirection[3];
-  double ConeAngle;
-  double RadiusFactor;
-  double ViewpointDistance;
+  std::unique_ptr<meam::VisibilityExtractionSettings> Settings;
+  double ConeDirection[3] = { 0.0, 0.0, 1.0 };
 };
 
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/MeshFile.h"
 
-#include "base/Error.h"
 #include "io/OFFFile.h"
 #include "io/PLYFile.h"
 #include "io/parsing/FileBytes.h"
@@ -21,6 +20,17 @@ namespace
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
   throw Error("The mesh file '" + path + "' " + what + ".");
+}
+
+constexpr std::size_t Stretch = 65536; // not tuned: lines or corners between two reports
+
+/// Reports what share of a text is read, now and then.
+void reportLine(const Progress& progress, std::size_t line, const TextLines& lines, const std::string& bytes)
+{
+  if (line % Stretch == 0)
+  {
+    report(progress, 1.0 - static_cast<double>(lines.left()) / static_cast<double>(bytes.size() + 1));
+  }
 }
 
 /// The next three words of a line as a point.
@@ -46,7 +56,7 @@ struct HashOfBits
 };
 
 /// Every three corners are a triangle; corners at the same place share a vertex.
-TriangleMesh joined(const Points& corners)
+TriangleMesh joined(const Points& corners, const Progress& progress)
 {
   TriangleMesh mesh;
   std::unordered_map<std::array<std::uint32_t, 3>, int, HashOfBits> places;
@@ -63,6 +73,10 @@ TriangleMesh joined(const Points& corners)
       mesh.vertices.push_back(corner);
     }
     vertices.push_back(known->second);
+    if (vertices.size() % Stretch == 0)
+    {
+      report(progress, static_cast<double>(vertices.size()) / static_cast<double>(corners.size()));
+    }
   }
   for (std::size_t i = 0; i + 2 < vertices.size(); i += 3)
   {
@@ -71,12 +85,15 @@ TriangleMesh joined(const Points& corners)
   return mesh;
 }
 
-TriangleMesh readTextSTL(const std::string& path, const std::string& bytes)
+TriangleMesh readTextSTL(const std::string& path, const std::string& bytes, const Progress& progress)
 {
   Points vertices;
   bool isWhole = false;
-  for (TextLines lines(bytes); lines.next();)
+  const Progress parsing = subProgress(progress, 0.0, 0.5);
+  TextLines lines(bytes);
+  for (std::size_t line = 0; lines.next(); ++line)
   {
+    reportLine(parsing, line, lines, bytes);
     std::string word(lines.word());
     std::transform(word.begin(), word.end(), word.begin(), [](unsigned char letter) { return std::tolower(letter); });
     if (word == "vertex")
@@ -89,14 +106,14 @@ TriangleMesh readTextSTL(const std::string& path, const std::string& bytes)
   {
     fail(path, "is cut off or damaged: it does not end with endsolid after whole triangles");
   }
-  return joined(vertices);
+  return joined(vertices, subProgress(progress, 0.5, 1.0));
 }
 
 constexpr std::size_t STLHeader = 80;   // bytes, then the number of triangles
 constexpr std::size_t STLTriangle = 50; // bytes: normal, three corners, and two more
 constexpr std::size_t STLNormal = 12;
 
-TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes)
+TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes, const Progress& progress)
 {
   std::uint32_t count = 0;
   const std::size_t start = STLHeader + sizeof(count);
@@ -114,16 +131,16 @@ TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes)
     std::memcpy(
       vertices[3 * i].data(), bytes.data() + start + STLTriangle * i + STLNormal, 3 * sizeof(Eigen::Vector3f));
   }
-  return joined(vertices);
+  return joined(vertices, progress);
 }
 
-TriangleMesh readSTL(const std::string& path)
+TriangleMesh readSTL(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
   // Some programs begin binary files with the word, too.
   const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   const bool isText = bytes.compare(start, 5, "solid") == 0 && bytes.find('\0') == std::string::npos;
-  return isText ? readTextSTL(path, bytes) : readBinarySTL(path, bytes);
+  return isText ? readTextSTL(path, bytes, progress) : readBinarySTL(path, bytes, progress);
 }
 
 /// The vertex that a corner names: "7", "7/1/2", or "-1" for the last one.
@@ -139,13 +156,15 @@ int cornerOf(const std::string& path, std::string_view word, int vertices)
   return corner;
 }
 
-TriangleMesh readOBJ(const std::string& path)
+TriangleMesh readOBJ(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
   TriangleMesh mesh;
   std::vector<int> corners;
-  for (TextLines lines(bytes); lines.next();)
+  TextLines lines(bytes);
+  for (std::size_t line = 0; lines.next(); ++line)
   {
+    reportLine(progress, line, lines, bytes);
     const std::string_view word = lines.word();
     if (word == "v")
     {
@@ -167,36 +186,38 @@ TriangleMesh readOBJ(const std::string& path)
   return mesh;
 }
 
-TriangleMesh readKind(const std::string& path)
+TriangleMesh readKind(const std::string& path, const Progress& progress)
 {
   const std::string extension = extensionOf(path);
   if (extension == ".stl")
   {
-    return readSTL(path);
+    return readSTL(path, progress);
   }
   if (extension == ".obj")
   {
-    return readOBJ(path);
+    return readOBJ(path, progress);
   }
   if (extension == ".ply")
   {
-    return readPLYMesh(path);
+    return readPLYMesh(path, progress);
   }
   if (extension == ".off")
   {
-    return readOFF(path);
+    return readOFF(path, progress);
   }
   fail(path, "has an extension that is not known: give a .stl, .obj, .ply or .off");
 }
 }
 
-TriangleMesh readMesh(const std::string& path)
+TriangleMesh readMesh(const std::string& path, const Progress& progress)
 {
-  TriangleMesh mesh = readKind(path);
+  report(progress, 0.0);
+  TriangleMesh mesh = readKind(path, progress);
   if (mesh.triangles.empty())
   {
     fail(path, "has no faces: it holds no surface");
   }
+  report(progress, 1.0);
   return mesh;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Error.h"
 #include "mesh/TriangleMesh.h"
 
 #include <string>
@@ -11,5 +12,5 @@ namespace meam
 /// are cut into triangles; all but the shape is skipped. The triangles of an STL file share the vertices that lie at
 /// exactly the same place, in the order in which these come first. Throws Error, naming the file and what is wrong with
 /// it, also when it has no faces.
-TriangleMesh readMesh(const std::string& path);
+TriangleMesh readMesh(const std::string& path, const Progress& progress = {});
 }

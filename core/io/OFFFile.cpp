@@ -137,18 +137,4 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
   report(progress, 1.0);
   return mesh;
 }
-
-bool isOFF(const std::string& path)
-{
-  try
-  {
-    const std::string bytes = readFile(path);
-    TextLines lines(bytes);
-    return lines.next() && prefixOf(lines.word()) != std::string_view::npos;
-  }
-  catch (const Error&)
-  {
-    return false;
-  }
-}
 }

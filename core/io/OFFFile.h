@@ -12,7 +12,4 @@ namespace meam
 /// and texture coordinates are skipped. Throws Error, naming the file and what is wrong with it;
 /// allocates no more than the length of the file justifies.
 TriangleMesh readOFF(const std::string& path, const Progress& progress = {});
-
-/// Whether the file starts like an OFF file that readOFF() knows; false for one that cannot be read.
-bool isOFF(const std::string& path);
 }

@@ -283,7 +283,7 @@ void forEachRecord(
   values.requireRoom(element.count, element.properties);
   // A record without properties takes no room: there is nothing in it.
   const std::uint64_t count = element.properties.empty() ? 0 : element.count;
-  std::vector<double> record(element.properties.size(), 0.0);
+  std::vector<double> record(element.properties.size());
   for (std::uint64_t i = 0; i < count; ++i)
   {
     for (std::size_t k = 0; k < element.properties.size(); ++k)
@@ -363,6 +363,14 @@ Eigen::Vector3f vectorOf(const std::vector<double>& record, const int places[3])
   return Eigen::Vector3d(record[places[0]], record[places[1]], record[places[2]]).cast<float>();
 }
 
+void reportRecord(const Progress& progress, std::uint64_t record, const Element& element)
+{
+  if (record % 65536 == 0)
+  {
+    report(progress, static_cast<double>(record) / static_cast<double>(element.count));
+  }
+}
+
 /// The element of the points; fails without any, and without coordinates.
 const Element* requiredVertices(const std::string& path, const Header& header)
 {
@@ -397,7 +405,8 @@ int cornersOf(const Element& face)
 }
 
 /// The faces of an element, cut into triangles about their first corner.
-void takeFaces(const std::string& path, Values& values, const Element& face, TriangleMesh& mesh)
+void takeFaces(
+  const std::string& path, Values& values, const Element& face, const Progress& progress, TriangleMesh& mesh)
 {
   const int list = cornersOf(face);
   if (list < 0)
@@ -416,8 +425,9 @@ void takeFaces(const std::string& path, Values& values, const Element& face, Tri
       corners.push_back(static_cast<int>(value));
     }
   };
-  const auto take = [&](std::uint64_t, const std::vector<double>&)
+  const auto take = [&](std::uint64_t i, const std::vector<double>&)
   {
+    reportRecord(progress, i, face);
     for (std::size_t k = 2; k < corners.size(); ++k)
     {
       mesh.triangles.emplace_back(corners[0], corners[k - 1], corners[k]);
@@ -428,24 +438,28 @@ void takeFaces(const std::string& path, Values& values, const Element& face, Tri
 }
 }
 
-TriangleMesh readPLYMesh(const std::string& path)
+TriangleMesh readPLYMesh(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
   const Header header = parseHeader(path, bytes);
   const Layout layout(*requiredVertices(path, header));
   Values values(path, bytes, header);
+  const Progress ofVertices = subProgress(progress, 0.0, 0.5);
   TriangleMesh mesh;
   for (const Element& element : header.elements)
   {
     if (element.name == "vertex" && mesh.vertices.empty())
     {
       forEachRecord(path, values, element,
-        [&](std::uint64_t, const std::vector<double>& record)
-        { mesh.vertices.push_back(vectorOf(record, layout.point)); });
+        [&](std::uint64_t i, const std::vector<double>& record)
+        {
+          reportRecord(ofVertices, i, element);
+          mesh.vertices.push_back(vectorOf(record, layout.point));
+        });
     }
     else if (element.name == "face" && mesh.triangles.empty())
     {
-      takeFaces(path, values, element, mesh);
+      takeFaces(path, values, element, subProgress(progress, 0.5, 1.0), mesh);
     }
     else
     {
@@ -484,10 +498,7 @@ MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
       const double value = std::round(layout.colorScale * record[layout.color[k]]);
       result.colors.push_back(value > 0.0 ? static_cast<std::uint8_t>(std::min(value, 255.0)) : 0); // NaN is black
     }
-    if (i % 65536 == 0)
-    {
-      report(progress, static_cast<double>(i) / static_cast<double>(vertex->count));
-    }
+    reportRecord(progress, i, *vertex);
   };
   forEachRecord(path, values, *vertex, take);
   result.cloud.width = static_cast<int>(result.cloud.size());

@@ -17,7 +17,7 @@ MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress = {
 
 /// Reads the faces of a PLY file, after its points, in the file's own unit; polygons are cut into triangles about their
 /// first corner. No triangles when there are none. Throws as above.
-TriangleMesh readPLYMesh(const std::string& path);
+TriangleMesh readPLYMesh(const std::string& path, const Progress& progress = {});
 
 /// Whether the file's header is that of a PLY file with points and no faces; false for one that cannot be read.
 bool isPLYCloud(const std::string& path);

@@ -189,20 +189,25 @@ def update(algorithm, step="Update", *arguments):
     return algorithm
 
 
+def in_range(kind, text, most, wanted):
+    """A number from 0 to `most`, or argparse's error, which says what is wanted."""
+    try:
+        number = kind(text)
+    except ValueError:
+        number = -1
+    if not 0 <= number <= most:
+        raise argparse.ArgumentTypeError(f"it has to be {wanted}, not {text}")
+    return number
+
+
 def count(text):
     """A number of things, as argparse wants it."""
-    number = int(text)
-    if number < 0:
-        raise ValueError
-    return number
+    return in_range(int, text, math.inf, "a whole number, 0 or more")
 
 
 def share(text):
     """A number from 0 to 1, as argparse wants it."""
-    number = float(text)
-    if not 0 <= number <= 1:
-        raise ValueError
-    return number
+    return in_range(float, text, 1, "a number from 0 to 1")
 
 
 def add_reference_argument(parser):

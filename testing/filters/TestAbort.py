@@ -18,7 +18,7 @@ from ppfmeam.filters import (
     vtkMEAMDepthImageReader,
     vtkMEAMFeatureEdges,
     vtkMEAMGraspDefinition,
-    vtkMEAMOFFReader,
+    vtkMEAMMeshReader,
     vtkMEAMPCDReader,
     vtkMEAMPickPlanning,
     vtkMEAMPickTrial,
@@ -38,8 +38,8 @@ from ppfmeam.filters import (
 from meamtest import Errors, MovedView, Trained, bracket, check, connect, is_empty, png, poses, run
 
 # Their work takes milliseconds, whatever their input.
-QUICK = {"vtkMEAMGraspWriter", "vtkMEAMHandEyeCalibration", "vtkMEAMImageReader", "vtkMEAMMeshReader", "vtkMEAMModelReader",
-         "vtkMEAMModelWriter", "vtkMEAMPoseEvaluation", "vtkMEAMPoseReader", "vtkMEAMPoseWriter", "vtkMEAMSamplePartSource"}
+QUICK = {"vtkMEAMGraspWriter", "vtkMEAMHandEyeCalibration", "vtkMEAMImageReader", "vtkMEAMModelReader", "vtkMEAMModelWriter",
+         "vtkMEAMPoseEvaluation", "vtkMEAMPoseReader", "vtkMEAMPoseWriter", "vtkMEAMSamplePartSource"}
 ROWS = [[(500,)] * 8] * 200  # a depth image
 folder = tempfile.TemporaryDirectory()
 
@@ -73,7 +73,7 @@ def readers():
     png(path("bop/test/000001/depth/000000.png"), ROWS, VTK_UNSIGNED_SHORT)
     path("bop/test/000001/scene_camera.json",
          json.dumps({"0": {"cam_K": [100, 0, 4, 0, 100, 100, 0, 0, 1], "depth_scale": 1.0}}))
-    return [depth, ply, reader(vtkMEAMPCDReader, pcd), reader(vtkMEAMOFFReader, off),
+    return [depth, ply, reader(vtkMEAMPCDReader, pcd), reader(vtkMEAMMeshReader, off),
             reader(vtkMEAMBOPReader, path("bop"))]
 
 

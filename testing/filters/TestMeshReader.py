@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes of every kind: the triangles of VTK's readers, also through the scripts; and files that are damaged or cut off."""
+"""Meshes of every kind: the triangles of VTK's readers, of OFF those of a box, also through the scripts; and files that are
+damaged or cut off."""
 import os
 import tempfile
 
@@ -10,12 +11,18 @@ from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOBJWriter, vtkSTLReader, v
 from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
 
 from ppfmeam import scripting
-from ppfmeam.filters import vtkMEAMMeshReader
-from meamtest import bracket, check, cloud, connect, fails, mesh, points, prints, run
+from ppfmeam.filters import vtkMEAMMeshPreparation, vtkMEAMMeshReader
+from meamtest import bracket, check, cloud, connect, fails, field, mesh, points, prints, run
 
 KINDS = {"ascii.stl": (vtkSTLWriter, vtkSTLReader), "binary.stl": (vtkSTLWriter, vtkSTLReader),
          "ascii.ply": (vtkPLYWriter, vtkPLYReader), "binary.ply": (vtkPLYWriter, vtkPLYReader),
          "part.obj": (vtkOBJWriter, vtkOBJReader)}
+BOX = b"""OFF
+# a box of 1 x 2 x 3
+8 6 12
+0 0 0\n1 0 0\n0 2 0\n1 2 0\n0 0 3\n1 0 3\n0 2 3\n1 2 3
+4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5
+"""
 folder = tempfile.TemporaryDirectory()
 
 
@@ -79,6 +86,23 @@ check(run(reader(square)).GetNumberOfPolys() == 2, "a square is two triangles")
 only = write(file("points.ply"), cloud([(1, 2, 3), (4, 5, 6)]), vtkPLYWriter)
 fails(reader(only), "no faces")
 check(points(scripting.read(only, 2)) == [(2, 4, 6), (8, 10, 12)], "a cloud")
+
+path = file("box.off", BOX)
+box = run(reader(path))
+check(points(box)[7] == (1, 2, 3), f"the last corner is {points(box)[7]}")
+check(box.GetNumberOfPoints() == 8 and box.GetNumberOfPolys() == 12, "squares become triangles")
+clean = run(connect(vtkMEAMMeshPreparation(), reader(path)))
+check(field(clean, "Volume") == [(6,)] and field(clean, "FlippedComponents") == [(0,)], "the box is closed")
+colored = file("c.off", BOX.replace(b"OFF", b"COFF").replace(b"\n0 0 0\n", b"\n0 0 0 255 0 0\n"))
+check(run(reader(colored)).GetNumberOfPolys() == 12, "colours are skipped")
+check(field(scripting.read_mesh(path, scale=2.0), "Volume") == [(48,)], "scripts read OFF files")
+try:
+    scripting.read(file("cut.off", BOX[:-12]))
+    check(False, "a file that is cut off is read")
+except scripting.Failure as failure:
+    check("cut off" in str(failure), failure)
+fails(reader(file("text.off", b"ply\n")), "not an OFF file")
+fails(reader(file("point.off", b"OFF\n1 0 0\n0 0 0\n")), "no faces")
 
 fails(vtkMEAMMeshReader(), "no file")
 fails(reader("/no/such/part.stl"), "/no/such/part.stl")

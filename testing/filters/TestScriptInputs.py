@@ -96,6 +96,8 @@ refuses("1000", "detect.py", *MODEL, "--scene", "scan.ply", "--camera", "camera.
 refuses("only a .ply", "detect.py", *MODEL, "--scene", "part.stl", "--camera", "camera.json")
 refuses("--camera", "detect.py", *MODEL, "--depth", "depth.png", status=2)
 refuses("not allowed with", "detect.py", *MODEL, "--depth", "depth.png", "--scene", "scan.ply", status=2)
+refuses("a number from 0 to 1, not 2", "detect.py", *MODEL, "--scene", "scan.ply", "--references", "2", status=2)
+refuses("a whole number, 0 or more, not few", "detect.py", *MODEL, "--scene", "scan.ply", "--poses", "few", status=2)
 refuses("8 bits", "detect.py", *MODEL, "--depth", "image.png", "--camera", "camera.json")
 refuses("no image", "detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json")
 

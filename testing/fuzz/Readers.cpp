@@ -10,7 +10,6 @@
 #include "io/ImageFile.h"
 #include "io/MeshFile.h"
 #include "io/ModelsInfo.h"
-#include "io/OFFFile.h"
 #include "io/PCDFile.h"
 #include "io/PLYFile.h"
 #include "io/PoseFile.h"
@@ -56,12 +55,6 @@ void readMesh(const std::string& path)
   {
     require(triangle.minCoeff() >= 0 && triangle.maxCoeff() < most, "a corner that does not exist");
   }
-}
-
-void readOFF(const std::string& path)
-{
-  meam::isOFF(path);
-  readMesh(path);
 }
 
 void requireArrays(const meam::MeasuredCloud& measured)
@@ -154,7 +147,7 @@ const std::vector<Reader>& readers()
     { "stl", "a.stl", readMesh },
     { "obj", "a.obj", readMesh },
     { "ply-mesh", "a.ply", readMesh },
-    { "off", "a.off", readOFF },
+    { "off", "a.off", readMesh },
     { "pcd", "a.pcd", readPCD, Unpacked },
     { "ply-cloud", "a.ply", readPLYCloud },
     { "camera", "camera.yaml", readCamera },

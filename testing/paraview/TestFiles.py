@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Poses saved and opened as the application does it: by the file's extension, with our writer and our reader."""
+"""Poses saved and opened, and OFF meshes opened, as the application does it: by the file's extension, with our writer and
+our readers."""
 import os
 import tempfile
 
@@ -35,6 +36,12 @@ for extension, first in (("bop", "scene_id,im_id"), ("json", "{"), ("poses", "0 
         check(file.readline().startswith(first), f"{extension} is not written by Pose Writer")
     again = simple.OpenDataFile(name)
     check(again.GetXMLName() == "PoseReader" and transforms(again) == expected, f"{extension} does not come back")
+
+with open(path("part.off"), "w") as file:
+    file.write("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")
+part = simple.OpenDataFile(path("part.off"))
+part.UpdatePipeline()
+check(part.GetXMLName() == "MEAMMeshReader" and part.GetDataInformation().GetNumberOfCells() == 2, "an OFF file")
 
 # Results of others are opened, too; tables of others are left to ParaView.
 os.rename(path("saved.bop"), path("results.csv"))

@@ -187,6 +187,29 @@ TEST(MeshFile, PolygonsBecomeTriangles)
   EXPECT_EQ(meam::readMesh(path).triangles.size(), 2u);
 }
 
+TEST(MeshFile, ReadingTellsItsProgressAndCanBeStopped)
+{
+  const files::Folder folder;
+  meam::TriangleMesh mesh;
+  mesh.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+  mesh.triangles.assign(70000, { 0, 1, 2 });
+  const std::vector<std::pair<std::string, std::string>> forms = { { "text.stl", asciiSTL(mesh) },
+    { "binary.stl", binarySTL(mesh) }, { "a.obj", obj(mesh) }, { "text.ply", asciiPLY(mesh) },
+    { "binary.ply", binaryPLY(mesh) }, { "a.off", off(mesh) } };
+  for (const auto& [name, bytes] : forms)
+  {
+    const std::string path = folder.write(name, bytes);
+    std::vector<double> shares;
+    meam::readMesh(path, [&](double share) { return shares.push_back(share), true; });
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end())) << name;
+    EXPECT_EQ(shares.front(), 0.0) << name;
+    EXPECT_EQ(shares.back(), 1.0) << name;
+    const auto isBetween = [](double share) { return share > 0.0 && share < 1.0; };
+    EXPECT_TRUE(std::any_of(shares.begin(), shares.end(), isBetween)) << name;
+    EXPECT_THROW(meam::readMesh(path, [&](double share) { return !isBetween(share); }), meam::Aborted) << name;
+  }
+}
+
 TEST(MeshFile, WhatIsWrongWithAFile)
 {
   const files::Folder folder;

@@ -121,13 +121,6 @@ TEST(OFFFile, absurdSizesAreRefusedBeforeMemoryIsTaken)
   expectError("OFF\n" + corners + "4000000000 0 1 2\n", "face 0");
 }
 
-TEST(OFFFile, isOFF)
-{
-  EXPECT_TRUE(meam::isOFF(Scratch("# comment\nCOFF 1 2\n").path));
-  EXPECT_FALSE(meam::isOFF(Scratch("ply\n").path));
-  EXPECT_FALSE(meam::isOFF("/no/such/file.off"));
-}
-
 TEST(OFFFile, readingCanBeStopped)
 {
   const Scratch file("OFF\n" + corners + "3 0 1 2\n");
