@@ -46,6 +46,7 @@ wanted=$(awk -v named="$structs" '
     sub(/^true$/, "on", value)
     sub(/^false$/, "off", value)
     gsub(/\.0 /, " ", value)
+    gsub(/\.0,/, ",", value)
     sub(/\.0$/, "", value)
     of[name "." field] = value
   }
