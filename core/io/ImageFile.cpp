@@ -19,6 +19,9 @@ namespace
 constexpr std::uint64_t MostPixels = 1 << 26;
 constexpr std::uint64_t MostPixelsOfByte = 4096;
 
+// A progressive JPEG has about ten; each goes through all pixels, however few bytes it has.
+constexpr int MostScans = 500;
+
 // Where the size stands in nearly all files: a JPEG may have a preview before it, a TIFF its pixels.
 constexpr std::int64_t HeadLength = 1 << 16;
 
@@ -134,6 +137,17 @@ Size checkedSize(const std::string& path, const std::string& bytes, std::uint64_
   return size;
 }
 
+/// Whether a JPEG file has more scans than can be. Within one the two bytes that start another do not stand.
+bool hasTooManyScans(const std::string& bytes)
+{
+  int scans = 0;
+  for (std::size_t at = 0; (at = bytes.find("\xff\xda", at)) != std::string::npos && scans <= MostScans; at += 2)
+  {
+    ++scans;
+  }
+  return bytes[0] == '\xff' && scans > MostScans;
+}
+
 /// Whether a PNG file has its last chunk.
 bool isWholePNG(const std::string& bytes)
 {
@@ -171,6 +185,10 @@ cv::Mat decode(const std::string& path)
   if (!isWhole(bytes, size))
   {
     fail(path, "is cut off or damaged");
+  }
+  if (hasTooManyScans(bytes))
+  {
+    fail(path, "is damaged: it goes through its pixels more than " + std::to_string(MostScans) + " times");
   }
   cv::Mat pixels;
   try

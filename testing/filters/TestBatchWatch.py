@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`ppfmeam batch --watch`: scans that are renamed into the folder, grow in it, are damaged or replaced; Ctrl-C."""
+"""`ppfmeam batch --watch`: scans that are renamed into the folder, grow in it, are damaged or replaced, or crash the
+process that searches them; Ctrl-C."""
 import json
 import os
 import shutil
@@ -11,7 +12,7 @@ import time
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from batchtest import H, W, command, dataset, finished, rows
+from batchtest import H, W, children, command, dataset, deadly, finished, rows
 from meamtest import check
 from ppfmeam import scripting
 
@@ -33,9 +34,15 @@ expected = [[float(word) for word in row["t"].split()] for row in rows("poses.cs
 check(len(expected) > 1, "no poses to compare with")
 
 
-def start(*options):
-    return subprocess.Popen(command("--watch", "cell", "--model", "plate.meam", *options), stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True)
+def start(*options, command=command, **how):
+    return subprocess.Popen(command("--watch", "cell", "--model", "plate.meam", *options, **how),
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def arrives(name):
+    """A scan, whole at once."""
+    shutil.copy("scans/one.pcd", "cell/arriving.part")
+    os.rename("cell/arriving.part", f"cell/{name}.pcd")
 
 
 def line(process, *words):
@@ -59,8 +66,7 @@ def right(name):
 
 process = start()
 line(process, "watching cell")
-shutil.copy("scans/one.pcd", "cell/a.part")
-os.rename("cell/a.part", "cell/a.pcd")
+arrives("a")
 line(process, f"a.pcd: {len(expected)} poses; ", " s (waited ", "read ", "found ")
 right("a")
 
@@ -84,8 +90,7 @@ os.rename("cell/c.part", "cell/c.pcd")
 line(process, "c.pcd: ", "c.pcd", " s\n")
 with open("cell/c.poses.failed", encoding="utf-8") as file:
     check("c.pcd" in file.read() and not os.path.exists("cell/c.poses.json"), "the reason")
-shutil.copy("scans/one.pcd", "cell/c.part")
-os.rename("cell/c.part", "cell/c.pcd")
+arrives("c")
 line(process, f"c.pcd: {len(expected)} poses; ")
 right("c")
 check(not os.path.exists("cell/c.poses.failed"), "the reason stays")
@@ -106,6 +111,42 @@ for name in "abc":
     line(process, f"{name}.pcd: {len(expected)} poses")
     check([[float(word) for word in row["t"].split()] for row in rows(f"cell/{name}.poses.csv")] == expected, "CSV")
 end(process, "3 scans, 0 failed")
+
+# A scan that crashes the process which searches it has the reason beside it, and the next one its poses; so has one that
+# crashes it once, or during which it is killed.
+shutil.rmtree("cell")
+os.makedirs("cell")
+process = start(command=deadly)
+line(process, "watching cell")
+for name, words in (("a", "poses; "), ("deadly", "it ended the process that searched it: SIGSEGV; "), ("b", "poses; ")):
+    arrives(name)
+    line(process, f"{name}.pcd: ", words)
+with open("cell/deadly.poses.failed", encoding="utf-8") as file:
+    check(file.read() == "it ended the process that searched it: SIGSEGV\n", "the reason")
+os.kill(*children(process.pid), signal.SIGKILL)
+arrives("c")
+line(process, f"c.pcd: {len(expected)} poses; ")
+for name in "abc":
+    right(name)
+end(process, "4 scans, 1 failed")
+os.remove("cell/deadly.poses.failed")
+process = start(command=deadly, what="os.path.exists('crashed') or (open('crashed', 'w').close(), os.abort())")
+line(process, "watching cell")
+line(process, f"deadly.pcd: {len(expected)} poses; ")
+end(process, "1 scans, 0 failed")
+
+# Ctrl-C ends one without an end, and the process that searches it.
+os.remove("cell/deadly.poses.json")
+process = start(command=deadly, what="open('endless', 'w').close(), time.sleep(60)")
+line(process, "watching cell")
+while not os.path.exists("endless"):
+    check(process.poll() is None, "the watch has ended")
+    time.sleep(0.01)
+searcher, = children(process.pid)
+process.send_signal(signal.SIGINT)
+output, errors = process.communicate(timeout=10)
+check(process.returncode == 0 and not errors and output == "0 scans, 0 failed\n", f"{process.returncode}: {output}{errors}")
+check(not os.path.exists(f"/proc/{searcher}"), "the process that searches is left")
 
 # What cannot be watched.
 result = subprocess.run(command("--watch", "none", "--model", "plate.meam"), capture_output=True, text=True)

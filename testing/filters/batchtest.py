@@ -84,21 +84,22 @@ from ppfmeam import scripting
 from ppfmeam.batch import scans
 from ppfmeam.commands import batch
 
-read = scans.BOP.read
+def deadly(read):
+    def deadly_read(self, name, *rest):
+        if name in ("000002/000000", "deadly.pcd"):
+            WHAT
+        return read(self, name, *rest)
+    return deadly_read
 
-def crash(self, name, *rest):
-    if name == "000002/000000":
-        WHAT
-    return read(self, name, *rest)
-
-scans.BOP.read = crash
+for kind in (scans.BOP, scans.Files):
+    kind.read = deadly(kind.read)
 sys.argv[0] = "batch.py"
 scripting.run(batch.main)
 """
 
 
 def deadly(*arguments, what="os.kill(os.getpid(), signal.SIGSEGV)"):
-    """The command of a run that the scan 000002/000000 crashes, or does something else to."""
+    """The command of a run that the scan 000002/000000, or deadly.pcd, crashes, or does something else to."""
     with open("deadly.py", "w", encoding="utf-8") as file:
         file.write(DEADLY.replace("WHAT", what))
     return (sys.executable, "deadly.py", *arguments)

@@ -136,6 +136,8 @@ void readHandEye(const std::string& path) { meam::readHandEye(path); }
 // What a byte of a packed file may stand for: 88 in a PCD file, whose smallest points are three bytes and become 12 and
 // more; pixels of an image, as readImage() has it, which are decoded into 8 bytes and converted.
 constexpr std::size_t Unpacked = 500, Pixels = 4096 * 24;
+// What a byte of JSON may become: empty lists and objects are three bytes with their comma, and in memory a hundred.
+constexpr std::size_t JSON = 40;
 // MB of the distance fields of a trained model, however short its file is.
 constexpr std::size_t Fields = 64;
 constexpr std::size_t Usual = Reader{}.timesLength, UsualMB = Reader{}.megabytes;
@@ -150,17 +152,17 @@ const std::vector<Reader>& readers()
     { "off", "a.off", readMesh },
     { "pcd", "a.pcd", readPCD, Unpacked },
     { "ply-cloud", "a.ply", readPLYCloud },
-    { "camera", "camera.yaml", readCamera },
+    { "camera", "camera.yaml", readCamera, JSON },
     { "depth-image", "depth.png", readDepth, Pixels, UsualMB, withPNGCheckSums },
     { "image", "image.png", readImage, Pixels, UsualMB, withPNGCheckSums },
-    { "scene-camera", "scene_camera.json", readSceneCamera },
-    { "truth", "scene_gt.json", readTruth },
-    { "models-info", "models_info.json", readModelsInfo },
+    { "scene-camera", "scene_camera.json", readSceneCamera, JSON },
+    { "truth", "scene_gt.json", readTruth, JSON },
+    { "models-info", "models_info.json", readModelsInfo, JSON },
     { "model", "a.meam", readModel, Usual, Fields, withModelCheckSum },
-    { "poses", "poses.txt", readPoses },
-    { "grasps", "grasps.json", readGrasps },
-    { "robot-frame", "robot.yaml", readRobotFrame },
-    { "hand-eye", "pairs.json", readHandEye },
+    { "poses", "poses.txt", readPoses, JSON },
+    { "grasps", "grasps.json", readGrasps, JSON },
+    { "robot-frame", "robot.yaml", readRobotFrame, JSON },
+    { "hand-eye", "pairs.json", readHandEye, JSON },
   };
   return all;
 }

@@ -29,22 +29,39 @@ void append(const nlohmann::json& value, int nested, std::vector<double>& number
     append(value[i], nested + 1, numbers, good);
   }
 }
+
+/// Whether lists and objects of a JSON text stand in each other more than so many times over.
+bool isNestedDeeper(const std::string& text, int levels)
+{
+  int open = 0;
+  bool isQuoted = false;
+  for (std::size_t at = 0; at < text.size() && open <= levels; ++at)
+  {
+    const char letter = text[at];
+    if (isQuoted)
+    {
+      at += letter == '\\' ? 1 : 0;
+      isQuoted = letter != '"';
+      continue;
+    }
+    isQuoted = letter == '"';
+    open += letter == '[' || letter == '{' ? 1 : letter == ']' || letter == '}' ? -1 : 0;
+  }
+  return open > levels;
+}
 }
 
 nlohmann::json parseJSON(const std::string& path, const std::string& text)
 {
-  const auto requireFlat = [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&)
+  // Not by the parser's callback: with one it goes, at the end of each object, through all that the list so far has.
+  if (isNestedDeeper(text, MostLevels))
   {
-    if (depth > MostLevels)
-    {
-      throw Error("The file '" + path + "' has lists in lists " + std::to_string(MostLevels) +
-                  " times over: it is damaged, or no file of this kind.");
-    }
-    return true;
-  };
+    throw Error("The file '" + path + "' has lists in lists " + std::to_string(MostLevels) +
+                " times over: it is damaged, or no file of this kind.");
+  }
   try
   {
-    return nlohmann::json::parse(text, requireFlat);
+    return nlohmann::json::parse(text);
   }
   catch (const nlohmann::json::parse_error& error)
   {

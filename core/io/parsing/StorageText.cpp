@@ -60,8 +60,8 @@ NamedNumbers numbersInYAML(const std::string& path, const std::string& text)
   {
     const std::size_t end = std::min(text.find('\n', line), text.size());
     const std::size_t first = std::min(text.find_first_not_of(" \t", line), end);
-    const std::size_t colon = text.find(':', first);
-    const bool skipped = colon >= end || text[first] == '%' || text[first] == '#';
+    const std::size_t colon = std::min(std::string_view(text).substr(0, end).find(':', first), end);
+    const bool skipped = colon == end || text[first] == '%' || text[first] == '#';
     const std::string key = skipped ? "" : text.substr(first, colon - first);
     name = !skipped && first == line ? key : name;
     line = end + 1;

@@ -2,10 +2,12 @@
 """Scans as they arrive in a folder: the poses of each stand beside it as soon as they are found."""
 import os
 import statistics
+import tempfile
 import time
 
 from .. import finding, scripting
 from . import parts, scans
+from .apart import Copy, Ended, apart
 
 PAUSE = 0.02  # seconds between two looks at the folder, or longer:
 SHARE = 0.2   # of the time may go into looking, which takes long in a folder with many files
@@ -52,10 +54,11 @@ class Arrivals:
         renamed = info.st_ctime_ns > info.st_mtime_ns and info.st_size > 0
         return renamed or unchanged >= QUIET or time.time() - info.st_ctime >= QUIET
 
-    def changed(self, name, path):
+    @classmethod
+    def changed(cls, path, state):
         """Whether a file has changed since it was taken; it is taken again then."""
         try:
-            return self.state(os.stat(path)) != self.taken[name]
+            return cls.state(os.stat(path)) != tuple(state)
         except FileNotFoundError:
             return True
 
@@ -67,7 +70,8 @@ class Arrivals:
 
 
 class Watch:
-    """Finds the parts in each scan that arrives, until Ctrl-C."""
+    """Finds the parts in each scan that arrives, until Ctrl-C. A copy of this process searches them, so that a scan that
+    crashes it ends no watch."""
 
     def __init__(self, options):
         self.options = options
@@ -75,9 +79,9 @@ class Watch:
             raise scripting.Failure(f"cannot watch {options.watch}: no such folder")
         self.source = scans.Files(options)
         scripting.require_folder_of(os.path.join(options.watch, "poses"))
-        wanted = parts.parts_of(options)
-        models = [part.train() if part.train else scripting.read_model(part.files[0]) for part in wanted]
-        self.finder = finding.Finder(models, options)
+        with tempfile.TemporaryDirectory() as folder:
+            models = apart(lambda: parts.trained(parts.parts_of(options), folder))
+            self.finder = finding.Finder([scripting.read_model(path) for path in models], options)
         self.arrivals = Arrivals(options.watch, self.source.is_scan)
         self.latencies, self.failed = [], 0
 
@@ -92,6 +96,7 @@ class Watch:
 
     def run(self):
         self.arrivals.skip(self.is_done)
+        self.searcher = Copy(self.search)
         begin = time.time()
         print(f"watching {self.options.watch}; Ctrl-C ends it", flush=True)
         try:
@@ -104,9 +109,35 @@ class Watch:
                     time.sleep(max(PAUSE, (time.monotonic() - start) / SHARE))
         except KeyboardInterrupt:
             print(self.summary(), flush=True)
+        finally:
+            self.searcher.close()
 
     def take(self, name, path, arrived):
         """A scan; says how long it was from its arrival until its poses were there."""
+        answer = self.searched(name, path, self.arrivals.taken[name])
+        if not answer:
+            return
+        words, clock = answer
+        latency = time.time() - arrived
+        self.latencies.append(latency)
+        self.failed += not clock
+        steps = "" if not clock else " (waited {:.2f}, read {:.2f}, found {:.2f})".format(
+            clock[0] - arrived, clock[1] - clock[0], clock[2] - clock[1])
+        print(f"{name}: {words}; {latency:.2f} s{steps}", flush=True)
+
+    def searched(self, name, path, state):
+        """What search() returns, of a scan that may end the process which searches it."""
+        for _ in range(2):  # the first may have been ended by what an earlier scan has left
+            try:
+                return self.searcher(name, path, state)
+            except Ended as how:
+                self.searcher = Copy(self.search)
+                reason = f"it ended the process that searched it: {how}"
+        return self.write(path, state, None, reason) and (reason, None)
+
+    def search(self, name, path, state):
+        """Writes the poses in a scan, or why there are none. Returns this in words, and the times before and after it was
+        read and searched; of a scan that has changed meanwhile, and comes again or has gone, nothing."""
         clock = [time.time()]
         try:
             scan = self.source.read(name, path, "")
@@ -118,18 +149,13 @@ class Watch:
             poses, words = None, str(failure)
         except Exception as error:  # whatever is wrong with a scan, the next one is not to wait for it
             poses, words = None, f"{type(error).__name__}: {error}"
-        if self.arrivals.changed(name, path):  # while it was read: it comes again, or has gone
-            return
-        self.write(path, poses, words, clock[-1] - clock[0])
-        latency = time.time() - arrived
-        self.latencies.append(latency)
-        self.failed += poses is None
-        steps = "" if poses is None else " (waited {:.2f}, read {:.2f}, found {:.2f})".format(
-            clock[0] - arrived, clock[1] - clock[0], clock[2] - clock[1])
-        print(f"{name}: {words}; {latency:.2f} s{steps}", flush=True)
+        return self.write(path, state, poses, words, clock[-1] - clock[0]) and (words, None if poses is None else clock)
 
-    def write(self, path, poses, words, seconds):
-        """The poses, or why there are none; what an earlier scan of that name has left goes."""
+    def write(self, path, state, poses, words, seconds=0):
+        """The poses, or why there are none; what an earlier scan of that name has left goes. False of a scan that has
+        changed."""
+        if self.arrivals.changed(path, state):
+            return False
         failed = self.result(path, "failed")
         if poses is not None:
             scripting.write_poses(poses, self.result(path), FORMS[self.options.form], Time=seconds)
@@ -139,6 +165,7 @@ class Watch:
         old = self.result(path) if poses is None else failed
         if os.path.exists(old):
             os.remove(old)
+        return True
 
     def summary(self):
         text = f"{len(self.latencies)} scans, {self.failed} failed"

@@ -155,3 +155,9 @@ TEST(CameraFile, whatIsNoCalibration)
   expectError(replaced(yaml, "400, 0, -100", "400, 0, x"), "in T that is not a number");
   expectError(std::string(2 << 20, ' ') + bop, "not a text");
 }
+
+// Each of them was once searched for a colon to the end of the file.
+TEST(CameraFile, manyLinesWithoutANameTakeNoLongerThanTheirNumber)
+{
+  EXPECT_LT(files::secondsOf([] { expectError(std::string(1000000, '\n') + "a", "neither"); }), 2.0);
+}

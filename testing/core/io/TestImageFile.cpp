@@ -54,6 +54,23 @@ TEST(ImageFile, coloursAreRedGreenBlue)
   EXPECT_EQ(read(images::encoded(".png", seen)).pixels, (std::vector<std::uint8_t>{ 3, 2, 1 })) << "alpha is dropped";
 }
 
+// Of a large image each scan takes milliseconds, and ten bytes of the file.
+TEST(ImageFile, aJPEGOfMoreScansThanCanBeIsRefused)
+{
+  const files::Folder folder;
+  std::vector<unsigned char> progressive;
+  cv::imencode(
+    ".jpg", cv::Mat(16, 24, CV_8UC3, cv::Scalar(10, 100, 200)), progressive, { cv::IMWRITE_JPEG_PROGRESSIVE, 1 });
+  std::string bytes(progressive.begin(), progressive.end());
+  EXPECT_EQ(meam::readImage(folder.write("image.jpg", bytes)).channels, 3);
+  for (int scan = 0; scan < 600; ++scan)
+  {
+    bytes.insert(bytes.size() - 2, "\xff\xda\x00\x08\x01\x01\x00\x01\x3f\x10", 10); // again the first component's waves
+  }
+  const std::string path = folder.write("image.jpg", bytes);
+  EXPECT_TRUE(files::contains(files::errorOf([&] { meam::readImage(path); }), "more than 500 times"));
+}
+
 TEST(ImageFile, theSizeOfAJPEGIsThatOfTheFrameThatIsDecoded)
 {
   // Behind a marker without a length, and far behind it another frame.

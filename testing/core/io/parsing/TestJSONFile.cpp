@@ -21,3 +21,23 @@ TEST(JSONFile, whatIsNestedWithoutEndIsRefused)
   const std::string pairs = folder.write("b.json", R"({"pairs": [], "units": )" + deep + "}");
   expectRefused(files::errorOf([&] { meam::readHandEye(pairs); }));
 }
+
+TEST(JSONFile, bracketsInTextsAreNotNested)
+{
+  const std::string brackets(100, '[');
+  const std::string text = R"(a\"b\\)" + brackets; // a quote and a backslash that are escaped
+  EXPECT_EQ(meam::parseJSON("a.json", "[\"" + text + "\"]")[0].get<std::string>(), "a\"b\\" + brackets);
+}
+
+// Their time once grew with the square of their number.
+TEST(JSONFile, manyObjectsOfAListTakeNoLongerThanTheirNumber)
+{
+  std::string text = "[{}";
+  for (int i = 1; i < 200000; ++i)
+  {
+    text += ",{}";
+  }
+  std::size_t objects = 0;
+  EXPECT_LT(files::secondsOf([&] { objects = meam::parseJSON("a.json", text + "]").size(); }), 2.0);
+  EXPECT_EQ(objects, 200000u);
+}
