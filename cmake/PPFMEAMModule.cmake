@@ -94,13 +94,6 @@ if(PPFMEAM_USE_PARAVIEW)
   add_dependencies(runtime ${plugins})
 endif()
 
-# A wrapper of each class for Python and one for ParaView: what they include is most of the time to compile them.
-foreach(wrappers IN ITEMS ppfmeamFiltersPython ppfmeamFiltersCS)
-  if(TARGET ${wrappers})
-    set_target_properties(${wrappers} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-  endif()
-endforeach()
-
 # The environment that finds all of it in the build tree, for the tests and for `source build/release/env.sh`.
 set(PPFMEAM_ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}")
 if(PPFMEAM_USE_PARAVIEW)

@@ -173,7 +173,11 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
   }
   const auto last =
     std::find_if(stages.rbegin(), stages.rend(), [](const StageCount& stage) { return stage.here > 0; });
-  diagnosis.lostIn = last == stages.rend() ? PoseStage::Voting : std::prev(last)->stage;
+  // What selection turns or fits anew may come here from poses that were not here before.
+  const bool isDropped = !posesAt(this->Trace.unlimited(), T_local_model, this->tolerance(), this->Model).empty();
+  diagnosis.lostIn = isDropped               ? PoseStage::Selection
+                     : last == stages.rend() ? PoseStage::Voting
+                                             : std::prev(last)->stage;
   this->findTaker(diagnosis, this->Trace.ranked());
   if (*diagnosis.lostIn == PoseStage::Voting || *diagnosis.lostIn == PoseStage::Screening ||
       *diagnosis.lostIn == PoseStage::CandidateSelection)
