@@ -297,7 +297,7 @@ def cell(commands):
 def paper_reading(commands):
     told = commands.run_tool("paper_reading.py", "DATA/tohoku")
     return ("What the paper's text leaves open, one choice after the other, on scenes 0 to 9: strict. A value that is better than "
-            "the one before is kept.\n\n" + told)
+            "the one before is kept. What is better on these scenes alone is not in the preset.\n\n" + told)
 
 
 def rivals(commands):
