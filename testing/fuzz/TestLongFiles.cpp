@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of a megabyte that say the same over and over, longer than those that libFuzzer makes: every reader ends with a
-// result or with a meam::Error, in a time that grows with the length of the file and not with its square.
+// result or with a meam::Error. In a time that grew with the square of their length it would take minutes, and the
+// test's time limit ends it.
 #include "Trial.h"
 
 #include <gtest/gtest.h>
 
-#include <ctime>
-
 namespace
 {
 constexpr std::size_t Length = (1 << 20) - 256; // some readers refuse more
-constexpr double MostSeconds = 3.0;             // of the processor; under the sanitizers half a second is usual
 
 struct LongFile
 {
@@ -83,7 +81,7 @@ class LongFiles : public testing::TestWithParam<LongFile>
 
 INSTANTIATE_TEST_SUITE_P(Quick, LongFiles, testing::ValuesIn(longFiles()));
 
-TEST_P(LongFiles, takeATimeThatGrowsWithTheirLength)
+TEST_P(LongFiles, areReadToTheirEnd)
 {
   const LongFile& file = GetParam();
   const fuzz::Reader* reader = fuzz::readerOf(file.reader);
@@ -94,7 +92,5 @@ TEST_P(LongFiles, takeATimeThatGrowsWithTheirLength)
     bytes += file.repeated;
   }
   const fuzz::Trial trial(*reader);
-  const std::clock_t start = std::clock();
   trial.reads(reader->mend ? reader->mend(bytes) : bytes);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, MostSeconds);
 }
