@@ -33,7 +33,7 @@ void requireGrid(const Scan& scan)
 
 TriangleMesh partOf(const Model& model, const Mesh& part)
 {
-  const TriangleMesh mesh{ part.vertices, part.triangles };
+  TriangleMesh mesh{ part.vertices, part.triangles };
   requireMesh(mesh);
   const Eigen::Vector3d sides = bounds(mesh.vertices).cast<double>().sizes();
   const double longest = sides.maxCoeff(), diagonal = sides.norm(), diameter = model.diameter();
