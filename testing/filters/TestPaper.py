@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The paper's experiments: what they count, which scenes they need, all of them by one command, short, that a stopped run goes
-on and what becomes of bad scenes and datasets. Tables 7 and 8 when the Tohoku dataset is there; charts when there is Xvfb. All
-by one command is of two parts that are soon trained; with --long of all of them."""
+on and what becomes of bad scenes and datasets. Tables 7 and 8 when the Tohoku dataset is there; charts when there is Xvfb."""
 import csv
 import importlib.util
 import math
@@ -151,20 +150,6 @@ scripting.run(evaluate.main)
 SHORT = [sys.executable, "-c", PLATES, "paper", "--table", "6", "--scenes", "2", "--copies", "3", "--threads", "1", "--out"]
 
 
-# In all tables two parts alone, in place of those that take longer.
-FEWER = """
-from ppfmeam import paper, papertables, scripting
-from ppfmeam.commands import evaluate
-INSTEAD = {"ridged_disc": "hole_plate", "flap": "arc_lever", "tohoku_1": "tohoku_2"}
-paper.PARTS = ("hole_plate",)
-for table in papertables.TABLES.values():
-    table.columns = [(name, {**where, "part": INSTEAD.get(where["part"], where["part"])}) for name, where in table.columns]
-scripting.run(evaluate.main)
-"""
-LONG = "--long" in sys.argv[1:]
-ALL = EVALUATE if LONG else [sys.executable, "-c", FEWER, "paper"]
-
-
 def without_times(path):
     """The text of a file but for times."""
     text = content(path)
@@ -252,8 +237,7 @@ def check_dataset(folder):
 def check_all(folder, dataset):
     """All of it by one command: every table has its files and figures."""
     out, found = os.path.join(folder, "out"), os.path.join(folder, "found")
-    command = [*ALL, "--all", "--quick", "--out", out]
-    ours, theirs = (4, 3) if LONG else (2, 2)  # parts
+    command = [*EVALUATE, "--all", "--quick", "--out", out]
     if dataset:
         for part in (1, 2, 3):  # of another program: the first true pose, and a time of one scan
             os.makedirs(os.path.join(found, f"Part_{part}"))
@@ -274,10 +258,10 @@ def check_all(folder, dataset):
     texts = [content(os.path.join(out, name)) for name in files]
     check(not any(re.search(r"\bnan\b|\bfailed\b", text) for text in texts + [done.stdout]), done.stdout)
     rows = rows_of(os.path.join(out, "paper.csv"))
-    check(len(rows) == 6 * ours + 3 + (6 * theirs if dataset else 0) and not any(row["failure"] for row in rows), f"{len(rows)} rows: {rows}")
+    check(len(rows) == 27 + (15 + 3 if dataset else 0) and not any(row["failure"] for row in rows), f"{len(rows)} rows: {rows}")
     recommended = [row for row in rows if row["method"] == "recommended"]
     right = sum(int(row["right"]) for row in recommended)
-    check(right >= 0.85 * 5 * len(recommended) and len(recommended) == 2 * ours + (theirs if dataset else 0), f"{right} right of {5 * len(recommended)}")
+    check(right >= 0.85 * 5 * len(recommended) and len(recommended) == (11 if dataset else 8), f"{right} right of {5 * len(recommended)}")
     trial, = rows_of(os.path.join(out, "figure13_trials.csv"))
     errors = [float(trial[name]) for name in stage.ROW[3:-1] if trial[name]]
     check(len(errors) >= 10 and max(errors) < 2, f"{trial}")
@@ -289,7 +273,7 @@ def check_all(folder, dataset):
         others = table["another program"], table["another program, of the poses asked for"]
         check([[float(row[f"Part {part}"]) for part in (1, 2, 3)] for row in others] == [[100] * 3, [20] * 3], f"{others}")
         times = {row["method"]: row for row in rows_of(os.path.join(out, "table8.csv"))}["another program"]
-        check([times[f"Part {part}"] for part in (1, 2, 3)] == ["" if LONG else "250.00", "250.00", ""], f"{times}")
+        check([times[f"Part {part}"] for part in (1, 2, 3)] == ["", "250.00", ""], f"{times}")
 
     # Again, with a display: nothing is left to do but the charts.
     shown = run(ON_SCREEN, *command)
