@@ -7,7 +7,7 @@
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSymmetryConversion.h"
 
 #include "vtkDoubleArray.h"
@@ -59,7 +59,7 @@ int vtkMEAMBOPEvaluation::FillInputPortInformation(int port, vtkInformation* inf
 int vtkMEAMBOPEvaluation::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 3, 1, 0 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 3, 1, 0 }, outputVector);
   return 1;
 }
 

@@ -4,6 +4,7 @@
 #include "scene/preparation/BackgroundRemoval.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSettings.h"
 
 #include "vtkDataSetAttributes.h"
@@ -15,7 +16,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -75,16 +75,7 @@ int vtkMEAMBackgroundRemoval::FillInputPortInformation(int port, vtkInformation*
 int vtkMEAMBackgroundRemoval::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  // Planes are found in the whole scan, whatever part of the output somebody asks for.
-  for (int port = 0; port < 2; ++port)
-  {
-    vtkInformation* info = inputVector[port]->GetInformationObject(0);
-    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-    {
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-    }
-  }
+  vtkMEAMSceneRequests::askForWhole(inputVector, 2);
   return 1;
 }
 

@@ -6,7 +6,7 @@
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSharedData.h"
 
@@ -90,7 +90,7 @@ int vtkMEAMConflictResolution::FillInputPortInformation(int port, vtkInformation
 int vtkMEAMConflictResolution::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 3, 2, 0 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 3, 2, 0 }, outputVector);
   return 1;
 }
 

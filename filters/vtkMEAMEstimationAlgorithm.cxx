@@ -11,7 +11,7 @@
 #include "vtkMEAMScanConversion.h"
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneEdgeConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -19,7 +19,6 @@
 #include "vtkInformationVector.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 
@@ -119,22 +118,14 @@ int vtkMEAMEstimationAlgorithm::FillInputPortInformation(int port, vtkInformatio
 int vtkMEAMEstimationAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 1, 2, 3 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 1, 2, 3 }, outputVector);
   return 1;
 }
 
 int vtkMEAMEstimationAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    vtkInformation* info = inputVector[port]->GetInformationObject(0);
-    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-    {
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-    }
-  }
+  vtkMEAMSceneRequests::askForWhole(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 

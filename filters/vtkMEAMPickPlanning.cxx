@@ -11,7 +11,7 @@
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSymmetryConversion.h"
 
@@ -73,7 +73,7 @@ int vtkMEAMPickPlanning::FillOutputPortInformation(int port, vtkInformation* inf
 int vtkMEAMPickPlanning::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 0, 3 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 0, 3 }, outputVector);
   return 1;
 }
 

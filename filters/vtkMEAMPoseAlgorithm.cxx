@@ -5,7 +5,7 @@
 #include "vtkMEAMPoseWork.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSharedData.h"
 
 #include "vtkInformation.h"
@@ -39,7 +39,7 @@ int vtkMEAMPoseAlgorithm::FillInputPortInformation(int port, vtkInformation* inf
 int vtkMEAMPoseAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 3, 2, 0 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 3, 2, 0 }, outputVector);
   return 1;
 }
 

@@ -6,7 +6,7 @@
 #include "scene/Units.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSharedData.h"
 
@@ -71,7 +71,7 @@ int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* inf
 int vtkMEAMPoseDetection::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 2, 0 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 2, 0 }, outputVector);
   return 1;
 }
 

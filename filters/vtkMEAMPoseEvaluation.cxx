@@ -8,7 +8,7 @@
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSymmetryConversion.h"
 
@@ -105,7 +105,7 @@ int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* in
 int vtkMEAMPoseEvaluation::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMEAMSceneTime::announce(inputVector, { 0, 1 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 0, 1 }, outputVector);
   return 1;
 }
 

@@ -5,7 +5,7 @@
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
 #include "vtkMEAMSceneEdgeConversion.h"
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSettings.h"
 
 #include "vtkImageData.h"
@@ -81,23 +81,14 @@ int vtkMEAMSceneEdgeExtraction::RequestInformation(
   vtkInformation* image = outputVector->GetInformationObject(1);
   image->CopyEntry(scene, vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
   vtkDataObject::SetPointDataActiveScalarInfo(image, VTK_UNSIGNED_CHAR, 1);
-  vtkMEAMSceneTime::announce(inputVector, { 0, 1 }, outputVector);
+  vtkMEAMSceneRequests::announceTime(inputVector, { 0, 1 }, outputVector);
   return 1;
 }
 
 int vtkMEAMSceneEdgeExtraction::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  // Edges are found in the whole image, whatever part of the output somebody asks for.
-  for (int port = 0; port < 2; ++port)
-  {
-    vtkInformation* info = inputVector[port]->GetInformationObject(0);
-    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-    {
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-    }
-  }
+  vtkMEAMSceneRequests::askForWhole(inputVector, 2);
   return 1;
 }
 

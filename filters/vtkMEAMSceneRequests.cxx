@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMEAMSceneTime.h"
+#include "vtkMEAMSceneRequests.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-namespace vtkMEAMSceneTime
+namespace vtkMEAMSceneRequests
 {
 namespace
 {
@@ -28,7 +28,7 @@ vtkInformation* firstWithTime(vtkInformationVector** inputs, std::initializer_li
 }
 }
 
-void announce(vtkInformationVector** inputs, std::initializer_list<int> ports, vtkInformationVector* outputs)
+void announceTime(vtkInformationVector** inputs, std::initializer_list<int> ports, vtkInformationVector* outputs)
 {
   vtkInformation* scene = firstWithTime(inputs, ports);
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
@@ -52,6 +52,18 @@ void announce(vtkInformationVector** inputs, std::initializer_list<int> ports, v
     if (scene->Has(Pipeline::TIME_RANGE()))
     {
       output->Set(Pipeline::TIME_RANGE(), scene->Get(Pipeline::TIME_RANGE()), 2);
+    }
+  }
+}
+
+void askForWhole(vtkInformationVector** inputs, int ports)
+{
+  for (int port = 0; port < ports; ++port)
+  {
+    vtkInformation* info = inputs[port]->GetInformationObject(0);
+    if (info && info->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
     }
   }
 }
