@@ -97,11 +97,12 @@ private:
   std::mt19937 Random{ 5489 };
 };
 
-/// The kept files of a reader, whole ones and those that once were trouble.
-std::vector<std::string> corpusOf(const fuzz::Reader& reader)
+/// The files of a reader in one of the folders beside this: in corpus/ whole ones and those that once were trouble, in
+/// reached/ those that libFuzzer made to reach what others do not.
+std::vector<std::string> filesOf(const fuzz::Reader& reader, const char* folder)
 {
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(fs::path(MEAM_CORPUS) / reader.name))
+  for (const auto& entry : fs::directory_iterator(fs::path(MEAM_FUZZ) / folder / reader.name))
   {
     paths.push_back(entry.path());
   }
@@ -136,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(FuzzedFiles, areReadOrRefused)
 {
   const auto& [reader, cases] = GetParam();
-  const std::vector<std::string> kept = corpusOf(reader);
+  const std::vector<std::string> kept = filesOf(reader, "corpus");
   ASSERT_FALSE(kept.empty());
   const fuzz::Trial trial(reader);
   int readable = 0;
@@ -145,6 +146,10 @@ TEST_P(FuzzedFiles, areReadOrRefused)
     readable += trial.reads(bytes) ? 1 : 0;
   }
   EXPECT_GT(readable, 0) << "no kept file is whole";
+  for (const std::string& bytes : filesOf(reader, "reached"))
+  {
+    trial.reads(reader.mend ? reader.mend(bytes) : bytes);
+  }
 
   readable = 0;
   Damage damage;

@@ -4,8 +4,9 @@
 #
 #   testing/fuzz/run.sh [SECONDS] [READER...]      testing/fuzz/run.sh 600 pcd model; 60 seconds each without
 #
-# New files that reach code no file has reached before stay in build/fuzz/corpus, where a next run goes on from them. A file
-# that was found goes, made as small as possible, to testing/fuzz/corpus/READER when what it showed is mended.
+# New files that reach code no file has reached before stay in build/fuzz/corpus, where a next run goes on from them;
+# testing/fuzz/keep.py puts the few that reach the most into testing/fuzz/reached. A file that was found goes, made as small
+# as possible, to testing/fuzz/corpus/READER when what it showed is mended.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -22,7 +23,7 @@ fuzz() { # READER
   mkdir -p "$build/corpus/$reader" "$build/found"
   MEAM_READER=$reader "$build/bin/meamFuzz" -max_total_time="$seconds" -max_len=65536 -len_control=1000 \
     -dict="$here/words.dict" -timeout=10 -rss_limit_mb=4096 -use_value_profile=1 -print_final_stats=1 \
-    -artifact_prefix="$build/found/$reader-" "$build/corpus/$reader" "$here/corpus/$reader" >"$log" 2>&1 &
+    -artifact_prefix="$build/found/$reader-" "$build/corpus/$reader" "$here/corpus/$reader" "$here/reached/$reader" >"$log" 2>&1 &
   local status=0 runs coverage found=-
   wait $! || status=$?
   rm -rf "/dev/shm/meam-fuzz-$!-$reader" "${TMPDIR:-/tmp}/meam-fuzz-$!-$reader" # a crash leaves it
