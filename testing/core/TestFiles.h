@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <filesystem>
 #include <string>
 
@@ -56,15 +55,6 @@ std::string errorOf(Work&& work)
     return error.what();
   }
   return "";
-}
-
-/// Seconds of processor time that `work` takes.
-template <typename Work>
-double secondsOf(Work&& work)
-{
-  const std::clock_t start = std::clock();
-  work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -156,8 +156,5 @@ TEST(CameraFile, whatIsNoCalibration)
   expectError(std::string(2 << 20, ' ') + bop, "not a text");
 }
 
-// Each of them was once searched for a colon to the end of the file.
-TEST(CameraFile, manyLinesWithoutANameTakeNoLongerThanTheirNumber)
-{
-  EXPECT_LT(files::secondsOf([] { expectError(std::string(1000000, '\n') + "a", "neither"); }), 2.0);
-}
+// Each of them was once searched for a colon to the end of the file: minutes, which the test's time limit ends.
+TEST(CameraFile, readsManyLinesWithoutAName) { expectError(std::string(1000000, '\n') + "a", "neither"); }

@@ -29,15 +29,13 @@ TEST(JSONFile, bracketsInTextsAreNotNested)
   EXPECT_EQ(meam::parseJSON("a.json", "[\"" + text + "\"]")[0].get<std::string>(), "a\"b\\" + brackets);
 }
 
-// Their time once grew with the square of their number.
-TEST(JSONFile, manyObjectsOfAListTakeNoLongerThanTheirNumber)
+// Their time once grew with the square of their number: minutes, which the test's time limit ends.
+TEST(JSONFile, readsManyObjectsOfAList)
 {
   std::string text = "[{}";
   for (int i = 1; i < 200000; ++i)
   {
     text += ",{}";
   }
-  std::size_t objects = 0;
-  EXPECT_LT(files::secondsOf([&] { objects = meam::parseJSON("a.json", text + "]").size(); }), 2.0);
-  EXPECT_EQ(objects, 200000u);
+  EXPECT_EQ(meam::parseJSON("a.json", text + "]").size(), 200000u);
 }
