@@ -210,8 +210,9 @@ meam::Image imageOfCloud(vtkStructuredGrid* input)
   }
   if (!pixels)
   {
-    throw Error(
-      "The scene has no image: it needs the point array 'Intensity' or 'RGB', or connect the sensor's as Image.");
+    throw Error("The scene has no image: it needs the point array 'Intensity' or 'RGB', or connect the sensor's as "
+                "Image, or turn "
+                "ImageEdges off.");
   }
   image.pixels = toPixels(pixels, image.channels);
   return image;

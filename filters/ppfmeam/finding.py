@@ -2,10 +2,12 @@
 """The copies of one part, or of several, in scan after scan."""
 from . import filters, scripting
 
+IMAGES = ("Intensity", "RGB")  # point arrays of a scan that carries one
+
 
 class Finder:
     """Holds the parts, trained models or of a single one its mesh, and the options of a script that detects: preset,
-    features, poses, probability, references and threads."""
+    features, no_image, poses, probability, references and threads."""
 
     def __init__(self, parts, options):
         self.parts, self.options = parts, options
@@ -19,12 +21,17 @@ class Finder:
         # Of several parts conflicts decide which poses stay.
         estimation.SetMaximumNumberOfPoses(options.poses if len(self.parts) == 1 else 0)
         estimation.SetMinimumProbability(options.probability)
+        estimation.SetImageEdges(not options.no_image)
         estimation.SetReferenceShare(options.references)
         estimation.SetNumberOfThreads(options.threads)
         return estimation
 
     def find(self, scene, boundary=None, image=None, image_camera=None):
         """The poses in a scan, best first; of several parts `PartId` tells which. They are good until the next scan."""
+        has_edges = boundary or image or any(map(scene.GetPointData().HasArray, IMAGES))
+        if not (has_edges or self.options.no_image) and scene.IsA("vtkStructuredGrid"):
+            raise scripting.Failure("the scan has no image: give it with --image, or in a list after a tab, or take the edges "
+                                    "of the depth alone, --no-image")
         for estimation in self.estimations:
             estimation.SetInputDataObject(1, scene)
             estimation.SetInputDataObject(2, boundary)

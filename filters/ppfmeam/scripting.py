@@ -217,6 +217,11 @@ def add_reference_argument(parser):
                              "other methods than meam and of preset paper 0.2)")
 
 
+def add_image_argument(parser):
+    parser.add_argument("--no-image", action="store_true",
+                        help="edges of the depth alone: for scans without an image, or one that shows no edges of the part")
+
+
 PRESETS = {"recommended": "Recommended", "paper": "Paper", "without-meam": "WithoutMEAM", "ppf": "OriginalPPF", "b2b": "B2B"}
 FEATURES = ("edges", "surface", "both")
 

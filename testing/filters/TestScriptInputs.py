@@ -99,7 +99,26 @@ refuses("not allowed with", "detect.py", *MODEL, "--depth", "depth.png", "--scen
 refuses("a number from 0 to 1, not 2", "detect.py", *MODEL, "--scene", "scan.ply", "--references", "2", status=2)
 refuses("a whole number, 0 or more, not few", "detect.py", *MODEL, "--scene", "scan.ply", "--poses", "few", status=2)
 refuses("8 bits", "detect.py", *MODEL, "--depth", "image.png", "--camera", "camera.json")
-refuses("no image", "detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json")
+refuses("--no-image", "detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json")
+
+# Without an image by the edges of the depth alone; a folder of such scans, too.
+works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json", "--no-image", "--matrices", "d.txt")
+all_true(matrices("d.txt"), "a depth image without an image")
+os.makedirs("depths")
+os.rename("depth.png", "depths/0.png")
+BATCH = ("batch.py", "depths", *MODEL, "--camera", "camera.json", "--out", "depths.csv")
+works(*BATCH, "--no-image")
+with open("depths.csv", encoding="utf-8") as file:
+    rows = list(csv.DictReader(file))
+check([row["scan"] for row in rows] == ["0.png"] * 2 and not any(row["failure"] for row in rows), f"{rows}")
+all_true([(*r[0:3], t[0], *r[3:6], t[1], *r[6:9], t[2], 0, 0, 0, 1)
+          for r, t in (([float(x) for x in row["R"].split()], [float(x) for x in row["t"].split()]) for row in rows)],
+         "a folder of depth images")
+os.remove("depths.csv")
+works(*BATCH)
+with open("depths.csv", encoding="utf-8") as file:
+    row, = csv.DictReader(file)
+check("--no-image" in row["failure"], f"{row}")
 
 # evaluate.py on a dataset: object 3 is in the first image alone, object 8 in none; the second scene has no truth.
 SCENE = {"cam_K": [fx, 0, cx, 0, fy, cy, 0, 0, 1], "depth_scale": SCALE}

@@ -20,7 +20,7 @@ def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", metavar="SCANS", nargs="?",
                         help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply or, with "
-                             "--camera, depth images); or a text file with a scan in each line, after a tab its image "
+                             "--camera and --no-image, depth images); or a text file with a scan in each line, after a tab its image "
                              "where it carries none")
     parser.add_argument("--watch", metavar="FOLDER",
                         help="instead of SCANS and --out: a folder in which scans arrive, each taken as soon as it "
@@ -53,6 +53,7 @@ def options_of_user():
                         help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with "
                              "--poses 0)")
     scripting.add_features_argument(parser)
+    scripting.add_image_argument(parser)
     scripting.add_reference_argument(parser)
     parser.add_argument("--threads", type=scripting.count, default=0,
                         help="threads of each process; 0: all cores for one process, one thread for each of several "

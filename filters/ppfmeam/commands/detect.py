@@ -34,6 +34,7 @@ def options_of_user():
     parser.add_argument("--probability", type=scripting.share, metavar="P",
                         help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with --poses 0)")
     scripting.add_features_argument(parser)
+    scripting.add_image_argument(parser)
     scripting.add_reference_argument(parser)
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     scripting.add_method_options(parser)
