@@ -3,8 +3,8 @@
 """Finds a part in simulated bins, the depth of which gets noisier and then the image worse, and prints what is found.
 
 The bins are the same at every level, and so are the random numbers of the noise. What is not varied has the simulated
-sensor's defaults. The scan's edges are those of its own image; where a row says so, those of the depth, too, also
-without the bin's walls (Region of BackgroundRemoval). Columns:
+sensor's defaults. The scan's edges are those of its image and of its depth; where a row says so, those of the image alone,
+or both without the bin's walls (Region of BackgroundRemoval). Columns:
   strict   right poses among the best / poses asked for, in %: each true instance counts once, a missing pose is wrong
   recall   of the instances that are at least half visible, in %, by all poses that come out
   mm, deg  median errors of the right poses
@@ -22,8 +22,8 @@ from ppfmeam import evaluation, filters, scripting
 DEPTHS = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5)  # mm at 1 m
 IMAGES = ((0.0, 0.0), (1.5, 0.7), (8.0, 1.5), (12.0, 2.0), (16.0, 2.5), (20.0, 3.0))  # grey values, blur in pixels
 DEFAULT = 1
-WORST = (3, 4, 5)  # images that are also tried with the depth's edges
-IMAGE, DEPTH, INSIDE = "image", "and depth", "no walls"  # where edges are looked for
+WORST = (3, 4, 5)  # images that are also tried with other edges
+BOTH, IMAGE, INSIDE = "both", "image", "no walls"  # where edges are looked for
 INNER = 0.97  # of the bin's side: what is nearer to a wall is left out
 FIGURES = ("strict", "top1", "recall", "AP", "mm", "deg")
 
@@ -42,9 +42,9 @@ def options_of_user():
 
 def levels():
     """The rows: index of the depth, index of the image, and where edges are looked for."""
-    return ([(depth, DEFAULT, IMAGE) for depth in range(len(DEPTHS))]
-            + [(DEFAULT, image, IMAGE) for image in range(len(IMAGES))]
-            + [(DEFAULT, image, edges) for edges in (DEPTH, INSIDE) for image in WORST])
+    return ([(depth, DEFAULT, BOTH) for depth in range(len(DEPTHS))]
+            + [(DEFAULT, image, BOTH) for image in range(len(IMAGES))]
+            + [(DEFAULT, image, edges) for edges in (IMAGE, INSIDE) for image in WORST])
 
 
 def simulate(source, level):
@@ -61,8 +61,8 @@ def simulate(source, level):
 
 
 def find(run, scan, image, where):
-    """The poses in a scan, by the edges of its image, and of the depth where that is wanted."""
-    if where == IMAGE:
+    """The poses in a scan, by the edges that are wanted."""
+    if where == BOTH:
         return run.find(scan, image=image)
     background, edges = filters.vtkMEAMBackgroundRemoval(), filters.vtkMEAMSceneEdgeExtraction()
     half = INNER * scripting.field(scan, "BinSize") / 2 if where == INSIDE else 0.0  # 0: no limits
@@ -71,7 +71,7 @@ def find(run, scan, image, where):
     background.SetNumberOfPlanes(0)
     edges.SetInputConnection(background.GetOutputPort())
     edges.SetInputDataObject(1, image)
-    edges.SetDepthEdges(True)
+    edges.SetDepthEdges(where != IMAGE)
     return run.find(scan, scripting.update(edges).GetOutputDataObject(0))
 
 

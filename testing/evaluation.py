@@ -233,7 +233,7 @@ def robustness(commands):
                 found.setdefault(level, {})[name] = (f"{float(row['strict']):.0f} % ({float(row['recall']):.0f} %) "
                                                      f"{float(row['mm']):.2f}, {float(row['deg']):.2f}")
     return ("Five bins of 20 copies, seeds 1 to 5: first the depth gets noisier (standard deviation at 1 m), then the image "
-            "worse (noise in grey values, blur); edges from the image, the depth, too, and those without the bin's walls. "
+            "worse (noise in grey values, blur); edges of image and depth, of the image alone, and both without the bin's walls. "
             "strict (recall) mm, degrees. One pose of the best five is 4 %.\n\n"
             + table(["depth noise", "image noise, blur", "edges", *parts],
                     [[*level, *(row[name] for name in parts)] for level, row in found.items()]))
