@@ -16,6 +16,7 @@ std::vector<Eigen::Isometry3d> turnsAbout(const Eigen::Vector3d& axis, const Eig
 {
   const int count = std::max(1, static_cast<int>(std::lround(360.0 / step)));
   std::vector<Eigen::Isometry3d> turns;
+  turns.reserve(count);
   for (int k = 0; k < count; ++k)
   {
     turns.push_back(turnAbout(axis, 2.0 * M_PI * k / count, centre));

@@ -168,6 +168,7 @@ std::vector<PartPose> resolveConflicts(
     kept.resize(settings.maximumPoses);
   }
   std::vector<PartPose> stay;
+  stay.reserve(kept.size());
   for (const Claim* claim : kept)
   {
     stay.push_back(claim->pose);
