@@ -304,7 +304,7 @@ FilledBin fillBin(const TriangleMesh& input, double binSize, int copies, Random&
     }
   }
   now = last - TimeToRest - TimeToCalm;
-  const FilledBin filled = rested(world, part, step);
+  FilledBin filled = rested(world, part, step);
   report(progress, 1.0);
   return filled;
 }
@@ -324,7 +324,7 @@ FilledBin settleBin(
     world.add(pose);
   }
   double now = 0.0;
-  const FilledBin settled = rested(world, part,
+  FilledBin settled = rested(world, part,
     [&]
     {
       world.step();

@@ -167,6 +167,7 @@ std::vector<Eigen::Vector3f> illuminate(const View& view, const Camera& camera, 
   report(progress, 0.4);
   const Eigen::Isometry3d T_scene_camera = camera.T_camera_scene.inverse();
   std::vector<Eigen::Isometry3d> T_model_scene;
+  T_model_scene.reserve(bodies.size());
   for (const Body& body : bodies)
   {
     T_model_scene.push_back(body.T_scene_model.inverse());
