@@ -79,7 +79,7 @@ def write_camera(folder, scan, image):
 
 def is_beside(scan):
     """Whether a camera beside the sensor took the image: the scan carries none."""
-    return not any(scan.GetPointData().HasArray(name) for name in ("Intensity", "RGB"))
+    return not scripting.has_image(scan)
 
 
 def depths_of(scan):

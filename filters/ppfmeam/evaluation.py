@@ -109,7 +109,7 @@ def scene_edges(scan, image=None, camera=None):
     extraction.SetInputDataObject(scan)
     extraction.SetInputDataObject(1, image)
     extraction.SetCameraFile(camera if image else None)
-    extraction.SetImageEdges(image is not None or any(map(scan.GetPointData().HasArray, ("Intensity", "RGB"))))
+    extraction.SetImageEdges(image is not None or scripting.has_image(scan))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # detection says the same
         return scripting.update(extraction).GetOutput()

@@ -2,8 +2,6 @@
 """The copies of one part, or of several, in scan after scan."""
 from . import filters, scripting
 
-IMAGES = ("Intensity", "RGB")  # point arrays of a scan that carries one
-
 
 class Finder:
     """Holds the parts, trained models or of a single one its mesh, and the options of a script that detects: preset,
@@ -28,8 +26,8 @@ class Finder:
 
     def find(self, scene, boundary=None, image=None, image_camera=None):
         """The poses in a scan, best first; of several parts `PartId` tells which. They are good until the next scan."""
-        has_edges = boundary or image or any(map(scene.GetPointData().HasArray, IMAGES))
-        if not (has_edges or self.options.no_image) and scene.IsA("vtkStructuredGrid"):
+        has_edges = boundary or image or scripting.has_image(scene) or self.options.no_image
+        if not has_edges and scene.IsA("vtkStructuredGrid"):
             raise scripting.Failure("the scan has no image: give it with --image, or in a list after a tab, or take the edges "
                                     "of the depth alone, --no-image")
         for estimation in self.estimations:

@@ -219,7 +219,13 @@ def add_reference_argument(parser):
 
 def add_image_argument(parser):
     parser.add_argument("--no-image", action="store_true",
-                        help="edges of the depth alone: for scans without an image, or one that shows no edges of the part")
+                        help="edges of the depth alone (ImageEdges off): for scans without an image, or one that shows no "
+                             "edges of the part")
+
+
+def has_image(scan):
+    """Whether a scan carries the image of its sensor."""
+    return any(map(scan.GetPointData().HasArray, ("Intensity", "RGB")))
 
 
 PRESETS = {"recommended": "Recommended", "paper": "Paper", "without-meam": "WithoutMEAM", "ppf": "OriginalPPF", "b2b": "B2B"}

@@ -104,6 +104,9 @@ refuses("--no-image", "detect.py", *MODEL, "--depth", "depth.png", "--camera", "
 # Without an image by the edges of the depth alone; a folder of such scans, too.
 works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json", "--no-image", "--matrices", "d.txt")
 all_true(matrices("d.txt"), "a depth image without an image")
+refuses("ImageEdges", "why.py", "part.vtpc", "depth.png", "--camera", "camera.json", "--truth", "d.txt")
+told = works("why.py", "part.vtpc", "depth.png", "--camera", "camera.json", "--truth", "d.txt", "--no-image")
+check(told.count("Found as rank") == 2, told)
 os.makedirs("depths")
 os.rename("depth.png", "depths/0.png")
 BATCH = ("batch.py", "depths", *MODEL, "--camera", "camera.json", "--out", "depths.csv")

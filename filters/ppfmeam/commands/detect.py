@@ -8,7 +8,7 @@ from .. import finding, picture, scripting
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cad", action="append", default=[], metavar="PART",
-                        help="CAD file of the part: .stl, .obj or .ply, in mm; once for each type of part")
+                        help="CAD file of the part: .stl, .obj, .ply or .off, in mm; once for each type of part")
     parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
                         help="added to the CAD's coordinates, in mm")
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")

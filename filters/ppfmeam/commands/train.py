@@ -9,7 +9,7 @@ from .. import scripting
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj or .ply, in mm")
+    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
     parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
                         help="added to the CAD's coordinates, in mm")
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")

@@ -31,6 +31,7 @@ def options_of_user():
     parser.add_argument("--probability", type=scripting.share, default=0, metavar="P",
                         help="poses less likely to be right than P, 0 to 1, are not wanted (default: %(default)s)")
     scripting.add_features_argument(parser)
+    scripting.add_image_argument(parser)
     scripting.add_reference_argument(parser)
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
@@ -76,6 +77,7 @@ def main():
     inputs = {name: getattr(options, name) for name in (
         "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "references", "preset",
         "features", "threads")}
+    inputs["image_edges"] = not options.no_image
     if options.at:
         print_report(api.why(options.part, options.scan, at=options.at, **inputs))
     elif options.pose:
