@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,15 @@ inline void report(const Progress& progress, double share)
   if (progress && !progress(share))
   {
     throw Aborted();
+  }
+}
+
+/// The same at every 65536th step of a loop whose steps take less time than a report.
+inline void reportStep(const Progress& progress, std::size_t step, double share)
+{
+  if (step % 65536 == 0)
+  {
+    report(progress, share);
   }
 }
 

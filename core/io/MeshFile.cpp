@@ -22,15 +22,10 @@ namespace
   throw Error("The mesh file '" + path + "' " + what + ".");
 }
 
-constexpr std::size_t Stretch = 65536; // not tuned: lines or corners between two reports
-
 /// Reports what share of a text is read, now and then.
 void reportLine(const Progress& progress, std::size_t line, const TextLines& lines, const std::string& bytes)
 {
-  if (line % Stretch == 0)
-  {
-    report(progress, 1.0 - static_cast<double>(lines.left()) / static_cast<double>(bytes.size() + 1));
-  }
+  reportStep(progress, line, 1.0 - static_cast<double>(lines.left()) / static_cast<double>(bytes.size() + 1));
 }
 
 /// The next three words of a line as a point.
@@ -73,10 +68,7 @@ TriangleMesh joined(const Points& corners, const Progress& progress)
       mesh.vertices.push_back(corner);
     }
     vertices.push_back(known->second);
-    if (vertices.size() % Stretch == 0)
-    {
-      report(progress, static_cast<double>(vertices.size()) / static_cast<double>(corners.size()));
-    }
+    reportStep(progress, vertices.size(), static_cast<double>(vertices.size()) / static_cast<double>(corners.size()));
   }
   for (std::size_t i = 0; i + 2 < vertices.size(); i += 3)
   {

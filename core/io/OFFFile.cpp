@@ -91,10 +91,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
       }
       mesh.vertices[v][k] = static_cast<float>(value);
     }
-    if (v % 65536 == 0)
-    {
-      report(progress, static_cast<double>(v) / static_cast<double>(all));
-    }
+    reportStep(progress, v, static_cast<double>(v) / static_cast<double>(all));
   }
   mesh.triangles.reserve(faces);
   for (std::uint64_t f = 0; f < faces; ++f)
@@ -129,10 +126,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
         triangle[1] = triangle[2];
       }
     }
-    if (f % 65536 == 0)
-    {
-      report(progress, static_cast<double>(vertices + f) / static_cast<double>(all));
-    }
+    reportStep(progress, f, static_cast<double>(vertices + f) / static_cast<double>(all));
   }
   report(progress, 1.0);
   return mesh;

@@ -359,10 +359,7 @@ std::string binaryOfAscii(const std::string& path, const std::string& bytes, Hea
         std::memcpy(to, &value, sizeof(value));
       }
     }
-    if (point % 65536 == 0)
-    {
-      report(progress, 0.9 * static_cast<double>(point) / static_cast<double>(header.points));
-    }
+    reportStep(progress, point, 0.9 * static_cast<double>(point) / static_cast<double>(header.points));
   }
   skipBlanks();
   if (at != bytes.size())

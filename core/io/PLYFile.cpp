@@ -365,10 +365,7 @@ Eigen::Vector3f vectorOf(const std::vector<double>& record, const int places[3])
 
 void reportRecord(const Progress& progress, std::uint64_t record, const Element& element)
 {
-  if (record % 65536 == 0)
-  {
-    report(progress, static_cast<double>(record) / static_cast<double>(element.count));
-  }
+  reportStep(progress, record, static_cast<double>(record) / static_cast<double>(element.count));
 }
 
 /// The element of the points; fails without any, and without coordinates.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/OccludingContours.h"
 
+#include "base/AllVectors.h"
 #include "base/PointGrid.h"
 
 #include <algorithm>
@@ -11,6 +12,20 @@ namespace meam
 namespace
 {
 float cosineOf(double degrees) { return static_cast<float>(std::cos(degrees * M_PI / 180.0)); }
+
+/// Of directions to one.
+MEAM_ALL_VECTORS
+void findCosines(const SoAPoints& directions, const Eigen::Vector3f& to, float* cosines)
+{
+  const float *x = directions.x.data(), *y = directions.y.data(), *z = directions.z.data();
+  const float toX = to.x(), toY = to.y(), toZ = to.z();
+  const std::size_t count = directions.size();
+#pragma omp simd
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    cosines[k] = x[k] * toX + (y[k] * toY + z[k] * toZ);
+  }
+}
 }
 
 OccludingContours::OccludingContours(
@@ -23,9 +38,11 @@ OccludingContours::OccludingContours(
   const Points &points = surface.points, &normals = surface.normals;
   const float flat = cosineOf(settings.flattest), sharp = cosineOf(settings.sharpest);
   const PointGrid grid(points, settings.neighbour * spacing);
-  this->First.push_back(0);
   for (int i = 0; i < static_cast<int>(points.size()); ++i)
   {
+    this->Normals.add(normals[i]);
+    const int begin = static_cast<int>(this->Neighbours.size());
+    float least = 1.0f; // cosine to the normals of its neighbours
     grid.forEachWithin(points[i], settings.neighbour * spacing,
       [&](int k, float)
       {
@@ -34,10 +51,16 @@ OccludingContours::OccludingContours(
         if (cosine < flat && cosine > sharp && isRound)
         {
           this->Neighbours.push_back(k);
+          least = std::min(least, cosine);
         }
       });
-    std::sort(this->Neighbours.begin() + this->First.back(), this->Neighbours.end());
-    this->First.push_back(static_cast<int>(this->Neighbours.size()));
+    std::sort(this->Neighbours.begin() + begin, this->Neighbours.end());
+    const int end = static_cast<int>(this->Neighbours.size());
+    if (begin < end)
+    {
+      constexpr float rounding = 1e-3f;
+      this->Bends.push_back({ i, std::sqrt(1.0f - least * least) + rounding, begin, end });
+    }
   }
 }
 
@@ -46,23 +69,20 @@ std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vecto
   std::vector<Point> contour;
   const Points &points = this->Surface.points, &normals = this->Surface.normals;
   const float least = static_cast<float>(this->Settings.seenLast), most = static_cast<float>(this->Settings.seenFirst);
-  const float steepest = static_cast<float>(std::sin(this->Settings.sharpest * M_PI / 180.0)); // and neighbours away
-  thread_local std::vector<float> cosines; // there are hundreds of directions
-  cosines.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
+  thread_local std::vector<float> cosineRoom; // there are hundreds of directions
+  cosineRoom.resize(points.size());
+  float* cosines = cosineRoom.data();
+  findCosines(this->Normals, towards, cosines);
+  for (const auto& [i, mostCosine, begin, end] : this->Bends)
   {
-    cosines[i] = normals[i].dot(towards);
-  }
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (cosines[i] < 0.0f || cosines[i] > steepest)
+    if (cosines[i] < 0.0f || cosines[i] > mostCosine)
     {
       continue;
     }
     // Of the crossings from this sample on the nearest.
     float nearest = 1.0f;
     int across = -1;
-    for (int n = this->First[i]; n < this->First[i + 1]; ++n)
+    for (int n = begin; n < end; ++n)
     {
       const int k = this->Neighbours[n];
       const float share = cosines[k] < 0.0f ? cosines[i] / (cosines[i] - cosines[k]) : 1.0f;

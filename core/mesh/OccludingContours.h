@@ -46,9 +46,17 @@ public:
 
 private:
   PointCloud Surface;
+  SoAPoints Normals; ///< the same once more
   double Spacing = 0.0;
   OccludingContoursSettings Settings;
-  std::vector<int> First;      ///< of each sample, its place in Neighbours; and the end
-  std::vector<int> Neighbours; ///< samples across which the surface bends away
+  /// A sample beside which the surface bends away, and the samples there.
+  struct Bend
+  {
+    int sample;
+    float mostCosine; ///< of its normal to a line of sight that one of its neighbours turns away from
+    int begin, end;   ///< in Neighbours
+  };
+  std::vector<Bend> Bends;
+  std::vector<int> Neighbours;
 };
 }

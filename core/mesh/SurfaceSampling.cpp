@@ -155,10 +155,7 @@ PointCloud sampleSurface(const TriangleMesh& mesh, const SurfaceSamplingSettings
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
     grid.insert(samples, candidates[i].point, normals[candidates[i].triangle]);
-    if (i % 65536 == 65535)
-    {
-      report(progress, 0.3 + 0.7 * static_cast<double>(i) / wanted);
-    }
+    reportStep(progress, i, 0.3 + 0.7 * static_cast<double>(i) / wanted);
   }
   report(progress, 1.0);
   return samples;

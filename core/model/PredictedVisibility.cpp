@@ -95,7 +95,8 @@ Points outsideOf(const std::vector<float>& buffer, const View& view, int border)
 {
   constexpr float unknown = std::numeric_limits<float>::infinity();
   const int side = view.side, off = border + 1;
-  thread_local std::vector<float> heights; // of the cells outside
+  thread_local std::vector<float> room; // looked up once: each access to it is a call
+  std::vector<float>& heights = room;   // of the cells outside
   heights.assign(buffer.size(), unknown);
   const auto look = [&](int cell, int step) // from a cell that is seen
   {
@@ -288,8 +289,14 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
     project(across, points.x.data(), points.y.data(), points.z.data(), static_cast<int>(points.x.size()),
       result.cells.data(), result.heights.data());
   };
-  thread_local Projected surface, others; // of the size of the part, and there are hundreds of poses
-  thread_local std::vector<float> nearest;
+  struct Room // of the size of the part, and there are hundreds of poses
+  {
+    Projected surface, others;
+    std::vector<float> nearest;
+    std::vector<int> inSight;
+  };
+  thread_local Room room;
+  auto& [surface, others, nearest, inSight] = room;
   nearest.assign(static_cast<std::size_t>(across.side) * across.side, Nothing);
   projected(this->Surface, surface);
   raise(surface, nearest);
@@ -298,7 +305,6 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   {
     point += this->Middle;
   }
-  thread_local std::vector<int> inSight;
   projected(this->SharpEdges.points, others);
   keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, inSight);
   const std::vector<OccludingContours::Point> contours = this->Contours.from(towards, inset);

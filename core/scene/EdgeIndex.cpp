@@ -232,8 +232,17 @@ EdgeIndex::Match EdgeIndex::nearest(const Eigen::Vector3f& point, const Eigen::V
   Nearest nearest;
   std::fill_n(nearest.distances, Lanes, query.squaredRadius);
   std::fill_n(nearest.places, Lanes, -1);
-  this->forEachGroupOfRanges(
-    point, radius, [&](const Range* ranges, int count) { search(this->Lines, ranges, count, query, nearest); });
+  bool isAny = false;
+  this->forEachGroupOfRanges(point, radius,
+    [&](const Range* ranges, int count)
+    {
+      isAny = true;
+      search(this->Lines, ranges, count, query, nearest);
+    });
+  if (!isAny)
+  {
+    return {};
+  }
   // Without a branch: floats from 0 on are ordered as their bits are. What is not found is farther than all that is.
   std::uint64_t least = ~std::uint64_t(0);
   for (int lane = 0; lane < Lanes; ++lane)

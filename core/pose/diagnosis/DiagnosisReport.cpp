@@ -182,7 +182,7 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
     case LossCause::OtherRotation:
       return lostIn(diagnosis) + "the part was taken to be turned by one of its approximate symmetries.";
     case LossCause::Taken:
-      return diagnosis.takenShare > detection.selection.clusters.shared
+      return diagnosis.takenShare > detection.selection.instances.shared
                ? lostIn(diagnosis) + takerWords(diagnosis) + ", was preferred."
                : lostIn(diagnosis) + "other poses of the same instance were preferred.";
     case LossCause::NotRefined:

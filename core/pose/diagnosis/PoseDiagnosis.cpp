@@ -319,7 +319,7 @@ bool PoseDiagnosis::isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T
 
 void PoseDiagnosis::findTaker(Diagnosis& diagnosis, const Poses& ranked) const
 {
-  const double near = this->Detection.selection.clusters.sharedDistance * this->Model.diameter;
+  const double near = this->Detection.selection.instances.sharedDistance * this->Model.diameter;
   const Points points = diagnosis.evidence.points.matched();
   const EvidenceCollector collector(this->InScene, this->Model, this->Detection.selection.evidence);
   for (std::size_t k = 0; k < ranked.size() && !points.empty(); ++k)

@@ -1,240 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/PoseClusters.h"
 
-#include "base/Parallel.h"
-
 #include <algorithm>
-#include <iterator>
 
 namespace meam
 {
 namespace
 {
-/// Places that are of one instance, directly or by others between them, ascending: different groups have nothing to do
-/// with each other.
-std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before)
+/// Degrees, up to what is the same.
+double turnBetween(const Eigen::Isometry3d& of, const Eigen::Isometry3d& T, const Symmetries& same)
 {
-  const int count = static_cast<int>(before.size());
-  std::vector<int> groupOf(count);
-  std::vector<std::vector<int>> groups(count);
-  for (int k = 0; k < count; ++k)
+  double least = rotationError(nearestEqual(of, T, same), T);
+  for (const NearSymmetry& symmetry : same.near)
   {
-    groupOf[k] = k;
-    for (const int other : before[k])
-    {
-      const int group = groupOf[other];
-      std::replace(groupOf.begin(), groupOf.begin() + k, group, k);
-    }
+    least = std::min(least, rotationError(nearestEqual(of * symmetry.T, T, same), T));
   }
-  for (int k = 0; k < count; ++k)
-  {
-    groups[groupOf[k]].push_back(k);
-  }
-  return groups;
+  return least;
 }
 }
 
-PoseClusters::PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
-  const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
-  int threads)
-  : InPoses(poses)
-  , Same(same)
-  , Collector(collector)
-  , Comparison(comparison)
-  , Settings(settings)
-  , Threads(threads)
-  , Distance(settings.distanceFor(model.diameter))
-  , SharedWithin(settings.sharedWithin * model.diameter)
-  , SharedDistance(settings.sharedDistance * model.diameter)
-  , MatchedPoints(poses.size())
-  , Contenders(poses.size())
+std::vector<int> firstOfClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
+  const PoseClustersSettings& settings, const Progress& progress)
 {
-  for (const Pose& pose : poses)
-  {
-    this->Middles.push_back(pose.T_scene_model * model.visibility->middle().cast<double>());
-  }
-}
-
-std::vector<int> PoseClusters::select(const Progress& progress)
-{
-  const int count = static_cast<int>(this->InPoses.size());
-  std::vector<char> stays(count, 0);
-  this->collectMatched();
-  if (count <= this->Settings.allCompared)
-  {
-    const std::vector<std::vector<int>> before = this->instancesBefore();
-    const std::vector<std::vector<int>> groups = joined(before);
-    parallelFor(count, this->Threads, progress,
-      [&](int begin, int end, int)
-      {
-        for (int g = begin; g < end; ++g)
-        {
-          for (const int k : groups[g])
-          {
-            this->choose(k, before[k], stays);
-          }
-        }
-      });
-  }
-  else // all against all would take too long
-  {
-    for (int k = 0; k < count; ++k)
-    {
-      report(progress, static_cast<double>(k) / count);
-      std::vector<int> before;
-      for (int other = 0; other < k; ++other)
-      {
-        if (stays[other] && this->sameInstance(k, other))
-        {
-          before.push_back(other);
-        }
-      }
-      this->choose(k, before, stays);
-    }
-  }
+  const double distance = settings.distanceFor(model.diameter);
   std::vector<int> selected;
-  for (int k = 0; k < count; ++k)
+  std::vector<Eigen::Vector3d> middles; // of the part, of those selected
+  for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    if (stays[k])
+    report(progress, static_cast<double>(k) / static_cast<double>(poses.size()));
+    const Eigen::Isometry3d& T = poses[k].T_scene_model;
+    const Eigen::Vector3d middle = T * model.visibility->middle().cast<double>();
+    int ofInstance = 0;
+    bool isKnown = false;
+    for (std::size_t i = 0; i < selected.size() && !isKnown; ++i)
     {
-      selected.push_back(k);
+      if ((middle - middles[i]).norm() < distance)
+      {
+        ++ofInstance;
+        isKnown = turnBetween(T, poses[selected[i]].T_scene_model, same) < settings.angle;
+      }
+    }
+    if (!isKnown && ofInstance < settings.posesPerInstance)
+    {
+      selected.push_back(static_cast<int>(k));
+      middles.push_back(middle);
     }
   }
   return selected;
-}
-
-const PoseComparison::Contender& PoseClusters::contender(int index)
-{
-  std::optional<PoseComparison::Contender>& known = this->Contenders[index];
-  if (!known)
-  {
-    known = this->Comparison->contender(this->InPoses[index].T_scene_model);
-  }
-  return *known;
-}
-
-void PoseClusters::collectMatched()
-{
-  if (!this->Comparison)
-  {
-    return;
-  }
-  const int count = static_cast<int>(this->InPoses.size());
-  parallelFor(count, this->Threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        const bool isAskedFor = std::any_of(this->Middles.begin(), this->Middles.end(),
-          [&](const Eigen::Vector3d& other)
-          {
-            const double apart = (other - this->Middles[k]).norm();
-            return apart >= this->Distance && apart < this->SharedWithin;
-          });
-        if (isAskedFor)
-        {
-          Matched& matched = this->MatchedPoints[k];
-          matched.points = this->Collector->collect(this->InPoses[k].T_scene_model).matched();
-          matched.grid = PointGrid(matched.points, this->SharedDistance);
-        }
-      }
-    });
-}
-
-std::vector<std::vector<int>> PoseClusters::instancesBefore()
-{
-  const int count = static_cast<int>(this->InPoses.size());
-  std::vector<std::vector<int>> before(count);
-  parallelFor(count, this->Threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        for (int other = 0; other < k; ++other)
-        {
-          if (this->sameInstance(k, other))
-          {
-            before[k].push_back(other);
-          }
-        }
-      }
-    });
-  return before;
-}
-
-void PoseClusters::choose(int k, const std::vector<int>& before, std::vector<char>& stays)
-{
-  std::vector<int> alternatives;
-  std::copy_if(before.begin(), before.end(), std::back_inserter(alternatives), [&](int other) { return stays[other]; });
-  const bool isKnown =
-    !this->Comparison && std::any_of(alternatives.begin(), alternatives.end(),
-                           [&](int other) { return this->turnBetween(k, other) < this->Settings.angle; });
-  if (isKnown)
-  {
-    return;
-  }
-  if (static_cast<int>(alternatives.size()) >= this->Settings.posesPerInstance)
-  {
-    const bool isBest =
-      this->Comparison &&
-      std::all_of(alternatives.begin(), alternatives.end(),
-        [&](int other)
-        {
-          return this->InPoses[k].evidence > this->InPoses[other].evidence - this->Settings.equalEvidence &&
-                 this->Comparison->advantage(this->contender(k), this->contender(other)) > 0.0;
-        });
-    if (!isBest)
-    {
-      return;
-    }
-    for (const int other : alternatives)
-    {
-      stays[other] = 0;
-    }
-  }
-  stays[k] = 1;
-}
-
-bool PoseClusters::sameInstance(int a, int b) const
-{
-  const double apart = (this->Middles[a] - this->Middles[b]).norm();
-  if (apart < this->Distance || !this->Comparison)
-  {
-    return apart < this->Distance;
-  }
-  return apart < this->SharedWithin && this->shareMatches(a, b);
-}
-
-bool PoseClusters::shareMatches(int a, int b) const
-{
-  const Points& points = this->MatchedPoints[a].points;
-  const PointGrid& others = this->MatchedPoints[b].grid;
-  const double wanted = this->Settings.shared * static_cast<double>(points.size());
-  std::size_t shared = 0;
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    shared += others.nearest(points[k], this->SharedDistance) >= 0 ? 1 : 0;
-    if (static_cast<double>(shared) > wanted)
-    {
-      return true;
-    }
-    if (static_cast<double>(shared + points.size() - k - 1) <= wanted) // the rest cannot make up for it
-    {
-      return false;
-    }
-  }
-  return false;
-}
-
-double PoseClusters::turnBetween(int a, int b) const
-{
-  const Eigen::Isometry3d& of = this->InPoses[a].T_scene_model;
-  const Eigen::Isometry3d& T = this->InPoses[b].T_scene_model;
-  double least = rotationError(nearestEqual(of, T, this->Same), T);
-  for (const NearSymmetry& symmetry : this->Same.near)
-  {
-    least = std::min(least, rotationError(nearestEqual(of * symmetry.T, T, this->Same), T));
-  }
-  return least;
 }
 }

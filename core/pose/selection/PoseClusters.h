@@ -2,12 +2,11 @@
 #pragma once
 
 #include "base/Error.h"
+#include "model/TrainedModel.h"
 #include "pose/Pose.h"
 #include "pose/SamePose.h"
-#include "pose/selection/PoseComparison.h"
-#include "pose/verification/PoseEvidence.h"
 
-#include <optional>
+#include <vector>
 
 namespace meam
 {
@@ -19,66 +18,12 @@ struct PoseClustersSettings
   {
     return this->distance > 0.0 ? this->distance : this->distanceShare * diameter;
   }
-  /// Poses of one instance that are turned less than this (degrees) are the same, when they are not compared.
-  double angle = SamePose().angle;
-  int posesPerInstance = 1; ///< that stay
-  /// Share of the matched points from which on two poses are of one instance, when these are compared: two parts do not
-  /// have their surface in the same place.
-  double shared = 0.5;
-  double sharedWithin = 0.5;    ///< of the diameter: middles farther apart than this are of two instances all the same
-  double sharedDistance = 0.04; ///< of the diameter, between matched points: a little over their spacing
-  double equalEvidence = 3.0;   ///< poses whose evidence (log odds) differs by less are compared point by point
-  int allCompared = 300;        ///< of more poses than this each is compared only with those that stay
+  double angle = SamePose().angle; ///< degrees, poses of one instance that are turned less than this are the same
+  int posesPerInstance = 1;        ///< that stay
 };
 
-/// Decides which poses of one instance stay. Keeps references to what it is made of.
-class PoseClusters
-{
-public:
-  /// Without a `comparison` the pose that comes first stays, and poses up to the symmetries `same`, near ones among
-  /// them, are the same. With one it decides between all poses of an instance, turned or not. `collector` may be null
-  /// without it.
-  PoseClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
-    const EvidenceCollector* collector, const PoseComparison* comparison, const PoseClustersSettings& settings,
-    int threads);
-
-  /// Of the poses, best first, the indices of those that stay.
-  std::vector<int> select(const Progress& progress);
-
-  /// Different ones may be asked for in parallel.
-  const PoseComparison::Contender& contender(int index);
-
-private:
-  /// For each pose those of the same instance that come before it.
-  std::vector<std::vector<int>> instancesBefore();
-  /// Finds the matched points of the poses near enough to others that these decide.
-  void collectMatched();
-  /// Whether pose `k` stays, and whether those of its instance, `before` it, still do.
-  void choose(int k, const std::vector<int>& before, std::vector<char>& stays);
-  bool sameInstance(int a, int b) const;
-  /// Whether `b` matched so much of what `a` matched, too: poses of one instance share most of it.
-  bool shareMatches(int a, int b) const;
-  /// Degrees, up to what is the same.
-  double turnBetween(int a, int b) const;
-
-  /// What a pose matched, and its grid for look-ups.
-  struct Matched
-  {
-    Points points;
-    PointGrid grid;
-  };
-
-  const Poses& InPoses;
-  const Symmetries& Same;
-  const EvidenceCollector* Collector;
-  const PoseComparison* Comparison;
-  PoseClustersSettings Settings;
-  int Threads;
-  double Distance;                                                  ///< mm
-  double SharedWithin;                                              ///< mm
-  double SharedDistance;                                            ///< mm
-  std::vector<Eigen::Vector3d> Middles;                             ///< of the part, local frame
-  std::vector<Matched> MatchedPoints;                               ///< of the poses, as far as they may be asked for
-  std::vector<std::optional<PoseComparison::Contender>> Contenders; ///< of the poses, as far as they were asked for
-};
+/// Of poses, best first, the indices of those that stay, ascending: of one instance so many of the first, no two of
+/// them the same up to the symmetries `same`, near ones among them.
+std::vector<int> firstOfClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
+  const PoseClustersSettings& settings, const Progress& progress = {});
 }

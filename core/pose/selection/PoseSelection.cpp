@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace meam
 {
@@ -39,9 +38,9 @@ public:
   }
 
   /// Returns what it matched.
-  Points finish(Pose& pose, PoseClusters& clusters, int index) const
+  Points finish(Pose& pose, InstanceChoice& choice, int index) const
   {
-    PoseComparison::Contender asItIs = clusters.contender(index);
+    PoseComparison::Contender asItIs = choice.contender(index);
     pose = this->Restarts.best(pose, asItIs);
     if (!this->Model.symmetries.near.empty())
     {
@@ -94,10 +93,11 @@ struct Finished
 
 /// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
 /// come to the same place, and what others explain speaks for no more.
-Poses withoutShared(const std::vector<Finished>& found, const TrainedModel& model, const PoseClustersSettings& settings)
+Poses withoutShared(
+  const std::vector<Finished>& found, const TrainedModel& model, const PoseSelectionSettings& settings)
 {
-  const double near = settings.sharedDistance * model.diameter;
-  const double distance = settings.distanceFor(model.diameter);
+  const double near = settings.instances.sharedDistance * model.diameter;
+  const double distance = settings.clusters.distanceFor(model.diameter);
   struct Kept
   {
     Eigen::Vector3d middle;
@@ -125,7 +125,7 @@ Poses withoutShared(const std::vector<Finished>& found, const TrainedModel& mode
         beside.begin(), beside.end(), [&](const PointGrid* claimed) { return claimed->nearest(point, near) >= 0; });
     };
     if (!isTaken && std::count_if(matched.begin(), matched.end(), isClaimed) <=
-                      settings.shared * static_cast<double>(matched.size()))
+                      settings.instances.shared * static_cast<double>(matched.size()))
     {
       kept.push_back({ middle, PointGrid(matched, near) });
       distinct.push_back(pose);
@@ -153,12 +153,13 @@ void allowForAbsence(Poses& poses, const ProbabilityCalibration& calibration)
 
 /// One for each instance, with its final pose; best first.
 Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedModel& model,
-  const PoseSelectionSettings& settings, const PoseClustersSettings& clustering, const Progress& progress)
+  const PoseSelectionSettings& settings, const Progress& progress)
 {
   const EvidenceCollector collector(scene, model, settings.evidence);
   const PoseComparison comparison(scene, model, settings.comparison);
-  PoseClusters clusters(scored, model.symmetries, model, &collector, &comparison, clustering, settings.threads);
-  const std::vector<int> selected = clusters.select(subProgress(progress, 0.0, 0.3));
+  InstanceChoice choice(scored, settings.clusters.distanceFor(model.diameter), model, collector, comparison,
+    settings.instances, settings.threads);
+  const std::vector<int> selected = choice.select(subProgress(progress, 0.0, 0.3));
   const EvidenceRates rates =
     evidenceRatesOf(scored, collector, settings.evidence, settings.rateStride, settings.threads);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison);
@@ -169,12 +170,12 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
       for (int k = begin; k < end; ++k)
       {
         finished[k].pose = scored[selected[k]];
-        finished[k].matched = instance.finish(finished[k].pose, clusters, selected[k]);
+        finished[k].matched = instance.finish(finished[k].pose, choice, selected[k]);
       }
     });
   std::stable_sort(
     finished.begin(), finished.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
-  Poses instances = withoutShared(finished, model, clustering);
+  Poses instances = withoutShared(finished, model, settings);
   if (haveSurfaces(scene, model))
   {
     allowForAbsence(instances, settings.evidence.calibration);
@@ -183,19 +184,20 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
 }
 
 /// The first of each cluster, up to the symmetries.
-Poses selectClusters(const Poses& scored, const TrainedModel& model, const PoseSelectionSettings& settings,
-  const PoseClustersSettings& clustering, const Progress& progress)
+Poses selectClusters(
+  const Poses& scored, const TrainedModel& model, const PoseSelectionSettings& settings, const Progress& progress)
 {
   const bool isForRefinement = settings.method == SelectionMethod::Alternatives;
+  PoseClustersSettings clustering = settings.clusters;
+  clustering.posesPerInstance = isForRefinement ? settings.alternatives : 1;
   Symmetries same = isForRefinement ? asIfRound(model.symmetries) : model.symmetries;
   if (!isForRefinement)
   {
     same.near.clear();
   }
-  PoseClusters clusters(scored, same, model, nullptr, nullptr, clustering, settings.threads);
   Poses selected;
   const double least = isForRefinement && !scored.empty() ? settings.leastScore * scored.front().score : 0.0;
-  for (const int i : clusters.select(progress))
+  for (const int i : firstOfClusters(scored, same, model, clustering, progress))
   {
     if (scored[i].score >= least)
     {
@@ -230,11 +232,9 @@ PoseSelectionSettings candidateSelectionSettings()
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings, const Progress& progress)
 {
-  PoseClustersSettings clustering = settings.clusters;
-  clustering.posesPerInstance = settings.method == SelectionMethod::Alternatives ? settings.alternatives : 1;
   Poses selected = settings.method == SelectionMethod::Instances
-                     ? selectInstances(scored, scene, model, settings, clustering, progress)
-                     : selectClusters(scored, model, settings, clustering, progress);
+                     ? selectInstances(scored, scene, model, settings, progress)
+                     : selectClusters(scored, model, settings, progress);
   selected.erase(std::remove_if(selected.begin(), selected.end(),
                    [&](const Pose& pose) { return pose.probability < settings.minimumProbability; }),
     selected.end());

@@ -5,6 +5,7 @@
 #include "pose/Pose.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/refinement/PoseRefinement.h"
+#include "pose/selection/InstanceChoice.h"
 #include "pose/selection/PoseClusters.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/selection/RefinementRestarts.h"
@@ -24,7 +25,7 @@ enum class SelectionMethod
 struct PoseSelectionSettings
 {
   SelectionMethod method = SelectionMethod::Instances;
-  PoseClustersSettings clusters;   ///< posesPerInstance is that of Alternatives; of the other methods it is 1
+  PoseClustersSettings clusters;   ///< posesPerInstance is that of Alternatives; of Clusters it is 1
   int alternatives = 4;            ///< of an instance (Alternatives)
   double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
   int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives
@@ -32,6 +33,7 @@ struct PoseSelectionSettings
   double worthRefining = 3e-7;     ///< are more: probability, of poses that are not refined yet
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
+  InstanceChoiceSettings instances;
   EvidenceSettings evidence; ///< that poses are scored by once more
   PoseComparisonSettings comparison;
   RefinementRestartsSettings restarts;

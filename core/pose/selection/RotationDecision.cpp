@@ -9,13 +9,13 @@ namespace meam
 namespace
 {
 /// Share of the part's surface that a turn takes to its surface.
-double overlapAfter(const Eigen::Isometry3d& turn, const TrainedModel& model, double tolerance)
+double overlapAfter(const Eigen::Isometry3d& turn, const SoAPoints& surface, const DistanceField& distance, double near)
 {
-  const Eigen::Isometry3f T = turn.cast<float>();
-  const auto fits = [&](const Eigen::Vector3f& point)
-  { return model.surfaceDistance.at(T * point) < static_cast<float>(tolerance); };
-  const Points& points = model.surface.points;
-  return static_cast<double>(std::count_if(points.begin(), points.end(), fits)) / points.size();
+  std::vector<float> distances(surface.size());
+  distance.at(turn.cast<float>(), surface, 0, static_cast<int>(surface.size()), distances.data());
+  const auto fitting = std::count_if(
+    distances.begin(), distances.end(), [&](float distance) { return distance < static_cast<float>(near); });
+  return static_cast<double>(fitting) / static_cast<double>(surface.size());
 }
 }
 
@@ -37,9 +37,16 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
   const double tolerance = FitLengths{}.explained * model.diameter;
   const double step = settings.step * M_PI / 180.0;
   const int steps = static_cast<int>(std::lround(2.0 * M_PI / step));
-  for (const ContinuousSymmetry& axis : nearlyRoundAxes(model.symmetries))
+  const std::vector<ContinuousSymmetry> axes = nearlyRoundAxes(model.symmetries);
+  SoAPoints surface;
+  surface.resize(axes.empty() ? 0 : model.surface.size());
+  for (std::size_t k = 0; k < surface.size(); ++k)
   {
-    for (int k = 1; k < steps && !model.surface.empty(); ++k)
+    surface.set(k, model.surface.points[k]);
+  }
+  for (const ContinuousSymmetry& axis : axes)
+  {
+    for (int k = 1; k < steps && surface.size() > 0; ++k)
     {
       const Eigen::Isometry3d turn = turnAbout(axis.axis, k * step, axis.point);
       const auto isSame = [&](const NearSymmetry& near)
@@ -48,7 +55,8 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
         return Eigen::AngleAxisd(between).angle() < 0.5 * step;
       };
       const auto& near = model.symmetries.near;
-      if (std::none_of(near.begin(), near.end(), isSame) && overlapAfter(turn, model, tolerance) >= settings.overlap)
+      if (std::none_of(near.begin(), near.end(), isSame) &&
+          overlapAfter(turn, surface, model.surfaceDistance, tolerance) >= settings.overlap)
       {
         this->Turns.push_back(turn);
       }

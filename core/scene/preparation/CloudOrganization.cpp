@@ -29,10 +29,7 @@ std::vector<int> seenPoints(const Points& points, const Camera& camera, const Pr
         any = true;
       }
     }
-    if (i % 65536 == 0)
-    {
-      report(progress, 0.8 * static_cast<double>(i) / static_cast<double>(points.size()));
-    }
+    reportStep(progress, i, 0.8 * static_cast<double>(i) / static_cast<double>(points.size()));
   }
   if (!any)
   {

@@ -19,15 +19,11 @@ meam::Pose at(double x, double degrees = 0.0)
 
 using Indices = std::vector<int>;
 
-/// Of poses, best first, those that stay; the first of an instance decides.
+/// Of poses, best first, those that stay.
 Indices staying(const meam::Poses& poses, meam::PoseClustersSettings settings = {}, const meam::Symmetries& same = {})
 {
   settings.distance = 10.0;
-  meam::PoseClusters clusters(poses, same, scenes::bracket(), nullptr, nullptr, settings, 2);
-  const Indices all = clusters.select({});
-  settings.allCompared = 0; // each is compared with those that stay alone
-  EXPECT_EQ(meam::PoseClusters(poses, same, scenes::bracket(), nullptr, nullptr, settings, 2).select({}), all);
-  return all;
+  return meam::firstOfClusters(poses, same, scenes::bracket(), settings);
 }
 }
 
@@ -68,22 +64,4 @@ TEST(PoseClusters, WhatASymmetryMakesEqualIsNoAlternative)
   meam::Symmetries nearQuarters;
   nearQuarters.near = { { quarters(1) }, { quarters(2) }, { quarters(3) } };
   EXPECT_EQ(staying(poses, settings, nearQuarters), (Indices{ 0, 3 })) << "approximate ones as well";
-}
-
-TEST(PoseClusters, OfTheSameTurnTheBetterRefinedStays)
-{
-  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
-  const meam::EvidenceCollector collector(scene, scenes::bracket());
-  const meam::PoseComparison comparison(scene, scenes::bracket());
-  const Eigen::Isometry3d truth = scenes::threeCopies()[0];
-  meam::Poses poses{ scenes::displaced(truth, 1.0, 4.0), scenes::displaced(truth), scenes::displaced(truth, 0.5, 2.0) };
-  const auto staying = [&](double evidenceOfFirst)
-  {
-    poses[0].evidence = evidenceOfFirst;
-    poses[1].evidence = poses[2].evidence = 1.0;
-    const meam::Symmetries none;
-    return meam::PoseClusters(poses, none, scenes::bracket(), &collector, &comparison, {}, 2).select({});
-  };
-  EXPECT_EQ(staying(1.5), (Indices{ 1 })) << "evidence hardly differs: the scene tells, point by point";
-  EXPECT_EQ(staying(1.0 + meam::PoseClustersSettings{}.equalEvidence), (Indices{ 0 })) << "clearly more evidence";
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/InstanceChoice.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using Indices = std::vector<int>;
+}
+
+TEST(InstanceChoice, OfEqualEvidenceTheOneThatTheSceneSpeaksForStays)
+{
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  const meam::PoseComparison comparison(scene, scenes::bracket());
+  const Eigen::Isometry3d truth = scenes::threeCopies()[0];
+  meam::Poses poses{ scenes::displaced(truth, 1.0, 4.0), scenes::displaced(truth), scenes::displaced(truth, 0.5, 2.0) };
+  const auto staying = [&](double evidenceOfFirst)
+  {
+    poses[0].evidence = evidenceOfFirst;
+    poses[1].evidence = poses[2].evidence = 1.0;
+    const double distance = 0.1 * scenes::bracket().diameter;
+    meam::InstanceChoiceSettings settings;
+    const auto select = [&]()
+    { return meam::InstanceChoice(poses, distance, scenes::bracket(), collector, comparison, settings, 2).select(); };
+    const Indices all = select();
+    settings.allCompared = 0; // each is compared with those that stay alone
+    EXPECT_EQ(select(), all);
+    return all;
+  };
+  EXPECT_EQ(staying(1.5), (Indices{ 1 })) << "evidence hardly differs: the scene tells, point by point";
+  EXPECT_EQ(staying(1.0 + meam::InstanceChoiceSettings{}.equalEvidence), (Indices{ 0 })) << "clearly more evidence";
+}
+
+TEST(InstanceChoice, PosesThatMatchTheSameAreOfOneInstance)
+{
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  const meam::PoseComparison comparison(scene, scenes::bracket());
+  const auto& truths = scenes::threeCopies();
+  const meam::Poses poses{ scenes::displaced(truths[0]), scenes::displaced(truths[1]),
+    scenes::displaced(truths[0], 1.0) };
+  const auto staying = [&](double distance)
+  { return meam::InstanceChoice(poses, distance, scenes::bracket(), collector, comparison, {}, 2).select().size(); };
+  EXPECT_EQ(staying(0.01), 2u) << "a millimetre apart, on the same surface";
+  EXPECT_EQ(staying(0.1 * scenes::bracket().diameter), 2u);
+}
