@@ -32,8 +32,9 @@ struct Nearest
   int places[Lanes];
 };
 
+/// Returns whether there is any.
 MEAM_ALL_VECTORS
-void search(const SoAOrientedPoints& edges, const Range* ranges, int count, const Query& query, Nearest& nearest)
+bool search(const SoAOrientedPoints& edges, const Range* ranges, int count, const Query& query, Nearest& nearest)
 {
   const float *ex = edges.points.x.data(), *ey = edges.points.y.data(), *ez = edges.points.z.data();
   const float *tangentX = edges.directions.x.data(), *tangentY = edges.directions.y.data(),
@@ -71,12 +72,15 @@ void search(const SoAOrientedPoints& edges, const Range* ranges, int count, cons
       }
     }
   }
-#pragma omp simd
+  int last = -1;
+#pragma omp simd reduction(max : last)
   for (int lane = 0; lane < Lanes; ++lane)
   {
     nearest.distances[lane] = distances[lane];
     nearest.places[lane] = places[lane];
+    last = std::max(last, places[lane]);
   }
+  return last >= 0;
 }
 
 /// Writes which of the edges in the ranges lie within the query's radius and, across its tangent, within `across`, and
@@ -234,11 +238,7 @@ EdgeIndex::Match EdgeIndex::nearest(const Eigen::Vector3f& point, const Eigen::V
   std::fill_n(nearest.places, Lanes, -1);
   bool isAny = false;
   this->forEachGroupOfRanges(point, radius,
-    [&](const Range* ranges, int count)
-    {
-      isAny = true;
-      search(this->Lines, ranges, count, query, nearest);
-    });
+    [&](const Range* ranges, int count) { isAny |= search(this->Lines, ranges, count, query, nearest); });
   if (!isAny)
   {
     return {};

@@ -2,6 +2,7 @@
 #include "pose/verification/PoseScreening.h"
 
 #include "base/Parallel.h"
+#include "base/PointGrid.h"
 
 #include <algorithm>
 #include <numeric>
@@ -104,19 +105,33 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
     [&](int a, int b) { return shares[a] * candidates[a].votes > shares[b] * candidates[b].votes; });
+  Points middles; // of the part
+  for (const Pose& candidate : candidates)
+  {
+    middles.push_back((candidate.T_scene_model * middle).cast<float>());
+  }
+  const double reach = 1.01 * distance; // in single precision
+  const PointGrid grid(middles, reach);
+  std::vector<char> isKept(candidates.size(), 0);
   std::vector<int> kept;
   for (const int i : order)
   {
+    if (shares[i] < least)
+    {
+      continue;
+    }
     const Eigen::Isometry3d& T = candidates[i].T_scene_model;
-    const bool isDuplicate = std::any_of(kept.begin(), kept.end(),
-      [&](int k)
+    bool isDuplicate = false;
+    grid.forEachWithin(middles[i], reach,
+      [&](int k, float)
       {
         const Eigen::Isometry3d& other = candidates[k].T_scene_model;
-        return translationError(T, other, middle) < distance &&
-               rotationError(nearestEqual(T, other, same), other) < settings.angle;
+        isDuplicate = isDuplicate || (isKept[k] && translationError(T, other, middle) < distance &&
+                                       rotationError(nearestEqual(T, other, same), other) < settings.angle);
       });
-    if (!isDuplicate && shares[i] >= least)
+    if (!isDuplicate)
     {
+      isKept[i] = 1;
       kept.push_back(i);
       if (kept.size() % posesPerReport == 0)
       {

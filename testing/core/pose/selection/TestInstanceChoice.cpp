@@ -15,7 +15,7 @@ TEST(InstanceChoice, OfEqualEvidenceTheOneThatTheSceneSpeaksForStays)
   const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
   const meam::EvidenceCollector collector(scene, scenes::bracket());
   const meam::PoseComparison comparison(scene, scenes::bracket());
-  const Eigen::Isometry3d truth = scenes::threeCopies()[0];
+  const Eigen::Isometry3d truth = scene.T_local_scene() * scenes::threeCopies()[0];
   meam::Poses poses{ scenes::displaced(truth, 1.0, 4.0), scenes::displaced(truth), scenes::displaced(truth, 0.5, 2.0) };
   const auto staying = [&](double evidenceOfFirst)
   {
@@ -39,11 +39,11 @@ TEST(InstanceChoice, PosesThatMatchTheSameAreOfOneInstance)
   const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
   const meam::EvidenceCollector collector(scene, scenes::bracket());
   const meam::PoseComparison comparison(scene, scenes::bracket());
-  const auto& truths = scenes::threeCopies();
-  const meam::Poses poses{ scenes::displaced(truths[0]), scenes::displaced(truths[1]),
-    scenes::displaced(truths[0], 1.0) };
+  const Eigen::Isometry3d one = scene.T_local_scene() * scenes::threeCopies()[0];
+  const Eigen::Isometry3d other = scene.T_local_scene() * scenes::threeCopies()[1];
+  const meam::Poses poses{ scenes::displaced(one), scenes::displaced(other), scenes::displaced(one, 0.2) };
   const auto staying = [&](double distance)
   { return meam::InstanceChoice(poses, distance, scenes::bracket(), collector, comparison, {}, 2).select().size(); };
-  EXPECT_EQ(staying(0.01), 2u) << "a millimetre apart, on the same surface";
+  EXPECT_EQ(staying(0.01), 2u) << "a little apart, on the same surface";
   EXPECT_EQ(staying(0.1 * scenes::bracket().diameter), 2u);
 }
