@@ -25,9 +25,10 @@ constexpr double SparseLeafShare = 0.03; // the surface that both are laid on
 constexpr int MostAxes = 24;
 constexpr double AxisSeparation = 12.0; // degrees
 constexpr int FitSteps = 12;
-constexpr double NearSpacings = 2.0; // most points that lie on the surface have a sample this near
-constexpr float SameSide = 0.7f;     // cosine between the normals of corresponding points
-constexpr double SameTurn = 4.0;     // degrees between two turns that are one
+constexpr double NearSpacings = 2.0;  // most points that lie on the surface have a sample this near
+constexpr float AlongSpacings = 1.5f; // along the surface from a sample to where the next one stands for it
+constexpr float SameSide = 0.7f;      // cosine between the normals of corresponding points
+constexpr double SameTurn = 4.0;      // degrees between two turns that are one
 constexpr int ContinuousChecks = 11;
 
 double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
@@ -50,15 +51,27 @@ public:
   /// The nearest sample on the same side of the surface, or -1.
   int corresponding(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double reach) const
   {
-    const double near = std::min(reach, NearSpacings * this->Spacing);
-    const int best = this->correspondingWithin(point, normal, near);
-    return best >= 0 || near == reach ? best : this->correspondingWithin(point, normal, reach);
+    double within = std::min(reach, NearSpacings * this->Spacing);
+    int best = this->correspondingWithin(point, normal, within);
+    while (best < 0 && within < reach) // most have one near
+    {
+      within = std::min(reach, 2.0 * within);
+      best = this->correspondingWithin(point, normal, within);
+    }
+    return best;
   }
 
   /// From the sample's tangent plane, so that the spacing of the samples does not count.
   float distance(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const
   {
-    const int k = this->corresponding(point, normal, this->Reach);
+    return this->distance(point, normal, this->Reach);
+  }
+
+  /// The same; the reach where it is more than `most` for sure, without a look farther than that takes.
+  float distance(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double most) const
+  {
+    const double enough = 1.01 * (most + AlongSpacings * this->Spacing);
+    const int k = this->corresponding(point, normal, std::min<double>(this->Reach, enough));
     if (k < 0)
     {
       return this->Reach;
@@ -66,7 +79,7 @@ public:
     const Eigen::Vector3f offset = point - this->Surface.points[k];
     const float across = std::abs(this->Surface.normals[k].dot(offset));
     const float along =
-      std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - 1.5f * this->Spacing);
+      std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - AlongSpacings * this->Spacing);
     return std::min(this->Reach, std::hypot(across, along));
   }
 
@@ -80,10 +93,11 @@ public:
     return alone;
   }
 
-  float distance(int sample, const Eigen::Isometry3f& T) const
+  float distance(int sample, const Eigen::Isometry3f& T, double most) const
   {
-    return this->distance(T * this->Surface.points[sample], T.linear() * this->Surface.normals[sample]);
+    return this->distance(T * this->Surface.points[sample], T.linear() * this->Surface.normals[sample], most);
   }
+  float distance(int sample, const Eigen::Isometry3f& T) const { return this->distance(sample, T, this->Reach); }
 
   /// Mean distance of some samples after a motion, as a share of the reach.
   double misfit(const PointCloud& samples, const Eigen::Isometry3d& T, double worst = 1.0) const
@@ -314,33 +328,56 @@ private:
     return found;
   }
 
-  NearSymmetry measured(const Eigen::Isometry3d& T) const
+  /// How well a turn maps the surface onto itself. One of which less than `leastOverlap` can come to lie on it is not
+  /// looked at any further: it deviates by the reach.
+  NearSymmetry measured(const Eigen::Isometry3d& T, double leastOverlap) const
   {
+    const float tolerance = static_cast<float>(this->Tolerance);
+    const std::size_t count = 2 * this->Measured.size();
+    const Eigen::Isometry3f ways[] = { T.cast<float>(), T.inverse().cast<float>() };
     NearSymmetry result;
     result.T = T;
+    std::vector<std::pair<int, int>> beyond; // the tolerance: way, sample
     std::size_t within = 0;
     float largest = 0.0f;
-    for (const Eigen::Isometry3f& way :
-      { Eigen::Isometry3f(T.cast<float>()), Eigen::Isometry3f(T.inverse().cast<float>()) })
+    for (int way = 0; way < 2; ++way)
     {
       for (const int i : this->Measured)
       {
-        const float distance = this->Matcher.distance(i, way);
-        within += distance <= static_cast<float>(this->Tolerance) ? 1 : 0;
-        largest = std::max(largest, distance);
+        const float distance = this->Matcher.distance(i, ways[way], this->Tolerance);
+        if (distance <= tolerance)
+        {
+          ++within;
+          largest = std::max(largest, distance);
+          continue;
+        }
+        beyond.emplace_back(way, i);
+        if (static_cast<double>(count - beyond.size()) < leastOverlap * static_cast<double>(count))
+        {
+          result.overlap = 0.0;
+          result.deviation = CoarseReachShare * this->Diameter;
+          return result;
+        }
       }
     }
-    result.overlap = static_cast<double>(within) / (2 * this->Measured.size());
+    for (const auto& [way, i] : beyond)
+    {
+      largest = std::max(largest, this->Matcher.distance(i, ways[way]));
+    }
+    result.overlap = static_cast<double>(within) / static_cast<double>(count);
     result.deviation = largest;
     return result;
   }
+
+  /// Whether a turn is exact, up to the tolerance.
+  bool isExact(const Eigen::Isometry3d& T) const { return this->measured(T, 1.0).deviation <= this->Tolerance; }
 
   /// The turn fitted to the surface, or as it is where it is exact and fitting makes it worse: a flat sheet can slide
   /// along itself.
   NearSymmetry bestNear(const Eigen::Isometry3d& T) const
   {
-    const NearSymmetry fitted = this->measured(this->Matcher.fitted(this->Scan, T, this->Middle));
-    const NearSymmetry unfitted = this->measured(T);
+    const NearSymmetry unfitted = this->measured(T, 1.0);
+    const NearSymmetry fitted = this->measured(this->Matcher.fitted(this->Scan, T, this->Middle), this->LeastOverlap);
     return unfitted.deviation < std::min(fitted.deviation, this->Tolerance) ? unfitted : fitted;
   }
 
@@ -361,7 +398,7 @@ private:
       // Angles that no small order shares.
       const Eigen::Isometry3d S = turnAbout(result.axis, i * 31.0 * Degree, result.point);
       if (this->Matcher.misfit(this->Scan, S) * CoarseReachShare * this->Diameter > this->Tolerance ||
-          this->measured(S).deviation > this->Tolerance)
+          !this->isExact(S))
       {
         return false;
       }

@@ -10,10 +10,10 @@
 #include "model/VisibilityExtraction.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
-#include <unordered_set>
 
 namespace meam
 {
@@ -136,29 +136,23 @@ std::vector<std::uint32_t> edgeVisibility(
   return bits;
 }
 
-/// Equation (2): the voxel of each edge point as one number.
-std::vector<std::uint64_t> voxelCodes(const Points& points, double voxelSize)
+/// Equation (2): the number of each edge point's voxel, counted from 0.
+std::vector<int> voxelNumbers(const Points& points, double voxelSize)
 {
   const Eigen::Vector3f low = bounds(points).min();
-  std::vector<std::uint64_t> codes;
-  codes.reserve(points.size());
+  std::unordered_map<std::uint64_t, int> numberOf;
+  std::vector<int> numbers;
+  numbers.reserve(points.size());
   for (const auto& point : points)
   {
     // The minimum is subtracted before the cast, so no voxel is twice as wide as the others.
     const Eigen::Array3d index = ((point - low).cast<double>() / voxelSize).array().floor();
-    codes.push_back((static_cast<std::uint64_t>(index.x()) << 42) | (static_cast<std::uint64_t>(index.y()) << 21) |
-                    static_cast<std::uint64_t>(index.z()));
+    const std::uint64_t code = (static_cast<std::uint64_t>(index.x()) << 42) |
+                               (static_cast<std::uint64_t>(index.y()) << 21) | static_cast<std::uint64_t>(index.z());
+    numbers.push_back(numberOf.try_emplace(code, static_cast<int>(numberOf.size())).first->second);
   }
-  return codes;
+  return numbers;
 }
-
-struct CodePairHash
-{
-  std::size_t operator()(const std::pair<std::uint64_t, std::uint64_t>& code) const
-  {
-    return (code.first * 0x9E3779B97F4A7C15ull) ^ (code.second + 0x7F4A7C15ull + (code.first << 6));
-  }
-};
 
 /// Takes one edge point of each cube to the front; returns how many these are.
 int bringVotersForward(TrainedModel& model)
@@ -188,71 +182,121 @@ int bringVotersForward(TrainedModel& model)
   return voters;
 }
 
-void requireRoom(const std::vector<PairEntry>& entries, const char* what, const char* leaf)
+void requireRoom(std::size_t entries, const char* what, const char* leaf)
 {
-  if (entries.size() == MostEntries)
+  if (entries >= MostEntries)
   {
     throw Error("The pair table would have more than 50 million entries: thin the " + std::string(what) +
                 " points with a larger " + leaf + ".");
   }
 }
 
-/// Of the pairs among the first `count` edge points.
-void buildTable(TrainedModel& model, int count, double voxelSize, const Progress& progress)
+/// Finds the pairs of edge points that the table holds.
+class EdgePairs
 {
-  const PointCloud& edges = model.edges;
-  const PairFeatureQuantizer quantizer = model.quantizer();
-  const ViewMerging merging = model.settings.merging;
-  std::vector<PairFrame> frames;
-  frames.reserve(count);
-  for (int i = 0; i < count; ++i)
+public:
+  /// Of the first `count` edge points.
+  EdgePairs(const TrainedModel& model, int count, double voxelSize)
+    : Model(model)
+    , Quantizer(model.quantizer())
+    , Count(count)
+    , ByReference(count)
+    , IsReference(representatives(model.edges.points, model.symmetries, voxelSize))
   {
-    frames.emplace_back(edges.points[i], edges.tangents[i]);
-  }
-  const std::vector<std::uint64_t> codes =
-    merging == ViewMerging::VoxelCodes ? voxelCodes(edges.points, voxelSize) : std::vector<std::uint64_t>();
-  const std::vector<bool> isReference = representatives(edges.points, model.symmetries, voxelSize);
-  std::unordered_map<std::pair<std::uint64_t, std::uint64_t>, std::size_t, CodePairHash> entryOf;
-  std::vector<PairEntry> entries;
-  for (int r = 0; r < count; ++r)
-  {
-    if (r % 64 == 0)
+    if (model.settings.merging == ViewMerging::VoxelCodes)
     {
-      report(progress, static_cast<double>(r) / count);
+      this->Voxels = voxelNumbers(model.edges.points, voxelSize);
     }
-    for (int i = 0; i < count && isReference[r]; ++i)
+  }
+
+  /// Of all references, in their order.
+  std::vector<PairEntry> find(const Progress& progress)
+  {
+    // Pairs from one voxel to another are one; those from different voxels have nothing to do with each other.
+    std::vector<std::vector<int>> groups;
+    for (int reference = 0; reference < this->Count; ++reference)
     {
-      const std::uint32_t views = model.edgeViews[r] & model.edgeViews[i];
-      const bool together =
-        views != 0 || (merging != ViewMerging::None && (model.edgeVisible[r] & model.edgeVisible[i]) != 0);
-      if (i == r || !together)
+      const std::size_t group = this->Voxels.empty() ? reference : this->Voxels[reference];
+      groups.resize(std::max(groups.size(), group + 1));
+      groups[group].push_back(reference);
+    }
+    parallelFor(static_cast<int>(groups.size()), 0, progress,
+      [&](int begin, int end, int)
       {
-        continue;
-      }
-      const PairFeature feature =
-        pairFeature(quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]);
-      const int key = quantizer.key(feature);
-      if (key < 0 || !(feature.distance > 0.0f))
-      {
-        continue;
-      }
-      if (!codes.empty() && views != 0)
-      {
-        // The same physical pair in another view: saved once, seen in both.
-        const auto [known, isNew] = entryOf.try_emplace({ codes[r], codes[i] }, entries.size());
-        if (!isNew && (entries[known->second].viewBits & views) == 0)
+        for (int group = begin; group < end; ++group)
         {
-          entries[known->second].viewBits |= views;
+          this->findFrom(groups[group]);
+        }
+      });
+    std::vector<PairEntry> all;
+    all.reserve(this->Found);
+    for (const std::vector<PairEntry>& some : this->ByReference)
+    {
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  }
+
+private:
+  /// Of the references in one voxel.
+  void findFrom(const std::vector<int>& references)
+  {
+    const PointCloud& edges = this->Model.edges;
+    std::vector<std::pair<int, int>> known(this->Voxels.size(), { -1, 0 }); // to a voxel: reference, and its entry
+    for (const int r : references)
+    {
+      const PairFrame frame(edges.points[r], edges.tangents[r]);
+      std::vector<PairEntry>& entries = this->ByReference[r];
+      for (int i = 0; i < this->Count && this->IsReference[r]; ++i)
+      {
+        const std::uint32_t views = this->Model.edgeViews[r] & this->Model.edgeViews[i];
+        if (i == r || !(views != 0 || this->areVisibleTogether(r, i)))
+        {
           continue;
         }
+        const PairFeature feature =
+          pairFeature(this->Quantizer.kind(), edges.points[r], edges.tangents[r], edges.points[i], edges.tangents[i]);
+        const int key = this->Quantizer.key(feature);
+        if (key < 0 || !(feature.distance > 0.0f))
+        {
+          continue;
+        }
+        if (!this->Voxels.empty() && views != 0)
+        {
+          // The same physical pair in another view: saved once, seen in both.
+          auto& [reference, entry] = known[this->Voxels[i]];
+          if (reference < 0)
+          {
+            reference = r;
+            entry = static_cast<int>(entries.size());
+          }
+          else if ((this->ByReference[reference][entry].viewBits & views) == 0)
+          {
+            this->ByReference[reference][entry].viewBits |= views;
+            continue;
+          }
+        }
+        entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r),
+          static_cast<std::uint32_t>(i), frame.angleOf(edges.points[i]), views });
       }
-      requireRoom(entries, "edge", "leaf size");
-      entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(i),
-        frames[r].angleOf(edges.points[i]), views });
+      requireRoom(this->Found += entries.size(), "edge", "leaf size");
     }
   }
-  model.table = makePairTable(entries, quantizer.numberOfKeys());
-}
+
+  bool areVisibleTogether(int a, int b) const
+  {
+    return this->Model.settings.merging != ViewMerging::None &&
+           (this->Model.edgeVisible[a] & this->Model.edgeVisible[b]) != 0;
+  }
+
+  const TrainedModel& Model;
+  PairFeatureQuantizer Quantizer;
+  int Count;
+  std::vector<std::vector<PairEntry>> ByReference;
+  std::vector<bool> IsReference;
+  std::vector<int> Voxels; ///< of the edge points, when pairs of several views are merged by them
+  std::atomic<std::size_t> Found{ 0 };
+};
 
 /// Of the directions that show a surface point those that it faces: hidden point removal lets some of the back through.
 std::uint32_t facedOf(std::uint32_t visible, const Eigen::Vector3f& normal, const Points& towards)
@@ -312,7 +356,7 @@ void buildSurfaceTable(TrainedModel& model, const PointCloud& surface, const std
         PairFeatureKind::Surface, points.points[r], points.normals[r], points.points[i], points.normals[i]));
       if (key >= 0)
       {
-        requireRoom(entries, "surface", "SurfaceLeafSize");
+        requireRoom(entries.size(), "surface", "SurfaceLeafSize");
         entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r),
           static_cast<std::uint32_t>(i), frame.angleOf(points.points[i]), 0u });
       }
@@ -439,7 +483,8 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   }
   if (hasEdges(settings.features))
   {
-    buildTable(model, voters, voxelSize, subProgress(progress, 0.7, 0.9));
+    const std::vector<PairEntry> pairs = EdgePairs(model, voters, voxelSize).find(subProgress(progress, 0.7, 0.9));
+    model.table = makePairTable(pairs, model.quantizer().numberOfKeys());
   }
   if (hasSurface(model.settings.features))
   {

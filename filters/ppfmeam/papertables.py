@@ -95,7 +95,7 @@ def with_others(names):
 
 
 def planned(tables, scenes, first, copies=COPIES):
-    """The searches that the tables need, those of one model one after the other."""
+    """The searches that the tables need, those of one part and of one scene one after the other."""
     rows = {}
     for table in tables:
         for method in table.methods:
@@ -105,7 +105,7 @@ def planned(tables, scenes, first, copies=COPIES):
                     row = {"source": table.source, "method": method, "seed": str(at),
                            "copies": "" if table.source == "tohoku" else str(copies), **where}
                     rows[run_of(row)] = row
-    return sorted(rows.values(), key=lambda row: (row["part"], row["method"], int(row["views"]), row["source"], int(row["seed"])))
+    return sorted(rows.values(), key=lambda row: (row["part"], row["source"], int(row["seed"]), row["method"], int(row["views"])))
 
 
 def run_of(row):
