@@ -21,6 +21,7 @@ from batchtest import dataset  # noqa: E402
 import ppfmeam  # noqa: E402
 from ppfmeam import scripting  # noqa: E402
 from ppfmeam.batch import run, scans  # noqa: E402
+from ppfmeam.commands import batch  # noqa: E402
 
 HANDFUL, WIDTH, HEIGHT = 5, 120, 90
 BLOCK = 100  # scenes between two looks
@@ -55,8 +56,7 @@ def main():
         maker = multiprocessing.Process(target=make, args=(bins, path))  # so that this process has not trained
         maker.start()
         maker.join()
-        options = argparse.Namespace(scans=bins, split="test", preset="recommended", features="both", poses=5,
-                                     probability=0, references=0, threads=given.threads)
+        options = batch.options_of_user([bins, "--model", path, "--out", os.path.join(folder, "poses.csv"), "--threads", str(given.threads)])
         search, model = run.Search(options, Plan(path), [path]), ppfmeam.load(path)
         rows = scans.source(options).list()
         found, sizes, start = {}, [], time.monotonic()

@@ -16,7 +16,8 @@ from ..batch import run, watch
 from ..batch.ranks import ranks
 
 
-def options_of_user():
+def options_of_user(arguments=None):
+    """Of the command line, or of these words."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", metavar="SCANS", nargs="?",
                         help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply or, with "
@@ -61,7 +62,7 @@ def options_of_user():
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV",
                         help="table to write; OUT.run beside it keeps what is done")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
     if bool(options.watch) == bool(options.scans) or bool(options.watch) == bool(options.out):
         parser.error("give SCANS and --out, or --watch")
     if options.watch and not options.model and not options.cad:
