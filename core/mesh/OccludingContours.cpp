@@ -95,7 +95,7 @@ std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vecto
     if (across >= 0)
     {
       const Eigen::Vector3f normal = ((1.0f - nearest) * normals[i] + nearest * normals[across]).normalized();
-      const Eigen::Vector3f end = (1.0f - nearest) * points[i] + nearest * points[across];
+      const Eigen::Vector3f crossing = (1.0f - nearest) * points[i] + nearest * points[across];
       // On the circle that the surface bends in between both, by the cosine at which it is measured last.
       const Eigen::Vector3f bend = normals[across] - normals[i];
       const float radius = bend.dot(points[across] - points[i]) / bend.squaredNorm();
@@ -103,7 +103,7 @@ std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vecto
       const float cosine = std::clamp(std::sqrt(off * (2.0f - off)), least, most);
       const float inward = 1.0f - std::sqrt(1.0f - cosine * cosine);
       contour.push_back(
-        { end + radius * (cosine * towards - inward * normal), normal, normal.cross(towards).normalized() });
+        { crossing + radius * (cosine * towards - inward * normal), normal, normal.cross(towards).normalized() });
     }
   }
   return contour;

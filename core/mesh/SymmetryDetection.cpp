@@ -352,7 +352,7 @@ private:
           continue;
         }
         beyond.emplace_back(way, i);
-        if (static_cast<double>(count - beyond.size()) < leastOverlap * static_cast<double>(count))
+        if (static_cast<double>(count - beyond.size()) / static_cast<double>(count) < leastOverlap)
         {
           result.overlap = 0.0;
           result.deviation = CoarseReachShare * this->Diameter;

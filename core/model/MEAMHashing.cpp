@@ -184,7 +184,7 @@ int bringVotersForward(TrainedModel& model)
 
 void requireRoom(std::size_t entries, const char* what, const char* leaf)
 {
-  if (entries >= MostEntries)
+  if (entries > MostEntries)
   {
     throw Error("The pair table would have more than 50 million entries: thin the " + std::string(what) +
                 " points with a larger " + leaf + ".");
@@ -221,30 +221,38 @@ public:
       groups[group].push_back(reference);
     }
     parallelFor(static_cast<int>(groups.size()), 0, progress,
-      [&](int begin, int end, int)
+      [&](int begin, int end, int thread)
       {
         for (int group = begin; group < end; ++group)
         {
-          this->findFrom(groups[group]);
+          const double share = static_cast<double>(group) / static_cast<double>(groups.size());
+          this->findFrom(groups[group], thread == 0 ? subProgress(progress, share, share) : Progress());
         }
       });
     std::vector<PairEntry> all;
     all.reserve(this->Found);
-    for (const std::vector<PairEntry>& some : this->ByReference)
+    for (std::vector<PairEntry>& some : this->ByReference)
     {
       all.insert(all.end(), some.begin(), some.end());
+      std::vector<PairEntry>().swap(some);
     }
     return all;
   }
 
 private:
   /// Of the references in one voxel.
-  void findFrom(const std::vector<int>& references)
+  void findFrom(const std::vector<int>& references, const Progress& progress)
   {
+    constexpr std::size_t between = 64; // not tuned: references between two reports
     const PointCloud& edges = this->Model.edges;
     std::vector<std::pair<int, int>> known(this->Voxels.size(), { -1, 0 }); // to a voxel: reference, and its entry
-    for (const int r : references)
+    for (std::size_t k = 0; k < references.size(); ++k)
     {
+      if (k % between == between - 1)
+      {
+        report(progress, 0.0);
+      }
+      const int r = references[k];
       const PairFrame frame(edges.points[r], edges.tangents[r]);
       std::vector<PairEntry>& entries = this->ByReference[r];
       for (int i = 0; i < this->Count && this->IsReference[r]; ++i)
@@ -356,7 +364,7 @@ void buildSurfaceTable(TrainedModel& model, const PointCloud& surface, const std
         PairFeatureKind::Surface, points.points[r], points.normals[r], points.points[i], points.normals[i]));
       if (key >= 0)
       {
-        requireRoom(entries.size(), "surface", "SurfaceLeafSize");
+        requireRoom(entries.size() + 1, "surface", "SurfaceLeafSize");
         entries.push_back({ static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(r),
           static_cast<std::uint32_t>(i), frame.angleOf(points.points[i]), 0u });
       }

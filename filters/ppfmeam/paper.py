@@ -52,7 +52,8 @@ class Scenes:
 
     def scene(self, row):
         """The surface, the edge points if they are given, the true poses of a row's scene, and the scan of a bin with its
-        image. The last one is remembered."""
+        image. What of the true poses is visible, and whether they are of this scene, the recommended model tells for all
+        methods. The last scene is remembered."""
         kind = (row["part"], row["source"], row["seed"])
         if self.last[0] != kind:
             self.last = (kind, self.tohoku(row) if row["source"] == "tohoku" else self.bin(row))

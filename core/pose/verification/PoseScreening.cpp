@@ -95,7 +95,7 @@ std::vector<double> surfaceShares(
 Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedModel& model,
   const PoseScreeningSettings& settings, const Progress& progress)
 {
-  constexpr std::size_t posesPerReport = 256; // not tuned: each is compared with all that stay: very many take long
+  constexpr std::size_t posesPerReport = 256; // not tuned: each is compared with those near by, which may be many
   const std::vector<double> shares = surfaceShares(candidates, scene, model, settings);
   const double least = static_cast<int>(candidates.size()) > settings.enough ? settings.leastSurface : 0.0;
   const double distance = settings.distance > 0.0 ? settings.distance : settings.distanceShare * model.diameter;
@@ -106,16 +106,24 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
   std::stable_sort(order.begin(), order.end(),
     [&](int a, int b) { return shares[a] * candidates[a].votes > shares[b] * candidates[b].votes; });
   Points middles; // of the part
+  float farthest = 0.0f;
   for (const Pose& candidate : candidates)
   {
     middles.push_back((candidate.T_scene_model * middle).cast<float>());
+    farthest = middles.back().allFinite() ? std::max(farthest, middles.back().cwiseAbs().maxCoeff()) : farthest;
   }
-  const double reach = 1.01 * distance; // in single precision
+  // Of the grid, in single precision, which rounds a millionth of a coordinate: what it finds is looked at exactly.
+  const double reach = std::min(distance, 4.0 * farthest) + 1e-6 * farthest + 1e-6 * model.diameter;
   const PointGrid grid(middles, reach);
   std::vector<char> isKept(candidates.size(), 0);
   std::vector<int> kept;
-  for (const int i : order)
+  for (std::size_t looked = 0; looked < order.size(); ++looked)
   {
+    if (looked % posesPerReport == 0)
+    {
+      report(progress, 0.0);
+    }
+    const int i = order[looked];
     if (shares[i] < least)
     {
       continue;
@@ -133,10 +141,6 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
     {
       isKept[i] = 1;
       kept.push_back(i);
-      if (kept.size() % posesPerReport == 0)
-      {
-        report(progress, 0.0);
-      }
     }
   }
   std::sort(kept.begin(), kept.end());

@@ -2,10 +2,13 @@
 #include "pose/verification/PoseScreening.h"
 
 #include "TestScene.h"
+#include "base/Random.h"
 #include "mesh/TriangleMesh.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace
 {
@@ -161,6 +164,57 @@ TEST(PoseScreening, OfDistanceAndAngleBothTellCandidatesApart)
   settings.distance = 1.0; // mm
   EXPECT_EQ(left({ at(T), scenes::displaced(T, 0.99) }, settings), 1u);
   EXPECT_EQ(left({ at(T), scenes::displaced(T, 1.01) }, settings), 2u);
+}
+
+TEST(PoseScreening, OfACrowdNoTwoAreDuplicatesAndWhatWentIsOneOfWhatStayed)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
+  meam::Random random(5);
+  meam::Poses poses;
+  for (int k = 0; k < 400; ++k)
+  {
+    const auto off = [&] { return 20.0 * (random.uniform() - 0.5); }; // mm, degrees
+    const Eigen::Isometry3d moved = Eigen::Translation3d(off(), off(), off()) * T;
+    poses.push_back(at(moved * meam::turnAbout(Eigen::Vector3d::UnitZ(), off() * M_PI / 180.0, middle)));
+    poses.back().votes = 1 + k % 7;
+  }
+  const meam::TrainedModel& model = scenes::bracket();
+  meam::PoseScreeningSettings settings;
+  settings.leastSurface = 0.0;
+  settings.distance = 3.0;
+  const meam::Poses kept = scenes::screen(poses, scene(), model, settings);
+  const auto sameAs = [&](const meam::Pose& a, const meam::Pose& b)
+  {
+    return meam::translationError(a.T_scene_model, b.T_scene_model, middle) < settings.distance &&
+           meam::rotationError(a.T_scene_model, b.T_scene_model) < settings.angle;
+  };
+  EXPECT_GT(kept.size(), 20u);
+  EXPECT_LT(kept.size(), 300u);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      EXPECT_FALSE(sameAs(kept[i], kept[k]));
+    }
+  }
+  for (const meam::Pose& pose : poses)
+  {
+    EXPECT_TRUE(std::any_of(kept.begin(), kept.end(), [&](const meam::Pose& other) { return sameAs(pose, other); }));
+  }
+}
+
+TEST(PoseScreening, AnyDistanceIsTaken)
+{
+  const Eigen::Isometry3d T = scenes::threeCopies()[0];
+  const meam::Poses poses{ at(T), scenes::displaced(T, 1.0), scenes::displaced(T, 500.0) };
+  meam::PoseScreeningSettings settings;
+  settings.distance = std::numeric_limits<double>::max();
+  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 1u) << "all are turned alike";
+  settings.distance = 1e-9;
+  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 3u);
+  settings.distance = settings.distanceShare = 0.0;
+  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 3u) << "none is a duplicate";
 }
 
 TEST(PoseScreening, AModelWithoutASurfaceIsScreenedForDuplicatesAlone)
