@@ -2,7 +2,7 @@
 # The order of the house; prints what breaks it and fails:
 # - dependencies point one way: examples -> plugin, xml -> filters -> core
 # - a folder of core/ holds a dozen units, and testing/core/ has the same folders
-# - tuned numbers of core/pose and core/scene are fields of settings
+# - tuned numbers of core/features, mesh, model, pose and scene are fields of settings
 cd "$1" || exit 2
 status=0
 forbid() { # reason, pattern, files...; `except`: lines that may
@@ -13,8 +13,8 @@ shopt -s nullglob globstar
 core=(core/**/*.h core/**/*.cpp)
 headers=(filters/*.h)
 sources=(filters/*.h filters/*.cxx)
-steps=(core/{pose,scene}/**/*.cpp)
-stepHeaders=(core/{pose,scene}/**/*.h)
+steps=(core/{features,mesh,model,pose,scene}/**/*.cpp)
+stepHeaders=(core/{features,mesh,model,pose,scene}/**/*.h)
 [ ${#core[@]} -gt 0 ] && [ ${#headers[@]} -gt 0 ] && [ ${#steps[@]} -gt 0 ] || { echo "no sources under $1"; exit 2; }
 forbid "core/ does not include VTK" '#include *["<]vtk' "${core[@]}"
 forbid "core/ does not print" 'std::(cout|cerr|clog)|(^|[^a-zA-Z_])printf *\(' "${core[@]}"
