@@ -2,7 +2,7 @@
 # The order of the house; prints what breaks it and fails:
 # - dependencies point one way: examples -> plugin, xml -> filters -> core
 # - a folder of core/ holds a dozen units, and testing/core/ has the same folders
-# - tuned numbers of core/pose are fields of settings
+# - tuned numbers of core/features, mesh, model, pose and scene are fields of settings
 cd "$1" || exit 2
 status=0
 forbid() { # reason, pattern, files...; `except`: lines that may
@@ -13,9 +13,9 @@ shopt -s nullglob globstar
 core=(core/**/*.h core/**/*.cpp)
 headers=(filters/*.h)
 sources=(filters/*.h filters/*.cxx)
-pose=(core/pose/**/*.cpp)
-poseHeaders=(core/pose/**/*.h)
-[ ${#core[@]} -gt 0 ] && [ ${#headers[@]} -gt 0 ] && [ ${#pose[@]} -gt 0 ] || { echo "no sources under $1"; exit 2; }
+steps=(core/{features,mesh,model,pose,scene}/**/*.cpp)
+stepHeaders=(core/{features,mesh,model,pose,scene}/**/*.h)
+[ ${#core[@]} -gt 0 ] && [ ${#headers[@]} -gt 0 ] && [ ${#steps[@]} -gt 0 ] || { echo "no sources under $1"; exit 2; }
 forbid "core/ does not include VTK" '#include *["<]vtk' "${core[@]}"
 forbid "core/ does not print" 'std::(cout|cerr|clog)|(^|[^a-zA-Z_])printf *\(' "${core[@]}"
 forbid "filters/ knows nothing of ParaView" '[Pp]ara[Vv]iew|PARAVIEW|vtkPV|vtkSM[A-Z]' "${sources[@]}"
@@ -34,9 +34,10 @@ for test in testing/core/*/**/Test*.cpp; do
 done
 
 # A size, a mark or a share of the progress says so: `constexpr int chunk = 128; // not tuned: bins that wait`.
-tuned="tuned numbers of core/pose are fields of settings"
-forbid "$tuned" '^(static |inline )*(constexpr|const) [^(]*[={].*[0-9]' "${pose[@]}"
-except='//+<? not tuned: ' forbid "$tuned; a number that is not tuned has a comment that begins with 'not tuned:'" \
-  '^ +(static |inline )*(constexpr|const) [^(=]*( =|\{) *-?\.?[0-9][-+*/ .0-9e]*[fFuUlL]*[};]' "${pose[@]}" "${poseHeaders[@]}"
-except=' = 1\.0[,)]' forbid "$tuned, and no arguments' defaults" '(double|float) [A-Za-z]+ = [^,;)]*[1-9][^,;)]*[,)]' "${poseHeaders[@]}"
+tuned="tuned numbers are fields of settings"
+untuned="a number that is not tuned has a comment that begins with 'not tuned:'"
+except='//+<? not tuned: ' forbid "$tuned; $untuned" '^(static |inline )*(constexpr|const) [^(]*[={].*[0-9]' "${steps[@]}"
+except='//+<? not tuned: ' forbid "$tuned; $untuned" \
+  '^ +(static |inline )*(constexpr|const) [^(=]*( =|\{) *-?\.?[0-9][-+*/ .0-9e]*[fFuUlL]*[};]' "${steps[@]}" "${stepHeaders[@]}"
+except=' = 1\.0[,)]|: +const (double|float) [A-Za-z]+ = ' forbid "$tuned, and no arguments' defaults" '(double|float) [A-Za-z]+ = [^,;)]*[1-9][^,;)]*[,)]' "${stepHeaders[@]}"
 exit $status

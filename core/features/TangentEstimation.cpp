@@ -21,27 +21,7 @@ namespace meam
 {
 namespace
 {
-// Shares of the diameter.
-constexpr double SceneLeafShare = 0.03;
-constexpr double ModelLeafShare = 0.02;
-constexpr double RadiusShare = 0.06;
-constexpr double InlierShare = 0.012;
-constexpr double SegmentShare = 0.15;
-constexpr double SegmentReach = 1.25; // lengths of a segment: its ends have to see all of it
-
-constexpr std::size_t MostPerTile = 4000; // the work grows with its cube
-constexpr double CandidateShare = 0.3;    // of the radius: spacing of the neighbours that lines are tried through
-// A measured point's line: what its lengths are at most, and what they are of noise and spacing.
-constexpr double MostInlierShare = 0.03; // of the diameter
-constexpr double MostRadiusShare = 0.12; // of the diameter
-constexpr double InlierNoise = 2.2;
-constexpr double RadiusInliers = 4.0;
-constexpr double RadiusSpacings = 3.0;
-constexpr std::size_t MeasuredPoints = 400; // around which noise and spacing are measured
-constexpr int FewestForNoise = 12;
-constexpr int FewestInliers = 4; // a line through three points of a band of edge points is chance
-
-constexpr int Lanes = 8; // offsets that are looked at together
+constexpr int Lanes = 8; // not tuned: offsets that are looked at together
 
 float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f& direction)
 {
@@ -100,7 +80,7 @@ int lineSupport(const float* x, const float* y, const float* z, int count, const
   return support;
 }
 
-constexpr int Moments = 10; // their number, sums of x, y and z, of xx, xy, xz, yy, yz and zz
+constexpr int Moments = 10; // not tuned: their number, sums of x, y and z, of xx, xy, xz, yy, yz and zz
 
 /// Adds up those of the offsets within sqrt(limit) of the line through the origin.
 MEAM_ALL_VECTORS
@@ -165,7 +145,8 @@ Eigen::Vector3f principalAxis(const Neighbours& offsets, const Eigen::Vector3f& 
 /// Tangent at a point from its neighbours' offsets; zero when no line is supported. Lines through the point and some of
 /// its neighbours are tried, as in Algorithm 2; the sphere makes the neighbourhood the same wherever the point lies,
 /// and the inliers' axis uses all of them instead of one far point.
-Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidates, double inlierDistance)
+Eigen::Vector3f robustLine(
+  const Neighbours& offsets, const Neighbours& candidates, double inlierDistance, int fewestInliers)
 {
   const float limit = static_cast<float>(inlierDistance * inlierDistance);
   int best = 0;
@@ -188,7 +169,7 @@ Eigen::Vector3f robustLine(const Neighbours& offsets, const Neighbours& candidat
       direction = line;
     }
   }
-  return best < FewestInliers ? Eigen::Vector3f::Zero() : principalAxis(offsets, direction, limit);
+  return best < fewestInliers ? Eigen::Vector3f::Zero() : principalAxis(offsets, direction, limit);
 }
 
 /// Whether a point lies in a run of its neighbours along a line, with gaps of at most `gap`, that is `length` long.
@@ -237,14 +218,15 @@ double quantile(std::vector<double>& values, double share)
 
 /// Lines that meet mostly lie in a plane: the points' distances from it are noise. Where they are curved or there are
 /// several planes these are larger, so a low quantile counts.
-PointStatistics statisticsOf(
-  const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius, int threads)
+PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius,
+  const TangentEstimationSettings& settings)
 {
-  const int stride = static_cast<int>(kept.size() / MeasuredPoints) + 1;
+  const int stride = static_cast<int>(kept.size()) / settings.measuredPoints + 1;
   const int count = (static_cast<int>(kept.size()) + stride - 1) / stride;
-  constexpr double unknown = -1.0;
+  constexpr double unknown = -1.0; // not tuned: a mark
   std::vector<double> deviations(count, unknown), distances(count, unknown);
-  parallelFor(count, threads, {},
+  const int fewestForNoise = settings.fewestForNoise;
+  parallelFor(count, settings.threads, {},
     [&](int begin, int end, int)
     {
       Neighbours offsets;
@@ -266,7 +248,7 @@ PointStatistics statisticsOf(
           distances[k] = nearest;
         }
         const double size = offsets.size();
-        if (size >= FewestForNoise)
+        if (size >= fewestForNoise)
         {
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
           solver.computeDirect(products - sum * sum.transpose() / size, Eigen::EigenvaluesOnly);
@@ -278,7 +260,7 @@ PointStatistics statisticsOf(
   { values.erase(std::remove(values.begin(), values.end(), unknown), values.end()); };
   known(deviations);
   known(distances);
-  return { quantile(deviations, 0.25), quantile(distances, 0.5) };
+  return { quantile(deviations, settings.noiseQuantile), quantile(distances, 0.5) };
 }
 
 /// Tangents at the points `kept`, by lines through points of `ends`; with the length of a `segment`, 0 for none, of
@@ -291,16 +273,17 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
   double inlierDistance = settings.inlierDistance;
   if (settings.radius <= 0.0 || settings.inlierDistance <= 0.0)
   {
-    const PointStatistics statistics = statisticsOf(edges, kept, grid, radius, settings.threads);
+    const PointStatistics statistics = statisticsOf(edges, kept, grid, radius, settings);
     if (settings.inlierDistance <= 0.0)
     {
-      inlierDistance =
-        std::clamp(InlierNoise * statistics.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
+      inlierDistance = std::clamp(settings.inlierNoise * statistics.noise, settings.inlierShare * partDiameter,
+        settings.mostInlierShare * partDiameter);
     }
     if (settings.radius <= 0.0)
     {
-      const double wanted = std::max(RadiusInliers * inlierDistance, RadiusSpacings * statistics.spacing);
-      radius = std::max(radius, std::min(wanted, MostRadiusShare * partDiameter));
+      const double wanted =
+        std::max(settings.radiusInliers * inlierDistance, settings.radiusSpacings * statistics.spacing);
+      radius = std::max(radius, std::min(wanted, settings.mostRadiusShare * partDiameter));
     }
   }
   Points tangents(kept.size());
@@ -313,7 +296,7 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
         const Eigen::Vector3f& centre = edges[kept[i]];
         offsets.gather(grid, centre, radius);
         candidates.gather(ends, centre, radius);
-        tangents[i] = robustLine(offsets, candidates, inlierDistance);
+        tangents[i] = robustLine(offsets, candidates, inlierDistance, settings.fewestInliers);
         if (segment > 0.0 && !isOnSegment(offsets, tangents[i], inlierDistance, segment, settings.segmentGap * segment))
         {
           tangents[i].setZero();
@@ -328,7 +311,8 @@ Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
   // The projection plane: that of x and y for a view along z, as in the paper.
-  const bool alongZ = std::abs(viewDirection.z()) > 0.999;
+  constexpr double along = 0.999; // not tuned: cosine, 1 but for rounding
+  const bool alongZ = std::abs(viewDirection.z()) > along;
   const Eigen::Matrix3f frame = frameAround(viewDirection.cast<float>());
   const Eigen::Vector3f right = alongZ ? Eigen::Vector3f::UnitX().eval() : frame.col(1).eval();
   const Eigen::Vector3f down = alongZ ? Eigen::Vector3f::UnitY().eval() : frame.col(2).eval();
@@ -342,10 +326,11 @@ Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection,
   }
   Points tangents(points.size(), Eigen::Vector3f::Zero());
   const float limit = static_cast<float>(settings.lineDistance * settings.lineDistance);
+  constexpr std::size_t mostPerTile = 4000; // not tuned: the work grows with its cube
   std::size_t done = 0;
   for (const auto& [place, members] : tiles)
   {
-    if (members.size() > MostPerTile)
+    if (members.size() > mostPerTile)
     {
       throw Error("A tile holds " + std::to_string(members.size()) +
                   " edge points, each pair of which makes a line to try: use smaller tiles or a larger leaf size.");
@@ -424,18 +409,18 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
   std::vector<std::function<void()>> works{ [&] { kept = thinWithWeights(local, leaf); } };
   if (robust)
   {
-    radius = length(std::max(0.0, settings.radius), RadiusShare);
+    radius = length(std::max(0.0, settings.radius), settings.radiusShare);
     if (settings.method == TangentMethod::LineSegments)
     {
-      segment = length(std::max(0.0, settings.segmentLength), SegmentShare);
-      radius = std::max(radius, SegmentReach * segment);
+      segment = length(std::max(0.0, settings.segmentLength), settings.segmentShare);
+      radius = std::max(radius, settings.segmentReach * segment);
     }
-    length(settings.inlierDistance, InlierShare);
+    length(settings.inlierDistance, settings.inlierShare);
     works.push_back(
       [&]
       {
         Points sparse;
-        for (const int i : thinPoints(local, CandidateShare * radius))
+        for (const int i : thinPoints(local, settings.candidateShare * radius))
         {
           sparse.push_back(local[i]);
         }
@@ -503,7 +488,8 @@ ThinnedEdges estimateTangents(const LocalCloud& edges, double partDiameter, cons
     return moved(
       tileTangents(moved(local.subset(kept).points, T_scene_local), viewDirection, settings, progress), turn);
   };
-  LocalTangents found = estimate(local.points, local.tangents, partDiameter, SceneLeafShare, tiles, settings, progress);
+  LocalTangents found =
+    estimate(local.points, local.tangents, partDiameter, settings.sceneLeafShare, tiles, settings, progress);
   ThinnedEdges result;
   result.edges.T_local_scene = edges.T_local_scene;
   result.edges.fromScan = edges.fromScan;
@@ -524,8 +510,8 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
   const double share = 1.0 / static_cast<double>(models.size());
   // A model's points are exact: nothing has to be made of their noise.
   TangentEstimationSettings exact = settings;
-  exact.radius = settings.radius > 0.0 ? settings.radius : RadiusShare * partDiameter;
-  exact.inlierDistance = settings.inlierDistance > 0.0 ? settings.inlierDistance : InlierShare * partDiameter;
+  exact.radius = settings.radius > 0.0 ? settings.radius : settings.radiusShare * partDiameter;
+  exact.inlierDistance = settings.inlierDistance > 0.0 ? settings.inlierDistance : settings.inlierShare * partDiameter;
   for (std::size_t v = 0; v < models.size(); ++v)
   {
     requirePoints(models[v].cloud.points, "The edge cloud");
@@ -534,7 +520,8 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
     const auto tiles = [&](const std::vector<int>& kept)
     { return tileTangents(cloud.subset(kept).points, models[v].direction.cast<double>(), exact, ofView); };
     // In the part frame, so that views share the cubes.
-    LocalTangents found = estimate(cloud.points, cloud.tangents, partDiameter, ModelLeafShare, tiles, exact, ofView);
+    LocalTangents found =
+      estimate(cloud.points, cloud.tangents, partDiameter, settings.modelLeafShare, tiles, exact, ofView);
     models[v].cloud = cloud.subset(found.points); // without weights: a view that sees a point, sees it
     models[v].cloud.tangents = std::move(found.tangents);
   }

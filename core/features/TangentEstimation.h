@@ -18,16 +18,30 @@ enum class TangentMethod
 struct TangentEstimationSettings
 {
   TangentMethod method = TangentMethod::RobustLine;
-  /// One point is kept per cube of this side; 0: 3 % of the diameter in a scene, 2 % in a model; negative: all.
-  double leafSize = 0.0;
+  double leafSize = 0.0;        ///< of the points in a cube of this side one is kept; negative: all; 0:
+  double sceneLeafShare = 0.03; ///< of the diameter, in a scene,
+  double modelLeafShare = 0.02; ///< and in a model, whose points are exact
 
   // RobustLine, LineSegments
-  double radius = 0.0; ///< of the sphere; 0: 6 % of the diameter, up to 12 % for noisy or sparse points, or the length
-                       ///< of a segment
-  double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter, up to 3 % for noisy points
+  double radius = 0.0;           ///< of the sphere; 0:
+  double radiusShare = 0.06;     ///< of the diameter, and no less than a segment needs; of measured points more:
+  double radiusInliers = 4.0;    ///< times the inlier distance,
+  double radiusSpacings = 3.0;   ///< and times the spacing of the points,
+  double mostRadiusShare = 0.12; ///< of the diameter, at most
+  double inlierDistance = 0.0;   ///< to the line; 0:
+  double inlierShare = 0.012;    ///< of the diameter; of measured points more:
+  double inlierNoise = 2.2;      ///< standard deviations of their noise,
+  double mostInlierShare = 0.03; ///< of the diameter, at most
+  double candidateShare = 0.3;   ///< of the radius: lines are tried through one point in each cube of this side
+  int fewestInliers = 4;         ///< of a line: one through three points of a band of edge points is chance
+  int measuredPoints = 400;      ///< around so many noise and spacing are measured,
+  int fewestForNoise = 12;       ///< noise where there are so many neighbours
+  double noiseQuantile = 0.25;   ///< of their distances from a plane: more where edges are curved or planes many
 
   // LineSegments
-  double segmentLength = 0.0; ///< a shorter run of points on a line is no segment; 0: 15 % of the diameter
+  double segmentLength = 0.0; ///< a shorter run of points on a line is no segment; 0:
+  double segmentShare = 0.15; ///< of the diameter
+  double segmentReach = 1.25; ///< lengths of a segment, the radius at least: its ends have to see all of it
   double segmentGap = 0.2;    ///< of that length: a longer gap ends a segment
 
   // Tiles

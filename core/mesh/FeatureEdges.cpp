@@ -20,7 +20,7 @@ PointCloud extractFeatureEdges(const TriangleMesh& mesh, const FeatureEdgesSetti
   {
     throw Error("The spacing of the edge points must be 0 (automatic) or a positive length in mm.");
   }
-  const double spacing = settings.spacing > 0.0 ? settings.spacing : 0.01 * diameter(mesh.vertices);
+  const double spacing = settings.spacing > 0.0 ? settings.spacing : settings.spacingShare * diameter(mesh.vertices);
   if (!(spacing > 0.0))
   {
     throw Error("The mesh has no area: all of its faces are degenerate.");
@@ -53,9 +53,9 @@ PointCloud extractFeatureEdges(const TriangleMesh& mesh, const FeatureEdgesSetti
       Eigen::Vector3f normal = normals[edge.faces[0]];
       if (edge.faceCount > 1)
       {
-        // Of faces folded back onto each other the first one counts.
+        constexpr float foldedBack = 1e-3f; // not tuned: where faces lie on each other the first one counts
         const Eigen::Vector3f sum = normal + normals[edge.faces[1]];
-        normal = sum.norm() > 1e-3f ? sum.normalized() : normal;
+        normal = sum.norm() > foldedBack ? sum.normalized() : normal;
       }
       result.pointIds.push_back(static_cast<int>(result.points.size()));
       result.points.push_back(sample.point);

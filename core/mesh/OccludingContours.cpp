@@ -58,7 +58,7 @@ OccludingContours::OccludingContours(
     const int end = static_cast<int>(this->Neighbours.size());
     if (begin < end)
     {
-      constexpr float rounding = 1e-3f;
+      constexpr float rounding = 1e-3f; // not tuned: of the cosine
       this->Bends.push_back({ i, std::sqrt(1.0f - least * least) + rounding, begin, end });
     }
   }
@@ -112,7 +112,7 @@ std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vecto
 std::vector<bool> OccludingContours::areContours(
   const Points& edges, const std::vector<std::uint32_t>& views, const Points& viewDirections) const
 {
-  const float smooth = cosineOf(0.5 * this->Settings.sharpest);
+  const float smooth = cosineOf(this->Settings.smooth);
   const double near = this->Settings.neighbour * this->Spacing;
   const PointGrid grid(this->Surface.points, near);
   std::vector<bool> result(edges.size());

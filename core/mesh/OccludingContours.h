@@ -12,6 +12,7 @@ struct OccludingContoursSettings
   double neighbour = 1.6; ///< of the samples' spacing, up to which two are neighbours
   double flattest = 1.0;  ///< degrees between the normals of neighbours: less, and the surface is flat there
   double sharpest = 30.0; ///< degrees; more, and an edge of the part lies between them, which is seen from all sides
+  double smooth = 15.0; ///< degrees between the normals about an edge point and their mean: more, and it is of an edge
   double seenLast = 0.12; ///< cosine at which any sensor loses a surface that turns away
   double seenFirst = 0.7; ///< cosine at which it does not, however coarse
   double grazing = 0.25;  ///< cosine: an edge point from whose views its surface is seen flatter was a contour there

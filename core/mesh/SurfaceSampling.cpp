@@ -12,13 +12,6 @@ namespace meam
 {
 namespace
 {
-// Candidates for each square of side `spacing`. A point of the surface is at most the spacing and
-// the distance to the nearest candidate away from a sample.
-constexpr double CandidatesPerSquare = 20.0;
-constexpr double MaximumCandidates = 1e8;
-// Samples facing apart by more than 60 degrees do not displace each other.
-constexpr float SameSide = 0.5f;
-
 struct Candidate
 {
   Eigen::Vector3f point;
@@ -30,10 +23,11 @@ struct Candidate
 class SampleGrid
 {
 public:
-  SampleGrid(const Eigen::Vector3f& origin, double spacing, std::size_t expected)
+  SampleGrid(const Eigen::Vector3f& origin, double spacing, double sameSide, std::size_t expected)
     : Origin(origin)
     , InverseCell(static_cast<float>(0.5 / spacing))
     , SquaredSpacing(static_cast<float>(spacing * spacing))
+    , SameSide(static_cast<float>(sameSide))
   {
     std::size_t buckets = 1024;
     while (buckets < 2 * expected)
@@ -56,7 +50,7 @@ public:
       for (int i = this->Heads[this->bucket(own + offset * side)]; i >= 0; i = this->Next[i])
       {
         if ((samples.points[i] - point).squaredNorm() < this->SquaredSpacing &&
-            samples.normals[i].dot(normal) > SameSide)
+            samples.normals[i].dot(normal) > this->SameSide)
         {
           return false;
         }
@@ -83,6 +77,7 @@ private:
   Eigen::Vector3f Origin;
   float InverseCell;
   float SquaredSpacing;
+  float SameSide;
   std::vector<int> Heads;
   std::vector<int> Next;
 };
@@ -119,12 +114,13 @@ PointCloud sampleSurface(const TriangleMesh& mesh, const SurfaceSamplingSettings
     throw Error("The mesh has no area: all of its faces are degenerate.");
   }
 
-  const double spacing = settings.spacing > 0.0 ? settings.spacing : 0.01 * diameter(mesh.vertices);
-  const double wanted = std::ceil(CandidatesPerSquare * area / (spacing * spacing));
-  if (!(wanted <= MaximumCandidates))
+  const double spacing = settings.spacing > 0.0 ? settings.spacing : settings.spacingShare * diameter(mesh.vertices);
+  constexpr double most = 1e8; // not tuned: candidates, 1.6 GB
+  const double wanted = std::ceil(settings.candidatesPerSquare * area / (spacing * spacing));
+  if (!(wanted <= most))
   {
     throw Error("The spacing of the surface samples is too small for the part (it asks for more than " +
-                std::to_string(static_cast<int>(0.7 * MaximumCandidates / CandidatesPerSquare)) +
+                std::to_string(static_cast<int>(0.7 * most / settings.candidatesPerSquare)) +
                 " samples): enlarge it, or check the unit of the CAD file.");
   }
 
@@ -151,7 +147,8 @@ PointCloud sampleSurface(const TriangleMesh& mesh, const SurfaceSamplingSettings
   report(progress, 0.3);
 
   PointCloud samples;
-  SampleGrid grid(bounds(mesh.vertices).min(), spacing, candidates.size() / 20);
+  const auto expected = static_cast<std::size_t>(wanted / settings.candidatesPerSquare);
+  SampleGrid grid(bounds(mesh.vertices).min(), spacing, settings.sameSide, expected);
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
     grid.insert(samples, candidates[i].point, normals[candidates[i].triangle]);

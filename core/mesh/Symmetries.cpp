@@ -9,7 +9,7 @@ namespace meam
 namespace
 {
 /// No axis or plane of symmetry that a part is drawn with runs along it.
-const Eigen::Vector3d Generic = Eigen::Vector3d(0.48, 0.36, 0.8).normalized();
+const Eigen::Vector3d Generic = Eigen::Vector3d(0.48, 0.36, 0.8).normalized(); // not tuned: along no axis
 
 /// The turn about the axis after which T_scene_model is turned least against the reference.
 Eigen::Isometry3d turnedTowards(
@@ -58,7 +58,7 @@ Eigen::Isometry3d nearestEqual(
   }
   const auto turned = [&](const Eigen::Isometry3d& T)
   { return symmetries.continuous.empty() ? T : turnedTowards(T, reference, symmetries.continuous.front()); };
-  constexpr double clearly = 1e-9;
+  constexpr double clearly = 1e-9; // not tuned: more than rounding
   Eigen::Isometry3d best = turned(T_scene_model);
   for (const Eigen::Isometry3d& S : symmetries.discrete)
   {
@@ -71,16 +71,15 @@ Eigen::Isometry3d nearestEqual(
   return best;
 }
 
-std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries)
+std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries, const SameSymmetry& same)
 {
-  constexpr double halfTurn = 170.0 * M_PI / 180.0; // from here on
-  constexpr double sameAxis = 0.99;                 // cosine
+  const double halfTurn = same.halfTurn * M_PI / 180.0;
   std::vector<ContinuousSymmetry> axes;
   for (const NearSymmetry& near : symmetries.near)
   {
     const ContinuousSymmetry found = axisOf(near.T);
     const bool known = std::any_of(axes.begin(), axes.end(),
-      [&](const ContinuousSymmetry& axis) { return std::abs(axis.axis.dot(found.axis)) > sameAxis; });
+      [&](const ContinuousSymmetry& axis) { return std::abs(axis.axis.dot(found.axis)) > same.axisCosine; });
     if (!known && Eigen::AngleAxisd(Eigen::Matrix3d(near.T.linear())).angle() < halfTurn)
     {
       axes.push_back(found);
@@ -100,10 +99,9 @@ Symmetries asIfRound(const Symmetries& symmetries)
   return result;
 }
 
-Symmetries withKnownExact(const Symmetries& found, const Symmetries& known)
+Symmetries withKnownExact(const Symmetries& found, const Symmetries& known, const SameSymmetry& same)
 {
-  // Two turns of a part that differ by less than this are one.
-  constexpr double sameTurn = 3.0 * M_PI / 180.0;
+  const double sameTurn = same.turn * M_PI / 180.0;
   Symmetries result = known;
   result.near.clear();
   for (const NearSymmetry& near : found.near)

@@ -15,21 +15,7 @@ namespace meam
 {
 namespace
 {
-constexpr double Degree = M_PI / 180.0;
-constexpr int AxesOnSphere = 1500;    // 3 degrees from any direction to the nearest
-constexpr int LargestCoarseOrder = 8; // turns by 360 / k tried to find axes; the scan finds the others
-constexpr double CoarseReachShare = 0.08;
-constexpr double CoarseLeafShare = 0.15; // of the diameter: points that find axes
-constexpr double ScanLeafShare = 0.06;   // points that find angles
-constexpr double SparseLeafShare = 0.03; // the surface that both are laid on
-constexpr int MostAxes = 24;
-constexpr double AxisSeparation = 12.0; // degrees
-constexpr int FitSteps = 12;
-constexpr double NearSpacings = 2.0;  // most points that lie on the surface have a sample this near
-constexpr float AlongSpacings = 1.5f; // along the surface from a sample to where the next one stands for it
-constexpr float SameSide = 0.7f;      // cosine between the normals of corresponding points
-constexpr double SameTurn = 4.0;      // degrees between two turns that are one
-constexpr int ContinuousChecks = 11;
+constexpr double Degree = M_PI / 180.0; // not tuned: radians
 
 double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 {
@@ -40,18 +26,22 @@ double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 class SurfaceMatcher
 {
 public:
-  SurfaceMatcher(const PointCloud& surface, double spacing, double reach)
+  SurfaceMatcher(const PointCloud& surface, double spacing, double reach, const SymmetryDetectionSettings& settings)
     : Surface(surface)
-    , Grid(surface.points, NearSpacings * spacing)
-    , Spacing(static_cast<float>(spacing))
+    , Grid(surface.points, settings.nearSpacings * spacing)
+    , Near(settings.nearSpacings * static_cast<float>(spacing))
+    , Along(static_cast<float>(settings.alongSpacings) * static_cast<float>(spacing))
     , Reach(static_cast<float>(reach))
+    , SameSide(static_cast<float>(settings.sameSide))
+    , FitSteps(settings.fitSteps)
+    , LastReachShare(settings.lastReachShare)
   {
   }
 
   /// The nearest sample on the same side of the surface, or -1.
   int corresponding(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double reach) const
   {
-    double within = std::min(reach, NearSpacings * this->Spacing);
+    double within = std::min(reach, this->Near);
     int best = this->correspondingWithin(point, normal, within);
     while (best < 0 && within < reach) // most have one near
     {
@@ -70,7 +60,8 @@ public:
   /// The same; the reach where it is more than `most` for sure, without a look farther than that takes.
   float distance(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double most) const
   {
-    const double enough = 1.01 * (most + AlongSpacings * this->Spacing);
+    constexpr double margin = 1.01; // not tuned: for rounding
+    const double enough = margin * (most + this->Along);
     const int k = this->corresponding(point, normal, std::min<double>(this->Reach, enough));
     if (k < 0)
     {
@@ -78,8 +69,7 @@ public:
     }
     const Eigen::Vector3f offset = point - this->Surface.points[k];
     const float across = std::abs(this->Surface.normals[k].dot(offset));
-    const float along =
-      std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - AlongSpacings * this->Spacing);
+    const float along = std::max(0.0f, std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across)) - this->Along);
     return std::min(this->Reach, std::hypot(across, along));
   }
 
@@ -87,9 +77,10 @@ public:
   bool isAlone(int sample) const
   {
     bool alone = true;
-    this->Grid.forEachWithin(this->Surface.points[sample], NearSpacings * this->Spacing,
-      [&](int k, float)
-      { alone = alone && (k == sample || this->Surface.normals[k].dot(this->Surface.normals[sample]) <= SameSide); });
+    this->Grid.forEachWithin(this->Surface.points[sample], this->Near,
+      [&](int k, float) {
+        alone = alone && (k == sample || this->Surface.normals[k].dot(this->Surface.normals[sample]) <= this->SameSide);
+      });
     return alone;
   }
 
@@ -119,9 +110,10 @@ public:
   /// Moves T to where the samples fit the surface best.
   Eigen::Isometry3d fitted(const PointCloud& samples, Eigen::Isometry3d T, const Eigen::Vector3d& middle) const
   {
-    for (int step = 0; step < FitSteps; ++step)
+    for (int step = 0; step < this->FitSteps; ++step)
     {
-      const double reach = this->Reach * std::pow(0.25, static_cast<double>(step) / (FitSteps - 1));
+      const double share = static_cast<double>(step) / (this->FitSteps - 1);
+      const double reach = this->Reach * std::pow(this->LastReachShare, share);
       const Eigen::Isometry3f Tf = T.cast<float>();
       NormalEquations fit(T * middle);
       for (std::size_t i = 0; i < samples.size(); ++i)
@@ -147,7 +139,7 @@ private:
     this->Grid.forEachWithin(point, reach,
       [&](int k, float distance)
       {
-        if ((best < 0 || distance < least) && this->Surface.normals[k].dot(normal) > SameSide)
+        if ((best < 0 || distance < least) && this->Surface.normals[k].dot(normal) > this->SameSide)
         {
           best = k;
           least = distance;
@@ -158,8 +150,12 @@ private:
 
   const PointCloud& Surface;
   PointGrid Grid;
-  float Spacing;
-  float Reach;
+  double Near; ///< mm
+  float Along; ///< mm
+  float Reach; ///< mm
+  float SameSide;
+  int FitSteps;
+  double LastReachShare;
 };
 
 struct Candidate
@@ -179,16 +175,17 @@ struct Axis
 class Detector
 {
 public:
-  Detector(const PointCloud& surface, double tolerance, double leastOverlap)
+  Detector(const PointCloud& surface, const SymmetryDetectionSettings& settings)
     : Surface(surface)
+    , Settings(settings)
     , Diameter(diameter(surface.points))
-    , Tolerance(tolerance > 0.0 ? tolerance : 0.01 * this->Diameter)
-    , LeastOverlap(leastOverlap)
-    , Sparse(surface.subset(thinPoints(surface.points, SparseLeafShare * this->Diameter)))
-    , Matcher(surface, this->spacing(), CoarseReachShare * this->Diameter)
-    , SparseMatcher(this->Sparse, SparseLeafShare * this->Diameter, CoarseReachShare * this->Diameter)
-    , Coarse(surface.subset(thinPoints(surface.points, CoarseLeafShare * this->Diameter)))
-    , Scan(surface.subset(thinPoints(surface.points, ScanLeafShare * this->Diameter)))
+    , Tolerance(settings.tolerance > 0.0 ? settings.tolerance : settings.toleranceShare * this->Diameter)
+    , Reach(settings.reachShare * this->Diameter)
+    , Sparse(surface.subset(thinPoints(surface.points, settings.sparseLeafShare * this->Diameter)))
+    , Matcher(surface, this->spacing(), this->Reach, settings)
+    , SparseMatcher(this->Sparse, settings.sparseLeafShare * this->Diameter, this->Reach, settings)
+    , Coarse(surface.subset(thinPoints(surface.points, settings.coarseLeafShare * this->Diameter)))
+    , Scan(surface.subset(thinPoints(surface.points, settings.scanLeafShare * this->Diameter)))
   {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& point : surface.points)
@@ -252,12 +249,15 @@ private:
   double spacing() const
   {
     // Of an even sampling: the mean area of a sample is close to the square of the spacing.
+    constexpr double cell = 0.02;         // not tuned: of the diameter, of the grid
+    constexpr double farthest = 0.1;      // not tuned: of the diameter, samples are denser
+    constexpr std::size_t measured = 500; // not tuned: samples, for a median
     std::vector<float> nearest;
-    const PointGrid grid(this->Surface.points, 0.02 * this->Diameter);
-    for (std::size_t i = 0; i < this->Surface.size(); i += 1 + this->Surface.size() / 500)
+    const PointGrid grid(this->Surface.points, cell * this->Diameter);
+    for (std::size_t i = 0; i < this->Surface.size(); i += 1 + this->Surface.size() / measured)
     {
       float least = static_cast<float>(this->Diameter * this->Diameter);
-      grid.forEachWithin(this->Surface.points[i], 0.1 * this->Diameter,
+      grid.forEachWithin(this->Surface.points[i], farthest * this->Diameter,
         [&](int k, float distance)
         {
           if (k != static_cast<int>(i))
@@ -274,7 +274,7 @@ private:
   /// Axes about which some turn maps the surface roughly onto itself, best first.
   std::vector<Candidate> axes(const Progress& progress) const
   {
-    Points directions = viewDirections(AxesOnSphere);
+    Points directions = viewDirections(this->Settings.axes);
     for (const auto& axis : viewDirections(26))
     {
       directions.push_back(axis); // the axes of coordinates are likely ones: CAD parts are drawn along them
@@ -290,7 +290,7 @@ private:
         for (int i = begin; i < end; ++i)
         {
           candidates[i].axis = directions[i].cast<double>().normalized();
-          for (int order = 2; order <= LargestCoarseOrder; ++order)
+          for (int order = 2; order <= this->Settings.orders; ++order)
           {
             const double misfit = this->SparseMatcher.misfit(
               this->Coarse, turnAbout(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
@@ -300,16 +300,16 @@ private:
       });
     std::stable_sort(
       candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+    const double same = std::cos(this->Settings.axisSeparation * Degree);
     std::vector<Candidate> best;
     for (const Candidate& candidate : candidates)
     {
       const bool known = std::any_of(best.begin(), best.end(),
-        [&](const Candidate& other)
-        { return std::abs(other.axis.dot(candidate.axis)) > std::cos(AxisSeparation * Degree); });
-      if (!known && candidate.misfit < 0.6)
+        [&](const Candidate& other) { return std::abs(other.axis.dot(candidate.axis)) > same; });
+      if (!known && candidate.misfit < this->Settings.mostMisfit)
       {
         best.push_back(candidate);
-        if (best.size() == MostAxes)
+        if (static_cast<int>(best.size()) == this->Settings.mostAxes)
         {
           break;
         }
@@ -355,7 +355,7 @@ private:
         if (static_cast<double>(count - beyond.size()) / static_cast<double>(count) < leastOverlap)
         {
           result.overlap = 0.0;
-          result.deviation = CoarseReachShare * this->Diameter;
+          result.deviation = this->Reach;
           return result;
         }
       }
@@ -377,7 +377,8 @@ private:
   NearSymmetry bestNear(const Eigen::Isometry3d& T) const
   {
     const NearSymmetry unfitted = this->measured(T, 1.0);
-    const NearSymmetry fitted = this->measured(this->Matcher.fitted(this->Scan, T, this->Middle), this->LeastOverlap);
+    const NearSymmetry fitted =
+      this->measured(this->Matcher.fitted(this->Scan, T, this->Middle), this->Settings.leastOverlap);
     return unfitted.deviation < std::min(fitted.deviation, this->Tolerance) ? unfitted : fitted;
   }
 
@@ -387,17 +388,17 @@ private:
     const Eigen::Isometry3d T =
       this->Matcher.fitted(this->Scan, turnAbout(roughly, 2.0 * M_PI / 3.0, this->Middle), this->Middle);
     const Eigen::AngleAxisd exact(T.linear());
-    if (std::abs(exact.axis().dot(roughly)) < std::cos(AxisSeparation * Degree))
+    if (std::abs(exact.axis().dot(roughly)) < std::cos(this->Settings.axisSeparation * Degree))
     {
       return false;
     }
     result.axis = exact.axis();
     result.point = this->fixedPoint(T, exact.axis());
-    for (int i = 1; i <= ContinuousChecks; ++i)
+    for (int i = 1; i <= this->Settings.continuousTurns; ++i)
     {
       // Angles that no small order shares.
-      const Eigen::Isometry3d S = turnAbout(result.axis, i * 31.0 * Degree, result.point);
-      if (this->Matcher.misfit(this->Scan, S) * CoarseReachShare * this->Diameter > this->Tolerance ||
+      const Eigen::Isometry3d S = turnAbout(result.axis, i * this->Settings.continuousStep * Degree, result.point);
+      if (this->Matcher.misfit(this->Scan, S) * this->Settings.reachShare * this->Diameter > this->Tolerance ||
           !this->isExact(S))
       {
         return false;
@@ -418,21 +419,22 @@ private:
   /// Turns about an axis where the fit is best among their neighbours.
   std::vector<NearSymmetry> turnsAbout(const Eigen::Vector3d& axis) const
   {
-    constexpr int Steps = 120;
-    std::vector<double> misfits(Steps);
-    for (int step = 0; step < Steps; ++step)
+    const int steps = this->Settings.scanSteps, first = this->Settings.firstStep;
+    std::vector<double> misfits(steps);
+    for (int step = 0; step < steps; ++step)
     {
-      misfits[step] = this->SparseMatcher.misfit(this->Scan, turnAbout(axis, 2.0 * M_PI * step / Steps, this->Middle));
+      misfits[step] = this->SparseMatcher.misfit(this->Scan, turnAbout(axis, 2.0 * M_PI * step / steps, this->Middle));
     }
     std::vector<NearSymmetry> turns;
-    for (int step = 3; step <= Steps - 3; ++step)
+    for (int step = first; step <= steps - first; ++step)
     {
-      if (misfits[step] > misfits[step - 1] || misfits[step] > misfits[(step + 1) % Steps] || misfits[step] > 0.6)
+      if (misfits[step] > misfits[step - 1] || misfits[step] > misfits[(step + 1) % steps] ||
+          misfits[step] > this->Settings.mostMisfit)
       {
         continue;
       }
-      const NearSymmetry turn = this->bestNear(turnAbout(axis, 2.0 * M_PI * step / Steps, this->Middle));
-      if (Eigen::AngleAxisd(turn.T.linear()).angle() > 2.0 * SameTurn * Degree)
+      const NearSymmetry turn = this->bestNear(turnAbout(axis, 2.0 * M_PI * step / steps, this->Middle));
+      if (Eigen::AngleAxisd(turn.T.linear()).angle() > this->Settings.leastTurn * Degree)
       {
         turns.push_back(turn);
       }
@@ -442,13 +444,13 @@ private:
 
   void keep(const NearSymmetry& candidate, std::vector<NearSymmetry>& turns) const
   {
-    if (candidate.overlap < this->LeastOverlap)
+    if (candidate.overlap < this->Settings.leastOverlap)
     {
       return;
     }
     for (NearSymmetry& known : turns)
     {
-      if (turnBetween(known.T, candidate.T) < SameTurn)
+      if (turnBetween(known.T, candidate.T) < this->Settings.sameTurn)
       {
         if (candidate.overlap > known.overlap ||
             (candidate.overlap == known.overlap && candidate.deviation < known.deviation))
@@ -463,7 +465,7 @@ private:
 
   bool isTurnAbout(const Eigen::Isometry3d& T, const ContinuousSymmetry& symmetry) const
   {
-    return (T.linear() * symmetry.axis).dot(symmetry.axis) > std::cos(SameTurn * Degree);
+    return (T.linear() * symmetry.axis).dot(symmetry.axis) > std::cos(this->Settings.sameTurn * Degree);
   }
 
   /// Exact turns, closed to a group, and near ones.
@@ -493,14 +495,16 @@ private:
     }
     std::stable_sort(
       found.near.begin(), found.near.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
+    constexpr std::size_t most = 120; // not tuned: turns, twice as many as an icosahedron has
     for (std::size_t i = 0; i < exact.size(); ++i)
     {
-      for (std::size_t k = 0; k < exact.size() && exact.size() < 120; ++k)
+      for (std::size_t k = 0; k < exact.size() && exact.size() < most; ++k)
       {
         const Eigen::Isometry3d product = exact[i].T * exact[k].T;
-        const bool known = Eigen::AngleAxisd(product.linear()).angle() < SameTurn * Degree ||
-                           std::any_of(exact.begin(), exact.end(),
-                             [&](const NearSymmetry& other) { return turnBetween(other.T, product) < SameTurn; });
+        const bool known =
+          Eigen::AngleAxisd(product.linear()).angle() < this->Settings.sameTurn * Degree ||
+          std::any_of(exact.begin(), exact.end(),
+            [&](const NearSymmetry& other) { return turnBetween(other.T, product) < this->Settings.sameTurn; });
         if (!known)
         {
           // The product of two symmetries is one; fitted again, so that errors do not add up.
@@ -519,9 +523,10 @@ private:
   }
 
   const PointCloud& Surface;
+  SymmetryDetectionSettings Settings;
   double Diameter;
-  double Tolerance;
-  double LeastOverlap;
+  double Tolerance; ///< mm
+  double Reach;     ///< mm
   PointCloud Sparse;
   SurfaceMatcher Matcher;
   SurfaceMatcher SparseMatcher;
@@ -540,12 +545,13 @@ Symmetries detectSymmetries(
   {
     throw Error("The surface has no normals: sample the surface of a mesh first.");
   }
-  return Detector(surface, settings.tolerance, settings.leastOverlap).detect(progress);
+  return Detector(surface, settings).detect(progress);
 }
 
-std::vector<float> surfaceDeviation(const PointCloud& surface, const Eigen::Isometry3d& T, double reach)
+std::vector<float> surfaceDeviation(
+  const PointCloud& surface, const Eigen::Isometry3d& T, double reach, const SymmetryDetectionSettings& settings)
 {
-  const SurfaceMatcher matcher(surface, 0.1 * reach, reach);
+  const SurfaceMatcher matcher(surface, settings.shownSpacing * reach, reach, settings);
   const Eigen::Isometry3f Tf = T.cast<float>();
   std::vector<float> deviation;
   for (std::size_t i = 0; i < surface.size(); ++i)

@@ -31,8 +31,9 @@ void requireMesh(const TriangleMesh& mesh)
 
 void requireSamplesOf(const TriangleMesh& mesh, const Points& points)
 {
+  constexpr float share = 1e-3f; // not tuned: of the extent, rounding of samples
   Eigen::AlignedBox3f box = bounds(mesh.vertices);
-  const Eigen::Vector3f margin = Eigen::Vector3f::Constant(1e-3f * box.diagonal().norm());
+  const Eigen::Vector3f margin = Eigen::Vector3f::Constant(share * box.diagonal().norm());
   box.extend((box.max() + margin).eval());
   box.extend((box.min() - margin).eval());
   if (!box.contains(bounds(points)))

@@ -12,6 +12,7 @@ namespace meam
 /// Of a part that is seen from some side only, the directions within `coneAngle` degrees of
 /// `coneDirection` (of any length): of the fixed sets those that are inside, any other number is
 /// spread over the inside. Throws Error when there are none, and for a cone that is not one.
-Points viewDirections(
-  int count, const Eigen::Vector3d& coneDirection = Eigen::Vector3d::UnitZ(), double coneAngle = 180.0);
+Points viewDirections(int count, const Eigen::Vector3d& coneDirection, double coneAngle);
+/// The same all around.
+inline Points viewDirections(int count) { return viewDirections(count, Eigen::Vector3d::UnitZ(), 180.0); }
 }

@@ -21,10 +21,6 @@ namespace meam
 {
 namespace
 {
-constexpr double SpacingsPerRadius = 2.5;
-constexpr int NeighboursOfSpacing = 6;
-constexpr float FarAway = 1000.0f; // over the extent of the part: a viewpoint that is not known
-
 std::vector<int> boundaryPoints(const PointCloud& cloud, double radius, double angle)
 {
   const auto points = toPCL(cloud.points);
@@ -50,10 +46,11 @@ std::vector<int> boundaryPoints(const PointCloud& cloud, double radius, double a
 
 Eigen::Vector3d viewpointOf(const AppearanceModel& model)
 {
+  constexpr float farAway = 1000.0f; // not tuned: extents of the part, a viewpoint that is not known
   const Eigen::AlignedBox3f box = bounds(model.cloud.points);
   const Eigen::Vector3f viewpoint = model.viewpoint.allFinite()
                                       ? model.viewpoint
-                                      : (box.center() + FarAway * box.diagonal().norm() * model.direction).eval();
+                                      : (box.center() + farAway * box.diagonal().norm() * model.direction).eval();
   return viewpoint.cast<double>();
 }
 
@@ -80,14 +77,14 @@ std::vector<double> gapsBetween(std::vector<double> directions, double angle)
 /// The same criterion as for the boundary, but in the image: where the neighbours, of all faces that are
 /// plainly seen, leave a gap, the visible surface ends.
 std::vector<EdgeType> boundaryTypes(const PointCloud& cloud, const std::vector<int>& boundary, double radius,
-  double angle, const Eigen::Vector3d& viewpoint, const Silhouette& silhouette)
+  const BoundaryExtractionSettings& settings, const Eigen::Vector3d& viewpoint, const Silhouette& silhouette)
 {
   const PointGrid grid(cloud.points, radius);
   std::vector<EdgeType> types;
   types.reserve(boundary.size());
   std::vector<double> directions;
-  const auto isGrazing = [&](int index, const Eigen::Vector3d& towards)
-  { return std::abs(cloud.normals[index].cast<double>().dot(towards)) < EdgeOnCosine; };
+  const auto isGrazing = [&, edgeOn = settings.edgeOnCosine](int index, const Eigen::Vector3d& towards)
+  { return std::abs(cloud.normals[index].cast<double>().dot(towards)) < edgeOn; };
   for (const int i : boundary)
   {
     const Eigen::Vector3d point = cloud.points[i].cast<double>();
@@ -103,7 +100,7 @@ std::vector<EdgeType> boundaryTypes(const PointCloud& cloud, const std::vector<i
           directions.push_back(std::atan2(frame.col(2).dot(offset), frame.col(1).dot(offset)));
         }
       });
-    const std::vector<double> gaps = gapsBetween(directions, angle * M_PI / 180.0);
+    const std::vector<double> gaps = gapsBetween(directions, settings.angle * M_PI / 180.0);
     const bool showsEnclosed = std::any_of(gaps.begin(), gaps.end(),
       [&](double gap)
       {
@@ -159,7 +156,7 @@ std::unique_ptr<const VisibleEdges> meshEdgesOf(const std::vector<AppearanceMode
   {
     requireSamplesOf(*mesh, model.cloud.points);
   }
-  return std::make_unique<const VisibleEdges>(*mesh, settings.sharpAngle, spacing);
+  return std::make_unique<const VisibleEdges>(*mesh, settings.sharpAngle, spacing, settings.edgeOnCosine);
 }
 }
 
@@ -170,6 +167,7 @@ double pointSpacing(const Points& points)
     return 0.0;
   }
   const auto cloud = toPCL(points);
+  constexpr int most = 6; // not tuned: points at one place, or nearly so
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(cloud);
   std::vector<float> distances;
@@ -179,7 +177,7 @@ double pointSpacing(const Points& points)
   for (const auto& point : *cloud)
   {
     // A point may be there several times: the first at a distance counts.
-    tree.nearestKSearch(point, NeighboursOfSpacing, nearest, squared);
+    tree.nearestKSearch(point, most, nearest, squared);
     const auto other = std::find_if(squared.begin(), squared.end(), [](float distance) { return distance > 0.0f; });
     if (other != squared.end())
     {
@@ -237,7 +235,7 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
       continue;
     }
     const Eigen::Vector3d viewpoint = viewpointOf(models[view]);
-    const Silhouette silhouette(part, viewpoint, spacing);
+    const Silhouette silhouette(part, viewpoint, spacing, settings.silhouette);
     if (meshEdges)
     {
       edges[view].cloud =
@@ -245,12 +243,12 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
       edges[view].cloud.pointIds = nearestIds(edges[view].cloud.points, cloud, spacing);
       continue;
     }
-    const double radius = settings.radius > 0.0 ? settings.radius : SpacingsPerRadius * spacings[view];
+    const double radius = settings.radius > 0.0 ? settings.radius : settings.radiusSpacings * spacings[view];
     const std::vector<int> boundary = boundaryPoints(cloud, radius, settings.angle);
     edges[view].cloud = cloud.subset(boundary);
     edges[view].cloud.edgeTypes = models[view].wholePart
                                     ? std::vector<EdgeType>(boundary.size(), EdgeType::Crease)
-                                    : boundaryTypes(cloud, boundary, radius, settings.angle, viewpoint, silhouette);
+                                    : boundaryTypes(cloud, boundary, radius, settings, viewpoint, silhouette);
   }
   report(progress, 1.0);
   return edges;

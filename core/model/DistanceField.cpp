@@ -11,7 +11,7 @@ namespace meam
 {
 namespace
 {
-constexpr double MostCells = 2.0e7; // larger cells are taken for more
+constexpr double MostCells = 2.0e7; // not tuned: 20 MB; larger cells are taken for more
 
 /// The cells of points, `outside` of those in none.
 MEAM_ALL_VECTORS

@@ -19,17 +19,12 @@ namespace meam
 {
 namespace
 {
-constexpr std::size_t MostEntries = 50000000; // 2 GB while it is made
-constexpr double DefaultVoxelShare = 0.015;   // of the diameter
-constexpr double SurfaceLeafShare = 0.015;    // of the diameter, for verification
-constexpr float FacingCosine = 0.1f;          // of 84 degrees: a point that is turned farther away faces elsewhere
-constexpr float SameEdgeCosine = 0.94f;       // of 20 degrees, between the tangents of one edge in two views
-
 /// Collects the edge points of all views.
 void collectEdges(
   const std::vector<AppearanceModel>& edgeModels, double mergeDistance, TrainedModel& model, const Progress& progress)
 {
   PointCloud& edges = model.edges;
+  const float sameEdge = static_cast<float>(model.settings.sameEdgeCosine);
   const bool haveIds = std::all_of(edgeModels.begin(), edgeModels.end(),
     [](const auto& view) { return view.cloud.pointIds.size() == view.cloud.size(); });
   for (std::size_t view = 0; view < edgeModels.size(); ++view)
@@ -52,7 +47,7 @@ void collectEdges(
       for (std::size_t k = 0; model.settings.merging == ViewMerging::Points && k < known; ++k)
       {
         const float distance = (edges.points[k] - cloud.points[i]).squaredNorm();
-        if (distance <= nearest && std::abs(edges.tangents[k].dot(cloud.tangents[i])) > SameEdgeCosine)
+        if (distance <= nearest && std::abs(edges.tangents[k].dot(cloud.tangents[i])) > sameEdge)
         {
           nearest = distance;
           same = static_cast<int>(k);
@@ -184,7 +179,8 @@ int bringVotersForward(TrainedModel& model)
 
 void requireRoom(std::size_t entries, const char* what, const char* leaf)
 {
-  if (entries > MostEntries)
+  constexpr std::size_t most = 50000000; // not tuned: 2 GB while the table is made
+  if (entries > most)
   {
     throw Error("The pair table would have more than 50 million entries: thin the " + std::string(what) +
                 " points with a larger " + leaf + ".");
@@ -307,11 +303,11 @@ private:
 };
 
 /// Of the directions that show a surface point those that it faces: hidden point removal lets some of the back through.
-std::uint32_t facedOf(std::uint32_t visible, const Eigen::Vector3f& normal, const Points& towards)
+std::uint32_t facedOf(std::uint32_t visible, const Eigen::Vector3f& normal, const Points& towards, float facingCosine)
 {
   for (std::size_t c = 0; c < towards.size(); ++c)
   {
-    visible &= normal.dot(towards[c]) > FacingCosine ? ~0u : ~(1u << c);
+    visible &= normal.dot(towards[c]) > facingCosine ? ~0u : ~(1u << c);
   }
   return visible;
 }
@@ -323,11 +319,12 @@ void buildSurfaceTable(TrainedModel& model, const PointCloud& surface, const std
 {
   const bool haveDirections = model.settings.coVisibilityDirections > 0;
   const Points towards = haveDirections ? viewDirections(model.settings.coVisibilityDirections) : Points();
+  const float facingCosine = static_cast<float>(model.settings.surface.facingCosine);
   std::vector<int> seen;
   std::vector<std::uint32_t> faced; // of these
   for (std::size_t i = 0; i < surface.size(); ++i)
   {
-    const std::uint32_t bits = facedOf(visible[i], surface.normals[i], towards);
+    const std::uint32_t bits = facedOf(visible[i], surface.normals[i], towards, facingCosine);
     if (!haveDirections || bits != 0)
     {
       seen.push_back(static_cast<int>(i));
@@ -469,7 +466,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     everything.insert(everything.end(), view.cloud.points.begin(), view.cloud.points.end());
   }
   model.diameter = part.diameter > 0.0 ? part.diameter : diameter(everything);
-  const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : DefaultVoxelShare * model.diameter;
+  const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : settings.voxelShare * model.diameter;
   if (std::max(model.quantizer().numberOfKeys(), model.surfaceQuantizer().numberOfKeys()) > TrainedModel::MostKeys)
   {
     throw Error("The pair table would have more than 50 million keys: enlarge the distance step or the angle step.");
@@ -483,8 +480,8 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   const int voters = bringVotersForward(model);
   const std::vector<std::uint32_t> surfaceBits =
     visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.1, 0.7));
-  model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, 2.0 * voxelSize);
-  for (const int i : thinPoints(surface.points, SurfaceLeafShare * model.diameter))
+  model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, settings.edgeVoxels * voxelSize);
+  for (const int i : thinPoints(surface.points, settings.surfaceLeafShare * model.diameter))
   {
     model.surface.points.push_back(surface.points[i]);
     model.surface.normals.push_back(surface.normals[i]);

@@ -208,7 +208,7 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, const Predic
   std::vector<bool> areContours(model.edges.size());
   if (!model.surface.empty() && model.edgeViews.size() == model.edges.size())
   {
-    this->Contours = OccludingContours(model.surface, TrainedModel::SurfaceSpacing * model.diameter);
+    this->Contours = OccludingContours(model.surface, model.settings.derivation.surfaceSpacing * model.diameter);
     areContours = this->Contours.areContours(model.edges.points, model.edgeViews, model.viewDirections);
   }
   for (std::size_t i = 0; i < model.edges.size(); ++i)

@@ -36,7 +36,8 @@ struct PredictedVisibilitySettings
 class PredictedVisibility
 {
 public:
-  /// Needs no more of the model than its edges, surface, verification points, view directions and diameter.
+  /// Needs no more of the model than its edges, surface, verification points, view directions, diameter and
+  /// settings.
   explicit PredictedVisibility(const TrainedModel& model, const PredictedVisibilitySettings& settings = {});
 
   /// Middle of the part's surface, model frame: the notch or lug that fixes a round part's turn hardly moves it.

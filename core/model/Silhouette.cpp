@@ -13,23 +13,25 @@ namespace meam
 {
 namespace
 {
-constexpr double CellsPerSpacing = 2.0;
-constexpr int SampleRadius = 3;      // cells; no gaps stay between samples
-constexpr double Reach = 2.0;        // spacings from an edge point to where the background must show
-constexpr double MostCells = 2000.0; // along a side: samples of any extent make an image of bounded size
-
-const std::array<Eigen::Vector2i, 4> Steps{ Eigen::Vector2i(1, 0), Eigen::Vector2i(-1, 0), Eigen::Vector2i(0, 1),
-  Eigen::Vector2i(0, -1) };
+/// The cells beside one.
+std::array<Eigen::Vector2i, 4> beside(const Eigen::Vector2i& cell)
+{
+  return { cell + Eigen::Vector2i(1, 0), cell + Eigen::Vector2i(-1, 0), cell + Eigen::Vector2i(0, 1),
+    cell + Eigen::Vector2i(0, -1) };
+}
 }
 
-Silhouette::Silhouette(const Points& part, const Eigen::Vector3d& viewpoint, double spacing)
-  : Viewpoint(viewpoint)
+Silhouette::Silhouette(
+  const Points& part, const Eigen::Vector3d& viewpoint, double spacing, const SilhouetteSettings& settings)
+  : Settings(settings)
+  , Viewpoint(viewpoint)
 {
+  constexpr double mostCells = 2000.0; // not tuned: along a side, for an image of bounded size
   const Eigen::AlignedBox3f box = bounds(part);
   const Eigen::Vector3d depth = box.center().cast<double>() - viewpoint;
-  this->Spacing = std::max(spacing, CellsPerSpacing * box.diagonal().norm() / MostCells);
+  this->Spacing = std::max(spacing, settings.cellsPerSpacing * box.diagonal().norm() / mostCells);
   this->Axes = frameAround(depth.normalized().cast<float>()).cast<double>().transpose();
-  this->CellsPerSlope = depth.norm() * CellsPerSpacing / this->Spacing;
+  this->CellsPerSlope = depth.norm() * settings.cellsPerSpacing / this->Spacing;
 
   std::vector<Eigen::Vector2i> places;
   places.reserve(part.size());
@@ -52,8 +54,8 @@ Silhouette::Silhouette(const Points& part, const Eigen::Vector3d& viewpoint, dou
     high = high.cwiseMax(place);
   }
   // A margin that holds the samples' discs and a ring of background around them.
-  this->Low.array() -= SampleRadius + 1;
-  this->Size = high - this->Low + Eigen::Vector2i::Constant(SampleRadius + 2);
+  this->Low.array() -= settings.sampleRadius + 1;
+  this->Size = high - this->Low + Eigen::Vector2i::Constant(settings.sampleRadius + 2);
   this->Cells.assign(static_cast<std::size_t>(this->Size.x()) * this->Size.y(), Cell::Enclosed);
   for (const auto& place : places)
   {
@@ -66,9 +68,10 @@ Silhouette::Silhouette(const Points& part, const Eigen::Vector3d& viewpoint, dou
     for (int x = 0; x < this->Size.x(); ++x)
     {
       const Eigen::Vector2i cell = this->Low + Eigen::Vector2i(x, y);
-      const auto isPart = [&](const Eigen::Vector2i& step)
-      { return this->isInside(cell + step) && this->at(cell + step) == Cell::Part; };
-      if (this->at(cell) != Cell::Part && std::any_of(Steps.begin(), Steps.end(), isPart))
+      const std::array<Eigen::Vector2i, 4> around = beside(cell);
+      const auto isPart = [&](const Eigen::Vector2i& other)
+      { return this->isInside(other) && this->at(other) == Cell::Part; };
+      if (this->at(cell) != Cell::Part && std::any_of(around.begin(), around.end(), isPart))
       {
         rim.push_back(cell);
       }
@@ -83,12 +86,13 @@ Silhouette::Silhouette(const Points& part, const Eigen::Vector3d& viewpoint, dou
 
 void Silhouette::markDisc(const Eigen::Vector2i& middle, Cell mark)
 {
-  for (int y = -SampleRadius; y <= SampleRadius; ++y)
+  const int radius = this->Settings.sampleRadius;
+  for (int y = -radius; y <= radius; ++y)
   {
-    for (int x = -SampleRadius; x <= SampleRadius; ++x)
+    for (int x = -radius; x <= radius; ++x)
     {
       const Eigen::Vector2i cell = middle + Eigen::Vector2i(x, y);
-      if (x * x + y * y <= SampleRadius * SampleRadius && this->isInside(cell))
+      if (x * x + y * y <= radius * radius && this->isInside(cell))
       {
         this->at(cell) = mark;
       }
@@ -105,9 +109,8 @@ void Silhouette::markAround()
   {
     const Eigen::Vector2i cell = open.back();
     open.pop_back();
-    for (const auto& step : Steps)
+    for (const Eigen::Vector2i& next : beside(cell))
     {
-      const Eigen::Vector2i next = cell + step;
       if (this->isInside(next) && this->at(next) == Cell::Enclosed)
       {
         this->at(next) = Cell::Around;
@@ -119,9 +122,10 @@ void Silhouette::markAround()
 
 Silhouette::Cell Silhouette::beyond(const Eigen::Vector3d& point, const Eigen::Vector3d& outward) const
 {
-  for (double step = 0.0; step <= Reach * CellsPerSpacing; step += 1.0)
+  const double cells = this->Settings.cellsPerSpacing;
+  for (double step = 0.0; step <= this->Settings.reach * cells; step += 1.0)
   {
-    const Eigen::Vector2i cell = this->cellOf(point + step * this->Spacing / CellsPerSpacing * outward);
+    const Eigen::Vector2i cell = this->cellOf(point + step * this->Spacing / cells * outward);
     if (!this->isInside(cell))
     {
       return Cell::Around;

@@ -5,9 +5,12 @@
 
 namespace meam
 {
-/// A surface that is seen flatter (0.12: 7 degrees) is no more than a line in an image: for the wall of a
-/// hole that is seen along its axis, the hole's rim is where the visible surface ends.
-constexpr double EdgeOnCosine = 0.12;
+struct SilhouetteSettings
+{
+  double cellsPerSpacing = 2.0; ///< of the samples, at the part's middle
+  int sampleRadius = 3;         ///< cells; no gaps stay between samples
+  double reach = 2.0;           ///< spacings from an edge point to where the background must show
+};
 
 /// A small image of what a viewpoint sees of a part: the cells that the part covers, the background
 /// around it, and background that it encloses, such as what shows through a hole.
@@ -21,16 +24,17 @@ public:
     Enclosed
   };
 
-  /// `part` are evenly spaced samples, hidden ones or not; openings narrower than three spacings (mm)
-  /// count as covered.
-  Silhouette(const Points& part, const Eigen::Vector3d& viewpoint, double spacing);
+  /// `part` are evenly spaced samples, hidden ones or not; openings narrower than twice the settings'
+  /// sample radius count as covered. `spacing` in mm.
+  Silhouette(
+    const Points& part, const Eigen::Vector3d& viewpoint, double spacing, const SilhouetteSettings& settings = {});
 
   /// What shows next to the part at a point of its edge, the way `outward` (unit) leads. Part: its own
   /// surface goes on there, or another one starts.
   Cell beyond(const Eigen::Vector3d& point, const Eigen::Vector3d& outward) const;
 
 private:
-  /// Column and row of a point; cells are half a spacing wide at the part's middle.
+  /// Column and row of a point.
   Eigen::Vector2i cellOf(const Eigen::Vector3d& point) const;
   bool isInside(const Eigen::Vector2i& cell) const;
   Cell& at(const Eigen::Vector2i& cell);
@@ -38,6 +42,7 @@ private:
   void markDisc(const Eigen::Vector2i& middle, Cell mark);
   void markAround();
 
+  SilhouetteSettings Settings;
   Eigen::Vector3d Viewpoint;
   Eigen::Matrix3d Axes; ///< rows: depth, right, down
   double Spacing;

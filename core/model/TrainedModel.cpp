@@ -8,29 +8,20 @@
 
 namespace meam
 {
-namespace
-{
-// Shares of the diameter.
-constexpr double CellShare = 0.0075;
-constexpr double EdgeSpacing = 0.03;
-constexpr double VotingLeafShare = 0.04;
-constexpr double VerificationLeafShare = 0.03;
-}
-
 double TrainedModel::votingLeaf() const
 {
   if (this->settings.merging != ViewMerging::Points)
   {
     return 0.0;
   }
-  return this->settings.leafSize > 0.0 ? this->settings.leafSize : VotingLeafShare * this->diameter;
+  return this->settings.leafSize > 0.0 ? this->settings.leafSize
+                                       : this->settings.derivation.votingLeaf * this->diameter;
 }
 
 double TrainedModel::verificationArea() const
 {
-  // A plane of any direction meets 1.5 cubes for each square of their side, on average.
-  constexpr double cubesOfSquare = 1.5;
-  const double leaf = VerificationLeafShare * this->diameter;
+  constexpr double cubesOfSquare = 1.5; // not tuned: that a plane of any direction meets, on average
+  const double leaf = this->settings.derivation.verificationLeaf * this->diameter;
   return leaf * leaf / cubesOfSquare;
 }
 
@@ -64,11 +55,12 @@ void TrainedModel::deriveFields()
   this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
   this->surfaceTable.deriveVotes(
     this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
-  this->verificationPoints = thinPoints(this->surface.points, VerificationLeafShare * this->diameter);
-  const double reach = TruncationDistance * this->diameter;
-  const double cell = CellShare * this->diameter;
-  this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfaceSpacing * this->diameter, reach, cell);
-  this->edgeDistance = DistanceField::ofEdges(this->edges, EdgeSpacing * this->diameter, reach, cell);
+  const ModelDerivationSettings& shares = this->settings.derivation;
+  this->verificationPoints = thinPoints(this->surface.points, shares.verificationLeaf * this->diameter);
+  const double reach = shares.reach * this->diameter;
+  const double cell = shares.cell * this->diameter;
+  this->surfaceDistance = DistanceField::ofSurface(this->surface, shares.surfaceSpacing * this->diameter, reach, cell);
+  this->edgeDistance = DistanceField::ofEdges(this->edges, shares.edgeSpacing * this->diameter, reach, cell);
   this->visibility = std::make_shared<const PredictedVisibility>(*this);
 }
 }

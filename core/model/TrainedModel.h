@@ -25,6 +25,20 @@ struct SurfacePairSettings
   double distanceStep = 0.05; ///< d_dist
   double angleStep = 12.0;    ///< d_angle, degrees; also the step of the votes' turn about the normal
   double leafSize = 0.05;     ///< of the points in a cube of this side one makes pairs, in the model as in a scene
+  double facingCosine = 0.1;  ///< of 84 degrees: a point that is turned farther away from a direction faces elsewhere
+};
+
+/// What is made of a model that is there, with lengths as shares of the diameter. Files do not hold these: a model that
+/// is read has the defaults.
+struct ModelDerivationSettings
+{
+  double votingLeaf = 0.04; ///< of the edge points in a cube of this side one makes pairs, in the model as in a scene
+  double verificationLeaf = 0.03; ///< of the surface points in such a cube one verifies poses
+  double reach = 0.03;            ///< of the distance fields: tolerances are less
+  double cell = 0.0075;           ///< of the distance fields
+  double edgeSpacing = 0.03;      ///< so far along its tangent an edge point stands for the edge
+  double surfaceSpacing = 0.018;  ///< so far along its plane a surface point stands for the surface: a little over
+                                  ///< the spacing of these points
 };
 
 struct MEAMHashingSettings
@@ -35,13 +49,18 @@ struct MEAMHashingSettings
   double distanceStep = 0.07;                          ///< tau_d: d_dist as a share of d_max
   double angleStep = 7.2; ///< d_angle, degrees; also the step of the votes' turn about the tangent
   ViewMerging merging = ViewMerging::Points;
-  double voxelSize = 0.0; ///< L_voxel in mm; 0: 1.5 % of the diameter
+  double voxelSize = 0.0;       ///< L_voxel in mm; 0:
+  double voxelShare = 0.015;    ///< of the diameter
+  double sameEdgeCosine = 0.94; ///< of 20 degrees: ViewMerging::Points, between the tangents of one edge in two views
+  double edgeVoxels = 2.0; ///< an edge point without the number of its surface point is the nearest of those this near
+  double surfaceLeafShare = 0.015; ///< of the diameter: of the surface samples in a cube of this side one stays
   /// ViewMerging::Points: of the edge points in a cube of this side (mm) one makes pairs, in the model as in a scene;
-  /// the others are there to judge and refine poses; 0: 4 % of the diameter. Otherwise all make pairs.
+  /// the others are there to judge and refine poses; 0: ModelDerivationSettings::votingLeaf. Otherwise all make pairs.
   double leafSize = 0.0;
   /// Directions from which two points must be visible together to make a pair; 0: only the views
   /// themselves (paper).
   int coVisibilityDirections = 26;
+  ModelDerivationSettings derivation{};
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.
@@ -50,11 +69,11 @@ MEAMHashingSettings paperHashingSettings();
 /// All that detection needs to know of a part: the result of the offline phase.
 struct TrainedModel
 {
-  static constexpr int FormatVersion = 4;
-  static constexpr int MaximumViews = 32; ///< views and directions are bits of a word
-  static constexpr std::int64_t MostKeys = 50000000;
+  static constexpr int FormatVersion = 4;            ///< not tuned: a mark
+  static constexpr int MaximumViews = 32;            ///< not tuned: views and directions are bits of a word
+  static constexpr std::int64_t MostKeys = 50000000; ///< not tuned: 200 MB of offsets
   static constexpr std::size_t MostEdges = std::size_t{ 1 }
-                                           << (SheetBits - 1); ///< edge points; two sheets of votes each
+                                           << (SheetBits - 1); ///< not tuned: edge points; two sheets of votes each
 
   double diameter = 0.0; ///< d_max, mm
   std::string digest;    ///< of the surface, the edges and the settings
@@ -75,11 +94,9 @@ struct TrainedModel
 
   // What deriveFields() makes of the above.
   std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
-  DistanceField surfaceDistance;       ///< up to TruncationDistance
+  DistanceField surfaceDistance;       ///< up to ModelDerivationSettings::reach
   DistanceField edgeDistance;
   std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
-  static constexpr double TruncationDistance = 0.03;     ///< of the diameter: tolerances are less
-  static constexpr double SurfaceSpacing = 0.018;        ///< of the diameter, a little over that of the surface points
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
   void deriveFields();

@@ -12,7 +12,7 @@ namespace meam
 {
 namespace
 {
-constexpr double HairsFromEdge = 4.0; // a face is looked at this far from its edge
+constexpr double HairsFromEdge = 4.0; // not tuned: a face is looked at this far from its edge
 
 Eigen::Vector3d vertexOf(const TriangleMesh& mesh, int face, int corner)
 {
@@ -38,10 +38,11 @@ Eigen::Vector3d weightsOf(const TriangleMesh& mesh, int face, const Eigen::Vecto
 }
 }
 
-VisibleEdges::VisibleEdges(const TriangleMesh& mesh, double sharpAngle, double spacing)
+VisibleEdges::VisibleEdges(const TriangleMesh& mesh, double sharpAngle, double spacing, double edgeOn)
   : Mesh(mesh)
   , Sight(mesh)
   , Spacing(spacing)
+  , EdgeOn(edgeOn)
   , FaceNormals(faceNormals(mesh))
   , Edges(edgesOf(mesh))
 {
@@ -196,7 +197,7 @@ std::optional<VisibleEdges::SeenPoint> VisibleEdges::seeFeature(
       ++seen;
       const double cosine = normal.dot(towards);
       normals += std::copysign(1.0, cosine) * normal;
-      plainlySeen += std::abs(cosine) > EdgeOnCosine ? 1 : 0;
+      plainlySeen += std::abs(cosine) > this->EdgeOn ? 1 : 0;
       if (std::abs(cosine) > best)
       {
         best = std::abs(cosine);

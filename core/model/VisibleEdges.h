@@ -17,8 +17,9 @@ class VisibleEdges
 {
 public:
   /// Faces that meet at more than `sharpAngle` degrees make a sharp edge; less, and they stand for one
-  /// round surface. `spacing` (mm) is that of the edge points.
-  VisibleEdges(const TriangleMesh& mesh, double sharpAngle, double spacing);
+  /// round surface. `spacing` (mm) is that of the edge points. Faces seen at less than the cosine `edgeOn` count as
+  /// lines.
+  VisibleEdges(const TriangleMesh& mesh, double sharpAngle, double spacing, double edgeOn);
 
   /// Edge points with normals (towards the viewpoint), tangents and types. Points of sharp edges and
   /// borders are the same for every viewpoint that sees them.
@@ -52,6 +53,7 @@ private:
   const TriangleMesh& Mesh;
   LineOfSight Sight;
   double Spacing;
+  double EdgeOn;
   Points FaceNormals;
   std::vector<MeshEdge> Edges;
   std::vector<char> IsFeature;                               ///< of each edge: sharp or a border

@@ -9,15 +9,14 @@ namespace meam
 {
 namespace
 {
-constexpr float ParallelTangents = 0.85f; // cosine of 32 degrees: an edge that runs the way of the query
-constexpr float NearlyParallel = 0.8f;    // five degrees more
-constexpr int Lanes = 8;                  // edge points looked at together
-constexpr int MostRanges = 64;
+constexpr int Lanes = 8;       // not tuned: edge points looked at together
+constexpr int MostRanges = 64; // not tuned: of columns looked at together
 
 struct Query
 {
   Eigen::Vector3f point, tangent;
   float squaredRadius;
+  float leastCosine; ///< between tangents
 };
 
 struct Range
@@ -41,7 +40,7 @@ bool search(const SoAOrientedPoints& edges, const Range* ranges, int count, cons
               *tangentZ = edges.directions.z.data();
   const float px = query.point.x(), py = query.point.y(), pz = query.point.z();
   const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
-  const float squaredRadius = query.squaredRadius;
+  const float squaredRadius = query.squaredRadius, leastCosine = query.leastCosine;
   float distances[Lanes];
   int places[Lanes];
 #pragma omp simd
@@ -66,7 +65,7 @@ bool search(const SoAOrientedPoints& edges, const Range* ranges, int count, cons
         const float across = cx * cx + cy * cy + cz * cz;
         const float cosine = std::abs(tx * qx + ty * qy + tz * qz);
         const bool nearer =
-          (k < end) & (squared <= squaredRadius) & (cosine > ParallelTangents) & (across < distances[lane]);
+          (k < end) & (squared <= squaredRadius) & (cosine > leastCosine) & (across < distances[lane]);
         distances[lane] = nearer ? across : distances[lane];
         places[lane] = nearer ? k : places[lane];
       }
@@ -84,7 +83,7 @@ bool search(const SoAOrientedPoints& edges, const Range* ranges, int count, cons
 }
 
 /// Writes which of the edges in the ranges lie within the query's radius and, across its tangent, within `across`, and
-/// are nearly parallel. Returns their number.
+/// are as parallel as it asks. Returns their number.
 MEAM_ALL_VECTORS
 int select(
   const SoAOrientedPoints& edges, const Range* ranges, int count, const Query& query, float across, int* selected)
@@ -94,7 +93,7 @@ int select(
               *tangentZ = edges.directions.z.data();
   const float px = query.point.x(), py = query.point.y(), pz = query.point.z();
   const float qx = query.tangent.x(), qy = query.tangent.y(), qz = query.tangent.z();
-  const float squaredRadius = query.squaredRadius, squaredAcross = across * across;
+  const float squaredRadius = query.squaredRadius, squaredAcross = across * across, leastCosine = query.leastCosine;
   int passes[Lanes];
   int found = 0;
   for (int r = 0; r < count; ++r)
@@ -110,8 +109,8 @@ int select(
         const float squared = dx * dx + dy * dy + dz * dz;
         const float along = qx * dx + qy * dy + qz * dz;
         const float cosine = std::abs(tangentX[k] * qx + tangentY[k] * qy + tangentZ[k] * qz);
-        const bool isNear = (k < end) & (squared <= squaredRadius) & (squared - along * along <= squaredAcross) &
-                            (cosine > NearlyParallel);
+        const bool isNear =
+          (k < end) & (squared <= squaredRadius) & (squared - along * along <= squaredAcross) & (cosine > leastCosine);
         passes[lane] = isNear ? 1 : 0;
       }
       for (int lane = 0; lane < Lanes; ++lane)
@@ -145,8 +144,8 @@ void average(const EdgeIndex::Neighbours& neighbours, const SoAOrientedPoints& p
   const float *lx = lines.directions.x.data(), *ly = lines.directions.y.data(), *lz = lines.directions.z.data();
   const float* shares = neighbours.weights.data();
   const float inverseRadius = weights.inverseRadius, inverseAcross = weights.inverseAcross;
-  constexpr float least = ParallelTangents * ParallelTangents;
-  constexpr float inverseRest = 1.0f / (1.0f - least);
+  const float least = neighbours.parallel * neighbours.parallel;
+  const float inverseRest = 1.0f / (1.0f - least);
   const int count = static_cast<int>(points.size());
   for (int i = 0; i < count; ++i)
   {
@@ -193,8 +192,10 @@ void gather(const std::vector<float>& from, const std::vector<int>& places, int 
 }
 }
 
-EdgeIndex::EdgeIndex(const PointCloud& edges, double cellSize)
+EdgeIndex::EdgeIndex(const PointCloud& edges, double cellSize, const EdgeIndexSettings& settings)
   : Grid(edges.points, cellSize)
+  , Parallel(static_cast<float>(settings.parallel))
+  , NearlyParallel(static_cast<float>(settings.nearlyParallel))
 {
   const std::vector<int>& order = this->Grid.order();
   this->Lines.resize(order.size() + Lanes);
@@ -232,7 +233,7 @@ void EdgeIndex::forEachGroupOfRanges(const Eigen::Vector3f& point, double radius
 
 EdgeIndex::Match EdgeIndex::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const
 {
-  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius) };
+  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius), this->Parallel };
   Nearest nearest;
   std::fill_n(nearest.distances, Lanes, query.squaredRadius);
   std::fill_n(nearest.places, Lanes, -1);
@@ -269,10 +270,12 @@ EdgeIndex::Neighbours EdgeIndex::neighbours(
   std::vector<int> selected;
   int found = 0;
   Neighbours result;
+  result.parallel = this->Parallel;
   result.starts.push_back(0);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Query query{ points.points[i], points.directions[i], static_cast<float>(reach * reach) };
+    const Query query{ points.points[i], points.directions[i], static_cast<float>(reach * reach),
+      this->NearlyParallel };
     this->forEachGroupOfRanges(query.point, reach,
       [&](const Range* ranges, int count)
       {

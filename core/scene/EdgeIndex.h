@@ -5,6 +5,12 @@
 
 namespace meam
 {
+struct EdgeIndexSettings
+{
+  double parallel = 0.85;      ///< cosine, 32 degrees: edges whose tangents are farther apart do not match
+  double nearlyParallel = 0.8; ///< cosine, five degrees more: what points find that turn so far before they look again
+};
+
 /// Tangent lines of a scene's edge points, for look-ups of the one that an edge of a part may lie on: several at a time
 /// with the widest vectors the processor has. Calls may run in parallel.
 class EdgeIndex
@@ -13,7 +19,7 @@ public:
   /// No edges.
   EdgeIndex() = default;
   /// `cellSize` in mm, that of the grid of the edges' points.
-  EdgeIndex(const PointCloud& edges, double cellSize);
+  EdgeIndex(const PointCloud& edges, double cellSize, const EdgeIndexSettings& settings = {});
 
   /// Of the edges' points.
   const PointGrid& grid() const { return this->Grid; }
@@ -23,8 +29,8 @@ public:
     int edge = -1;                ///< -1: none
     float squaredDistance = 0.0f; ///< of the point to its line, mm^2
   };
-  /// Of the edge points within `radius` (mm) of a point whose tangent is within 32 degrees of `tangent` the one whose
-  /// line is nearest to the point.
+  /// Of the edge points within `radius` (mm) of a point whose tangent is parallel to `tangent` (EdgeIndexSettings) the
+  /// one whose line is nearest to the point.
   Match nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const;
 
   /// For each of several points the lines of the edge points about it.
@@ -33,9 +39,10 @@ public:
     std::vector<int> starts;    ///< of each point's lines, and the end of the last one's
     SoAOrientedPoints lines;    ///< and room at the end for as many as are looked at together
     std::vector<float> weights; ///< of these
+    float parallel = 0.0f;      ///< the index's cosine
   };
   /// Those that `meansAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by
-  /// 5 degrees. `radius` and `across` as there.
+  /// what `nearlyParallel` allows, 5 degrees. `radius` and `across` as there.
   Neighbours neighbours(const SoAOrientedPoints& points, double radius, double across, double margin) const;
 
   struct Means
@@ -45,8 +52,8 @@ public:
   };
   /// How far points with unit tangents, those with these neighbours, are from the edge points about them, on average,
   /// across the tangents. Their weights fall to 0 at `radius` (mm) from the point, at `across` (mm) across the tangent
-  /// and where the tangents are 32 degrees apart, so that the mean changes steadily with point and tangent: no edge
-  /// point comes in or goes out at once.
+  /// and where the tangents are as far apart as they may be, so that the mean changes steadily with point and tangent:
+  /// no edge point comes in or goes out at once.
   static Means meansAround(const Neighbours& neighbours, const SoAOrientedPoints& points, double radius, double across);
 
 private:
@@ -58,5 +65,7 @@ private:
   PointGrid Grid;
   SoAOrientedPoints Lines;    ///< the points and their tangents, in the order of the grid, and room at the end
   std::vector<float> Weights; ///< of these
+  float Parallel = 0.0f;      ///< cosines
+  float NearlyParallel = 0.0f;
 };
 }

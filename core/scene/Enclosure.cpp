@@ -94,7 +94,7 @@ std::vector<Plane> enclosingPlanes(
       break; // those with fewer points follow
     }
     const auto behind = std::count_if(all.begin(), all.end(),
-      [&](const Eigen::Vector3f& point) { return fit.plane.signedDistance(point) < -2.0 * tolerance; });
+      [&](const Eigen::Vector3f& point) { return fit.plane.signedDistance(point) < -settings.behind * tolerance; });
     if (static_cast<double>(behind) <= settings.mostBehind * static_cast<double>(count) &&
         fit.extent >= settings.leastExtent * partDiameter)
     {

@@ -27,6 +27,7 @@ struct EnclosureSettings
   int seeds = 150;            ///< of them, whose planes are tried
   double leastShare = 0.05;   ///< of the points that lie on a plane
   double mostBehind = 0.01;   ///< of the points: wrong ones
+  double behind = 2.0;        ///< times the tolerance from a plane: farther is behind it
   double leastExtent = 1.5;   ///< of the part's diameter: a smaller plane may be a part's own
   double seedTolerance = 2.0; ///< times the tolerance: the normal at one point is not exact
   int fits = 3;               ///< of a plane to the points near it

@@ -6,7 +6,6 @@
 #include "scene/OrganizedCloud.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -16,9 +15,9 @@ namespace meam
 {
 namespace
 {
-constexpr std::array<int, 7> Lags{ 1, 2, 3, 4, 6, 8, 12 }; // points
-constexpr double SmallerHalf = 0.3247; // deviations: the mean of the half of a normal distribution that is nearest to 0
-const double ThirdDifference = std::sqrt(20.0); // deviations: of points that share no noise
+// Standard deviations, the mean of the half of a normal distribution that is nearest to 0.
+constexpr double SmallerHalf = 0.3247;          // not tuned: of that distribution
+const double ThirdDifference = std::sqrt(20.0); // not tuned: standard deviations, of points that share no noise
 
 /// 0 without values.
 double quantileOf(std::vector<float>& values, double quantile)
@@ -86,7 +85,7 @@ Steps stepsOf(const OrganizedCloud& cloud, int stride, double ties)
       if (step.allFinite())
       {
         distances.push_back(step.head<2>().norm());
-        const float least = 1e-6f * std::abs(points[column].z()); // what single precision makes of equal depths
+        const float least = 1e-6f * std::abs(points[column].z()); // not tuned: single precision, of equal depths
         differences.push_back(std::abs(step.z()) > least ? std::abs(step.z()) : 0.0f);
       }
     }
@@ -166,12 +165,13 @@ ScanQuality measureQuality(const OrganizedCloud& cloud, int threads, const ScanQ
     return {};
   }
   const int stride = strideOf(cloud, settings.samples);
-  std::array<double, Lags.size()> noise{};
+  const auto& lags = settings.lags;
+  std::vector<double> noise(lags.size(), 0.0);
   Steps steps{};
   std::vector<std::function<void()>> works{ [&] { steps = stepsOf(cloud, stride, settings.ties); } };
-  for (std::size_t i = 0; i < Lags.size(); ++i)
+  for (std::size_t i = 0; i < lags.size(); ++i)
   {
-    works.emplace_back([&, i] { noise[i] = noiseAt(cloud, Lags[i], stride); });
+    works.emplace_back([&, i] { noise[i] = noiseAt(cloud, lags[i], stride); });
   }
   inParallel(threads, works);
 
@@ -179,14 +179,14 @@ ScanQuality measureQuality(const OrganizedCloud& cloud, int threads, const ScanQ
   quality.pointDistance = steps.pointDistance;
   quality.depthStep = steps.depthStep;
   const auto steady = [&](std::size_t i)
-  { return noise[i + 1] <= noise[i] * std::pow(static_cast<double>(Lags[i + 1]) / Lags[i], settings.growth); };
+  { return noise[i + 1] <= noise[i] * std::pow(static_cast<double>(lags[i + 1]) / lags[i], settings.growth); };
   std::size_t apart = 0;
-  while (apart + 1 < Lags.size() && !steady(apart))
+  while (apart + 1 < lags.size() && !steady(apart))
   {
     ++apart;
   }
-  apart = apart + 1 < Lags.size() ? apart : 0; // it never is: the surface's own bends
-  quality.smoothing = Lags[apart];
+  apart = apart + 1 < lags.size() ? apart : 0; // it never is: the surface's own bends
+  quality.smoothing = lags[apart];
   quality.noise = std::max(noise[apart], quality.depthStep / std::sqrt(12.0));
   lookAtJumps(cloud, stride, settings, quality);
   return quality;

@@ -48,13 +48,13 @@ Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFr
   , sensor(moved(seenFrom, edges.T_local_scene))
   , quality(measuredQuality)
   , partDiameter(diameter)
-  , depth(measured, sensor, settings.depthCell * diameter, settings.threads)
+  , depth(measured, sensor, settings.depthCell * diameter, settings.threads, settings.depth)
 {
-  inParallel(
-    settings.threads, { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
-                        [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter); } });
+  inParallel(settings.threads,
+    { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
+      [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter, settings.edges); } });
   const double tolerance = std::max(settings.enclosureTolerance * diameter, settings.enclosureNoises * quality.noise);
-  this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter);
+  this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter, settings.enclosure);
   this->isOnLongLine =
     onLongLines(this->edgePoints(), this->edgeIndex, diameter, tolerance, settings.longLines, settings.threads);
   Points onLines;

@@ -20,6 +20,9 @@ struct SceneSettings
   double surfaceCell = 0.05;        ///< of the measured surface's grid
   double enclosureTolerance = 0.03; ///< what was measured so near to a plane or a line of the bin lies on it, and no
   double enclosureNoises = 3.0;     ///< less than so many times the scan's noise
+  EdgeIndexSettings edges;
+  DepthMapSettings depth;
+  EnclosureSettings enclosure;
   LongLineSettings longLines;
   int threads = 0; ///< 0: one for each processor
 };

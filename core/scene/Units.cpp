@@ -18,36 +18,35 @@ std::string number(double value)
 }
 }
 
-std::string unitsWarning(const Points& scene, double partDiameter)
+std::string unitsWarning(const Points& scene, double partDiameter, const UnitCheckSettings& settings)
 {
-  // A scene spans a part or more, and mostly some tens of them.
   const double parts = bounds(scene).diagonal().norm() / partDiameter;
-  if (parts >= 0.7 && parts <= 200.0)
+  if (parts >= settings.leastUsual && parts <= settings.mostUsual)
   {
     return {};
   }
-  const int factor = parts < 1.0 ? (10.0 * parts >= 1.5 ? 10 : 1000) : (parts / 10.0 <= 100.0 ? 10 : 1000);
+  const bool isTen = parts < 1.0 ? 10.0 * parts >= settings.leastLikely : parts / 10.0 <= settings.mostLikely;
+  const int factor = isTen ? 10 : 1000;
   return "The scene spans " + number(parts * partDiameter) + " and the part's diameter is " + number(partDiameter) +
          ": if their units differ, the likely factor is " + std::to_string(factor) + ". Scale the " +
          (parts < 1.0 ? "scene" : "part") + " by it.";
 }
 
-void requireSameUnits(const Points& scene, double partDiameter)
+void requireSameUnits(const Points& scene, double partDiameter, const UnitCheckSettings& settings)
 {
-  constexpr double StrayShare = 0.02; // of the points, at each end of each axis
   double extent = bounds(scene).diagonal().norm();
-  if (extent > 1000.0 * partDiameter)
+  if (extent > settings.mostPossible * partDiameter)
   {
-    extent = innerBounds(scene, StrayShare).diagonal().norm(); // stray points are no other unit
+    extent = innerBounds(scene, settings.strayShare).diagonal().norm(); // stray points are no other unit
   }
-  if (extent < 0.2 * partDiameter)
+  if (extent < settings.leastPossible * partDiameter)
   {
     throw Error(
       "The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +
       ": their units differ (a scene in metres and a part in millimetres differ by 1000). Scale the scene to the "
       "part's unit.");
   }
-  if (extent > 1000.0 * partDiameter)
+  if (extent > settings.mostPossible * partDiameter)
   {
     throw Error(
       "The scene spans " + number(extent) + " but the part's diameter is only " + number(partDiameter) +

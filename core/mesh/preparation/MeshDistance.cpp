@@ -21,9 +21,6 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-// On small meshes no fewer points than this are measured.
-constexpr double LeastPoints = 20000.0;
-
 Kernel::Point_3 toPoint(const Eigen::Vector3f& point) { return { point.x(), point.y(), point.z() }; }
 
 double areaOf(const TriangleMesh& mesh, const Eigen::Vector3i& triangle)
@@ -105,15 +102,16 @@ double largestDistance(const Points& points, const TriangleMesh& mesh, const Pro
 }
 }
 
-double meshDistance(const TriangleMesh& a, const TriangleMesh& b, const Progress& progress)
+double meshDistance(
+  const TriangleMesh& a, const TriangleMesh& b, const Progress& progress, const MeshDistanceSettings& settings)
 {
   double area = 0.0;
   for (const auto& triangle : a.triangles)
   {
     area += areaOf(a, triangle);
   }
-  const double wanted =
-    std::max({ LeastPoints, static_cast<double>(a.vertices.size()), static_cast<double>(b.vertices.size()) });
+  const double wanted = std::max({ static_cast<double>(settings.points), static_cast<double>(a.vertices.size()),
+    static_cast<double>(b.vertices.size()) });
   const double spacing = std::sqrt(area / wanted);
   const double ofA = largestDistance(spread(a, spacing), b, subProgress(progress, 0.0, 0.5));
   const double ofB = largestDistance(spread(b, spacing), a, subProgress(progress, 0.5, 1.0));

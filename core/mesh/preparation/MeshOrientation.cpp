@@ -35,7 +35,7 @@ std::vector<double> signedVolumes(const SurfaceMesh& mesh, const FaceNumbers& co
 }
 }
 
-int orientOutward(SurfaceMesh& mesh, bool crossesItself)
+int orientOutward(SurfaceMesh& mesh, bool crossesItself, double leastHollow)
 {
   FaceNumbers componentOf;
   const std::vector<double> areas = componentAreas(mesh, componentOf);
@@ -49,7 +49,7 @@ int orientOutward(SurfaceMesh& mesh, bool crossesItself)
       componentOf[face] = 0;
     }
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    if (signedVolumes(mesh, componentOf, 1)[0] >= -6e-3 * std::pow(area, 1.5))
+    if (signedVolumes(mesh, componentOf, 1)[0] >= -leastHollow * std::pow(area, 1.5))
     {
       return 0;
     }

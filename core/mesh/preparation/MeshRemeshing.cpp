@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/preparation/MeshRemeshing.h"
 
-#include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/SurfaceMesh.h"
 
@@ -16,11 +15,11 @@ namespace meam
 namespace
 {
 namespace PMP = CGAL::Polygon_mesh_processing;
-constexpr double MaximumTriangles = 5e6;
-constexpr unsigned Rounds = 3;
+constexpr double MaximumTriangles = 5e6; // not tuned: a limit of memory and time
 }
 
-TriangleMesh remesh(const TriangleMesh& input, double edgeLength, const Progress& progress)
+TriangleMesh remesh(
+  const TriangleMesh& input, double edgeLength, const Progress& progress, const MeshRemeshingSettings& settings)
 {
   requireMesh(input);
   if (!(edgeLength > 0.0) || !std::isfinite(edgeLength))
@@ -37,7 +36,7 @@ TriangleMesh remesh(const TriangleMesh& input, double edgeLength, const Progress
   }
 
   auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
-  PMP::detect_sharp_edges(mesh, FeatureEdgesSettings().angle, sharp);
+  PMP::detect_sharp_edges(mesh, settings.sharpAngle, sharp);
   std::vector<SurfaceMesh::Edge_index> fixed;
   for (const auto edge : mesh.edges())
   {
@@ -51,7 +50,8 @@ TriangleMesh remesh(const TriangleMesh& input, double edgeLength, const Progress
   PMP::split_long_edges(fixed, edgeLength, mesh, CGAL::parameters::edge_is_constrained_map(sharp));
   report(progress, 0.2);
   PMP::isotropic_remeshing(mesh.faces(), edgeLength, mesh,
-    CGAL::parameters::edge_is_constrained_map(sharp).protect_constraints(true).number_of_iterations(Rounds));
+    CGAL::parameters::edge_is_constrained_map(sharp).protect_constraints(true).number_of_iterations(
+      static_cast<unsigned>(settings.rounds)));
   report(progress, 1.0);
   return toTriangleMesh(mesh);
 }

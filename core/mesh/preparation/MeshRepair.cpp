@@ -28,9 +28,9 @@ using Point = MeshKernel::Point_3;
 using Corners = std::array<std::size_t, 3>;
 using Halfedge = SurfaceMesh::Halfedge_index;
 
-// Vertices nearer to each other than this share of the mesh's extent are one: ten times what is lost
-// when coordinates are written as floats.
-constexpr double SamePlace = 1e-6;
+// Of the mesh's extent, vertices nearer to each other are one: ten times what is lost when coordinates are written as
+// floats.
+constexpr double SamePlace = 1e-6; // not tuned: rounding
 
 Eigen::Vector3d toVector(const Point& point) { return { point.x(), point.y(), point.z() }; }
 

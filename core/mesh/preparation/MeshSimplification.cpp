@@ -28,14 +28,8 @@ struct Traits : OpenMesh::DefaultTraits
 };
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-// A triangle may turn by less than this when one of its corners moves: cos 75 degrees.
-constexpr double LeastCosine = 0.26;
 // Twice the area of a triangle, as a share of its longest edge squared, below which it is a line.
-constexpr double LeastArea = 1e-7;
-// Nothing promises that the collapses keep the bound: the result is measured, and they are repeated
-// with less tolerance when it does not hold.
-constexpr int MostTries = 4;
-constexpr double TryShare = 1.0 / MostTries; // of the progress
+constexpr double LeastArea = 1e-7; // not tuned: rounding
 
 /// Allows a collapse only if the vertex that stays is near to the planes of all faces of the original
 /// mesh that have come together in it (Ronfard and Rossignac, "Full-range approximation of triangulated
@@ -54,6 +48,7 @@ public:
   ~ModPlanes() override { Base::mesh().remove_property(this->PlanesAt); }
 
   void setTolerance(double tolerance) { this->Tolerance = tolerance; }
+  void setLeastCosine(double cosine) { this->LeastCosine = cosine; }
 
   void initialize() override
   {
@@ -156,10 +151,11 @@ private:
     const Vector now = (after[1] - after[0]) % (after[2] - after[0]);
     const double longest =
       std::max({ (after[1] - after[0]).sqrnorm(), (after[2] - after[1]).sqrnorm(), (after[0] - after[2]).sqrnorm() });
-    return now.norm() > LeastArea * longest && (old | now) > LeastCosine * old.norm() * now.norm();
+    return now.norm() > LeastArea * longest && (old | now) > this->LeastCosine * old.norm() * now.norm();
   }
 
   double Tolerance = 0.0;
+  double LeastCosine = 0.0;
   Vector Origin;
   std::vector<Plane> Planes;
   std::map<std::array<long long, 4>, int> Numbers;
@@ -230,7 +226,7 @@ TriangleMesh fromOpenMesh(Mesh& mesh)
   return result;
 }
 
-TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, const Progress& progress)
+TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, double leastCosine, const Progress& progress)
 {
   Mesh result = toOpenMesh(mesh);
   {
@@ -242,6 +238,7 @@ TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, const Progres
     decimater.add(distance);
     decimater.add(order);
     decimater.module(planes).setTolerance(tolerance);
+    decimater.module(planes).setLeastCosine(leastCosine);
     decimater.module(distance).set_tolerance(tolerance);
     decimater.initialize();
     ProgressObserver observer(progress, mesh.vertices.size());
@@ -252,24 +249,26 @@ TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, const Progres
 }
 }
 
-TriangleMesh simplifyMesh(const TriangleMesh& mesh, double maximumError, const Progress& progress)
+TriangleMesh simplifyMesh(
+  const TriangleMesh& mesh, double maximumError, const Progress& progress, const MeshSimplificationSettings& settings)
 {
   requireMesh(mesh);
   if (!(maximumError > 0.0) || !std::isfinite(maximumError))
   {
     throw Error("The largest error of the simplified mesh must be a positive length in mm.");
   }
-  double tolerance = 0.9 * maximumError;
-  for (int i = 0; i < MostTries; ++i)
+  const double ofTry = 1.0 / settings.tries; // of the progress
+  double tolerance = settings.toleranceShare * maximumError;
+  for (int i = 0; i < settings.tries; ++i)
   {
-    const Progress share = subProgress(progress, TryShare * i, TryShare * (i + 1));
-    TriangleMesh result = collapsed(mesh, tolerance, subProgress(share, 0.0, 0.8));
-    const double distance = meshDistance(mesh, result, subProgress(share, 0.8, 1.0));
+    const Progress share = subProgress(progress, ofTry * i, ofTry * (i + 1));
+    TriangleMesh result = collapsed(mesh, tolerance, settings.leastCosine, subProgress(share, 0.0, 0.8));
+    const double distance = meshDistance(mesh, result, subProgress(share, 0.8, 1.0), settings.distance);
     if (distance <= maximumError)
     {
       return result;
     }
-    tolerance *= std::clamp(0.9 * maximumError / distance, 0.2, 0.8);
+    tolerance *= std::clamp(settings.toleranceShare * maximumError / distance, settings.leastNext, settings.mostNext);
   }
   return mesh;
 }

@@ -14,14 +14,6 @@ namespace meam
 {
 namespace
 {
-constexpr double SlopesInJump = 3.0; // a surface that falls by three times the distance of its points: 72 degrees
-constexpr double NoiseInJump = 5.0;  // standard deviations: what one point of a thousand pairs differs by
-constexpr double SlopeError = 0.05;  // of the window that windowRadius() looks for
-constexpr int SmallestWindow = 2;
-constexpr int LargestWindow = 6;
-constexpr std::size_t EnoughSamples = 100000;
-constexpr int FewestPoints = 6;
-
 double median(std::vector<float>& values)
 {
   if (values.empty())
@@ -56,7 +48,7 @@ struct PlaneSums
   float squares[4]{}; ///< uu, uv and vv
 };
 
-GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of)
+GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of, int fewestPoints)
 {
   GridPlane plane;
   const float count = of.points[3], u1 = of.columns[3], v1 = of.rows[3];
@@ -64,8 +56,8 @@ GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of)
   moments << count, u1, v1, u1, of.squares[0], of.squares[1], v1, of.squares[1], of.squares[2];
   Eigen::Matrix3f inverse;
   bool solvable = false;
-  moments.computeInverseWithCheck(inverse, solvable, 0.5f); // of whole numbers
-  if (count < FewestPoints || !solvable)
+  moments.computeInverseWithCheck(inverse, solvable, 0.5f); // not tuned: a determinant of whole numbers
+  if (count < static_cast<float>(fewestPoints) || !solvable)
   {
     return plane;
   }
@@ -78,7 +70,7 @@ GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of)
   return plane;
 }
 
-constexpr float Rim = 0.01f; // grid steps: points on the border of a window belong to it
+constexpr float Rim = 0.01f; // not tuned: grid steps, points on the border of a window belong to it
 
 /// Two windows side by side in a vector, four numbers each.
 using Floats = float __attribute__((vector_size(32)));
@@ -131,12 +123,15 @@ void sumUpTwo(const float* first, const float* second, std::ptrdiff_t stride, co
 }
 }
 
-double GridScale::depthJump() const { return SlopesInJump * this->pointDistance + NoiseInJump * this->noise; }
+double GridScale::depthJump() const
+{
+  return this->settings.slopesInJump * this->pointDistance + this->settings.noiseInJump * this->noise;
+}
 
 int GridScale::windowRadius() const
 {
-  int radius = SmallestWindow;
-  while (radius<LargestWindow&& this->slopeError(radius)> SlopeError)
+  int radius = this->settings.smallestWindow;
+  while (radius<this->settings.largestWindow&& this->slopeError(radius)> this->settings.slopeError)
   {
     ++radius;
   }
@@ -149,13 +144,13 @@ double GridScale::slopeError(int radius) const
   return this->noise / (this->pointDistance * (2.0 * radius + 1.0) * std::sqrt(radius * (radius + 1.0) / 3.0));
 }
 
-GridScale gridScale(const OrganizedCloud& cloud, int threads)
+GridScale gridScale(const OrganizedCloud& cloud, int threads, const GridSurfaceSettings& settings)
 {
   std::vector<float> distances;
   std::vector<float> bends;
-  distances.reserve(2 * EnoughSamples);
-  bends.reserve(2 * EnoughSamples);
-  const int stride = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cloud.size()) / EnoughSamples)));
+  distances.reserve(2 * static_cast<std::size_t>(settings.samples));
+  bends.reserve(2 * static_cast<std::size_t>(settings.samples));
+  const int stride = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cloud.size()) / settings.samples)));
   for (int row = 0; row < cloud.height; row += std::max(stride, 1))
   {
     const Eigen::Vector3f* points = cloud.points.data() + static_cast<std::size_t>(row) * cloud.width;
@@ -174,13 +169,15 @@ GridScale gridScale(const OrganizedCloud& cloud, int threads)
     }
   }
   GridScale scale;
+  scale.settings = settings;
   // Of a normal distribution half is within 0.6745 deviations; the second difference has the root of 6 of them.
   inParallel(threads, { [&] { scale.pointDistance = median(distances); },
                         [&] { scale.noise = median(bends) / (0.6745 * std::sqrt(6.0)); } });
   return scale;
 }
 
-GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridWindow& window, double jump)
+GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridWindow& window, double jump,
+  const GridSurfaceSettings& settings)
 {
   const Eigen::Vector3f& centre = cloud.points[static_cast<std::size_t>(row) * cloud.width + column];
   if (!centre.allFinite())
@@ -218,11 +215,11 @@ GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridW
   Eigen::Vector4f::Map(sums.columns) = columns;
   Eigen::Vector4f::Map(sums.rows) = rows;
   Eigen::Vector4f::Map(sums.squares) = squares;
-  return planeOf(centre, sums);
+  return planeOf(centre, sums, settings.fewestPoints);
 }
 
-void fitPlanes(
-  const OrganizedCloud& cloud, const int* points, const GridWindow* windows, int count, double jump, GridPlane* planes)
+void fitPlanes(const OrganizedCloud& cloud, const int* points, const GridWindow* windows, int count, double jump,
+  GridPlane* planes, const GridSurfaceSettings& settings)
 {
   const auto isInside = [&](int row, int column, const HalfBox& box)
   {
@@ -230,7 +227,7 @@ void fitPlanes(
            column + box.columns < cloud.width;
   };
   const auto fitOne = [&](int i)
-  { planes[i] = fitPlane(cloud, points[i] / cloud.width, points[i] % cloud.width, windows[i], jump); };
+  { planes[i] = fitPlane(cloud, points[i] / cloud.width, points[i] % cloud.width, windows[i], jump, settings); };
   int i = 0;
   for (; i + 1 < count; i += 2)
   {
@@ -249,8 +246,8 @@ void fitPlanes(
     PlaneSums sums[2];
     sumUpTwo(first.data(), second.data(), 3 * static_cast<std::ptrdiff_t>(cloud.width), windows[i], windows[i + 1], box,
       static_cast<float>(jump), sums);
-    planes[i] = planeOf(first, sums[0]);
-    planes[i + 1] = planeOf(second, sums[1]);
+    planes[i] = planeOf(first, sums[0], settings.fewestPoints);
+    planes[i + 1] = planeOf(second, sums[1], settings.fewestPoints);
   }
   if (i < count)
   {

@@ -16,10 +16,7 @@ namespace meam
 {
 namespace
 {
-constexpr int SmallHole = 4;           // grid steps: so wide a hole in a surface is taken as closed
-constexpr double SteepestWall = 1.0;   // a hole between two depths is closed when it is no wider than it is deep
-constexpr double BeyondTheImage = 1.1; // of the image's widest ray: the lens model is not asked for more
-constexpr std::uint32_t Unknown = 0xffffffffu; // instead of a point: something that hides what is behind it
+constexpr std::uint32_t Unknown = 0xffffffffu; // not tuned: a mark instead of a point, for what hides all behind it
 
 /// Where the camera sees a grid point, in pixels, and how far away; NaN when it does not.
 struct Seen
@@ -121,7 +118,7 @@ private:
 
 /// The tangent of the angle between the camera's axis and the farthest ray that its image has. A lens model
 /// holds there; far outside it may fold points back into the image.
-double widestRay(const Camera& camera)
+double widestRay(const Camera& camera, double beyond)
 {
   double widest = 0.0;
   for (int k = 0; k < 8; ++k)
@@ -132,12 +129,12 @@ double widestRay(const Camera& camera)
     const Eigen::Vector3d ray = camera.T_camera_scene * unproject(camera, pixel, 1.0);
     widest = ray.allFinite() ? std::max(widest, ray.head<2>().norm()) : widest;
   }
-  return widest > 0.0 ? BeyondTheImage * widest : std::numeric_limits<double>::infinity();
+  return widest > 0.0 ? beyond * widest : std::numeric_limits<double>::infinity();
 }
 
-/// Holes in the rows of the grid that are small, or narrower than deep, get points on the line between their
+/// Holes in the rows of the grid that are small, or narrow for their depth, get points on the line between their
 /// borders; those are not measured.
-std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row)
+std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row, const PixelMapSettings& settings)
 {
   const auto begin = cloud.points.begin() + static_cast<std::ptrdiff_t>(row) * cloud.width;
   std::vector<Eigen::Vector3f> points(begin, begin + cloud.width);
@@ -152,7 +149,7 @@ std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row)
     if (last >= 0 && steps > 1)
     {
       const Eigen::Vector3f across = points[column] - points[last];
-      if (steps <= SmallHole || across.head<2>().norm() <= SteepestWall * std::abs(across.z()))
+      if (steps <= settings.smallHole || across.head<2>().norm() <= settings.widestHole * std::abs(across.z()))
       {
         for (int k = 1; k < steps; ++k)
         {
@@ -165,16 +162,17 @@ std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row)
   return points;
 }
 
-std::vector<Seen> seenBy(const Camera& camera, const OrganizedCloud& cloud, int threads, const Progress& progress)
+std::vector<Seen> seenBy(const Camera& camera, const OrganizedCloud& cloud, const PixelMapSettings& settings,
+  int threads, const Progress& progress)
 {
-  const double widest = widestRay(camera);
+  const double widest = widestRay(camera, settings.beyondImage);
   std::vector<Seen> all(cloud.size());
   parallelFor(cloud.height, threads, progress,
     [&](int begin, int end, int)
     {
       for (int row = begin; row < end; ++row)
       {
-        const std::vector<Eigen::Vector3f> points = withoutHoles(cloud, row);
+        const std::vector<Eigen::Vector3f> points = withoutHoles(cloud, row, settings);
         for (int column = 0; column < cloud.width; ++column)
         {
           const std::size_t index = static_cast<std::size_t>(row) * cloud.width + column;
@@ -206,10 +204,10 @@ std::size_t placeOf(const Eigen::Vector2i& pixel, const Camera& camera)
 }
 
 /// Median distance in the image of neighbours in a row; at least one pixel.
-double pixelsPerPoint(const std::vector<Seen>& seen, int width)
+double pixelsPerPoint(const std::vector<Seen>& seen, int width, int stride)
 {
   std::vector<float> distances;
-  for (std::size_t i = 1; i < seen.size(); i += 7)
+  for (std::size_t i = 1; i < seen.size(); i += stride)
   {
     const float distance = (seen[i].pixel - seen[i - 1].pixel).norm();
     if (i % width != 0 && distance >= 0.0f)
@@ -273,15 +271,15 @@ int nearestAround(int width, int height, int row, int column, int radius, double
 }
 }
 
-PixelMap projectedPixels(
-  const OrganizedCloud& cloud, const Camera& camera, double jump, int threads, const Progress& progress)
+PixelMap projectedPixels(const OrganizedCloud& cloud, const Camera& camera, double jump, int threads,
+  const Progress& progress, const PixelMapSettings& settings)
 {
   requireCamera(camera);
   if (camera.width < 1 || camera.height < 1)
   {
     throw Error("The size of the camera's image is not known: give its width and height in pixels.");
   }
-  const std::vector<Seen> seen = seenBy(camera, cloud, threads, subProgress(progress, 0.0, 0.4));
+  const std::vector<Seen> seen = seenBy(camera, cloud, settings, threads, subProgress(progress, 0.0, 0.4));
   LeastBuffer front(camera.width, camera.height); // the least depth
   parallelFor(cloud.height, threads, subProgress(progress, 0.4, 0.8),
     [&](int begin, int end, int)
@@ -342,7 +340,7 @@ PixelMap projectedPixels(
     throw Error("The camera does not see the scene: check its position (the transform takes points of the scan to the "
                 "camera, in mm) and its focal lengths.");
   }
-  map.pixelsPerPoint = pixelsPerPoint(seen, cloud.width);
+  map.pixelsPerPoint = pixelsPerPoint(seen, cloud.width, settings.stride);
   return map;
 }
 

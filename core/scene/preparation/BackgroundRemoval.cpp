@@ -17,14 +17,6 @@ namespace meam
 {
 namespace
 {
-constexpr double PointsInTolerance = 2.0;
-constexpr double NoiseInTolerance = 3.0;
-constexpr std::size_t EnoughPoints = 10000; // to find planes among
-constexpr int Tries = 3;                    // planes looked at for each one that may go
-constexpr double MostBehind = 0.03;         // of the points: dirt and wrong points behind the floor
-constexpr int MostSamples = 2000;
-constexpr double MissedOnce = 0.001; // probability that no sample of RANSAC lies on the largest plane
-
 void check(const OrganizedCloud& cloud, const Image* mask, const BackgroundRemovalSettings& settings)
 {
   requirePoints(cloud.points, "The scene");
@@ -47,10 +39,10 @@ void check(const OrganizedCloud& cloud, const Image* mask, const BackgroundRemov
   }
 }
 
-/// Up to EnoughPoints of the indices, spread evenly over them.
-std::vector<int> spread(const std::vector<int>& indices)
+/// Up to `most` of the indices, spread evenly over them.
+std::vector<int> spread(const std::vector<int>& indices, std::size_t most)
 {
-  const std::size_t count = std::min(indices.size(), EnoughPoints);
+  const std::size_t count = std::min(indices.size(), most);
   std::vector<int> result;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -60,17 +52,17 @@ std::vector<int> spread(const std::vector<int>& indices)
 }
 
 /// The plane with the most points within the tolerance (RANSAC, then least squares); none of points on a line.
-std::optional<Plane> largestPlane(const Points& points, double tolerance)
+std::optional<Plane> largestPlane(const Points& points, double tolerance, const BackgroundRemovalSettings& settings)
 {
-  constexpr std::size_t leastPoints = 3;
+  constexpr std::size_t leastPoints = 3; // not tuned: of a plane
   if (points.size() < leastPoints)
   {
     return {};
   }
   pcl::RandomSampleConsensus<pcl::PointXYZ> search(
     pcl::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(toPCL(points)), tolerance);
-  search.setMaxIterations(MostSamples);
-  search.setProbability(1.0 - MissedOnce);
+  search.setMaxIterations(settings.mostTriples);
+  search.setProbability(1.0 - settings.missed);
   std::vector<int> inliers;
   if (!search.computeModel() || (search.getInliers(inliers), inliers.size() < leastPoints))
   {
@@ -114,23 +106,25 @@ BackgroundRemoval removeBackground(
   }
 
   const GridScale scale = gridScale(cloud);
-  const double tolerance = settings.tolerance > 0.0
-                             ? settings.tolerance
-                             : PointsInTolerance * scale.pointDistance + NoiseInTolerance * scale.noise;
+  const double tolerance = settings.tolerance > 0.0 ? settings.tolerance
+                                                    : settings.pointsInTolerance * scale.pointDistance +
+                                                        settings.noiseInTolerance * scale.noise;
   const double fewest = std::max(3.0, settings.leastShare / 100.0 * static_cast<double>(left.size()));
-  std::vector<int> candidates = spread(left); // those of a plane that stays are not looked at again
+  // Those of a plane that stays are not looked at again.
+  std::vector<int> candidates = spread(left, static_cast<std::size_t>(settings.samples));
   const auto on = [&](const Plane& plane) {
     return [&plane, &cloud, tolerance](int i) { return std::abs(plane.signedDistance(cloud.points[i])) <= tolerance; };
   };
-  for (int k = 0; k < Tries * settings.planes && static_cast<int>(result.planes.size()) < settings.planes; ++k)
+  const int tries = settings.tries * settings.planes;
+  for (int k = 0; k < tries && static_cast<int>(result.planes.size()) < settings.planes; ++k)
   {
-    report(progress, static_cast<double>(k) / (Tries * settings.planes));
+    report(progress, static_cast<double>(k) / tries);
     Points points;
     for (const int i : candidates)
     {
       points.push_back(cloud.points[i]);
     }
-    const std::optional<Plane> plane = largestPlane(points, tolerance);
+    const std::optional<Plane> plane = largestPlane(points, tolerance, settings);
     if (!plane)
     {
       break;
@@ -139,7 +133,7 @@ BackgroundRemoval removeBackground(
     const auto behind = static_cast<double>(std::count_if(
       left.begin(), left.end(), [&](int i) { return plane->signedDistance(cloud.points[i]) < -tolerance; }));
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), on(*plane)), candidates.end());
-    if (size < fewest || behind > MostBehind * static_cast<double>(left.size()))
+    if (size < fewest || behind > settings.mostBehind * static_cast<double>(left.size()))
     {
       continue;
     }
