@@ -165,9 +165,9 @@ def details(number, table, rows, poses, folder):
     for method in table.methods:
         of_method = [row for row in rows for _, where in table.columns if belongs(row, table, method, where)]
         asked = sum(int(row["asked"]) for row in of_method)
-        shares = [100 * sum(int(row[name] or 0) for row in of_method) / asked if asked else None for name in OUTCOMES]
-        lines.append((name_of(method), [*shares, None if None in shares else 100 - sum(shares),
-                                        *(dataset.mean_of(of_method, name) for name in figures)]))
+        counts = [sum(int(row[name] or 0) for row in of_method) for name in OUTCOMES]
+        shares = [100 * count / asked if asked else None for count in (*counts, asked - sum(counts))]
+        lines.append((name_of(method), [*shares, *(dataset.mean_of(of_method, name) for name in figures)]))
     head = ["method", *OUTCOMES, "missing", *figures]
     about = (f"The poses of Table {number}, of those asked for"
              + ("; and the BOP benchmark's recalls over copies of which at least a tenth is visible, AP2-20 by the ranks in each bin."
