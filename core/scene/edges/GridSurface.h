@@ -20,9 +20,9 @@ struct GridSurfaceSettings
 /// How finely and how exactly a sensor sampled its scene.
 struct GridScale
 {
-  double pointDistance = 0.0;   ///< mm across the line of sight, median over neighbours in a row
-  double noise = 0.0;           ///< mm, standard deviation of z, from its second differences along rows
-  GridSurfaceSettings settings; ///< of what follows from these
+  double pointDistance = 0.0;     ///< mm across the line of sight, median over neighbours in a row
+  double noise = 0.0;             ///< mm, standard deviation of z, from its second differences along rows
+  GridSurfaceSettings settings{}; ///< of what follows from these
 
   /// mm: neighbours that differ by more in z are of two surfaces, for all that slopes and noise do.
   double depthJump() const;
