@@ -18,17 +18,17 @@ enum class TangentMethod
 struct TangentEstimationSettings
 {
   TangentMethod method = TangentMethod::RobustLine;
-  double leafSize = 0.0;        ///< of the points in a cube of this side one is kept; negative: all; 0:
+  double leafSize = 0.0;        ///< of the points in a cube of this side one is kept; negative: all; 0: sceneLeafShare
   double sceneLeafShare = 0.03; ///< of the diameter, in a scene,
   double modelLeafShare = 0.02; ///< and in a model, whose points are exact
 
   // RobustLine, LineSegments
-  double radius = 0.0;           ///< of the sphere; 0:
+  double radius = 0.0;           ///< of the sphere; 0: radiusShare
   double radiusShare = 0.06;     ///< of the diameter, and no less than a segment needs; of measured points more:
   double radiusInliers = 4.0;    ///< times the inlier distance,
   double radiusSpacings = 3.0;   ///< and times the spacing of the points,
   double mostRadiusShare = 0.12; ///< of the diameter, at most
-  double inlierDistance = 0.0;   ///< to the line; 0:
+  double inlierDistance = 0.0;   ///< to the line; 0: inlierShare
   double inlierShare = 0.012;    ///< of the diameter; of measured points more:
   double inlierNoise = 2.2;      ///< standard deviations of their noise,
   double mostInlierShare = 0.03; ///< of the diameter, at most
@@ -39,7 +39,7 @@ struct TangentEstimationSettings
   double noiseQuantile = 0.25;   ///< of their distances from a plane: more where edges are curved or planes many
 
   // LineSegments
-  double segmentLength = 0.0; ///< a shorter run of points on a line is no segment; 0:
+  double segmentLength = 0.0; ///< a shorter run of points on a line is no segment; 0: segmentShare
   double segmentShare = 0.15; ///< of the diameter
   double segmentReach = 1.25; ///< lengths of a segment, the radius at least: its ends have to see all of it
   double segmentGap = 0.2;    ///< of that length: a longer gap ends a segment

@@ -11,7 +11,7 @@ namespace meam
 struct FeatureEdgesSettings
 {
   double angle = 30.0;  ///< degrees: faces that meet at more than this make a sharp edge
-  double spacing = 0.0; ///< mm, between neighbouring points along an edge; 0:
+  double spacing = 0.0; ///< mm, between neighbouring points along an edge; 0: spacingShare
   double spacingShare = SurfaceSamplingSettings().spacingShare; ///< of d_max
 };
 

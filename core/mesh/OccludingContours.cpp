@@ -30,11 +30,10 @@ void findCosines(const SoAPoints& directions, const Eigen::Vector3f& to, float* 
 
 OccludingContours::OccludingContours(
   const PointCloud& surface, double spacing, const OccludingContoursSettings& settings)
-  : Spacing(spacing)
+  : Samples(surface.points)
+  , Spacing(spacing)
   , Settings(settings)
 {
-  this->Surface.points = surface.points;
-  this->Surface.normals = surface.normals;
   const Points &points = surface.points, &normals = surface.normals;
   const float flat = cosineOf(settings.flattest), sharp = cosineOf(settings.sharpest);
   const PointGrid grid(points, settings.neighbour * spacing);
@@ -67,7 +66,8 @@ OccludingContours::OccludingContours(
 std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vector3f& towards, double inset) const
 {
   std::vector<Point> contour;
-  const Points &points = this->Surface.points, &normals = this->Surface.normals;
+  const Points& points = this->Samples;
+  const SoAPoints& normals = this->Normals;
   const float least = static_cast<float>(this->Settings.seenLast), most = static_cast<float>(this->Settings.seenFirst);
   thread_local std::vector<float> cosineRoom; // there are hundreds of directions
   cosineRoom.resize(points.size());
@@ -114,7 +114,7 @@ std::vector<bool> OccludingContours::areContours(
 {
   const float smooth = cosineOf(this->Settings.smooth);
   const double near = this->Settings.neighbour * this->Spacing;
-  const PointGrid grid(this->Surface.points, near);
+  const PointGrid grid(this->Samples, near);
   std::vector<bool> result(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
@@ -123,13 +123,13 @@ std::vector<bool> OccludingContours::areContours(
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     for (const int k : about)
     {
-      normal += this->Surface.normals[k];
+      normal += this->Normals[k];
     }
     normal.normalize();
     bool isContour = !about.empty();
     for (const int k : about)
     {
-      isContour = isContour && this->Surface.normals[k].dot(normal) > smooth;
+      isContour = isContour && this->Normals[k].dot(normal) > smooth;
     }
     for (std::size_t v = 0; v < viewDirections.size(); ++v)
     {

@@ -46,8 +46,8 @@ public:
     const Points& edges, const std::vector<std::uint32_t>& views, const Points& viewDirections) const;
 
 private:
-  PointCloud Surface;
-  SoAPoints Normals; ///< the same once more
+  Points Samples;
+  SoAPoints Normals; ///< of these
   double Spacing = 0.0;
   OccludingContoursSettings Settings;
   /// A sample beside which the surface bends away, and the samples there.

@@ -9,7 +9,7 @@ namespace meam
 {
 struct SymmetryDetectionSettings
 {
-  double tolerance = 0.0;       ///< mm: distance that a turned surface may keep from itself; 0:
+  double tolerance = 0.0;       ///< mm: distance that a turned surface may keep from itself; 0: toleranceShare
   double toleranceShare = 0.01; ///< of the diameter
   double leastOverlap = 0.8;    ///< of a near-symmetry: share of the surface that comes to lie on the surface
 

@@ -20,7 +20,7 @@ struct BoundaryExtractionSettings
   BoundaryMethod method = BoundaryMethod::PointBoundary;
 
   // PointBoundary
-  double radius = 0.0;         ///< mm, neighbourhood of a point; 0:
+  double radius = 0.0;         ///< mm, neighbourhood of a point; 0: radiusSpacings
   double radiusSpacings = 2.5; ///< times the spacing of the points
   double angle = 90.0;         ///< degrees: a point with a wider gap between its neighbours is on the boundary
 

@@ -236,7 +236,7 @@ public:
   }
 
 private:
-  /// Of the references in one voxel.
+  /// Of the references in one voxel, of which there may be all: the progress is asked whether to go on.
   void findFrom(const std::vector<int>& references, const Progress& progress)
   {
     constexpr std::size_t between = 64; // not tuned: references between two reports

@@ -49,7 +49,7 @@ struct MEAMHashingSettings
   double distanceStep = 0.07;                          ///< tau_d: d_dist as a share of d_max
   double angleStep = 7.2; ///< d_angle, degrees; also the step of the votes' turn about the tangent
   ViewMerging merging = ViewMerging::Points;
-  double voxelSize = 0.0;       ///< L_voxel in mm; 0:
+  double voxelSize = 0.0;       ///< L_voxel in mm; 0: voxelShare
   double voxelShare = 0.015;    ///< of the diameter
   double sameEdgeCosine = 0.94; ///< of 20 degrees: ViewMerging::Points, between the tangents of one edge in two views
   double edgeVoxels = 2.0; ///< an edge point without the number of its surface point is the nearest of those this near

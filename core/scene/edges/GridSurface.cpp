@@ -131,7 +131,7 @@ double GridScale::depthJump() const
 int GridScale::windowRadius() const
 {
   int radius = this->settings.smallestWindow;
-  while (radius<this->settings.largestWindow&& this->slopeError(radius)> this->settings.slopeError)
+  while (this->slopeError(radius) > this->settings.slopeError && radius < this->settings.largestWindow)
   {
     ++radius;
   }

@@ -19,7 +19,7 @@ struct BackgroundRemovalSettings
 {
   Eigen::AlignedBox3f region;     ///< mm, scene coordinates; points outside are removed; empty: all are inside
   int planes = 1;                 ///< at most so many planes are removed, the largest first
-  double tolerance = 0.0;         ///< mm from a plane; 0:
+  double tolerance = 0.0;         ///< mm from a plane; 0: pointsInTolerance
   double pointsInTolerance = 2.0; ///< point distances,
   double noiseInTolerance = 3.0;  ///< and standard deviations of the noise
   double leastShare = 10.0;       ///< % of the points that are left; a smaller plane stays

@@ -75,6 +75,20 @@ TEST(MEAMHashing, EachPhysicalPairOnceAndOnlyWhatIsSeenTogether)
   }
 }
 
+TEST(MEAMHashing, PairsOfOneVoxelCanBeStopped)
+{
+  meam::Points points;
+  for (int k = 0; k < 200; ++k)
+  {
+    points.emplace_back(k % 10, k / 10, 0.01f * k);
+  }
+  MEAMHashingSettings coarse = settings(false);
+  coarse.voxelSize = 1000.0; // of all
+  int reports = 0;           // while pairs are looked for
+  const auto progress = [&](double share) { return share < 0.7 || share >= 0.9 || ++reports < 3; };
+  EXPECT_THROW(meam::hashModels({ view("front", points) }, { {}, 40.0, {} }, coarse, progress), meam::Aborted);
+}
+
 TEST(MEAMHashing, PairsThatOnlyADirectionShowsAreNotTakenForOneAnother)
 {
   // Two views of one plate, its edge points in both, told apart by voxel code: a point pairs with itself
