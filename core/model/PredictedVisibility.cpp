@@ -77,16 +77,20 @@ void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float*
   }
 }
 
-/// Whether something is seen in all cells up to `border` off one, along the rows and columns.
-bool isInside(const std::vector<float>& buffer, int side, int cell, int border)
+/// The lowest of the cells up to `border` off one, along the rows and columns.
+float lowestBeside(const std::vector<float>& buffer, int side, int cell, int border)
 {
-  bool isSeen = cell >= border * side && cell + border * side < static_cast<int>(buffer.size());
-  for (int off = 1; isSeen && off <= border; ++off)
+  if (cell < border * side || cell + border * side >= static_cast<int>(buffer.size()))
   {
-    isSeen = buffer[cell - off] > Nothing && buffer[cell + off] > Nothing && buffer[cell - off * side] > Nothing &&
-             buffer[cell + off * side] > Nothing;
+    return Nothing;
   }
-  return isSeen;
+  float lowest = buffer[cell];
+  for (int off = 1; off <= border; ++off)
+  {
+    lowest = std::min(
+      { lowest, buffer[cell - off], buffer[cell + off], buffer[cell - off * side], buffer[cell + off * side] });
+  }
+  return lowest;
 }
 
 /// The middles of the cells `border` + 1 off what is seen, at the depth of the farthest of its cells that far from
@@ -277,7 +281,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   const int borderCells = static_cast<int>(
     std::clamp(std::round(this->Settings.border * pitch / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
   const double inset = this->Settings.inset * pitch;
-  Visible visible{ towards, {}, {}, {}, {}, {} };
+  Visible visible{ towards, {}, {}, {}, {}, {}, {} };
   const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
   const float tolerance = static_cast<float>(this->Settings.tolerance * this->Diameter);
   const float half = static_cast<float>(this->Diameter); // a point is never farther from the middle
@@ -334,10 +338,16 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   keepInSight(others, nearest, tolerance, inSight);
   visible.surface.reserve(inSight.size());
   visible.isInner.reserve(inSight.size());
+  visible.falls.reserve(inSight.size());
+  const float drop = static_cast<float>(this->Settings.drop * this->Diameter);
   for (const int k : inSight)
   {
     visible.surface.push_back(this->VerificationIndices[k]);
-    visible.isInner.push_back(isInside(nearest, across.side, others.cells[k], borderCells));
+    const int at = others.cells[k];
+    const float lowest = lowestBeside(nearest, across.side, at, borderCells);
+    visible.isInner.push_back(lowest > Nothing);
+    const float fall = nearest[at] - lowest;
+    visible.falls.push_back(fall > drop && lowest > Nothing ? fall : 0.0f);
   }
   return visible;
 }

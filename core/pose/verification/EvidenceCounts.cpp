@@ -15,7 +15,8 @@ double EvidenceRate::logOf(double foundTimes, double missingTimes) const
 double EvidenceCounts::ofSurface(const EvidenceWeights& weights) const
 {
   return weights.there * this->there + weights.unclear * this->unclear + weights.turned * this->turned +
-         weights.past * this->past + weights.farPast * this->farPast + weights.hidden * this->hidden +
+         weights.past * this->past + weights.farPast * this->farPast +
+         weights.hidden * weights.manyHidden * std::log1p(this->hidden / weights.manyHidden) +
          weights.enclosed * this->enclosed + weights.unmeasured * this->unmeasured;
 }
 

@@ -17,7 +17,8 @@ struct EvidenceWeights
   double turned = -0.5;     ///< where it should be, that faces elsewhere
   double past = -2.5;       ///< that the sensor looked past, at something near behind it
   double farPast = -8.0;    ///< and at something far behind it
-  double hidden = -0.1;     ///< with something before it
+  double hidden = -0.1;     ///< with something before it: beyond manyHidden by its logarithm, for one thing hides many
+  double manyHidden = 5.0;  ///< patches
   double enclosed = -6.0;   ///< of the part's body behind the bin's floor or a wall, seen or not
   double unmeasured = -0.1; ///< where nothing was measured; gaps of one cell of the depth map do not count
   // Of the logarithms that the scan's own rates say (EvidenceRates):

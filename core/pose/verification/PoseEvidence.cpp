@@ -177,7 +177,11 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
       case DepthMap::Relation::InFront:
       {
         const bool isFar = depth.relationToMean(point, farBehind) == DepthMap::Relation::InFront;
-        (!settings.freeSpace ? counts.unmeasured : isFar ? counts.farPast : counts.past) += seen;
+        const float fall = visible->falls[k];
+        const bool isPartBeside =
+          fall > 0.0f && depth.relationToMean(point, fall + tolerance) == DepthMap::Relation::OnSurface;
+        const bool saysNothing = !settings.freeSpace || isPartBeside;
+        (saysNothing ? counts.unmeasured : isFar ? counts.farPast : counts.past) += seen;
         state = stateOf(DepthMap::Relation::InFront);
         break;
       }

@@ -170,11 +170,50 @@ TEST(PredictedVisibility, TheOutlineOfACubeFromAboveIsASquare)
     {
       EXPECT_FALSE(visible->isInner[k]) << inside;
     }
+    EXPECT_EQ(visible->falls[k], 0.0f) << "flat up to the outline";
     if (inside > 2.0 * cell)
     {
       EXPECT_TRUE(visible->isInner[k]) << inside;
     }
   }
+}
+
+TEST(PredictedVisibility, TheRimOfACubeOnAPlateFallsOff)
+{
+  meam::TrainedModel model = cube();
+  const std::size_t ofCube = model.surface.size();
+  for (float x = -19.5f; x < 20.0f; ++x)
+  {
+    for (float y = -19.5f; y < 20.0f; ++y)
+    {
+      model.verificationPoints.push_back(static_cast<int>(model.surface.size()));
+      model.surface.points.push_back({ x, y, -10.0f });
+      model.surface.normals.push_back(Eigen::Vector3f::UnitZ());
+    }
+  }
+  model.diameter = 60.0;
+  const meam::PredictedVisibility visibility(model);
+  const auto visible = visibility.visible(Eigen::Isometry3d::Identity(), fromAbove());
+  ASSERT_EQ(visible->falls.size(), visible->surface.size());
+  const double cell = visibility.cellSize();
+  int fall = 0;
+  for (std::size_t k = 0; k < visible->surface.size(); ++k)
+  {
+    const Eigen::Vector3f& point = model.surface.points[visible->surface[k]];
+    const double fromRim = 10.0 - point.head<2>().cwiseAbs().maxCoeff(); // of the cube
+    const bool isOnCube = static_cast<std::size_t>(visible->surface[k]) < ofCube;
+    if (!visible->isInner[k])
+    {
+      EXPECT_FALSE(isOnCube && fromRim > 0.0) << "the plate is behind the cube's rim";
+      continue;
+    }
+    const bool falls = visible->falls[k] > 0.0f;
+    EXPECT_TRUE(!falls || visible->falls[k] == 20.0f) << visible->falls[k];
+    EXPECT_FALSE(falls && (!isOnCube || fromRim > 2.0 * cell)) << point.transpose();
+    EXPECT_TRUE(falls || !isOnCube || fromRim > 0.4) << point.transpose();
+    fall += falls;
+  }
+  EXPECT_GT(fall, 50);
 }
 
 TEST(PredictedVisibility, APoseFarAwayShowsTheSideThatFacesTheSensor)

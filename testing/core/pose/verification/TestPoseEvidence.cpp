@@ -9,6 +9,33 @@
 #include <cmath>
 #include <utility>
 
+namespace
+{
+/// 2 mm of a part of 47 mm, which lets points be 1.4 mm off.
+constexpr float RibHeight = 2.0f;
+
+template <int Width>
+meam::TriangleMesh ribbedPlate()
+{
+  const float half = 0.5f * Width;
+  return parts::prism({ { 0.0f, 0.0f }, { 20.0f, 0.0f }, { 20.0f, 6.0f }, { half, 6.0f }, { half, 6.0f + RibHeight },
+                        { -half, 6.0f + RibHeight }, { -half, 6.0f }, { -20.0f, 6.0f }, { -20.0f, 0.0f } },
+    25.0f);
+}
+
+/// The plate of the ribs, without one.
+meam::TriangleMesh barePlate() { return parts::box({ -20.0f, 0.0f, 0.0f }, { 20.0f, 6.0f, 25.0f }); }
+
+/// Of a ribbed plate taken to be where a bare one is, its upper side up.
+meam::EvidenceCounts onBarePlate(const meam::TrainedModel& ribbed)
+{
+  const Eigen::Isometry3d up(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()));
+  const meam::Scene scene = scenes::prepared(
+    scenes::withTangents(scenes::seenFromAbove({ { barePlate(), up } }), ribbed.diameter), ribbed.diameter);
+  return meam::EvidenceCollector(scene, ribbed).collect(scene.T_local_scene() * up).counts;
+}
+}
+
 TEST(PoseEvidence, TheScoreIsTheShareOfWhatNothingHidesThatIsThere)
 {
   using meam::PointState;
@@ -48,11 +75,13 @@ TEST(PoseEvidence, CountsAddUpByTheirWeights)
   weights.farPast = -8.0;
   weights.enclosed = -16.0;
   weights.hidden = -0.25;
+  weights.manyHidden = 4.0;
   weights.unmeasured = 0.1;
   weights.outline = 0.25;
   weights.edge = 0.5;
   weights.manyLines = 4.0;
-  EXPECT_NEAR(counts.ofSurface(weights), 10.0 + 1.0 - 1.0 - 2.0 - 2.0 - 1.0 - 2.0 + 0.7, 1e-12);
+  const double ofSurface = 10.0 + 1.0 - 1.0 - 2.0 - 2.0 - 2.0 - 0.25 * 4.0 * std::log(2.0) + 0.7;
+  EXPECT_NEAR(counts.ofSurface(weights), ofSurface, 1e-12);
   // An edge found is twice as likely where the part is, one that is missing half as likely; an outline that ends four
   // times, one that goes on a quarter.
   const meam::EvidenceRates rates{ { 2.0 / 3.0, 1.0 / 3.0 }, { 0.8, 0.2 } };
@@ -61,11 +90,12 @@ TEST(PoseEvidence, CountsAddUpByTheirWeights)
   // Much of it counts by its logarithm, for or against the pose.
   const double ofLines = 4.0 * std::log(1.0 + (ofEdges + ofOutline) / 4.0);
   EXPECT_NEAR(counts.ofLines(weights, rates), ofLines, 1e-12);
-  EXPECT_NEAR(counts.sum(weights, rates), 3.7 + ofLines, 1e-12);
+  EXPECT_NEAR(counts.sum(weights, rates), ofSurface + ofLines, 1e-12);
   std::swap(counts.edgesFound, counts.edgesMissing);
   std::swap(counts.ends, counts.goesOn);
   EXPECT_NEAR(counts.ofLines(weights, rates), -ofLines, 1e-12);
-  EXPECT_NEAR(counts.sum(weights, { { 0.4, 0.4 }, { 0.7, 0.7 } }), 3.7, 1e-12) << "rates that tell nothing have no say";
+  EXPECT_NEAR(counts.sum(weights, { { 0.4, 0.4 }, { 0.7, 0.7 } }), ofSurface, 1e-12)
+    << "rates that tell nothing have no say";
 }
 
 TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
@@ -255,6 +285,16 @@ TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)
   const meam::EvidenceCounts beside = collector.collect(scene.T_local_scene() * shifted).counts;
   EXPECT_GT(beside.goesOn, counts.goesOn + 1.0);
   EXPECT_LT(beside.edgesFound, 0.8 * counts.edgesFound);
+}
+
+TEST(PoseEvidence, WhereASensorLosesARibIsNotSeenPast)
+{
+  // Beside a jump it may have measured what is below alone.
+  const meam::EvidenceCounts narrow = onBarePlate(scenes::trained<ribbedPlate<2>>());
+  EXPECT_EQ(narrow.past, 0.0);
+  EXPECT_GT(narrow.unmeasured, 0.5);
+  const meam::EvidenceCounts wide = onBarePlate(scenes::trained<ribbedPlate<14>>());
+  EXPECT_GT(wide.past, 5.0) << "a ridge that is not there";
 }
 
 TEST(PoseEvidence, MatchedAreThoseOfTheSurfaceAndWithoutOneOfTheEdges)
