@@ -344,10 +344,10 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   {
     visible.surface.push_back(this->VerificationIndices[k]);
     const int at = others.cells[k];
-    const float lowest = lowestBeside(nearest, across.side, at, borderCells);
-    visible.isInner.push_back(lowest > Nothing);
-    const float fall = nearest[at] - lowest;
-    visible.falls.push_back(fall > drop && lowest > Nothing ? fall : 0.0f);
+    const bool isInner = lowestBeside(nearest, across.side, at, borderCells) > Nothing;
+    const float fall = isInner ? nearest[at] - lowestBeside(nearest, across.side, at, 1) : 0.0f;
+    visible.isInner.push_back(isInner);
+    visible.falls.push_back(fall > drop ? fall : 0.0f);
   }
   return visible;
 }

@@ -25,7 +25,7 @@ struct PredictedVisibilitySettings
   int widestBorder = 4;        ///< cells
   double edgeCell = 0.1;       ///< of the grid that finds visible edges
   double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
-  double drop = 0.025; ///< where the part itself falls off by more than this, within that border, they do as well
+  double drop = 0.025; ///< beside where the part itself falls off by more than this in a cell, they do as well
   double inset = 0.5;  ///< of them: where a smooth surface ends the last point is measured so far inside
   double pitchStep = 0.0005; ///< to which point distances are rounded
   int pitchSteps = 200;      ///< at most
@@ -58,7 +58,7 @@ public:
     PointGrid edgeGrid;        ///< of these
     std::vector<int> surface;  ///< indices of verification points
     std::vector<char> isInner; ///< of these, whether they lie further than the border inside the part's outline,
-    std::vector<float> falls;  ///< and by how much the part itself falls off within the border, mm; 0: less than `drop`
+    std::vector<float> falls;  ///< and by how much the part itself falls off in the next cell, mm; 0: less than `drop`
     /// Beside the part's outline, outside, at the depth of its border: points a cell further off than the border, a
     /// cell apart, mm.
     Points outside;

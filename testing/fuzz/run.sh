@@ -28,7 +28,7 @@ fuzz() { # READER
   wait $! || status=$?
   rm -rf "/dev/shm/meam-fuzz-$!-$reader" "${TMPDIR:-/tmp}/meam-fuzz-$!-$reader" # a crash leaves it
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
-  coverage=$(grep -o 'cov: [0-9]*' "$log" | tail -1)
+  coverage=$(grep -ao 'cov: [0-9]*' "$log" | tail -1)
   [ $status = 0 ] || found=$(sed -n 's/.*Test unit written to //p' "$log" | tail -1)
   # libFuzzer looks at the clock: a machine that is busy makes any file last too long.
   if [[ $found == *-timeout-* ]] && MEAM_READER=$reader "$build/bin/meamFuzz" -timeout=10 "$found" >>"$log" 2>&1; then
