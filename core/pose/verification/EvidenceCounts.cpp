@@ -6,6 +6,12 @@
 
 namespace meam
 {
+namespace
+{
+/// A sum that beyond about `many` grows by its logarithm.
+double saturated(double sum, double many) { return std::copysign(many * std::log1p(std::abs(sum) / many), sum); }
+}
+
 double EvidenceRate::logOf(double foundTimes, double missingTimes) const
 {
   return foundTimes * std::log(this->found / this->chance) +
@@ -16,8 +22,8 @@ double EvidenceCounts::ofSurface(const EvidenceWeights& weights) const
 {
   return weights.there * this->there + weights.unclear * this->unclear + weights.turned * this->turned +
          weights.past * this->past + weights.farPast * this->farPast +
-         weights.hidden * weights.manyHidden * std::log1p(this->hidden / weights.manyHidden) +
-         weights.enclosed * this->enclosed + weights.unmeasured * this->unmeasured;
+         weights.hidden * saturated(this->hidden, weights.manyHidden) + weights.enclosed * this->enclosed +
+         weights.unmeasured * this->unmeasured;
 }
 
 double EvidenceCounts::ofEdges(const EvidenceWeights& weights, const EvidenceRates& rates) const
@@ -28,7 +34,7 @@ double EvidenceCounts::ofEdges(const EvidenceWeights& weights, const EvidenceRat
 double EvidenceCounts::ofLines(const EvidenceWeights& weights, const EvidenceRates& rates) const
 {
   const double all = this->ofEdges(weights, rates) + weights.outline * rates.outline.logOf(this->ends, this->goesOn);
-  return std::copysign(weights.manyLines * std::log1p(std::abs(all) / weights.manyLines), all);
+  return saturated(all, weights.manyLines);
 }
 
 double EvidenceCounts::sum(const EvidenceWeights& weights, const EvidenceRates& rates) const

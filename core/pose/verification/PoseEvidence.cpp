@@ -182,7 +182,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
           fall > 0.0f && depth.relationToMean(point, fall + tolerance) == DepthMap::Relation::OnSurface;
         const bool saysNothing = !settings.freeSpace || isPartBeside;
         (saysNothing ? counts.unmeasured : isFar ? counts.farPast : counts.past) += seen;
-        state = stateOf(DepthMap::Relation::InFront);
+        state = saysNothing ? PointState::Unknown : PointState::Violated;
         break;
       }
     }

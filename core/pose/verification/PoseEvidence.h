@@ -18,7 +18,8 @@ enum class PointState : unsigned char
   Matched, ///< it is there
   Turned,  ///< there is a surface, but it faces elsewhere
   Hidden,  ///< something lies in front of it: says nothing about the pose
-  Unknown, ///< surface where nothing was measured: says nothing about the pose by itself
+  Unknown, ///< nothing was measured there, or just the part's own lower side beside: says nothing about the pose by
+           ///< itself
   Violated ///< the sensor saw past it: speaks against the pose
 };
 

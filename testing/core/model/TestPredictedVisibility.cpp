@@ -196,7 +196,7 @@ TEST(PredictedVisibility, TheRimOfACubeOnAPlateFallsOff)
   const auto visible = visibility.visible(Eigen::Isometry3d::Identity(), fromAbove());
   ASSERT_EQ(visible->falls.size(), visible->surface.size());
   const double cell = visibility.cellSize();
-  int fall = 0;
+  int atRim = 0;
   for (std::size_t k = 0; k < visible->surface.size(); ++k)
   {
     const Eigen::Vector3f& point = model.surface.points[visible->surface[k]];
@@ -211,9 +211,9 @@ TEST(PredictedVisibility, TheRimOfACubeOnAPlateFallsOff)
     EXPECT_TRUE(!falls || visible->falls[k] == 20.0f) << visible->falls[k];
     EXPECT_FALSE(falls && (!isOnCube || fromRim > 2.0 * cell)) << point.transpose();
     EXPECT_TRUE(falls || !isOnCube || fromRim > 0.4) << point.transpose();
-    fall += falls;
+    atRim += falls;
   }
-  EXPECT_GT(fall, 50);
+  EXPECT_GT(atRim, 50);
 }
 
 TEST(PredictedVisibility, APoseFarAwayShowsTheSideThatFacesTheSensor)

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,12 +28,12 @@ meam::TriangleMesh ribbedPlate()
 meam::TriangleMesh barePlate() { return parts::box({ -20.0f, 0.0f, 0.0f }, { 20.0f, 6.0f, 25.0f }); }
 
 /// Of a ribbed plate taken to be where a bare one is, its upper side up.
-meam::EvidenceCounts onBarePlate(const meam::TrainedModel& ribbed)
+meam::PoseEvidence onBarePlate(const meam::TrainedModel& ribbed)
 {
   const Eigen::Isometry3d up(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()));
   const meam::Scene scene = scenes::prepared(
     scenes::withTangents(scenes::seenFromAbove({ { barePlate(), up } }), ribbed.diameter), ribbed.diameter);
-  return meam::EvidenceCollector(scene, ribbed).collect(scene.T_local_scene() * up).counts;
+  return meam::EvidenceCollector(scene, ribbed).collect(scene.T_local_scene() * up);
 }
 }
 
@@ -290,11 +291,13 @@ TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)
 TEST(PoseEvidence, WhereASensorLosesARibIsNotSeenPast)
 {
   // Beside a jump it may have measured what is below alone.
-  const meam::EvidenceCounts narrow = onBarePlate(scenes::trained<ribbedPlate<2>>());
-  EXPECT_EQ(narrow.past, 0.0);
-  EXPECT_GT(narrow.unmeasured, 0.5);
-  const meam::EvidenceCounts wide = onBarePlate(scenes::trained<ribbedPlate<14>>());
-  EXPECT_GT(wide.past, 5.0) << "a ridge that is not there";
+  const meam::PoseEvidence narrow = onBarePlate(scenes::trained<ribbedPlate<2>>());
+  EXPECT_EQ(narrow.counts.past, 0.0);
+  EXPECT_GT(narrow.counts.unmeasured, 0.5);
+  const auto& states = narrow.surfaceStates;
+  EXPECT_GT(std::count(states.begin(), states.end(), meam::PointState::Unknown), 0);
+  const meam::PoseEvidence wide = onBarePlate(scenes::trained<ribbedPlate<14>>());
+  EXPECT_GT(wide.counts.past, 5.0) << "a ridge that is not there";
 }
 
 TEST(PoseEvidence, MatchedAreThoseOfTheSurfaceAndWithoutOneOfTheEdges)
