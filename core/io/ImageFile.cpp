@@ -34,6 +34,7 @@ struct Size
 {
   std::uint64_t width = 0;
   std::uint64_t height = 0;
+  std::uint64_t block = 0; ///< pixels of a strip or tile, which a decoder makes room for however small the image is
 };
 
 /// `count` bytes from a place in the file as a whole number; 0 beyond its end.
@@ -70,19 +71,27 @@ Size sizeOfJPEG(const std::string& bytes)
 }
 
 /// The tags 256 and 257 of the first directory; of several the first one, as libtiff has it. None of another type than
-/// short or long: libtiff takes their values from elsewhere.
+/// short or long: libtiff takes their values from elsewhere. Blocks are strips or tiles, whichever is larger.
 Size sizeOfTIFF(const std::string& bytes)
 {
   const bool big = bytes[0] == 'M';
   const std::uint64_t directory = numberAt(bytes, 4, 4, big);
   const std::uint64_t tags = numberAt(bytes, directory, 2, big);
+  constexpr std::uint64_t wholeImage = 0xffffffff; // as rows of a strip
   Size size;
+  std::uint64_t rowsOfStrip = 0, tileWidth = 0, tileHeight = 0;
   for (std::uint64_t tag = 0; tag < tags; ++tag)
   {
     const std::uint64_t at = directory + 2 + 12 * tag;
     const std::uint64_t name = numberAt(bytes, at, 2, big);
     const std::uint64_t type = numberAt(bytes, at + 2, 2, big);
-    if (name != 256 && name != 257)
+    std::uint64_t* const length = name == 256   ? &size.width
+                                  : name == 257 ? &size.height
+                                  : name == 278 ? &rowsOfStrip
+                                  : name == 322 ? &tileWidth
+                                  : name == 323 ? &tileHeight
+                                                : nullptr;
+    if (!length)
     {
       continue;
     }
@@ -90,9 +99,10 @@ Size sizeOfTIFF(const std::string& bytes)
     {
       return {};
     }
-    std::uint64_t& length = name == 256 ? size.width : size.height;
-    length = length == 0 ? numberAt(bytes, at + 8, type == 3 ? 2 : 4, big) : length;
+    *length = *length == 0 ? numberAt(bytes, at + 8, type == 3 ? 2 : 4, big) : *length;
   }
+  const std::uint64_t ofStrip = rowsOfStrip == wholeImage ? 0 : size.width * rowsOfStrip;
+  size.block = std::max(ofStrip, tileWidth * tileHeight);
   return size;
 }
 
@@ -132,6 +142,11 @@ Size checkedSize(const std::string& path, const std::string& bytes, std::uint64_
   if (size.width > most || size.height > most || size.width * size.height > most)
   {
     fail(path, "promises " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                 " pixels, more than the file has room for: it is cut off or damaged");
+  }
+  if (size.block > most)
+  {
+    fail(path, "promises strips or tiles of " + std::to_string(size.block) +
                  " pixels, more than the file has room for: it is cut off or damaged");
   }
   return size;

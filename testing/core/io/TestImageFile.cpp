@@ -148,4 +148,9 @@ TEST(ImageFile, absurdSizesAreRefusedBeforeMemoryIsTaken)
   expectError(with(images::encoded(".png", grey), 16, most + most), "more than the file has room for");
   expectError(with(images::encoded(".bmp", grey), 18, "\xff\xff\xff\x7f\xff\xff\xff\xff"), "more than the file");
   expectError(with(images::encoded(".png", grey), 16, std::string("\0\0\x40\0\0\0\x40\0", 8)), "16384 x 16384");
+  // Rows of a strip, of an image of two.
+  const std::string tiff = images::encoded(".tiff", grey);
+  const std::size_t rows = tiff.find(std::string("\x16\x01\x03\0\1\0\0\0", 8));
+  ASSERT_NE(rows, std::string::npos);
+  expectError(with(tiff, rows, std::string("\x16\x01\x04\0\1\0\0\0\xff\xff\xff\x7f", 12)), "strips or tiles");
 }
