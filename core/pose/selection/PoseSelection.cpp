@@ -27,13 +27,14 @@ public:
     : InScene(scene)
     , Model(model)
     , Settings(settings)
-    , Collector(collector)
     , Rates(rates)
     , Comparison(comparison)
     , Restarts(scene, model, comparison, settings.restarts)
     , Search(scene, model, settings.rotation)
     , Rotated(rotatedSettings(settings, model))
     , Decision(scene, model, comparison, collector, Rates, Rotated, settings.decision)
+    , Ascent(collector, rates, model, settings.ascent)
+    , Fitter(scene, model, settings.alignment.fitter)
   {
   }
 
@@ -48,10 +49,15 @@ public:
       this->Decision.decide(pose, asItIs);
     }
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
-    const PoseEvidence evidence = this->Collector.collect(pose.T_scene_model);
-    setSeen(pose, evidence, this->InScene, this->Model);
-    weighEvidence(pose, evidence.counts, this->Rates, this->Collector);
-    return evidence.matched();
+    const EvidenceAscent::Place place = this->Ascent.best(pose);
+    pose.T_scene_model = place.T_scene_model;
+    if (place.isMoved)
+    {
+      pose.fit = this->Fitter.fitAt(pose, this->Settings.alignment.fitDistance * this->Model.diameter);
+    }
+    setSeen(pose, place.evidence, this->InScene, this->Model);
+    setOdds(pose, place.logOdds);
+    return place.evidence.matched();
   }
 
 private:
@@ -75,13 +81,14 @@ private:
   const Scene& InScene;
   const TrainedModel& Model;
   const PoseSelectionSettings& Settings;
-  const EvidenceCollector& Collector;
   EvidenceRates Rates;
   const PoseComparison& Comparison;
   RefinementRestarts Restarts;
   RotationSearch Search;
   PoseRefinementSettings Rotated;
   RotationDecision Decision;
+  EvidenceAscent Ascent;
+  PoseFitter Fitter;
 };
 
 /// A pose and what it matched.

@@ -5,6 +5,7 @@
 #include "pose/Pose.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/refinement/PoseRefinement.h"
+#include "pose/selection/EvidenceAscent.h"
 #include "pose/selection/InstanceChoice.h"
 #include "pose/selection/PoseClusters.h"
 #include "pose/selection/PoseComparison.h"
@@ -43,7 +44,8 @@ struct PoseSelectionSettings
   RotationDecisionSettings decision;
   int rateStride = 2; ///< of the points that tell the scan's rates of edges one of so many
   FinalAlignmentSettings alignment;
-  int threads = 0; ///< 0: one for each processor
+  EvidenceAscentSettings ascent; ///< of an aligned pose that the scan contradicts
+  int threads = 0;               ///< 0: one for each processor
 
   static PoseRefinementSettings afterRotation()
   {
@@ -66,7 +68,7 @@ PoseSelectionSettings candidateSelectionSettings();
 /// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is
 /// decided on the points that tell them apart. Then the pose is refined from others about it (RefinementRestarts) and
 /// turned about the axis of a nearly round part, or by an approximate symmetry, where the scene speaks for it, which
-/// sets its certainty; it is aligned (alignRobustly) and scored.
+/// sets its certainty; it is aligned (alignRobustly), moved where the scan contradicts it (EvidenceAscent), and scored.
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings = {}, const Progress& progress = {});
 }

@@ -94,10 +94,9 @@ void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const
   pose.score = evidence.score();
 }
 
-void weighEvidence(
-  Pose& pose, const EvidenceCounts& counts, const EvidenceRates& rates, const EvidenceCollector& collector)
+void setOdds(Pose& pose, double logOdds)
 {
-  pose.evidence = withCertainty(collector.logOdds(counts, rates), pose.certainty);
+  pose.evidence = withCertainty(logOdds, pose.certainty);
   pose.probability = probabilityOf(pose.evidence);
 }
 
@@ -173,7 +172,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     }
     for (std::size_t i = 0; i < scored.size(); ++i)
     {
-      weighEvidence(scored[i], counts[i], rates, collector);
+      setOdds(scored[i], collector.logOdds(counts[i], rates));
     }
   }
   std::stable_sort(scored.begin(), scored.end(), isBetter);
