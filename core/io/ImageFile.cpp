@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -34,7 +35,6 @@ struct Size
 {
   std::uint64_t width = 0;
   std::uint64_t height = 0;
-  std::uint64_t block = 0; ///< pixels of a strip or tile, which a decoder makes room for however small the image is
 };
 
 /// `count` bytes from a place in the file as a whole number; 0 beyond its end.
@@ -70,40 +70,73 @@ Size sizeOfJPEG(const std::string& bytes)
   return {};
 }
 
-/// The tags 256 and 257 of the first directory; of several the first one, as libtiff has it. None of another type than
-/// short or long: libtiff takes their values from elsewhere. Blocks are strips or tiles, whichever is larger.
-Size sizeOfTIFF(const std::string& bytes)
+namespace tiff
 {
-  const bool big = bytes[0] == 'M';
+enum Name : std::uint64_t
+{
+  Width = 256,
+  Height = 257,
+  BitsPerSample = 258,
+  Compression = 259,
+  SamplesPerPixel = 277,
+  RowsPerStrip = 278,
+  TileWidth = 322,
+  TileHeight = 323
+};
+enum Type : std::uint64_t
+{
+  Short = 3,
+  Long = 4
+};
+
+struct Tag
+{
+  std::uint64_t at = 0; ///< in the file; 0: there is none
+  std::uint64_t type = 0;
+  std::uint64_t value = 0; ///< the first of several
+
+  /// libtiff takes values of other types from elsewhere.
+  bool isNumber() const { return this->type == Short || this->type == Long; }
+};
+
+bool isBigEndian(const std::string& bytes) { return bytes[0] == 'M'; }
+
+/// Of the first directory; of several the first one, as libtiff has it.
+Tag tagOf(const std::string& bytes, Name name)
+{
+  const bool big = isBigEndian(bytes);
   const std::uint64_t directory = numberAt(bytes, 4, 4, big);
   const std::uint64_t tags = numberAt(bytes, directory, 2, big);
-  constexpr std::uint64_t wholeImage = 0xffffffff; // as rows of a strip
-  Size size;
-  std::uint64_t rowsOfStrip = 0, tileWidth = 0, tileHeight = 0;
-  for (std::uint64_t tag = 0; tag < tags; ++tag)
+  for (std::uint64_t k = 0; k < tags; ++k)
   {
-    const std::uint64_t at = directory + 2 + 12 * tag;
-    const std::uint64_t name = numberAt(bytes, at, 2, big);
-    const std::uint64_t type = numberAt(bytes, at + 2, 2, big);
-    std::uint64_t* const length = name == 256   ? &size.width
-                                  : name == 257 ? &size.height
-                                  : name == 278 ? &rowsOfStrip
-                                  : name == 322 ? &tileWidth
-                                  : name == 323 ? &tileHeight
-                                                : nullptr;
-    if (!length)
+    const std::uint64_t at = directory + 2 + 12 * k;
+    if (numberAt(bytes, at, 2, big) == name)
     {
-      continue;
+      const std::uint64_t type = numberAt(bytes, at + 2, 2, big), count = numberAt(bytes, at + 4, 4, big);
+      const int length = type == Short ? 2 : 4;
+      const bool isElsewhere = length * count > 4;
+      return { at, type, numberAt(bytes, isElsewhere ? numberAt(bytes, at + 8, 4, big) : at + 8, length, big) };
     }
-    if (type != 3 && type != 4)
-    {
-      return {};
-    }
-    *length = *length == 0 ? numberAt(bytes, at + 8, type == 3 ? 2 : 4, big) : *length;
   }
-  const std::uint64_t ofStrip = rowsOfStrip == wholeImage ? 0 : size.width * rowsOfStrip;
-  size.block = std::max(ofStrip, tileWidth * tileHeight);
-  return size;
+  return {};
+}
+
+Size sizeOf(const std::string& bytes)
+{
+  const Tag width = tagOf(bytes, Width), height = tagOf(bytes, Height);
+  return width.isNumber() && height.isNumber() ? Size{ width.value, height.value } : Size{};
+}
+
+/// Writes a number in place of that of a tag.
+void set(std::string& bytes, const Tag& tag, std::uint64_t value)
+{
+  const int length = tag.type == Short ? 2 : 4;
+  for (int i = 0; i < length; ++i)
+  {
+    const int shift = 8 * (isBigEndian(bytes) ? length - 1 - i : i);
+    bytes[tag.at + 8 + i] = static_cast<char>(value >> shift & 0xff);
+  }
+}
 }
 
 Size sizeOf(const std::string& path, const std::string& bytes)
@@ -125,7 +158,7 @@ Size sizeOf(const std::string& path, const std::string& bytes)
   }
   if (starts(std::string("II*\0", 4)) || starts(std::string("MM\0*", 4)))
   {
-    return sizeOfTIFF(bytes);
+    return tiff::sizeOf(bytes);
   }
   fail(path, "is not a PNG, JPEG, BMP or TIFF image");
 }
@@ -144,12 +177,40 @@ Size checkedSize(const std::string& path, const std::string& bytes, std::uint64_
     fail(path, "promises " + std::to_string(size.width) + " x " + std::to_string(size.height) +
                  " pixels, more than the file has room for: it is cut off or damaged");
   }
-  if (size.block > most)
-  {
-    fail(path, "promises strips or tiles of " + std::to_string(size.block) +
-                 " pixels, more than the file has room for: it is cut off or damaged");
-  }
   return size;
+}
+
+/// What makes a decoder take memory that neither the size nor the length of a TIFF file justifies is refused; strips
+/// that are higher than the image are made as high as it.
+void checkTIFF(const std::string& path, std::string& bytes, const Size& size)
+{
+  // Without JBIG and LZMA, which take as much memory as their own headers say.
+  constexpr std::array<std::uint64_t, 9> known{ 1, 2, 3, 4, 5, 7, 8, 32773, 32946 };
+  constexpr std::uint64_t mostBits = 16, mostSamples = 4; // what images are read of
+  const tiff::Tag compression = tiff::tagOf(bytes, tiff::Compression);
+  if (compression.at > 0 && std::find(known.begin(), known.end(), compression.value) == known.end())
+  {
+    fail(path, "is compressed in a way that is not read (" + std::to_string(compression.value) +
+                 "): save it without, with LZW or with Deflate");
+  }
+  if (tiff::tagOf(bytes, tiff::BitsPerSample).value > mostBits ||
+      tiff::tagOf(bytes, tiff::SamplesPerPixel).value > mostSamples)
+  {
+    fail(path, "is neither grey nor coloured with 8 or 16 bits");
+  }
+  const tiff::Tag rows = tiff::tagOf(bytes, tiff::RowsPerStrip);
+  const tiff::Tag tileWidth = tiff::tagOf(bytes, tiff::TileWidth), tileHeight = tiff::tagOf(bytes, tiff::TileHeight);
+  const auto isDamaged = [](const tiff::Tag& tag) { return tag.at > 0 && !tag.isNumber(); };
+  const std::uint64_t most = std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * bytes.size());
+  if (isDamaged(rows) || isDamaged(tileWidth) || isDamaged(tileHeight) || (tileWidth.at > 0) != (tileHeight.at > 0) ||
+      tileWidth.value * tileHeight.value > most)
+  {
+    fail(path, "is cut off or damaged: its strips or tiles have no size, or more pixels than the file has room for");
+  }
+  if (rows.value > size.height)
+  {
+    tiff::set(bytes, rows, size.height);
+  }
 }
 
 /// Whether a JPEG file has more scans than can be. Within one the two bytes that start another do not stand.
@@ -195,8 +256,12 @@ bool isWhole(const std::string& bytes, const Size& size)
 /// What OpenCV makes of the file, channels and depth as they are.
 cv::Mat decode(const std::string& path)
 {
-  const std::string bytes = readFile(path);
+  std::string bytes = readFile(path);
   const Size size = checkedSize(path, bytes, bytes.size());
+  if (bytes[0] == 'I' || bytes[0] == 'M')
+  {
+    checkTIFF(path, bytes, size);
+  }
   if (!isWhole(bytes, size))
   {
     fail(path, "is cut off or damaged");
@@ -208,8 +273,7 @@ cv::Mat decode(const std::string& path)
   cv::Mat pixels;
   try
   {
-    // OpenCV takes a matrix that is not const; it only reads.
-    const cv::Mat file(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+    const cv::Mat file(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
     pixels = cv::imdecode(file, cv::IMREAD_UNCHANGED);
   }
   catch (const cv::Exception&)

@@ -148,9 +148,33 @@ TEST(ImageFile, absurdSizesAreRefusedBeforeMemoryIsTaken)
   expectError(with(images::encoded(".png", grey), 16, most + most), "more than the file has room for");
   expectError(with(images::encoded(".bmp", grey), 18, "\xff\xff\xff\x7f\xff\xff\xff\xff"), "more than the file");
   expectError(with(images::encoded(".png", grey), 16, std::string("\0\0\x40\0\0\0\x40\0", 8)), "16384 x 16384");
-  // Rows of a strip, of an image of two.
-  const std::string tiff = images::encoded(".tiff", grey);
-  const std::size_t rows = tiff.find(std::string("\x16\x01\x03\0\1\0\0\0", 8));
-  ASSERT_NE(rows, std::string::npos);
-  expectError(with(tiff, rows, std::string("\x16\x01\x04\0\1\0\0\0\xff\xff\xff\x7f", 12)), "strips or tiles");
+}
+
+TEST(ImageFile, ofATIFFOnlyTagsThatTakeNoUndueMemoryAreRead)
+{
+  const std::string file = images::encoded(".tiff", grey);
+  const auto tag = [](int name, int type, const std::string& value)
+  {
+    return std::string{ static_cast<char>(name), static_cast<char>(name >> 8), static_cast<char>(type), 0, 1, 0, 0,
+      0 } + value;
+  };
+  /// The file with another tag in place of one that is there.
+  const auto with = [&](int name, const std::string& other)
+  {
+    const std::size_t at = file.find(tag(name, 3, ""));
+    EXPECT_NE(at, std::string::npos) << name;
+    return std::string(file).replace(at, other.size(), other);
+  };
+  constexpr int bits = 258, compression = 259, samples = 277, rowsOfStrip = 278, tileWidth = 322;
+  // One strip that is higher than the image, as some programs write it.
+  for (const std::string& rows : { tag(rowsOfStrip, 3, std::string("\xff\xff\0\0", 4)),
+         tag(rowsOfStrip, 4, "\xff\xff\xff\xff"), tag(rowsOfStrip, 4, "\xff\xff\xff\x7f") })
+  {
+    EXPECT_EQ(read(with(rowsOfStrip, rows)).pixels, read(file).pixels);
+  }
+  expectError(with(compression, tag(compression, 3, std::string("\x65\x87\0\0", 4))), "is not read (34661)");
+  expectError(with(bits, tag(bits, 3, std::string("\x40\0\0\0", 4))), "8 or 16 bits");
+  expectError(with(samples, tag(samples, 3, std::string("\x05\0\0\0", 4))), "8 or 16 bits");
+  expectError(with(rowsOfStrip, tag(rowsOfStrip, 1, std::string("\x02\0\0\0", 4))), "strips or tiles");
+  expectError(with(rowsOfStrip, tag(tileWidth, 4, std::string("\0\0\x10\0", 4))), "strips or tiles");
 }
