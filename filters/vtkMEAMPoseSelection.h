@@ -8,7 +8,7 @@
  * of each instance: poses that share most of what they match are of one instance, too; which stays is decided on the
  * points that tell them apart; it is turned about the axis of a nearly round part, or by an approximate symmetry, where
  * the scene speaks for it, aligned once more robustly, so that it stays at the same place whichever candidate led
- * there, and scored.
+ * there, moved from there where the sensor saw past it and the scan speaks more for a place near by, and scored.
  *
  * Input ports: as vtkMEAMPoseAlgorithm has them; port 0: scored poses, best first (vtkMEAMPoseVerification).
  * Output port 0: the poses that stay, best first; of Instances with `Certainty` (that no near-symmetry turns it, [0,

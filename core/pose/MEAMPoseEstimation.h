@@ -42,7 +42,7 @@ struct StageTimes
   double screening = 0.0;
   double verification = 0.0;
   double refinement = 0.0;
-  double selection = 0.0; ///< with the final alignment
+  double selection = 0.0; ///< with the final alignment and what follows
 };
 
 /// What detection tells besides poses.

@@ -8,14 +8,15 @@
 
 namespace meam
 {
-/// How well the scene fixes a pose: what the last step of refinement saw.
+/// How well the scene fixes a pose: what corresponds to the part there.
 struct PoseFit
 {
   int iterations = 0;    ///< 0: the pose has not been refined
   double residual = 0.0; ///< mm, root mean square over what corresponds, weighted
   /// Of a small motion about the middle of the part's surface, scene axes: rotation vector (radians), then translation
-  /// (mm). Errors of the measured points are taken as independent. Where nothing corresponds to anything: half the
-  /// part's diameter in every direction.
+  /// (mm). Errors of the measured points are taken as independent; where the scan speaks for another place than least
+  /// squares, what lies between the two adds. Where nothing corresponds to anything: half the part's diameter in every
+  /// direction.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int constrained = 0; ///< degrees of freedom, of six, that the scene's points fix
   /// Which: the share that they fix, [0, 1], of turns about the part's x, y and z axis through that middle and of
@@ -29,8 +30,8 @@ struct Pose
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm
   double score = 0.0;       ///< [0, 1], share of what should be visible that is there; 0 until the pose is verified
   double probability = 0.0; ///< [0, 1], that the pose is right; 0 until it is verified
-  /// Logarithm of the odds that the pose is right, by all that was measured of it: what poses of one scene are ordered
-  /// by.
+  /// Logarithm of the odds that the pose is right, by all that was measured of it, less what a search for it costs
+  /// (EvidenceAscent): what poses of one scene are ordered by.
   double evidence = 0.0;
   /// [0, 1], how sure it is that the part is not turned by one of its near-symmetries: low when what breaks them is
   /// not in sight.

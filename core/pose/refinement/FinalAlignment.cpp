@@ -75,8 +75,6 @@ public:
     return this->Fitter.isFixed(fit);
   }
 
-  const PoseFitter& fitter() const { return this->Fitter; }
-
 private:
   using Twist = PoseFitter::Twist;
 
@@ -128,7 +126,18 @@ Pose alignRobustly(
     return aligned;
   }
   Pose same = pose;
-  same.fit = alignment.fitter().fitAt(pose, settings.fitDistance * model.diameter);
+  same.fit = fitInPlace(pose, pose.T_scene_model, scene, model, settings);
   return same;
+}
+
+PoseFit fitInPlace(const Pose& pose, const Eigen::Isometry3d& T_aligned, const Scene& scene, const TrainedModel& model,
+  const FinalAlignmentSettings& settings)
+{
+  const PoseFitter fitter(scene, model, settings.fitter);
+  PoseFit fit = fitter.fitAt(pose, settings.fitDistance * model.diameter);
+  PoseFitter::Twist difference = fitter.twistOf(pose, T_aligned * pose.T_scene_model.inverse());
+  difference.head<3>() /= 0.5 * model.diameter; // radians
+  fit.covariance += difference * difference.transpose();
+  return fit;
 }
 }

@@ -19,7 +19,7 @@ struct FinalAlignmentSettings
   double extrapolation = 5.0; ///< times its length that a step is taken farther, at most
   double farthest = 0.02;     ///< a pose that comes to stay farther from where it was has gone astray,
   double mostTurned = 3.0;    ///< or turned by more degrees
-  double fitDistance = 0.012; ///< between corresponding points, for the fit of a pose that stays as it came
+  double fitDistance = 0.012; ///< between corresponding points, for the fit of a pose that is not aligned
   PoseFitterSettings fitter;
 };
 
@@ -30,4 +30,9 @@ struct FinalAlignmentSettings
 /// edge points, less than that of the points.
 Pose alignRobustly(
   const Pose& pose, const Scene& scene, const TrainedModel& model, const FinalAlignmentSettings& settings = {});
+
+/// How well the scene fixes a pose where it is, in the local frame. What it differs by from `T_aligned`, where least
+/// squares leave it, adds to the covariance.
+PoseFit fitInPlace(const Pose& pose, const Eigen::Isometry3d& T_aligned, const Scene& scene, const TrainedModel& model,
+  const FinalAlignmentSettings& settings = {});
 }

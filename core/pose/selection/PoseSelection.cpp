@@ -18,7 +18,7 @@ PoseRefinementSettings rotatedSettings(const PoseSelectionSettings& settings, co
   return rotated;
 }
 
-/// Looks for the rotation of an instance, aligns it and scores it.
+/// Looks for the rotation of an instance, aligns it, moves it where the scan contradicts it, and scores it.
 class InstanceFinish
 {
 public:
@@ -34,7 +34,6 @@ public:
     , Rotated(rotatedSettings(settings, model))
     , Decision(scene, model, comparison, collector, Rates, Rotated, settings.decision)
     , Ascent(collector, rates, model, settings.ascent)
-    , Fitter(scene, model, settings.alignment.fitter)
   {
   }
 
@@ -49,15 +48,16 @@ public:
       this->Decision.decide(pose, asItIs);
     }
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
-    const EvidenceAscent::Place place = this->Ascent.best(pose);
-    pose.T_scene_model = place.T_scene_model;
-    if (place.isMoved)
+    const EvidenceAscent::Result best = this->Ascent.best(pose.T_scene_model);
+    const Eigen::Isometry3d T_aligned = pose.T_scene_model;
+    pose.T_scene_model = best.T_scene_model;
+    if (best.isMoved)
     {
-      pose.fit = this->Fitter.fitAt(pose, this->Settings.alignment.fitDistance * this->Model.diameter);
+      pose.fit = fitInPlace(pose, T_aligned, this->InScene, this->Model, this->Settings.alignment);
     }
-    setSeen(pose, place.evidence, this->InScene, this->Model);
-    setOdds(pose, place.logOdds);
-    return place.evidence.matched();
+    setSeen(pose, best.evidence, this->InScene, this->Model);
+    setEvidence(pose, best.logOdds);
+    return best.evidence.matched();
   }
 
 private:
@@ -88,7 +88,6 @@ private:
   PoseRefinementSettings Rotated;
   RotationDecision Decision;
   EvidenceAscent Ascent;
-  PoseFitter Fitter;
 };
 
 /// A pose and what it matched.

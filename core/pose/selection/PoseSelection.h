@@ -20,7 +20,8 @@ enum class SelectionMethod
 {
   Clusters,     ///< the best of each cluster, as in the paper
   Alternatives, ///< some of each instance, to be refined: what an approximate symmetry makes equal is one
-  Instances ///< one of each instance: compared, turned where another rotation is right, aligned and scored once more
+  Instances     ///< one of each instance: compared, turned where another rotation is right, aligned, moved where the
+                ///< scan contradicts it, and scored once more
 };
 
 struct PoseSelectionSettings

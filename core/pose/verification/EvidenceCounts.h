@@ -20,8 +20,8 @@ struct EvidenceWeights
   double hidden = -0.1;     ///< with something before it: beyond manyHidden by its logarithm, for one thing hides many
   double manyHidden = 5.0;  ///< patches
   double enclosed = -6.0;   ///< of the part's body behind the bin's floor or a wall, seen or not
-  double unmeasured = -0.1; ///< where nothing was measured, but for gaps of one cell of the depth map, or just the
-                            ///< part's own lower side beside
+  double unmeasured = -0.1; ///< where nothing was measured (gaps of one cell of the depth map aside), or only the
+                            ///< part's own lower side beside it
   // Of the logarithms that the scan's own rates say (EvidenceRates):
   double outline = 0.7; ///< of a patch's side of outline
   double edge = 0.1;    ///< of one edge point

@@ -94,7 +94,7 @@ void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const
   pose.score = evidence.score();
 }
 
-void setOdds(Pose& pose, double logOdds)
+void setEvidence(Pose& pose, double logOdds)
 {
   pose.evidence = withCertainty(logOdds, pose.certainty);
   pose.probability = probabilityOf(pose.evidence);
@@ -172,7 +172,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     }
     for (std::size_t i = 0; i < scored.size(); ++i)
     {
-      setOdds(scored[i], collector.logOdds(counts[i], rates));
+      setEvidence(scored[i], collector.logOdds(counts[i], rates));
     }
   }
   std::stable_sort(scored.begin(), scored.end(), isBetter);

@@ -104,6 +104,25 @@ TEST(FinalAlignment, WhereTheSceneFixesAPoseWeaklyItIsAligned)
   }
 }
 
+TEST(FinalAlignment, WhatAPoseDiffersByFromTheAlignedOneAddsToItsCovariance)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  meam::Pose pose;
+  pose.T_scene_model = scene().T_local_scene() * scenes::threeCopies()[0];
+  const Eigen::Vector3d middle = pose.T_scene_model * model.visibility->middle().cast<double>();
+  // A hundredth of a radian about z through the part's middle, then 2 mm along x and 1 mm back along y.
+  Eigen::Isometry3d motion = meam::turnAbout(Eigen::Vector3d::UnitZ(), 0.01, middle);
+  motion.pretranslate(Eigen::Vector3d(2.0, -1.0, 0.0));
+  const auto fit = [&](const Eigen::Isometry3d& T_aligned)
+  { return meam::fitInPlace(pose, T_aligned, scene(), model); };
+  const meam::PoseFit as = fit(pose.T_scene_model), away = fit(motion * pose.T_scene_model);
+  Eigen::Matrix<double, 6, 1> difference;
+  difference << 0.0, 0.0, 0.01, 2.0, -1.0, 0.0;
+  EXPECT_TRUE((away.covariance - as.covariance).isApprox(difference * difference.transpose(), 1e-9));
+  EXPECT_EQ(away.residual, as.residual);
+  EXPECT_EQ(away.constrained, as.constrained);
+}
+
 TEST(FinalAlignment, APoseThatIsLedFartherAwayStays)
 {
   const meam::TrainedModel& model = scenes::bracket();

@@ -2,7 +2,10 @@
 #include "pose/selection/EvidenceAscent.h"
 
 #include "TestScene.h"
+#include "base/Error.h"
 #include "pose/refinement/FinalAlignment.h"
+#include "pose/selection/PoseSelection.h"
+#include "pose/verification/PoseVerification.h"
 
 #include <gtest/gtest.h>
 
@@ -43,13 +46,12 @@ struct Trial
   {
     meam::Pose pose = scenes::displaced(Eigen::Isometry3d::Identity(), millimetres, degrees);
     pose.T_scene_model = this->scene.T_local_scene() * pose.T_scene_model;
-    pose.probability = 0.5;
     return pose;
   }
 
-  meam::EvidenceAscent::Place best(const meam::Pose& pose, const meam::EvidenceAscentSettings& settings = {}) const
+  meam::EvidenceAscent::Result best(const meam::Pose& pose, const meam::EvidenceAscentSettings& settings = {}) const
   {
-    return meam::EvidenceAscent(this->collector, meam::EvidenceRates(), this->model, settings).best(pose);
+    return meam::EvidenceAscent(this->collector, meam::EvidenceRates(), this->model, settings).best(pose.T_scene_model);
   }
 
   /// Of the bar at a pose from where it lies, mm and degrees.
@@ -67,54 +69,89 @@ TEST(EvidenceAscent, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAi
 {
   const Trial trial(bar<54>());
   // One end fits, where least squares leave it; the other hangs 12 mm over the table.
-  meam::Pose pose = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
+  const meam::Pose pose = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
   EXPECT_NEAR(trial.offset(pose.T_scene_model), 6.0, 0.5);
-  pose.probability = 0.5;
   const double before = past(trial.collector.collect(pose.T_scene_model));
   EXPECT_GT(before, 1.0);
-  const meam::EvidenceAscent::Place place = trial.best(pose);
-  EXPECT_TRUE(place.isMoved);
-  EXPECT_LT(trial.offset(place.T_scene_model), 5.0);
-  EXPECT_LT(past(place.evidence), 0.8 * before);
+  const meam::EvidenceAscent::Result best = trial.best(pose);
+  EXPECT_TRUE(best.isMoved);
+  EXPECT_LT(trial.offset(best.T_scene_model), 5.0);
+  EXPECT_LT(past(best.evidence), 0.8 * before);
 }
 
-TEST(EvidenceAscent, AMotionOfAFewPercentIsUndone)
+TEST(EvidenceAscent, AMotionOfATenthOfTheDiameterIsUndone)
 {
   const Trial trial(bar<CADLength>());
-  const meam::EvidenceAscent::Place place = trial.best(trial.displaced(8.0, 5.0));
-  EXPECT_TRUE(place.isMoved);
-  EXPECT_LT(trial.offset(place.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
-  EXPECT_LT(trial.turn(place.T_scene_model), 2.5);
-  EXPECT_EQ(past(place.evidence), 0.0);
+  const meam::EvidenceAscent::Result best = trial.best(trial.displaced(8.0, 5.0));
+  EXPECT_TRUE(best.isMoved);
+  EXPECT_LT(trial.offset(best.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
+  EXPECT_LT(trial.turn(best.T_scene_model), 2.5);
+  EXPECT_EQ(past(best.evidence), 0.0);
 }
 
-TEST(EvidenceAscent, APoseThatNothingContradictsOrThatIsUnlikelyStays)
+TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
 {
   const Trial trial(bar<CADLength>());
-  const auto stays = [&](const meam::Pose& pose)
+  const auto stays = [&](const meam::Pose& pose, const meam::EvidenceAscentSettings& settings = {})
   {
-    const meam::EvidenceAscent::Place place = trial.best(pose);
-    return !place.isMoved && place.T_scene_model.matrix() == pose.T_scene_model.matrix();
+    const meam::EvidenceAscent::Result best = trial.best(pose, settings);
+    return !best.isMoved && best.T_scene_model.matrix() == pose.T_scene_model.matrix();
   };
   EXPECT_TRUE(stays(trial.displaced(0.3)));
-  meam::Pose pose = trial.displaced(8.0);
+  const meam::Pose pose = trial.displaced(8.0);
   EXPECT_FALSE(stays(pose));
-  pose.probability = 1e-4;
-  EXPECT_TRUE(stays(pose));
+  meam::EvidenceAscentSettings settings;
+  settings.worthTrying = 1.0;
+  EXPECT_TRUE(stays(pose, settings));
+  settings = {};
+  settings.rounds = 0;
+  EXPECT_TRUE(stays(pose, settings));
+  settings = {};
+  settings.price = 1e6;
+  EXPECT_TRUE(stays(pose, settings));
 }
 
-TEST(EvidenceAscent, ThePriceIsPaidForAMotionAndADearerOneIsNotMade)
+TEST(EvidenceAscent, APoseIsMovedNoFartherThanAllowedAndPaysForIt)
 {
   const Trial trial(bar<CADLength>());
   const meam::Pose pose = trial.displaced(8.0);
   meam::EvidenceAscentSettings settings;
-  settings.price = 0.0;
-  const meam::EvidenceAscent::Place free = trial.best(pose, settings);
-  settings.price = 1.5;
-  const meam::EvidenceAscent::Place paid = trial.best(pose, settings);
-  EXPECT_TRUE(paid.T_scene_model.matrix() == free.T_scene_model.matrix());
-  EXPECT_DOUBLE_EQ(paid.logOdds, free.logOdds - 1.5);
-  EXPECT_DOUBLE_EQ(free.logOdds, trial.collector.logOdds(free.evidence.counts, meam::EvidenceRates()));
-  settings.price = 1e6;
-  EXPECT_FALSE(trial.best(pose, settings).isMoved);
+  settings.farthest = 0.04;
+  settings.price = 0.25;
+  const meam::EvidenceAscent::Result best = trial.best(pose, settings);
+  EXPECT_TRUE(best.isMoved);
+  EXPECT_GE(trial.offset(best.T_scene_model), 8.0 - 0.04 * trial.model.diameter - 1e-6);
+  const meam::EvidenceCounts counts = trial.collector.collect(best.T_scene_model).counts;
+  EXPECT_DOUBLE_EQ(best.logOdds, trial.collector.logOdds(counts, meam::EvidenceRates()) - 0.25);
+}
+
+TEST(EvidenceAscent, AStrideBelowOneIsRefused)
+{
+  const Trial trial(bar<CADLength>());
+  meam::EvidenceAscentSettings settings;
+  settings.pointStride = 0;
+  EXPECT_THROW(trial.best(trial.displaced(0.0), settings), meam::Error);
+}
+
+TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
+{
+  const Trial trial(bar<54>());
+  const meam::Pose aligned = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
+  meam::PoseSelectionSettings settings;
+  settings.evidence.rates = meam::EvidenceRates();
+  settings.restarts.worthTrying = 1.0;
+  const auto selected = [&](int rounds)
+  {
+    settings.ascent.rounds = rounds;
+    return meam::selectPoses(
+      meam::verifyPoses({ aligned }, trial.scene, trial.model), trial.scene, trial.model, settings)
+      .at(0);
+  };
+  const meam::Pose before = selected(0), after = selected(meam::EvidenceAscentSettings().rounds);
+  const double distance =
+    meam::translationError(before.T_scene_model, after.T_scene_model, trial.model.visibility->middle().cast<double>());
+  EXPECT_GT(distance, 1.0);
+  const Eigen::Matrix3d ofShifts = after.fit.covariance.bottomRightCorner<3, 3>();
+  EXPECT_GE(ofShifts.trace(), 0.99 * distance * distance);
+  EXPECT_GT(after.evidence, before.evidence);
 }
