@@ -91,9 +91,9 @@ enum Type : std::uint64_t
 
 struct Tag
 {
-  std::uint64_t at = 0; ///< in the file; 0: there is none
+  std::uint64_t at = 0; ///< where its first value stands in the file; 0: there is no such tag
   std::uint64_t type = 0;
-  std::uint64_t value = 0; ///< the first of several
+  std::uint64_t value = 0; ///< the first of several; 0 beyond the file's end
 
   /// libtiff takes values of other types from elsewhere.
   bool isNumber() const { return this->type == Short || this->type == Long; }
@@ -114,8 +114,8 @@ Tag tagOf(const std::string& bytes, Name name)
     {
       const std::uint64_t type = numberAt(bytes, at + 2, 2, big), count = numberAt(bytes, at + 4, 4, big);
       const int length = type == Short ? 2 : 4;
-      const bool isElsewhere = length * count > 4;
-      return { at, type, numberAt(bytes, isElsewhere ? numberAt(bytes, at + 8, 4, big) : at + 8, length, big) };
+      const std::uint64_t first = length * count > 4 ? numberAt(bytes, at + 8, 4, big) : at + 8;
+      return { first, type, numberAt(bytes, first, length, big) };
     }
   }
   return {};
@@ -134,7 +134,7 @@ void set(std::string& bytes, const Tag& tag, std::uint64_t value)
   for (int i = 0; i < length; ++i)
   {
     const int shift = 8 * (isBigEndian(bytes) ? length - 1 - i : i);
-    bytes[tag.at + 8 + i] = static_cast<char>(value >> shift & 0xff);
+    bytes[tag.at + i] = static_cast<char>(value >> shift & 0xff);
   }
 }
 }
