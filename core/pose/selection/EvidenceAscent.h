@@ -10,7 +10,7 @@ namespace meam
 {
 struct EvidenceAscentSettings
 {
-  double leastPast = 0.3;    ///< patches that the sensor saw past; fewer, and a pose stays
+  double leastPast = 1.0;    ///< patches that the sensor saw past; fewer, and a pose stays
   double worthTrying = 1e-3; ///< probability; less, and a pose stays
   double firstStep = 0.02;   ///< of the diameter: a shift along an axis; a turn moves so much half a diameter away
   double lastStep = 0.0025;  ///< steps are halved down to this one

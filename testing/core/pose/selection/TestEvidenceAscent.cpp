@@ -79,10 +79,12 @@ TEST(EvidenceAscent, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAi
   EXPECT_LT(past(best.evidence), 0.8 * before);
 }
 
-TEST(EvidenceAscent, AMotionOfATenthOfTheDiameterIsUndone)
+TEST(EvidenceAscent, AMotionOfASixthOfTheDiameterIsUndone)
 {
   const Trial trial(bar<CADLength>());
-  const meam::EvidenceAscent::Result best = trial.best(trial.displaced(8.0, 5.0));
+  meam::EvidenceAscentSettings settings;
+  settings.farthest = 0.2;
+  const meam::EvidenceAscent::Result best = trial.best(trial.displaced(12.0, 5.0), settings);
   EXPECT_TRUE(best.isMoved);
   EXPECT_LT(trial.offset(best.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
   EXPECT_LT(trial.turn(best.T_scene_model), 2.5);
@@ -98,7 +100,7 @@ TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
     return !best.isMoved && best.T_scene_model.matrix() == pose.T_scene_model.matrix();
   };
   EXPECT_TRUE(stays(trial.displaced(0.3)));
-  const meam::Pose pose = trial.displaced(8.0);
+  const meam::Pose pose = trial.displaced(12.0);
   EXPECT_FALSE(stays(pose));
   meam::EvidenceAscentSettings settings;
   settings.worthTrying = 1.0;
@@ -114,13 +116,13 @@ TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
 TEST(EvidenceAscent, APoseIsMovedNoFartherThanAllowedAndPaysForIt)
 {
   const Trial trial(bar<CADLength>());
-  const meam::Pose pose = trial.displaced(8.0);
+  const meam::Pose pose = trial.displaced(12.0);
   meam::EvidenceAscentSettings settings;
   settings.farthest = 0.04;
   settings.price = 0.25;
   const meam::EvidenceAscent::Result best = trial.best(pose, settings);
   EXPECT_TRUE(best.isMoved);
-  EXPECT_GE(trial.offset(best.T_scene_model), 8.0 - 0.04 * trial.model.diameter - 1e-6);
+  EXPECT_GE(trial.offset(best.T_scene_model), 12.0 - 0.04 * trial.model.diameter - 1e-6);
   const meam::EvidenceCounts counts = trial.collector.collect(best.T_scene_model).counts;
   EXPECT_DOUBLE_EQ(best.logOdds, trial.collector.logOdds(counts, meam::EvidenceRates()) - 0.25);
 }
