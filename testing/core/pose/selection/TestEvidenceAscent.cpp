@@ -62,12 +62,19 @@ struct Trial
   double turn(const Eigen::Isometry3d& T) const { return meam::rotationError(T, this->scene.T_local_scene()); }
 };
 
+template <int Length>
+const Trial& trialOf()
+{
+  static const Trial trial(bar<Length>());
+  return trial;
+}
+
 double past(const meam::PoseEvidence& evidence) { return evidence.counts.past + evidence.counts.farPast; }
 }
 
 TEST(EvidenceAscent, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAir)
 {
-  const Trial trial(bar<54>());
+  const Trial& trial = trialOf<54>();
   // One end fits, where least squares leave it; the other hangs 12 mm over the table.
   const meam::Pose pose = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
   EXPECT_NEAR(trial.offset(pose.T_scene_model), 6.0, 0.5);
@@ -81,7 +88,7 @@ TEST(EvidenceAscent, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAi
 
 TEST(EvidenceAscent, AMotionOfASixthOfTheDiameterIsUndone)
 {
-  const Trial trial(bar<CADLength>());
+  const Trial& trial = trialOf<CADLength>();
   meam::EvidenceAscentSettings settings;
   settings.farthest = 0.2;
   const meam::EvidenceAscent::Result best = trial.best(trial.displaced(12.0, 5.0), settings);
@@ -93,7 +100,7 @@ TEST(EvidenceAscent, AMotionOfASixthOfTheDiameterIsUndone)
 
 TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
 {
-  const Trial trial(bar<CADLength>());
+  const Trial& trial = trialOf<CADLength>();
   const auto stays = [&](const meam::Pose& pose, const meam::EvidenceAscentSettings& settings = {})
   {
     const meam::EvidenceAscent::Result best = trial.best(pose, settings);
@@ -115,7 +122,7 @@ TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
 
 TEST(EvidenceAscent, APoseIsMovedNoFartherThanAllowedAndPaysForIt)
 {
-  const Trial trial(bar<CADLength>());
+  const Trial& trial = trialOf<CADLength>();
   const meam::Pose pose = trial.displaced(12.0);
   meam::EvidenceAscentSettings settings;
   settings.farthest = 0.04;
@@ -129,7 +136,7 @@ TEST(EvidenceAscent, APoseIsMovedNoFartherThanAllowedAndPaysForIt)
 
 TEST(EvidenceAscent, AStrideBelowOneIsRefused)
 {
-  const Trial trial(bar<CADLength>());
+  const Trial& trial = trialOf<CADLength>();
   meam::EvidenceAscentSettings settings;
   settings.pointStride = 0;
   EXPECT_THROW(trial.best(trial.displaced(0.0), settings), meam::Error);
@@ -137,7 +144,7 @@ TEST(EvidenceAscent, AStrideBelowOneIsRefused)
 
 TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
 {
-  const Trial trial(bar<54>());
+  const Trial& trial = trialOf<54>();
   const meam::Pose aligned = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
   meam::PoseSelectionSettings settings;
   settings.evidence.rates = meam::EvidenceRates();
