@@ -20,6 +20,12 @@ namespace
 constexpr std::uint64_t MostPixels = 1 << 26;
 constexpr std::uint64_t MostPixelsOfByte = 4096;
 
+/// Of a file of so many bytes.
+std::uint64_t mostPixels(std::uint64_t length)
+{
+  return std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * length);
+}
+
 // A progressive JPEG has about ten; each goes through all pixels, however few bytes it has.
 constexpr int MostScans = 500;
 
@@ -171,7 +177,7 @@ Size checkedSize(const std::string& path, const std::string& bytes, std::uint64_
   {
     fail(path, "is cut off or damaged: its header has no size");
   }
-  const std::uint64_t most = std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * length);
+  const std::uint64_t most = mostPixels(length);
   if (size.width > most || size.height > most || size.width * size.height > most)
   {
     fail(path, "promises " + std::to_string(size.width) + " x " + std::to_string(size.height) +
@@ -187,23 +193,23 @@ void checkTIFF(const std::string& path, std::string& bytes, const Size& size)
   // Without JBIG and LZMA, which take as much memory as their own headers say.
   constexpr std::array<std::uint64_t, 9> known{ 1, 2, 3, 4, 5, 7, 8, 32773, 32946 };
   constexpr std::uint64_t mostBits = 16, mostSamples = 4; // what images are read of
+  const auto isDamaged = [](const tiff::Tag& tag) { return tag.at > 0 && !tag.isNumber(); };
   const tiff::Tag compression = tiff::tagOf(bytes, tiff::Compression);
-  if (compression.at > 0 && std::find(known.begin(), known.end(), compression.value) == known.end())
+  if (isDamaged(compression) ||
+      (compression.at > 0 && std::find(known.begin(), known.end(), compression.value) == known.end()))
   {
     fail(path, "is compressed in a way that is not read (" + std::to_string(compression.value) +
                  "): save it without, with LZW or with Deflate");
   }
-  if (tiff::tagOf(bytes, tiff::BitsPerSample).value > mostBits ||
-      tiff::tagOf(bytes, tiff::SamplesPerPixel).value > mostSamples)
+  const tiff::Tag bits = tiff::tagOf(bytes, tiff::BitsPerSample), samples = tiff::tagOf(bytes, tiff::SamplesPerPixel);
+  if (isDamaged(bits) || isDamaged(samples) || bits.value > mostBits || samples.value > mostSamples)
   {
     fail(path, "is neither grey nor coloured with 8 or 16 bits");
   }
   const tiff::Tag rows = tiff::tagOf(bytes, tiff::RowsPerStrip);
   const tiff::Tag tileWidth = tiff::tagOf(bytes, tiff::TileWidth), tileHeight = tiff::tagOf(bytes, tiff::TileHeight);
-  const auto isDamaged = [](const tiff::Tag& tag) { return tag.at > 0 && !tag.isNumber(); };
-  const std::uint64_t most = std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * bytes.size());
   if (isDamaged(rows) || isDamaged(tileWidth) || isDamaged(tileHeight) || (tileWidth.at > 0) != (tileHeight.at > 0) ||
-      tileWidth.value * tileHeight.value > most)
+      tileWidth.value * tileHeight.value > mostPixels(bytes.size()))
   {
     fail(path, "is cut off or damaged: its strips or tiles have no size, or more pixels than the file has room for");
   }

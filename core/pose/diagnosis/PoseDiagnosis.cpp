@@ -114,17 +114,18 @@ Eigen::Isometry3d PoseDiagnosis::fitted(const Eigen::Isometry3d& T_local_model) 
 {
   Pose pose = refinePoses({ poseAt(T_local_model) }, this->InScene, this->Model, this->Detection.refinement).front();
   pose = alignRobustly(pose, this->InScene, this->Model, this->Detection.selection.alignment);
-  if (const std::optional<EvidenceRates> rates = this->verification().evidence.rates)
+  const PoseVerificationSettings verification = this->verification();
+  if (verification.evidence.rates) // else poses are not judged by their evidence
   {
-    const EvidenceCollector collector(this->InScene, this->Model, this->verification().evidence);
-    const EvidenceAscent ascent(collector, *rates, this->Model, this->Detection.selection.ascent);
+    const EvidenceCollector collector(this->InScene, this->Model, verification.evidence);
+    const EvidenceAscent ascent(collector, *verification.evidence.rates, this->Model, this->Detection.selection.ascent);
     pose.T_scene_model = ascent.best(pose.T_scene_model).T_scene_model;
   }
   if (!offsetBetween(pose.T_scene_model, T_local_model, this->Model).within(this->tolerance()))
   {
     return T_local_model;
   }
-  const Poses both = verifyPoses({ poseAt(T_local_model), pose }, this->InScene, this->Model, this->verification());
+  const Poses both = verifyPoses({ poseAt(T_local_model), pose }, this->InScene, this->Model, verification);
   return both.empty() ? T_local_model : both.front().T_scene_model;
 }
 

@@ -76,7 +76,7 @@ bool EvidenceAscent::isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d&
 Eigen::Isometry3d EvidenceAscent::search(const Eigen::Isometry3d& T_scene_model) const
 {
   const auto logOdds = [&](const Eigen::Isometry3d& T)
-  { return this->Collector.logOdds(this->Collector.collect(T, this->Settings.pointStride).counts, this->Rates); };
+  { return this->Collector.logOdds(T, this->Rates, this->Settings.pointStride); };
   Eigen::Isometry3d best = T_scene_model;
   double most = logOdds(best);
   const auto climbs = [&](const Motion& motion, double step)

@@ -64,11 +64,6 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
   }
 }
 
-double RotationDecision::evidence(const Eigen::Isometry3d& T_scene_model) const
-{
-  return this->Collector.logOdds(this->Collector.collect(T_scene_model).counts, this->Rates);
-}
-
 void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) const
 {
   const double sure = this->Settings.sureAdvantage;
@@ -79,14 +74,14 @@ void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) cons
   for (int round = 0; round < this->Settings.rounds; ++round)
   {
     std::vector<double> advantages{ 0.0 };
-    const double asItIsOdds = isLikely ? this->evidence(pose.T_scene_model) : 0.0;
+    const double asItIsOdds = isLikely ? this->Collector.logOdds(pose.T_scene_model, this->Rates) : 0.0;
     for (std::size_t k = 0; k < turns; ++k)
     {
       const Eigen::Isometry3d turned = pose.T_scene_model * this->Turns[k];
       double advantage = this->Comparison.advantage(turned, asItIs, hopeless);
       if (isLikely && advantage > hopeless)
       {
-        advantage += sure * (this->evidence(turned) - asItIsOdds);
+        advantage += sure * (this->Collector.logOdds(turned, this->Rates) - asItIsOdds);
       }
       advantages.push_back(advantage);
     }

@@ -34,9 +34,6 @@ public:
   void decide(Pose& pose, PoseComparison::Contender asItIs) const;
 
 private:
-  /// Logarithm of the odds of a pose by its evidence.
-  double evidence(const Eigen::Isometry3d& T_scene_model) const;
-
   const Scene& InScene;
   const TrainedModel& Model;
   const PoseComparison& Comparison;

@@ -68,6 +68,12 @@ double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRa
            : calibration.edgesAlone.logOdds(counts.ofEdges(this->Settings.weights, rates));
 }
 
+double EvidenceCollector::logOdds(
+  const Eigen::Isometry3d& T_scene_model, const EvidenceRates& rates, std::size_t stride) const
+{
+  return this->logOdds(this->collect(T_scene_model, stride).counts, rates);
+}
+
 bool EvidenceCollector::isBehind(const Eigen::Vector3f& point) const
 {
   const std::vector<Plane>& planes = this->InScene.enclosure;

@@ -75,6 +75,8 @@ public:
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
   /// Logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
+  /// The same of what is counted at a pose.
+  double logOdds(const Eigen::Isometry3d& T_scene_model, const EvidenceRates& rates, std::size_t stride = 1) const;
   /// The share of the part's whole surface, seen or not, that lies behind the bin's floor or a wall, [0, 1].
   double shareBehind(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
   /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.

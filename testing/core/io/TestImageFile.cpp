@@ -175,6 +175,7 @@ TEST(ImageFile, ofATIFFOnlyTagsThatTakeNoUndueMemoryAreRead)
   expectError(with(compression, tag(compression, 3, std::string("\x65\x87\0\0", 4))), "is not read (34661)");
   expectError(with(bits, tag(bits, 3, std::string("\x40\0\0\0", 4))), "8 or 16 bits");
   expectError(with(samples, tag(samples, 3, std::string("\x05\0\0\0", 4))), "8 or 16 bits");
+  expectError(with(bits, tag(bits, 16, std::string("\x08\0\0\0", 4))), "8 or 16 bits"); // libtiff reads it elsewhere
   expectError(with(rowsOfStrip, tag(rowsOfStrip, 1, std::string("\x02\0\0\0", 4))), "strips or tiles");
   expectError(with(rowsOfStrip, tag(tileWidth, 4, std::string("\0\0\x10\0", 4))), "strips or tiles");
 }
