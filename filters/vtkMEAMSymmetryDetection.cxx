@@ -4,7 +4,7 @@
 #include "base/Bounds.h"
 #include "io/ModelsInfo.h"
 #include "mesh/ConvexHull.h"
-#include "mesh/SymmetryDetection.h"
+#include "mesh/symmetry/SymmetryDetection.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMRun.h"

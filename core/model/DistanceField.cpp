@@ -36,10 +36,52 @@ void findCells(const Eigen::Matrix<float, 3, 4>& toCells, const Eigen::Array3i& 
     cells[k] = inside ? (layer * rows + row) * columns + column : outside;
   }
 }
+
+/// A point of a surface with its normal, or of an edge with its tangent.
+struct Sample
+{
+  Eigen::Vector3f point, direction;
+  float spacing; ///< mm, to its neighbours
+  bool isOfSurface;
+};
+
+/// Lowers what cells `begin` to `end` of a row along x store to the distance from the sample, in steps of `step` mm.
+/// `across`: mm from the sample to the row along y and z.
+MEAM_ALL_VECTORS
+void lowerRow(const Sample& sample, const Eigen::Vector2f& across, float cell, float step, int begin, int end,
+  float farthest, std::uint8_t* row)
+{
+  const float place = sample.point.x(), direction = sample.direction.x(), spacing = sample.spacing;
+  const float alongAcross = sample.direction.y() * across.x() + sample.direction.z() * across.y();
+  const float squaredAcross = across.x() * across.x() + across.y() * across.y();
+  const bool isOfSurface = sample.isOfSurface;
+  constexpr int lanes = 16; // not tuned: rows are a few of them long, and what lies beyond is dropped
+  for (int first = begin; first < end; first += lanes)
+  {
+    int stored[lanes];
+#pragma omp simd
+    for (int k = 0; k < lanes; ++k)
+    {
+      const float offset = (static_cast<float>(first + k) + 0.5f) * cell - place;
+      const float along = std::abs(direction * offset + alongAcross);
+      const float beside = std::sqrt(std::max(0.0f, offset * offset + squaredAcross - along * along));
+      // Between samples the surface goes on along its plane, the edge along its line.
+      const double off = isOfSurface ? along : beside;
+      const double beyond = std::max(0.0f, (isOfSurface ? beside : along) - spacing);
+      const float steps = static_cast<float>(std::sqrt(off * off + beyond * beyond)) / step;
+      stored[k] = static_cast<int>(steps < farthest ? steps : farthest);
+    }
+    const int count = std::min(lanes, end - first);
+    for (int k = 0; k < count; ++k)
+    {
+      row[first + k] = static_cast<std::uint8_t>(std::min<int>(stored[k], row[first + k]));
+    }
+  }
+}
 }
 
-template <typename Metric>
-DistanceField::DistanceField(const Points& points, double spacing, double reach, double cellSize, Metric&& metric)
+DistanceField::DistanceField(
+  const Points& points, const Points& directions, bool areOfSurface, double spacing, double reach, double cellSize)
   : Reach(static_cast<float>(reach))
 {
   const float step = this->Reach / Farthest;
@@ -64,23 +106,25 @@ DistanceField::DistanceField(const Points& points, double spacing, double reach,
   this->Size = (size / cell).floor().cast<int>() + 1;
   this->Extent = this->Size.cast<float>();
   this->Distances.assign(static_cast<std::size_t>(this->Size.prod()) + 1, Farthest);
-  const float around = static_cast<float>(reach + spacing);
+  const float width = static_cast<float>(cell), around = static_cast<float>(reach + spacing);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Eigen::Array3f place = (points[i] - this->Origin).array();
-    const Eigen::Array3i low = ((place - around) * this->InverseCell).max(0.0f).cast<int>();
-    const Eigen::Array3i high = ((place + around) * this->InverseCell).cast<int>().min(this->Size - 1);
+    const Sample sample{ points[i] - this->Origin, directions[i], static_cast<float>(spacing), areOfSurface };
+    const Eigen::Array3i low = ((sample.point.array() - around) * this->InverseCell).max(0.0f).cast<int>();
+    const Eigen::Array3i high = ((sample.point.array() + around) * this->InverseCell).cast<int>().min(this->Size - 1);
+    const int middle = static_cast<int>(sample.point.x() * this->InverseCell);
     for (int z = low.z(); z <= high.z(); ++z)
     {
       for (int y = low.y(); y <= high.y(); ++y)
       {
-        std::uint8_t* row = &this->Distances[(static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x()];
-        for (int x = low.x(); x <= high.x(); ++x)
+        const Eigen::Vector2f across((y + 0.5f) * width - sample.point.y(), (z + 0.5f) * width - sample.point.z());
+        const float left = around * around - across.squaredNorm();
+        if (left > 0.0f)
         {
-          const Eigen::Vector3f centre((x + 0.5f) * static_cast<float>(cell), (y + 0.5f) * static_cast<float>(cell),
-            (z + 0.5f) * static_cast<float>(cell));
-          const float stored = metric(i, centre - place.matrix()) / step;
-          row[x] = stored < row[x] ? static_cast<std::uint8_t>(stored) : row[x];
+          const int half = static_cast<int>(std::sqrt(left) * this->InverseCell) + 1;
+          const int begin = std::max(low.x(), middle - half), end = std::min(high.x(), middle + half) + 1;
+          std::uint8_t* row = &this->Distances[(static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x()];
+          lowerRow(sample, across, width, step, begin, end, Farthest, row);
         }
       }
     }
@@ -108,25 +152,11 @@ void DistanceField::at(
 
 DistanceField DistanceField::ofSurface(const PointCloud& samples, double spacing, double reach, double cellSize)
 {
-  const float gap = static_cast<float>(spacing);
-  return DistanceField(samples.points, spacing, reach, cellSize,
-    [&](std::size_t i, const Eigen::Vector3f& offset)
-    {
-      const float across = samples.normals[i].dot(offset);
-      const float along = std::sqrt(std::max(0.0f, offset.squaredNorm() - across * across));
-      return std::hypot(across, std::max(0.0f, along - gap));
-    });
+  return DistanceField(samples.points, samples.normals, true, spacing, reach, cellSize);
 }
 
 DistanceField DistanceField::ofEdges(const PointCloud& edges, double spacing, double reach, double cellSize)
 {
-  const float gap = static_cast<float>(spacing);
-  return DistanceField(edges.points, spacing, reach, cellSize,
-    [&](std::size_t i, const Eigen::Vector3f& offset)
-    {
-      const float along = std::abs(edges.tangents[i].dot(offset));
-      const float across = std::sqrt(std::max(0.0f, offset.squaredNorm() - along * along));
-      return std::hypot(across, std::max(0.0f, along - gap));
-    });
+  return DistanceField(edges.points, edges.tangents, false, spacing, reach, cellSize);
 }
 }

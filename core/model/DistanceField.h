@@ -46,8 +46,8 @@ public:
 private:
   static constexpr std::uint8_t Farthest = 255; ///< not tuned: of what a cell stores: `reach` or more
 
-  template <typename Metric>
-  DistanceField(const Points& points, double spacing, double reach, double cellSize, Metric&& metric);
+  DistanceField(
+    const Points& points, const Points& directions, bool areOfSurface, double spacing, double reach, double cellSize);
 
   Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
   float InverseCell = 1.0f;

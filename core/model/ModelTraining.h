@@ -4,7 +4,7 @@
 #include "features/Preset.h"
 #include "features/TangentEstimation.h"
 #include "mesh/SurfaceSampling.h"
-#include "mesh/SymmetryDetection.h"
+#include "mesh/symmetry/SymmetryDetection.h"
 #include "mesh/TriangleMesh.h"
 #include "model/BoundaryExtraction.h"
 #include "model/MEAMHashing.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/SymmetryDetection.h"
+#include "mesh/symmetry/SymmetryDetection.h"
 
 #include "base/Parallel.h"
-#include "base/PointGrid.h"
 #include "mesh/ConvexHull.h"
+#include "mesh/symmetry/SampleIndex.h"
 #include "mesh/Viewpoints.h"
 #include "pose/refinement/NormalEquations.h"
 
@@ -28,7 +28,7 @@ class SurfaceMatcher
 public:
   SurfaceMatcher(const PointCloud& surface, double spacing, double reach, const SymmetryDetectionSettings& settings)
     : Surface(surface)
-    , Grid(surface.points, settings.nearSpacings * spacing)
+    , Index(surface, settings.nearSpacings * spacing, settings.sameSide)
     , Near(settings.nearSpacings * static_cast<float>(spacing))
     , Along(static_cast<float>(settings.alongSpacings) * static_cast<float>(spacing))
     , Reach(static_cast<float>(reach))
@@ -42,11 +42,11 @@ public:
   int corresponding(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double reach) const
   {
     double within = std::min(reach, this->Near);
-    int best = this->correspondingWithin(point, normal, within);
+    int best = this->Index.nearest(point, normal, within);
     while (best < 0 && within < reach) // most have one near
     {
       within = std::min(reach, 2.0 * within);
-      best = this->correspondingWithin(point, normal, within);
+      best = this->Index.nearest(point, normal, within);
     }
     return best;
   }
@@ -77,7 +77,7 @@ public:
   bool isAlone(int sample) const
   {
     bool alone = true;
-    this->Grid.forEachWithin(this->Surface.points[sample], this->Near,
+    this->Index.grid().forEachWithin(this->Surface.points[sample], this->Near,
       [&](int k, float) {
         alone = alone && (k == sample || this->Surface.normals[k].dot(this->Surface.normals[sample]) <= this->SameSide);
       });
@@ -132,24 +132,8 @@ public:
   }
 
 private:
-  int correspondingWithin(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double reach) const
-  {
-    int best = -1;
-    float least = 0.0f;
-    this->Grid.forEachWithin(point, reach,
-      [&](int k, float distance)
-      {
-        if ((best < 0 || distance < least) && this->Surface.normals[k].dot(normal) > this->SameSide)
-        {
-          best = k;
-          least = distance;
-        }
-      });
-    return best;
-  }
-
   const PointCloud& Surface;
-  PointGrid Grid;
+  SampleIndex Index;
   double Near; ///< mm
   float Along; ///< mm
   float Reach; ///< mm

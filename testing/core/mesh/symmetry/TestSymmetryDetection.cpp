@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/SymmetryDetection.h"
+#include "mesh/symmetry/SymmetryDetection.h"
 
 #include "TestParts.h"
 #include "TestScale.h"

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/symmetry/SampleIndex.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace
+{
+/// Two sheets, 1 mm apart, that face away from each other: a thin plate of 10 x 10 samples, 1 mm apart.
+meam::PointCloud plate()
+{
+  meam::PointCloud result;
+  for (const float side : { -1.0f, 1.0f })
+  {
+    for (int x = 0; x < 10; ++x)
+    {
+      for (int y = 0; y < 10; ++y)
+      {
+        result.points.emplace_back(x, y, 0.5f * side);
+        result.normals.emplace_back(0.0f, 0.0f, side);
+      }
+    }
+  }
+  return result;
+}
+}
+
+TEST(SampleIndex, TheNearestOnTheSameSide)
+{
+  const meam::PointCloud surface = plate();
+  const meam::SampleIndex index(surface, 2.0, 0.5);
+  const Eigen::Vector3f nearTheTop(3.2f, 4.1f, 0.4f);
+  EXPECT_EQ(index.nearest(nearTheTop, Eigen::Vector3f::UnitZ(), 2.0), 100 + 34);
+  EXPECT_EQ(index.nearest(nearTheTop, -Eigen::Vector3f::UnitZ(), 2.0), 34) << "below, farther, but it faces that way";
+  EXPECT_EQ(index.nearest(nearTheTop, -Eigen::Vector3f::UnitZ(), 0.9), -1) << "sqrt(0.86) mm away";
+  EXPECT_EQ(index.nearest(nearTheTop, Eigen::Vector3f::UnitX(), 2.0), -1);
+  EXPECT_EQ(index.nearest({ 1e9f, 0, 0 }, Eigen::Vector3f::UnitZ(), 2.0), -1);
+  EXPECT_EQ(index.nearest(Eigen::Vector3f::Constant(NAN), Eigen::Vector3f::UnitZ(), 2.0), -1);
+}
+
+TEST(SampleIndex, AsWhenAllAreLookedAt)
+{
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  const auto any = [&] { return Eigen::Vector3f(normal(random), normal(random), normal(random)); };
+  meam::PointCloud surface; // not a multiple of any vector
+  for (int k = 0; k < 1001; ++k)
+  {
+    surface.points.push_back(3.0f * any());
+    surface.normals.push_back(any().normalized());
+  }
+  const meam::SampleIndex index(surface, 0.7, 0.3);
+  int found = 0;
+  for (int k = 0; k < 500; ++k)
+  {
+    const Eigen::Vector3f point = 3.0f * any(), side = any().normalized();
+    int best = -1;
+    for (int i = 0; i < 1001; ++i)
+    {
+      const float distance = (surface.points[i] - point).norm();
+      const bool isIn = distance < 1.5f && surface.normals[i].dot(side) > 0.3f;
+      best = isIn && (best < 0 || distance < (surface.points[best] - point).norm()) ? i : best;
+    }
+    EXPECT_EQ(index.nearest(point, side, 1.5), best);
+    found += best >= 0 ? 1 : 0;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_LT(found, 500);
+}
