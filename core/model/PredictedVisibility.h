@@ -27,8 +27,8 @@ struct PredictedVisibilitySettings
   double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double drop = 0.025; ///< where the part falls off by more from cell to cell, sensors may see just its lower side
   double inset = 0.5;  ///< point distances: where a smooth surface ends the last point is measured so far inside
-  double pitchStep = 0.0005; ///< to which point distances are rounded
-  int pitchSteps = 200;      ///< at most
+  double pitchStep = 0.0005;   ///< to which point distances are rounded
+  int pitchSteps = 200;        ///< at most
   int cachedDirections = 2000; ///< that are kept, 40 to 60 kB each: a full bin asks for a thousand
 };
 
