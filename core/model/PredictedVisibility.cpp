@@ -260,20 +260,32 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
   const int key = ((pitchSteps * range + steps.z()) * range + steps.y()) * range + steps.x();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    const auto cached = this->Cache.find(key);
-    if (cached != this->Cache.end())
+    const auto recent = this->Recent.find(key);
+    if (recent != this->Recent.end())
     {
-      return cached->second;
+      return recent->second;
+    }
+    const auto older = this->Older.find(key);
+    if (older != this->Older.end())
+    {
+      return this->keep(key, older->second);
     }
   }
   auto visible =
     std::make_shared<const Visible>(this->visibleFrom(steps.cast<float>().normalized(), pitchSteps * pitchStep));
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  if (this->Cache.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
+  return this->keep(key, std::move(visible));
+}
+
+std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::keep(
+  int key, std::shared_ptr<const Visible> visible) const
+{
+  if (2 * this->Recent.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
   {
-    this->Cache.clear();
+    this->Older = std::move(this->Recent);
+    this->Recent.clear();
   }
-  return this->Cache.emplace(key, std::move(visible)).first->second;
+  return this->Recent.emplace(key, std::move(visible)).first->second;
 }
 
 PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards, double pitch) const

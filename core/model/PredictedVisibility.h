@@ -27,9 +27,9 @@ struct PredictedVisibilitySettings
   double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
   double drop = 0.025; ///< where the part falls off by more from cell to cell, sensors may see just its lower side
   double inset = 0.5;  ///< point distances: where a smooth surface ends the last point is measured so far inside
-  double pitchStep = 0.0005; ///< to which point distances are rounded
-  int pitchSteps = 200;      ///< at most
-  int cachedDirections = 1000;
+  double pitchStep = 0.0005;   ///< to which point distances are rounded
+  int pitchSteps = 200;        ///< at most
+  int cachedDirections = 2000; ///< that are kept, 40 to 60 kB each: a full bin asks for a thousand
 };
 
 /// Which points of a part the sensor should see from a direction, if nothing else were in the way: a depth buffer of
@@ -71,6 +71,8 @@ public:
 
 private:
   Visible visibleFrom(const Eigen::Vector3f& towards, double pitch) const;
+  /// Of a direction that is not among the recent ones; the mutex is locked.
+  std::shared_ptr<const Visible> keep(int key, std::shared_ptr<const Visible> visible) const;
 
   PredictedVisibilitySettings Settings;
   double Diameter;
@@ -84,6 +86,8 @@ private:
   std::vector<int> VerificationIndices; ///< of these in the model's surface
 
   mutable std::mutex Mutex;
-  mutable std::unordered_map<int, std::shared_ptr<const Visible>> Cache; ///< by direction
+  using Cache = std::unordered_map<int, std::shared_ptr<const Visible>>; ///< by direction
+  mutable Cache Recent;                                                  ///< up to half of all that are kept
+  mutable Cache Older; ///< what was recent when there were as many; what is asked for again becomes recent
 };
 }

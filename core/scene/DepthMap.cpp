@@ -331,6 +331,15 @@ DepthMap::DepthMap(
     this->Means.insert(this->Means.end(), some->begin(), some->end());
   }
   this->fillGaps(layer, threads);
+  this->Normals.assign(this->Cells.size(), Eigen::Vector3f::Zero()); // candidates ask for most of them several times
+  parallelFor(this->Width * this->Height, threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int k = begin; k < end; ++k)
+      {
+        this->Normals[k] = this->normalOf(k);
+      }
+    });
   const auto gaps = std::count_if(this->Cells.begin(), this->Cells.end(), [](const Cell& cell) { return cell.isGap; });
   this->Pitch = cellSize * std::sqrt(static_cast<double>(this->Means.size() + gaps) / static_cast<double>(all.count));
 }
@@ -378,16 +387,15 @@ void DepthMap::meansAt(const SoAPoints& points, int begin, int count, Seen& seen
   }
 }
 
-Eigen::Vector3f DepthMap::normalAt(const Eigen::Vector3f& point) const
+Eigen::Vector3f DepthMap::normalOf(int place) const
 {
   // The cells about one, in order, the first once more: two that follow each other make a triangle with the one amid.
   constexpr int right[] = { 1, 1, 0, -1, -1, -1, 0, 1, 1 }, down[] = { 0, 1, 1, 1, 0, -1, -1, -1, 0 };
-  const int place = this->placeOf(point).cell;
-  if (place < 0 || !(this->Cells[place].nearest < NothingSeen))
+  const Cell& cell = this->Cells[place];
+  if (!(cell.nearest < NothingSeen))
   {
     return Eigen::Vector3f::Zero();
   }
-  const Cell& cell = this->Cells[place];
   const float layer = static_cast<float>(this->Settings.layerCells * this->CellSize);
   const int row = place / this->Width, column = place % this->Width;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero(), last = Eigen::Vector3f::Zero();

@@ -75,7 +75,11 @@ public:
 
   /// Unit normal, towards the sensor, of the nearest layer at the line of sight through a point; zero where the sensor
   /// saw too little about it.
-  Eigen::Vector3f normalAt(const Eigen::Vector3f& point) const;
+  Eigen::Vector3f normalAt(const Eigen::Vector3f& point) const
+  {
+    const int place = this->placeOf(point).cell;
+    return place < 0 ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : this->Normals[place];
+  }
 
   /// The relation of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
   void relations(const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, float tolerance,
@@ -162,6 +166,8 @@ private:
   void fillGaps(float layer, int threads);
   /// `seen` tells of the nine cells about one, `stride` from row to row.
   void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);
+  /// By the means of the cells about one.
+  Eigen::Vector3f normalOf(int place) const;
   Cell& cellIn(int row, int column) { return this->Cells[static_cast<std::size_t>(row) * this->Width + column]; }
   static constexpr float NothingSeen = std::numeric_limits<float>::max();
   static Cell nothing()
@@ -182,5 +188,6 @@ private:
   int Height = 0;
   std::vector<Cell> Cells{ nothing() }; ///< and at the end one where there is nothing
   Points Means;
+  Points Normals; ///< of the cells
 };
 }

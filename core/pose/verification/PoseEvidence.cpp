@@ -105,14 +105,47 @@ double EvidenceCollector::shareBehind(const Eigen::Isometry3d& T_scene_model, st
   return std::min(share, 1.0);
 }
 
+EvidenceCollector::Predicted EvidenceCollector::predicted(
+  const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
+{
+  const double pitch = this->InScene.depth.pitch();
+  return { T_scene_model, this->Model.visibility->visible(T_scene_model, this->InScene.sensor, pitch), stride };
+}
+
 PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
 {
-  const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const TrainedModel& model = this->Model;
-  const DepthMap& depth = this->InScene.depth;
-  const auto visible = model.visibility->visible(T_scene_model, this->InScene.sensor, depth.pitch());
-  const float tolerance = this->Tolerance;
+  const Predicted predicted = this->predicted(T_scene_model, stride);
   PoseEvidence evidence;
+  this->addEdges(predicted, evidence);
+  if (haveSurfaces(this->InScene, this->Model))
+  {
+    this->addSurface(predicted, evidence);
+    this->addOutline(predicted, evidence.counts);
+  }
+  return evidence;
+}
+
+Points EvidenceCollector::matched(const Eigen::Isometry3d& T_scene_model) const
+{
+  const Predicted predicted = this->predicted(T_scene_model, 1);
+  PoseEvidence evidence;
+  if (haveSurfaces(this->InScene, this->Model))
+  {
+    this->addSurface(predicted, evidence);
+  }
+  if (evidence.surface.empty())
+  {
+    this->addEdges(predicted, evidence);
+  }
+  return evidence.matched();
+}
+
+void EvidenceCollector::addEdges(const Predicted& predicted, PoseEvidence& evidence) const
+{
+  const auto& [T_scene_model, visible, stride] = predicted;
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const DepthMap& depth = this->InScene.depth;
+  const float tolerance = this->Tolerance;
   const std::size_t edgeStride = stride * this->Settings.edgeStride;
   evidence.edges.reserve(visible->edges.size() / edgeStride + 1);
   evidence.edgeStates.reserve(visible->edges.size() / edgeStride + 1);
@@ -133,10 +166,15 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     evidence.edges.push_back(point);
     evidence.edgeStates.push_back(state);
   }
-  if (!haveSurfaces(this->InScene, model))
-  {
-    return evidence;
-  }
+}
+
+void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evidence) const
+{
+  const auto& [T_scene_model, visible, stride] = predicted;
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const TrainedModel& model = this->Model;
+  const DepthMap& depth = this->InScene.depth;
+  const float tolerance = this->Tolerance;
   const EvidenceSettings& settings = this->Settings;
   const auto stateOf = [&](DepthMap::Relation relation)
   {
@@ -195,7 +233,17 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     evidence.surface.push_back(point);
     evidence.surfaceStates.push_back(state);
   }
-  const float beside = static_cast<float>(settings.outlineTolerance) * tolerance;
+}
+
+void EvidenceCollector::addOutline(const Predicted& predicted, EvidenceCounts& counts) const
+{
+  const auto& [T_scene_model, visible, stride] = predicted;
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const TrainedModel& model = this->Model;
+  const DepthMap& depth = this->InScene.depth;
+  const EvidenceSettings& settings = this->Settings;
+  const double patch = settings.weights.patch * model.diameter;
+  const float beside = static_cast<float>(settings.outlineTolerance) * this->Tolerance;
   const double side = stride * model.visibility->cellSize() / patch;
   double under = 0.0; // of the outline, what a floor or a wall covers
   for (std::size_t k = 0; k < visible->outside.size(); k += stride)
@@ -218,6 +266,5 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     counts.enclosed = goesOn * settings.shown * this->shareBehind(T_scene_model, stride) *
                       static_cast<double>(model.verificationPoints.size()) * model.verificationArea() / (patch * patch);
   }
-  return evidence;
 }
 }

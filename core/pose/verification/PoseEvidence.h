@@ -73,6 +73,8 @@ public:
   EvidenceCollector(const Scene& scene, const TrainedModel& model, const EvidenceSettings& settings = {});
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
+  /// The points that are there, as collect(T).matched() has them, without a look at the rest.
+  Points matched(const Eigen::Isometry3d& T_scene_model) const;
   /// Logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
   /// The same of what is counted at a pose.
@@ -85,6 +87,19 @@ public:
   float tolerance() const { return this->Tolerance; }
 
 private:
+  /// What a pose predicts to be visible, and of how many of its points one is looked at.
+  struct Predicted
+  {
+    Eigen::Isometry3d T_scene_model;
+    std::shared_ptr<const PredictedVisibility::Visible> visible;
+    std::size_t stride;
+  };
+  Predicted predicted(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const;
+  void addEdges(const Predicted& predicted, PoseEvidence& evidence) const;
+  void addSurface(const Predicted& predicted, PoseEvidence& evidence) const;
+  /// Sides of the outline, and the part of the body that lies behind floor and walls.
+  void addOutline(const Predicted& predicted, EvidenceCounts& counts) const;
+
   /// mm; less than nothing: so far behind the bin's floor or a wall.
   float behindPlane() const { return -static_cast<float>(this->Settings.behind) * this->Tolerance; }
   bool isBehind(const Eigen::Vector3f& point) const;

@@ -314,6 +314,18 @@ TEST(PoseEvidence, MatchedAreThoseOfTheSurfaceAndWithoutOneOfTheEdges)
   EXPECT_DOUBLE_EQ(evidence.visibleFraction(), 0.75);
 }
 
+TEST(PoseEvidence, MatchedAreTheSameWithoutALookAtTheRest)
+{
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  for (const Eigen::Isometry3d& copy : scenes::threeCopies())
+  {
+    const Eigen::Isometry3d T = scene.T_local_scene() * copy;
+    EXPECT_EQ(collector.matched(T), collector.collect(T).matched());
+    EXPECT_FALSE(collector.matched(T).empty());
+  }
+}
+
 TEST(PoseEvidence, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
 {
   const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
