@@ -37,51 +37,51 @@ void findCells(const Eigen::Matrix<float, 3, 4>& toCells, const Eigen::Array3i& 
   }
 }
 
-/// A point of a surface with its normal, or of an edge with its tangent.
-struct Sample
+/// A row of cells along x.
+struct Row
 {
-  Eigen::Vector3f point, direction;
-  float spacing; ///< mm, to its neighbours
-  bool isOfSurface;
+  int begin, end; ///< of the cells, the last one not included
+  float cell;     ///< mm, the side of one
+  float y, z;     ///< mm, of their middles
+  float step;     ///< mm, of one that is stored
+  std::uint8_t* stored;
 };
 
-/// Lowers what cells `begin` to `end` of a row along x store to the distance from the sample, in steps of `step` mm.
-/// `across`: mm from the sample to the row along y and z.
+/// Lowers what a row stores to the distance from a point of a surface with its normal, or of an edge with its tangent:
+/// between points that are `spacing` mm apart the surface goes on along its plane, the edge along its line.
 MEAM_ALL_VECTORS
-void lowerRow(const Sample& sample, const Eigen::Vector2f& across, float cell, float step, int begin, int end,
-  float farthest, std::uint8_t* row)
+void lower(const Row& row, const Eigen::Vector3f& point, const Eigen::Vector3f& direction, bool isNormal, float spacing,
+  float farthest)
 {
-  const float place = sample.point.x(), direction = sample.direction.x(), spacing = sample.spacing;
-  const float alongAcross = sample.direction.y() * across.x() + sample.direction.z() * across.y();
-  const float squaredAcross = across.x() * across.x() + across.y() * across.y();
-  const bool isOfSurface = sample.isOfSurface;
+  const float x = point.x(), dx = direction.x(), cell = row.cell, step = row.step;
+  const float y = row.y - point.y(), z = row.z - point.z();
+  const float alongYZ = direction.y() * y + direction.z() * z, squaredYZ = y * y + z * z;
   constexpr int lanes = 16; // not tuned: rows are a few of them long, and what lies beyond is dropped
-  for (int first = begin; first < end; first += lanes)
+  for (int first = row.begin; first < row.end; first += lanes)
   {
     int stored[lanes];
 #pragma omp simd
     for (int k = 0; k < lanes; ++k)
     {
-      const float offset = (static_cast<float>(first + k) + 0.5f) * cell - place;
-      const float along = std::abs(direction * offset + alongAcross);
-      const float beside = std::sqrt(std::max(0.0f, offset * offset + squaredAcross - along * along));
-      // Between samples the surface goes on along its plane, the edge along its line.
-      const double off = isOfSurface ? along : beside;
-      const double beyond = std::max(0.0f, (isOfSurface ? beside : along) - spacing);
-      const float steps = static_cast<float>(std::sqrt(off * off + beyond * beyond)) / step;
+      const float offset = (static_cast<float>(first + k) + 0.5f) * cell - x;
+      const float along = std::abs(dx * offset + alongYZ); // the direction
+      const float across = std::sqrt(std::max(0.0f, offset * offset + squaredYZ - along * along));
+      const double away = isNormal ? along : across; // in double precision, as std::hypot has it
+      const double beyond = std::max(0.0f, (isNormal ? across : along) - spacing);
+      const float steps = static_cast<float>(std::sqrt(away * away + beyond * beyond)) / step;
       stored[k] = static_cast<int>(steps < farthest ? steps : farthest);
     }
-    const int count = std::min(lanes, end - first);
+    const int count = std::min(lanes, row.end - first);
     for (int k = 0; k < count; ++k)
     {
-      row[first + k] = static_cast<std::uint8_t>(std::min<int>(stored[k], row[first + k]));
+      row.stored[first + k] = static_cast<std::uint8_t>(std::min<int>(stored[k], row.stored[first + k]));
     }
   }
 }
 }
 
 DistanceField::DistanceField(
-  const Points& points, const Points& directions, bool areOfSurface, double spacing, double reach, double cellSize)
+  const Points& points, const Points& directions, Kind kind, double spacing, double reach, double cellSize)
   : Reach(static_cast<float>(reach))
 {
   const float step = this->Reach / Farthest;
@@ -106,25 +106,32 @@ DistanceField::DistanceField(
   this->Size = (size / cell).floor().cast<int>() + 1;
   this->Extent = this->Size.cast<float>();
   this->Distances.assign(static_cast<std::size_t>(this->Size.prod()) + 1, Farthest);
+  constexpr float margin = 1.001f; // not tuned: for rounding
   const float width = static_cast<float>(cell), around = static_cast<float>(reach + spacing);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Sample sample{ points[i] - this->Origin, directions[i], static_cast<float>(spacing), areOfSurface };
-    const Eigen::Array3i low = ((sample.point.array() - around) * this->InverseCell).max(0.0f).cast<int>();
-    const Eigen::Array3i high = ((sample.point.array() + around) * this->InverseCell).cast<int>().min(this->Size - 1);
-    const int middle = static_cast<int>(sample.point.x() * this->InverseCell);
+    const Eigen::Vector3f point = points[i] - this->Origin;
+    if (!point.allFinite())
+    {
+      continue;
+    }
+    const Eigen::Array3i low = ((point.array() - around) * this->InverseCell).max(0.0f).cast<int>();
+    const Eigen::Array3i high = ((point.array() + around) * this->InverseCell).cast<int>().min(this->Size - 1);
+    const int middle = static_cast<int>(point.x() * this->InverseCell);
     for (int z = low.z(); z <= high.z(); ++z)
     {
       for (int y = low.y(); y <= high.y(); ++y)
       {
-        const Eigen::Vector2f across((y + 0.5f) * width - sample.point.y(), (z + 0.5f) * width - sample.point.z());
-        const float left = around * around - across.squaredNorm();
-        if (left > 0.0f)
+        Row row{ low.x(), high.x() + 1, width, (y + 0.5f) * width, (z + 0.5f) * width, step, nullptr };
+        const float left =
+          margin * around * around - Eigen::Vector2f(row.y - point.y(), row.z - point.z()).squaredNorm();
+        if (left > 0.0f) // else all of it is out of reach
         {
           const int half = static_cast<int>(std::sqrt(left) * this->InverseCell) + 1;
-          const int begin = std::max(low.x(), middle - half), end = std::min(high.x(), middle + half) + 1;
-          std::uint8_t* row = &this->Distances[(static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x()];
-          lowerRow(sample, across, width, step, begin, end, Farthest, row);
+          row.begin = std::max(row.begin, middle - half);
+          row.end = std::min(row.end, middle + half + 1);
+          row.stored = &this->Distances[(static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x()];
+          lower(row, point, directions[i], kind == Kind::Surface, static_cast<float>(spacing), Farthest);
         }
       }
     }
@@ -152,11 +159,11 @@ void DistanceField::at(
 
 DistanceField DistanceField::ofSurface(const PointCloud& samples, double spacing, double reach, double cellSize)
 {
-  return DistanceField(samples.points, samples.normals, true, spacing, reach, cellSize);
+  return DistanceField(samples.points, samples.normals, Kind::Surface, spacing, reach, cellSize);
 }
 
 DistanceField DistanceField::ofEdges(const PointCloud& edges, double spacing, double reach, double cellSize)
 {
-  return DistanceField(edges.points, edges.tangents, false, spacing, reach, cellSize);
+  return DistanceField(edges.points, edges.tangents, Kind::Edges, spacing, reach, cellSize);
 }
 }

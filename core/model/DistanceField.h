@@ -46,8 +46,13 @@ public:
 private:
   static constexpr std::uint8_t Farthest = 255; ///< not tuned: of what a cell stores: `reach` or more
 
+  enum class Kind
+  {
+    Surface, ///< points with normals
+    Edges    ///< points with tangents
+  };
   DistanceField(
-    const Points& points, const Points& directions, bool areOfSurface, double spacing, double reach, double cellSize);
+    const Points& points, const Points& directions, Kind kind, double spacing, double reach, double cellSize);
 
   Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
   float InverseCell = 1.0f;

@@ -29,7 +29,7 @@ struct PredictedVisibilitySettings
   double inset = 0.5;  ///< point distances: where a smooth surface ends the last point is measured so far inside
   double pitchStep = 0.0005;   ///< to which point distances are rounded
   int pitchSteps = 200;        ///< at most
-  int cachedDirections = 2000; ///< that are kept, 40 to 60 kB each: a full bin asks for a thousand
+  int cachedDirections = 2000; ///< that are kept, up to 120 MB of a part: a full bin asks for a thousand
 };
 
 /// Which points of a part the sensor should see from a direction, if nothing else were in the way: a depth buffer of
@@ -70,8 +70,10 @@ public:
     const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double pitch = 0.0) const;
 
 private:
+  using Cache = std::unordered_map<int, std::shared_ptr<const Visible>>; ///< by direction and point distance
+
   Visible visibleFrom(const Eigen::Vector3f& towards, double pitch) const;
-  /// Of a direction that is not among the recent ones; the mutex is locked.
+  /// Puts it among the recent ones, unless it is there. The mutex is locked.
   std::shared_ptr<const Visible> keep(int key, std::shared_ptr<const Visible> visible) const;
 
   PredictedVisibilitySettings Settings;
@@ -86,8 +88,7 @@ private:
   std::vector<int> VerificationIndices; ///< of these in the model's surface
 
   mutable std::mutex Mutex;
-  using Cache = std::unordered_map<int, std::shared_ptr<const Visible>>; ///< by direction
-  mutable Cache Recent;                                                  ///< up to half of all that are kept
-  mutable Cache Older; ///< what was recent when there were as many; what is asked for again becomes recent
+  // Two generations instead of a list of the least recently used: when Recent is full it takes the place of Older.
+  mutable Cache Recent, Older;
 };
 }

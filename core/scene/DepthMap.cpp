@@ -331,7 +331,7 @@ DepthMap::DepthMap(
     this->Means.insert(this->Means.end(), some->begin(), some->end());
   }
   this->fillGaps(layer, threads);
-  this->Normals.assign(this->Cells.size(), Eigen::Vector3f::Zero()); // candidates ask for most of them several times
+  this->Normals.assign(this->Cells.size(), Eigen::Vector3f::Zero());
   parallelFor(this->Width * this->Height, threads, {},
     [&](int begin, int end, int)
     {

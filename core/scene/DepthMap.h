@@ -166,7 +166,7 @@ private:
   void fillGaps(float layer, int threads);
   /// `seen` tells of the nine cells about one, `stride` from row to row.
   void fillGap(int row, int column, const std::uint8_t* seen, std::size_t stride, float layer);
-  /// By the means of the cells about one.
+  /// Of the nearest layer of a cell by the means of the cells about it: see normalAt().
   Eigen::Vector3f normalOf(int place) const;
   Cell& cellIn(int row, int column) { return this->Cells[static_cast<std::size_t>(row) * this->Width + column]; }
   static constexpr float NothingSeen = std::numeric_limits<float>::max();
@@ -188,6 +188,6 @@ private:
   int Height = 0;
   std::vector<Cell> Cells{ nothing() }; ///< and at the end one where there is nothing
   Points Means;
-  Points Normals; ///< of the cells
+  Points Normals; ///< of the cells, unit; zero where too little was seen
 };
 }

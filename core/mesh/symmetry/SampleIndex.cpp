@@ -3,7 +3,7 @@
 
 #include "base/AllVectors.h"
 
-#include <cstring>
+#include <algorithm>
 #include <limits>
 
 namespace meam
@@ -72,15 +72,15 @@ int SampleIndex::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& no
   std::fill_n(nearest.places, Lanes, -1);
   this->Grid.forEachRange(
     point, radius, [&](int begin, int end) { search(this->Samples, begin, end, query, nearest); });
-  // Floats from 0 on are ordered as their bits are.
-  std::uint64_t least = ~std::uint64_t(0);
-  for (int lane = 0; lane < Lanes; ++lane)
+  int best = 0; // lane
+  for (int lane = 1; lane < Lanes; ++lane)
   {
-    std::uint32_t distance;
-    std::memcpy(&distance, &nearest.distances[lane], sizeof(distance));
-    least = std::min(least, std::uint64_t(distance) << 32 | static_cast<std::uint32_t>(nearest.places[lane]));
+    const bool isNearer = nearest.distances[lane] < nearest.distances[best];
+    const bool isFirst =
+      nearest.distances[lane] == nearest.distances[best] && nearest.places[lane] < nearest.places[best];
+    best = isNearer || isFirst ? lane : best;
   }
-  const int place = static_cast<int>(least & 0xffffffffu);
+  const int place = nearest.places[best];
   return place >= 0 ? this->Grid.order()[place] : -1;
 }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/PointGrid.h"
+#include "base/SoAPoints.h"
 
 namespace meam
 {
@@ -10,19 +11,19 @@ namespace meam
 class SampleIndex
 {
 public:
-  /// `cellSize` in mm, that of the grid; look-ups are fastest at radii near it. `sameSide`: cosine between normals from
-  /// which on two samples are on the same side of the surface.
+  /// `surface` has normals; samples that are not finite are left out. `cellSize` in mm, that of the grid: look-ups are
+  /// fastest at radii near it. `sameSide`: cosine between normals above which two samples are on the same side.
   SampleIndex(const PointCloud& surface, double cellSize, double sameSide);
 
   const PointGrid& grid() const { return this->Grid; }
 
-  /// The nearest sample within `radius` (mm) whose normal is on the side of `normal`, or -1. Of several that are
+  /// Index of the nearest sample within `radius` (mm) that is on the same side as `normal`, or -1; of several that are
   /// equally near the first in the grid's order.
   int nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double radius) const;
 
 private:
   PointGrid Grid;
-  SoAOrientedPoints Samples; ///< with normals, in the grid's order, and room at the end
+  SoAOrientedPoints Samples; ///< with normals, in the grid's order, and room for whole groups of lanes at the end
   float SameSide;
 };
 }

@@ -2,6 +2,7 @@
 #include "mesh/symmetry/SymmetryDetection.h"
 
 #include "base/Parallel.h"
+#include "base/PointGrid.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/symmetry/SampleIndex.h"
 #include "mesh/Viewpoints.h"

@@ -331,7 +331,7 @@ void PoseDiagnosis::findTaker(Diagnosis& diagnosis, const Poses& ranked) const
   const EvidenceCollector collector(this->InScene, this->Model, this->Detection.selection.evidence);
   for (std::size_t k = 0; k < ranked.size() && !points.empty(); ++k)
   {
-    const PointGrid others(collector.matched(ranked[k].T_scene_model), near);
+    const PointGrid others(collector.matchedPoints(ranked[k].T_scene_model), near);
     const auto shared = std::count_if(
       points.begin(), points.end(), [&](const Eigen::Vector3f& point) { return others.nearest(point, near) >= 0; });
     const double share = static_cast<double>(shared) / points.size();

@@ -129,7 +129,7 @@ void InstanceChoice::collectMatched()
         if (isAskedFor)
         {
           Matched& matched = this->MatchedPoints[k];
-          matched.points = this->Collector.matched(this->InPoses[k].T_scene_model);
+          matched.points = this->Collector.matchedPoints(this->InPoses[k].T_scene_model);
           matched.grid = PointGrid(matched.points, this->SharedDistance);
         }
       }

@@ -125,7 +125,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   return evidence;
 }
 
-Points EvidenceCollector::matched(const Eigen::Isometry3d& T_scene_model) const
+Points EvidenceCollector::matchedPoints(const Eigen::Isometry3d& T_scene_model) const
 {
   const Predicted predicted = this->predicted(T_scene_model, 1);
   PoseEvidence evidence;

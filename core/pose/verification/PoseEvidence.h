@@ -2,12 +2,14 @@
 #pragma once
 
 #include "base/SoAPoints.h"
+#include "model/PredictedVisibility.h"
 #include "model/TrainedModel.h"
 #include "pose/FitLengths.h"
 #include "pose/verification/EvidenceCounts.h"
 #include "pose/verification/ProbabilityCalibration.h"
 #include "scene/Scene.h"
 
+#include <memory>
 #include <optional>
 
 namespace meam
@@ -73,8 +75,8 @@ public:
   EvidenceCollector(const Scene& scene, const TrainedModel& model, const EvidenceSettings& settings = {});
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
-  /// The points that are there, as collect(T).matched() has them, without a look at the rest.
-  Points matched(const Eigen::Isometry3d& T_scene_model) const;
+  /// The same as collect(T).matched(); edges are looked at only where no surface is predicted, the outline never.
+  Points matchedPoints(const Eigen::Isometry3d& T_scene_model) const;
   /// Logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
   /// The same of what is counted at a pose.
@@ -87,7 +89,7 @@ public:
   float tolerance() const { return this->Tolerance; }
 
 private:
-  /// What a pose predicts to be visible, and of how many of its points one is looked at.
+  /// What a pose predicts to be visible; every `stride`-th point of it is looked at.
   struct Predicted
   {
     Eigen::Isometry3d T_scene_model;

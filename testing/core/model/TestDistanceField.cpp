@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace
@@ -63,6 +65,57 @@ TEST(DistanceField, OfALineOfEdgePoints)
   EXPECT_NEAR(field.at({ 9.0f, 1.2f, -1.6f }), 2.0, Cell);
   EXPECT_LT((field.middle() - Eigen::Vector3f(10, 0, 0)).norm(), 1e-4f);
   EXPECT_NEAR(field.radius(), 10.0f, 1e-4);
+}
+
+TEST(DistanceField, InEachCellTheLeastOfAllPoints)
+{
+  constexpr double spacing = 0.8, reach = 2.5, step = reach / 255;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> place(0.0f, 11.0f);
+  std::normal_distribution<float> normal;
+  meam::PointCloud cloud;
+  for (int k = 0; k < 60; ++k)
+  {
+    cloud.points.emplace_back(place(random), place(random), 0.5f * place(random));
+    cloud.normals.push_back(Eigen::Vector3f(normal(random), normal(random), normal(random)).normalized());
+  }
+  cloud.tangents = cloud.normals;
+  const meam::DistanceField surface = meam::DistanceField::ofSurface(cloud, spacing, reach, Cell);
+  const meam::DistanceField edges = meam::DistanceField::ofEdges(cloud, spacing, reach, Cell);
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& point : cloud.points)
+  {
+    box.extend(point);
+  }
+  const Eigen::Vector3d low = box.min().cast<double>().array() - reach;
+  const Eigen::Array3i size = ((box.sizes().cast<double>().array() + 2.0 * reach) / Cell).cast<int>();
+  int near = 0;
+  for (int k = 0; k < size.prod(); k += 7) // a seventh of the cells, of all rows
+  {
+    const Eigen::Vector3d cell(k % size.x(), k / size.x() % size.y(), k / size.x() / size.y());
+    const Eigen::Vector3d middle = low + Cell * (cell.array() + 0.5).matrix();
+    double ofSurface = reach, ofEdges = reach;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+    {
+      const Eigen::Vector3d offset = middle - cloud.points[i].cast<double>();
+      const double along = std::abs(cloud.normals[i].cast<double>().dot(offset));
+      const double across = std::sqrt(std::max(0.0, offset.squaredNorm() - along * along));
+      ofSurface = std::min(ofSurface, std::hypot(along, std::max(0.0, across - spacing)));
+      ofEdges = std::min(ofEdges, std::hypot(across, std::max(0.0, along - spacing)));
+    }
+    EXPECT_NEAR(surface.at(middle.cast<float>()), ofSurface, 1.01 * step) << middle.transpose();
+    EXPECT_NEAR(edges.at(middle.cast<float>()), ofEdges, 1.01 * step) << middle.transpose();
+    near += ofSurface < reach && ofEdges < reach ? 1 : 0;
+  }
+  EXPECT_GT(near, 1000);
+}
+
+TEST(DistanceField, APointThatIsNoNumberIsNowhere)
+{
+  meam::PointCloud cloud = square();
+  cloud.points[7] = { NAN, 3.0f, 0.0f };
+  const meam::DistanceField field = meam::DistanceField::ofSurface(cloud, 1.0, 3.0, Cell);
+  EXPECT_NEAR(field.at({ 10.0f, 10.0f, 2.0f }), 2.0, Cell);
 }
 
 TEST(DistanceField, ManyAtOnceAsOneByOne)

@@ -97,8 +97,9 @@ TEST(PredictedVisibility, PosesThatHardlyDifferPredictTheSamePoints)
 
 TEST(PredictedVisibility, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
 {
-  // More directions than are cached.
-  const meam::PredictedVisibility one(scenes::bracket()), other(scenes::bracket());
+  meam::PredictedVisibilitySettings settings;
+  settings.cachedDirections = 100; // fewer than are asked for
+  const meam::PredictedVisibility one(scenes::bracket(), settings), other(scenes::bracket());
   const auto first = one.visible(turned(10.0), fromAbove());
   for (int k = 0; k < 1500; ++k)
   {
@@ -113,6 +114,33 @@ TEST(PredictedVisibility, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
   }
   EXPECT_EQ(one.visible(turned(10.0), fromAbove())->edges.points.x, first->edges.points.x);
   EXPECT_EQ(one.visible(turned(10.0), fromAbove())->surface, first->surface);
+}
+
+TEST(PredictedVisibility, WhatWasAskedForLastIsKept)
+{
+  meam::PredictedVisibilitySettings settings;
+  settings.cachedDirections = 10;
+  const meam::PredictedVisibility view(scenes::bracket(), settings);
+  const auto askForOthers = [&](int begin, int end)
+  {
+    for (int k = begin; k < end; ++k)
+    {
+      view.visible(turned(20.0 + 3.0 * k), fromAbove());
+    }
+  };
+  const auto first = view.visible(turned(10.0), fromAbove());
+  askForOthers(0, 6);
+  EXPECT_EQ(view.visible(turned(10.0), fromAbove()), first) << "of the older half";
+  askForOthers(6, 12);
+  EXPECT_EQ(view.visible(turned(10.0), fromAbove()), first) << "asked for again it was one of the recent half";
+  askForOthers(12, 24);
+  const auto again = view.visible(turned(10.0), fromAbove());
+  EXPECT_NE(again, first);
+  EXPECT_EQ(again->surface, first->surface);
+  settings.cachedDirections = 0;
+  const meam::PredictedVisibility forgetful(scenes::bracket(), settings);
+  EXPECT_EQ(forgetful.visible(turned(10.0), fromAbove())->surface, first->surface);
+  EXPECT_EQ(forgetful.visible(turned(10.0), fromAbove())->surface, first->surface);
 }
 
 TEST(PredictedVisibility, OfACubeTheSidesThatFaceTheSensorAreVisible)

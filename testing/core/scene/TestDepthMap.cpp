@@ -235,6 +235,7 @@ TEST(DepthMap, OfNothingTellsNothing)
   const meam::DepthMap map({}, fromAbove(), 1.0);
   EXPECT_EQ(map.relation({ 0, 0, 0 }, 1.0f), meam::DepthMap::Relation::NoSurface);
   EXPECT_FALSE(meanAt(map, { 0, 0, 0 }));
+  EXPECT_TRUE(map.normalAt({ 0, 0, 0 }).isZero());
 }
 
 TEST(DepthMap, TheSameForAnyNumberOfThreads)
@@ -258,6 +259,7 @@ TEST(DepthMap, TheSameForAnyNumberOfThreads)
     const Eigen::Vector3f asked(across(random), across(random), height(random));
     float ofOne, ofThree;
     EXPECT_EQ(one.relation(asked, 1.0f), three.relation(asked, 1.0f));
+    EXPECT_EQ(one.normalAt(asked), three.normalAt(asked));
     EXPECT_EQ(meanAt(one, asked, &ofOne), meanAt(three, asked, &ofThree));
     EXPECT_EQ(ofOne, ofThree);
   }

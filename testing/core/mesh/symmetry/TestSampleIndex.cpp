@@ -39,6 +39,36 @@ TEST(SampleIndex, TheNearestOnTheSameSide)
   EXPECT_EQ(index.nearest(Eigen::Vector3f::Constant(NAN), Eigen::Vector3f::UnitZ(), 2.0), -1);
 }
 
+TEST(SampleIndex, AtTheLimitsOfRadiusAndSide)
+{
+  meam::PointCloud surface;
+  surface.points = { { 0, 0, 0 }, Eigen::Vector3f::Constant(NAN), { 8, 0, 0 } };
+  surface.normals = { { 0.6f, 0, 0.8f }, Eigen::Vector3f::UnitZ(), Eigen::Vector3f::Constant(NAN) };
+  const meam::SampleIndex index(surface, 1.0, 0.8);
+  EXPECT_EQ(index.nearest({ 3, 4, 0 }, Eigen::Vector3f::UnitX(), 5.0), -1) << "the cosine is 0.6";
+  EXPECT_EQ(index.nearest({ 3, 4, 0 }, Eigen::Vector3f::UnitZ(), 5.0), -1) << "0.8 and no more";
+  EXPECT_EQ(index.nearest({ 3, 4, 0 }, { 0.6f, 0, 0.8f }, 5.0), 0) << "5 mm away";
+  EXPECT_EQ(index.nearest({ 3, 4, 0 }, { 0.6f, 0, 0.8f }, 4.9), -1);
+  EXPECT_EQ(index.nearest({ 8, 0, 0 }, Eigen::Vector3f::UnitZ(), 5.0), -1) << "a sample without a normal";
+  EXPECT_EQ(meam::SampleIndex({}, 1.0, 0.8).nearest({ 0, 0, 0 }, Eigen::Vector3f::UnitZ(), 5.0), -1);
+}
+
+TEST(SampleIndex, OfEquallyNearOnesTheFirst)
+{
+  meam::PointCloud surface; // 24 at four places, all of them 1 mm from the middle
+  for (int k = 0; k < 24; ++k)
+  {
+    const float side = k % 2 == 0 ? 1.0f : -1.0f;
+    surface.points.emplace_back(k % 4 < 2 ? side : 0.0f, k % 4 < 2 ? 0.0f : side, 0.0f);
+    surface.normals.push_back(Eigen::Vector3f::UnitZ());
+  }
+  for (const double cell : { 0.5, 5.0 })
+  {
+    const meam::SampleIndex index(surface, cell, 0.5);
+    EXPECT_EQ(index.nearest({ 0, 0, 0 }, Eigen::Vector3f::UnitZ(), 1.0), index.grid().order().front()) << cell;
+  }
+}
+
 TEST(SampleIndex, AsWhenAllAreLookedAt)
 {
   std::mt19937 random(3);
@@ -58,9 +88,9 @@ TEST(SampleIndex, AsWhenAllAreLookedAt)
     int best = -1;
     for (int i = 0; i < 1001; ++i)
     {
-      const float distance = (surface.points[i] - point).norm();
-      const bool isIn = distance < 1.5f && surface.normals[i].dot(side) > 0.3f;
-      best = isIn && (best < 0 || distance < (surface.points[best] - point).norm()) ? i : best;
+      const float distance = (surface.points[i] - point).squaredNorm();
+      const bool isIn = distance <= 1.5f * 1.5f && surface.normals[i].dot(side) > 0.3f;
+      best = isIn && (best < 0 || distance < (surface.points[best] - point).squaredNorm()) ? i : best;
     }
     EXPECT_EQ(index.nearest(point, side, 1.5), best);
     found += best >= 0 ? 1 : 0;

@@ -316,13 +316,21 @@ TEST(PoseEvidence, MatchedAreThoseOfTheSurfaceAndWithoutOneOfTheEdges)
 
 TEST(PoseEvidence, MatchedAreTheSameWithoutALookAtTheRest)
 {
-  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
-  const meam::EvidenceCollector collector(scene, scenes::bracket());
-  for (const Eigen::Isometry3d& copy : scenes::threeCopies())
+  for (const bool hasSurface : { true, false })
   {
-    const Eigen::Isometry3d T = scene.T_local_scene() * copy;
-    EXPECT_EQ(collector.matched(T), collector.collect(T).matched());
-    EXPECT_FALSE(collector.matched(T).empty());
+    scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+    if (!hasSurface)
+    {
+      seen.surface.clear();
+    }
+    const meam::Scene scene = scenes::prepared(seen);
+    const meam::EvidenceCollector collector(scene, scenes::bracket());
+    for (const Eigen::Isometry3d& copy : scenes::threeCopies())
+    {
+      const Eigen::Isometry3d T = scene.T_local_scene() * copy;
+      EXPECT_EQ(collector.matchedPoints(T), collector.collect(T).matched());
+      EXPECT_FALSE(collector.matchedPoints(T).empty());
+    }
   }
 }
 
