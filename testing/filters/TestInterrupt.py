@@ -28,12 +28,23 @@ def processor_seconds(process=None):
     return usage.ru_utime + usage.ru_stime
 
 
-def interrupted(after, folder, *command):
-    """Starts a script, sends Ctrl-C after so many seconds of its work, and returns what is in the folder then."""
+def command_of(script, *arguments):
+    return [sys.executable, os.path.join(root, "examples", script), *arguments]
+
+
+def work_of(script, *arguments):
+    """Processor seconds of a script that nothing stops."""
     before = processor_seconds()
-    process = subprocess.Popen([sys.executable, os.path.join(root, "examples", command[0]), *command[1:]],
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    time.sleep(loading + after)
+    subprocess.run(command_of(script, *arguments), stdout=subprocess.DEVNULL, check=True)
+    return processor_seconds() - before
+
+
+def interrupted(work, folder, *command):
+    """Starts a script, sends Ctrl-C after so many seconds of the processor, and returns what is in the folder then."""
+    before = processor_seconds()
+    process = subprocess.Popen(command_of(*command), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and processor_seconds(process) < work:
+        time.sleep(0.01)
     check(process.poll() is None, f"{command[0]} has ended before it was stopped")
     before += processor_seconds(process)
     process.send_signal(signal.SIGINT)
@@ -44,16 +55,16 @@ def interrupted(after, folder, *command):
     return [os.path.join(place, name) for place, _, names in os.walk(folder) for name in names]
 
 
-start = time.monotonic()
-subprocess.run([sys.executable, os.path.join(root, "examples", "train.py"), "--help"],
-               stdout=subprocess.DEVNULL, check=True)
-loading = time.monotonic() - start  # of its modules, which Ctrl-C may cut off anyhow
+loading = work_of("train.py", "--help")  # its modules, which Ctrl-C may cut off anyhow
 with tempfile.TemporaryDirectory() as folder:
-    model = os.path.join(folder, "part.meam")
-    for after in (0.3, 0.9):
-        check(not interrupted(after, folder, "train.py", "--cad", part, "--out", model), "train.py leaves a file")
+    training = ["train.py", "--cad", part, "--out", os.path.join(folder, "part.meam")]
+    whole = work_of(*training)
+    os.remove(training[-1])
+    for share in (0.25, 0.6):
+        left = interrupted(loading + share * (whole - loading), folder, *training)
+        check(not left, f"train.py leaves {left}")
     bins = os.path.join(folder, "bins")
-    left = interrupted(1.2, bins, "simulate.py", "--cad", part, "--scenes", "50", "--out", bins)
+    left = interrupted(loading + 1.2, bins, "simulate.py", "--cad", part, "--scenes", "50", "--out", bins)
     check(not [name for name in left if name.endswith(".part")] and all(map(os.path.getsize, left)), f"left: {left}")
 
 # Not when Python looks for garbage: filters hold scans.
