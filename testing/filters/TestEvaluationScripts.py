@@ -143,6 +143,14 @@ check(world.recall_at_precision_99(likely + [{"probability": "0.1", "found": "0"
       "one of 152 is wrong, and one does not count")
 check(len(found) == sum(int(row["poses"]) for row in rows), "a row for each pose")
 check(f"{len(found)} poses" in table and sorted(os.listdir("bins"))[0] == "hole_plate_time-of-flight_3_1.vtp", table)
+# A hundred poses that claim 0.5, of which 80 are right, and a hundred that are sure: by chance a class of 0.5 is off by 0.05
+# at one standard deviation, in one of 20 draws by about twice that.
+claimed = [{"probability": "0.5", "right": str(int(k < 80))} for k in range(100)] + [{"probability": "1", "right": "1"}] * 100
+told = world.largest_gap(claimed)
+check("claims 50.0 %, and 80.0 % of it are right" in told, told)
+by_chance = float(told.split("largest gap of ")[1].split(" %")[0])
+check(8 <= by_chance <= 12, told)
+
 whole = read("world/world.csv")
 with open("world/world.csv", "w") as file:
     file.write(whole[:-3])

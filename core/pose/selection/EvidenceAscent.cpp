@@ -5,6 +5,8 @@
 #include "mesh/Symmetries.h"
 #include "pose/Pose.h"
 
+#include <utility>
+
 namespace meam
 {
 EvidenceAscent::EvidenceAscent(const EvidenceCollector& collector, const EvidenceRates& rates,
@@ -26,37 +28,49 @@ EvidenceAscent::EvidenceAscent(const EvidenceCollector& collector, const Evidenc
   }
   for (int k = 0; k < 3; ++k)
   {
-    this->Motions.push_back({ axes.col(k), false });
+    this->ShiftsFirst.push_back({ axes.col(k), false });
   }
   for (int k = static_cast<int>(round.size()); k < 3; ++k)
   {
-    this->Motions.push_back({ axes.col(k), true });
+    this->ShiftsFirst.push_back({ axes.col(k), true });
   }
+  this->TurnsFirst.assign(this->ShiftsFirst.rbegin(), this->ShiftsFirst.rend());
 }
 
 EvidenceAscent::Result EvidenceAscent::at(const Eigen::Isometry3d& T_scene_model) const
 {
-  Result result{ T_scene_model, this->Collector.collect(T_scene_model), 0.0, false };
-  result.logOdds = this->Collector.logOdds(result.evidence.counts, this->Rates);
+  Result result{ T_scene_model, this->Collector.collect(T_scene_model), 0.0, 0.0, false };
+  result.logOdds = result.logOddsBefore = this->Collector.logOdds(result.evidence.counts, this->Rates);
   return result;
 }
 
 EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_model) const
 {
-  Result asItIs = this->at(T_scene_model);
-  const EvidenceCounts& counts = asItIs.evidence.counts;
-  if (probabilityOf(asItIs.logOdds) >= this->Settings.worthTrying &&
-      counts.past + counts.farPast >= this->Settings.leastPast)
+  Result best = this->at(T_scene_model);
+  if (this->isContradicted(best))
   {
-    Result moved = this->at(this->search(T_scene_model));
-    moved.logOdds -= this->Settings.price;
-    moved.isMoved = true;
-    if (moved.logOdds > asItIs.logOdds)
+    for (const std::vector<Motion>* motions : { &this->ShiftsFirst, &this->TurnsFirst })
     {
-      return moved;
+      Result moved = this->at(this->climb(T_scene_model, *motions));
+      moved.logOdds -= this->Settings.price;
+      moved.logOddsBefore = best.logOddsBefore;
+      moved.isMoved = true;
+      if (moved.logOdds > best.logOdds)
+      {
+        best = std::move(moved);
+      }
     }
   }
-  return asItIs;
+  return best;
+}
+
+bool EvidenceAscent::isContradicted(const Result& pose) const
+{
+  const EvidenceCounts& counts = pose.evidence.counts;
+  const double probability = probabilityOf(pose.logOdds);
+  const bool isPast = counts.past + counts.farPast >= this->Settings.leastPast;
+  const bool isClose = counts.closelyHidden >= this->Settings.leastClose && probability < this->Settings.sure;
+  return probability >= this->Settings.worthTrying && (isPast || isClose);
 }
 
 Eigen::Isometry3d EvidenceAscent::moved(const Eigen::Isometry3d& T, const Motion& motion, double step) const
@@ -73,7 +87,8 @@ bool EvidenceAscent::isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d&
          rotationError(a, b) <= this->Settings.mostTurned;
 }
 
-Eigen::Isometry3d EvidenceAscent::search(const Eigen::Isometry3d& T_scene_model) const
+Eigen::Isometry3d EvidenceAscent::climb(
+  const Eigen::Isometry3d& T_scene_model, const std::vector<Motion>& motions) const
 {
   const auto logOdds = [&](const Eigen::Isometry3d& T)
   { return this->Collector.logOdds(T, this->Rates, this->Settings.pointStride); };
@@ -93,7 +108,7 @@ Eigen::Isometry3d EvidenceAscent::search(const Eigen::Isometry3d& T_scene_model)
   for (int round = 0; round < this->Settings.rounds && step >= lastStep; ++round)
   {
     bool hasClimbed = false;
-    for (const Motion& motion : this->Motions)
+    for (const Motion& motion : motions)
     {
       hasClimbed |= climbs(motion, step) || climbs(motion, -step);
     }

@@ -10,7 +10,9 @@ namespace meam
 {
 struct EvidenceAscentSettings
 {
-  double leastPast = 1.0;    ///< patches that the sensor saw past; fewer, and a pose stays
+  double leastPast = 1.0;    ///< patches that the sensor saw past,
+  double leastClose = 0.2;   ///< or that a surface hides which is close before them; fewer, and a pose stays
+  double sure = 0.9;         ///< probability from which on what is close before a pose is another object
   double worthTrying = 1e-3; ///< probability; less, and a pose stays
   double firstStep = 0.02;   ///< of the diameter: a shift along an axis; a turn moves so much half a diameter away
   double lastStep = 0.0025;  ///< steps are halved down to this one
@@ -21,11 +23,14 @@ struct EvidenceAscentSettings
   double price = 1.0;        ///< off the log odds of a moved pose: the best of so many has as much by chance
 };
 
-/// Moves a pose to where the scan speaks for it the most, by a compass search along and about the axes of the part (the
-/// exploratory moves of Hooke and Jeeves, "Direct search" solution of numerical and statistical problems, J. ACM 1961).
+/// Moves a pose to where the scan speaks for it the most, by compass searches along and about the axes of the part (the
+/// exploratory moves of Hooke and Jeeves, "Direct search" solution of numerical and statistical problems, J. ACM 1961):
+/// one shifts it before it turns it, one turns it first, for each may end at a lower summit.
+///
 /// Least squares know only of what corresponds: of a part that is not quite as in its CAD file, or that a sensor has
-/// smoothed, they fit one end and leave the other in the air. A pose that nothing contradicts stays, for least squares
-/// are more exact; so do all in scenes without a surface. Calls may run in parallel.
+/// smoothed, they fit one end and leave the other in the air, or below the surface, where nothing speaks against it. A
+/// pose that nothing contradicts stays, for least squares are more exact; so do all in scenes without a surface. Calls
+/// may run in parallel.
 class EvidenceAscent
 {
 public:
@@ -38,6 +43,7 @@ public:
     Eigen::Isometry3d T_scene_model;
     PoseEvidence evidence; ///< at it
     double logOdds;        ///< less the price, where it was moved
+    double logOddsBefore;  ///< of the pose as it was
     bool isMoved;
   };
   /// What the scan says of a pose, in the local frame, or of one near by that is worth its price.
@@ -51,15 +57,18 @@ private:
   };
 
   Result at(const Eigen::Isometry3d& T_scene_model) const;
+  bool isContradicted(const Result& pose) const;
   Eigen::Isometry3d moved(const Eigen::Isometry3d& T_scene_model, const Motion& motion, double step) const;
   bool isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
-  Eigen::Isometry3d search(const Eigen::Isometry3d& T_scene_model) const;
+  /// A summit near a pose, by motions that are tried in this order.
+  Eigen::Isometry3d climb(const Eigen::Isometry3d& T_scene_model, const std::vector<Motion>& motions) const;
 
   const EvidenceCollector& Collector;
   EvidenceRates Rates;
   const TrainedModel& Model;
   EvidenceAscentSettings Settings;
-  std::vector<Motion>
-    Motions; ///< but turns about the axis of a round part, and of a nearly round one (RotationDecision)
+  std::vector<Motion> ShiftsFirst; ///< and turns, but about the axis of a round part, and of a nearly round one
+                                   ///< (RotationDecision)
+  std::vector<Motion> TurnsFirst;  ///< the same in the other order
 };
 }

@@ -18,6 +18,13 @@ PoseRefinementSettings rotatedSettings(const PoseSelectionSettings& settings, co
   return rotated;
 }
 
+struct Finished
+{
+  Pose pose;
+  Points matched;        ///< by it
+  double evidenceBefore; ///< of the pose before it was moved to where the scan speaks for it the most
+};
+
 /// Looks for the rotation of an instance, aligns it, moves it where the scan contradicts it, and scores it.
 class InstanceFinish
 {
@@ -37,8 +44,7 @@ public:
   {
   }
 
-  /// Returns what it matched.
-  Points finish(Pose& pose, InstanceChoice& choice, int index) const
+  Finished finish(Pose pose, InstanceChoice& choice, int index) const
   {
     PoseComparison::Contender asItIs = choice.contender(index);
     pose = this->Restarts.best(pose, asItIs);
@@ -57,7 +63,7 @@ public:
     }
     setSeen(pose, best.evidence, this->InScene, this->Model);
     setEvidence(pose, best.logOdds);
-    return best.evidence.matched();
+    return { pose, best.evidence.matched(), withCertainty(best.logOddsBefore, pose.certainty) };
   }
 
 private:
@@ -90,13 +96,6 @@ private:
   EvidenceAscent Ascent;
 };
 
-/// A pose and what it matched.
-struct Finished
-{
-  Pose pose;
-  Points matched;
-};
-
 /// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
 /// come to the same place, and what others explain speaks for no more.
 Poses withoutShared(
@@ -111,7 +110,7 @@ Poses withoutShared(
   };
   std::vector<Kept> kept;
   Poses distinct;
-  for (const auto& [pose, matched] : found)
+  for (const auto& [pose, matched, unused] : found)
   {
     const Eigen::Vector3d middle = pose.T_scene_model * model.visibility->middle().cast<double>();
     bool isTaken = false;
@@ -140,16 +139,11 @@ Poses withoutShared(
   return distinct;
 }
 
-/// A part that is not in the scan fits here and there, but nowhere well: of poses, best first, none is likelier than
-/// that the part is there at all, which the best one tells.
-void allowForAbsence(Poses& poses, const ProbabilityCalibration& calibration)
+/// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
+/// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
+void allowForAbsence(Poses& poses, double bestEvidence, const ProbabilityCalibration& calibration)
 {
-  if (poses.empty())
-  {
-    return;
-  }
-  const double present =
-    std::max(calibration.leastPresent, probabilityOf(calibration.present.logOdds(poses.front().evidence)));
+  const double present = std::max(calibration.leastPresent, probabilityOf(calibration.present.logOdds(bestEvidence)));
   for (Pose& pose : poses)
   {
     pose.evidence = withCertainty(pose.evidence, present);
@@ -175,16 +169,17 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     {
       for (int k = begin; k < end; ++k)
       {
-        finished[k].pose = scored[selected[k]];
-        finished[k].matched = instance.finish(finished[k].pose, choice, selected[k]);
+        finished[k] = instance.finish(scored[selected[k]], choice, selected[k]);
       }
     });
   std::stable_sort(
     finished.begin(), finished.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
   Poses instances = withoutShared(finished, model, settings);
-  if (haveSurfaces(scene, model))
+  if (haveSurfaces(scene, model) && !finished.empty())
   {
-    allowForAbsence(instances, settings.evidence.calibration);
+    const auto best = std::max_element(finished.begin(), finished.end(),
+      [](const Finished& a, const Finished& b) { return a.evidenceBefore < b.evidenceBefore; });
+    allowForAbsence(instances, best->evidenceBefore, settings.evidence.calibration);
   }
   return instances;
 }

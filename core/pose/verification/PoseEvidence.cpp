@@ -184,6 +184,7 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
                                                                               : PointState::Violated;
   };
   const float farBehind = std::max(tolerance, static_cast<float>(settings.farBehind * model.diameter));
+  const float closelyBefore = static_cast<float>(settings.closelyBefore * model.diameter);
   EvidenceCounts& counts = evidence.counts;
   const double patch = settings.weights.patch * model.diameter;
   const double area = stride * model.verificationArea() / (patch * patch);
@@ -212,6 +213,11 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
       }
       case DepthMap::Relation::Hidden:
         counts.hidden += seen;
+        counts.closelyHidden += seen > 0.0 &&
+                                    depth.relationToMean(point, closelyBefore) == DepthMap::Relation::OnSurface &&
+                                    depth.normalAt(point).dot(normal) >= facing
+                                  ? seen
+                                  : 0.0;
         state = PointState::Hidden;
         break;
       case DepthMap::Relation::NoSurface:

@@ -34,10 +34,11 @@ struct EvidenceSettings
   EvidenceWeights weights;
   std::optional<EvidenceRates> rates; ///< of the scan, when they are known; else the poses tell them
   bool freeSpace = true;              ///< surface that the sensor saw past speaks against a pose; else it says nothing
-  double facing = 0.8;    ///< cosine between the part's normal and the measured one, from which on the surface fits
-  double farBehind = 0.1; ///< of the diameter: what the sensor saw so far behind the part is far
-  double flattest = 0.3;  ///< cosine: the tolerance along the line of sight grows up to surfaces seen so flatly
-  double behind = 3.0;    ///< times the tolerance: so far behind the bin's floor or a wall a part cannot reach
+  double facing = 0.8;        ///< cosine between the part's normal and the measured one, from which on the surface fits
+  double farBehind = 0.1;     ///< of the diameter: what the sensor saw so far behind the part is far
+  double closelyBefore = 0.1; ///< of the diameter: a surface that hides the part from nearer is close before it
+  double flattest = 0.3;      ///< cosine: the tolerance along the line of sight grows up to surfaces seen so flatly
+  double behind = 3.0;        ///< times the tolerance: so far behind the bin's floor or a wall a part cannot reach
   double shown = 0.25; ///< of its whole surface a body shows, on average over directions (Cauchy): its patches behind
   double outlineTolerance = 1.5;      ///< times the tolerance: a surface beyond the outline that goes on
   int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same

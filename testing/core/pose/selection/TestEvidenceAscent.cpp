@@ -49,6 +49,16 @@ struct Trial
     return pose;
   }
 
+  /// So far below where the bar lies, and turned about the axis that runs across its middle.
+  meam::Pose sunken(double millimetres, double degrees) const
+  {
+    const Eigen::Vector3d middle = this->model.visibility->middle().cast<double>();
+    meam::Pose pose;
+    pose.T_scene_model = this->scene.T_local_scene() * Eigen::Translation3d(0.0, 0.0, -millimetres) *
+                         meam::turnAbout(Eigen::Vector3d::UnitY(), degrees * M_PI / 180.0, middle);
+    return pose;
+  }
+
   meam::EvidenceAscent::Result best(const meam::Pose& pose, const meam::EvidenceAscentSettings& settings = {}) const
   {
     return meam::EvidenceAscent(this->collector, meam::EvidenceRates(), this->model, settings).best(pose.T_scene_model);
@@ -96,6 +106,31 @@ TEST(EvidenceAscent, AMotionOfASixthOfTheDiameterIsUndone)
   EXPECT_LT(trial.offset(best.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
   EXPECT_LT(trial.turn(best.T_scene_model), 2.5);
   EXPECT_EQ(past(best.evidence), 0.0);
+}
+
+TEST(EvidenceAscent, APoseBelowASurfaceThatMayBeThePartsOwnIsRaised)
+{
+  const Trial& trial = trialOf<CADLength>();
+  const meam::Pose pose = trial.sunken(3.0, -6.0);
+  const meam::EvidenceAscent::Result best = trial.best(pose);
+  EXPECT_TRUE(best.isMoved);
+  EXPECT_LT(trial.offset(best.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
+  EXPECT_LT(trial.turn(best.T_scene_model), 2.0);
+  EXPECT_LT(best.evidence.counts.closelyHidden, 0.1);
+  meam::EvidenceAscentSettings settings;
+  settings.leastClose = 100.0;
+  EXPECT_FALSE(trial.best(pose, settings).isMoved);
+  settings = {};
+  settings.sure = 0.0; // what lies on a pose that is sure is another object
+  EXPECT_FALSE(trial.best(pose, settings).isMoved);
+}
+
+TEST(EvidenceAscent, TurnsBeforeShiftsEndHigherThanTheOtherWayRound)
+{
+  const Trial& trial = trialOf<CADLength>();
+  const meam::EvidenceAscent::Result best = trial.best(trial.sunken(0.0, -8.0));
+  EXPECT_GT(best.logOdds, 6.0) << "with shifts first alone 4, turned by 5.8 degrees";
+  EXPECT_LT(trial.turn(best.T_scene_model), 5.0);
 }
 
 TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
@@ -163,4 +198,26 @@ TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
   const Eigen::Matrix3d ofShifts = after.fit.covariance.bottomRightCorner<3, 3>();
   EXPECT_GE(ofShifts.trace(), 0.99 * distance * distance);
   EXPECT_GT(after.evidence, before.evidence);
+}
+
+TEST(EvidenceAscent, WhereAPoseIsMovedToDoesNotTellThatThePartIsThere)
+{
+  const Trial& trial = trialOf<54>();
+  const meam::Pose aligned = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
+  meam::PoseSelectionSettings settings;
+  settings.evidence.rates = meam::EvidenceRates();
+  settings.restarts.worthTrying = 1.0;
+  meam::ProbabilityCalibration& calibration = settings.evidence.calibration;
+  const auto selected = [&](int rounds)
+  {
+    settings.ascent.rounds = rounds;
+    return meam::selectPoses({ aligned }, trial.scene, trial.model, settings).at(0);
+  };
+  const int rounds = meam::EvidenceAscentSettings().rounds;
+  calibration.present = { 100.0, 0.0 };
+  const meam::Pose before = selected(0), after = selected(rounds);
+  ASSERT_GT(after.evidence, before.evidence + 1.0);
+  // It is there by the evidence of the moved pose, and is not by that of the pose before.
+  calibration.present = { -50.0 * (before.evidence + after.evidence), 100.0 };
+  EXPECT_NEAR(selected(rounds).probability, calibration.leastPresent * after.probability, 1e-6);
 }

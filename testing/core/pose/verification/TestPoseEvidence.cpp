@@ -234,6 +234,33 @@ TEST(PoseEvidence, OutlineUnderTheFloorDoesNotEnd)
   EXPECT_GT(counts.enclosed, 1.0);
 }
 
+TEST(PoseEvidence, WhatASurfaceCloseBeforeHidesIsCounted)
+{
+  // A plate of 40 x 25 mm, 6 mm thick, lies flat; poses below it see its upper side before them.
+  const meam::TrainedModel& plate = scenes::trained<barePlate>();
+  const Eigen::Isometry3d up(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()));
+  const meam::Scene scene = scenes::prepared(
+    scenes::withTangents(scenes::seenFromAbove({ { barePlate(), up } }), plate.diameter), plate.diameter);
+  const auto countsBelow = [&](double millimetres, const meam::EvidenceSettings& settings = {})
+  {
+    const Eigen::Isometry3d T = scene.T_local_scene() * Eigen::Translation3d(0.0, 0.0, -millimetres) * up;
+    return meam::EvidenceCollector(scene, plate, settings).collect(T).counts;
+  };
+  EXPECT_EQ(countsBelow(0.0).closelyHidden, 0.0);
+  const meam::EvidenceCounts close = countsBelow(3.0); // farther than the tolerance of 1.4 mm
+  EXPECT_GT(close.hidden, 15.0) << "patches, of 44 with the border";
+  EXPECT_GT(close.closelyHidden, 0.95 * close.hidden) << "all but the border, where the plate ends";
+  EXPECT_EQ(countsBelow(8.0).closelyHidden, 0.0) << "more than a tenth of the diameter before it";
+  meam::EvidenceSettings settings;
+  settings.closelyBefore = 0.2;
+  EXPECT_GT(countsBelow(8.0, settings).closelyHidden, 15.0);
+  settings.facing = 1.01; // no surface faces the same way
+  EXPECT_EQ(countsBelow(3.0, settings).closelyHidden, 0.0);
+  meam::EvidenceCounts hidden = close;
+  hidden.closelyHidden = 0.0;
+  EXPECT_EQ(hidden.sum({}, {}), close.sum({}, {})) << "it says no more than what is hidden";
+}
+
 TEST(PoseEvidence, EdgesOnLinesLongerThanThePartSayNothing)
 {
   const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
