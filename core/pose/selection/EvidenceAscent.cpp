@@ -69,8 +69,8 @@ bool EvidenceAscent::isContradicted(const Result& pose) const
   const EvidenceCounts& counts = pose.evidence.counts;
   const double probability = probabilityOf(pose.logOdds);
   const bool isPast = counts.past + counts.farPast >= this->Settings.leastPast;
-  const bool isClose = counts.closelyHidden >= this->Settings.leastClose && probability < this->Settings.sure;
-  return probability >= this->Settings.worthTrying && (isPast || isClose);
+  const bool isClose = counts.closelyHidden >= this->Settings.leastClose && probability < this->Settings.covered;
+  return probability >= this->Settings.worthTrying && probability < this->Settings.sure && (isPast || isClose);
 }
 
 Eigen::Isometry3d EvidenceAscent::moved(const Eigen::Isometry3d& T, const Motion& motion, double step) const

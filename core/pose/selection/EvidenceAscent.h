@@ -12,8 +12,9 @@ struct EvidenceAscentSettings
 {
   double leastPast = 1.0;    ///< patches that the sensor saw past,
   double leastClose = 0.2;   ///< or that a surface hides which is close before them; fewer, and a pose stays
-  double sure = 0.9;         ///< probability from which on what is close before a pose is another object
-  double worthTrying = 1e-3; ///< probability; less, and a pose stays
+  double covered = 0.9;      ///< probability from which on what is close before a pose is another object
+  double worthTrying = 1e-3; ///< probability; less, and a pose stays,
+  double sure = 0.99;        ///< and so it does if it has more
   double firstStep = 0.02;   ///< of the diameter: a shift along an axis; a turn moves so much half a diameter away
   double lastStep = 0.0025;  ///< steps are halved down to this one
   double farthest = 0.1;     ///< of the diameter, from where the pose was,

@@ -121,7 +121,7 @@ TEST(EvidenceAscent, APoseBelowASurfaceThatMayBeThePartsOwnIsRaised)
   settings.leastClose = 100.0;
   EXPECT_FALSE(trial.best(pose, settings).isMoved);
   settings = {};
-  settings.sure = 0.0; // what lies on a pose that is sure is another object
+  settings.covered = 0.0;
   EXPECT_FALSE(trial.best(pose, settings).isMoved);
 }
 
@@ -146,6 +146,9 @@ TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
   EXPECT_FALSE(stays(pose));
   meam::EvidenceAscentSettings settings;
   settings.worthTrying = 1.0;
+  EXPECT_TRUE(stays(pose, settings));
+  settings = {};
+  settings.sure = 0.0;
   EXPECT_TRUE(stays(pose, settings));
   settings = {};
   settings.rounds = 0;
