@@ -66,11 +66,15 @@ EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_mod
 
 bool EvidenceAscent::isContradicted(const Result& pose) const
 {
-  const EvidenceCounts& counts = pose.evidence.counts;
   const double probability = probabilityOf(pose.logOdds);
-  const bool isPast = counts.past + counts.farPast >= this->Settings.leastPast;
-  const bool isClose = counts.closelyHidden >= this->Settings.leastClose && probability < this->Settings.covered;
-  return probability >= this->Settings.worthTrying && probability < this->Settings.sure && (isPast || isClose);
+  if (probability < this->Settings.worthTrying || probability >= this->Settings.sure)
+  {
+    return false;
+  }
+  const EvidenceCounts& counts = pose.evidence.counts;
+  return counts.past + counts.farPast >= this->Settings.leastPast ||
+         (probability < this->Settings.covered &&
+           this->Collector.closelyHidden(pose.T_scene_model) >= this->Settings.leastClose);
 }
 
 Eigen::Isometry3d EvidenceAscent::moved(const Eigen::Isometry3d& T, const Motion& motion, double step) const

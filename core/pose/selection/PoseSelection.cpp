@@ -110,7 +110,7 @@ Poses withoutShared(
   };
   std::vector<Kept> kept;
   Poses distinct;
-  for (const auto& [pose, matched, unused] : found)
+  for (const auto& [pose, matched, evidenceBefore] : found)
   {
     const Eigen::Vector3d middle = pose.T_scene_model * model.visibility->middle().cast<double>();
     bool isTaken = false;

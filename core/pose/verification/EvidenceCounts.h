@@ -53,8 +53,6 @@ struct EvidenceCounts
   // Areas as the sensor sees them, in patches
   double there = 0.0, unclear = 0.0, turned = 0.0, past = 0.0, farPast = 0.0;
   double hidden = 0.0, enclosed = 0.0, unmeasured = 0.0;
-  double closelyHidden = 0.0; ///< of the hidden, what has a surface close before it that faces the same way: it may be
-                              ///< the part's own
   // Lengths of outline, in sides of a patch, beyond which the measured surface is farther away, or goes on as if it
   // were the part
   double ends = 0.0, goesOn = 0.0;

@@ -105,6 +105,38 @@ double EvidenceCollector::shareBehind(const Eigen::Isometry3d& T_scene_model, st
   return std::min(share, 1.0);
 }
 
+double EvidenceCollector::closelyHidden(const Eigen::Isometry3d& T_scene_model) const
+{
+  if (!haveSurfaces(this->InScene, this->Model))
+  {
+    return 0.0;
+  }
+  const TrainedModel& model = this->Model;
+  const DepthMap& depth = this->InScene.depth;
+  const EvidenceSettings& settings = this->Settings;
+  const auto visible = this->predicted(T_scene_model, 1).visible;
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const Eigen::Vector3f towards = T.linear() * model.visibility->towards(T_scene_model, this->InScene.sensor);
+  const float flattest = static_cast<float>(settings.flattest), facing = static_cast<float>(settings.facing);
+  const float close = static_cast<float>(settings.closelyBefore * model.diameter);
+  const double patch = settings.weights.patch * model.diameter;
+  double area = 0.0; // as the sensor sees it
+  for (std::size_t k = 0; k < visible->surface.size(); ++k)
+  {
+    const int i = visible->surface[k];
+    const Eigen::Vector3f point = T * model.surface.points[i];
+    const Eigen::Vector3f normal = T.linear() * model.surface.normals[i];
+    const float cosine = normal.dot(towards);
+    const float tolerance = this->Tolerance / std::max(cosine, flattest);
+    const bool isClose = visible->isInner[k] && cosine > 0.0f &&
+                         depth.relationToMean(point, tolerance) == DepthMap::Relation::Hidden &&
+                         depth.relationToMean(point, close) == DepthMap::Relation::OnSurface &&
+                         depth.normalAt(point).dot(normal) >= facing;
+    area += isClose ? model.verificationArea() * cosine : 0.0;
+  }
+  return area / (patch * patch);
+}
+
 EvidenceCollector::Predicted EvidenceCollector::predicted(
   const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
 {
@@ -184,7 +216,6 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
                                                                               : PointState::Violated;
   };
   const float farBehind = std::max(tolerance, static_cast<float>(settings.farBehind * model.diameter));
-  const float closelyBefore = static_cast<float>(settings.closelyBefore * model.diameter);
   EvidenceCounts& counts = evidence.counts;
   const double patch = settings.weights.patch * model.diameter;
   const double area = stride * model.verificationArea() / (patch * patch);
@@ -213,11 +244,6 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
       }
       case DepthMap::Relation::Hidden:
         counts.hidden += seen;
-        counts.closelyHidden += seen > 0.0 &&
-                                    depth.relationToMean(point, closelyBefore) == DepthMap::Relation::OnSurface &&
-                                    depth.normalAt(point).dot(normal) >= facing
-                                  ? seen
-                                  : 0.0;
         state = PointState::Hidden;
         break;
       case DepthMap::Relation::NoSurface:

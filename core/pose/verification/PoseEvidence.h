@@ -84,6 +84,9 @@ public:
   double logOdds(const Eigen::Isometry3d& T_scene_model, const EvidenceRates& rates, std::size_t stride = 1) const;
   /// The share of the part's whole surface, seen or not, that lies behind the bin's floor or a wall, [0, 1].
   double shareBehind(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
+  /// Patches of what the pose predicts, as the sensor sees them, that are hidden by a surface close before them which
+  /// faces the same way: it may be the part's own.
+  double closelyHidden(const Eigen::Isometry3d& T_scene_model) const;
   /// Whether a scene edge point lies within the tolerance of a point: the paper's test of fit.
   bool nearEdge(const Eigen::Vector3f& point) const;
   /// How near to the scene a model point fits, mm.

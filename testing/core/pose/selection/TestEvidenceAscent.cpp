@@ -79,6 +79,26 @@ const Trial& trialOf()
   return trial;
 }
 
+/// The bar of 54 mm, taken to be as long as its CAD file says.
+struct SelectionTrial
+{
+  const Trial& trial = trialOf<54>();
+  meam::Pose aligned = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
+  meam::PoseSelectionSettings settings;
+
+  SelectionTrial()
+  {
+    this->settings.evidence.rates = meam::EvidenceRates();
+    this->settings.restarts.worthTrying = 1.0;
+  }
+  meam::Pose selected(int rounds)
+  {
+    this->settings.ascent.rounds = rounds;
+    const meam::Poses scored = meam::verifyPoses({ this->aligned }, this->trial.scene, this->trial.model);
+    return meam::selectPoses(scored, this->trial.scene, this->trial.model, this->settings).at(0);
+  }
+};
+
 double past(const meam::PoseEvidence& evidence) { return evidence.counts.past + evidence.counts.farPast; }
 }
 
@@ -116,7 +136,7 @@ TEST(EvidenceAscent, APoseBelowASurfaceThatMayBeThePartsOwnIsRaised)
   EXPECT_TRUE(best.isMoved);
   EXPECT_LT(trial.offset(best.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
   EXPECT_LT(trial.turn(best.T_scene_model), 2.0);
-  EXPECT_LT(best.evidence.counts.closelyHidden, 0.1);
+  EXPECT_LT(trial.collector.closelyHidden(best.T_scene_model), 0.1);
   meam::EvidenceAscentSettings settings;
   settings.leastClose = 100.0;
   EXPECT_FALSE(trial.best(pose, settings).isMoved);
@@ -182,21 +202,10 @@ TEST(EvidenceAscent, AStrideBelowOneIsRefused)
 
 TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
 {
-  const Trial& trial = trialOf<54>();
-  const meam::Pose aligned = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
-  meam::PoseSelectionSettings settings;
-  settings.evidence.rates = meam::EvidenceRates();
-  settings.restarts.worthTrying = 1.0;
-  const auto selected = [&](int rounds)
-  {
-    settings.ascent.rounds = rounds;
-    return meam::selectPoses(
-      meam::verifyPoses({ aligned }, trial.scene, trial.model), trial.scene, trial.model, settings)
-      .at(0);
-  };
-  const meam::Pose before = selected(0), after = selected(meam::EvidenceAscentSettings().rounds);
-  const double distance =
-    meam::translationError(before.T_scene_model, after.T_scene_model, trial.model.visibility->middle().cast<double>());
+  SelectionTrial trial;
+  const meam::Pose before = trial.selected(0), after = trial.selected(meam::EvidenceAscentSettings().rounds);
+  const Eigen::Vector3d middle = trial.trial.model.visibility->middle().cast<double>();
+  const double distance = meam::translationError(before.T_scene_model, after.T_scene_model, middle);
   EXPECT_GT(distance, 1.0);
   const Eigen::Matrix3d ofShifts = after.fit.covariance.bottomRightCorner<3, 3>();
   EXPECT_GE(ofShifts.trace(), 0.99 * distance * distance);
@@ -205,22 +214,13 @@ TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
 
 TEST(EvidenceAscent, WhereAPoseIsMovedToDoesNotTellThatThePartIsThere)
 {
-  const Trial& trial = trialOf<54>();
-  const meam::Pose aligned = meam::alignRobustly(trial.displaced(6.0), trial.scene, trial.model);
-  meam::PoseSelectionSettings settings;
-  settings.evidence.rates = meam::EvidenceRates();
-  settings.restarts.worthTrying = 1.0;
-  meam::ProbabilityCalibration& calibration = settings.evidence.calibration;
-  const auto selected = [&](int rounds)
-  {
-    settings.ascent.rounds = rounds;
-    return meam::selectPoses({ aligned }, trial.scene, trial.model, settings).at(0);
-  };
+  SelectionTrial trial;
+  meam::ProbabilityCalibration& calibration = trial.settings.evidence.calibration;
   const int rounds = meam::EvidenceAscentSettings().rounds;
   calibration.present = { 100.0, 0.0 };
-  const meam::Pose before = selected(0), after = selected(rounds);
+  const meam::Pose before = trial.selected(0), after = trial.selected(rounds);
   ASSERT_GT(after.evidence, before.evidence + 1.0);
   // It is there by the evidence of the moved pose, and is not by that of the pose before.
   calibration.present = { -50.0 * (before.evidence + after.evidence), 100.0 };
-  EXPECT_NEAR(selected(rounds).probability, calibration.leastPresent * after.probability, 1e-6);
+  EXPECT_NEAR(trial.selected(rounds).probability, calibration.leastPresent * after.probability, 1e-6);
 }
