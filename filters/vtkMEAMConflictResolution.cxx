@@ -71,7 +71,6 @@ vtkMEAMConflictResolution::vtkMEAMConflictResolution()
 
 vtkMEAMConflictResolution::~vtkMEAMConflictResolution() = default;
 
-vtkMEAMClampedSettingMacro(vtkMEAMConflictResolution, Tolerance, double, tolerance, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMConflictResolution, MaximumShared, double, shared, 0.0, 1.0)
 vtkMEAMClampedSettingMacro(vtkMEAMConflictResolution, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX)
 
@@ -149,7 +148,6 @@ int vtkMEAMConflictResolution::RequestData(
 void vtkMEAMConflictResolution::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Tolerance: " << this->GetTolerance() << " mm\n";
   os << indent << "MaximumShared: " << this->GetMaximumShared() << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->GetMaximumNumberOfPoses() << "\n";
 }

@@ -43,16 +43,6 @@ public:
   void RemoveAllModelConnections() { this->RemoveAllInputConnections(1); }
 
   ///@{
-  /**
-   * A pose explains the measured points this near to its part, in mm; no more than 2 % of the part's diameter counts.
-   * 0: 2 % of the smallest part's diameter, but 1 % of the own diameter of parts that are more than twice as large.
-   * Default: 0.
-   */
-  virtual void SetTolerance(double value);
-  virtual double GetTolerance();
-  ///@}
-
-  ///@{
   /** Poses that share more of what they explain, in [0, 1], are in conflict; 1: none are. Default: 0.5. */
   virtual void SetMaximumShared(double value);
   virtual double GetMaximumShared();

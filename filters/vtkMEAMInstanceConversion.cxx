@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMInstanceConversion.h"
 
-#include "pose/PoseUncertainty.h"
+#include "pose/Pose.h"
 #include "vtkMEAMCloudConversion.h"
 
 #include "vtkCellArray.h"

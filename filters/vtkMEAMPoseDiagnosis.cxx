@@ -104,12 +104,11 @@ void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* ou
 /// A detection, and what it was made of.
 struct vtkMEAMPoseDiagnosis::Detection
 {
-  Detection(Work&& from, std::vector<double> madeOf, const meam::PoseDiagnosisSettings& settings,
-    const meam::Progress& progress)
+  Detection(Work&& from, std::vector<double> madeOf, bool fit, const meam::Progress& progress)
     : made(std::move(madeOf))
     , work(std::move(from))
     , scene(meam::sceneOf(*work.part->model, work.scene, work.settings))
-    , diagnosis(scene, *work.part->model, work.settings, settings, progress)
+    , diagnosis(scene, *work.part->model, work.settings, fit, progress)
   {
   }
 
@@ -165,9 +164,7 @@ vtkMEAMPoseDiagnosis::Detection& vtkMEAMPoseDiagnosis::Detect(vtkInformationVect
   if (!this->Detected || this->Detected->made != made)
   {
     this->Detected = nullptr; // until the new one is there
-    meam::PoseDiagnosisSettings settings;
-    settings.fit = this->Fit;
-    this->Detected = std::make_unique<Detection>(this->Prepare(inputVector), std::move(made), settings,
+    this->Detected = std::make_unique<Detection>(this->Prepare(inputVector), std::move(made), this->Fit,
       meam::subProgress(vtkMEAMConversion::progressOf(this), Work::Prepared, AfterDetection));
   }
   return *this->Detected;

@@ -91,8 +91,7 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         fromSceneEdges(work.found, edges);
       }
-      addRanks(
-        meam::explainEdges(scene.edges, poses, model, scene.quality.noise, {}, this->GetNumberOfThreads()), edges);
+      addRanks(meam::explainEdges(scene.edges, poses, model, scene.quality.noise, this->GetNumberOfThreads()), edges);
       fromPoses(poses, output);
       output->GetPointData()->SetActiveScalars("Rank");
       const InstanceSettings drawn;

@@ -18,10 +18,7 @@ vtkMEAMPoseScreening::~vtkMEAMPoseScreening() = default;
 
 vtkMEAMClampedSettingMacro(vtkMEAMPoseScreening, LeastSurface, double, leastSurface, 0.0, 1.0)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseScreening, Enough, int, enough, 0, VTK_INT_MAX)
-vtkMEAMClampedSettingMacro(vtkMEAMPoseScreening, Distance, double, distance, 0.0, VTK_DOUBLE_MAX)
-vtkMEAMClampedSettingMacro(vtkMEAMPoseScreening, Angle, double, angle, 0.0, 180.0)
-vtkMEAMClampedSettingMacro(vtkMEAMPoseScreening, Tolerance, double, evidence.tolerance, 0.0, VTK_DOUBLE_MAX)
-vtkMEAMSettingMacro(vtkMEAMPoseScreening, FreeSpace, bool, evidence.freeSpace)
+vtkMEAMSettingMacro(vtkMEAMPoseScreening, FreeSpace, bool, freeSpace)
 
 void vtkMEAMPoseScreening::Process(Work& work)
 {
@@ -34,8 +31,5 @@ void vtkMEAMPoseScreening::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "LeastSurface: " << this->GetLeastSurface() << "\n";
   os << indent << "Enough: " << this->GetEnough() << "\n";
-  os << indent << "Distance: " << this->GetDistance() << "\n";
-  os << indent << "Angle: " << this->GetAngle() << "\n";
-  os << indent << "Tolerance: " << this->GetTolerance() << "\n";
   os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
 }

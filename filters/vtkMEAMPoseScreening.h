@@ -48,31 +48,6 @@ public:
 
   ///@{
   /**
-   * Candidates nearer to each other than this, in mm, and turned less than Angle, are duplicates; 0: 4 % of the part's
-   * diameter. Default: 0.
-   */
-  virtual void SetDistance(double value);
-  virtual double GetDistance();
-  ///@}
-
-  ///@{
-  /**
-   * Degrees. Default: 6.
-   */
-  virtual void SetAngle(double value);
-  virtual double GetAngle();
-  ///@}
-
-  ///@{
-  /**
-   * A point of the model this near to the scene fits, in mm; 0: 3 % of the part's diameter. Default: 0.
-   */
-  virtual void SetTolerance(double value);
-  virtual double GetTolerance();
-  ///@}
-
-  ///@{
-  /**
    * Surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing was
    * measured. Default: true.
    */

@@ -17,12 +17,10 @@ vtkMEAMPoseSelection::vtkMEAMPoseSelection()
 vtkMEAMPoseSelection::~vtkMEAMPoseSelection() = default;
 
 vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, Method, int, method, Clusters, Instances)
-vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, ClusterDistance, double, clusters.distance, 0.0, VTK_DOUBLE_MAX)
-vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, ClusterAngle, double, clusters.angle, 0.0, 180.0)
+vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, ClusterDistance, double, clusterDistance, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, PosesPerInstance, int, alternatives, 1, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, MinimumProbability, double, minimumProbability, 0.0, 1.0)
-vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, Tolerance, double, evidence.tolerance, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMSettingMacro(vtkMEAMPoseSelection, SameVisibility, bool, comparison.sameVisibility)
 
 void vtkMEAMPoseSelection::SetFreeSpace(bool value)
@@ -74,11 +72,9 @@ void vtkMEAMPoseSelection::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->GetMethod() << "\n";
   os << indent << "ClusterDistance: " << this->GetClusterDistance() << "\n";
-  os << indent << "ClusterAngle: " << this->GetClusterAngle() << "\n";
   os << indent << "PosesPerInstance: " << this->GetPosesPerInstance() << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->GetMaximumNumberOfPoses() << "\n";
   os << indent << "MinimumProbability: " << this->GetMinimumProbability() << "\n";
-  os << indent << "Tolerance: " << this->GetTolerance() << "\n";
   os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
   os << indent << "SameVisibility: " << this->GetSameVisibility() << "\n";
 }

@@ -59,14 +59,6 @@ public:
 
   ///@{
   /**
-   * Clusters, Alternatives: Poses of one instance that are turned less than this are the same, in degrees. Default: 15.
-   */
-  virtual void SetClusterAngle(double value);
-  virtual double GetClusterAngle();
-  ///@}
-
-  ///@{
-  /**
    * Alternatives: poses kept of one instance. Default: 4.
    */
   virtual void SetPosesPerInstance(int value);
@@ -88,14 +80,6 @@ public:
    */
   virtual void SetMinimumProbability(double value);
   virtual double GetMinimumProbability();
-  ///@}
-
-  ///@{
-  /**
-   * Instances: a point of the model this near to the scene fits, in mm; 0: 3 % of the part's diameter. Default: 0.
-   */
-  virtual void SetTolerance(double value);
-  virtual double GetTolerance();
   ///@}
 
   ///@{

@@ -20,7 +20,6 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Method, int, method, EdgeCov
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Tolerance, double, evidence.tolerance, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMSettingMacro(vtkMEAMPoseVerification, FreeSpace, bool, evidence.freeSpace)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PointStride, int, pointStride, 1, VTK_INT_MAX)
-vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, MinimumScore, double, minimumScore, 0.0, 1.0)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PosesPerView, int, posesPerView, 0, VTK_INT_MAX)
 
 void vtkMEAMPoseVerification::SetParametersToPaper()
@@ -67,6 +66,5 @@ void vtkMEAMPoseVerification::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->GetTolerance() << "\n";
   os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
   os << indent << "PointStride: " << this->GetPointStride() << "\n";
-  os << indent << "MinimumScore: " << this->GetMinimumScore() << "\n";
   os << indent << "PosesPerView: " << this->GetPosesPerView() << "\n";
 }

@@ -10,8 +10,8 @@
  * says; edges count as far as this scan's edges can be trusted, which is measured on the poses of the input.
  *
  * Input ports: as vtkMEAMPoseAlgorithm has them.
- * Output port 0: vtkPolyData, every pose but those below MinimumScore, best first, with `Evidence` (logarithm of
- * the odds that the pose is right), `Probability` (the same as a probability), `Score` (share of the surface that
+ * Output port 0: vtkPolyData, the poses, or the best PosesPerView of each view, best first, with `Evidence` (logarithm
+ * of the odds that the pose is right), `Probability` (the same as a probability), `Score` (share of the surface that
  * nothing hides that is there; without a surface, of the edges) and `VisibleFraction` (without a surface 1: nothing
  * tells what hides), all in [0, 1], `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection.
  */
@@ -76,14 +76,6 @@ public:
    */
   virtual void SetPointStride(int value);
   virtual int GetPointStride();
-  ///@}
-
-  ///@{
-  /**
-   * Poses with a lower score, in [0, 1], are dropped. Default: 0.
-   */
-  virtual void SetMinimumScore(double value);
-  virtual double GetMinimumScore();
   ///@}
 
   ///@{

@@ -16,10 +16,7 @@ DetectionSettings detectionSettings(const DetectionChoices& choices)
   {
     settings.detection.referenceShare = choices.referenceShare;
   }
-  if (choices.partIsPresent)
-  {
-    settings.selection.evidence.calibration.leastPresent = 1.0;
-  }
+  settings.selection.partIsPresent = choices.partIsPresent;
   return settings;
 }
 

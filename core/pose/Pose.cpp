@@ -3,6 +3,8 @@
 
 #include "base/Error.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
@@ -73,6 +75,16 @@ std::string describe(const Poses& poses)
 std::string doubtsOf(const Poses& poses)
 {
   return std::any_of(poses.begin(), poses.end(), isRatherRight) ? std::string() : describe(poses);
+}
+
+Eigen::Affine3d uncertaintyEllipsoid(const Pose& pose, const Eigen::Vector3d& middle, double deviations)
+{
+  const Eigen::Matrix3d covariance = pose.fit.covariance.bottomRightCorner<3, 3>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
+  Eigen::Affine3d ellipsoid;
+  ellipsoid.linear() = deviations * axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  ellipsoid.translation() = pose.T_scene_model * middle;
+  return ellipsoid;
 }
 
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)

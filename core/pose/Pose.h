@@ -74,6 +74,10 @@ std::string describe(const Poses& poses);
 /// The same where nothing is likely, and nothing where something is.
 std::string doubtsOf(const Poses& poses);
 
+/// Where the part's middle (model frame, mm) may be: what maps the unit ball onto the ellipsoid of so many standard
+/// deviations about it, by the translations in the pose's covariance, scene coordinates.
+Eigen::Affine3d uncertaintyEllipsoid(const Pose& pose, const Eigen::Vector3d& middle, double deviations);
+
 /// Rotation between two poses, degrees.
 double rotationError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 /// Distance between where two poses take a point of the part (model frame, mm), mm.

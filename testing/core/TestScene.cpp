@@ -60,6 +60,21 @@ meam::Scene prepared(const Seen& seen, double partDiameter)
   return meam::Scene(std::move(edges), measured, seen.sensor, partDiameter);
 }
 
+meam::Scene alone(const meam::TriangleMesh& part, const meam::TrainedModel& model, const Eigen::Isometry3d& T)
+{
+  return prepared(withTangents(seenFromAbove({ Copy{ part, T } }), model.diameter), model.diameter);
+}
+
+bool areSame(const meam::Poses& a, const meam::Poses& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](const meam::Pose& one, const meam::Pose& other)
+    {
+      return one.T_scene_model.matrix() == other.T_scene_model.matrix() && one.votes == other.votes &&
+             one.score == other.score && one.evidence == other.evidence;
+    });
+}
+
 meam::Poses detect(const meam::PointCloud& edges, const meam::TrainedModel& model,
   const meam::PoseDetectionSettings& settings, const meam::Progress& progress)
 {
@@ -127,6 +142,30 @@ const std::vector<Eigen::Isometry3d>& threeCopies()
   static const std::vector<Eigen::Isometry3d> poses = { lying(0, 0, 20), lying(90, 10, 131, false),
     lying(20, 90, -77) };
   return poses;
+}
+
+const Seen& seenCopies()
+{
+  static const Seen seen = withTangents(seenFromAbove(threeCopies()));
+  return seen;
+}
+
+const meam::Scene& copiesScene()
+{
+  static const meam::Scene scene = prepared(seenCopies());
+  return scene;
+}
+
+Eigen::Isometry3d gearAt(double degrees)
+{
+  return Eigen::Translation3d(40, -20, 7) *
+         meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
+}
+
+const meam::Scene& gearScene()
+{
+  static const meam::Scene scene = alone(parts::gear(), trained<parts::gear>(), gearAt(0));
+  return scene;
 }
 
 meam::Poses disturbedCopies(double millimetres, double degrees)

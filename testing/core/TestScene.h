@@ -51,6 +51,12 @@ Seen withTangents(Seen seen, double partDiameter = bracket().diameter);
 /// A scene whose edges have tangents, for parts of this diameter.
 meam::Scene prepared(const Seen& seen, double partDiameter = bracket().diameter);
 
+/// The scene of one part at T, seen from above.
+meam::Scene alone(const meam::TriangleMesh& part, const meam::TrainedModel& model, const Eigen::Isometry3d& T);
+
+/// Whether poses, votes, scores and evidence are equal to the last bit, in the same order.
+bool areSame(const meam::Poses& a, const meam::Poses& b);
+
 /// Calls step(poses) with poses in the scene's local frame, and takes those that come back from there.
 template <typename Step>
 meam::Poses inLocalFrame(
@@ -86,6 +92,12 @@ meam::Poses estimatePoses(const meam::TrainedModel& model, const Seen& seen, con
 Eigen::Isometry3d lying(double x, double y, double degrees, bool up = true);
 
 const std::vector<Eigen::Isometry3d>& threeCopies();
+/// What is seen of them, with tangents, and the scene that is prepared of it.
+const Seen& seenCopies();
+const meam::Scene& copiesScene();
+/// A gear turned by so many degrees, and the scene in which it lies as gearAt(0).
+Eigen::Isometry3d gearAt(double degrees);
+const meam::Scene& gearScene();
 /// Poses near them, as they come to refinement.
 meam::Poses disturbedCopies(double millimetres, double degrees);
 

@@ -132,5 +132,5 @@ filter = vtkMEAMConflictResolution()
 filter.AddInputDataObject(1, models[0])
 filter.RemoveAllModelConnections()
 check(filter.GetNumberOfInputConnections(1) == 0, "no model is left")
-prints(filter, "Tolerance", "MaximumShared", "MaximumNumberOfPoses",
+prints(filter, "MaximumShared", "MaximumNumberOfPoses",
        "Projection", "ViewDirection", "SensorPosition", "NumberOfThreads")

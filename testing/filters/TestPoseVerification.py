@@ -98,8 +98,6 @@ views = [view for view, in tuples(run(verification(candidates)), "ViewId")]
 check(run(verification(candidates, PosesPerView=1)).GetNumberOfPoints() == len(set(views)) < 4, "one of each view")
 few = score(scene.surface, PointStride=4)
 check(0.9 < few <= 1 and few != score(scene.surface), f"a quarter of the points tells nearly the same: {few}")
-check(is_empty(run(verification(candidates, scene.surface, MinimumScore=1.0))) or scores[0] == 1.0,
-      "no pose is perfect")
 for threads in (1, 2):
     check(tuples(run(verification(candidates, scene.surface, NumberOfThreads=threads)), "Score")
           == tuples(run(verification(candidates, scene.surface)), "Score"), f"{threads} threads")
@@ -161,5 +159,5 @@ filter.SetParametersToVotes()
 check((filter.GetMethod(), filter.GetPosesPerView()) == (2, 0), "those of methods that rank by votes")
 filter.SetParametersToCandidates()
 check((filter.GetMethod(), filter.GetPointStride()) == (1, 2), "before refinement every second point")
-prints(filter, "Method", "Tolerance", "FreeSpace", "PointStride", "MinimumScore", "PosesPerView", "Projection",
+prints(filter, "Method", "Tolerance", "FreeSpace", "PointStride", "PosesPerView", "Projection",
        "ViewDirection", "SensorPosition", "NumberOfThreads")

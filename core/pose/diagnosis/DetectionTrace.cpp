@@ -8,13 +8,6 @@ namespace meam
 {
 namespace
 {
-const Poses& posesOf(const std::vector<DetectionTrace::Stage>& stages, PoseStage stage)
-{
-  return std::find_if(
-    stages.begin(), stages.end(), [stage](const DetectionTrace::Stage& one) { return one.stage == stage; })
-    ->poses;
-}
-
 PoseOffset offsetUpTo(
   const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Symmetries& symmetries, const TrainedModel& model)
 {
@@ -66,6 +59,13 @@ DetectionTrace::DetectionTrace(
     });
 }
 
+const Poses& DetectionTrace::posesOf(PoseStage stage) const
+{
+  return std::find_if(
+    this->Stages.begin(), this->Stages.end(), [stage](const Stage& one) { return one.stage == stage; })
+    ->poses;
+}
+
 const Poses& DetectionTrace::unlimited()
 {
   if (!this->Unlimited)
@@ -74,7 +74,7 @@ const Poses& DetectionTrace::unlimited()
     all.maximumPoses = 0;
     all.minimumProbability = 0.0;
     all.evidence.rates = this->rates();
-    this->Unlimited = selectPoses(posesOf(this->Stages, PoseStage::Verification), this->InScene, this->Model, all);
+    this->Unlimited = selectPoses(this->posesOf(PoseStage::Verification), this->InScene, this->Model, all);
   }
   return *this->Unlimited;
 }
@@ -83,13 +83,8 @@ const Poses& DetectionTrace::allAlternatives()
 {
   if (!this->AllAlternatives)
   {
-    PoseSelectionSettings all = this->Settings.candidateSelection;
-    all.maximumPoses = 0;
-    all.minimumProbability = 0.0;
-    all.leastScore = 0.0;
-    all.leastRefined = std::numeric_limits<int>::max();
     this->AllAlternatives =
-      selectPoses(posesOf(this->Stages, PoseStage::CandidateVerification), this->InScene, this->Model, all);
+      selectClusters(this->posesOf(PoseStage::CandidateVerification), this->Model, this->Settings.candidateSelection);
   }
   return *this->AllAlternatives;
 }

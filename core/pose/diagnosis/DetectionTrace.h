@@ -49,6 +49,7 @@ public:
     const Scene& scene, const TrainedModel& model, const DetectionSettings& settings, const Progress& progress = {});
 
   const std::vector<Stage>& stages() const { return this->Stages; }
+  const Poses& posesOf(PoseStage stage) const;
   /// What came out.
   const Poses& ranked() const { return this->Stages.back().poses; }
   /// The scan's rates, by all candidates; none with the paper's verification.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/DiagnosisReport.h"
 
+#include "pose/selection/InstanceChoice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -182,7 +184,7 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
     case LossCause::OtherRotation:
       return lostIn(diagnosis) + "the part was taken to be turned by one of its approximate symmetries.";
     case LossCause::Taken:
-      return diagnosis.takenShare > detection.selection.instances.shared
+      return diagnosis.takenShare > SharedByOne
                ? lostIn(diagnosis) + takerWords(diagnosis) + ", was preferred."
                : lostIn(diagnosis) + "other poses of the same instance were preferred.";
     case LossCause::NotRefined:

@@ -6,6 +6,11 @@
 
 namespace meam
 {
+namespace
+{
+constexpr double AlignedAngle = 10.0; // degrees, between tangents of the scene and of the part that are alike
+}
+
 int PlaceEvidence::surface(PointState state) const
 {
   const std::vector<PointState>& states = this->points.surfaceStates;
@@ -24,7 +29,7 @@ double PlaceEvidence::surfaceShare(PointState state) const
 }
 
 PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& scene, const TrainedModel& model,
-  const EvidenceSettings& settings, double alignedAngle)
+  const EvidenceSettings& settings)
 {
   EvidenceSettings everyEdge = settings;
   everyEdge.edgeStride = 1; // the edges that are predicted below
@@ -34,7 +39,7 @@ PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& sc
   found.behind = collector.shareBehind(T_scene_model);
   const auto visible = model.visibility->visible(T_scene_model, scene.sensor, scene.depth.pitch());
   const Eigen::Matrix3f turn = T_scene_model.linear().cast<float>();
-  const double aligned = std::cos(alignedAngle * M_PI / 180.0);
+  const double aligned = std::cos(AlignedAngle * M_PI / 180.0);
   for (std::size_t k = 0; k < found.points.edges.size(); ++k)
   {
     const PointState state = found.points.edgeStates[k];

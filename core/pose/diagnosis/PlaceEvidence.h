@@ -13,7 +13,7 @@ struct PlaceEvidence
   int edges = 0;        ///< how many there are
   int edgesNear = 0;    ///< with a scene edge near, whichever way it runs
   int edgesMatched = 0; ///< with one near that runs their way, as verification counts
-  int edgesAligned = 0; ///< with one near whose tangent is within `alignedAngle`
+  int edgesAligned = 0; ///< with one near whose tangent is within 10 degrees
   double behind = 0.0;  ///< share of the part's whole surface behind the bin's floor or a wall, [0, 1]
 
   /// How many of the surface points are in a state.
@@ -24,7 +24,6 @@ struct PlaceEvidence
   double surfaceShare(PointState state) const;
 };
 
-/// `alignedAngle`: degrees, as PoseDiagnosisSettings has it.
 PlaceEvidence evidenceAt(const Eigen::Isometry3d& T_scene_model, const Scene& scene, const TrainedModel& model,
-  const EvidenceSettings& settings, double alignedAngle);
+  const EvidenceSettings& settings);
 }

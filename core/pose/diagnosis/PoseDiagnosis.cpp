@@ -2,6 +2,9 @@
 #include "pose/diagnosis/PoseDiagnosis.h"
 
 #include "base/PointGrid.h"
+#include "pose/PoseTolerances.h"
+#include "pose/refinement/FinalAlignment.h"
+#include "pose/selection/InstanceChoice.h"
 
 #include <algorithm>
 #include <iterator>
@@ -10,6 +13,14 @@ namespace meam
 {
 namespace
 {
+constexpr double FoundAngle = 5.0;    // degrees: what comes out and is turned by more is another rotation
+constexpr double LeastVisible = 0.25; // share of the part's side towards the sensor: with less visible it is hidden
+constexpr double LeastThere = 0.5;    // share of the unhidden surface: more seen past or unmeasured, and that is why
+constexpr double LeastEnclosed = 1.0; // patches of its body behind the bin's floor or a wall: more, and that is why
+constexpr double OnSurface = 0.025;   // of the diameter: a picked point this near to a pose's surface lies on it
+constexpr double LookedFor = 0.5;     // of the diameter: points this near to a picked one, or to a middle, all vote
+constexpr int PeaksLookedFor = 3;     // candidates of each of them, when a place is looked for by a picked point
+
 /// The settings without a limit on what comes out.
 DetectionSettings withoutLimits(DetectionSettings settings)
 {
@@ -38,12 +49,12 @@ PrecisePoints inScene(const Points& points, const Eigen::Isometry3d& T_local_sce
 }
 }
 
-PoseDiagnosis::PoseDiagnosis(const Scene& scene, const TrainedModel& model, const DetectionSettings& detection,
-  const PoseDiagnosisSettings& settings, const Progress& progress)
+PoseDiagnosis::PoseDiagnosis(
+  const Scene& scene, const TrainedModel& model, const DetectionSettings& detection, bool fit, const Progress& progress)
   : InScene(scene)
   , Model(model)
   , Detection(detection)
-  , Settings(settings)
+  , Fit(fit)
   , Trace(scene, model, this->Detection, progress)
 {
 }
@@ -52,7 +63,7 @@ Diagnosis PoseDiagnosis::atPose(const Eigen::Isometry3d& T_scene_model, const Pr
 {
   const Poses local = toLocalFrame({ poseAt(T_scene_model) }, this->InScene.T_local_scene(), this->Model.symmetries);
   const Eigen::Isometry3d& T = local.front().T_scene_model;
-  return this->at(this->Settings.fit ? this->fitted(T) : T, progress);
+  return this->at(this->Fit ? this->fitted(T) : T, progress);
 }
 
 Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& progress)
@@ -64,7 +75,7 @@ Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& p
       [&](const Pose& pose)
       {
         return this->Model.surfaceDistance.at(pose.T_scene_model.inverse().cast<float>() * place) <
-               this->Settings.onSurface * this->Model.diameter;
+               OnSurface * this->Model.diameter;
       });
   };
   const Poses& ranked = this->Trace.ranked();
@@ -74,9 +85,9 @@ Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& p
     return this->at(found->T_scene_model, progress);
   }
   PoseDetectionSettings voting = this->Detection.detection;
-  voting.peaksPerReference = std::max(voting.peaksPerReference, this->Settings.peaksLookedFor);
-  const Poses candidates = detectPosesNear(place, this->Settings.lookedFor * this->Model.diameter, this->InScene,
-    this->Model, voting, subProgress(progress, 0.0, 0.3));
+  voting.peaksPerReference = std::max(voting.peaksPerReference, PeaksLookedFor);
+  const Poses candidates = detectPosesNear(
+    place, LookedFor * this->Model.diameter, this->InScene, this->Model, voting, subProgress(progress, 0.0, 0.3));
   const Poses nearby = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.3, 0.6));
   const auto best = firstOn(nearby);
@@ -94,15 +105,14 @@ Diagnosis PoseDiagnosis::at(const Eigen::Isometry3d& T_local_model, const Progre
 {
   Diagnosis diagnosis;
   const Eigen::Isometry3d& T_local_scene = this->InScene.T_local_scene();
-  diagnosis.evidence = evidenceAt(
-    T_local_model, this->InScene, this->Model, this->Detection.verification.evidence, this->Settings.alignedAngle);
+  diagnosis.evidence = evidenceAt(T_local_model, this->InScene, this->Model, this->Detection.verification.evidence);
   diagnosis.edgePoints = inScene(diagnosis.evidence.points.edges, T_local_scene);
   diagnosis.surfacePoints = inScene(diagnosis.evidence.points.surface, T_local_scene);
   diagnosis.surfaceShare = surfaceShares(
     { poseAt(T_local_model) }, this->InScene, this->Model, this->Detection.screening.value_or(PoseScreeningSettings()))
                              .front();
-  diagnosis.votes = votesForPose(T_local_model, this->InScene, this->Model, this->Detection.detection,
-    this->Settings.votes, subProgress(progress, 0.0, 0.4));
+  diagnosis.votes =
+    votesForPose(T_local_model, this->InScene, this->Model, this->Detection.detection, subProgress(progress, 0.0, 0.4));
   this->score(diagnosis, T_local_model);
   this->count(diagnosis, T_local_model);
   diagnosis.cause = this->causeOf(diagnosis, T_local_model, subProgress(progress, 0.4, 1.0));
@@ -113,7 +123,7 @@ Diagnosis PoseDiagnosis::at(const Eigen::Isometry3d& T_local_model, const Progre
 Eigen::Isometry3d PoseDiagnosis::fitted(const Eigen::Isometry3d& T_local_model) const
 {
   Pose pose = refinePoses({ poseAt(T_local_model) }, this->InScene, this->Model, this->Detection.refinement).front();
-  pose = alignRobustly(pose, this->InScene, this->Model, this->Detection.selection.alignment);
+  pose = alignRobustly(pose, this->InScene, this->Model);
   const PoseVerificationSettings verification = this->verification();
   if (verification.evidence.rates) // else poses are not judged by their evidence
   {
@@ -132,7 +142,7 @@ Eigen::Isometry3d PoseDiagnosis::fitted(const Eigen::Isometry3d& T_local_model) 
 void PoseDiagnosis::score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
 {
   constexpr int mark = -1; // not tuned: votes that no other pose has
-  Poses poses = this->posesOf(PoseStage::Verification);
+  Poses poses = this->Trace.posesOf(PoseStage::Verification);
   poses.push_back(poseAt(T_local_model));
   poses.back().votes = mark;
   const Poses scored = verifyPoses(poses, this->InScene, this->Model, this->verification());
@@ -171,7 +181,7 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     diagnosis.offset =
       offsetBetween(this->Trace.ranked()[diagnosis.rank - 1].T_scene_model, T_local_model, this->Model);
     diagnosis.probability = this->Trace.ranked()[diagnosis.rank - 1].probability;
-    if (diagnosis.offset.angle < this->Settings.foundAngle)
+    if (diagnosis.offset.angle < FoundAngle)
     {
       return LossCause::None;
     }
@@ -209,9 +219,9 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     }
     case PoseStage::Refinement:
     {
-      const Poses& before = this->posesOf(PoseStage::CandidateSelection);
+      const Poses& before = this->Trace.posesOf(PoseStage::CandidateSelection);
       const int index = posesAt(before, T_local_model, this->tolerance(), this->Model).front();
-      const Pose& after = this->posesOf(PoseStage::Refinement)[index];
+      const Pose& after = this->Trace.posesOf(PoseStage::Refinement)[index];
       diagnosis.offset = offsetBetween(after.T_scene_model, T_local_model, this->Model);
       cause = LossCause::MovedAway;
       break;
@@ -228,14 +238,13 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     return cause; // whatever the scan shows of it, it was found
   }
   const PlaceEvidence& evidence = diagnosis.evidence;
-  const double least = this->Settings.leastThere;
   const double missing = evidence.surfaceShare(PointState::Violated) + evidence.surfaceShare(PointState::Unknown);
-  const bool isEnclosed = evidence.points.counts.enclosed > this->Settings.leastEnclosed;
-  return diagnosis.place->visibleFraction < this->Settings.leastVisible ? LossCause::Hidden
-         : isEnclosed                                                   ? LossCause::Enclosed
-         : evidence.surfaceShare(PointState::Violated) > least          ? LossCause::NotThere
-         : missing > least                                              ? LossCause::NotMeasured
-                                                                        : cause;
+  const bool isEnclosed = evidence.points.counts.enclosed > LeastEnclosed;
+  return diagnosis.place->visibleFraction < LeastVisible            ? LossCause::Hidden
+         : isEnclosed                                               ? LossCause::Enclosed
+         : evidence.surfaceShare(PointState::Violated) > LeastThere ? LossCause::NotThere
+         : missing > LeastThere                                     ? LossCause::NotMeasured
+                                                                    : cause;
 }
 
 bool PoseDiagnosis::isFoundBy(int peaks, const Eigen::Isometry3d& T_local_model, const Progress& progress) const
@@ -243,9 +252,9 @@ bool PoseDiagnosis::isFoundBy(int peaks, const Eigen::Isometry3d& T_local_model,
   PoseDetectionSettings voting = this->Detection.detection;
   voting.peaksPerReference = peaks;
   const Eigen::Vector3f middle = T_local_model.cast<float>() * this->Model.visibility->middle();
-  Poses candidates = detectPosesNear(middle, this->Settings.lookedFor * this->Model.diameter, this->InScene,
-    this->Model, voting, subProgress(progress, 0.0, 0.4));
-  const Poses& voted = this->posesOf(PoseStage::Voting);
+  Poses candidates = detectPosesNear(
+    middle, LookedFor * this->Model.diameter, this->InScene, this->Model, voting, subProgress(progress, 0.0, 0.4));
+  const Poses& voted = this->Trace.posesOf(PoseStage::Voting);
   candidates.insert(candidates.end(), voted.begin(), voted.end());
   const Poses ranked = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.4, 1.0));
@@ -273,7 +282,7 @@ LossCause PoseDiagnosis::causeInVoting(const Diagnosis& diagnosis)
 {
   const bool isElected = std::any_of(diagnosis.votes.begin(), diagnosis.votes.end(),
     [](const PointVotes& point) { return !point.isReference && point.rank == 1; });
-  const bool hasFewEdges = diagnosis.evidence.edgeShare() <= EvidenceRatesSettings().usual.edges.chance;
+  const bool hasFewEdges = diagnosis.evidence.edgeShare() <= EvidenceRates().edges.chance;
   return isElected && diagnosis.isFoundByAllPoints ? LossCause::NoReference
          : hasFewEdges                             ? LossCause::FewEdges
                                                    : LossCause::Outvoted;
@@ -281,7 +290,7 @@ LossCause PoseDiagnosis::causeInVoting(const Diagnosis& diagnosis)
 
 LossCause PoseDiagnosis::causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
 {
-  const Poses& voted = this->posesOf(PoseStage::Voting);
+  const Poses& voted = this->Trace.posesOf(PoseStage::Voting);
   Poses here;
   for (const int index : posesAt(voted, T_local_model, this->tolerance(), this->Model))
   {
@@ -289,9 +298,9 @@ LossCause PoseDiagnosis::causeInScreening(Diagnosis& diagnosis, const Eigen::Iso
   }
   const std::vector<double> shares = surfaceShares(here, this->InScene, this->Model, *this->Detection.screening);
   diagnosis.candidateShare = *std::max_element(shares.begin(), shares.end());
-  return diagnosis.candidateShare < this->Detection.screening->leastSurface        ? LossCause::SurfaceMissing
-         : this->isTurnedAmong(this->posesOf(PoseStage::Screening), T_local_model) ? LossCause::OtherRotation
-                                                                                   : LossCause::Duplicate;
+  return diagnosis.candidateShare < this->Detection.screening->leastSurface              ? LossCause::SurfaceMissing
+         : this->isTurnedAmong(this->Trace.posesOf(PoseStage::Screening), T_local_model) ? LossCause::OtherRotation
+                                                                                         : LossCause::Duplicate;
 }
 
 LossCause PoseDiagnosis::causeInSelection(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model)
@@ -326,7 +335,7 @@ bool PoseDiagnosis::isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T
 
 void PoseDiagnosis::findTaker(Diagnosis& diagnosis, const Poses& ranked) const
 {
-  const double near = this->Detection.selection.instances.sharedDistance * this->Model.diameter;
+  const double near = SharedDistance * this->Model.diameter;
   const Points points = diagnosis.evidence.points.matched();
   const EvidenceCollector collector(this->InScene, this->Model, this->Detection.selection.evidence);
   for (std::size_t k = 0; k < ranked.size() && !points.empty(); ++k)
@@ -344,16 +353,5 @@ void PoseDiagnosis::findTaker(Diagnosis& diagnosis, const Poses& ranked) const
   }
 }
 
-const Poses& PoseDiagnosis::posesOf(PoseStage stage) const
-{
-  const auto& stages = this->Trace.stages();
-  return std::find_if(
-    stages.begin(), stages.end(), [stage](const DetectionTrace::Stage& one) { return one.stage == stage; })
-    ->poses;
-}
-
-PlaceTolerance PoseDiagnosis::tolerance() const
-{
-  return { this->Settings.distance * this->Model.diameter, this->Settings.angle };
-}
+PlaceTolerance PoseDiagnosis::tolerance() const { return { SamePoseDistance * this->Model.diameter, SamePoseAngle }; }
 }

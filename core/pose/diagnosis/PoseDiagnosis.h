@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pose/SamePose.h"
 #include "pose/diagnosis/DetectionTrace.h"
 #include "pose/diagnosis/PlaceEvidence.h"
 #include "pose/voting/VoteSupport.h"
 
 namespace meam
 {
-struct PoseDiagnosisSettings
-{
-  double distance = SamePose().distance; ///< of the diameter, and
-  double angle = SamePose().angle;       ///< degrees: a candidate this near to the place leads to it
-  double foundAngle = 5.0;               ///< degrees: what comes out and is turned by more is another rotation
-  double alignedAngle = 10.0;            ///< degrees, between tangents of the scene and of the part that are alike
-  double leastVisible = 0.25; ///< share of the part's side towards the sensor: with less visible it is hidden
-  double leastThere = 0.5; ///< share of the surface that nothing hides: with more seen past or unmeasured, that is why
-  double leastEnclosed = 1.0; ///< patches of its body behind the bin's floor or a wall: with more, that is why
-  double onSurface = 0.025;   ///< of the diameter: a picked point this near to a pose's surface lies on it
-  double lookedFor = 0.5;     ///< of the diameter: points this near to a picked one, or to a part's middle, all vote
-  int peaksLookedFor = 3;     ///< candidates of each of them, when a place is looked for by a picked point
-  bool fit = true;            ///< a place given as a pose is fitted to the scene first where that leaves it nearby
-  VoteSupportSettings votes;
-};
-
 /// Why a part did not come out, or came out as it did.
 enum class LossCause
 {
@@ -87,8 +70,9 @@ struct Diagnosis
 class PoseDiagnosis
 {
 public:
-  PoseDiagnosis(const Scene& scene, const TrainedModel& model, const DetectionSettings& detection,
-    const PoseDiagnosisSettings& settings = {}, const Progress& progress = {});
+  /// `fit`: a place given as a pose is fitted to the scene first where that leaves it nearby.
+  PoseDiagnosis(const Scene& scene, const TrainedModel& model, const DetectionSettings& detection, bool fit = true,
+    const Progress& progress = {});
   PoseDiagnosis(const PoseDiagnosis&) = delete;
   void operator=(const PoseDiagnosis&) = delete;
 
@@ -118,13 +102,12 @@ private:
   /// As the refined poses were verified.
   PoseVerificationSettings verification() const;
   bool isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T_local_model) const;
-  const Poses& posesOf(PoseStage stage) const;
   PlaceTolerance tolerance() const;
 
   const Scene& InScene;
   const TrainedModel& Model;
   DetectionSettings Detection;
-  PoseDiagnosisSettings Settings;
+  bool Fit;
   DetectionTrace Trace;
 };
 }

@@ -10,14 +10,26 @@ namespace meam
 {
 namespace
 {
+// Shares of the diameter
+constexpr double Window = 0.02;       // from a point of the part to edge points that count
+constexpr double Across = 0.006;      // the same across its tangent, and along the normal of its surface
+constexpr double Margin = 0.003;      // that a point moves by before its edge points are looked up again
+constexpr double WidestFirst = 1.5;   // times Across in the first step
+constexpr double LeastMotion = 3e-6;  // less is none: the pose stays
+constexpr int Steps = 15;             // at most
+constexpr int VisibilitySteps = 8;    // in the first ones the predicted visibility is looked up again
+constexpr double Extrapolation = 5.0; // times its length that a step is taken farther, at most
+constexpr double Farthest = 0.02;     // a pose that comes to stay farther from where it was has gone astray,
+constexpr double MostTurned = 3.0;    // or turned by more degrees
+constexpr double InPlace = 0.012;     // between corresponding points, for the fit of a pose that is not aligned
+
 class FinalAlignment
 {
 public:
-  FinalAlignment(const Scene& scene, const TrainedModel& model, const FinalAlignmentSettings& settings)
+  FinalAlignment(const Scene& scene, const TrainedModel& model)
     : InScene(scene)
     , Model(model)
-    , Settings(settings)
-    , Fitter(scene, model, settings.fitter)
+    , Fitter(scene, model)
   {
   }
 
@@ -26,26 +38,25 @@ public:
   bool align(Pose& pose) const
   {
     const double diameter = this->Model.diameter;
-    const double window = this->Settings.window * diameter;
-    const double margin = this->Settings.margin * diameter;
+    const double window = Window * diameter;
+    const double margin = Margin * diameter;
     VisiblePart part;
     EdgeIndex::Neighbours neighbours;                           // of its edges
     double travelled = std::numeric_limits<double>::infinity(); // since they were looked up, at most
     NormalEquations::Result fit;
     Twist wanted, taken;      // in the step before
     bool isFollowing = false; // a step of the same kind
-    double wide = this->Settings.widestFirst;
+    double wide = WidestFirst;
     double stepLength = 0.0;
     int steps = 0;
-    for (; steps < this->Settings.steps && !(isFollowing && stepLength <= this->Settings.leastMotion * diameter);
-         ++steps)
+    for (; steps < Steps && !(isFollowing && stepLength <= LeastMotion * diameter); ++steps)
     {
-      if (steps < this->Settings.visibilitySteps && this->Fitter.update(part, pose, 1))
+      if (steps < VisibilitySteps && this->Fitter.update(part, pose, 1))
       {
         isFollowing = false;
         travelled = std::numeric_limits<double>::infinity();
       }
-      const double limit = wide * this->Settings.across * diameter;
+      const double limit = wide * Across * diameter;
       const Eigen::Isometry3d T = pose.T_scene_model;
       const Eigen::Isometry3f Tf = T.cast<float>();
       const SoAOrientedPoints edges = moved(part.edges, Tf);
@@ -86,7 +97,7 @@ private:
     const double share = change.dot(step) / change.squaredNorm();
     const Twist foreseen = step - share * (taken + change);
     const double times = foreseen.norm() / step.norm();
-    return times > 0.0 ? Twist(foreseen * (std::min(times, this->Settings.extrapolation) / times)) : step;
+    return times > 0.0 ? Twist(foreseen * (std::min(times, Extrapolation) / times)) : step;
   }
 
   /// Residuals that change steadily with the pose, so that it comes to stay in one place: against the mean of the edge
@@ -107,34 +118,31 @@ private:
 
   const Scene& InScene;
   const TrainedModel& Model;
-  const FinalAlignmentSettings& Settings;
   PoseFitter Fitter;
 };
 }
 
-Pose alignRobustly(
-  const Pose& pose, const Scene& scene, const TrainedModel& model, const FinalAlignmentSettings& settings)
+Pose alignRobustly(const Pose& pose, const Scene& scene, const TrainedModel& model)
 {
-  const FinalAlignment alignment(scene, model, settings);
+  const FinalAlignment alignment(scene, model);
   Pose aligned = pose;
   const bool isFixed = alignment.align(aligned);
-  const bool isNear = rotationError(aligned.T_scene_model, pose.T_scene_model) < settings.mostTurned &&
+  const bool isNear = rotationError(aligned.T_scene_model, pose.T_scene_model) < MostTurned &&
                       translationError(aligned.T_scene_model, pose.T_scene_model,
-                        model.visibility->middle().cast<double>()) < settings.farthest * model.diameter;
+                        model.visibility->middle().cast<double>()) < Farthest * model.diameter;
   if (isFixed && isNear)
   {
     return aligned;
   }
   Pose same = pose;
-  same.fit = fitInPlace(pose, pose.T_scene_model, scene, model, settings);
+  same.fit = fitInPlace(pose, pose.T_scene_model, scene, model);
   return same;
 }
 
-PoseFit fitInPlace(const Pose& pose, const Eigen::Isometry3d& T_aligned, const Scene& scene, const TrainedModel& model,
-  const FinalAlignmentSettings& settings)
+PoseFit fitInPlace(const Pose& pose, const Eigen::Isometry3d& T_aligned, const Scene& scene, const TrainedModel& model)
 {
-  const PoseFitter fitter(scene, model, settings.fitter);
-  PoseFit fit = fitter.fitAt(pose, settings.fitDistance * model.diameter);
+  const PoseFitter fitter(scene, model);
+  PoseFit fit = fitter.fitAt(pose, InPlace * model.diameter);
   PoseFitter::Twist difference = fitter.twistOf(pose, T_aligned * pose.T_scene_model.inverse());
   difference.head<3>() /= 0.5 * model.diameter; // radians
   fit.covariance += difference * difference.transpose();

@@ -7,10 +7,17 @@
 
 namespace meam
 {
-PoseFitter::PoseFitter(const Scene& scene, const TrainedModel& model, const PoseFitterSettings& settings)
+namespace
+{
+// Shares of what corresponds that have to speak for a motion
+constexpr double ConstrainedShare = 0.01; // so that it counts as fixed
+constexpr double FreeShare = 0.001;       // up to which it is a freedom, in which a pose would drift
+constexpr double LeastShare = 1e-6;       // taken for the variance of one that nothing fixes
+}
+
+PoseFitter::PoseFitter(const Scene& scene, const TrainedModel& model)
   : InScene(scene)
   , Model(model)
-  , Settings(settings)
 {
 }
 
@@ -32,8 +39,8 @@ PoseFitter::Modes PoseFitter::modes(const NormalEquations::Result& fit) const
 bool PoseFitter::isFixed(const NormalEquations::Result& fit) const
 {
   const std::ptrdiff_t axes = this->Model.symmetries.continuous.size(); // turns about them are free, and equal
-  return fit.weights >= this->Settings.fewestCorrespondences &&
-         (this->modes(fit).eigenvalues().array() > this->Settings.freeShare).count() >= 6 - axes;
+  return fit.weights >= FewestCorrespondences &&
+         (this->modes(fit).eigenvalues().array() > FreeShare).count() >= 6 - axes;
 }
 
 PoseFit PoseFitter::poseFit(const Pose& pose, const NormalEquations::Result& fit, double squares, int iterations) const
@@ -41,7 +48,7 @@ PoseFit PoseFitter::poseFit(const Pose& pose, const NormalEquations::Result& fit
   PoseFit result;
   result.iterations = iterations;
   const Eigen::Matrix<double, 6, 1> scale = this->scale();
-  if (fit.weights < this->Settings.fewestCorrespondences)
+  if (fit.weights < FewestCorrespondences)
   {
     result.covariance.diagonal() = (0.5 * this->Model.diameter * scale).array().square();
     return result;
@@ -52,7 +59,7 @@ PoseFit PoseFitter::poseFit(const Pose& pose, const NormalEquations::Result& fit
   const Eigen::Matrix3d axes = pose.T_scene_model.linear();
   for (int k = 0; k < 6; ++k)
   {
-    if (values[k] > this->Settings.constrainedShare)
+    if (values[k] > ConstrainedShare)
     {
       const Eigen::Matrix<double, 6, 1> mode = modes.eigenvectors().col(k);
       result.constrainedAxes.head<3>() += (axes.transpose() * mode.head<3>()).cwiseAbs2();
@@ -61,7 +68,7 @@ PoseFit PoseFitter::poseFit(const Pose& pose, const NormalEquations::Result& fit
     }
   }
   const Eigen::Matrix<double, 6, 1> variances =
-    result.residual * result.residual / fit.weights * values.array().max(this->Settings.leastShare).inverse();
+    result.residual * result.residual / fit.weights * values.array().max(LeastShare).inverse();
   result.covariance = scale.asDiagonal() * modes.eigenvectors() * variances.asDiagonal() *
                       modes.eigenvectors().transpose() * scale.asDiagonal();
   return result;

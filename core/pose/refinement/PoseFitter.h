@@ -13,15 +13,6 @@
 
 namespace meam
 {
-struct PoseFitterSettings
-{
-  int fewestCorrespondences = 4;
-  // Shares of what corresponds that have to speak for a motion
-  double constrainedShare = 0.01; ///< so that it counts as fixed
-  double freeShare = 0.001;       ///< up to which it is a freedom, in which a pose would drift
-  double leastShare = 1e-6;       ///< taken for the variance of one that nothing fixes
-};
-
 /// What of the part the sensor should see at a pose, in the part's frame.
 struct VisiblePart
 {
@@ -35,7 +26,9 @@ struct VisiblePart
 class PoseFitter
 {
 public:
-  PoseFitter(const Scene& scene, const TrainedModel& model, const PoseFitterSettings& settings = {});
+  PoseFitter(const Scene& scene, const TrainedModel& model);
+
+  static constexpr int FewestCorrespondences = 4; ///< fewer fix no pose
 
   /// Looks up every `stride`-th visible point of each kind at a pose; false when the direction to the sensor is the
   /// same as before.
@@ -67,7 +60,6 @@ private:
 
   const Scene& InScene;
   const TrainedModel& Model;
-  PoseFitterSettings Settings;
 };
 
 /// Tukey's weight: 1 at 0, 0 from the limit on.

@@ -3,6 +3,7 @@
 
 #include "base/PCLConversion.h"
 #include "base/Parallel.h"
+#include "pose/refinement/PoseFitter.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <pcl/registration/icp.h>
@@ -14,7 +15,12 @@ namespace meam
 {
 namespace
 {
-/// ICP of edges and surface: correspondences get nearer step by step, all points count in the last ones.
+constexpr double StartDistance = 0.1;  // of the diameter, between corresponding points,
+constexpr double PointDistance = 0.04; // and the same of point-to-point ICP
+constexpr double LastDistance = 0.12;  // of that distance at the end: correspondences get nearer step by step
+constexpr int CoarseStride = 4;        // of the points in the steps before the last one of so many
+
+/// ICP of edges and surface: correspondences get nearer step by step, all points count in the last one.
 void refineByEdgesAndSurface(
   Pose& pose, const PoseFitter& fitter, double distance, const PoseRefinementSettings& settings)
 {
@@ -24,12 +30,12 @@ void refineByEdgesAndSurface(
   for (int iteration = 0; iteration < iterations; ++iteration)
   {
     const double progress = iterations > 1 ? static_cast<double>(iteration) / (iterations - 1) : 1.0;
-    const double limit = distance * std::pow(settings.lastDistanceShare, progress);
-    const bool isFull = iteration + settings.fullSteps >= iterations;
+    const double limit = distance * std::pow(LastDistance, progress);
+    const bool isFull = settings.fullLastStep && iteration + 1 == iterations;
     if (iteration == 0 || isFull) // nearly there, what is in sight can be told better
     {
       part = {};
-      fitter.update(part, pose, isFull ? 1 : settings.coarseStride);
+      fitter.update(part, pose, isFull ? 1 : CoarseStride);
     }
     fit = fitter.correspondences(pose.T_scene_model, part, limit);
     pose.T_scene_model = fit.motion * pose.T_scene_model;
@@ -57,7 +63,7 @@ void refinePointToPoint(Pose& pose, const PCLCloud::ConstPtr& view, const PCLClo
       tree->nearestKSearch(pcl::PointXYZ(moved.x(), moved.y(), moved.z()), 1, nearest, squared);
       return squared[0] <= distance * distance;
     });
-  if (near < settings.fitter.fewestCorrespondences)
+  if (near < PoseFitter::FewestCorrespondences)
   {
     return;
   }
@@ -97,43 +103,41 @@ Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     throw Error("Refinement takes at least one step.");
   }
   const bool isPointToPoint = settings.method == RefinementMethod::PointToPoint;
-  const double share = isPointToPoint ? settings.pointDistanceShare : settings.distanceShare;
+  const double share = isPointToPoint ? PointDistance : StartDistance;
   const double distance = settings.maximumDistance > 0.0 ? settings.maximumDistance : share * model.diameter;
   Poses refined = poses;
   for (Pose& pose : refined)
   {
     pose.viewId = viewOf(pose, scene, model);
   }
-  const PoseFitter fitter(scene, model, settings.fitter);
-  const int count = static_cast<int>(refined.size());
-  if (!isPointToPoint)
-  {
-    parallelFor(count, settings.threads, progress,
-      [&](int begin, int end, int)
-      {
-        for (int i = begin; i < end; ++i)
-        {
-          refineByEdgesAndSurface(refined[i], fitter, distance, settings);
-        }
-      });
-    report(progress, 1.0);
-    return refined;
-  }
-  const PCLCloud::Ptr target = toPCL(scene.edgePoints().points);
-  const auto tree = pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
-  tree->setInputCloud(target);
+  const PoseFitter fitter(scene, model);
+  PCLCloud::Ptr target;
+  pcl::search::KdTree<pcl::PointXYZ>::Ptr tree;
   std::vector<PCLCloud::Ptr> views;
-  for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
+  if (isPointToPoint)
   {
-    views.push_back(toPCL(model.edgesOfView(static_cast<int>(v)).points));
+    target = toPCL(scene.edgePoints().points);
+    tree = pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
+    tree->setInputCloud(target);
+    for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
+    {
+      views.push_back(toPCL(model.edgesOfView(static_cast<int>(v)).points));
+    }
   }
-  parallelFor(count, settings.threads, progress,
+  parallelFor(static_cast<int>(refined.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        refinePointToPoint(refined[i], views[refined[i].viewId], target, tree, distance, settings);
-        refined[i].fit = fitter.fitAt(refined[i], distance * settings.lastDistanceShare);
+        if (isPointToPoint)
+        {
+          refinePointToPoint(refined[i], views[refined[i].viewId], target, tree, distance, settings);
+          refined[i].fit = fitter.fitAt(refined[i], distance * LastDistance);
+        }
+        else
+        {
+          refineByEdgesAndSurface(refined[i], fitter, distance, settings);
+        }
       }
     });
   report(progress, 1.0);

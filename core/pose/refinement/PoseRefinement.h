@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/Error.h"
+#include "model/TrainedModel.h"
 #include "pose/Pose.h"
-#include "pose/refinement/FinalAlignment.h"
-#include "pose/refinement/PoseFitter.h"
+#include "scene/Scene.h"
 
 namespace meam
 {
@@ -14,19 +14,14 @@ enum class RefinementMethod
   EdgesAndSurface ///< edge points to scene tangents, surface points to planes, those visible only
 };
 
-/// Lengths in mm; a length of 0 follows the part's diameter.
 struct PoseRefinementSettings
 {
   RefinementMethod method = RefinementMethod::EdgesAndSurface;
   int iterations = 10;
-  double maximumDistance = 0.0; ///< between corresponding points at the start; 0: a share of the diameter:
-  double distanceShare = 0.1;
-  double pointDistanceShare = 0.04; ///< the same of point-to-point ICP
-  double lastDistanceShare = 0.12;  ///< of that distance at the end: correspondences get nearer step by step
-  int fullSteps = 1;                ///< the last ones, with all points
-  int coarseStride = 4;             ///< of the points in the steps before one of so many
-  PoseFitterSettings fitter;
-  int threads = 0; ///< 0: one for each processor
+  /// mm, between corresponding points at the start; 0: 10 % of the diameter, of PointToPoint 4 %.
+  double maximumDistance = 0.0;
+  bool fullLastStep = true; ///< EdgesAndSurface: of all points, those before of some
+  int threads = 0;          ///< 0: one for each processor
 };
 
 /// The paper's settings in place of the recommended ones.

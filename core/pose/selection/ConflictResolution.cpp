@@ -2,6 +2,7 @@
 #include "pose/selection/ConflictResolution.h"
 
 #include "base/Parallel.h"
+#include "pose/PoseTolerances.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <algorithm>
@@ -13,6 +14,9 @@ namespace meam
 {
 namespace
 {
+constexpr double Resolved = 0.01;     // of the diameter, what the distance to a part's surface is known to
+constexpr double MostProbable = 0.99; // no pose is surer: 99 to 1
+
 /// What the sensor measured, the same for all parts: the finest of the maps of its surface, or the scene's edges.
 struct Measured
 {
@@ -65,15 +69,14 @@ double soundShare(const std::vector<PointState>& states)
   return matched > missing ? static_cast<double>(matched - missing) / matched : 0.0;
 }
 
-Claim claimOf(const PartPose& pose, const PartDetections& part, const Measured& measured, double tolerance,
-  const ConflictResolutionSettings& settings)
+Claim claimOf(const PartPose& pose, const PartDetections& part, const Measured& measured, double tolerance)
 {
   const Eigen::Isometry3d& T = pose.pose.T_scene_model;
-  const EvidenceCollector collector(part.scene, part.model, settings.evidence);
+  const EvidenceCollector collector(part.scene, part.model);
   const PoseEvidence evidence = collector.collect(T);
   Claim claim{ pose, explainedPoints(measured, part, T, tolerance) };
   claim.pose.pose.viewId = viewOf(pose.pose, part.scene, part.model);
-  const double probability = std::min(probabilityOrScore(pose.pose), settings.mostProbable);
+  const double probability = std::min(probabilityOrScore(pose.pose), MostProbable);
   claim.support = probability / (1.0 - probability) * claim.points.size() *
                   soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
   return claim;
@@ -118,9 +121,9 @@ const PartDetections& smallest(const std::vector<PartDetections>& parts)
 std::vector<PartPose> resolveConflicts(
   const std::vector<PartDetections>& parts, const ConflictResolutionSettings& settings, const Progress& progress)
 {
-  if (!(settings.tolerance >= 0.0) || !(settings.shared >= 0.0 && settings.shared <= 1.0))
+  if (!(settings.shared >= 0.0 && settings.shared <= 1.0))
   {
-    throw Error("The tolerance has to be 0 mm or more, and the shared surface from 0 to 1.");
+    throw Error("The shared surface has to be from 0 to 1.");
   }
   std::vector<Claim> claims;
   for (std::size_t part = 0; part < parts.size(); ++part)
@@ -142,12 +145,8 @@ std::vector<PartPose> resolveConflicts(
       for (int i = begin; i < end; ++i)
       {
         const PartDetections& part = parts[claims[i].pose.part];
-        const double diameter = part.model.diameter;
-        const double unexplained = settings.evidence.lengths.unexplained;
-        const double tolerance = settings.tolerance > 0.0
-                                   ? std::min(settings.tolerance, unexplained * diameter)
-                                   : std::max(unexplained * finest.model.diameter, settings.resolvedShare * diameter);
-        claims[i] = claimOf(claims[i].pose, part, measured, tolerance, settings);
+        const double tolerance = std::max(UnexplainedDistance * finest.model.diameter, Resolved * part.model.diameter);
+        claims[i] = claimOf(claims[i].pose, part, measured, tolerance);
       }
     });
   std::stable_sort(claims.begin(), claims.end(), betterSupported);

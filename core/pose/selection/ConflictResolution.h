@@ -2,8 +2,9 @@
 #pragma once
 
 #include "base/Error.h"
+#include "model/TrainedModel.h"
 #include "pose/Pose.h"
-#include "pose/verification/PoseEvidence.h"
+#include "scene/Scene.h"
 
 namespace meam
 {
@@ -25,12 +26,6 @@ struct PartPose
 
 struct ConflictResolutionSettings
 {
-  /// mm, a pose explains the measured points this near to its part; no more than 2 % of a part's diameter counts. 0: 2
-  /// % of the smallest part's diameter, but 1 % of the own diameter of parts that are more than twice as large.
-  double tolerance = 0.0;
-  double resolvedShare = 0.01; ///< of the diameter, what the distance to a part's surface is known to
-  EvidenceSettings evidence;   ///< that the poses were verified by
-  double mostProbable = 0.99;  ///< no pose is surer: 99 to 1
   double shared = 0.5;  ///< share of what one of two poses explains from which on they claim the same surface, [0, 1]
   int maximumPoses = 0; ///< of all that stay the best; 0: no limit
   int threads = 0;      ///< 0: one for each processor
@@ -39,13 +34,14 @@ struct ConflictResolutionSettings
 /// Of poses that claim the same measured surface, of different parts or of one, the best supported stays; all that
 /// stay come back, best first. All parts have to be of one scene, in one local frame.
 ///
-/// Two poses are in conflict when more than `shared` of the measured points that either explains are explained by the
-/// other, too: so a small part that fits inside a large one's face is, and one that lies on top of it is not. The
-/// support of a pose is the odds of its probability (no more than 99 to 1) times the measured points it explains, less
-/// those in proportion that the sensor saw past or did not measure: every point more is one more that had to fit by
-/// accident if the pose were wrong, and points of the scene count the same for parts of any size. Equal support:
-/// probability, score, then visible fraction decide, at last the order. Without a surface the scene's edge points take
-/// its place.
+/// A pose explains the measured points within 2 % of the smallest part's diameter, but 1 % of the own diameter of parts
+/// that are more than twice as large. Two poses are in conflict when more than `shared` of the measured points that
+/// either explains are explained by the other, too: so a small part that fits inside a large one's face is, and one
+/// that lies on top of it is not. The support of a pose is the odds of its probability (no more than 99 to 1) times the
+/// measured points it explains, less those in proportion that the sensor saw past or did not measure: every point more
+/// is one more that had to fit by accident if the pose were wrong, and points of the scene count the same for parts of
+/// any size. Equal support: probability, score, then visible fraction decide, at last the order. Without a surface the
+/// scene's edge points take its place.
 ///
 /// Throws Error for settings out of range and when some parts have the scene's surface and others do not.
 std::vector<PartPose> resolveConflicts(const std::vector<PartDetections>& parts,

@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/EvidenceAscent.h"
 
-#include "base/Error.h"
 #include "mesh/Symmetries.h"
 #include "pose/Pose.h"
+#include "pose/verification/ProbabilityCalibration.h"
 
 #include <utility>
 
 namespace meam
 {
+namespace
+{
+constexpr double LeastPast = 1.0;    // patches that the sensor saw past,
+constexpr double LeastClose = 0.2;   // or that a surface hides which is close before them; fewer, and a pose stays
+constexpr double Covered = 0.9;      // probability from which on what is close before a pose is another object
+constexpr double WorthTrying = 1e-3; // probability; less, and a pose stays,
+constexpr double Sure = 0.99;        // and so it does if it has more: least squares are more exact
+constexpr double FirstStep = 0.02;  // of the diameter: a shift along an axis; a turn moves so much half a diameter away
+constexpr double LastStep = 0.0025; // steps are halved down to this one
+constexpr double Farthest = 0.1;    // of the diameter, from where the pose was,
+constexpr double MostTurned = 15.0; // and degrees
+constexpr int Rounds = 16;          // over all axes, at most
+constexpr int PointStride = 2;      // of the predicted points one of so many is looked at on the way
+constexpr double Price = 1.0;       // off the log odds of a moved pose: the best of so many has as much by chance
+}
+
 EvidenceAscent::EvidenceAscent(const EvidenceCollector& collector, const EvidenceRates& rates,
   const TrainedModel& model, const EvidenceAscentSettings& settings)
   : Collector(collector)
@@ -16,25 +32,26 @@ EvidenceAscent::EvidenceAscent(const EvidenceCollector& collector, const Evidenc
   , Model(model)
   , Settings(settings)
 {
-  if (settings.pointStride < 1)
-  {
-    throw Error("The stride of the points that an ascent looks at must be 1 or more.");
-  }
   const std::vector<ContinuousSymmetry> round = asIfRound(model.symmetries).continuous; // none, one or three
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   if (!round.empty())
   {
     axes = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), round.front().axis).toRotationMatrix();
   }
+  std::vector<Motion> motions;
   for (int k = 0; k < 3; ++k)
   {
-    this->ShiftsFirst.push_back({ axes.col(k), false });
+    motions.push_back({ axes.col(k), false });
   }
   for (int k = static_cast<int>(round.size()); k < 3; ++k)
   {
-    this->ShiftsFirst.push_back({ axes.col(k), true });
+    motions.push_back({ axes.col(k), true });
   }
-  this->TurnsFirst.assign(this->ShiftsFirst.rbegin(), this->ShiftsFirst.rend());
+  this->Orders.push_back(motions);
+  if (settings.bothOrders)
+  {
+    this->Orders.emplace_back(motions.rbegin(), motions.rend());
+  }
 }
 
 EvidenceAscent::Result EvidenceAscent::at(const Eigen::Isometry3d& T_scene_model) const
@@ -49,10 +66,10 @@ EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_mod
   Result best = this->at(T_scene_model);
   if (this->isContradicted(best))
   {
-    for (const std::vector<Motion>* motions : { &this->ShiftsFirst, &this->TurnsFirst })
+    for (const std::vector<Motion>& motions : this->Orders)
     {
-      Result moved = this->at(this->climb(T_scene_model, *motions));
-      moved.logOdds -= this->Settings.price;
+      Result moved = this->at(this->climb(T_scene_model, motions));
+      moved.logOdds -= Price;
       moved.logOddsBefore = best.logOddsBefore;
       moved.isMoved = true;
       if (moved.logOdds > best.logOdds)
@@ -67,14 +84,14 @@ EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_mod
 bool EvidenceAscent::isContradicted(const Result& pose) const
 {
   const double probability = probabilityOf(pose.logOdds);
-  if (probability < this->Settings.worthTrying || probability >= this->Settings.sure)
+  if (probability < WorthTrying || probability >= Sure)
   {
     return false;
   }
   const EvidenceCounts& counts = pose.evidence.counts;
-  return counts.past + counts.farPast >= this->Settings.leastPast ||
-         (probability < this->Settings.covered &&
-           this->Collector.closelyHidden(pose.T_scene_model) >= this->Settings.leastClose);
+  return (this->Settings.ifPast && counts.past + counts.farPast >= LeastPast) ||
+         (this->Settings.ifClose && probability < Covered &&
+           this->Collector.closelyHidden(pose.T_scene_model) >= LeastClose);
 }
 
 Eigen::Isometry3d EvidenceAscent::moved(const Eigen::Isometry3d& T, const Motion& motion, double step) const
@@ -87,15 +104,13 @@ Eigen::Isometry3d EvidenceAscent::moved(const Eigen::Isometry3d& T, const Motion
 bool EvidenceAscent::isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
 {
   const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
-  return translationError(a, b, middle) <= this->Settings.farthest * this->Model.diameter &&
-         rotationError(a, b) <= this->Settings.mostTurned;
+  return translationError(a, b, middle) <= Farthest * this->Model.diameter && rotationError(a, b) <= MostTurned;
 }
 
 Eigen::Isometry3d EvidenceAscent::climb(
   const Eigen::Isometry3d& T_scene_model, const std::vector<Motion>& motions) const
 {
-  const auto logOdds = [&](const Eigen::Isometry3d& T)
-  { return this->Collector.logOdds(T, this->Rates, this->Settings.pointStride); };
+  const auto logOdds = [&](const Eigen::Isometry3d& T) { return this->Collector.logOdds(T, this->Rates, PointStride); };
   Eigen::Isometry3d best = T_scene_model;
   double most = logOdds(best);
   const auto climbs = [&](const Motion& motion, double step)
@@ -107,9 +122,9 @@ Eigen::Isometry3d EvidenceAscent::climb(
     most = isHigher ? odds : most;
     return isHigher;
   };
-  double step = this->Settings.firstStep * this->Model.diameter;
-  const double lastStep = this->Settings.lastStep * this->Model.diameter;
-  for (int round = 0; round < this->Settings.rounds && step >= lastStep; ++round)
+  double step = FirstStep * this->Model.diameter;
+  const double lastStep = LastStep * this->Model.diameter;
+  for (int round = 0; round < Rounds && step >= lastStep; ++round)
   {
     bool hasClimbed = false;
     for (const Motion& motion : motions)

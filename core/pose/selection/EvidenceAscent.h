@@ -10,18 +10,9 @@ namespace meam
 {
 struct EvidenceAscentSettings
 {
-  double leastPast = 1.0;    ///< patches that the sensor saw past,
-  double leastClose = 0.2;   ///< or that a surface hides which is close before them; fewer, and a pose stays
-  double covered = 0.9;      ///< probability from which on what is close before a pose is another object
-  double worthTrying = 1e-3; ///< probability; less, and a pose stays,
-  double sure = 0.99;        ///< and so it does if it has more
-  double firstStep = 0.02;   ///< of the diameter: a shift along an axis; a turn moves so much half a diameter away
-  double lastStep = 0.0025;  ///< steps are halved down to this one
-  double farthest = 0.1;     ///< of the diameter, from where the pose was,
-  double mostTurned = 15.0;  ///< and degrees
-  int rounds = 16;           ///< over all axes, at most; 0: poses stay
-  int pointStride = 2;       ///< of the predicted points one of so many is looked at on the way
-  double price = 1.0;        ///< off the log odds of a moved pose: the best of so many has as much by chance
+  bool ifPast = true;     ///< poses move that the sensor saw past,
+  bool ifClose = true;    ///< and those that a surface close before them hides
+  bool bothOrders = true; ///< shifts first and turns first; else shifts first alone
 };
 
 /// Moves a pose to where the scan speaks for it the most, by compass searches along and about the axes of the part (the
@@ -35,7 +26,7 @@ struct EvidenceAscentSettings
 class EvidenceAscent
 {
 public:
-  /// Keeps references to the collector and the model. Throws Error for a stride below 1.
+  /// Keeps references to the collector and the model.
   EvidenceAscent(const EvidenceCollector& collector, const EvidenceRates& rates, const TrainedModel& model,
     const EvidenceAscentSettings& settings = {});
 
@@ -47,7 +38,9 @@ public:
     double logOddsBefore;  ///< of the pose as it was
     bool isMoved;
   };
-  /// What the scan says of a pose, in the local frame, or of one near by that is worth its price.
+  /// What the scan says of a pose, in the local frame.
+  Result at(const Eigen::Isometry3d& T_scene_model) const;
+  /// The same, or of one near by that is worth its price.
   Result best(const Eigen::Isometry3d& T_scene_model) const;
 
 private:
@@ -57,7 +50,6 @@ private:
     bool isTurn;
   };
 
-  Result at(const Eigen::Isometry3d& T_scene_model) const;
   bool isContradicted(const Result& pose) const;
   Eigen::Isometry3d moved(const Eigen::Isometry3d& T_scene_model, const Motion& motion, double step) const;
   bool isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
@@ -68,8 +60,8 @@ private:
   EvidenceRates Rates;
   const TrainedModel& Model;
   EvidenceAscentSettings Settings;
-  std::vector<Motion> ShiftsFirst; ///< and turns, but about the axis of a round part, and of a nearly round one
-                                   ///< (RotationDecision)
-  std::vector<Motion> TurnsFirst;  ///< the same in the other order
+  /// Shifts and then turns, but about the axis of a round part, and of a nearly round one (RotationDecision); and the
+  /// same in the other order.
+  std::vector<std::vector<Motion>> Orders;
 };
 }

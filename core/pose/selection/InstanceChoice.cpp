@@ -10,6 +10,10 @@ namespace meam
 {
 namespace
 {
+constexpr double SharedWithin = 0.5;  // of the diameter: middles farther apart are of two instances all the same
+constexpr double EqualEvidence = 3.0; // poses whose evidence (log odds) differs by less are compared point by point
+constexpr int AllCompared = 300;      // of more poses than this each is compared only with those that stay
+
 /// Places that are of one instance, directly or by others between them, ascending: different groups have nothing to do
 /// with each other.
 std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before)
@@ -35,16 +39,14 @@ std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before
 }
 
 InstanceChoice::InstanceChoice(const Poses& poses, double distance, const TrainedModel& model,
-  const EvidenceCollector& collector, const PoseComparison& comparison, const InstanceChoiceSettings& settings,
-  int threads)
+  const EvidenceCollector& collector, const PoseComparison& comparison, int threads)
   : InPoses(poses)
   , Collector(collector)
   , Comparison(comparison)
-  , Settings(settings)
   , Threads(threads)
   , Distance(distance)
-  , SharedWithin(settings.sharedWithin * model.diameter)
-  , SharedDistance(settings.sharedDistance * model.diameter)
+  , Within(SharedWithin * model.diameter)
+  , Near(SharedDistance * model.diameter)
   , MatchedPoints(poses.size())
   , Contenders(poses.size())
 {
@@ -59,7 +61,7 @@ std::vector<int> InstanceChoice::select(const Progress& progress)
   const int count = static_cast<int>(this->InPoses.size());
   std::vector<char> stays(count, 0);
   this->collectMatched();
-  if (count <= this->Settings.allCompared)
+  if (count <= AllCompared)
   {
     const std::vector<std::vector<int>> before = this->instancesBefore();
     const std::vector<std::vector<int>> groups = joined(before);
@@ -124,13 +126,13 @@ void InstanceChoice::collectMatched()
           [&](const Eigen::Vector3d& other)
           {
             const double apart = (other - this->Middles[k]).norm();
-            return apart >= this->Distance && apart < this->SharedWithin;
+            return apart >= this->Distance && apart < this->Within;
           });
         if (isAskedFor)
         {
           Matched& matched = this->MatchedPoints[k];
           matched.points = this->Collector.matchedPoints(this->InPoses[k].T_scene_model);
-          matched.grid = PointGrid(matched.points, this->SharedDistance);
+          matched.grid = PointGrid(matched.points, this->Near);
         }
       }
     });
@@ -164,7 +166,7 @@ void InstanceChoice::choose(int k, const std::vector<int>& before, std::vector<c
   const bool isBest = std::all_of(alternatives.begin(), alternatives.end(),
     [&](int other)
     {
-      return this->InPoses[k].evidence > this->InPoses[other].evidence - this->Settings.equalEvidence &&
+      return this->InPoses[k].evidence > this->InPoses[other].evidence - EqualEvidence &&
              this->Comparison.advantage(this->contender(k), this->contender(other)) > 0.0;
     });
   if (!isBest)
@@ -181,18 +183,18 @@ void InstanceChoice::choose(int k, const std::vector<int>& before, std::vector<c
 bool InstanceChoice::sameInstance(int a, int b) const
 {
   const double apart = (this->Middles[a] - this->Middles[b]).norm();
-  return apart < this->Distance || (apart < this->SharedWithin && this->shareMatches(a, b));
+  return apart < this->Distance || (apart < this->Within && this->shareMatches(a, b));
 }
 
 bool InstanceChoice::shareMatches(int a, int b) const
 {
   const Points& points = this->MatchedPoints[a].points;
   const PointGrid& others = this->MatchedPoints[b].grid;
-  const double wanted = this->Settings.shared * static_cast<double>(points.size());
+  const double wanted = SharedByOne * static_cast<double>(points.size());
   std::size_t shared = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    shared += others.nearest(points[k], this->SharedDistance) >= 0 ? 1 : 0;
+    shared += others.nearest(points[k], this->Near) >= 0 ? 1 : 0;
     if (static_cast<double>(shared) > wanted)
     {
       return true;

@@ -10,16 +10,10 @@
 
 namespace meam
 {
-struct InstanceChoiceSettings
-{
-  /// Share of the matched points from which on two poses are of one instance: two parts do not have their surface in
-  /// the same place.
-  double shared = 0.5;
-  double sharedWithin = 0.5;    ///< of the diameter: middles farther apart than this are of two instances all the same
-  double sharedDistance = 0.04; ///< of the diameter, between matched points: a little over their spacing
-  double equalEvidence = 3.0;   ///< poses whose evidence (log odds) differs by less are compared point by point
-  int allCompared = 300;        ///< of more poses than this each is compared only with those that stay
-};
+/// Share of the matched points from which on two poses are of one instance: two parts do not have their surface in the
+/// same place.
+inline constexpr double SharedByOne = 0.5;
+inline constexpr double SharedDistance = 0.04; ///< of the diameter, between matched points: a little over their spacing
 
 /// Decides which pose of each instance stays, by the scene: between all of an instance, turned or not. Keeps references
 /// to what it is made of.
@@ -28,7 +22,7 @@ class InstanceChoice
 public:
   /// Poses whose middles are nearer than `distance` (mm) are of one instance.
   InstanceChoice(const Poses& poses, double distance, const TrainedModel& model, const EvidenceCollector& collector,
-    const PoseComparison& comparison, const InstanceChoiceSettings& settings, int threads);
+    const PoseComparison& comparison, int threads);
 
   /// Of the poses, best first, the indices of those that stay.
   std::vector<int> select(const Progress& progress = {});
@@ -57,11 +51,10 @@ private:
   const Poses& InPoses;
   const EvidenceCollector& Collector;
   const PoseComparison& Comparison;
-  InstanceChoiceSettings Settings;
   int Threads;
   double Distance;                                                  ///< mm
-  double SharedWithin;                                              ///< mm
-  double SharedDistance;                                            ///< mm
+  double Within;                                                    ///< mm
+  double Near;                                                      ///< mm
   std::vector<Eigen::Vector3d> Middles;                             ///< of the part, local frame
   std::vector<Matched> MatchedPoints;                               ///< of the poses, as far as they may be asked for
   std::vector<std::optional<PoseComparison::Contender>> Contenders; ///< of the poses, as far as they were asked for

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/PoseClusters.h"
 
+#include "pose/PoseTolerances.h"
+
 #include <algorithm>
 
 namespace meam
@@ -19,10 +21,9 @@ double turnBetween(const Eigen::Isometry3d& of, const Eigen::Isometry3d& T, cons
 }
 }
 
-std::vector<int> firstOfClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model,
-  const PoseClustersSettings& settings, const Progress& progress)
+std::vector<int> firstOfClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model, double distance,
+  int posesPerInstance, const Progress& progress)
 {
-  const double distance = settings.distanceFor(model.diameter);
   std::vector<int> selected;
   std::vector<Eigen::Vector3d> middles; // of the part, of those selected
   for (std::size_t k = 0; k < poses.size(); ++k)
@@ -37,10 +38,10 @@ std::vector<int> firstOfClusters(const Poses& poses, const Symmetries& same, con
       if ((middle - middles[i]).norm() < distance)
       {
         ++ofInstance;
-        isKnown = turnBetween(T, poses[selected[i]].T_scene_model, same) < settings.angle;
+        isKnown = turnBetween(T, poses[selected[i]].T_scene_model, same) < SamePoseAngle;
       }
     }
-    if (!isKnown && ofInstance < settings.posesPerInstance)
+    if (!isKnown && ofInstance < posesPerInstance)
     {
       selected.push_back(static_cast<int>(k));
       middles.push_back(middle);

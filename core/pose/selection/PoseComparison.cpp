@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/PoseComparison.h"
 
+#include "pose/PoseTolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace meam
 {
+namespace
+{
+// In measured surface points, which count 1
+constexpr double OfEdge = 3.0;    // a scene edge point that one of the two alone explains: images have fewer edges
+constexpr double OfHidden = 0.5;  // times that, by an edge that the part itself hides: what is visible is not exact
+constexpr double OfPast = 2.25;   // a predicted surface point that the sensor saw past: sparser than measured ones
+constexpr double OfMissing = 1.0; // a predicted edge point on measured surface without an edge: images lose edges
+}
+
 PoseComparison::PoseComparison(const Scene& scene, const TrainedModel& model, const PoseComparisonSettings& settings)
   : InScene(scene)
   , Model(model)
   , Settings(settings)
-  , Explained(static_cast<float>(settings.lengths.explained * model.diameter))
-  , Unexplained(static_cast<float>(settings.lengths.unexplained * model.diameter))
+  , Explained(static_cast<float>(ExplainedDistance * model.diameter))
+  , Unexplained(static_cast<float>(UnexplainedDistance * model.diameter))
 {
 }
 
@@ -93,14 +104,13 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
   lookUp(one.predicted.passed, model.surfaceDistance);
   for (const float distance : distances)
   {
-    sum += distance >= alone ? this->Settings.past : 0.0;
+    sum += distance >= alone ? OfPast : 0.0;
   }
   const SoAPoints& edges = one.predicted.edges;
   lookUp(edges, model.edgeDistance);
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    sum +=
-      distances[k] >= alone && this->InScene.edgeGrid().nearest(T * edges[k], far) < 0 ? this->Settings.missing : 0.0;
+    sum += distances[k] >= alone && this->InScene.edgeGrid().nearest(T * edges[k], far) < 0 ? OfMissing : 0.0;
   }
   return sum;
 }
@@ -148,7 +158,7 @@ double PoseComparison::advantageByEdges(const Contender& one, const Contender& o
   const auto ofEdge = [&](const Contender& pose, const Eigen::Vector3f& inModel)
   {
     const bool isVisible = !pose.visible || pose.visible->edgeGrid.nearest(inModel, near) >= 0;
-    return isVisible ? this->Settings.edge : this->Settings.hidden * this->Settings.edge;
+    return isVisible ? OfEdge : OfHidden * OfEdge;
   };
   const PointGrid& measured = this->InScene.edgeGrid();
   double sum = 0.0;

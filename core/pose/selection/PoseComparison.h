@@ -3,19 +3,12 @@
 
 #include "base/SoAPoints.h"
 #include "model/TrainedModel.h"
-#include "pose/FitLengths.h"
 #include "scene/Scene.h"
 
 namespace meam
 {
-/// What counts between two poses, in measured surface points, which count 1.
 struct PoseComparisonSettings
 {
-  FitLengths lengths;
-  double edge = 3.0;     ///< a scene edge point that one of the two alone explains: images have fewer edges than points
-  double hidden = 0.5;   ///< times that, by an edge that the part itself hides: what is visible is not known exactly
-  double past = 2.25;    ///< a predicted surface point that the sensor saw past: so much sparser than measured ones
-  double missing = 1.0;  ///< a predicted edge point on measured surface without an edge: images lose edges
   bool freeSpace = true; ///< surface that the sensor saw past speaks against a pose; else it says nothing
   /// Poses are compared on what one of them alone predicts; else each on all that it predicts.
   bool sameVisibility = true;

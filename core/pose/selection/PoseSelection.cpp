@@ -2,19 +2,41 @@
 #include "pose/selection/PoseSelection.h"
 
 #include "base/Parallel.h"
+#include "pose/PoseTolerances.h"
+#include "pose/refinement/FinalAlignment.h"
+#include "pose/selection/InstanceChoice.h"
+#include "pose/selection/PoseClusters.h"
+#include "pose/selection/RotationDecision.h"
 #include "pose/verification/PoseVerification.h"
+#include "pose/verification/ProbabilityCalibration.h"
+#include "pose/verification/RotationSearch.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meam
 {
 namespace
 {
-PoseRefinementSettings rotatedSettings(const PoseSelectionSettings& settings, const TrainedModel& model)
+constexpr double LeastScore = 0.05;      // times that of the best: an alternative with less is not worth refining,
+constexpr int LeastRefined = 60;         // so many are, and all that are likelier than this where these are more
+constexpr double WorthRefining = 3e-7;   // (probability, of poses that are not refined yet)
+constexpr double RotatedDistance = 0.04; // of the diameter: correspondences of another rotation, which is nearly right
+constexpr int RotatedIterations = 6;     // of it
+constexpr std::size_t RateStride = 2;    // of the points that tell the scan's rates of edges one of so many
+
+double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel& model)
 {
-  PoseRefinementSettings rotated = settings.rotated;
-  rotated.maximumDistance = settings.rotatedDistance * model.diameter;
+  return settings.clusterDistance > 0.0 ? settings.clusterDistance : SamePoseDistance * model.diameter;
+}
+
+PoseRefinementSettings rotatedSettings(const TrainedModel& model)
+{
+  PoseRefinementSettings rotated;
+  rotated.iterations = RotatedIterations;
+  rotated.maximumDistance = RotatedDistance * model.diameter;
+  rotated.threads = 1; // poses are worked on in parallel
   return rotated;
 }
 
@@ -37,9 +59,9 @@ public:
     , Rates(rates)
     , Comparison(comparison)
     , Restarts(scene, model, comparison, settings.restarts)
-    , Search(scene, model, settings.rotation)
-    , Rotated(rotatedSettings(settings, model))
-    , Decision(scene, model, comparison, collector, Rates, Rotated, settings.decision)
+    , Search(scene, model)
+    , Rotated(rotatedSettings(model))
+    , Decision(scene, model, comparison, collector, Rates, Rotated)
     , Ascent(collector, rates, model, settings.ascent)
   {
   }
@@ -47,19 +69,27 @@ public:
   Finished finish(Pose pose, InstanceChoice& choice, int index) const
   {
     PoseComparison::Contender asItIs = choice.contender(index);
-    pose = this->Restarts.best(pose, asItIs);
-    if (!this->Model.symmetries.near.empty())
+    if (this->Settings.restartsRefinement)
+    {
+      pose = this->Restarts.best(pose, asItIs);
+    }
+    const bool hasNear = !this->Model.symmetries.near.empty();
+    if (hasNear && this->Settings.searchesRotation)
     {
       this->rotate(pose, asItIs);
+    }
+    if (hasNear && this->Settings.decidesRotation)
+    {
       this->Decision.decide(pose, asItIs);
     }
-    pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
-    const EvidenceAscent::Result best = this->Ascent.best(pose.T_scene_model);
+    pose = alignRobustly(pose, this->InScene, this->Model);
+    const EvidenceAscent::Result best =
+      this->Settings.ascends ? this->Ascent.best(pose.T_scene_model) : this->Ascent.at(pose.T_scene_model);
     const Eigen::Isometry3d T_aligned = pose.T_scene_model;
     pose.T_scene_model = best.T_scene_model;
     if (best.isMoved)
     {
-      pose.fit = fitInPlace(pose, T_aligned, this->InScene, this->Model, this->Settings.alignment);
+      pose.fit = fitInPlace(pose, T_aligned, this->InScene, this->Model);
     }
     setSeen(pose, best.evidence, this->InScene, this->Model);
     setEvidence(pose, best.logOdds);
@@ -101,8 +131,8 @@ private:
 Poses withoutShared(
   const std::vector<Finished>& found, const TrainedModel& model, const PoseSelectionSettings& settings)
 {
-  const double near = settings.instances.sharedDistance * model.diameter;
-  const double distance = settings.clusters.distanceFor(model.diameter);
+  const double near = SharedDistance * model.diameter;
+  const double distance = clusterDistance(settings, model);
   struct Kept
   {
     Eigen::Vector3d middle;
@@ -129,8 +159,8 @@ Poses withoutShared(
       return std::any_of(
         beside.begin(), beside.end(), [&](const PointGrid* claimed) { return claimed->nearest(point, near) >= 0; });
     };
-    if (!isTaken && std::count_if(matched.begin(), matched.end(), isClaimed) <=
-                      settings.instances.shared * static_cast<double>(matched.size()))
+    if (!isTaken &&
+        std::count_if(matched.begin(), matched.end(), isClaimed) <= SharedByOne * static_cast<double>(matched.size()))
     {
       kept.push_back({ middle, PointGrid(matched, near) });
       distinct.push_back(pose);
@@ -141,9 +171,9 @@ Poses withoutShared(
 
 /// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
 /// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
-void allowForAbsence(Poses& poses, double bestEvidence, const ProbabilityCalibration& calibration)
+void allowForAbsence(Poses& poses, double bestEvidence)
 {
-  const double present = std::max(calibration.leastPresent, probabilityOf(calibration.present.logOdds(bestEvidence)));
+  const double present = std::max(LeastPresent, probabilityOf(CalibrationOfPresence.logOdds(bestEvidence)));
   for (Pose& pose : poses)
   {
     pose.evidence = withCertainty(pose.evidence, present);
@@ -157,11 +187,9 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
 {
   const EvidenceCollector collector(scene, model, settings.evidence);
   const PoseComparison comparison(scene, model, settings.comparison);
-  InstanceChoice choice(scored, settings.clusters.distanceFor(model.diameter), model, collector, comparison,
-    settings.instances, settings.threads);
+  InstanceChoice choice(scored, clusterDistance(settings, model), model, collector, comparison, settings.threads);
   const std::vector<int> selected = choice.select(subProgress(progress, 0.0, 0.3));
-  const EvidenceRates rates =
-    evidenceRatesOf(scored, collector, settings.evidence, settings.rateStride, settings.threads);
+  const EvidenceRates rates = evidenceRatesOf(scored, collector, settings.evidence, RateStride, settings.threads);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison);
   std::vector<Finished> finished(selected.size());
   parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),
@@ -174,39 +202,42 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     });
   std::stable_sort(
     finished.begin(), finished.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
-  Poses instances = withoutShared(finished, model, settings);
-  if (haveSurfaces(scene, model) && !finished.empty())
+  Poses instances;
+  if (settings.dropsShared)
+  {
+    instances = withoutShared(finished, model, settings);
+  }
+  else
+  {
+    std::transform(finished.begin(), finished.end(), std::back_inserter(instances),
+      [](const Finished& instance) { return instance.pose; });
+  }
+  if (haveSurfaces(scene, model) && !settings.partIsPresent && !finished.empty())
   {
     const auto best = std::max_element(finished.begin(), finished.end(),
       [](const Finished& a, const Finished& b) { return a.evidenceBefore < b.evidenceBefore; });
-    allowForAbsence(instances, best->evidenceBefore, settings.evidence.calibration);
+    allowForAbsence(instances, best->evidenceBefore);
   }
   return instances;
 }
+}
 
-/// The first of each cluster, up to the symmetries.
 Poses selectClusters(
   const Poses& scored, const TrainedModel& model, const PoseSelectionSettings& settings, const Progress& progress)
 {
   const bool isForRefinement = settings.method == SelectionMethod::Alternatives;
-  PoseClustersSettings clustering = settings.clusters;
-  clustering.posesPerInstance = isForRefinement ? settings.alternatives : 1;
   Symmetries same = isForRefinement ? asIfRound(model.symmetries) : model.symmetries;
   if (!isForRefinement)
   {
     same.near.clear();
   }
   Poses selected;
-  const double least = isForRefinement && !scored.empty() ? settings.leastScore * scored.front().score : 0.0;
-  for (const int i : firstOfClusters(scored, same, model, clustering, progress))
+  for (const int i : firstOfClusters(
+         scored, same, model, clusterDistance(settings, model), isForRefinement ? settings.alternatives : 1, progress))
   {
-    if (scored[i].score >= least)
-    {
-      selected.push_back(scored[i]);
-    }
+    selected.push_back(scored[i]);
   }
   return selected;
-}
 }
 
 PoseSelectionSettings paperSelectionSettings()
@@ -236,15 +267,18 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
   Poses selected = settings.method == SelectionMethod::Instances
                      ? selectInstances(scored, scene, model, settings, progress)
                      : selectClusters(scored, model, settings, progress);
-  selected.erase(std::remove_if(selected.begin(), selected.end(),
-                   [&](const Pose& pose) { return pose.probability < settings.minimumProbability; }),
+  const bool isForRefinement = settings.method == SelectionMethod::Alternatives;
+  const double leastScore = isForRefinement && !scored.empty() ? LeastScore * scored.front().score : 0.0;
+  selected.erase(
+    std::remove_if(selected.begin(), selected.end(),
+      [&](const Pose& pose) { return pose.score < leastScore || pose.probability < settings.minimumProbability; }),
     selected.end());
   std::size_t most = settings.maximumPoses > 0 ? settings.maximumPoses : selected.size();
-  if (settings.maximumPoses == 0 && settings.method == SelectionMethod::Alternatives)
+  if (settings.maximumPoses == 0 && isForRefinement)
   {
     const auto worth = std::count_if(
-      selected.begin(), selected.end(), [&](const Pose& pose) { return pose.probability > settings.worthRefining; });
-    most = std::max<std::size_t>(settings.leastRefined, worth);
+      selected.begin(), selected.end(), [](const Pose& pose) { return pose.probability > WorthRefining; });
+    most = std::max<std::size_t>(LeastRefined, worth);
   }
   selected.resize(std::min(selected.size(), most));
   report(progress, 1.0);

@@ -3,16 +3,10 @@
 
 #include "base/Error.h"
 #include "pose/Pose.h"
-#include "pose/refinement/FinalAlignment.h"
-#include "pose/refinement/PoseRefinement.h"
 #include "pose/selection/EvidenceAscent.h"
-#include "pose/selection/InstanceChoice.h"
-#include "pose/selection/PoseClusters.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/selection/RefinementRestarts.h"
-#include "pose/selection/RotationDecision.h"
 #include "pose/verification/PoseEvidence.h"
-#include "pose/verification/RotationSearch.h"
 
 namespace meam
 {
@@ -27,34 +21,22 @@ enum class SelectionMethod
 struct PoseSelectionSettings
 {
   SelectionMethod method = SelectionMethod::Instances;
-  PoseClustersSettings clusters;   ///< posesPerInstance is that of Alternatives; of Clusters it is 1
+  double clusterDistance = 0.0;    ///< mm: poses whose middles are nearer are of one instance; 0: 10 % of the diameter
   int alternatives = 4;            ///< of an instance (Alternatives)
-  double leastScore = 0.05;        ///< Alternatives: times the score of the best; less is not worth refining
-  int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives
-  int leastRefined = 60;           ///< so many are worth refining, and all that are likelier than this where these
-  double worthRefining = 3e-7;     ///< are more: probability, of poses that are not refined yet
+  int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives those that are worth refining
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
-  InstanceChoiceSettings instances;
-  EvidenceSettings evidence; ///< that poses are scored by once more
+  bool partIsPresent = false;     ///< no pose is less likely because the part may be missing
+  bool restartsRefinement = true; ///< from rotations about the pose
+  bool searchesRotation = true;   ///< about the axis of a nearly round part
+  bool decidesRotation = true;    ///< between near-symmetries
+  bool ascends = true;            ///< where the scan contradicts an aligned pose
+  bool dropsShared = true;        ///< poses whose surface better ones have
+  EvidenceSettings evidence;      ///< that poses are scored by once more
   PoseComparisonSettings comparison;
   RefinementRestartsSettings restarts;
-  RotationSearchSettings rotation;
-  PoseRefinementSettings rotated = afterRotation(); ///< of another rotation, which is nearly right
-  double rotatedDistance = 0.04;                    ///< of the diameter, its correspondences at the start
-  RotationDecisionSettings decision;
-  int rateStride = 2; ///< of the points that tell the scan's rates of edges one of so many
-  FinalAlignmentSettings alignment;
   EvidenceAscentSettings ascent; ///< of an aligned pose that the scan contradicts
   int threads = 0;               ///< 0: one for each processor
-
-  static PoseRefinementSettings afterRotation()
-  {
-    PoseRefinementSettings settings;
-    settings.iterations = 6;
-    settings.threads = 1; // poses are worked on in parallel
-    return settings;
-  }
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.
@@ -63,6 +45,10 @@ PoseSelectionSettings paperSelectionSettings();
 PoseSelectionSettings votesSelectionSettings();
 /// The recommended ones before refinement.
 PoseSelectionSettings candidateSelectionSettings();
+
+/// Of scored poses, best first, those that Alternatives and Clusters choose from: some of each instance, and one.
+Poses selectClusters(
+  const Poses& scored, const TrainedModel& model, const PoseSelectionSettings& settings, const Progress& progress = {});
 
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
 ///

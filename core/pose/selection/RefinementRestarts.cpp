@@ -10,6 +10,11 @@ namespace meam
 {
 namespace
 {
+constexpr double SmallTurn = 10.0;   // degrees, beside half a turn
+constexpr int Iterations = 6;        // what stays is aligned afterwards
+constexpr double WorthTrying = 1e-3; // probability of a pose before: less, and it stays as it is;
+constexpr double Sure = 0.9;         // more, and it is tried at half turns alone
+
 /// As columns.
 Eigen::Matrix3d principalAxes(const Points& points, const Eigen::Vector3d& middle)
 {
@@ -30,10 +35,9 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
   , Comparison(comparison)
   , Settings(settings)
 {
-  this->Refinement.maximumDistance = settings.distanceShare * model.diameter;
-  this->Refinement.iterations = settings.iterations;
-  this->Refinement.fullSteps = 0; // some points tell which start is best; the final alignment takes all
-  this->Refinement.threads = 1;   // poses are worked on in parallel
+  this->Refinement.iterations = Iterations;
+  this->Refinement.fullLastStep = false; // some points tell which start is best; the final alignment takes all
+  this->Refinement.threads = 1;          // poses are worked on in parallel
   if (model.surface.empty())
   {
     return;
@@ -46,7 +50,7 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
   {
     const Eigen::Isometry3d turn = turnAbout(axes.col(axis), degrees * M_PI / 180.0, middle);
     const auto isKnown = [&](const Eigen::Isometry3d& other)
-    { return rotationError(nearestEqual(turn, other, same), other) < 0.5 * settings.turn; };
+    { return rotationError(nearestEqual(turn, other, same), other) < 0.5 * SmallTurn; };
     if (std::none_of(known.begin(), known.end(), isKnown))
     {
       known.push_back(turn);
@@ -55,16 +59,22 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
   };
   for (int axis = 0; axis < 3; ++axis)
   {
-    add(axis, 180.0, this->HalfTurns);
-    add(axis, -settings.turn, this->SmallTurns);
-    add(axis, settings.turn, this->SmallTurns);
+    if (settings.halfTurns)
+    {
+      add(axis, 180.0, this->HalfTurns);
+    }
+    if (settings.smallTurns)
+    {
+      add(axis, -SmallTurn, this->SmallTurns);
+      add(axis, SmallTurn, this->SmallTurns);
+    }
   }
 }
 
 Pose RefinementRestarts::best(const Pose& pose, PoseComparison::Contender& asItIs) const
 {
   Pose best = pose;
-  if (pose.probability < this->Settings.worthTrying)
+  if (pose.probability < WorthTrying)
   {
     return best;
   }
@@ -90,7 +100,7 @@ Pose RefinementRestarts::best(const Pose& pose, PoseComparison::Contender& asItI
   }
   for (const Eigen::Isometry3d& turn : this->SmallTurns)
   {
-    if (pose.probability < this->Settings.sure)
+    if (pose.probability < Sure)
     {
       tryFrom(pose.T_scene_model * turn);
     }

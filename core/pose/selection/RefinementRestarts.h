@@ -9,11 +9,8 @@ namespace meam
 {
 struct RefinementRestartsSettings
 {
-  double turn = 10.0;         ///< degrees, beside half a turn
-  double distanceShare = 0.1; ///< of the diameter, the correspondences at the start
-  int iterations = 6;         ///< steps; what stays is aligned afterwards
-  double worthTrying = 1e-3;  ///< probability of a pose before: less, and it stays as it is;
-  double sure = 0.9;          ///< more, and it is tried at half turns alone
+  bool halfTurns = true;  ///< starts at half turns
+  bool smallTurns = true; ///< starts at `turn` to both sides
 };
 
 /// Refines a pose once more from where it is turned about the part's principal axes: by half a turn, for thin parts fit

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/RotationDecision.h"
 
+#include "pose/PoseTolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,13 @@ namespace meam
 {
 namespace
 {
+constexpr double Step = 10.0 * M_PI / 180.0; // between the turns of a nearly round part that are asked about
+constexpr double LeastOverlap = 0.8; // of its surface, that comes to lie on the surface when it is nearly round at one
+constexpr double SureAdvantage = 13.0; // points that make a rotation e times likelier than another in simulated bins
+constexpr double Hopeless = -6.0 * SureAdvantage; // a rotation so unlikely is one in four hundred
+constexpr double WorthAsking = 0.02; // probability of a pose before: less, and only its near-symmetries are compared
+constexpr int Rounds = 3;            // of turns that the scene speaks for more
+
 /// Share of the part's surface that a turn takes to its surface.
 double overlapAfter(const Eigen::Isometry3d& turn, const SoAPoints& surface, const DistanceField& distance, double near)
 {
@@ -20,23 +29,20 @@ double overlapAfter(const Eigen::Isometry3d& turn, const SoAPoints& surface, con
 }
 
 RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
-  const EvidenceCollector& collector, const EvidenceRates& rates, const PoseRefinementSettings& rotated,
-  const RotationDecisionSettings& settings)
+  const EvidenceCollector& collector, const EvidenceRates& rates, const PoseRefinementSettings& rotated)
   : InScene(scene)
   , Model(model)
   , Comparison(comparison)
   , Collector(collector)
   , Rates(rates)
   , Rotated(rotated)
-  , Settings(settings)
 {
   for (const NearSymmetry& symmetry : model.symmetries.near)
   {
     this->Turns.push_back(symmetry.T);
   }
-  const double tolerance = FitLengths{}.explained * model.diameter;
-  const double step = settings.step * M_PI / 180.0;
-  const int steps = static_cast<int>(std::lround(2.0 * M_PI / step));
+  const double tolerance = ExplainedDistance * model.diameter;
+  const int steps = static_cast<int>(std::lround(2.0 * M_PI / Step));
   const std::vector<ContinuousSymmetry> axes = nearlyRoundAxes(model.symmetries);
   SoAPoints surface;
   surface.resize(axes.empty() ? 0 : model.surface.size());
@@ -48,15 +54,15 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
   {
     for (int k = 1; k < steps && surface.size() > 0; ++k)
     {
-      const Eigen::Isometry3d turn = turnAbout(axis.axis, k * step, axis.point);
+      const Eigen::Isometry3d turn = turnAbout(axis.axis, k * Step, axis.point);
       const auto isSame = [&](const NearSymmetry& near)
       {
         const Eigen::Matrix3d between = near.T.linear().transpose() * turn.linear();
-        return Eigen::AngleAxisd(between).angle() < 0.5 * step;
+        return Eigen::AngleAxisd(between).angle() < 0.5 * Step;
       };
       const auto& near = model.symmetries.near;
       if (std::none_of(near.begin(), near.end(), isSame) &&
-          overlapAfter(turn, surface, model.surfaceDistance, tolerance) >= settings.overlap)
+          overlapAfter(turn, surface, model.surfaceDistance, tolerance) >= LeastOverlap)
       {
         this->Turns.push_back(turn);
       }
@@ -66,22 +72,20 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
 
 void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) const
 {
-  const double sure = this->Settings.sureAdvantage;
-  const double hopeless = -this->Settings.negligible * sure;
   const std::size_t nearSymmetries = this->Model.symmetries.near.size();
-  const bool isLikely = pose.probability >= this->Settings.worthAsking;
+  const bool isLikely = pose.probability >= WorthAsking;
   const std::size_t turns = isLikely ? this->Turns.size() : nearSymmetries;
-  for (int round = 0; round < this->Settings.rounds; ++round)
+  for (int round = 0; round < Rounds; ++round)
   {
     std::vector<double> advantages{ 0.0 };
     const double asItIsOdds = isLikely ? this->Collector.logOdds(pose.T_scene_model, this->Rates) : 0.0;
     for (std::size_t k = 0; k < turns; ++k)
     {
       const Eigen::Isometry3d turned = pose.T_scene_model * this->Turns[k];
-      double advantage = this->Comparison.advantage(turned, asItIs, hopeless);
-      if (isLikely && advantage > hopeless)
+      double advantage = this->Comparison.advantage(turned, asItIs, Hopeless);
+      if (isLikely && advantage > Hopeless)
       {
-        advantage += sure * (this->Collector.logOdds(turned, this->Rates) - asItIsOdds);
+        advantage += SureAdvantage * (this->Collector.logOdds(turned, this->Rates) - asItIsOdds);
       }
       advantages.push_back(advantage);
     }
@@ -89,7 +93,7 @@ void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) cons
     double odds = 0.0; // of all turns against the best
     for (const double advantage : advantages)
     {
-      odds += std::exp((advantage - *best) / sure);
+      odds += std::exp((advantage - *best) / SureAdvantage);
     }
     pose.certainty = 1.0 / odds;
     if (best == advantages.begin())

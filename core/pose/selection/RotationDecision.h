@@ -8,16 +8,6 @@
 
 namespace meam
 {
-struct RotationDecisionSettings
-{
-  double step = 10.0;          ///< degrees between the turns of a nearly round part that are asked about
-  double overlap = 0.8;        ///< of its surface, that comes to lie on the surface when it is nearly round at a turn
-  double sureAdvantage = 13.0; ///< points that make a rotation e times likelier than another, as simulated bins have it
-  double negligible = 6.0;     ///< times that: a rotation so unlikely is one in four hundred
-  double worthAsking = 0.02;   ///< probability of a pose before: less, and only its near-symmetries are compared
-  int rounds = 3;              ///< of turns that the scene speaks for more
-};
-
 /// Decides between a pose and its turns that hardly move the part's surface: by its near-symmetries, and of a nearly
 /// round part by every step about its axis, at which the surface fits as well where the notch that tells them apart is
 /// out of sight. Calls may run in parallel.
@@ -26,8 +16,7 @@ class RotationDecision
 public:
   /// Keeps references to all but the rates; `rotated` refines a pose that was turned by a step.
   RotationDecision(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
-    const EvidenceCollector& collector, const EvidenceRates& rates, const PoseRefinementSettings& rotated,
-    const RotationDecisionSettings& settings);
+    const EvidenceCollector& collector, const EvidenceRates& rates, const PoseRefinementSettings& rotated);
 
   /// Turns the pose to where the scene speaks for it most, by the comparison and, of a pose that is likely, by the
   /// evidence, and sets its certainty: how likely that rotation is among all. `asItIs` is the pose as a contender.
@@ -40,7 +29,6 @@ private:
   const EvidenceCollector& Collector;
   EvidenceRates Rates;
   const PoseRefinementSettings& Rotated;
-  RotationDecisionSettings Settings;
   std::vector<Eigen::Isometry3d> Turns; ///< in the part's frame, without the identity; the near-symmetries first
 };
 }

@@ -2,15 +2,16 @@
 #include "pose/verification/EdgeExplanation.h"
 
 #include "base/Parallel.h"
+#include "pose/PoseTolerances.h"
 
 #include <algorithm>
 
 namespace meam
 {
-std::vector<int> explainEdges(const LocalCloud& edges, const Poses& poses, const TrainedModel& model, double least,
-  const FitLengths& lengths, int threads)
+std::vector<int> explainEdges(
+  const LocalCloud& edges, const Poses& poses, const TrainedModel& model, double least, int threads)
 {
-  const float near = static_cast<float>(std::max(lengths.explained * model.diameter, least));
+  const float near = static_cast<float>(std::max(ExplainedDistance * model.diameter, least));
   const float reach = model.edgeDistance.outerRadius();
   struct Placed
   {

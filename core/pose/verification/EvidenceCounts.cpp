@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/verification/EvidenceCounts.h"
 
+#include "pose/verification/ProbabilityCalibration.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,29 @@ namespace meam
 {
 namespace
 {
+// Weights of a patch of surface
+constexpr double There = 1.0;       // where it should be, that faces the right way
+constexpr double Unclear = 0.3;     // where it should be, with too little around it to tell which way it faces
+constexpr double Turned = -0.5;     // where it should be, that faces elsewhere: another object's
+constexpr double Past = -2.5;       // that the sensor looked past, at something near behind it
+constexpr double FarPast = -8.0;    // and at something far behind it
+constexpr double Hidden = -0.1;     // with something before it: beyond so many patches
+constexpr double ManyHidden = 5.0;  // by its logarithm, for one thing hides many
+constexpr double Enclosed = -6.0;   // of the part's body behind the bin's floor or a wall, seen or not
+constexpr double Unmeasured = -0.1; // where nothing was measured (gaps of one cell of the depth map aside), or only
+                                    // the part's own lower side beside it
+// Of the logarithms that the scan's own rates say
+constexpr double Outline = 0.7;    // of a patch's side of outline
+constexpr double Edge = 0.1;       // of one edge point
+constexpr double ManyLines = 16.0; // both together, for they tell much the same, grow beyond this by their logarithm
+
+// Of the scan's own rates
+constexpr double UsualEdges = 150.0;  // edge points that the usual rates count as: few candidates tell nothing
+constexpr double UsualOutline = 90.0; // the same in sides of patches
+constexpr int Steps = 4;              // of how likely the candidates are, and what that says of edges and outlines
+constexpr double LeastGain = 0.02;    // that something is found more often where the part is
+constexpr double LeastEnds = 0.75;    // of a part's outline end: there may be none of the part
+
 /// A sum that beyond about `many` grows by its logarithm.
 double saturated(double sum, double many) { return std::copysign(many * std::log1p(std::abs(sum) / many), sum); }
 }
@@ -18,32 +43,26 @@ double EvidenceRate::logOf(double foundTimes, double missingTimes) const
          missingTimes * std::log((1.0 - this->found) / (1.0 - this->chance));
 }
 
-double EvidenceCounts::ofSurface(const EvidenceWeights& weights) const
+double EvidenceCounts::ofSurface() const
 {
-  return weights.there * this->there + weights.unclear * this->unclear + weights.turned * this->turned +
-         weights.past * this->past + weights.farPast * this->farPast +
-         weights.hidden * saturated(this->hidden, weights.manyHidden) + weights.enclosed * this->enclosed +
-         weights.unmeasured * this->unmeasured;
+  return There * this->there + Unclear * this->unclear + Turned * this->turned + Past * this->past +
+         FarPast * this->farPast + Hidden * saturated(this->hidden, ManyHidden) + Enclosed * this->enclosed +
+         Unmeasured * this->unmeasured;
 }
 
-double EvidenceCounts::ofEdges(const EvidenceWeights& weights, const EvidenceRates& rates) const
+double EvidenceCounts::ofEdges(const EvidenceRates& rates) const
 {
-  return weights.edge * rates.edges.logOf(this->edgesFound, this->edgesMissing);
+  return Edge * rates.edges.logOf(this->edgesFound, this->edgesMissing);
 }
 
-double EvidenceCounts::ofLines(const EvidenceWeights& weights, const EvidenceRates& rates) const
+double EvidenceCounts::ofLines(const EvidenceRates& rates) const
 {
-  const double all = this->ofEdges(weights, rates) + weights.outline * rates.outline.logOf(this->ends, this->goesOn);
-  return saturated(all, weights.manyLines);
+  return saturated(this->ofEdges(rates) + Outline * rates.outline.logOf(this->ends, this->goesOn), ManyLines);
 }
 
-double EvidenceCounts::sum(const EvidenceWeights& weights, const EvidenceRates& rates) const
-{
-  return this->ofSurface(weights) + this->ofLines(weights, rates);
-}
+double EvidenceCounts::sum(const EvidenceRates& rates) const { return this->ofSurface() + this->ofLines(rates); }
 
-EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, const EvidenceWeights& weights,
-  const LogisticRegression& likely, const EvidenceRatesSettings& settings)
+EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates)
 {
   using Count = double EvidenceCounts::*;
   std::vector<double> right(candidates.size()); // probabilities
@@ -59,19 +78,18 @@ EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, const
       wrongFound += (1.0 - right[k]) * foundTimes;
       ofWrong += (1.0 - right[k]) * all;
     }
-    const double gain = settings.leastGain;
-    const double chance = std::min(wrongFound / ofWrong, 1.0 - 2.0 * gain);
-    return EvidenceRate{ std::clamp(rightFound / ofRight, std::max(leastFound, chance + gain), 1.0 - gain), chance };
+    const double chance = std::min(wrongFound / ofWrong, 1.0 - 2.0 * LeastGain);
+    return EvidenceRate{ std::clamp(rightFound / ofRight, std::max(leastFound, chance + LeastGain), 1.0 - LeastGain),
+      chance };
   };
-  EvidenceRates rates = settings.usual;
-  for (int step = 0; step < settings.steps; ++step)
+  const EvidenceRates usual;
+  EvidenceRates rates;
+  for (int step = 0; step < Steps; ++step)
   {
     std::transform(candidates.begin(), candidates.end(), right.begin(),
-      [&](const EvidenceCounts& counts) { return probabilityOf(likely.logOdds(counts.sum(weights, rates))); });
-    rates.edges = rateOf(
-      &EvidenceCounts::edgesFound, &EvidenceCounts::edgesMissing, settings.usual.edges, settings.usualEdges, 0.0);
-    rates.outline = rateOf(&EvidenceCounts::ends, &EvidenceCounts::goesOn, settings.usual.outline,
-      settings.usualOutline, settings.leastEnds);
+      [&](const EvidenceCounts& counts) { return probabilityOf(CalibrationWithSurface.logOdds(counts.sum(rates))); });
+    rates.edges = rateOf(&EvidenceCounts::edgesFound, &EvidenceCounts::edgesMissing, usual.edges, UsualEdges, 0.0);
+    rates.outline = rateOf(&EvidenceCounts::ends, &EvidenceCounts::goesOn, usual.outline, UsualOutline, LeastEnds);
   }
   return rates;
 }

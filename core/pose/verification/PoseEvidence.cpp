@@ -2,6 +2,8 @@
 #include "pose/verification/PoseEvidence.h"
 
 #include "base/Error.h"
+#include "pose/PoseTolerances.h"
+#include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +12,15 @@ namespace meam
 {
 namespace
 {
+constexpr double Noises = 1.5;        // of the scan: the tolerance is no less
+constexpr float Facing = 0.8f;        // cosine between the part's normal and the measured one, of a surface that fits
+constexpr double FarBehind = 0.1;     // of the diameter: what the sensor saw so far behind the part is far
+constexpr double CloselyBefore = 0.1; // of the diameter: a surface that hides the part from nearer is close before it
+constexpr float Flattest = 0.3f;      // cosine: the tolerance along the line of sight grows up to surfaces so flat
+constexpr float Behind = 3.0f;        // tolerances: so far behind the bin's floor or a wall a part cannot reach
+constexpr double Shown = 0.25;        // of its whole surface a body shows, on average over directions (Cauchy)
+constexpr float OutlineTolerance = 1.5f; // tolerances: a surface beyond the outline that goes on
+
 int count(const std::vector<PointState>& states, PointState state)
 {
   return static_cast<int>(std::count(states.begin(), states.end(), state));
@@ -49,9 +60,9 @@ EvidenceCollector::EvidenceCollector(const Scene& scene, const TrainedModel& mod
   : InScene(scene)
   , Model(model)
   , Settings(settings)
-  , Tolerance(static_cast<float>(settings.tolerance > 0.0 ? settings.tolerance
-                                                          : std::max(settings.lengths.fits * model.diameter,
-                                                              settings.noises * scene.quality.noise)))
+  , Tolerance(static_cast<float>(settings.tolerance > 0.0
+                                   ? settings.tolerance
+                                   : std::max(FitDistance * model.diameter, Noises * scene.quality.noise)))
 {
 }
 
@@ -62,10 +73,8 @@ bool EvidenceCollector::nearEdge(const Eigen::Vector3f& point) const
 
 double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const
 {
-  const ProbabilityCalibration& calibration = this->Settings.calibration;
-  return haveSurfaces(this->InScene, this->Model)
-           ? calibration.withSurface.logOdds(counts.sum(this->Settings.weights, rates))
-           : calibration.edgesAlone.logOdds(counts.ofEdges(this->Settings.weights, rates));
+  return haveSurfaces(this->InScene, this->Model) ? CalibrationWithSurface.logOdds(counts.sum(rates))
+                                                  : CalibrationOfEdges.logOdds(counts.ofEdges(rates));
 }
 
 double EvidenceCollector::logOdds(
@@ -73,6 +82,8 @@ double EvidenceCollector::logOdds(
 {
   return this->logOdds(this->collect(T_scene_model, stride).counts, rates);
 }
+
+float EvidenceCollector::behindPlane() const { return -Behind * this->Tolerance; }
 
 bool EvidenceCollector::isBehind(const Eigen::Vector3f& point) const
 {
@@ -113,13 +124,11 @@ double EvidenceCollector::closelyHidden(const Eigen::Isometry3d& T_scene_model) 
   }
   const TrainedModel& model = this->Model;
   const DepthMap& depth = this->InScene.depth;
-  const EvidenceSettings& settings = this->Settings;
   const auto visible = this->predicted(T_scene_model, 1).visible;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Vector3f towards = T.linear() * model.visibility->towards(T_scene_model, this->InScene.sensor);
-  const float flattest = static_cast<float>(settings.flattest), facing = static_cast<float>(settings.facing);
-  const float close = static_cast<float>(settings.closelyBefore * model.diameter);
-  const double patch = settings.weights.patch * model.diameter;
+  const float close = static_cast<float>(CloselyBefore * model.diameter);
+  const double patch = PatchSize * model.diameter;
   double area = 0.0; // as the sensor sees it
   for (std::size_t k = 0; k < visible->surface.size(); ++k)
   {
@@ -127,11 +136,11 @@ double EvidenceCollector::closelyHidden(const Eigen::Isometry3d& T_scene_model) 
     const Eigen::Vector3f point = T * model.surface.points[i];
     const Eigen::Vector3f normal = T.linear() * model.surface.normals[i];
     const float cosine = normal.dot(towards);
-    const float tolerance = this->Tolerance / std::max(cosine, flattest);
+    const float tolerance = this->Tolerance / std::max(cosine, Flattest);
     const bool isClose = visible->isInner[k] && cosine > 0.0f &&
                          depth.relationToMean(point, tolerance) == DepthMap::Relation::Hidden &&
                          depth.relationToMean(point, close) == DepthMap::Relation::OnSurface &&
-                         depth.normalAt(point).dot(normal) >= facing;
+                         depth.normalAt(point).dot(normal) >= Facing;
     area += isClose ? model.verificationArea() * cosine : 0.0;
   }
   return area / (patch * patch);
@@ -207,20 +216,19 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
   const TrainedModel& model = this->Model;
   const DepthMap& depth = this->InScene.depth;
   const float tolerance = this->Tolerance;
-  const EvidenceSettings& settings = this->Settings;
+  const bool freeSpace = this->Settings.freeSpace;
   const auto stateOf = [&](DepthMap::Relation relation)
   {
-    return relation == DepthMap::Relation::OnSurface                          ? PointState::Matched
-           : relation == DepthMap::Relation::Hidden                           ? PointState::Hidden
-           : relation == DepthMap::Relation::NoSurface || !settings.freeSpace ? PointState::Unknown
-                                                                              : PointState::Violated;
+    return relation == DepthMap::Relation::OnSurface                 ? PointState::Matched
+           : relation == DepthMap::Relation::Hidden                  ? PointState::Hidden
+           : relation == DepthMap::Relation::NoSurface || !freeSpace ? PointState::Unknown
+                                                                     : PointState::Violated;
   };
-  const float farBehind = std::max(tolerance, static_cast<float>(settings.farBehind * model.diameter));
+  const float farBehind = std::max(tolerance, static_cast<float>(FarBehind * model.diameter));
   EvidenceCounts& counts = evidence.counts;
-  const double patch = settings.weights.patch * model.diameter;
+  const double patch = PatchSize * model.diameter;
   const double area = stride * model.verificationArea() / (patch * patch);
   const Eigen::Vector3f towards = T.linear() * model.visibility->towards(T_scene_model, this->InScene.sensor);
-  const float flattest = static_cast<float>(settings.flattest), facing = static_cast<float>(settings.facing);
   const std::size_t size = (visible->surface.size() + stride - 1) / stride;
   evidence.surface.reserve(size);
   evidence.surfaceStates.reserve(size);
@@ -232,12 +240,12 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
     const float cosine = normal.dot(towards);
     const double seen = visible->isInner[k] ? area * std::max(cosine, 0.0f) : 0.0;
     PointState state = PointState::Violated;
-    switch (depth.relationToMean(point, tolerance / std::max(cosine, flattest)))
+    switch (depth.relationToMean(point, tolerance / std::max(cosine, Flattest)))
     {
       case DepthMap::Relation::OnSurface:
       {
         const Eigen::Vector3f measured = depth.normalAt(point);
-        const bool isTurned = !measured.isZero() && measured.dot(normal) < facing;
+        const bool isTurned = !measured.isZero() && measured.dot(normal) < Facing;
         (isTurned ? counts.turned : measured.isZero() ? counts.unclear : counts.there) += seen;
         state = isTurned ? PointState::Turned : PointState::Matched;
         break;
@@ -256,7 +264,7 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
         const float fall = visible->falls[k];
         const bool isPartBeside =
           fall > 0.0f && depth.relationToMean(point, fall + tolerance) == DepthMap::Relation::OnSurface;
-        const bool saysNothing = !settings.freeSpace || isPartBeside;
+        const bool saysNothing = !freeSpace || isPartBeside;
         (saysNothing ? counts.unmeasured : isFar ? counts.farPast : counts.past) += seen;
         state = saysNothing ? PointState::Unknown : PointState::Violated;
         break;
@@ -273,9 +281,8 @@ void EvidenceCollector::addOutline(const Predicted& predicted, EvidenceCounts& c
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const TrainedModel& model = this->Model;
   const DepthMap& depth = this->InScene.depth;
-  const EvidenceSettings& settings = this->Settings;
-  const double patch = settings.weights.patch * model.diameter;
-  const float beside = static_cast<float>(settings.outlineTolerance) * this->Tolerance;
+  const double patch = PatchSize * model.diameter;
+  const float beside = OutlineTolerance * this->Tolerance;
   const double side = stride * model.visibility->cellSize() / patch;
   double under = 0.0; // of the outline, what a floor or a wall covers
   for (std::size_t k = 0; k < visible->outside.size(); k += stride)
@@ -295,7 +302,7 @@ void EvidenceCollector::addOutline(const Predicted& predicted, EvidenceCounts& c
   const double goesOn = outline > 0.0 ? covered / outline : 1.0;
   if (goesOn > 0.0)
   {
-    counts.enclosed = goesOn * settings.shown * this->shareBehind(T_scene_model, stride) *
+    counts.enclosed = goesOn * Shown * this->shareBehind(T_scene_model, stride) *
                       static_cast<double>(model.verificationPoints.size()) * model.verificationArea() / (patch * patch);
   }
 }

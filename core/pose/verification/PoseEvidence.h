@@ -4,9 +4,7 @@
 #include "base/SoAPoints.h"
 #include "model/PredictedVisibility.h"
 #include "model/TrainedModel.h"
-#include "pose/FitLengths.h"
 #include "pose/verification/EvidenceCounts.h"
-#include "pose/verification/ProbabilityCalibration.h"
 #include "scene/Scene.h"
 
 #include <memory>
@@ -28,21 +26,12 @@ enum class PointState : unsigned char
 /// What counts when poses are scored.
 struct EvidenceSettings
 {
-  FitLengths lengths;
-  double tolerance = 0.0; ///< mm, a model point this near to the scene fits; 0: lengths.fits of the diameter,
-  double noises = 1.5;    ///< and no less than so many times the scan's noise
-  EvidenceWeights weights;
+  /// mm, a model point this near to the scene fits; 0: FitDistance of the diameter, and no less than 1.5 times the
+  /// scan's noise.
+  double tolerance = 0.0;
   std::optional<EvidenceRates> rates; ///< of the scan, when they are known; else the poses tell them
   bool freeSpace = true;              ///< surface that the sensor saw past speaks against a pose; else it says nothing
-  double facing = 0.8;        ///< cosine between the part's normal and the measured one, from which on the surface fits
-  double farBehind = 0.1;     ///< of the diameter: what the sensor saw so far behind the part is far
-  double closelyBefore = 0.1; ///< of the diameter: a surface that hides the part from nearer is close before it
-  double flattest = 0.3;      ///< cosine: the tolerance along the line of sight grows up to surfaces seen so flatly
-  double behind = 3.0;        ///< times the tolerance: so far behind the bin's floor or a wall a part cannot reach
-  double shown = 0.25; ///< of its whole surface a body shows, on average over directions (Cauchy): its patches behind
-  double outlineTolerance = 1.5;      ///< times the tolerance: a surface beyond the outline that goes on
   int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same
-  ProbabilityCalibration calibration; ///< of these weights
 };
 
 /// Of the points a pose predicts to be visible those that it is verified on, local frame (mm), and what became of each.
@@ -107,7 +96,7 @@ private:
   void addOutline(const Predicted& predicted, EvidenceCounts& counts) const;
 
   /// mm; less than nothing: so far behind the bin's floor or a wall.
-  float behindPlane() const { return -static_cast<float>(this->Settings.behind) * this->Tolerance; }
+  float behindPlane() const;
   bool isBehind(const Eigen::Vector3f& point) const;
 
   const Scene& InScene;

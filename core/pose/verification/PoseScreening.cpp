@@ -3,6 +3,9 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "pose/PoseTolerances.h"
+#include "pose/verification/PoseEvidence.h"
+#include "pose/verification/RotationSearch.h"
 
 #include <algorithm>
 #include <numeric>
@@ -12,6 +15,11 @@ namespace meam
 {
 namespace
 {
+constexpr double Unmeasured = 0.5;         // of a point that is there: what one counts where nothing was measured
+constexpr double DuplicateDistance = 0.04; // of the diameter: candidates nearer to each other are duplicates,
+constexpr double DuplicateAngle = 6.0;     // and those turned less than this (degrees)
+constexpr int PointStride = 3;             // of the verification points one of so many is looked at
+
 /// Looks at the surface of poses alone, at few points.
 class SurfaceScreening
 {
@@ -19,13 +27,11 @@ public:
   SurfaceScreening(const Scene& scene, const TrainedModel& model, const PoseScreeningSettings& settings)
     : InScene(scene)
     , Model(model)
-    , Tolerance(static_cast<float>(settings.evidence.tolerance > 0.0 ? settings.evidence.tolerance
-                                                                     : settings.evidence.lengths.fits * model.diameter))
-    , Unmeasured(settings.unmeasured)
-    , FreeSpace(settings.evidence.freeSpace)
+    , Tolerance(static_cast<float>(FitDistance * model.diameter))
+    , FreeSpace(settings.freeSpace)
   {
     const std::vector<int>& points = model.verificationPoints;
-    for (std::size_t k = 0; k < points.size(); k += settings.pointStride)
+    for (std::size_t k = 0; k < points.size(); k += PointStride)
     {
       this->Points.add(model.surface.points[points[k]], model.surface.normals[points[k]]);
     }
@@ -60,14 +66,13 @@ public:
       unknown += std::exchange(violated, 0);
     }
     const int inSight = matched + violated + unknown;
-    return inSight > 0 ? (matched + this->Unmeasured * unknown) / inSight : 0.0;
+    return inSight > 0 ? (matched + Unmeasured * unknown) / inSight : 0.0;
   }
 
 private:
   const Scene& InScene;
   const TrainedModel& Model;
   float Tolerance;
-  double Unmeasured; ///< what a point counts where nothing was measured
   bool FreeSpace;
   SoAOrientedPoints Points;
 };
@@ -98,7 +103,7 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
   constexpr std::size_t posesPerReport = 256; // not tuned: each is compared with those near by, which may be many
   const std::vector<double> shares = surfaceShares(candidates, scene, model, settings);
   const double least = static_cast<int>(candidates.size()) > settings.enough ? settings.leastSurface : 0.0;
-  const double distance = settings.distance > 0.0 ? settings.distance : settings.distanceShare * model.diameter;
+  const double distance = DuplicateDistance * model.diameter;
   const Symmetries same = asIfRound(model.symmetries);
   const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
   std::vector<int> order(candidates.size());
@@ -113,7 +118,7 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
     farthest = middles.back().allFinite() ? std::max(farthest, middles.back().cwiseAbs().maxCoeff()) : farthest;
   }
   // Of the grid, in single precision, which rounds a millionth of a coordinate: what it finds is looked at exactly.
-  const double reach = std::min(distance, 4.0 * farthest) + 1e-6 * farthest + 1e-6 * model.diameter;
+  const double reach = distance + 1e-6 * farthest + 1e-6 * model.diameter;
   const PointGrid grid(middles, reach);
   std::vector<char> isKept(candidates.size(), 0);
   std::vector<int> kept;
@@ -135,7 +140,7 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
       {
         const Eigen::Isometry3d& other = candidates[k].T_scene_model;
         isDuplicate = isDuplicate || (isKept[k] && translationError(T, other, middle) < distance &&
-                                       rotationError(nearestEqual(T, other, same), other) < settings.angle);
+                                       rotationError(nearestEqual(T, other, same), other) < DuplicateAngle);
       });
     if (!isDuplicate)
     {
@@ -149,7 +154,7 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
   {
     screened.push_back(candidates[i]);
   }
-  const RotationSearch search(scene, model, settings.rotation);
+  const RotationSearch search(scene, model);
   parallelFor(static_cast<int>(screened.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {

@@ -2,6 +2,8 @@
 #include "pose/verification/PoseVerification.h"
 
 #include "base/Parallel.h"
+#include "pose/PoseTolerances.h"
+#include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +25,9 @@ void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollecto
 }
 
 /// Sums up the votes of the poses that agree with each.
-void scoreByVotes(Poses& poses, const TrainedModel& model, const PoseVerificationSettings& settings)
+void scoreByVotes(Poses& poses, const TrainedModel& model, int threads)
 {
-  const double distance = settings.agreeingDistance * model.diameter;
+  const double distance = SamePoseDistance * model.diameter;
   Points middles;
   for (const Pose& pose : poses)
   {
@@ -33,7 +35,7 @@ void scoreByVotes(Poses& poses, const TrainedModel& model, const PoseVerificatio
   }
   const PointGrid grid(middles, distance);
   std::vector<int> sums(poses.size(), 0);
-  parallelFor(static_cast<int>(poses.size()), settings.threads, {},
+  parallelFor(static_cast<int>(poses.size()), threads, {},
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
@@ -41,8 +43,7 @@ void scoreByVotes(Poses& poses, const TrainedModel& model, const PoseVerificatio
         grid.forEachWithin(middles[i], distance,
           [&](int other, float)
           {
-            const bool agrees =
-              rotationError(poses[i].T_scene_model, poses[other].T_scene_model) < settings.agreeingAngle;
+            const bool agrees = rotationError(poses[i].T_scene_model, poses[other].T_scene_model) < SamePoseAngle;
             sums[i] += agrees ? poses[other].votes : 0;
           });
       }
@@ -116,7 +117,7 @@ EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& 
         counts[i] = collector.collect(candidates[i].T_scene_model, stride).counts;
       }
     });
-  return evidenceRates(counts, settings.weights, settings.calibration.withSurface);
+  return evidenceRates(counts);
 }
 
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
@@ -159,13 +160,11 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     });
   if (settings.method == VerificationMethod::Votes)
   {
-    scoreByVotes(scored, model, settings);
+    scoreByVotes(scored, model, settings.threads);
   }
   if (byEvidence)
   {
-    const EvidenceSettings& evidence = settings.evidence;
-    const EvidenceRates rates =
-      evidence.rates ? *evidence.rates : evidenceRates(counts, evidence.weights, evidence.calibration.withSurface);
+    const EvidenceRates rates = settings.evidence.rates ? *settings.evidence.rates : evidenceRates(counts);
     if (ofScan)
     {
       *ofScan = rates;
@@ -180,8 +179,7 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
   Poses kept;
   for (const Pose& pose : scored)
   {
-    if (pose.score >= settings.minimumScore &&
-        (settings.posesPerView == 0 || ++ofView[pose.viewId] <= settings.posesPerView))
+    if (settings.posesPerView == 0 || ++ofView[pose.viewId] <= settings.posesPerView)
     {
       kept.push_back(pose);
     }

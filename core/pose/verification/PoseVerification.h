@@ -3,7 +3,6 @@
 
 #include "base/Error.h"
 #include "pose/Pose.h"
-#include "pose/SamePose.h"
 #include "pose/verification/PoseEvidence.h"
 
 namespace meam
@@ -19,11 +18,7 @@ struct PoseVerificationSettings
 {
   VerificationMethod method = VerificationMethod::VisibleEvidence;
   EvidenceSettings evidence; ///< of EdgeCoverage the tolerance, the rest of VisibleEvidence
-  // Votes
-  double agreeingDistance = SamePose().distance; ///< of the diameter: poses agree whose middles are nearer
-  double agreeingAngle = SamePose().angle;       ///< degrees, and that are turned less
   int pointStride = 1;       ///< of the predicted points one of so many is looked at: 2 is enough for candidates
-  double minimumScore = 0.0; ///< poses below are dropped
   int posesPerView = 0;      ///< N_pv: best poses kept for each appearance model; 0: no limit
   int threads = 0;           ///< 0: one for each processor
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/verification/RotationSearch.h"
 
+#include "pose/PoseTolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,14 @@ namespace meam
 {
 namespace
 {
+constexpr int Steps = 180;              // of a full turn about an axis: 2 degrees, less than a notch
+constexpr double LeastGain = 1.0;       // scene edge points that a better rotation explains more, and
+constexpr double LeastGainShare = 0.02; // of what the pose as it is explains
+constexpr int MostPoints = 200;         // of the scene's edges on the part that are looked at
+constexpr int CoarseStride = 4;         // of these one of so many is looked at first
+constexpr int MostMaxima = 10;          // of the coarse search that all points are asked about
+constexpr int MostRotations = 2;        // that come out of an axis
+
 SoAPoints everyOf(const SoAPoints& points, std::size_t stride)
 {
   SoAPoints result;
@@ -19,11 +29,10 @@ SoAPoints everyOf(const SoAPoints& points, std::size_t stride)
 }
 }
 
-RotationSearch::RotationSearch(const Scene& scene, const TrainedModel& model, const RotationSearchSettings& settings)
+RotationSearch::RotationSearch(const Scene& scene, const TrainedModel& model)
   : InScene(scene)
   , Model(model)
-  , Settings(settings)
-  , Unexplained(static_cast<float>(settings.lengths.unexplained * model.diameter))
+  , Unexplained(static_cast<float>(UnexplainedDistance * model.diameter))
   , Axes(nearlyRoundAxes(model.symmetries))
 {
 }
@@ -52,7 +61,7 @@ SoAPoints RotationSearch::edgesOn(const Eigen::Isometry3d& T_scene_model) const
         }
       }
     });
-  return everyOf(edges, (edges.size() + this->Settings.points - 1) / this->Settings.points);
+  return everyOf(edges, (edges.size() + MostPoints - 1) / MostPoints);
 }
 
 double RotationSearch::explained(const SoAPoints& edges, const Eigen::Isometry3d& turn) const
@@ -97,30 +106,29 @@ std::vector<Eigen::Isometry3d> RotationSearch::better(const Eigen::Isometry3d& T
     return found;
   }
   const SoAPoints some = this->edgesOn(T_scene_model);
-  const int steps = this->Settings.steps;
-  const SoAPoints few = everyOf(some, this->Settings.coarseStride);
+  const SoAPoints few = everyOf(some, CoarseStride);
   for (const ContinuousSymmetry& axis : this->Axes)
   {
-    const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / steps, axis.point); };
+    const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
     const auto explained = [&](int step, const SoAPoints& edges) { return this->explained(edges, turn(step)); };
     // Maxima by some of the points, which then all are asked about.
-    std::vector<double> coarse(steps);
-    for (int step = 0; step < steps; ++step)
+    std::vector<double> coarse(Steps);
+    for (int step = 0; step < Steps; ++step)
     {
       coarse[step] = explained(step, few);
     }
     std::vector<int> maxima;
-    for (int step = 2; step < steps - 1; ++step)
+    for (int step = 2; step < Steps - 1; ++step)
     {
-      if (coarse[step] > coarse[step - 1] && coarse[step] >= coarse[(step + 1) % steps])
+      if (coarse[step] > coarse[step - 1] && coarse[step] >= coarse[(step + 1) % Steps])
       {
         maxima.push_back(step);
       }
     }
     std::stable_sort(maxima.begin(), maxima.end(), [&](int a, int b) { return coarse[a] > coarse[b]; });
-    maxima.resize(std::min<std::size_t>(maxima.size(), this->Settings.maxima));
+    maxima.resize(std::min<std::size_t>(maxima.size(), MostMaxima));
     const double asItIs = std::max({ explained(-1, some), explained(0, some), explained(1, some) });
-    const double least = asItIs + this->Settings.leastGain + this->Settings.leastGainShare * asItIs;
+    const double least = asItIs + LeastGain + LeastGainShare * asItIs;
     std::vector<std::pair<double, int>> better;
     for (const int peak : maxima)
     {
@@ -140,7 +148,7 @@ std::vector<Eigen::Isometry3d> RotationSearch::better(const Eigen::Isometry3d& T
     {
       const bool known =
         std::any_of(taken.begin(), taken.end(), [step = step](int other) { return std::abs(step - other) <= 1; });
-      if (!known && static_cast<int>(taken.size()) < this->Settings.rotations)
+      if (!known && static_cast<int>(taken.size()) < MostRotations)
       {
         taken.push_back(step);
         found.push_back(T_scene_model * turn(step));

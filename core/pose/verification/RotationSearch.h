@@ -4,23 +4,10 @@
 #include "base/SoAPoints.h"
 #include "mesh/Symmetries.h"
 #include "model/TrainedModel.h"
-#include "pose/FitLengths.h"
 #include "scene/Scene.h"
 
 namespace meam
 {
-struct RotationSearchSettings
-{
-  FitLengths lengths;
-  int steps = 180;              ///< of a full turn about an axis: 2 degrees, less than a notch
-  double leastGain = 1.0;       ///< scene edge points that a better rotation explains more, and
-  double leastGainShare = 0.02; ///< of what the pose as it is explains
-  int points = 200;             ///< of the scene's edges on the part that are looked at
-  int coarseStride = 4;         ///< of these one of so many is looked at first
-  int maxima = 10;              ///< of the coarse search that all points are asked about
-  int rotations = 2;            ///< that come out of an axis
-};
-
 /// Rotation search about the axes of a part's approximate symmetries. Its surface fits the scene at each of them, and
 /// that of a nearly round part at any rotation about its axis, so refinement stays at the rotation it came with; the
 /// scene's edges tell them apart. Calls may run in parallel.
@@ -28,7 +15,7 @@ class RotationSearch
 {
 public:
   /// Keeps references to both.
-  RotationSearch(const Scene& scene, const TrainedModel& model, const RotationSearchSettings& settings = {});
+  RotationSearch(const Scene& scene, const TrainedModel& model);
 
   /// The pose turned about each such axis to where more of the scene's edges on the part are edges of the part than as
   /// it is: the better one first, as good as the steps of the search. None for a part without near-symmetries other
@@ -46,7 +33,6 @@ private:
 
   const Scene& InScene;
   const TrainedModel& Model;
-  RotationSearchSettings Settings;
   float Unexplained; ///< mm
   std::vector<ContinuousSymmetry> Axes;
 };

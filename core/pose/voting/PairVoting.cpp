@@ -17,6 +17,18 @@ namespace meam
 {
 namespace
 {
+/// Of the points of an edge cloud or a surface, how many are reference points where their share is not given.
+struct References
+{
+  double ofCopy;    ///< edge points for each copy that the scene's edges would make
+  int leastEdges;   ///< that a few copies are found by in a small scene
+  double ofSurface; ///< share of the surface's thinned points
+  int leastSurface;
+};
+constexpr References OfScan{ 40.0, 3000, 0.07, 300 };   // many edges are not the part's, some are displaced
+constexpr References OfBoundary{ 10.0, 100, 0.01, 50 }; // exact edges tell most by themselves
+constexpr double ChoiceCell = 0.01; // of the diameter: choices fall on cubes, so that the order of points has no part
+
 /// A number that looks random, from a place and a seed (finalizer of MurmurHash3).
 std::uint64_t hashOf(const Eigen::Vector3f& point, double cell, unsigned seed)
 {
@@ -58,12 +70,7 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
 void requireSettings(const PoseDetectionSettings& settings)
 {
   const auto isShare = [](double share) { return share > 0.0 && share <= 1.0; };
-  if (!(settings.boundaryReferences > 0.0 && settings.scanReferences > 0.0))
-  {
-    throw Error("The reference points of a copy must be a positive number.");
-  }
-  if (!(settings.referenceShare >= 0.0 && settings.referenceShare <= 1.0) || !isShare(settings.referredShare) ||
-      !isShare(settings.surfaceReferenceShare) || !isShare(settings.boundarySurfaceShare))
+  if (!(settings.referenceShare >= 0.0 && settings.referenceShare <= 1.0) || !isShare(settings.referredShare))
   {
     throw Error("The shares of reference and referred points must be in (0, 1].");
   }
@@ -74,12 +81,12 @@ void requireSettings(const PoseDetectionSettings& settings)
 }
 
 /// Points of the scene's surface, one in a cube, that have a normal.
-DirectedPoints surfacePointsOf(const Scene& scene, double leaf, const PoseDetectionSettings& settings)
+DirectedPoints surfacePointsOf(const Scene& scene, double leaf, int threads)
 {
   const Points& means = scene.depth.means();
   const std::vector<int> thinned = thinPoints(means, leaf);
-  NormalEstimationSettings estimation = settings.normals;
-  estimation.threads = settings.threads;
+  NormalEstimationSettings estimation;
+  estimation.threads = threads;
   const Points normals = estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, estimation);
   DirectedPoints result;
   for (std::size_t k = 0; k < thinned.size(); ++k)
@@ -115,14 +122,11 @@ PairKeys keysOf(const DirectedPoints& points, const PairFeatureQuantizer& quanti
 
 VotingRound surfaceRound(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings)
 {
-  DirectedPoints surface = surfacePointsOf(scene, model.settings.surface.leafSize * model.diameter, settings);
-  const bool isScan = scene.edges.fromScan;
-  const double share = settings.referenceShare > 0.0 ? settings.referenceShare
-                       : isScan                      ? settings.surfaceReferenceShare
-                                                     : settings.boundarySurfaceShare;
-  const int least = isScan ? settings.leastSurfaceReferences : settings.leastBoundarySurface;
+  DirectedPoints surface = surfacePointsOf(scene, model.settings.surface.leafSize * model.diameter, settings.threads);
+  const References& usual = scene.edges.fromScan ? OfScan : OfBoundary;
+  const double share = settings.referenceShare > 0.0 ? settings.referenceShare : usual.ofSurface;
   std::vector<int> references =
-    chooseShare(surface.points, share, least, settings.choiceCell * model.diameter, settings.seed + 2);
+    chooseShare(surface.points, share, usual.leastSurface, ChoiceCell * model.diameter, settings.seed + 2);
   const double longest = settings.longestBucket * model.surfaceTable.votingPoints;
   const std::size_t longestBucket =
     std::isfinite(longest) ? static_cast<std::size_t>(longest) : std::numeric_limits<std::size_t>::max();
@@ -160,11 +164,11 @@ VotingRound edgeRound(const LocalCloud& sceneEdges, const TrainedModel& model, c
     tangent = tangent.x() < 0.0f ? Eigen::Vector3f(-tangent) : tangent; // the sign is that of the first axis
   }
   DirectedPoints referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
-  const double ofCopy = sceneEdges.fromScan ? settings.scanReferences : settings.boundaryReferences;
-  const double needed = settings.referenceShare > 0.0 ? 0.0 : ofCopy * copiesOf(referred, model);
-  const int least = std::max(sceneEdges.fromScan ? settings.leastScanReferences : settings.leastReferences,
-    static_cast<int>(std::min(std::ceil(needed), static_cast<double>(edges.points.size()))));
-  const double cell = settings.choiceCell * model.diameter;
+  const References& usual = sceneEdges.fromScan ? OfScan : OfBoundary;
+  const double needed = settings.referenceShare > 0.0 ? 0.0 : usual.ofCopy * copiesOf(referred, model);
+  const int least =
+    std::max(usual.leastEdges, static_cast<int>(std::min(std::ceil(needed), static_cast<double>(edges.points.size()))));
+  const double cell = ChoiceCell * model.diameter;
   std::vector<int> references = chooseShare(edges.points, settings.referenceShare, least, cell, settings.seed);
   referred = referred.subset(chooseShare(referred.points, settings.referredShare, 1, cell, settings.seed + 1));
   const PartPairs part{ model.edges.points, model.edges.tangents, model.table, model.quantizer(),

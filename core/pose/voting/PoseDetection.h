@@ -3,7 +3,6 @@
 
 #include "base/Error.h"
 #include "base/LocalCloud.h"
-#include "features/NormalEstimation.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
 #include "scene/Scene.h"
@@ -16,33 +15,19 @@ struct PoseDetectionSettings
   /// P_ref: share of the scene's edge points, and of its surface points, used as reference points; 0: as many as the
   /// scene needs, of the edges by how many copies they would make, and by where they come from.
   double referenceShare = 0.0;
-  double boundaryReferences = 10.0; ///< for each copy, of an exact boundary
-  double scanReferences = 40.0;     ///< the same of edges found in a scan: many are not the part's, some are displaced
-  int leastReferences = 100;        ///< that a few copies are found by in a small scene
-  int leastScanReferences = 3000;   ///< the same of edges found in a scan
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;
-  /// P_ref of the surface of a scan: of its points, one in a cube of the model's leaf size (SurfacePairSettings); all
-  /// are referred points.
-  double surfaceReferenceShare = 0.07;
-  int leastSurfaceReferences = 300;
-  double boundarySurfaceShare = 0.01; ///< the same beside an exact boundary, which tells most by itself
-  int leastBoundarySurface = 50;
   /// Buckets of the table of surface points with more entries for each of the model's points tell nothing: pairs on a
   /// plane.
   double longestBucket = 2.0;
-  NormalEstimationSettings normals{}; ///< of the scene's surface
-  int peaksPerReference = 1;          ///< candidates of one reference point; more find more hidden parts, at a cost
+  int peaksPerReference = 1; ///< candidates of one reference point; more find more hidden parts, at a cost
   /// The sense of d along a tangent tells which way round it lies; else stored signs are taken for right, which is
   /// wrong for half of the references.
   bool signedTangents = true;
   bool smoothPeaks = true; ///< peaks are of sums of three neighbouring turns
-  /// Share of the diameter: random choices fall on cubes of this side, so that the order of the points has no part in
-  /// them.
-  double choiceCell = 0.01;
-  unsigned seed = 1; ///< of the choice of both
-  int threads = 0;   ///< 0: one for each processor
+  unsigned seed = 1;       ///< of the choice of both
+  int threads = 0;         ///< 0: one for each processor
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.

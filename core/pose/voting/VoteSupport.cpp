@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "pose/PoseTolerances.h"
 #include "pose/voting/PairVoting.h"
 #include "pose/voting/VoteAccumulator.h"
 
@@ -13,9 +14,14 @@ namespace meam
 {
 namespace
 {
+// Shares of the diameter
+constexpr double OnPart = 0.02;    // a scene point this near to the part is on it
+constexpr double CellReach = 0.06; // model points this near to a scene point may stand for it
+constexpr double TurnStep = 7.2;   // degrees, between the equal poses of a round part: that of the votes
+constexpr int Ranks = 10;          // peaks of a reference point that are looked at
+
 /// Poses that the symmetries make equal to one, those of a round part in steps.
-std::vector<Eigen::Isometry3d> equalPoses(
-  const Eigen::Isometry3d& T_scene_model, const Symmetries& symmetries, double turnStep)
+std::vector<Eigen::Isometry3d> equalPoses(const Eigen::Isometry3d& T_scene_model, const Symmetries& symmetries)
 {
   std::vector<Eigen::Isometry3d> poses{ T_scene_model };
   for (const Eigen::Isometry3d& S : symmetries.discrete)
@@ -25,7 +31,7 @@ std::vector<Eigen::Isometry3d> equalPoses(
   if (!symmetries.continuous.empty())
   {
     const ContinuousSymmetry& symmetry = symmetries.continuous.front();
-    const int steps = static_cast<int>(std::ceil(2.0 * M_PI / turnStep));
+    const int steps = static_cast<int>(std::ceil(2.0 * M_PI / (TurnStep * M_PI / 180.0)));
     const std::size_t count = poses.size();
     for (int step = 1; step < steps; ++step)
     {
@@ -54,14 +60,13 @@ class RoundSupport
 {
 public:
   RoundSupport(const VotingRound& round, const Eigen::Isometry3d& T_scene_model, const TrainedModel& model,
-    const PoseDetectionSettings& detection, const VoteSupportSettings& settings)
+    const PoseDetectionSettings& detection)
     : Round(round)
     , T(T_scene_model)
     , Model(model)
-    , Settings(settings)
     , Detection(detection)
-    , Equal(equalPoses(T_scene_model, model.symmetries, settings.turnStep * M_PI / 180.0))
-    , Reach(settings.cellReach * model.diameter)
+    , Equal(equalPoses(T_scene_model, model.symmetries))
+    , Reach(CellReach * model.diameter)
     , Voting(round, detection)
     , ModelPoints(Points(round.part.points.begin(), round.part.points.begin() + round.part.table.votingPoints), Reach)
   {
@@ -72,7 +77,7 @@ public:
   {
     const Eigen::Isometry3f toPart = this->T.inverse().cast<float>();
     const DistanceField& part = this->Round.byEdges ? this->Model.edgeDistance : this->Model.surfaceDistance;
-    const double near = this->Settings.onPart * this->Model.diameter;
+    const double near = OnPart * this->Model.diameter;
     std::vector<int> indices;
     for (std::size_t i = 0; i < this->Round.points.points.size(); ++i)
     {
@@ -98,7 +103,7 @@ public:
     const std::vector<int>& references = this->Round.references;
     PointVotes result{ points.points[index], this->Round.byEdges,
       std::binary_search(references.begin(), references.end(), index), this->votesForPose(scene, accumulator), 0, 0 };
-    const std::vector<VotePeak> peaks = accumulator.peaks(this->Settings.ranks);
+    const std::vector<VotePeak> peaks = accumulator.peaks(Ranks);
     result.most = peaks.empty() ? 0 : peaks.front().votes;
     const auto leads = [&](const VotePeak& peak)
     { return this->isNear(alignFrames(this->frameOf(peak.modelPoint), scene, peak.flip, peak.alpha)); };
@@ -120,8 +125,8 @@ private:
   bool isNear(const Eigen::Isometry3d& pose) const
   {
     const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
-    return translationError(pose, this->T, middle) < this->Settings.distance * this->Model.diameter &&
-           rotationError(nearestEqual(pose, this->T, this->Model.symmetries), this->T) < this->Settings.angle;
+    return translationError(pose, this->T, middle) < SamePoseDistance * this->Model.diameter &&
+           rotationError(nearestEqual(pose, this->T, this->Model.symmetries), this->T) < SamePoseAngle;
   }
 
   int votesForPose(const PairFrame& scene, const VoteAccumulator& accumulator) const
@@ -150,7 +155,6 @@ private:
   const VotingRound& Round;
   const Eigen::Isometry3d& T;
   const TrainedModel& Model;
-  const VoteSupportSettings& Settings;
   const PoseDetectionSettings& Detection;
   std::vector<Eigen::Isometry3d> Equal;
   double Reach; ///< mm
@@ -160,8 +164,7 @@ private:
 }
 
 std::vector<PointVotes> votesForPose(const Eigen::Isometry3d& T_scene_model, const Scene& scene,
-  const TrainedModel& model, const PoseDetectionSettings& detection, const VoteSupportSettings& settings,
-  const Progress& progress)
+  const TrainedModel& model, const PoseDetectionSettings& detection, const Progress& progress)
 {
   std::vector<PointVotes> all;
   const std::vector<VotingRound> rounds = votingRounds(scene, model, detection);
@@ -172,7 +175,7 @@ std::vector<PointVotes> votesForPose(const Eigen::Isometry3d& T_scene_model, con
     {
       continue;
     }
-    const RoundSupport support(round, T_scene_model, model, detection, settings);
+    const RoundSupport support(round, T_scene_model, model, detection);
     const std::vector<int> onPart = support.onPart();
     const int count = static_cast<int>(onPart.size());
     const int threads = std::max(1, std::min(numberOfThreads(detection.threads), count));

@@ -58,9 +58,9 @@ TEST(DetectionChoices, LimitsSeedAndThreadsReachTheSteps)
 TEST(DetectionChoices, APresentPartIsNeverLessLikelyForItsAbsence)
 {
   meam::DetectionChoices choices;
-  EXPECT_LT(meam::detectionSettings(choices).selection.evidence.calibration.leastPresent, 1.0);
+  EXPECT_FALSE(meam::detectionSettings(choices).selection.partIsPresent);
   choices.partIsPresent = true;
-  EXPECT_EQ(meam::detectionSettings(choices).selection.evidence.calibration.leastPresent, 1.0);
+  EXPECT_TRUE(meam::detectionSettings(choices).selection.partIsPresent);
 }
 
 TEST(DetectionChoices, FoundEdgesAreOfAScan)

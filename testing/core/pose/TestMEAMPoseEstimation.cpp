@@ -28,6 +28,23 @@ int instancesFound(
   return found;
 }
 
+/// The three best poses of the bracket.
+meam::Poses found(const scenes::Seen& scene, int threads = 0)
+{
+  return scenes::estimatePoses(
+    scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3, threads));
+}
+
+void expectNear(const meam::Poses& poses, const meam::Poses& others)
+{
+  ASSERT_EQ(poses.size(), others.size());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    EXPECT_LT(meam::translationError(poses[i].T_scene_model, others[i].T_scene_model), 1e-3) << i;
+    EXPECT_LT(meam::rotationError(poses[i].T_scene_model, others[i].T_scene_model), 1e-3) << i;
+  }
+}
+
 int instancesFound(const meam::Poses& poses, double millimetres, double degrees)
 {
   return instancesFound(poses, scenes::threeCopies(), millimetres, degrees);
@@ -71,22 +88,15 @@ TEST(MEAMPoseEstimation, TheOrderOfPointsDoesNotMatter)
   meam::Random random(3);
   random.shuffle(shuffled.edges.points);
   random.shuffle(shuffled.surface);
-  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  const meam::Poses one = scenes::estimatePoses(scenes::bracket(), scene, settings);
-  const meam::Poses other = scenes::estimatePoses(scenes::bracket(), shuffled, settings);
-  ASSERT_EQ(one.size(), other.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-  {
-    EXPECT_LT(meam::translationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
-    EXPECT_LT(meam::rotationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
-  }
+  const meam::Poses one = found(scene);
+  const meam::Poses other = found(shuffled);
+  expectNear(one, other);
 }
 
 TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  const meam::Poses before = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses before = found(scene);
   const meam::PrecisePoints edges = parts::precise(scene.edges.points), measured = parts::precise(scene.surface);
   std::mt19937 random(8);
   for (const double distance : { 200.0, 1e6 })
@@ -97,7 +107,8 @@ TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
     const meam::SceneInput input{ meam::toLocalCloud(movedEdges, {}, {}, frame),
       meam::toLocalPoints(meam::ScanPoints<double>{ movedMeasured.front().data(), movedMeasured.size() }, frame),
       { false, T * scene.sensor.position, T.linear() * scene.sensor.direction } };
-    const meam::Poses after = meam::estimatePoses(scenes::bracket(), input, settings);
+    const meam::Poses after =
+      meam::estimatePoses(scenes::bracket(), input, meam::detectionSettings(meam::Preset::Recommended, 3));
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < before.size(); ++i)
     {
@@ -112,8 +123,7 @@ TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
 TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  const meam::Poses before = scenes::estimatePoses(scenes::bracket(), scene, settings);
+  const meam::Poses before = found(scene);
   std::mt19937 random(8);
   for (int trial = 0; trial < 3; ++trial)
   {
@@ -122,7 +132,7 @@ TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
     turned.edges.points = meam::moved(scene.edges.points, T);
     turned.surface = meam::moved(scene.surface, T);
     turned.sensor.direction = T.linear() * scene.sensor.direction;
-    const meam::Poses after = scenes::estimatePoses(scenes::bracket(), turned, settings);
+    const meam::Poses after = found(turned);
     ASSERT_EQ(after.size(), before.size());
     for (const meam::Pose& pose : before)
     {
@@ -136,16 +146,6 @@ TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
         << trial;
     }
   }
-}
-
-TEST(MEAMPoseEstimation, ThePaperPresetFindsThemToo)
-{
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  // Its score takes the upper edges for the lower ones, a plate's thickness away: twice as many poses as copies.
-  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Paper, 6);
-  const meam::Poses poses = scenes::estimatePoses(scenes::bracket(meam::Preset::Paper), scene, settings);
-  ASSERT_LE(poses.size(), 6u);
-  EXPECT_EQ(instancesFound(poses, 0.5, 1.5), 3);
 }
 
 TEST(MEAMPoseEstimation, AModelOfTheMeshesEdgesFindsThemToo)
@@ -176,61 +176,33 @@ TEST(MEAMPoseEstimation, AnEdgeCloudAloneIsEnough)
 {
   scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
   scene.surface.clear();
-  const meam::Poses poses =
-    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3));
+  const meam::Poses poses = found(scene);
   EXPECT_EQ(instancesFound(poses, 2.0, 3.0), 3);
-}
-
-TEST(MEAMPoseEstimation, AnyMotionOfTheSceneMovesThePoses)
-{
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  std::mt19937 random(4);
-  const Eigen::Isometry3d T = parts::motion(random, 200.0);
-  scenes::Seen turned = scene;
-  turned.surface = parts::moved(scene.surface, T);
-  turned.edges = parts::moved(scene.edges, T);
-  turned.sensor.direction = T.linear() * scene.sensor.direction;
-  const meam::Poses poses =
-    scenes::estimatePoses(scenes::bracket(), turned, meam::detectionSettings(meam::Preset::Recommended, 3));
-  meam::Poses back = poses;
-  for (auto& pose : back)
-  {
-    pose.T_scene_model = T.inverse() * pose.T_scene_model;
-  }
-  EXPECT_EQ(instancesFound(back, 0.3, 0.4), 3);
 }
 
 TEST(MEAMPoseEstimation, TheSignsOfTangentsDoNotMatter)
 {
-  scenes::Seen scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  scenes::Seen scene = scenes::seenCopies();
   scenes::Seen turned = scene;
   std::mt19937 random(6);
   for (Eigen::Vector3f& tangent : turned.edges.tangents)
   {
     tangent *= random() % 2 == 0 ? 1.0f : -1.0f;
   }
-  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  const meam::Poses one = scenes::estimatePoses(scenes::bracket(), scene, settings);
-  const meam::Poses other = scenes::estimatePoses(scenes::bracket(), turned, settings);
+  const meam::Poses one = found(scene);
+  const meam::Poses other = found(turned);
   EXPECT_EQ(instancesFound(one, 0.3, 0.4), 3);
-  ASSERT_EQ(one.size(), other.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-  {
-    EXPECT_EQ(one[i].votes, other[i].votes);
-    EXPECT_LT(meam::translationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
-    EXPECT_LT(meam::rotationError(one[i].T_scene_model, other[i].T_scene_model), 1e-3) << i;
-  }
+  expectNear(one, other);
 }
 
 TEST(MEAMPoseEstimation, TangentsThatAreNoneAreLeftOut)
 {
-  const scenes::Seen scene = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const scenes::Seen scene = scenes::seenCopies();
   scenes::Seen broken = scene;
   broken.edges.tangents[7].y() = NAN;
   broken.edges.tangents[20].x() = INFINITY;
   broken.edges.tangents[33].setZero();
-  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), broken, settings), 0.3, 0.4), 3);
+  EXPECT_EQ(instancesFound(found(broken), 0.3, 0.4), 3);
   for (const meam::Pose& pose : scenes::detect(broken.edges, scenes::bracket()))
   {
     EXPECT_TRUE(pose.T_scene_model.matrix().allFinite());
@@ -240,11 +212,10 @@ TEST(MEAMPoseEstimation, TangentsThatAreNoneAreLeftOut)
 TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const auto settings = meam::detectionSettings(meam::Preset::Recommended, 3);
   scenes::Seen one = scene;
   one.surface.push_back({ 1e12f, 0.0f, 0.0f });
   one.edges.points.push_back({ 0.0f, 1e9f, 0.0f });
-  EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), one, settings), 0.3, 0.4), 3);
+  EXPECT_EQ(instancesFound(found(one), 0.3, 0.4), 3);
   scenes::Seen many = scene;
   for (std::size_t i = 0; i < scene.surface.size() / 9; ++i)
   {
@@ -254,7 +225,7 @@ TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
   {
     many.sensor.perspective = perspective;
     many.sensor.position = { 40.0, 40.0, 2000.0 };
-    EXPECT_EQ(instancesFound(scenes::estimatePoses(scenes::bracket(), many, settings), 0.5, 0.6), 3) << perspective;
+    EXPECT_EQ(instancesFound(found(many), 0.5, 0.6), 3) << perspective;
   }
 }
 
@@ -277,16 +248,9 @@ TEST(MEAMPoseEstimation, MoreThanAHundredCopiesComeOut)
 TEST(MEAMPoseEstimation, ThreadsDoNotMatter)
 {
   const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const meam::Poses one =
-    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 1));
-  const meam::Poses three =
-    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 5, 3));
-  ASSERT_EQ(one.size(), three.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-  {
-    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
-    EXPECT_EQ(one[i].score, three[i].score);
-  }
+  const meam::Poses one = found(scene, 1);
+  const meam::Poses three = found(scene, 3);
+  EXPECT_TRUE(scenes::areSame(one, three));
 }
 
 TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
@@ -316,8 +280,7 @@ TEST(MEAMPoseEstimation, BadInput)
 
 TEST(MEAMPoseEstimation, AnObserverSeesWhatEachStageReturns)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
-  const meam::Scene scene = scenes::prepared(seen);
+  const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket();
   const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 3);
   std::vector<std::pair<meam::PoseStage, meam::Poses>> seenStages;
@@ -328,15 +291,9 @@ TEST(MEAMPoseEstimation, AnObserverSeesWhatEachStageReturns)
   {
     EXPECT_EQ(static_cast<int>(seenStages[k].first), k);
   }
-  const auto equal = [](const meam::Poses& a, const meam::Poses& b)
-  {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-      [](const meam::Pose& one, const meam::Pose& other)
-      { return one.T_scene_model.matrix() == other.T_scene_model.matrix() && one.evidence == other.evidence; });
-  };
-  EXPECT_TRUE(equal(seenStages[0].second, meam::detectPoses(scene, model, settings.detection)));
+  EXPECT_TRUE(scenes::areSame(seenStages[0].second, meam::detectPoses(scene, model, settings.detection)));
   EXPECT_EQ(seenStages[4].second.size(), seenStages[3].second.size()); // refinement keeps all
-  EXPECT_TRUE(equal(seenStages[6].second, ranked));
-  EXPECT_TRUE(equal(ranked, meam::rankCandidates(seenStages[0].second, scene, model, settings)));
-  EXPECT_TRUE(equal(ranked, meam::findPoses(scene, model, settings)));
+  EXPECT_TRUE(scenes::areSame(seenStages[6].second, ranked));
+  EXPECT_TRUE(scenes::areSame(ranked, meam::rankCandidates(seenStages[0].second, scene, model, settings)));
+  EXPECT_TRUE(scenes::areSame(ranked, meam::findPoses(scene, model, settings)));
 }

@@ -7,7 +7,7 @@
 
 TEST(DetectionTrace, HoldsEveryStageAndWhatLimitsKeptBack)
 {
-  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::Scene& scene = scenes::copiesScene();
   const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 2);
   meam::DetectionTrace trace(scene, scenes::bracket(), settings);
   ASSERT_EQ(trace.stages().size(), 7u);
@@ -22,7 +22,7 @@ TEST(DetectionTrace, HoldsEveryStageAndWhatLimitsKeptBack)
 
 TEST(DetectionTrace, WithoutScreeningThereIsNoSuchStage)
 {
-  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::Scene& scene = scenes::copiesScene();
   meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 2);
   settings.screening.reset();
   const meam::DetectionTrace trace(scene, scenes::bracket(), settings);

@@ -9,12 +9,10 @@ using meam::PointState;
 
 namespace
 {
-constexpr double Aligned = 10.0; // degrees
-
 meam::PlaceEvidence evidenceAt(const scenes::Seen& seen, const Eigen::Isometry3d& T_scene_model)
 {
   const meam::Scene scene = scenes::prepared(scenes::withTangents(seen));
-  return meam::evidenceAt(scene.T_local_scene() * T_scene_model, scene, scenes::bracket(), {}, Aligned);
+  return meam::evidenceAt(scene.T_local_scene() * T_scene_model, scene, scenes::bracket(), {});
 }
 }
 
@@ -41,8 +39,7 @@ TEST(PlaceEvidence, EdgesOfAnotherDirectionAreNearAndNoMore)
     tangent = Eigen::Vector3f::UnitZ(); // all edges in sight lie flat but the few along z
   }
   const meam::Scene scene = scenes::prepared(seen);
-  const meam::PlaceEvidence evidence =
-    meam::evidenceAt(scene.T_local_scene() * T, scene, scenes::bracket(), {}, Aligned);
+  const meam::PlaceEvidence evidence = meam::evidenceAt(scene.T_local_scene() * T, scene, scenes::bracket(), {});
   EXPECT_GT(evidence.edgesNear, 0.97 * evidence.edges);
   EXPECT_LT(evidence.edgesMatched, 0.1 * evidence.edges);
   EXPECT_LT(evidence.edgesAligned, 0.1 * evidence.edges);
@@ -54,8 +51,7 @@ TEST(PlaceEvidence, OfANoisyScanEdgesAreLookedForAsFarAsVerificationDoes)
   const double diameter = scenes::bracket().diameter;
   meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove({ T })));
   const Eigen::Isometry3d above = Eigen::Translation3d(0.0, 0.0, 0.04 * diameter) * T; // farther than edges are apart
-  const auto evidence = [&]
-  { return meam::evidenceAt(scene.T_local_scene() * above, scene, scenes::bracket(), {}, Aligned); };
+  const auto evidence = [&] { return meam::evidenceAt(scene.T_local_scene() * above, scene, scenes::bracket(), {}); };
   const meam::PlaceEvidence withoutNoise = evidence();
   EXPECT_LT(withoutNoise.edgesAligned, 0.3 * withoutNoise.edges); // those that run upwards
   scene.quality.noise = 0.04 * diameter;

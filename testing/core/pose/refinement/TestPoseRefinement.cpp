@@ -9,18 +9,6 @@
 
 namespace
 {
-const scenes::Seen& seen()
-{
-  static const scenes::Seen copies = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
-  return copies;
-}
-
-const meam::Scene& scene()
-{
-  static const meam::Scene copies = scenes::prepared(seen());
-  return copies;
-}
-
 /// Without what the sensor measured.
 meam::Scene edgesAlone(scenes::Seen bare)
 {
@@ -42,38 +30,41 @@ void expectNear(const meam::Poses& poses, double millimetres, double degrees)
 
 TEST(PoseRefinement, ADisturbedPoseComesBack)
 {
-  expectNear(scenes::refine(scenes::disturbedCopies(1.5, 2.0), scene(), scenes::bracket()), 0.15, 0.25);
+  expectNear(scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket()), 0.15, 0.25);
 }
 
 TEST(PoseRefinement, TheTruePoseStays)
 {
-  expectNear(scenes::refine(scenes::disturbedCopies(0.0, 0.0), scene(), scenes::bracket()), 0.15, 0.25);
+  expectNear(scenes::refine(scenes::disturbedCopies(0.0, 0.0), scenes::copiesScene(), scenes::bracket()), 0.15, 0.25);
 }
 
 TEST(PoseRefinement, EdgesAlone)
 {
-  expectNear(scenes::refine(scenes::disturbedCopies(1.0, 1.5), edgesAlone(seen()), scenes::bracket()), 0.8, 1.5);
+  expectNear(
+    scenes::refine(scenes::disturbedCopies(1.0, 1.5), edgesAlone(scenes::seenCopies()), scenes::bracket()), 0.8, 1.5);
 }
 
 TEST(PoseRefinement, PointToPointOfThePaper)
 {
-  expectNear(
-    scenes::refine(scenes::disturbedCopies(1.5, 2.0), scene(), scenes::bracket(), meam::paperRefinementSettings()), 0.8,
-    1.5);
+  expectNear(scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket(),
+               meam::paperRefinementSettings()),
+    0.8, 1.5);
 }
 
 TEST(PoseRefinement, ScoresAndOrderStayAndThreadsDoNotMatter)
 {
   meam::PoseRefinementSettings settings;
   settings.threads = 1;
-  const meam::Poses one = scenes::refine(scenes::disturbedCopies(1.5, 2.0), scene(), scenes::bracket(), settings);
+  const meam::Poses one =
+    scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket(), settings);
   settings.threads = 3;
-  const meam::Poses three = scenes::refine(scenes::disturbedCopies(1.5, 2.0), scene(), scenes::bracket(), settings);
-  for (std::size_t i = 0; i < one.size(); ++i)
+  const meam::Poses three =
+    scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket(), settings);
+  EXPECT_TRUE(scenes::areSame(one, three));
+  for (const meam::Pose& pose : one)
   {
-    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
-    EXPECT_EQ(one[i].score, 0.5);
-    EXPECT_EQ(one[i].votes, 12);
+    EXPECT_EQ(pose.score, 0.5);
+    EXPECT_EQ(pose.votes, 12);
   }
 }
 
@@ -86,7 +77,7 @@ TEST(PoseRefinement, FarFromAnythingThePoseStaysFinite)
   }
   for (const auto& settings : { meam::PoseRefinementSettings(), meam::paperRefinementSettings() })
   {
-    const meam::Poses refined = scenes::refine(far, scene(), scenes::bracket(), settings);
+    const meam::Poses refined = scenes::refine(far, scenes::copiesScene(), scenes::bracket(), settings);
     for (std::size_t i = 0; i < far.size(); ++i)
     {
       EXPECT_LT(meam::translationError(refined[i].T_scene_model, far[i].T_scene_model), 1e-6);
@@ -98,7 +89,8 @@ TEST(PoseRefinement, FarFromAnythingThePoseStaysFinite)
 
 TEST(PoseRefinement, TellsHowWellTheSceneFixesThePose)
 {
-  for (const meam::Pose& pose : scenes::refine(scenes::disturbedCopies(1.0, 1.5), scene(), scenes::bracket()))
+  for (const meam::Pose& pose :
+    scenes::refine(scenes::disturbedCopies(1.0, 1.5), scenes::copiesScene(), scenes::bracket()))
   {
     EXPECT_EQ(pose.fit.constrained, 6);
     EXPECT_TRUE(pose.fit.constrainedAxes.isOnes(1e-9));
@@ -115,7 +107,7 @@ TEST(PoseRefinement, TellsHowWellTheSceneFixesThePose)
 TEST(PoseRefinement, AlongASingleEdgeNothingFixesThePose)
 {
   // One straight edge: it may slide along itself and turn about itself.
-  scenes::Seen line = seen();
+  scenes::Seen line = scenes::seenCopies();
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
   const Eigen::Vector3f start = (T * Eigen::Vector3d(0, 0, 15)).cast<float>();
   const Eigen::Vector3f end = (T * Eigen::Vector3d(60, 0, 15)).cast<float>();
@@ -138,7 +130,7 @@ TEST(PoseRefinement, AlongASingleEdgeNothingFixesThePose)
 TEST(PoseRefinement, WhereTheSceneLeavesAFreedomIsSaid)
 {
   // The upper faces alone, on which a part may turn about z and slide along x and y.
-  scenes::Seen faces = seen();
+  scenes::Seen faces = scenes::seenCopies();
   const auto isLow = [](const Eigen::Vector3f& point) { return point.z() <= 14.5f; };
   faces.surface.erase(std::remove_if(faces.surface.begin(), faces.surface.end(), isLow), faces.surface.end());
   faces.edges = faces.edges.subset({ 0 });
@@ -154,13 +146,14 @@ TEST(PoseRefinement, BadInput)
 {
   meam::PoseRefinementSettings none;
   none.iterations = 0;
-  EXPECT_THROW(scenes::refine(scenes::disturbedCopies(0, 0), scene(), scenes::bracket(), none), meam::Error);
-  EXPECT_TRUE(scenes::refine({}, scene(), scenes::bracket()).empty());
-  scenes::Seen weighted = seen();
+  EXPECT_THROW(
+    scenes::refine(scenes::disturbedCopies(0, 0), scenes::copiesScene(), scenes::bracket(), none), meam::Error);
+  EXPECT_TRUE(scenes::refine({}, scenes::copiesScene(), scenes::bracket()).empty());
+  scenes::Seen weighted = scenes::seenCopies();
   weighted.edges.weights.assign(weighted.edges.size(), 1.0f);
   EXPECT_NO_THROW(scenes::refine(scenes::disturbedCopies(0, 0), scenes::prepared(weighted), scenes::bracket()));
-  EXPECT_THROW(
-    scenes::refine(scenes::disturbedCopies(0, 0), scene(), scenes::bracket(), {}, [](double) { return false; }),
+  EXPECT_THROW(scenes::refine(scenes::disturbedCopies(0, 0), scenes::copiesScene(), scenes::bracket(), {},
+                 [](double) { return false; }),
     meam::Aborted);
 }
 
@@ -171,11 +164,12 @@ TEST(PoseRefinement, APoseThatNamesNoViewTakesTheNearestToTheSensor)
   for (std::size_t i = 0; i < named.size(); ++i)
   {
     nameless[i].viewId = i % 2 == 0 ? -1 : 99;
-    named[i].viewId = meam::PredictedVisibility(scenes::bracket()).view(named[i].T_scene_model, seen().sensor);
+    named[i].viewId =
+      meam::PredictedVisibility(scenes::bracket()).view(named[i].T_scene_model, scenes::seenCopies().sensor);
   }
   const meam::PoseRefinementSettings settings = meam::paperRefinementSettings();
-  const meam::Poses one = scenes::refine(nameless, scene(), scenes::bracket(), settings);
-  const meam::Poses other = scenes::refine(named, scene(), scenes::bracket(), settings);
+  const meam::Poses one = scenes::refine(nameless, scenes::copiesScene(), scenes::bracket(), settings);
+  const meam::Poses other = scenes::refine(named, scenes::copiesScene(), scenes::bracket(), settings);
   for (std::size_t i = 0; i < named.size(); ++i)
   {
     EXPECT_EQ(one[i].viewId, named[i].viewId);

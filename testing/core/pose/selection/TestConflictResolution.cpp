@@ -255,7 +255,4 @@ TEST(ConflictResolution, NothingAndBadSettings)
   meam::ConflictResolutionSettings settings;
   settings.shared = 1.5;
   EXPECT_THROW(meam::resolveConflicts({ { scene, model, none } }, settings), meam::Error);
-  settings = {};
-  settings.tolerance = NAN;
-  EXPECT_THROW(meam::resolveConflicts({ { scene, model, none } }, settings), meam::Error);
 }

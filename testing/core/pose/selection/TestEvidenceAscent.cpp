@@ -2,10 +2,10 @@
 #include "pose/selection/EvidenceAscent.h"
 
 #include "TestScene.h"
-#include "base/Error.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/selection/PoseSelection.h"
 #include "pose/verification/PoseVerification.h"
+#include "pose/verification/ProbabilityCalibration.h"
 
 #include <gtest/gtest.h>
 
@@ -89,11 +89,11 @@ struct SelectionTrial
   SelectionTrial()
   {
     this->settings.evidence.rates = meam::EvidenceRates();
-    this->settings.restarts.worthTrying = 1.0;
+    this->settings.restartsRefinement = false;
   }
-  meam::Pose selected(int rounds)
+  meam::Pose selected(bool ascends)
   {
-    this->settings.ascent.rounds = rounds;
+    this->settings.ascends = ascends;
     const meam::Poses scored = meam::verifyPoses({ this->aligned }, this->trial.scene, this->trial.model);
     return meam::selectPoses(scored, this->trial.scene, this->trial.model, this->settings).at(0);
   }
@@ -116,12 +116,10 @@ TEST(EvidenceAscent, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAi
   EXPECT_LT(past(best.evidence), 0.8 * before);
 }
 
-TEST(EvidenceAscent, AMotionOfASixthOfTheDiameterIsUndone)
+TEST(EvidenceAscent, AMotionWithinATenthOfTheDiameterIsUndone)
 {
   const Trial& trial = trialOf<CADLength>();
-  meam::EvidenceAscentSettings settings;
-  settings.farthest = 0.2;
-  const meam::EvidenceAscent::Result best = trial.best(trial.displaced(12.0, 5.0), settings);
+  const meam::EvidenceAscent::Result best = trial.best(trial.displaced(6.0, 5.0));
   EXPECT_TRUE(best.isMoved);
   EXPECT_LT(trial.offset(best.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
   EXPECT_LT(trial.turn(best.T_scene_model), 2.5);
@@ -138,10 +136,7 @@ TEST(EvidenceAscent, APoseBelowASurfaceThatMayBeThePartsOwnIsRaised)
   EXPECT_LT(trial.turn(best.T_scene_model), 2.0);
   EXPECT_LT(trial.collector.closelyHidden(best.T_scene_model), 0.1);
   meam::EvidenceAscentSettings settings;
-  settings.leastClose = 100.0;
-  EXPECT_FALSE(trial.best(pose, settings).isMoved);
-  settings = {};
-  settings.covered = 0.0;
+  settings.ifClose = false;
   EXPECT_FALSE(trial.best(pose, settings).isMoved);
 }
 
@@ -149,61 +144,42 @@ TEST(EvidenceAscent, TurnsBeforeShiftsEndHigherThanTheOtherWayRound)
 {
   const Trial& trial = trialOf<CADLength>();
   const meam::EvidenceAscent::Result best = trial.best(trial.sunken(0.0, -8.0));
-  EXPECT_GT(best.logOdds, 6.0) << "with shifts first alone 4, turned by 5.8 degrees";
   EXPECT_LT(trial.turn(best.T_scene_model), 5.0);
+  meam::EvidenceAscentSettings settings;
+  settings.bothOrders = false;
+  EXPECT_GT(best.logOdds, trial.best(trial.sunken(0.0, -8.0), settings).logOdds + 1.0);
 }
 
 TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
 {
   const Trial& trial = trialOf<CADLength>();
-  const auto stays = [&](const meam::Pose& pose, const meam::EvidenceAscentSettings& settings = {})
+  meam::EvidenceAscentSettings settings;
+  const auto stays = [&](const meam::Pose& pose)
   {
     const meam::EvidenceAscent::Result best = trial.best(pose, settings);
     return !best.isMoved && best.T_scene_model.matrix() == pose.T_scene_model.matrix();
   };
   EXPECT_TRUE(stays(trial.displaced(0.3)));
-  const meam::Pose pose = trial.displaced(12.0);
-  EXPECT_FALSE(stays(pose));
-  meam::EvidenceAscentSettings settings;
-  settings.worthTrying = 1.0;
-  EXPECT_TRUE(stays(pose, settings));
-  settings = {};
-  settings.sure = 0.0;
-  EXPECT_TRUE(stays(pose, settings));
-  settings = {};
-  settings.rounds = 0;
-  EXPECT_TRUE(stays(pose, settings));
-  settings = {};
-  settings.price = 1e6;
-  EXPECT_TRUE(stays(pose, settings));
+  EXPECT_TRUE(stays(trial.displaced(40.0))) << "unlikely";
+  EXPECT_FALSE(stays(trial.displaced(12.0)));
+  settings.ifPast = settings.ifClose = false;
+  EXPECT_TRUE(stays(trial.displaced(12.0)));
 }
 
-TEST(EvidenceAscent, APoseIsMovedNoFartherThanAllowedAndPaysForIt)
+TEST(EvidenceAscent, APoseIsMovedNoFartherThanATenthOfTheDiameterAndPaysForIt)
 {
   const Trial& trial = trialOf<CADLength>();
-  const meam::Pose pose = trial.displaced(12.0);
-  meam::EvidenceAscentSettings settings;
-  settings.farthest = 0.04;
-  settings.price = 0.25;
-  const meam::EvidenceAscent::Result best = trial.best(pose, settings);
+  const meam::EvidenceAscent::Result best = trial.best(trial.displaced(12.0));
   EXPECT_TRUE(best.isMoved);
-  EXPECT_GE(trial.offset(best.T_scene_model), 12.0 - 0.04 * trial.model.diameter - 1e-6);
+  EXPECT_GE(trial.offset(best.T_scene_model), 12.0 - 0.1 * trial.model.diameter - 1e-6);
   const meam::EvidenceCounts counts = trial.collector.collect(best.T_scene_model).counts;
-  EXPECT_DOUBLE_EQ(best.logOdds, trial.collector.logOdds(counts, meam::EvidenceRates()) - 0.25);
-}
-
-TEST(EvidenceAscent, AStrideBelowOneIsRefused)
-{
-  const Trial& trial = trialOf<CADLength>();
-  meam::EvidenceAscentSettings settings;
-  settings.pointStride = 0;
-  EXPECT_THROW(trial.best(trial.displaced(0.0), settings), meam::Error);
+  EXPECT_DOUBLE_EQ(best.logOdds, trial.collector.logOdds(counts, meam::EvidenceRates()) - 1.0);
 }
 
 TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
 {
   SelectionTrial trial;
-  const meam::Pose before = trial.selected(0), after = trial.selected(meam::EvidenceAscentSettings().rounds);
+  const meam::Pose before = trial.selected(false), after = trial.selected(true);
   const Eigen::Vector3d middle = trial.trial.model.visibility->middle().cast<double>();
   const double distance = meam::translationError(before.T_scene_model, after.T_scene_model, middle);
   EXPECT_GT(distance, 1.0);
@@ -215,12 +191,14 @@ TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
 TEST(EvidenceAscent, WhereAPoseIsMovedToDoesNotTellThatThePartIsThere)
 {
   SelectionTrial trial;
-  meam::ProbabilityCalibration& calibration = trial.settings.evidence.calibration;
-  const int rounds = meam::EvidenceAscentSettings().rounds;
-  calibration.present = { 100.0, 0.0 };
-  const meam::Pose before = trial.selected(0), after = trial.selected(rounds);
-  ASSERT_GT(after.evidence, before.evidence + 1.0);
-  // It is there by the evidence of the moved pose, and is not by that of the pose before.
-  calibration.present = { -50.0 * (before.evidence + after.evidence), 100.0 };
-  EXPECT_NEAR(trial.selected(rounds).probability, calibration.leastPresent * after.probability, 1e-6);
+  const double doubted = trial.selected(true).evidence;
+  trial.settings.partIsPresent = true;
+  const meam::Pose before = trial.selected(false), after = trial.selected(true);
+  const auto doubt = [&](const meam::Pose& best)
+  {
+    const double isPresent = meam::probabilityOf(meam::CalibrationOfPresence.logOdds(best.evidence));
+    return meam::withCertainty(after.evidence, std::max(meam::LeastPresent, isPresent));
+  };
+  EXPECT_NEAR(doubted, doubt(before), 1e-9);
+  EXPECT_GT(doubt(after), doubt(before) + 0.1);
 }

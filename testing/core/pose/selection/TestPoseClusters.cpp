@@ -20,10 +20,9 @@ meam::Pose at(double x, double degrees = 0.0)
 using Indices = std::vector<int>;
 
 /// Of poses, best first, those that stay.
-Indices staying(const meam::Poses& poses, meam::PoseClustersSettings settings = {}, const meam::Symmetries& same = {})
+Indices staying(const meam::Poses& poses, int posesPerInstance = 1, const meam::Symmetries& same = {})
 {
-  settings.distance = 10.0;
-  return meam::firstOfClusters(poses, same, scenes::bracket(), settings);
+  return meam::firstOfClusters(poses, same, scenes::bracket(), 10.0, posesPerInstance);
 }
 }
 
@@ -38,15 +37,9 @@ TEST(PoseClusters, OfAnInstanceTheFirstStays)
 
 TEST(PoseClusters, AlternativesOfAnInstanceAreTurned)
 {
-  meam::PoseClustersSettings settings;
-  settings.posesPerInstance = 2;
   const meam::Poses poses{ at(0), at(1, 14), at(2, 16), at(3, 90), at(50), at(51, 90) };
-  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 2, 4, 5 }));
-  settings.angle = 20.0;
-  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 3, 4, 5 }));
-  settings.posesPerInstance = 3;
-  settings.angle = 15.0;
-  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 2, 3, 4, 5 }));
+  EXPECT_EQ(staying(poses, 2), (Indices{ 0, 2, 4, 5 }));
+  EXPECT_EQ(staying(poses, 3), (Indices{ 0, 2, 3, 4, 5 }));
 }
 
 TEST(PoseClusters, WhatASymmetryMakesEqualIsNoAlternative)
@@ -54,14 +47,12 @@ TEST(PoseClusters, WhatASymmetryMakesEqualIsNoAlternative)
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   const auto quarters = [&](int turns)
   { return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2.0, middle); };
-  meam::PoseClustersSettings settings;
-  settings.posesPerInstance = 2;
   const meam::Poses poses{ at(0), at(1, 180), at(2, 90), at(3, 45) };
-  EXPECT_EQ(staying(poses, settings), (Indices{ 0, 1 }));
+  EXPECT_EQ(staying(poses, 2), (Indices{ 0, 1 }));
   meam::Symmetries half;
   half.discrete = { quarters(2) };
-  EXPECT_EQ(staying(poses, settings, half), (Indices{ 0, 2 }));
+  EXPECT_EQ(staying(poses, 2, half), (Indices{ 0, 2 }));
   meam::Symmetries nearQuarters;
   nearQuarters.near = { { quarters(1) }, { quarters(2) }, { quarters(3) } };
-  EXPECT_EQ(staying(poses, settings, nearQuarters), (Indices{ 0, 3 })) << "approximate ones as well";
+  EXPECT_EQ(staying(poses, 2, nearQuarters), (Indices{ 0, 3 })) << "approximate ones as well";
 }

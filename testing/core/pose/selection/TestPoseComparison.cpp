@@ -138,6 +138,7 @@ TEST(PoseComparison, WhatBothPredictDoesNotCountUnlessEachIsComparedByAllThatItP
 TEST(PoseComparison, EdgesThatShouldBeOutOfSightCountHalf)
 {
   // A scene edge runs where the lower edge of the true pose's cut corner is, which the plate hides.
+  const scenes::Seen without = lyingPlate(false);
   scenes::Seen seen = scenes::seenFromAbove({ scenes::Copy{ parts::cutPlate(), Eigen::Isometry3d::Identity() } });
   const float below = meam::bounds(parts::cutPlate().vertices).min().z();
   for (float along = 0.1f; along < 0.9f; along += 0.02f)
@@ -145,14 +146,13 @@ TEST(PoseComparison, EdgesThatShouldBeOutOfSightCountHalf)
     seen.edges.points.push_back({ 6.0f + 24.0f * along, 30.0f - 10.0f * along, below });
   }
   seen = scenes::withTangents(seen, plate().diameter);
-  const auto advantage = [&](double hidden)
-  {
-    meam::PoseComparisonSettings settings;
-    settings.hidden = hidden;
-    return advantageIn(seen, settings);
-  };
-  EXPECT_GT(advantage(1.0), advantage(0.0) + 20.0);
-  EXPECT_NEAR(advantage(meam::PoseComparisonSettings{}.hidden), 0.5 * (advantage(0.0) + advantage(1.0)), 1e-9);
+  const Comparing in(seen);
+  const Eigen::Isometry3d back = in.scene.T_local_scene().inverse();
+  const meam::Points& edges = in.scene.edgePoints().points;
+  const auto isBelow = [&](const Eigen::Vector3f& point) { return (back * point.cast<double>()).z() < below + 0.5; };
+  const double added = static_cast<double>(std::count_if(edges.begin(), edges.end(), isBelow));
+  EXPECT_GT(added, 5.0);
+  EXPECT_NEAR(in.comparison.advantage(in.at(0), in.at(1)) - advantageIn(without), 0.5 * 3.0 * added, 1.5);
 }
 
 TEST(PoseComparison, EdgesAloneDecide)

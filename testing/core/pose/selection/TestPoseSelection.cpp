@@ -8,34 +8,20 @@
 namespace
 {
 using scenes::displaced;
-
-const meam::Scene& scene()
-{
-  static const meam::Scene copies =
-    scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
-  return copies;
-}
-
-/// A part that lies alone at T, seen from above.
-meam::Scene alone(const meam::TriangleMesh& part, const meam::TrainedModel& model, const Eigen::Isometry3d& T)
-{
-  return scenes::prepared(
-    scenes::withTangents(scenes::seenFromAbove({ scenes::Copy{ part, T } }), model.diameter), model.diameter);
-}
+using scenes::gearAt;
 
 /// Verified, then selected.
 meam::Poses selected(const meam::Poses& poses, const meam::PoseSelectionSettings& settings = {},
-  const meam::Scene& in = scene(), const meam::TrainedModel& model = scenes::bracket())
+  const meam::Scene& in = scenes::copiesScene(), const meam::TrainedModel& model = scenes::bracket())
 {
   return scenes::select(scenes::verify(poses, in, model), in, model, settings);
 }
 
-/// Of an instance two.
+/// Of an instance some.
 meam::PoseSelectionSettings alternatives()
 {
   meam::PoseSelectionSettings settings;
   settings.method = meam::SelectionMethod::Alternatives;
-  settings.leastScore = 0.0;
   return settings;
 }
 
@@ -53,21 +39,6 @@ meam::Pose ranked(double value, const Eigen::Isometry3d& T)
 /// Far from each other, and from all else.
 Eigen::Isometry3d place(int k) { return Eigen::Isometry3d(Eigen::Translation3d(200.0 * k, 0, 0)); }
 
-const meam::TrainedModel& gear() { return scenes::trained<parts::gear>(); }
-
-Eigen::Isometry3d turned(double degrees)
-{
-  return Eigen::Translation3d(40, -20, 7) *
-         meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
-}
-
-/// It lies as turned(0).
-const meam::Scene& gearScene()
-{
-  static const meam::Scene scene = alone(parts::gear(), gear(), turned(0));
-  return scene;
-}
-
 const meam::TrainedModel& plate() { return scenes::trained<parts::cutPlate>(); }
 
 Eigen::Isometry3d quarter(int turns)
@@ -78,7 +49,7 @@ Eigen::Isometry3d quarter(int turns)
 /// It lies as quarter(0).
 const meam::Scene& plateScene()
 {
-  static const meam::Scene scene = alone(parts::cutPlate(), plate(), quarter(0));
+  static const meam::Scene scene = scenes::alone(parts::cutPlate(), plate(), quarter(0));
   return scene;
 }
 }
@@ -104,12 +75,7 @@ TEST(PoseSelection, OneInstanceIsReturnedOnce)
   for (const int threads : { 1, 3 })
   {
     settings.threads = threads;
-    const meam::Poses again = selected(candidates, settings);
-    ASSERT_EQ(again.size(), 3u);
-    for (std::size_t i = 0; i < best.size(); ++i)
-    {
-      EXPECT_EQ(again[i].T_scene_model.matrix(), best[i].T_scene_model.matrix());
-    }
+    EXPECT_TRUE(scenes::areSame(selected(candidates, settings), best));
   }
   settings.maximumPoses = 2;
   EXPECT_EQ(selected(candidates, settings).size(), 2u);
@@ -152,17 +118,14 @@ TEST(PoseSelection, NoPoseIsLikelierThanThatThePartIsThereAtAll)
   const Eigen::Isometry3d wrong = scenes::displaced(scenes::threeCopies()[1], 9.0, 20.0).T_scene_model;
   meam::PoseSelectionSettings settings;
   settings.evidence.rates.emplace();
-  settings.restarts.worthTrying = 1.0; // the wrong pose stays
-  meam::ProbabilityCalibration& calibration = settings.evidence.calibration;
+  settings.restartsRefinement = false; // the wrong pose stays
   const auto last = [&](const meam::Poses& poses) { return selected(poses, settings).back(); };
   const meam::Pose alone = last({ displaced(wrong) });
   const meam::Pose besideTheTrueOne = last({ displaced(wrong), displaced(scenes::threeCopies()[0]) });
   ASSERT_TRUE(alone.T_scene_model.isApprox(besideTheTrueOne.T_scene_model, 1e-9));
   EXPECT_LT(alone.probability, 0.3 * besideTheTrueOne.probability);
   EXPECT_GT(alone.probability, 0.2 * besideTheTrueOne.probability) << "it may be alone";
-  calibration.present = { 0.0, 0.0 }; // an even chance, whatever the best pose
-  EXPECT_NEAR(last({ displaced(scenes::threeCopies()[0]) }).probability, 0.5, 0.02);
-  calibration.present = { 100.0, 0.0 };
+  settings.partIsPresent = true;
   EXPECT_NEAR(
     last({ displaced(wrong) }).probability, besideTheTrueOne.probability, 0.05 * besideTheTrueOne.probability);
 }
@@ -178,7 +141,7 @@ TEST(PoseSelection, PosesThatMatchTheSameSurfaceAreOfOneInstance)
   EXPECT_EQ(selected(row, settings).size(), 2u);
   const meam::Poses best = selected(row);
   ASSERT_EQ(best.size(), 1u);
-  const meam::Pose aligned = scenes::align(displaced(T), scene(), scenes::bracket());
+  const meam::Pose aligned = scenes::align(displaced(T), scenes::copiesScene(), scenes::bracket());
   EXPECT_LT(
     meam::translationError(best[0].T_scene_model, aligned.T_scene_model), 1e-4); // not where the other came from
   EXPECT_LT(meam::translationError(best[0].T_scene_model, T), 0.15);
@@ -201,7 +164,7 @@ TEST(PoseSelection, PosesThatAreAlignedToOnePlaceAreOne)
   // Nearer than the scene tells apart, farther than the cluster distance.
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
   meam::PoseSelectionSettings settings;
-  settings.clusters.distance = 0.5;
+  settings.clusterDistance = 0.5;
   const meam::Poses best = selected({ displaced(T), displaced(T, 0.8, 0.5), displaced(T, -0.8, 0.5) }, settings);
   ASSERT_EQ(best.size(), 1u);
   EXPECT_LT(meam::translationError(best[0].T_scene_model, T), 0.15);
@@ -219,7 +182,7 @@ TEST(PoseSelection, TheOneThatIsLeftOfAnInstanceIsFarFromAllOthers)
     }
   }
   meam::PoseSelectionSettings settings;
-  settings.clusters.distance = 5.0;
+  settings.clusterDistance = 5.0;
   const meam::Poses best = selected(row, settings);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& point : scenes::bracket().surface.points)
@@ -238,11 +201,11 @@ TEST(PoseSelection, TheOneThatIsLeftOfAnInstanceIsFarFromAllOthers)
 
 TEST(PoseSelection, AnInstanceIsTurnedWhereNoNearSymmetryLeads)
 {
-  const meam::Pose wrong = displaced(turned(18)); // teeth on gaps
-  const meam::Poses found = selected({ wrong }, {}, gearScene(), gear());
+  const meam::Pose wrong = displaced(gearAt(18)); // teeth on gaps
+  const meam::Poses found = selected({ wrong }, {}, scenes::gearScene(), scenes::trained<parts::gear>());
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_LT(meam::rotationError(found[0].T_scene_model, turned(0)), 0.3);
-  EXPECT_LT(meam::translationError(found[0].T_scene_model, turned(0)), 0.2);
+  EXPECT_LT(meam::rotationError(found[0].T_scene_model, gearAt(0)), 0.3);
+  EXPECT_LT(meam::translationError(found[0].T_scene_model, gearAt(0)), 0.2);
   EXPECT_GT(found[0].fit.iterations, 0);
 }
 
@@ -285,10 +248,10 @@ TEST(PoseSelection, TurnsOfANearlyRoundPartAreOneAlternative)
   meam::Poses candidates;
   for (const double degrees : { 0.0, 18.0, 36.0, 100.0 })
   {
-    candidates.push_back(displaced(turned(degrees)));
+    candidates.push_back(displaced(gearAt(degrees)));
   }
-  candidates.push_back(displaced(turned(0) * Eigen::AngleAxisd(M_PI / 6.0, Eigen::Vector3d::UnitX()))); // tilted
-  const meam::Poses kept = selected(candidates, alternatives(), gearScene(), gear());
+  candidates.push_back(displaced(gearAt(0) * Eigen::AngleAxisd(M_PI / 6.0, Eigen::Vector3d::UnitX()))); // tilted
+  const meam::Poses kept = selected(candidates, alternatives(), scenes::gearScene(), scenes::trained<parts::gear>());
   ASSERT_EQ(kept.size(), 2u);
   const auto tilt = [&](int k) { return std::acos(std::abs(kept[k].T_scene_model.linear()(2, 2))) * 180.0 / M_PI; };
   EXPECT_NEAR(tilt(0), 0.0, 0.1);
@@ -297,22 +260,22 @@ TEST(PoseSelection, TurnsOfANearlyRoundPartAreOneAlternative)
 
 TEST(PoseSelection, AlternativesThatAreNotWorthRefiningGo)
 {
-  meam::PoseSelectionSettings settings = alternatives();
-  settings.leastRefined = 1;
-  settings.worthRefining = 0.15;
-  const meam::Poses poses{ ranked(0.8, place(0)), ranked(0.5, place(1)), ranked(0.2, place(2)), ranked(0.1, place(3)) };
-  const meam::Poses kept = scenes::select(poses, scene(), scenes::bracket(), settings);
-  ASSERT_EQ(kept.size(), 3u) << "the best";
-  for (std::size_t i = 0; i < kept.size(); ++i)
+  const auto kept = [](int likely, meam::SelectionMethod method)
   {
-    EXPECT_EQ(kept[i].probability, poses[i].probability);
-    EXPECT_TRUE(kept[i].T_scene_model.isApprox(poses[i].T_scene_model, 1e-9)) << "as it came";
-  }
-  settings.leastRefined = 4;
-  EXPECT_EQ(scenes::select(poses, scene(), scenes::bracket(), settings).size(), 4u) << "so many at least";
-  settings.leastRefined = 1;
-  settings.method = meam::SelectionMethod::Clusters;
-  EXPECT_EQ(scenes::select(poses, scene(), scenes::bracket(), settings).size(), 4u) << "asked of alternatives alone";
+    meam::Poses poses;
+    for (int k = 0; k < 70; ++k)
+    {
+      poses.push_back(ranked(k < likely ? 1e-6 : 1e-8, place(k)));
+    }
+    meam::PoseSelectionSettings settings;
+    settings.method = method;
+    return scenes::select(poses, scenes::copiesScene(), scenes::bracket(), settings);
+  };
+  const meam::Poses best = kept(65, meam::SelectionMethod::Alternatives);
+  ASSERT_EQ(best.size(), 65u) << "all that are likely";
+  EXPECT_TRUE(best.back().T_scene_model.isApprox(place(64), 1e-9)) << "as it came";
+  EXPECT_EQ(kept(5, meam::SelectionMethod::Alternatives).size(), 60u) << "so many at least";
+  EXPECT_EQ(kept(5, meam::SelectionMethod::Clusters).size(), 70u) << "asked of alternatives alone";
 }
 
 TEST(PoseSelection, WhereNothingWasMeasuredThereIsNothingToRefine)
@@ -323,10 +286,7 @@ TEST(PoseSelection, WhereNothingWasMeasuredThereIsNothingToRefine)
     poses.push_back(displaced(T));
     poses.push_back(displaced(T, 500.0));
   }
-  meam::PoseSelectionSettings settings;
-  settings.method = meam::SelectionMethod::Alternatives;
-  EXPECT_EQ(selected(poses, settings).size(), 3u);
-  EXPECT_EQ(selected(poses, alternatives()).size(), 6u) << "all may stay";
+  EXPECT_EQ(selected(poses, alternatives()).size(), 3u);
 }
 
 TEST(PoseSelection, TheFirstOfEachClusterStaysAsItCame)
@@ -336,15 +296,15 @@ TEST(PoseSelection, TheFirstOfEachClusterStaysAsItCame)
   const meam::Poses poses{ ranked(0.8, place(0)),
     ranked(0.7, place(0) * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ())), ranked(0.5, place(1)),
     ranked(0.2, place(2)) };
-  const meam::Poses kept = scenes::select(poses, scene(), scenes::bracket(), settings);
+  const meam::Poses kept = scenes::select(poses, scenes::copiesScene(), scenes::bracket(), settings);
   ASSERT_EQ(kept.size(), 3u);
   EXPECT_EQ(kept[0].probability, 0.8);
   EXPECT_TRUE(kept[0].T_scene_model.isApprox(place(0), 1e-9));
   EXPECT_EQ(kept[1].probability, 0.5);
   settings.minimumProbability = 0.5;
-  EXPECT_EQ(scenes::select(poses, scene(), scenes::bracket(), settings).size(), 2u);
+  EXPECT_EQ(scenes::select(poses, scenes::copiesScene(), scenes::bracket(), settings).size(), 2u);
   settings.maximumPoses = 1;
-  EXPECT_EQ(scenes::select(poses, scene(), scenes::bracket(), settings).size(), 1u);
+  EXPECT_EQ(scenes::select(poses, scenes::copiesScene(), scenes::bracket(), settings).size(), 1u);
 }
 
 TEST(PoseSelection, NothingAndAbort)
@@ -354,9 +314,9 @@ TEST(PoseSelection, NothingAndAbort)
   {
     meam::PoseSelectionSettings settings;
     settings.method = method;
-    EXPECT_TRUE(scenes::select({}, scene(), scenes::bracket(), settings).empty());
-    EXPECT_THROW(scenes::select({ displaced(scenes::threeCopies()[0]) }, scene(), scenes::bracket(), settings,
-                   [](double) { return false; }),
+    EXPECT_TRUE(scenes::select({}, scenes::copiesScene(), scenes::bracket(), settings).empty());
+    EXPECT_THROW(scenes::select({ displaced(scenes::threeCopies()[0]) }, scenes::copiesScene(), scenes::bracket(),
+                   settings, [](double) { return false; }),
       meam::Aborted);
   }
 }

@@ -11,7 +11,7 @@ namespace
 double leftOf(const Eigen::AngleAxisd& turn, double probability = 0.5)
 {
   const meam::TrainedModel& model = scenes::bracket();
-  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::Scene& scene = scenes::copiesScene();
   const Eigen::Isometry3d truth = scene.T_local_scene() * scenes::threeCopies()[0];
   const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
   meam::Pose pose;

@@ -35,15 +35,12 @@ Eigen::Isometry3d turned(double degrees)
 /// The pose after the decision in a scene in which a part lies as turned(0).
 meam::Pose decided(const meam::TriangleMesh& part, double degrees, double probability = 0.9)
 {
-  const meam::Scene scene = scenes::prepared(
-    scenes::withTangents(
-      scenes::seenFromAbove({ scenes::Copy{ part, Eigen::Isometry3d::Identity() } }), model().diameter),
-    model().diameter);
+  const meam::Scene scene = scenes::alone(part, model(), Eigen::Isometry3d::Identity());
   const meam::PoseComparison comparison(scene, model());
   meam::PoseRefinementSettings rotated;
   rotated.maximumDistance = 0.04 * model().diameter;
   const meam::EvidenceCollector collector(scene, model());
-  const meam::RotationDecision decision(scene, model(), comparison, collector, {}, rotated, {});
+  const meam::RotationDecision decision(scene, model(), comparison, collector, {}, rotated);
   meam::Pose pose = scenes::displaced(scene.T_local_scene() * turned(degrees));
   pose.probability = probability;
   decision.decide(pose, comparison.contender(pose.T_scene_model));

@@ -31,8 +31,7 @@ meam::TriangleMesh barePlate() { return parts::box({ -20.0f, 0.0f, 0.0f }, { 20.
 meam::PoseEvidence onBarePlate(const meam::TrainedModel& ribbed)
 {
   const Eigen::Isometry3d up(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()));
-  const meam::Scene scene = scenes::prepared(
-    scenes::withTangents(scenes::seenFromAbove({ { barePlate(), up } }), ribbed.diameter), ribbed.diameter);
+  const meam::Scene scene = scenes::alone(barePlate(), ribbed, up);
   return meam::EvidenceCollector(scene, ribbed).collect(scene.T_local_scene() * up);
 }
 }
@@ -53,122 +52,104 @@ TEST(PoseEvidence, TheScoreIsTheShareOfWhatNothingHidesThatIsThere)
   EXPECT_EQ(evidence.score(), 0.0);
 }
 
-TEST(PoseEvidence, CountsAddUpByTheirWeights)
+TEST(PoseEvidence, CountsAddUpAndMuchOfOneThingCountsByItsLogarithm)
 {
-  meam::EvidenceCounts counts;
-  counts.there = 10.0;
-  counts.unclear = 2.0;
-  counts.turned = 1.0;
-  counts.past = 0.5;
-  counts.farPast = 0.25;
-  counts.enclosed = 0.125;
-  counts.hidden = 4.0;
-  counts.unmeasured = 7.0;
-  counts.ends = 6.0;
-  counts.goesOn = 3.0;
-  counts.edgesFound = 20.0;
-  counts.edgesMissing = 10.0;
-  meam::EvidenceWeights weights;
-  weights.there = 1.0;
-  weights.unclear = 0.5;
-  weights.turned = -1.0;
-  weights.past = -4.0;
-  weights.farPast = -8.0;
-  weights.enclosed = -16.0;
-  weights.hidden = -0.25;
-  weights.manyHidden = 4.0;
-  weights.unmeasured = 0.1;
-  weights.outline = 0.25;
-  weights.edge = 0.5;
-  weights.manyLines = 4.0;
-  const double ofSurface = 10.0 + 1.0 - 1.0 - 2.0 - 2.0 - 2.0 - 0.25 * 4.0 * std::log(2.0) + 0.7;
-  EXPECT_NEAR(counts.ofSurface(weights), ofSurface, 1e-12);
+  const auto ofSurface = [](double meam::EvidenceCounts::*count, double patches)
+  {
+    meam::EvidenceCounts counts;
+    counts.*count = patches;
+    return counts.ofSurface();
+  };
+  using Counts = meam::EvidenceCounts;
+  EXPECT_DOUBLE_EQ(ofSurface(&Counts::there, 10.0), 10.0);
+  EXPECT_LT(ofSurface(&Counts::unclear, 10.0), 10.0);
+  EXPECT_GT(ofSurface(&Counts::unclear, 10.0), 0.0);
+  EXPECT_LT(ofSurface(&Counts::farPast, 1.0), ofSurface(&Counts::past, 1.0));
+  for (const auto against : { &Counts::turned, &Counts::past, &Counts::enclosed, &Counts::unmeasured })
+  {
+    EXPECT_LT(ofSurface(against, 1.0), 0.0);
+    EXPECT_DOUBLE_EQ(ofSurface(against, 4.0), 4.0 * ofSurface(against, 1.0));
+  }
+  EXPECT_GT(ofSurface(&Counts::hidden, 400.0), 20.0 * ofSurface(&Counts::hidden, 4.0)) << "one thing hides many";
+
   // An edge found is twice as likely where the part is, one that is missing half as likely; an outline that ends four
   // times, one that goes on a quarter.
   const meam::EvidenceRates rates{ { 2.0 / 3.0, 1.0 / 3.0 }, { 0.8, 0.2 } };
-  const double ofEdges = 0.5 * (20.0 - 10.0) * std::log(2.0), ofOutline = 0.25 * (6.0 - 3.0) * std::log(4.0);
-  EXPECT_NEAR(counts.ofEdges(weights, rates), ofEdges, 1e-12);
-  // Much of it counts by its logarithm, for or against the pose.
-  const double ofLines = 4.0 * std::log(1.0 + (ofEdges + ofOutline) / 4.0);
-  EXPECT_NEAR(counts.ofLines(weights, rates), ofLines, 1e-12);
-  EXPECT_NEAR(counts.sum(weights, rates), ofSurface + ofLines, 1e-12);
+  Counts counts;
+  counts.there = 10.0;
+  counts.past = 0.5;
+  counts.edgesFound = 20.0;
+  counts.edgesMissing = 10.0;
+  EXPECT_NEAR(counts.ofEdges(rates), 0.1 * (20.0 - 10.0) * std::log(2.0), 1e-12);
+  EXPECT_NEAR(counts.ofLines(rates), 16.0 * std::log1p(counts.ofEdges(rates) / 16.0), 1e-12);
+  counts.ends = 600.0;
+  counts.goesOn = 300.0;
+  const double ofLines = counts.ofLines(rates);
+  EXPECT_LT(ofLines, 0.25 * 0.7 * 300.0 * std::log(4.0));
+  EXPECT_DOUBLE_EQ(counts.sum(rates), counts.ofSurface() + ofLines);
   std::swap(counts.edgesFound, counts.edgesMissing);
   std::swap(counts.ends, counts.goesOn);
-  EXPECT_NEAR(counts.ofLines(weights, rates), -ofLines, 1e-12);
-  EXPECT_NEAR(counts.sum(weights, { { 0.4, 0.4 }, { 0.7, 0.7 } }), ofSurface, 1e-12)
+  EXPECT_NEAR(counts.ofLines(rates), -ofLines, 1e-12);
+  EXPECT_NEAR(counts.sum({ { 0.4, 0.4 }, { 0.7, 0.7 } }), counts.ofSurface(), 1e-12)
     << "rates that tell nothing have no say";
 }
 
 TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
 {
   // Of twenty candidates the surface leaves no doubt which two are right: they find nine edges of ten, the others one
-  // of ten.
+  // of ten. The usual rates count as 150 edges.
   std::vector<meam::EvidenceCounts> candidates(20);
   for (std::size_t k = 0; k < candidates.size(); ++k)
   {
     const bool isRight = k == 3 || k == 11;
-    candidates[k].there = isRight ? 100.0 : 0.0;
-    candidates[k].past = isRight ? 0.0 : 100.0;
+    candidates[k].there = isRight ? 1000.0 : 0.0;
+    candidates[k].past = isRight ? 0.0 : 1000.0;
     candidates[k].edgesFound = isRight ? 900.0 : 100.0;
     candidates[k].edgesMissing = isRight ? 100.0 : 900.0;
   }
-  meam::EvidenceRatesSettings settings;
-  settings.usualEdges = 30.0;
-  const meam::LogisticRegression likely{ -50.0, 1.0 };
-  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, likely, settings);
-  EXPECT_NEAR(rates.edges.found, (1800.0 + 30.0 * 0.75) / 2030.0, 1e-12);
-  EXPECT_NEAR(rates.edges.chance, (18 * 100.0 + 30.0 * 0.3) / 18030.0, 1e-12);
-  // A candidate of which nothing is known but that it is as likely right as wrong counts half.
-  meam::EvidenceWeights bySurface;
-  bySurface.edge = bySurface.outline = 0.0;
-  candidates[3].there = 50.0;
-  EXPECT_NEAR(meam::evidenceRates(candidates, bySurface, likely, settings).edges.found,
-    (450.0 + 900.0 + 30.0 * 0.75) / 1530.0, 1e-12);
-  candidates[3].there = 100.0;
-  const meam::EvidenceRates usual = meam::evidenceRates({}, {}, likely);
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates);
+  EXPECT_NEAR(rates.edges.found, (1800.0 + 150.0 * 0.75) / 2150.0, 1e-12);
+  EXPECT_NEAR(rates.edges.chance, (18 * 100.0 + 150.0 * 0.3) / 18150.0, 1e-12);
+  const meam::EvidenceRates usual = meam::evidenceRates({});
   EXPECT_DOUBLE_EQ(usual.edges.found, 0.75);
   EXPECT_DOUBLE_EQ(usual.edges.chance, 0.3);
+
   // Edges that are found where the part is no more often than elsewhere never speak against it.
   for (meam::EvidenceCounts& counts : candidates)
   {
     std::swap(counts.edgesFound, counts.edgesMissing);
   }
-  const meam::EvidenceRates misleading = meam::evidenceRates(candidates, {}, likely);
+  const meam::EvidenceRates misleading = meam::evidenceRates(candidates);
   EXPECT_GT(misleading.edges.found, misleading.edges.chance);
   EXPECT_LT(misleading.edges.found - misleading.edges.chance, 0.03);
 }
 
 TEST(PoseEvidence, RatesOfOutlinesAreThoseOfTheScan)
 {
-  // The outline of one candidate of ten ends nearly everywhere, that of the others nearly nowhere.
+  // The outline of one candidate of ten ends nearly everywhere, that of the others nearly nowhere. The usual rates
+  // count as 90 sides.
   std::vector<meam::EvidenceCounts> candidates(10);
   for (std::size_t k = 0; k < candidates.size(); ++k)
   {
-    candidates[k].there = k == 4 ? 100.0 : 0.0;
-    candidates[k].past = k == 4 ? 0.0 : 100.0;
+    candidates[k].there = k == 4 ? 1000.0 : 0.0;
+    candidates[k].past = k == 4 ? 0.0 : 1000.0;
     candidates[k].ends = k == 4 ? 95.0 : 10.0;
     candidates[k].goesOn = k == 4 ? 5.0 : 90.0;
   }
-  meam::EvidenceRatesSettings settings;
-  settings.usualOutline = 100.0;
-  const meam::LogisticRegression likely{ -50.0, 1.0 };
-  settings.usual.outline = { 0.9, 0.5 };
-  const meam::EvidenceRates rates = meam::evidenceRates(candidates, {}, likely, settings);
-  EXPECT_NEAR(rates.outline.found, (95.0 + 90.0) / 200.0, 1e-12);
-  EXPECT_NEAR(rates.outline.chance, (9 * 10.0 + 50.0) / 1000.0, 1e-12);
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates);
+  EXPECT_NEAR(rates.outline.found, (95.0 + 90.0 * 0.9) / 190.0, 1e-12);
+  EXPECT_NEAR(rates.outline.chance, (9 * 10.0 + 90.0 * 0.55) / 990.0, 1e-12);
   // However few outlines end where the surface is, three quarters of a part's would.
   candidates[4].ends = 5.0;
-  candidates[4].goesOn = 9995.0;
-  meam::EvidenceWeights bySurface;
-  bySurface.edge = bySurface.outline = 0.0;
-  EXPECT_DOUBLE_EQ(meam::evidenceRates(candidates, bySurface, likely, settings).outline.found, settings.leastEnds);
+  candidates[4].goesOn = 995.0;
+  EXPECT_DOUBLE_EQ(meam::evidenceRates(candidates).outline.found, 0.75);
   candidates.erase(candidates.begin() + 4); // the others tell nothing
-  EXPECT_NEAR(meam::evidenceRates(candidates, {}, likely, settings).outline.found, 0.9, 1e-12);
+  EXPECT_NEAR(meam::evidenceRates(candidates).outline.found, 0.9, 1e-12);
 }
 
 TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
 {
-  scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  scenes::Seen seen = scenes::seenCopies();
   const Eigen::AlignedBox3f parts = meam::bounds(seen.surface);
   for (float x = parts.min().x() - 100.0f; x < parts.max().x() + 100.0f; x += 1.0f)
   {
@@ -186,7 +167,7 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   sunk.translation().z() -= 2.0 * scenes::bracket().diameter;
   const meam::EvidenceCounts below = collector.collect(scene.T_local_scene() * sunk).counts;
   const meam::TrainedModel& bracket = scenes::bracket();
-  const double patch = meam::EvidenceWeights{}.patch * bracket.diameter;
+  const double patch = meam::PatchSize * bracket.diameter;
   EXPECT_EQ(collector.shareBehind(scene.T_local_scene() * sunk), 1.0);
   EXPECT_NEAR(
     below.enclosed, 0.25 * bracket.verificationPoints.size() * bracket.verificationArea() / (patch * patch), 1e-9)
@@ -204,7 +185,7 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
 TEST(PoseEvidence, OutlineUnderTheFloorDoesNotEnd)
 {
   // A pose under a floor's border: beyond the border, where the sensor sees farther, its outline ends.
-  scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  scenes::Seen seen = scenes::seenCopies();
   const Eigen::AlignedBox3f parts = meam::bounds(seen.surface);
   const float low = parts.min().z() - 10.0f, border = parts.max().x() + 50.0f;
   for (float x = parts.min().x() - 100.0f; x < border; x += 1.0f)
@@ -239,29 +220,22 @@ TEST(PoseEvidence, WhatASurfaceCloseBeforeHidesIsCounted)
   // A plate of 40 x 25 mm, 6 mm thick, lies flat; poses below it see its upper side before them.
   const meam::TrainedModel& plate = scenes::trained<barePlate>();
   const Eigen::Isometry3d up(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()));
-  const meam::Scene scene = scenes::prepared(
-    scenes::withTangents(scenes::seenFromAbove({ { barePlate(), up } }), plate.diameter), plate.diameter);
+  const meam::Scene scene = scenes::alone(barePlate(), plate, up);
   const auto below = [&](double millimetres)
   { return Eigen::Isometry3d(scene.T_local_scene() * Eigen::Translation3d(0.0, 0.0, -millimetres) * up); };
-  const auto closelyHidden = [&](double millimetres, const meam::EvidenceSettings& settings = {})
-  { return meam::EvidenceCollector(scene, plate, settings).closelyHidden(below(millimetres)); };
+  const auto closelyHidden = [&](double millimetres)
+  { return meam::EvidenceCollector(scene, plate).closelyHidden(below(millimetres)); };
   EXPECT_EQ(closelyHidden(0.0), 0.0);
   const double hidden = meam::EvidenceCollector(scene, plate).collect(below(3.0)).counts.hidden;
   EXPECT_GT(hidden, 15.0) << "patches, of 44 with the border";
   EXPECT_LE(closelyHidden(3.0), hidden + 1e-9); // farther than the tolerance of 1.4 mm
   EXPECT_GT(closelyHidden(3.0), 0.95 * hidden) << "all but the border, where the plate ends";
   EXPECT_EQ(closelyHidden(8.0), 0.0) << "more than a tenth of the diameter before it";
-  meam::EvidenceSettings settings;
-  settings.closelyBefore = 0.2;
-  EXPECT_GT(closelyHidden(8.0, settings), 15.0);
-  settings.facing = 1.01; // no surface faces the same way
-  EXPECT_EQ(closelyHidden(3.0, settings), 0.0);
 }
 
 TEST(PoseEvidence, EdgesOnLinesLongerThanThePartSayNothing)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
-  const meam::Scene scene = scenes::prepared(seen);
+  const meam::Scene& scene = scenes::copiesScene();
   ASSERT_EQ(std::count(scene.isOnLongLine.begin(), scene.isOnLongLine.end(), 1), 0);
   const meam::EvidenceCollector collector(scene, scenes::bracket());
   const Eigen::Isometry3d T = scene.T_local_scene() * scenes::threeCopies()[0];
@@ -298,7 +272,7 @@ TEST(PoseEvidence, EdgesOnLinesLongerThanThePartSayNothing)
 
 TEST(PoseEvidence, APoseThatLiesInASurfaceIsGivenAwayByItsOutline)
 {
-  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::Scene& scene = scenes::copiesScene();
   const meam::EvidenceCollector collector(scene, scenes::bracket());
   const Eigen::Isometry3d right = scene.T_local_scene() * scenes::threeCopies()[0];
   const meam::EvidenceCounts counts = collector.collect(right).counts;
@@ -342,7 +316,7 @@ TEST(PoseEvidence, MatchedAreTheSameWithoutALookAtTheRest)
 {
   for (const bool hasSurface : { true, false })
   {
-    scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+    scenes::Seen seen = scenes::seenCopies();
     if (!hasSurface)
     {
       seen.surface.clear();
@@ -360,7 +334,7 @@ TEST(PoseEvidence, MatchedAreTheSameWithoutALookAtTheRest)
 
 TEST(PoseEvidence, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
 {
-  const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies())));
+  const meam::Scene& scene = scenes::copiesScene();
   Eigen::Isometry3d lifted = scenes::threeCopies()[0]; // in front of all that was measured
   lifted.translation().z() += 40.0;
   meam::EvidenceSettings with, without;

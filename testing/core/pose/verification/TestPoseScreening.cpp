@@ -8,63 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace
 {
-const scenes::Seen& seen()
-{
-  static const scenes::Seen copies = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
-  return copies;
-}
-
-const meam::Scene& scene()
-{
-  static const meam::Scene copies = scenes::prepared(seen());
-  return copies;
-}
-
 meam::Pose at(const Eigen::Isometry3d& T) { return scenes::displaced(T); }
 
-/// Of one candidate alone.
-meam::PoseScreeningSettings noneEnough()
+/// The share of its surface that is there.
+double surfaceShare(const meam::Scene& in, const Eigen::Isometry3d& T, const meam::PoseScreeningSettings& settings = {})
 {
-  meam::PoseScreeningSettings settings;
-  settings.enough = 0;
-  settings.evidence.tolerance = 3.0;
-  return settings;
-}
-
-/// The share of its surface that is there: the most that may be asked of the pose so that it stays.
-double surfaceShare(
-  const meam::Scene& in, const Eigen::Isometry3d& T, meam::PoseScreeningSettings settings = noneEnough())
-{
-  double low = 0.0, high = 1.0;
-  for (int step = 0; step < 30; ++step)
-  {
-    settings.leastSurface = 0.5 * (low + high);
-    const bool stays = !scenes::screen({ at(T) }, in, scenes::bracket(), settings).empty();
-    (stays ? low : high) = settings.leastSurface;
-  }
-  return low;
-}
-
-/// A gear of which a sensor sees the upper side, turned by so many degrees.
-Eigen::Isometry3d turned(double degrees)
-{
-  return Eigen::Translation3d(40, -20, 7) *
-         meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, Eigen::Vector3d::Zero());
-}
-
-const meam::TrainedModel& gear() { return scenes::trained<parts::gear>(); }
-
-/// It lies as turned(0).
-const meam::Scene& gearScene()
-{
-  static const meam::Scene alone = scenes::prepared(
-    scenes::withTangents(scenes::seenFromAbove({ scenes::Copy{ parts::gear(), turned(0) } }), gear().diameter),
-    gear().diameter);
-  return alone;
+  return meam::surfaceShares({ at(in.T_local_scene() * T) }, in, scenes::bracket(), settings).front();
 }
 }
 
@@ -78,23 +29,23 @@ TEST(PoseScreening, CandidatesWithoutTheirSurfaceGoWhereThereAreEnough)
   }
   meam::PoseScreeningSettings settings;
   settings.enough = 5;
-  const meam::Poses kept = scenes::screen(poses, scene(), scenes::bracket(), settings);
+  const meam::Poses kept = scenes::screen(poses, scenes::copiesScene(), scenes::bracket(), settings);
   ASSERT_EQ(kept.size(), 3u);
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
     EXPECT_TRUE(kept[i].T_scene_model.isApprox(scenes::threeCopies()[i], 1e-9)) << "in the order they came";
   }
   settings.enough = 6;
-  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 6u) << "all may stay";
+  EXPECT_EQ(scenes::screen(poses, scenes::copiesScene(), scenes::bracket(), settings).size(), 6u) << "all may stay";
 }
 
 TEST(PoseScreening, WhatWasNotMeasuredMayBeThereOrNot)
 {
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
-  const double whole = surfaceShare(scene(), T);
+  const double whole = surfaceShare(scenes::copiesScene(), T);
   EXPECT_GT(whole, 0.9);
-  EXPECT_NEAR(surfaceShare(scene(), Eigen::Translation3d(500, 0, 0) * T), 0.5, 1e-8) << "nothing was measured";
-  scenes::Seen part = seen();
+  EXPECT_EQ(surfaceShare(scenes::copiesScene(), Eigen::Translation3d(500, 0, 0) * T), 0.5) << "nothing was measured";
+  scenes::Seen part = scenes::seenCopies();
   const float middle = static_cast<float>((T * scenes::bracket().surfaceDistance.middle().cast<double>()).x());
   const auto gone =
     std::remove_if(part.surface.begin(), part.surface.end(), [&](const auto& p) { return p.x() > middle; });
@@ -107,10 +58,10 @@ TEST(PoseScreening, WhatWasNotMeasuredMayBeThereOrNot)
 TEST(PoseScreening, WithoutFreeSpaceWhatTheSensorLookedPastMayBeThereOrNot)
 {
   const Eigen::Isometry3d lifted = Eigen::Translation3d(0, 0, 40) * scenes::threeCopies()[0];
-  meam::PoseScreeningSettings settings = noneEnough();
-  EXPECT_NEAR(surfaceShare(scene(), lifted, settings), 0.0, 1e-8);
-  settings.evidence.freeSpace = false;
-  EXPECT_NEAR(surfaceShare(scene(), lifted, settings), 0.5, 1e-8);
+  EXPECT_EQ(surfaceShare(scenes::copiesScene(), lifted), 0.0);
+  meam::PoseScreeningSettings settings;
+  settings.freeSpace = false;
+  EXPECT_EQ(surfaceShare(scenes::copiesScene(), lifted, settings), 0.5);
 }
 
 TEST(PoseScreening, OfDuplicatesMoreVotesDoNotMakeUpForSurfaceThatIsNotThere)
@@ -120,14 +71,14 @@ TEST(PoseScreening, OfDuplicatesMoreVotesDoNotMakeUpForSurfaceThatIsNotThere)
   meam::Poses poses{ at(Eigen::Translation3d(0, 0, above) * T), at(T) };
   poses[0].votes = 120;
   poses[1].votes = 100;
-  const meam::Poses kept = scenes::screen(poses, scene(), scenes::bracket());
+  const meam::Poses kept = scenes::screen(poses, scenes::copiesScene(), scenes::bracket());
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_LT(meam::translationError(kept[0].T_scene_model, T), 1e-6);
 }
 
 TEST(PoseScreening, OfDuplicatesWithoutASurfaceTheOneWithMostVotesStays)
 {
-  scenes::Seen bare = seen();
+  scenes::Seen bare = scenes::seenCopies();
   bare.surface.clear();
   const meam::Scene edgesOnly = scenes::prepared(bare);
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
@@ -153,17 +104,14 @@ TEST(PoseScreening, OfDistanceAndAngleBothTellCandidatesApart)
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   const auto turnedInPlace = [&](double degrees)
   { return at(T * meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, middle)); };
-  const auto left = [](const meam::Poses& poses, const meam::PoseScreeningSettings& settings)
-  { return scenes::screen(poses, scene(), scenes::bracket(), settings).size(); };
-  meam::PoseScreeningSettings settings;
-  const double apart = settings.distanceShare * scenes::bracket().diameter;
-  EXPECT_EQ(left({ at(T), scenes::displaced(T, 0.99 * apart) }, settings), 1u);
-  EXPECT_EQ(left({ at(T), scenes::displaced(T, 1.01 * apart) }, settings), 2u);
-  EXPECT_EQ(left({ at(T), turnedInPlace(0.99 * settings.angle) }, settings), 1u);
-  EXPECT_EQ(left({ at(T), turnedInPlace(1.01 * settings.angle) }, settings), 2u);
-  settings.distance = 1.0; // mm
-  EXPECT_EQ(left({ at(T), scenes::displaced(T, 0.99) }, settings), 1u);
-  EXPECT_EQ(left({ at(T), scenes::displaced(T, 1.01) }, settings), 2u);
+  const auto left = [](const meam::Pose& a, const meam::Pose& b) {
+    return scenes::screen({ a, b }, scenes::copiesScene(), scenes::bracket()).size();
+  };
+  const double apart = 0.04 * scenes::bracket().diameter;
+  EXPECT_EQ(left(at(T), scenes::displaced(T, 0.99 * apart)), 1u);
+  EXPECT_EQ(left(at(T), scenes::displaced(T, 1.01 * apart)), 2u);
+  EXPECT_EQ(left(at(T), turnedInPlace(5.9)), 1u);
+  EXPECT_EQ(left(at(T), turnedInPlace(6.1)), 2u);
 }
 
 TEST(PoseScreening, OfACrowdNoTwoAreDuplicatesAndWhatWentIsOneOfWhatStayed)
@@ -182,12 +130,11 @@ TEST(PoseScreening, OfACrowdNoTwoAreDuplicatesAndWhatWentIsOneOfWhatStayed)
   const meam::TrainedModel& model = scenes::bracket();
   meam::PoseScreeningSettings settings;
   settings.leastSurface = 0.0;
-  settings.distance = 3.0;
-  const meam::Poses kept = scenes::screen(poses, scene(), model, settings);
+  const meam::Poses kept = scenes::screen(poses, scenes::copiesScene(), model, settings);
   const auto sameAs = [&](const meam::Pose& a, const meam::Pose& b)
   {
-    return meam::translationError(a.T_scene_model, b.T_scene_model, middle) < settings.distance &&
-           meam::rotationError(a.T_scene_model, b.T_scene_model) < settings.angle;
+    return meam::translationError(a.T_scene_model, b.T_scene_model, middle) < 0.04 * model.diameter &&
+           meam::rotationError(a.T_scene_model, b.T_scene_model) < 6.0;
   };
   EXPECT_GT(kept.size(), 20u);
   EXPECT_LT(kept.size(), 300u);
@@ -204,19 +151,6 @@ TEST(PoseScreening, OfACrowdNoTwoAreDuplicatesAndWhatWentIsOneOfWhatStayed)
   }
 }
 
-TEST(PoseScreening, AnyDistanceIsTaken)
-{
-  const Eigen::Isometry3d T = scenes::threeCopies()[0];
-  const meam::Poses poses{ at(T), scenes::displaced(T, 1.0), scenes::displaced(T, 500.0) };
-  meam::PoseScreeningSettings settings;
-  settings.distance = std::numeric_limits<double>::max();
-  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 1u) << "all are turned alike";
-  settings.distance = 1e-9;
-  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 3u);
-  settings.distance = settings.distanceShare = 0.0;
-  EXPECT_EQ(scenes::screen(poses, scene(), scenes::bracket(), settings).size(), 3u) << "none is a duplicate";
-}
-
 TEST(PoseScreening, AModelWithoutASurfaceIsScreenedForDuplicatesAlone)
 {
   meam::TrainedModel model = scenes::bracket();
@@ -229,7 +163,7 @@ TEST(PoseScreening, AModelWithoutASurfaceIsScreenedForDuplicatesAlone)
   }
   meam::PoseScreeningSettings settings;
   settings.enough = 0;
-  EXPECT_EQ(scenes::screen(poses, scene(), model, settings).size(), 4u);
+  EXPECT_EQ(scenes::screen(poses, scenes::copiesScene(), model, settings).size(), 4u);
 }
 
 TEST(PoseScreening, CandidatesThatATurnMakesTheSameTakeOnePlace)
@@ -237,10 +171,10 @@ TEST(PoseScreening, CandidatesThatATurnMakesTheSameTakeOnePlace)
   meam::Poses candidates;
   for (const double degrees : { 0.0, 18.0, 36.0, 100.0 })
   {
-    candidates.push_back(at(turned(degrees)));
+    candidates.push_back(at(scenes::gearAt(degrees)));
   }
-  candidates.push_back(at(turned(0) * Eigen::AngleAxisd(M_PI / 6.0, Eigen::Vector3d::UnitX()))); // tilted
-  const meam::Poses kept = scenes::screen(candidates, gearScene(), gear());
+  candidates.push_back(at(scenes::gearAt(0) * Eigen::AngleAxisd(M_PI / 6.0, Eigen::Vector3d::UnitX()))); // tilted
+  const meam::Poses kept = scenes::screen(candidates, scenes::gearScene(), scenes::trained<parts::gear>());
   ASSERT_EQ(kept.size(), 2u);
   const auto tilt = [&](int k) { return std::acos(std::abs(kept[k].T_scene_model.linear()(2, 2))) * 180.0 / M_PI; };
   EXPECT_NEAR(tilt(0), 0.0, 0.1);
@@ -249,13 +183,13 @@ TEST(PoseScreening, CandidatesThatATurnMakesTheSameTakeOnePlace)
 
 TEST(PoseScreening, CandidatesAreTurnedByTheLikeliestNearSymmetry)
 {
-  const meam::Pose wrong = at(turned(108));
-  const meam::Poses verified = scenes::verify({ wrong }, gearScene(), gear());
+  const meam::Pose wrong = at(scenes::gearAt(108));
+  const meam::Poses verified = scenes::verify({ wrong }, scenes::gearScene(), scenes::trained<parts::gear>());
   ASSERT_EQ(verified.size(), 1u);
-  EXPECT_TRUE(verified[0].T_scene_model.isApprox(turned(108), 1e-9)) << "a pose that is only scored stays";
-  const meam::Poses screened = scenes::screen({ wrong }, gearScene(), gear());
+  EXPECT_TRUE(verified[0].T_scene_model.isApprox(scenes::gearAt(108), 1e-9)) << "a pose that is only scored stays";
+  const meam::Poses screened = scenes::screen({ wrong }, scenes::gearScene(), scenes::trained<parts::gear>());
   ASSERT_EQ(screened.size(), 1u);
-  EXPECT_LT(meam::rotationError(screened[0].T_scene_model, turned(0)), 1.0);
+  EXPECT_LT(meam::rotationError(screened[0].T_scene_model, scenes::gearAt(0)), 1.0);
 }
 
 TEST(PoseScreening, ThreadsDoNotMatterAndAbortStops)
@@ -267,14 +201,11 @@ TEST(PoseScreening, ThreadsDoNotMatterAndAbortStops)
   }
   meam::PoseScreeningSettings settings;
   settings.threads = 1;
-  const meam::Poses one = scenes::screen(poses, scene(), scenes::bracket(), settings);
+  const meam::Poses one = scenes::screen(poses, scenes::copiesScene(), scenes::bracket(), settings);
   settings.threads = 3;
-  const meam::Poses three = scenes::screen(poses, scene(), scenes::bracket(), settings);
-  ASSERT_EQ(one.size(), three.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-  {
-    EXPECT_EQ(one[i].T_scene_model.matrix(), three[i].T_scene_model.matrix());
-  }
-  EXPECT_TRUE(scenes::screen({}, scene(), scenes::bracket()).empty());
-  EXPECT_THROW(scenes::screen(poses, scene(), scenes::bracket(), {}, [](double) { return false; }), meam::Aborted);
+  const meam::Poses three = scenes::screen(poses, scenes::copiesScene(), scenes::bracket(), settings);
+  EXPECT_TRUE(scenes::areSame(one, three));
+  EXPECT_TRUE(scenes::screen({}, scenes::copiesScene(), scenes::bracket()).empty());
+  EXPECT_THROW(
+    scenes::screen(poses, scenes::copiesScene(), scenes::bracket(), {}, [](double) { return false; }), meam::Aborted);
 }

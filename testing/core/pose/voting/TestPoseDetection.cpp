@@ -115,7 +115,7 @@ TEST(PoseDetection, AMovedPartIsFoundAgain)
 
 TEST(PoseDetection, CopiesInASceneAreAmongTheCandidates)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const scenes::Seen& seen = scenes::seenCopies();
   const meam::Poses poses = scenes::detect(seen.edges, scenes::bracket());
   for (const auto& T : scenes::threeCopies())
   {
@@ -125,18 +125,13 @@ TEST(PoseDetection, CopiesInASceneAreAmongTheCandidates)
 
 TEST(PoseDetection, TheSameForAnyNumberOfThreads)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const scenes::Seen& seen = scenes::seenCopies();
   meam::PoseDetectionSettings settings;
   settings.threads = 1;
   const meam::Poses one = scenes::detect(seen.edges, scenes::bracket(), settings);
   settings.threads = 3;
   const meam::Poses three = scenes::detect(seen.edges, scenes::bracket(), settings);
-  ASSERT_EQ(one.size(), three.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-  {
-    EXPECT_EQ(one[i].votes, three[i].votes);
-    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
-  }
+  EXPECT_TRUE(scenes::areSame(one, three));
 }
 
 TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
@@ -147,42 +142,41 @@ TEST(PoseDetection, TheSeedChoosesTheReferencePoints)
   const meam::Poses again = scenes::detect(edges, scenes::bracket(), settings);
   settings.seed = 2;
   const meam::Poses other = scenes::detect(edges, scenes::bracket(), settings);
-  const auto same = [](const meam::Poses& a, const meam::Poses& b)
-  {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-      [](const auto& p, const auto& q) { return p.T_scene_model.matrix() == q.T_scene_model.matrix(); });
-  };
-  EXPECT_TRUE(same(first, again));
-  EXPECT_FALSE(same(first, other));
+  EXPECT_TRUE(scenes::areSame(first, again));
+  EXPECT_FALSE(scenes::areSame(first, other));
 }
 
 TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
 {
-  meam::LocalCloud edges = meam::toLocalCloud(modelEdges(Eigen::Isometry3d::Identity()));
-  const std::size_t count = edges.cloud.size();
-  meam::PoseDetectionSettings settings;
-  settings.leastReferences = settings.leastScanReferences = 1;
-  settings.boundaryReferences = 20;
-  settings.scanReferences = 40;
-  const auto candidates = [&] { return meam::detectPoses(edges, scenes::bracket(), settings).size(); };
-  const auto of = [&](double share) { return static_cast<std::size_t>(std::ceil(share * count)); };
-  const std::size_t ofBoundary = candidates();
-  // All edges of the part are more than one view of it shows.
-  EXPECT_GE(ofBoundary, 20u);
-  EXPECT_LE(ofBoundary, 80u);
-  edges.fromScan = true;
-  EXPECT_NEAR(static_cast<double>(candidates()), 2.0 * static_cast<double>(ofBoundary), 1.0);
-  meam::LocalCloud two = edges;
-  for (std::size_t k = 0; k < count; ++k)
+  const auto copies = [](int count, bool fromScan)
   {
-    two.cloud.points.push_back(two.cloud.points[k] + Eigen::Vector3f(500, 0, 0));
-    two.cloud.tangents.push_back(two.cloud.tangents[k]);
-  }
-  EXPECT_NEAR(static_cast<double>(meam::detectPoses(two, scenes::bracket(), settings).size()),
-    4.0 * static_cast<double>(ofBoundary), 8.0)
-    << "as many for each copy";
+    meam::LocalCloud edges;
+    for (int copy = 0; copy < count; ++copy)
+    {
+      const meam::PointCloud one = modelEdges(Eigen::Isometry3d(Eigen::Translation3d(200.0 * copy, 0, 0)));
+      edges.cloud.points.insert(edges.cloud.points.end(), one.points.begin(), one.points.end());
+      edges.cloud.tangents.insert(edges.cloud.tangents.end(), one.tangents.begin(), one.tangents.end());
+    }
+    edges.fromScan = fromScan;
+    return edges;
+  };
+  const auto candidates = [&](int count, bool fromScan)
+  { return static_cast<double>(meam::detectPoses(copies(count, fromScan), scenes::bracket()).size()); };
+  // All edges of the part are more than one view of it shows: up to four copies each, ten points of each.
+  const double ofBoundary = candidates(100, false);
+  EXPECT_GE(ofBoundary, 1000.0);
+  EXPECT_LE(ofBoundary, 4000.0);
+  EXPECT_NEAR(candidates(50, false), 0.5 * ofBoundary, 2.0) << "as many for each copy";
+  EXPECT_NEAR(candidates(100, true), 4.0 * ofBoundary, 4.0);
+  EXPECT_EQ(candidates(2, false), 100.0) << "no fewer";
+  meam::PoseDetectionSettings settings;
   settings.referenceShare = 0.75;
-  EXPECT_EQ(candidates(), of(0.75)) << "whatever they come from";
+  const meam::LocalCloud edges = copies(1, true);
+  const double all = static_cast<double>(edges.cloud.size());
+  EXPECT_EQ(candidates(1, true), all) << "fewer than 3000";
+  const meam::LocalCloud many = copies(20, true);
+  EXPECT_EQ(static_cast<double>(meam::detectPoses(many, scenes::bracket(), settings).size()), std::ceil(15.0 * all))
+    << "whatever they come from";
 }
 
 TEST(PoseDetection, ByTheSurfaceAlone)
@@ -213,16 +207,12 @@ TEST(PoseDetection, ByTheSurfaceAlone)
   const meam::Poses one = candidates(meam::Features::Surface);
   settings.threads = 3;
   const meam::Poses three = candidates(meam::Features::Surface);
-  ASSERT_EQ(one.size(), three.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-  {
-    EXPECT_TRUE(one[i].T_scene_model.matrix() == three[i].T_scene_model.matrix());
-  }
+  EXPECT_TRUE(scenes::areSame(one, three));
 }
 
 TEST(PoseDetection, SaysWhatTheModelOrTheSceneHasNot)
 {
-  scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  scenes::Seen seen = scenes::seenCopies();
   meam::TrainedModel edges = scenes::bracket();
   edges.settings.features = meam::Features::Edges;
   meam::PoseDetectionSettings settings;
@@ -241,7 +231,7 @@ class PoseDetectionVotes : public testing::TestWithParam<std::pair<bool, bool>>
 TEST_P(PoseDetectionVotes, CountsTheVotesOfAllPairs)
 {
   const meam::TrainedModel& model = scenes::bracket();
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
+  const scenes::Seen& seen = scenes::seenCopies();
   meam::PoseDetectionSettings settings;
   settings.referenceShare = 1.0;
   std::tie(settings.signedTangents, settings.smoothPeaks) = GetParam();
@@ -338,9 +328,7 @@ TEST(PoseDetection, BadInput)
   {
     EXPECT_NE(std::string(error.what()).find("1000"), std::string::npos) << error.what();
   }
-  meam::PoseDetectionSettings none, tooMany;
-  none.boundaryReferences = 0.0;
-  EXPECT_THROW(scenes::detect(modelEdges(Eigen::Isometry3d::Identity()), model, none), meam::Error);
+  meam::PoseDetectionSettings tooMany;
   tooMany.referenceShare = 1.1;
   EXPECT_THROW(scenes::detect(modelEdges(Eigen::Isometry3d::Identity()), model, tooMany), meam::Error);
   EXPECT_THROW(
@@ -349,8 +337,7 @@ TEST(PoseDetection, BadInput)
 
 TEST(PoseDetection, NearAPlaceAllPointsVote)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
-  const meam::Scene scene = scenes::prepared(seen);
+  const meam::Scene& scene = scenes::copiesScene();
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   const Eigen::Isometry3d T = scene.T_local_scene() * scenes::threeCopies()[1];
   const Eigen::Vector3f place = (T * middle).cast<float>();

@@ -2,6 +2,7 @@
 #include "pose/voting/VoteSupport.h"
 
 #include "TestScene.h"
+#include "pose/PoseTolerances.h"
 
 #include <gtest/gtest.h>
 
@@ -29,13 +30,11 @@ int electing(const std::vector<meam::PointVotes>& votes)
 
 TEST(VoteSupport, PointsThatElectAPoseAreItsCandidates)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(scenes::threeCopies()));
-  const meam::Scene scene = scenes::prepared(seen);
+  const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket();
   meam::PoseDetectionSettings detection;
   detection.referenceShare = 1.0;
   const meam::Poses candidates = meam::detectPoses(scene, model, detection);
-  const meam::VoteSupportSettings settings;
   for (const Eigen::Isometry3d& T : scenes::threeCopies())
   {
     const Eigen::Isometry3d place = scene.T_local_scene() * T;
@@ -44,8 +43,8 @@ TEST(VoteSupport, PointsThatElectAPoseAreItsCandidates)
     const auto leading = std::count_if(candidates.begin(), candidates.end(),
       [&](const meam::Pose& pose)
       {
-        return meam::translationError(pose.T_scene_model, place, middle) < settings.distance * model.diameter &&
-               meam::rotationError(pose.T_scene_model, place) < settings.angle;
+        return meam::translationError(pose.T_scene_model, place, middle) < meam::SamePoseDistance * model.diameter &&
+               meam::rotationError(pose.T_scene_model, place) < meam::SamePoseAngle;
       });
     EXPECT_GT(electing(votes), 20);
     EXPECT_LE(electing(votes), leading);

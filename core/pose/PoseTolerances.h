@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace meam
+{
+// Shares of the part's diameter that several steps mean: they follow how finely parts of any size are sampled, trained
+// and measured in a usual bin.
+inline constexpr double FitDistance = 0.03;       ///< a model point this near to the scene fits
+inline constexpr double ExplainedDistance = 0.01; ///< a scene edge this near to an edge of the part is explained by it
+inline constexpr double UnexplainedDistance = 0.02; ///< a scene point this far from the part is not explained by it
+
+// Two poses that no step has refined yet are one and the same below both.
+inline constexpr double SamePoseDistance =
+  0.1;                                        ///< of the diameter, between the part's middles: no two copies are nearer
+inline constexpr double SamePoseAngle = 15.0; ///< degrees: two steps of the voted rotation
+}
