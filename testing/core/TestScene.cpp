@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestScene.h"
 
+#include "pose/refinement/FinalAlignment.h"
+
 #include <cmath>
 #include <map>
 

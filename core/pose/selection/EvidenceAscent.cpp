@@ -69,7 +69,7 @@ EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_mod
     for (const std::vector<Motion>& motions : this->Orders)
     {
       Result moved = this->at(this->climb(T_scene_model, motions));
-      moved.logOdds -= Price;
+      moved.logOdds -= this->Settings.penalizes ? Price : 0.0;
       moved.logOddsBefore = best.logOddsBefore;
       moved.isMoved = true;
       if (moved.logOdds > best.logOdds)
@@ -84,13 +84,13 @@ EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_mod
 bool EvidenceAscent::isContradicted(const Result& pose) const
 {
   const double probability = probabilityOf(pose.logOdds);
-  if (probability < WorthTrying || probability >= Sure)
+  if (probability < WorthTrying || (this->Settings.leavesSure && probability >= Sure))
   {
     return false;
   }
   const EvidenceCounts& counts = pose.evidence.counts;
   return (this->Settings.ifPast && counts.past + counts.farPast >= LeastPast) ||
-         (this->Settings.ifClose && probability < Covered &&
+         (this->Settings.ifClose && (!this->Settings.leavesLikely || probability < Covered) &&
            this->Collector.closelyHidden(pose.T_scene_model) >= LeastClose);
 }
 

@@ -10,9 +10,12 @@ namespace meam
 {
 struct EvidenceAscentSettings
 {
-  bool ifPast = true;     ///< poses move that the sensor saw past,
-  bool ifClose = true;    ///< and those that a surface close before them hides
-  bool bothOrders = true; ///< shifts first and turns first; else shifts first alone
+  bool ifPast = true;       ///< poses move that the sensor saw past,
+  bool ifClose = true;      ///< and those that a surface close before them hides
+  bool bothOrders = true;   ///< shifts first and turns first; else shifts first alone
+  bool leavesLikely = true; ///< what is close before a likely pose is another object
+  bool leavesSure = true;   ///< a sure pose stays
+  bool penalizes = true;    ///< a moved pose, for the best of so many has some evidence by chance
 };
 
 /// Moves a pose to where the scan speaks for it the most, by compass searches along and about the axes of the part (the

@@ -10,9 +10,9 @@ namespace meam
 {
 namespace
 {
-constexpr double SharedWithin = 0.5;  // of the diameter: middles farther apart are of two instances all the same
-constexpr double EqualEvidence = 3.0; // poses whose evidence (log odds) differs by less are compared point by point
-constexpr int AllCompared = 300;      // of more poses than this each is compared only with those that stay
+constexpr double SharedWithin = 0.5; // of the diameter: middles farther apart are of two instances all the same
+constexpr double NearlyEqual = 3.0;  // poses whose evidence (log odds) differs by less are compared point by point
+constexpr int AllCompared = 300;     // of more poses than this each is compared only with those that stay
 
 /// Places that are of one instance, directly or by others between them, ascending: different groups have nothing to do
 /// with each other.
@@ -39,10 +39,11 @@ std::vector<std::vector<int>> joined(const std::vector<std::vector<int>>& before
 }
 
 InstanceChoice::InstanceChoice(const Poses& poses, double distance, const TrainedModel& model,
-  const EvidenceCollector& collector, const PoseComparison& comparison, int threads)
+  const EvidenceCollector& collector, const PoseComparison& comparison, bool compares, int threads)
   : InPoses(poses)
   , Collector(collector)
   , Comparison(comparison)
+  , EqualEvidence(compares ? NearlyEqual : 0.0)
   , Threads(threads)
   , Distance(distance)
   , Within(SharedWithin * model.diameter)
@@ -166,7 +167,7 @@ void InstanceChoice::choose(int k, const std::vector<int>& before, std::vector<c
   const bool isBest = std::all_of(alternatives.begin(), alternatives.end(),
     [&](int other)
     {
-      return this->InPoses[k].evidence > this->InPoses[other].evidence - EqualEvidence &&
+      return this->InPoses[k].evidence > this->InPoses[other].evidence - this->EqualEvidence &&
              this->Comparison.advantage(this->contender(k), this->contender(other)) > 0.0;
     });
   if (!isBest)

@@ -20,9 +20,10 @@ inline constexpr double SharedDistance = 0.04; ///< of the diameter, between mat
 class InstanceChoice
 {
 public:
-  /// Poses whose middles are nearer than `distance` (mm) are of one instance.
+  /// Poses whose middles are nearer than `distance` (mm) are of one instance. `compares`: of nearly equal evidence the
+  /// one stays that the scene speaks for, point by point; else the first.
   InstanceChoice(const Poses& poses, double distance, const TrainedModel& model, const EvidenceCollector& collector,
-    const PoseComparison& comparison, int threads);
+    const PoseComparison& comparison, bool compares, int threads);
 
   /// Of the poses, best first, the indices of those that stay.
   std::vector<int> select(const Progress& progress = {});
@@ -51,6 +52,7 @@ private:
   const Poses& InPoses;
   const EvidenceCollector& Collector;
   const PoseComparison& Comparison;
+  double EqualEvidence; ///< log odds: poses that differ by less are compared
   int Threads;
   double Distance;                                                  ///< mm
   double Within;                                                    ///< mm

@@ -82,7 +82,14 @@ public:
     {
       this->Decision.decide(pose, asItIs);
     }
-    pose = alignRobustly(pose, this->InScene, this->Model);
+    if (this->Settings.aligns)
+    {
+      pose = alignRobustly(pose, this->InScene, this->Model);
+    }
+    else
+    {
+      pose.fit = fitInPlace(pose, pose.T_scene_model, this->InScene, this->Model);
+    }
     const EvidenceAscent::Result best =
       this->Settings.ascends ? this->Ascent.best(pose.T_scene_model) : this->Ascent.at(pose.T_scene_model);
     const Eigen::Isometry3d T_aligned = pose.T_scene_model;
@@ -187,7 +194,8 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
 {
   const EvidenceCollector collector(scene, model, settings.evidence);
   const PoseComparison comparison(scene, model, settings.comparison);
-  InstanceChoice choice(scored, clusterDistance(settings, model), model, collector, comparison, settings.threads);
+  InstanceChoice choice(scored, clusterDistance(settings, model), model, collector, comparison,
+    settings.comparesInstances, settings.threads);
   const std::vector<int> selected = choice.select(subProgress(progress, 0.0, 0.3));
   const EvidenceRates rates = evidenceRatesOf(scored, collector, settings.evidence, RateStride, settings.threads);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison);

@@ -32,6 +32,8 @@ struct PoseSelectionSettings
   bool decidesRotation = true;    ///< between near-symmetries
   bool ascends = true;            ///< where the scan contradicts an aligned pose
   bool dropsShared = true;        ///< poses whose surface better ones have
+  bool comparesInstances = true;  ///< poses of nearly the same evidence, point by point
+  bool aligns = true;             ///< robustly, at the end
   EvidenceSettings evidence;      ///< that poses are scored by once more
   PoseComparisonSettings comparison;
   RefinementRestartsSettings restarts;

@@ -60,9 +60,10 @@ EvidenceCollector::EvidenceCollector(const Scene& scene, const TrainedModel& mod
   : InScene(scene)
   , Model(model)
   , Settings(settings)
-  , Tolerance(static_cast<float>(settings.tolerance > 0.0
-                                   ? settings.tolerance
-                                   : std::max(FitDistance * model.diameter, Noises * scene.quality.noise)))
+  , Tolerance(static_cast<float>(
+      settings.tolerance > 0.0
+        ? settings.tolerance
+        : std::max(FitDistance * model.diameter, settings.followsNoise ? Noises * scene.quality.noise : 0.0)))
 {
 }
 

@@ -30,6 +30,7 @@ struct EvidenceSettings
   /// scan's noise.
   double tolerance = 0.0;
   std::optional<EvidenceRates> rates; ///< of the scan, when they are known; else the poses tell them
+  bool followsNoise = true;           ///< that tolerance, when it is not given
   bool freeSpace = true;              ///< surface that the sensor saw past speaks against a pose; else it says nothing
   int edgeStride = 2;                 ///< of the visible edge points one of so many: neighbours tell the same
 };

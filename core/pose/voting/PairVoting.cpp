@@ -29,6 +29,11 @@ constexpr References OfScan{ 40.0, 3000, 0.07, 300 };   // many edges are not th
 constexpr References OfBoundary{ 10.0, 100, 0.01, 50 }; // exact edges tell most by themselves
 constexpr double ChoiceCell = 0.01; // of the diameter: choices fall on cubes, so that the order of points has no part
 
+const References& usualReferences(const LocalCloud& edges, const PoseDetectionSettings& settings)
+{
+  return edges.fromScan && settings.moreInScans ? OfScan : OfBoundary;
+}
+
 /// A number that looks random, from a place and a seed (finalizer of MurmurHash3).
 std::uint64_t hashOf(const Eigen::Vector3f& point, double cell, unsigned seed)
 {
@@ -123,7 +128,7 @@ PairKeys keysOf(const DirectedPoints& points, const PairFeatureQuantizer& quanti
 VotingRound surfaceRound(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings)
 {
   DirectedPoints surface = surfacePointsOf(scene, model.settings.surface.leafSize * model.diameter, settings.threads);
-  const References& usual = scene.edges.fromScan ? OfScan : OfBoundary;
+  const References& usual = usualReferences(scene.edges, settings);
   const double share = settings.referenceShare > 0.0 ? settings.referenceShare : usual.ofSurface;
   std::vector<int> references =
     chooseShare(surface.points, share, usual.leastSurface, ChoiceCell * model.diameter, settings.seed + 2);
@@ -164,7 +169,7 @@ VotingRound edgeRound(const LocalCloud& sceneEdges, const TrainedModel& model, c
     tangent = tangent.x() < 0.0f ? Eigen::Vector3f(-tangent) : tangent; // the sign is that of the first axis
   }
   DirectedPoints referred = edges.subset(thinPoints(edges.points, model.votingLeaf()));
-  const References& usual = sceneEdges.fromScan ? OfScan : OfBoundary;
+  const References& usual = usualReferences(sceneEdges, settings);
   const double needed = settings.referenceShare > 0.0 ? 0.0 : usual.ofCopy * copiesOf(referred, model);
   const int least =
     std::max(usual.leastEdges, static_cast<int>(std::min(std::ceil(needed), static_cast<double>(edges.points.size()))));

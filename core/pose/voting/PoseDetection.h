@@ -15,6 +15,7 @@ struct PoseDetectionSettings
   /// P_ref: share of the scene's edge points, and of its surface points, used as reference points; 0: as many as the
   /// scene needs, of the edges by how many copies they would make, and by where they come from.
   double referenceShare = 0.0;
+  bool moreInScans = true; ///< more references where edges were found in a scan than of an exact boundary
   /// P_referred: share of the scene's edge points used as referred points, of those in a cube of the model's leaf size
   /// (MEAMHashingSettings) one.
   double referredShare = 1.0;

@@ -22,7 +22,7 @@ TEST(InstanceChoice, OfEqualEvidenceTheOneThatTheSceneSpeaksForStays)
     poses[0].evidence = evidenceOfFirst;
     poses[1].evidence = poses[2].evidence = 1.0;
     const double distance = 0.1 * scenes::bracket().diameter;
-    return meam::InstanceChoice(poses, distance, scenes::bracket(), collector, comparison, 2).select();
+    return meam::InstanceChoice(poses, distance, scenes::bracket(), collector, comparison, true, 2).select();
   };
   EXPECT_EQ(staying(1.5), (Indices{ 1 })) << "evidence hardly differs: the scene tells, point by point";
   EXPECT_EQ(staying(4.0), (Indices{ 0 })) << "clearly more evidence";
@@ -37,7 +37,7 @@ TEST(InstanceChoice, PosesThatMatchTheSameAreOfOneInstance)
   const Eigen::Isometry3d other = scene.T_local_scene() * scenes::threeCopies()[1];
   const meam::Poses poses{ scenes::displaced(one), scenes::displaced(other), scenes::displaced(one, 0.2) };
   const auto staying = [&](double distance)
-  { return meam::InstanceChoice(poses, distance, scenes::bracket(), collector, comparison, 2).select().size(); };
+  { return meam::InstanceChoice(poses, distance, scenes::bracket(), collector, comparison, true, 2).select().size(); };
   EXPECT_EQ(staying(0.01), 2u) << "a little apart, on the same surface";
   EXPECT_EQ(staying(0.1 * scenes::bracket().diameter), 2u);
 }
