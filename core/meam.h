@@ -15,6 +15,8 @@
 
 #include "base/Error.h"          // Error, Aborted, Progress
 #include "features/Preset.h"     // Preset, Features
+#include "features/TrainSettings.h" // TrainSettings
+#include "pose/DetectSettings.h" // DetectSettings
 #include "scene/Image.h"         // Image
 #include "scene/PinholeCamera.h" // Camera
 #include "scene/ScanQuality.h"   // ScanQuality
@@ -78,25 +80,6 @@ struct Scan
   std::optional<Sensor> sensor;
 };
 
-struct DetectSettings
-{
-  Preset preset = Preset::Recommended;
-  Features features = Features::Both; ///< by which poses are looked for; with the preset Paper edges alone
-  int maximumPoses = 5;               ///< the best ones; 0: all
-  double minimumProbability = 0.0;    ///< [0, 1], of each
-  /// Known to be in the scan, as in a cell that counts what it takes: poses are not less likely because it may be
-  /// missing.
-  bool partIsPresent = false;
-  /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
-  /// preset's
-  double referenceShare = 0.0;
-  bool imageEdges = true; ///< edges from the image
-  bool depthEdges = true; ///< and where a surface ends in front of another one; not with the preset Paper
-  bool creases = true;    ///< and where two flat pieces meet; not with the preset Paper
-  unsigned seed = 1;      ///< of all random choices
-  int threads = 0;        ///< 0: one for each processor
-};
-
 /// A copy of the part.
 struct DetectedPose
 {
@@ -153,15 +136,6 @@ MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& came
 
 // ----------------------------------------------------------------------------------------------------------- training
 // Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.
-
-struct TrainSettings
-{
-  Preset preset = Preset::Recommended;
-  Features features = Features::Both; ///< that the model holds; with the preset Paper edges alone
-  double scale = 1.0;                 ///< factor on the mesh's coordinates, to bring them to mm: 1000 for metres
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< mm, added after the scale
-  unsigned seed = 1;                                ///< of all random choices
-};
 
 /// Learns how a part looks from all sides; what is wrong with its mesh is mended. Takes seconds, on all processors.
 MEAM_EXPORT Model train(const Mesh& mesh, const TrainSettings& settings = {}, const Progress& progress = {});

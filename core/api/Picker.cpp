@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/RobotFrameFile.h"
-#include "door/DoorConversion.h"
+#include "api/Conversion.h"
 #include "mesh/Symmetries.h"
 #include "model/TrainedModel.h"
 #include "pick/BinDetection.h"
@@ -16,19 +16,6 @@ namespace meam
 namespace
 {
 constexpr double AfterBin = 0.2; // share of the work, for the progress
-
-PickSettings settingsOf(const PlanSettings& given)
-{
-  PickSettings settings;
-  settings.safetyMargin = given.safetyMargin;
-  settings.wayIn = given.wayIn;
-  settings.leastProbability = given.minimumProbability;
-  settings.mostTilt = given.maximumTilt;
-  settings.mostCovered = given.maximumCovered;
-  settings.turnStep = given.turnStep;
-  settings.tolerance = given.tolerance;
-  return settings;
-}
 
 OrganizedCloud cloudOf(const Scan& scan)
 {
@@ -59,8 +46,8 @@ Picker::Picker(
   : Given(grasps)
 {
   const TriangleMesh mesh = partOf(model, part);
-  this->Planner =
-    std::make_shared<PickPlanner>(mesh, model.trained().symmetries, grasps, gripperOf(gripper), settingsOf(settings));
+  this->Planner = std::make_shared<PickPlanner>(
+    mesh, model.trained().symmetries, grasps, gripperOf(gripper), PickSettings{ settings });
 }
 
 PickPlan Picker::plan(const Detections& found, const Scan& scan, const Workplace& place, const Progress& progress) const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "door/DoorConversion.h"
+#include "api/Conversion.h"
 
 #include "base/Bounds.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// From the structs of the door to the core's, for the files of the door that several libraries are made of.
+/// From the structs of meam.h and picks.h to the core's, for the files that several libraries are made of.
 #pragma once
 
 #include "mesh/TriangleMesh.h"
