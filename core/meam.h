@@ -13,14 +13,14 @@
 /// gives the same result, for any number of threads.
 #pragma once
 
-#include "base/Error.h"          // Error, Aborted, Progress
-#include "features/Preset.h"     // Preset, Features
+#include "base/Error.h"             // Error, Aborted, Progress
+#include "features/Preset.h"        // Preset, Features
 #include "features/TrainSettings.h" // TrainSettings
-#include "pose/DetectSettings.h" // DetectSettings
-#include "scene/Image.h"         // Image
-#include "scene/PinholeCamera.h" // Camera
-#include "scene/ScanQuality.h"   // ScanQuality
-#include "scene/Sensor.h"        // Sensor
+#include "pose/DetectSettings.h"    // DetectSettings
+#include "scene/Image.h"            // Image
+#include "scene/PinholeCamera.h"    // Camera
+#include "scene/ScanQuality.h"      // ScanQuality
+#include "scene/Sensor.h"           // Sensor
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -49,7 +49,9 @@ public:
   explicit Model(std::shared_ptr<const TrainedModel> trained);
 
   explicit operator bool() const { return this->Trained != nullptr; }
-  double diameter() const; ///< mm, the largest distance between two points of the part
+  double diameter() const;            ///< mm, the largest distance between two points of the part
+  Eigen::AlignedBox3d bounds() const; ///< mm, of the part along its axes
+  Eigen::Vector3d middle() const;     ///< mm, of the part's surface
 
   /// Writes one file, NAME.meam by custom; whole or not at all.
   void save(const std::string& path) const;
@@ -89,6 +91,10 @@ struct DetectedPose
   double certainty = 1.0;       ///< [0, 1], that no near-symmetry turns it: low when what breaks it is not in sight
   double visibleFraction = 0.0; ///< [0, 1], share of the part's side towards the sensor that nothing hides
   double residual = 0.0;        ///< mm, root mean square between the part and the scan
+  int votes = 0;                ///< of the peak that it came from
+  int viewId = -1;              ///< the appearance model that shows what the sensor sees of it
+  /// Of a small motion about Model::middle(), axes of the scan: rotation vector (radians), then translation (mm).
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 struct Detections
@@ -136,6 +142,10 @@ MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& came
 
 // ----------------------------------------------------------------------------------------------------------- training
 // Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.
+
+/// The mesh as training takes it: in mm, mended, and facing outwards.
+MEAM_EXPORT Mesh prepareMesh(
+  const Mesh& mesh, double scale = 1.0, const Eigen::Vector3d& offset = Eigen::Vector3d::Zero());
 
 /// Learns how a part looks from all sides; what is wrong with its mesh is mended. Takes seconds, on all processors.
 MEAM_EXPORT Model train(const Mesh& mesh, const TrainSettings& settings = {}, const Progress& progress = {});

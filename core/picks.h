@@ -64,8 +64,9 @@ struct PickPlan
 class MEAM_EXPORT Picker
 {
 public:
-  /// `part`: the mesh that the model was trained with, in mm; the model tells its symmetries. Throws Error for an
-  /// invalid mesh, gripper, grasp or setting, a mesh that is not as large as the model's part, and without a grasp.
+  /// `part`: the mesh that the model was trained with, in mm; the model tells its symmetries, and an empty one none.
+  /// Throws Error for an invalid mesh, gripper, grasp or setting, a mesh that is not as large as the model's part, and
+  /// without a grasp.
   Picker(const Model& model, const Mesh& part, const Grasps& grasps, const GripperModel& gripper,
     const PlanSettings& settings = {});
 
@@ -101,7 +102,8 @@ MEAM_EXPORT Eigen::Isometry3d loadRobotFrame(const std::string& path);
 // Library meam::train, with CGAL, which is under the GPL.
 
 /// Grasps from the part's faces, spread over it, best first, for the jaws or the cup that the gripper has. `part` in
-/// mm, as the model was trained with it; of grasps that its symmetries make equal one comes out.
+/// mm, as the model was trained with it; of grasps that its symmetries make equal one comes out. An empty model has no
+/// symmetries.
 MEAM_EXPORT Grasps proposeGrasps(const Model& model, const Mesh& part, const GripperModel& gripper,
   const ProposeSettings& settings = {}, const Progress& progress = {});
 }

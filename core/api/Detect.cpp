@@ -84,8 +84,8 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   const Poses poses = estimatePoses(trained, input, detectionSettings(settings), nullptr, ofPoses);
   for (const Pose& pose : poses)
   {
-    result.poses.push_back(
-      { pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction, pose.fit.residual });
+    result.poses.push_back({ pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction,
+      pose.fit.residual, pose.votes, pose.viewId, pose.fit.covariance });
   }
   const std::string ofUnits = unitsWarning(input.edges.cloud.points, trained.diameter), doubts = doubtsOf(poses);
   result.warning = ofUnits + (ofUnits.empty() || doubts.empty() ? "" : " ") + doubts;

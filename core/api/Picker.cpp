@@ -2,7 +2,6 @@
 #include "calibration/RobotFrameFile.h"
 #include "api/Conversion.h"
 #include "mesh/Symmetries.h"
-#include "model/TrainedModel.h"
 #include "pick/BinDetection.h"
 #include "pick/Grasp.h"
 #include "pick/PickPlanning.h"
@@ -46,8 +45,8 @@ Picker::Picker(
   : Given(grasps)
 {
   const TriangleMesh mesh = partOf(model, part);
-  this->Planner = std::make_shared<PickPlanner>(
-    mesh, model.trained().symmetries, grasps, gripperOf(gripper), PickSettings{ settings });
+  this->Planner =
+    std::make_shared<PickPlanner>(mesh, symmetriesOf(model), grasps, gripperOf(gripper), PickSettings{ settings });
 }
 
 PickPlan Picker::plan(const Detections& found, const Scan& scan, const Workplace& place, const Progress& progress) const

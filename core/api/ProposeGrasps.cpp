@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "api/Conversion.h"
 #include "mesh/preparation/MeshPreparation.h"
-#include "model/TrainedModel.h"
 #include "pick/GraspProposal.h"
 #include "picks.h"
 
@@ -16,8 +15,7 @@ Grasps proposeGrasps(const Model& model, const Mesh& part, const GripperModel& g
   const Progress& progress)
 {
   const PreparedMesh prepared = prepareMesh(partOf(model, part), {}, subProgress(progress, 0.0, AfterPreparation));
-  return proposeGrasps(prepared.mesh, model.trained().symmetries, gripperOf(gripper),
-    GraspProposalSettings{ settings },
+  return proposeGrasps(prepared.mesh, symmetriesOf(model), gripperOf(gripper), GraspProposalSettings{ settings },
     subProgress(progress, AfterPreparation, 1.0));
 }
 }

@@ -11,16 +11,17 @@ namespace meam
 {
 struct GraspProposalSettings : ProposeSettings
 {
-  double turnApart = 40.0; ///< degrees: turned by less than this, two grasps nearer than `spread` are one; less than the step between approaches
+  double turnApart = 40.0; ///< degrees: turned by less than this, two grasps nearer than `spread` are one; less than
+                           ///< the step between approaches
 
   double crowding = 0.8; ///< times its worth for each grasp taken at its place, and for each with its way in; 1: by
                          ///< quality alone, however many are at one place
 
   // Of jaws.
-  double leastWidth = 0.5;     ///< mm, of what the jaws hold: thinner sheets bend
-  double padTolerance = 0.5;   ///< mm that a jaw's pad may be from the surface where it is said to touch
-  double leastContact = 0.15;  ///< share of each pad that has to touch; a pin touches a fifth all along the pad
-  int approaches = 8;          ///< directions about the closing one that are tried
+  double leastWidth = 0.5;    ///< mm, of what the jaws hold: thinner sheets bend
+  double padTolerance = 0.5;  ///< mm that a jaw's pad may be from the surface where it is said to touch
+  double leastContact = 0.15; ///< share of each pad that has to touch; a pin touches a fifth all along the pad
+  int approaches = 8;         ///< directions about the closing one that are tried
 
   // Of cups.
   double sealTolerance = 0.4; ///< mm between the cup's rim and the surface that a lip of rubber closes
