@@ -46,9 +46,24 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF
   BUILD_STATIC OFF)
 
+# meam.h and picks.h for Python.
+set(PYBIND11_NOPYTHON ON) # the interpreter is known
+find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
+find_package(pybind11 2.10 REQUIRED)
+set(bindings "${PROJECT_SOURCE_DIR}/filters/ppfmeam/bindings")
+Python3_add_library(ppfmeamBindings MODULE WITH_SOABI
+  "${bindings}/Detection.cpp" "${bindings}/Module.cpp" "${bindings}/Picks.cpp")
+target_link_libraries(ppfmeamBindings PRIVATE pybind11::headers meam::detect meam::images meam::pick meam::train)
+target_compile_options(ppfmeamBindings PRIVATE -Wall -Wextra)
+set_target_properties(ppfmeamBindings PROPERTIES
+  OUTPUT_NAME _core CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+  LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam"
+  INSTALL_RPATH "$<IF:$<BOOL:${SKBUILD}>,$ORIGIN,$ORIGIN/../../..>")
+install(TARGETS ppfmeamBindings LIBRARY DESTINATION "${PPFMEAM_PYTHON_DIR}/ppfmeam" COMPONENT python)
+
 # The hand-written part of the Python package, its sub-commands, and the command that runs them.
-set(package_files __init__.py __main__.py api.py bop.py cell.py cellpicture.py chains.py charts.py dataset.py evaluation.py filters.py
-  finding.py instances.py paper.py papertables.py picking.py picture.py scripting.py simulation.py stage.py world.py)
+set(package_files __init__.py __main__.py api.py bop.py cell.py cellpicture.py chains.py charts.py choices.json choices.py dataset.py
+  evaluation.py filters.py finding.py inputs.py instances.py paper.py papertables.py picking.py picture.py scripting.py simulation.py stage.py world.py)
 set(command_files __init__.py batch.py cell.py detect.py evaluate.py hand_eye.py simulate.py train.py why.py)
 set(batch_files __init__.py __main__.py apart.py journal.py nearby.py parts.py progress.py ranks.py run.py scans.py table.py
   watch.py)
@@ -75,7 +90,7 @@ endif()
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
 
 # Everything a script or ParaView needs, without the tests.
-add_custom_target(runtime DEPENDS ppfmeamFiltersPython ppfmeamPackage)
+add_custom_target(runtime DEPENDS ppfmeamFiltersPython ppfmeamBindings ppfmeamPackage)
 
 if(PPFMEAM_USE_PARAVIEW)
   paraview_plugin_scan(

@@ -13,12 +13,14 @@
 /// gives the same result, for any number of threads.
 #pragma once
 
-#include "base/Error.h"          // Error, Aborted, Progress
-#include "features/Preset.h"     // Preset, Features
-#include "scene/Image.h"         // Image
-#include "scene/PinholeCamera.h" // Camera
-#include "scene/ScanQuality.h"   // ScanQuality
-#include "scene/Sensor.h"        // Sensor
+#include "base/Error.h"             // Error, Aborted, Progress
+#include "features/Preset.h"        // Preset, Features
+#include "features/TrainSettings.h" // TrainSettings
+#include "pose/DetectSettings.h"    // DetectSettings
+#include "scene/Image.h"            // Image
+#include "scene/PinholeCamera.h"    // Camera
+#include "scene/ScanQuality.h"      // ScanQuality
+#include "scene/Sensor.h"           // Sensor
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -47,7 +49,9 @@ public:
   explicit Model(std::shared_ptr<const TrainedModel> trained);
 
   explicit operator bool() const { return this->Trained != nullptr; }
-  double diameter() const; ///< mm, the largest distance between two points of the part
+  double diameter() const;            ///< mm, the largest distance between two points of the part
+  Eigen::AlignedBox3d bounds() const; ///< mm, of the part along its axes
+  Eigen::Vector3d middle() const;     ///< mm, of the part's surface
 
   /// Writes one file, NAME.meam by custom; whole or not at all.
   void save(const std::string& path) const;
@@ -78,25 +82,6 @@ struct Scan
   std::optional<Sensor> sensor;
 };
 
-struct DetectSettings
-{
-  Preset preset = Preset::Recommended;
-  Features features = Features::Both; ///< by which poses are looked for; with the preset Paper edges alone
-  int maximumPoses = 5;               ///< the best ones; 0: all
-  double minimumProbability = 0.0;    ///< [0, 1], of each
-  /// Known to be in the scan, as in a cell that counts what it takes: poses are not less likely because it may be
-  /// missing.
-  bool partIsPresent = false;
-  /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
-  /// preset's
-  double referenceShare = 0.0;
-  bool imageEdges = true; ///< edges from the image
-  bool depthEdges = true; ///< and where a surface ends in front of another one; not with the preset Paper
-  bool creases = true;    ///< and where two flat pieces meet; not with the preset Paper
-  unsigned seed = 1;      ///< of all random choices
-  int threads = 0;        ///< 0: one for each processor
-};
-
 /// A copy of the part.
 struct DetectedPose
 {
@@ -106,6 +91,10 @@ struct DetectedPose
   double certainty = 1.0;       ///< [0, 1], that no near-symmetry turns it: low when what breaks it is not in sight
   double visibleFraction = 0.0; ///< [0, 1], share of the part's side towards the sensor that nothing hides
   double residual = 0.0;        ///< mm, root mean square between the part and the scan
+  int votes = 0;                ///< of the peak that it came from
+  int viewId = -1;              ///< the appearance model that shows what the sensor sees of it
+  /// Of a small motion about Model::middle(), axes of the scan: rotation vector (radians), then translation (mm).
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 struct Detections
@@ -154,14 +143,9 @@ MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& came
 // ----------------------------------------------------------------------------------------------------------- training
 // Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.
 
-struct TrainSettings
-{
-  Preset preset = Preset::Recommended;
-  Features features = Features::Both; ///< that the model holds; with the preset Paper edges alone
-  double scale = 1.0;                 ///< factor on the mesh's coordinates, to bring them to mm: 1000 for metres
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< mm, added after the scale
-  unsigned seed = 1;                                ///< of all random choices
-};
+/// The mesh as training takes it: in mm, mended, and facing outwards.
+MEAM_EXPORT Mesh prepareMesh(
+  const Mesh& mesh, double scale = 1.0, const Eigen::Vector3d& offset = Eigen::Vector3d::Zero());
 
 /// Learns how a part looks from all sides; what is wrong with its mesh is mended. Takes seconds, on all processors.
 MEAM_EXPORT Model train(const Mesh& mesh, const TrainSettings& settings = {}, const Progress& progress = {});

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "meam.h"
-#include "pick/PickTypes.h" // Grasp, Grasps, GripperLengths, Bin
+#include "pick/PickTypes.h" // Grasp, Grasps, GripperLengths, Bin, PlanSettings, ProposeSettings
 
 namespace meam
 {
@@ -22,17 +22,6 @@ class PickPlanner;
 struct GripperModel : GripperLengths
 {
   Mesh mesh; ///< mm
-};
-
-struct PlanSettings
-{
-  double safetyMargin = 2.0;       ///< mm that the gripper keeps from all but the part that it takes
-  double wayIn = 80.0;             ///< mm, straight along the grasp's z, that have to be free
-  double minimumProbability = 0.5; ///< [0, 1], of a pose that is picked; less likely ones do not stand in the way
-  double maximumTilt = 60.0;       ///< degrees between the way in and straight down
-  double maximumCovered = 20.0;    ///< % of the part, from above, that may lie under something
-  double turnStep = 30.0;          ///< degrees between the turns that free and symmetric grasps are tried at
-  double tolerance = 0.0; ///< mm: measured points so near to a copy or to the bin are of it; 0: by the scan's noise
 };
 
 /// Where the bin and the robot are.
@@ -75,8 +64,9 @@ struct PickPlan
 class MEAM_EXPORT Picker
 {
 public:
-  /// `part`: the mesh that the model was trained with, in mm; the model tells its symmetries. Throws Error for an
-  /// invalid mesh, gripper, grasp or setting, a mesh that is not as large as the model's part, and without a grasp.
+  /// `part`: the mesh that the model was trained with, in mm; the model tells its symmetries, and an empty one none.
+  /// Throws Error for an invalid mesh, gripper, grasp or setting, a mesh that is not as large as the model's part, and
+  /// without a grasp.
   Picker(const Model& model, const Mesh& part, const Grasps& grasps, const GripperModel& gripper,
     const PlanSettings& settings = {});
 
@@ -111,17 +101,9 @@ MEAM_EXPORT Eigen::Isometry3d loadRobotFrame(const std::string& path);
 // ---------------------------------------------------------------------------------------------------------- proposals
 // Library meam::train, with CGAL, which is under the GPL.
 
-struct ProposeSettings
-{
-  int maximumGrasps = 20;
-  double frictionAngle = 15.0; ///< degrees between the closing direction and the surface's normals
-  double spread = 0.0;         ///< mm: nearer than this two grasps are one; 0: 10 % of the part's diameter
-  unsigned seed = 1;           ///< of the places that are tried
-  int threads = 0;             ///< 0: one for each processor
-};
-
 /// Grasps from the part's faces, spread over it, best first, for the jaws or the cup that the gripper has. `part` in
-/// mm, as the model was trained with it; of grasps that its symmetries make equal one comes out.
+/// mm, as the model was trained with it; of grasps that its symmetries make equal one comes out. An empty model has no
+/// symmetries.
 MEAM_EXPORT Grasps proposeGrasps(const Model& model, const Mesh& part, const GripperModel& gripper,
   const ProposeSettings& settings = {}, const Progress& progress = {});
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMEstimationAlgorithm.h"
 
-#include "mesh/preparation/MeshPreparation.h"
 #include "model/ModelTraining.h"
-#include "pose/DetectionChoices.h"
+#include "pose/DetectionSteps.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMEstimationWork.h"
 #include "vtkMEAMMeshConversion.h"
@@ -12,6 +11,7 @@
 #include "vtkMEAMSceneConversion.h"
 #include "vtkMEAMSceneEdgeConversion.h"
 #include "vtkMEAMSceneRequests.h"
+#include "vtkMEAMSettings.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -22,7 +22,6 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 
-#include <tuple>
 #include <vector>
 
 namespace
@@ -34,11 +33,8 @@ constexpr double AfterSceneEdges = 0.1; // of the work, for the progress
 class vtkMEAMEstimationAlgorithm::Training
 {
 public:
-  /// What of the filter's settings the model depends on.
-  using Settings = std::tuple<int, int, int, double, double, double, double>;
-
   std::shared_ptr<const vtkMEAMConversion::TrainedPart> partOf(
-    vtkDataObject* input, const Settings& settings, const meam::Progress& progress)
+    vtkDataObject* input, const meam::TrainSettings& settings, const meam::Progress& progress)
   {
     using namespace vtkMEAMConversion;
     if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
@@ -54,8 +50,8 @@ public:
       return this->Part;
     }
     auto* mesh = vtkPolyData::SafeDownCast(input);
-    const std::vector<double> numbers =
-      std::apply([](auto... setting) { return std::vector<double>{ static_cast<double>(setting)... }; }, settings);
+    const std::vector<double> numbers{ static_cast<double>(settings.preset), static_cast<double>(settings.features),
+      static_cast<double>(settings.seed), settings.scale, settings.offset[0], settings.offset[1], settings.offset[2] };
     const auto known = sharedTraining(mesh, numbers);
     if (!known)
     {
@@ -71,20 +67,12 @@ public:
 
 private:
   static std::shared_ptr<const vtkMEAMConversion::TrainedPart> train(
-    vtkPolyData* input, const Settings& settings, const meam::Progress& progress)
+    vtkPolyData* input, const meam::TrainSettings& settings, const meam::Progress& progress)
   {
-    meam::MeshPreparationSettings preparation;
-    int preset = 0, features = 0, seed = 0;
-    Eigen::Vector3d& offset = preparation.offset;
-    std::tie(preset, features, seed, preparation.scale, offset[0], offset[1], offset[2]) = settings;
-    const meam::TriangleMesh mesh = vtkMEAMConversion::toMesh(input);
-    const meam::PreparedMesh prepared = meam::prepareMesh(mesh, preparation, meam::subProgress(progress, 0.0, 0.2));
+    meam::TrainedMesh trained = meam::trainMesh(vtkMEAMConversion::toMesh(input), settings, progress);
     auto part = std::make_shared<vtkMEAMConversion::TrainedPart>();
-    vtkMEAMConversion::fromMesh(prepared.mesh, part->shape);
-    const meam::TrainingSettings training = meam::trainingSettings(
-      static_cast<meam::Preset>(preset), static_cast<meam::Features>(features), static_cast<unsigned>(seed));
-    part->model = std::make_shared<const meam::TrainedModel>(
-      meam::trainModel(prepared.mesh, training, meam::subProgress(progress, 0.2, 1.0)));
+    vtkMEAMConversion::fromMesh(trained.mesh, part->shape);
+    part->model = std::make_shared<const meam::TrainedModel>(std::move(trained.model));
     return part;
   }
 
@@ -93,11 +81,23 @@ private:
 
 vtkMEAMEstimationAlgorithm::vtkMEAMEstimationAlgorithm()
   : Trained(new Training)
+  , Settings(std::make_unique<meam::DetectSettings>())
 {
   this->SetNumberOfInputPorts(4);
 }
 
 vtkMEAMEstimationAlgorithm::~vtkMEAMEstimationAlgorithm() { this->SetCameraFile(nullptr); }
+
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Preset, int, preset, Paper, B2B);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Features, int, features, Edges, Both);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MinimumProbability, double, minimumProbability, 0.0, 1.0);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, PartIsPresent, bool, partIsPresent);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, ReferenceShare, double, referenceShare, 0.0, 1.0);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Seed, int, seed, 0, VTK_INT_MAX);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, ImageEdges, bool, imageEdges);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, DepthEdges, bool, depthEdges);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, Creases, bool, creases);
 
 int vtkMEAMEstimationAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -138,18 +138,8 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   auto* boundary = vtkPolyData::GetData(inputVector[2]);
   auto* image = vtkImageData::GetData(inputVector[3]);
   const meam::Progress progress = progressOf(this);
-  meam::DetectionChoices choices;
-  choices.preset = static_cast<meam::Preset>(this->Preset);
-  choices.features = static_cast<meam::Features>(this->Features);
-  choices.maximumPoses = this->MaximumNumberOfPoses;
-  choices.minimumProbability = this->MinimumProbability;
-  choices.partIsPresent = this->PartIsPresent;
-  choices.referenceShare = this->ReferenceShare;
-  choices.imageEdges = this->ImageEdges;
-  choices.depthEdges = this->DepthEdges;
-  choices.creases = this->Creases;
-  choices.seed = static_cast<unsigned>(this->Seed);
-  choices.threads = this->NumberOfThreads;
+  meam::DetectSettings& settings = *this->Settings;
+  settings.threads = this->NumberOfThreads;
   Work work;
   double last = vtkTimerLog::GetUniversalTime();
   const auto watch = [&last]
@@ -183,9 +173,9 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   {
     const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
     meam::requirePoints(cloud.points, "The scene");
-    meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(choices);
+    meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(settings);
     meam::Image pixels;
-    if (this->ImageEdges)
+    if (settings.imageEdges)
     {
       pixels = image ? toImage(image) : imageOfCloud(organized);
       extraction.camera = cameraOf(this->CameraFile, image, cloud);
@@ -198,28 +188,28 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   work.secondsLoading = watch();
 
   work.part = this->Trained->partOf(part,
-    { this->Preset, this->Features, this->Seed, this->CADScale, this->CADOffset[0], this->CADOffset[1],
-      this->CADOffset[2] },
+    { settings.preset, settings.features, this->CADScale, Eigen::Vector3d(this->CADOffset), settings.seed },
     meam::subProgress(progress, AfterSceneEdges, Work::Prepared));
   work.secondsTraining = watch();
 
-  work.settings = meam::detectionSettings(choices);
+  work.settings = meam::detectionSettings(settings);
   return work;
 }
 
 void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Preset: " << meam::nameOf(static_cast<meam::Preset>(this->Preset)) << "\n";
-  os << indent << "Features: " << meam::nameOf(static_cast<meam::Features>(this->Features)) << "\n";
-  os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";
-  os << indent << "MinimumProbability: " << this->MinimumProbability << "\n";
-  os << indent << "PartIsPresent: " << this->PartIsPresent << "\n";
-  os << indent << "ReferenceShare: " << this->ReferenceShare << "\n";
-  os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "ImageEdges: " << this->ImageEdges << "\n";
-  os << indent << "DepthEdges: " << this->DepthEdges << "\n";
-  os << indent << "Creases: " << this->Creases << "\n";
+  const meam::DetectSettings& settings = *this->Settings;
+  os << indent << "Preset: " << meam::nameOf(settings.preset) << "\n";
+  os << indent << "Features: " << meam::nameOf(settings.features) << "\n";
+  os << indent << "MaximumNumberOfPoses: " << settings.maximumPoses << "\n";
+  os << indent << "MinimumProbability: " << settings.minimumProbability << "\n";
+  os << indent << "PartIsPresent: " << settings.partIsPresent << "\n";
+  os << indent << "ReferenceShare: " << settings.referenceShare << "\n";
+  os << indent << "Seed: " << settings.seed << "\n";
+  os << indent << "ImageEdges: " << settings.imageEdges << "\n";
+  os << indent << "DepthEdges: " << settings.depthEdges << "\n";
+  os << indent << "Creases: " << settings.creases << "\n";
   os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
   os << indent << "CADScale: " << this->CADScale << "\n";
   os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2] << "\n";

@@ -24,6 +24,11 @@
 
 #include <memory>
 
+namespace meam
+{
+struct DetectSettings;
+}
+
 class PPFMEAMFILTERS_EXPORT vtkMEAMEstimationAlgorithm : public vtkMEAMSensorAlgorithm
 {
 public:
@@ -53,8 +58,8 @@ public:
    * surface points with normals (3, Drost et al. 2010), and pairs of points on line segments (4, Choi et al. 2012). The
    * last two rank poses by their votes. Default: Recommended.
    */
-  vtkSetClampMacro(Preset, int, Paper, B2B);
-  vtkGetMacro(Preset, int);
+  virtual void SetPreset(int value);
+  virtual int GetPreset();
   void SetPresetToPaper() { this->SetPreset(Paper); }
   void SetPresetToRecommended() { this->SetPreset(Recommended); }
   void SetPresetToWithoutMEAM() { this->SetPreset(WithoutMEAM); }
@@ -75,8 +80,8 @@ public:
    * flat, thin and ribbed parts. Surface (1): surface points with normals, which carry smooth, round and thick ones.
    * Both (2). Of presets other than Recommended this has no effect: the method says it. Default: Both.
    */
-  vtkSetClampMacro(Features, int, Edges, Both);
-  vtkGetMacro(Features, int);
+  virtual void SetFeatures(int value);
+  virtual int GetFeatures();
   void SetFeaturesToEdges() { this->SetFeatures(Edges); }
   void SetFeaturesToSurface() { this->SetFeatures(Surface); }
   void SetFeaturesToBoth() { this->SetFeatures(Both); }
@@ -84,14 +89,14 @@ public:
 
   ///@{
   /** Poses wanted, the best ones; 0 for all. Default: 5. */
-  vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
-  vtkGetMacro(MaximumNumberOfPoses, int);
+  virtual void SetMaximumNumberOfPoses(int value);
+  virtual int GetMaximumNumberOfPoses();
   ///@}
 
   ///@{
   /** Of what comes out, poses that are less likely to be right are dropped, in [0, 1]. Default: 0. */
-  vtkSetClampMacro(MinimumProbability, double, 0.0, 1.0);
-  vtkGetMacro(MinimumProbability, double);
+  virtual void SetMinimumProbability(double value);
+  virtual double GetMinimumProbability();
   ///@}
 
   ///@{
@@ -99,8 +104,8 @@ public:
    * The part is known to be in the scan, as in a cell that counts what it takes: no pose is less likely because the
    * part may be missing. Default: off.
    */
-  vtkSetMacro(PartIsPresent, bool);
-  vtkGetMacro(PartIsPresent, bool);
+  virtual void SetPartIsPresent(bool value);
+  virtual bool GetPartIsPresent();
   vtkBooleanMacro(PartIsPresent, bool);
   ///@}
 
@@ -110,27 +115,27 @@ public:
    * 5.1); 0: the preset's, as vtkMEAMPoseDetection has them. More finds more of the hidden copies and takes longer.
    * Default: 0.
    */
-  vtkSetClampMacro(ReferenceShare, double, 0.0, 1.0);
-  vtkGetMacro(ReferenceShare, double);
+  virtual void SetReferenceShare(double value);
+  virtual double GetReferenceShare();
   ///@}
 
   ///@{
   /** Of all random choices: the same seed gives the same result. Default: 1. */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
-  vtkGetMacro(Seed, int);
+  virtual void SetSeed(int value);
+  virtual int GetSeed();
   ///@}
 
   ///@{
   /** Which edges of the scene to look for, as in vtkMEAMSceneEdgeExtraction. Default: all; the preset Paper takes those
    * of the image alone. */
-  vtkSetMacro(ImageEdges, bool);
-  vtkGetMacro(ImageEdges, bool);
+  virtual void SetImageEdges(bool value);
+  virtual bool GetImageEdges();
   vtkBooleanMacro(ImageEdges, bool);
-  vtkSetMacro(DepthEdges, bool);
-  vtkGetMacro(DepthEdges, bool);
+  virtual void SetDepthEdges(bool value);
+  virtual bool GetDepthEdges();
   vtkBooleanMacro(DepthEdges, bool);
-  vtkSetMacro(Creases, bool);
-  vtkGetMacro(Creases, bool);
+  virtual void SetCreases(bool value);
+  virtual bool GetCreases();
   vtkBooleanMacro(Creases, bool);
   ///@}
 
@@ -172,16 +177,7 @@ private:
   class Training;
   std::unique_ptr<Training> Trained;
 
-  int Preset = Recommended;
-  int Features = Both;
-  int MaximumNumberOfPoses = 5;
-  double MinimumProbability = 0.0;
-  bool PartIsPresent = false;
-  double ReferenceShare = 0.0;
-  int Seed = 1;
-  bool ImageEdges = true;
-  bool DepthEdges = true;
-  bool Creases = true;
+  std::unique_ptr<meam::DetectSettings> Settings;
   char* CameraFile = nullptr;
   double CADScale = 1.0;
   double CADOffset[3] = { 0.0, 0.0, 0.0 };

@@ -64,7 +64,7 @@ int vtkMEAMGraspDefinition::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-vtkMEAMSettingMacro(vtkMEAMGraspDefinition, MaximumNumberOfGrasps, int, most);
+vtkMEAMSettingMacro(vtkMEAMGraspDefinition, MaximumNumberOfGrasps, int, maximumGrasps);
 vtkMEAMSettingMacro(vtkMEAMGraspDefinition, FrictionAngle, double, frictionAngle);
 vtkMEAMSettingMacro(vtkMEAMGraspDefinition, Spread, double, spread);
 
@@ -140,7 +140,7 @@ void vtkMEAMGraspDefinition::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Propose: " << this->Propose << "\n";
-  os << indent << "MaximumNumberOfGrasps: " << this->Settings->most << "\n";
+  os << indent << "MaximumNumberOfGrasps: " << this->Settings->maximumGrasps << "\n";
   os << indent << "FrictionAngle: " << this->Settings->frictionAngle << "\n";
   os << indent << "Spread: " << this->Settings->spread << "\n";
   os << indent << "HandGrasp: " << this->HandGrasp << "\n";

@@ -79,9 +79,9 @@ int vtkMEAMPickPlanning::RequestInformation(
 
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, SafetyMargin, double, safetyMargin);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, WayIn, double, wayIn);
-vtkMEAMSettingMacro(vtkMEAMPickPlanning, MinimumProbability, double, leastProbability);
-vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumTilt, double, mostTilt);
-vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumCovered, double, mostCovered);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, MinimumProbability, double, minimumProbability);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumTilt, double, maximumTilt);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumCovered, double, maximumCovered);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, TurnStep, double, turnStep);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, Tolerance, double, tolerance);
 

@@ -51,7 +51,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${package_detect} ${same}, ${package_pick}
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "${package_python} ${same}, paraview-dev, cmake")
 set(CPACK_DEBIAN_PICK_PACKAGE_DEPENDS "${package_detect} ${same}")
 set(CPACK_DEBIAN_TRAIN_PACKAGE_DEPENDS "${package_detect} ${same}")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python_depends}, ${paraview_depends}, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python_depends}, ${paraview_depends}, python3-numpy, ${package_detect} ${same}, ${package_pick} ${same}, ${package_train} ${same}")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "${package_paraview}, python3-mpi4py, xvfb")
 set(CPACK_DEBIAN_PARAVIEW_PACKAGE_DEPENDS "${package_python} ${same}")
 set(CPACK_DEBIAN_DETECT_PACKAGE_SECTION libs)

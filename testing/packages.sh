@@ -27,8 +27,9 @@ for library in Detect Pick; do
 done
 
 echo "== the command and the Python package"
-get "$folder"/python3-ppfmeam_*.deb
-[ ! -e /usr/lib/libmeamTrain.so."$soversion" ] || failed "Python needs no C++ library"
+get "$folder"/{python3-ppfmeam,libppfmeam-train}_*.deb
+[ -e /usr/lib/libmeamTrain.so."$soversion" ] || failed "python3-ppfmeam comes without the C++ libraries"
+python3 -c "import ppfmeam; ppfmeam.detect"
 version=$(dpkg-query -W -f '${Version}' python3-ppfmeam)
 [ "$(ppfmeam --version)" = "ppfmeam ${version%-*}" ] || failed "ppfmeam --version says $(ppfmeam --version)"
 ppfmeam --help | grep -q '^  detect ' || failed "ppfmeam --help"

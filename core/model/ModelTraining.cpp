@@ -2,6 +2,7 @@
 #include "model/ModelTraining.h"
 
 #include "mesh/ConvexHull.h"
+#include "mesh/preparation/MeshPreparation.h"
 #include "model/AppearanceModel.h"
 
 namespace meam
@@ -31,13 +32,13 @@ TrainingSettings trainingSettings(Preset preset)
   return settings;
 }
 
-TrainingSettings trainingSettings(Preset preset, Features features, unsigned seed)
+TrainingSettings trainingSettings(const TrainSettings& chosen)
 {
-  TrainingSettings settings = trainingSettings(preset);
-  settings.sampling.seed = seed;
-  if (takesFeatures(preset))
+  TrainingSettings settings = trainingSettings(chosen.preset);
+  settings.sampling.seed = chosen.seed;
+  if (takesFeatures(chosen.preset))
   {
-    settings.hashing.features = features;
+    settings.hashing.features = chosen.features;
   }
   return settings;
 }
@@ -56,5 +57,15 @@ TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settin
     part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
   }
   return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
+}
+
+TrainedMesh trainMesh(const TriangleMesh& mesh, const TrainSettings& settings, const Progress& progress)
+{
+  MeshPreparationSettings preparation;
+  preparation.scale = settings.scale;
+  preparation.offset = settings.offset;
+  PreparedMesh prepared = prepareMesh(mesh, preparation, subProgress(progress, 0.0, 0.2));
+  TrainedModel model = trainModel(prepared.mesh, trainingSettings(settings), subProgress(progress, 0.2, 1.0));
+  return { std::move(prepared.mesh), std::move(model) };
 }
 }

@@ -8,6 +8,7 @@
 #include "mesh/TriangleMesh.h"
 #include "model/BoundaryExtraction.h"
 #include "model/MEAMHashing.h"
+#include "features/TrainSettings.h"
 #include "model/VisibilityExtraction.h"
 
 namespace meam
@@ -24,9 +25,18 @@ struct TrainingSettings
 };
 
 TrainingSettings trainingSettings(Preset preset);
-/// The same with what a user decides: the features, of a preset that leaves them to the user, and the seed.
-TrainingSettings trainingSettings(Preset preset, Features features, unsigned seed);
+/// The same with what a user chooses; the features of a preset that leaves them to the user.
+TrainingSettings trainingSettings(const TrainSettings& chosen);
 
 /// The offline phase, from a prepared mesh (mm) to the trained model.
 TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settings, const Progress& progress = {});
+
+struct TrainedMesh
+{
+  TriangleMesh mesh; ///< prepared
+  TrainedModel model;
+};
+
+/// The same from a mesh as it came, which is prepared first.
+TrainedMesh trainMesh(const TriangleMesh& mesh, const TrainSettings& settings, const Progress& progress = {});
 }

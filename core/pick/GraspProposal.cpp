@@ -24,7 +24,7 @@ constexpr double AfterCandidates = 0.8; // of the work, for the progress
 
 void requireSettings(const GraspProposalSettings& s)
 {
-  requireWithin("maximum number of grasps", s.most, 0, Unbounded);
+  requireWithin("maximum number of grasps", s.maximumGrasps, 0, Unbounded);
   requireWithin("number of places to try", s.contacts, 1, Unbounded);
   requireWithin("number of approaches", s.approaches, 1, 360);
   requireWithin("spread of grasps", s.spread, 0.0, Unbounded, " mm");

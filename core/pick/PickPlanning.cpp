@@ -69,7 +69,7 @@ Picks PickPlanner::plan(
     report(progress, 0.3 + 0.7 * static_cast<double>(k) / static_cast<double>(poses.size()));
     const bool likely = copy < around.copies.size() && around.copies[copy] == static_cast<int>(k);
     const double covered = likely ? coveredShare(poses[k], static_cast<int>(copy), search.surface(), around) : 0.0;
-    const bool free = likely && 100.0 * covered <= settings.mostCovered;
+    const bool free = likely && 100.0 * covered <= settings.maximumCovered;
     for (std::size_t g = 0; g < search.grasps().size(); ++g)
     {
       Pick pick;

@@ -32,9 +32,9 @@ void requireSettings(const PickSettings& s)
 {
   requireWithin("safety margin", s.safetyMargin, 0.0, Unbounded, " mm");
   requireWithin("way in", s.wayIn, 0.0, Unbounded, " mm");
-  requireWithin("minimum probability", s.leastProbability, 0.0, 1.0);
-  requireWithin("maximum tilt", s.mostTilt, 0.0, 180.0, " degrees");
-  requireWithin("maximum covered share", s.mostCovered, 0.0, 100.0, " %");
+  requireWithin("minimum probability", s.minimumProbability, 0.0, 1.0);
+  requireWithin("maximum tilt", s.maximumTilt, 0.0, 180.0, " degrees");
+  requireWithin("maximum covered share", s.maximumCovered, 0.0, 100.0, " %");
   requireWithin("comfortable clearance", s.comfortableClearance, 0.0, Unbounded, " mm");
   requireWithin("turn step", s.turnStep, 1.0, 360.0, " degrees");
   requireWithin("cup's slack", s.cupSlack, 0.0, Unbounded, " mm");

@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pick/PickTypes.h"
+
 #include <limits>
 #include <string>
 
 namespace meam
 {
 /// What a pick has to keep, and how finely planning looks.
-struct PickSettings
+struct PickSettings : PlanSettings
 {
-  double safetyMargin = 2.0;          ///< mm that the gripper keeps from all but the part that it holds
-  double wayIn = 80.0;                ///< mm, straight along the grasp's z, that have to be free
-  double leastProbability = 0.5;      ///< of a pose that is picked; less likely ones do not stand in
-                                      ///< the way either; one of unknown probability and score (0) is certain
-  double mostTilt = 60.0;             ///< degrees between the way in and straight down
-  double mostCovered = 20.0;          ///< % of the part, from above, that may lie under something
   double comfortableClearance = 10.0; ///< mm; more is no better
-  double turnStep = 30.0;             ///< degrees between the turns that a free one is tried at
   double cupSlack = 2.0;              ///< mm that a cup gives way when it comes down on the part
   double partMargin = 1.0; ///< mm that the open gripper keeps from the part that it takes, but between its pads
-  double tolerance = 0.0;  ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
-                           ///< 1 % of the part's size, its box from corner to corner; at most 6 %
   double voxelSize = 0.0;  ///< mm, of what is measured besides; 0: 4 point distances, at least 1 % of the diameter
 
   // Shares of the part's size, the diagonal of its box.

@@ -62,4 +62,30 @@ struct Bin
   Eigen::Vector3d size = Eigen::Vector3d::Zero();                ///< mm, inside: along x, along y, height of the walls
   double wall = 5.0;                                             ///< mm, thickness of the walls and the floor
 };
+
+/// What a user chooses of planning picks.
+struct PlanSettings
+{
+  double safetyMargin = 2.0; ///< mm that the gripper keeps from all but the part that it takes
+  double wayIn = 80.0;       ///< mm, straight along the grasp's z, that have to be free
+  /// [0, 1], of a pose that is picked; less likely ones do not stand in the way; one of unknown probability and score
+  /// (0) is certain
+  double minimumProbability = 0.5;
+  double maximumTilt = 60.0;    ///< degrees between the way in and straight down
+  double maximumCovered = 20.0; ///< % of the part, from above, that may lie under something
+  double turnStep = 30.0;       ///< degrees between the turns that free and symmetric grasps are tried at
+  /// mm: measured points so near to a copy or to the bin are of it; 0: 3 times the noise and 1 % of the part's size,
+  /// its box from corner to corner; at most 6 %
+  double tolerance = 0.0;
+};
+
+/// What a user chooses of proposing grasps.
+struct ProposeSettings
+{
+  int maximumGrasps = 20;
+  double frictionAngle = 15.0; ///< degrees between the closing direction and the surface's normals: friction of 0.27
+  double spread = 0.0;         ///< mm: nearer than this two grasps are one; 0: 10 % of the part's diameter
+  unsigned seed = 1;           ///< of the places that are tried
+  int threads = 0;             ///< 0: one for each processor; no part in the result
+};
 }

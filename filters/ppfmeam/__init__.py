@@ -12,15 +12,24 @@ class Error(Exception):
     """Something the user has to know and can act on: the message says what is wrong and what to do."""
 
 
+_HOMES = {"Detections": "api", "Diagnosis": "api", "Model": "api", "detect": "api", "load": "api", "train": "api", "why": "api",
+          "Grasp": "_core", "Pick": "_core", "Pose": "_core", "Grasps": "picking", "Picks": "picking", "grasps": "picking",
+          "pick": "picking"}
+__all__ = ["Error", "filters", *_HOMES]
+
+
 def __getattr__(name):
     # Only now, so that ppfmeam.filters alone needs neither NumPy nor VTK's readers.
-    if name in ("Detections", "Diagnosis", "Model", "detect", "load", "train", "why"):
-        from . import api
-        return getattr(api, name)
-    if name in ("Grasps", "Picks", "grasps", "pick"):
-        from . import picking
-        return getattr(picking, name)
+    from importlib import import_module
+    if name in _HOMES:
+        return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    if name == "filters":
+        return import_module(f"{__name__}.filters")
     if name == "__version__":
         from .version import VERSION
         return VERSION
     raise AttributeError(f"module 'ppfmeam' has no attribute '{name}'")
+
+
+def __dir__():
+    return sorted([*__all__, "__version__"])

@@ -1,62 +1,115 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""train(), detect() and why(): files or NumPy arrays in, NumPy arrays out. What goes wrong is raised as ppfmeam.Error; what
-may be wrong is a warning."""
+"""train(), detect() and why(): files, NumPy arrays or VTK's data objects in, NumPy arrays out. What goes wrong is raised as
+ppfmeam.Error; what may be wrong is a warning. train() and detect() let other threads of Python run meanwhile."""
+import collections.abc
 import os
+import warnings
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import (vtkDataObject, vtkImageData, vtkPartitionedDataSetCollection, vtkPolyData,
-                                           vtkStructuredGrid)
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPartitionedDataSetCollection, vtkPolyData
 
-from . import Error, filters, scripting
+from . import Error, _core, filters, inputs, scripting
+from .choices import takes
 
 MODELS = (".meam", ".vtpc")
-DEPTH_IMAGES = (".png", ".tif", ".tiff")
+
+
+class Rows(collections.abc.Sequence):
+    """Rows of the C++ library, and their values as columns; COLUMNS: of each the name of the value, and its shape, or None for
+    a list."""
+    COLUMNS = {}
+
+    def __init__(self, rows):
+        self.rows = list(rows)
+        for column, (name, shape) in self.COLUMNS.items():
+            values = [getattr(row, name) for row in self.rows]
+            setattr(self, column, values if shape is None else numpy.array(values).reshape(-1, *shape))
+
+    def __len__(self):
+        return len(self.rows)
+
+    def __getitem__(self, place):
+        return self.rows[place]
+
+    def __repr__(self):
+        return str(self)
 
 
 class Model:
-    """What training makes of a part and detection needs to know of it. `data` is the VTK data object."""
+    """What training makes of a part and detection needs to know of it."""
 
-    def __init__(self, data):
-        self.data = data
+    def __init__(self, model):
+        self.core = inputs.model_from_vtk(model) if isinstance(model, vtkDataObject) else model
+
+    def __repr__(self):
+        return f"<ppfmeam.Model of a part of {self.diameter:.1f} mm>"
 
     @property
     def diameter(self):
         """The largest distance between two points of the part, mm."""
-        return scripting.field(self.data, "Diameter")
+        return self.core.diameter
+
+    @property
+    def data(self):
+        """VTK's data object, as the filters take it."""
+        return inputs.model_to_vtk(self.core)
 
     def save(self, path):
         """Writes NAME.meam, one file, which C++ and ParaView read; or NAME.vtpc."""
+        path = os.fspath(path)
         scripting.require_folder_of(path)
-        scripting.write_model(self.data, os.fspath(path))
+        if path.lower().endswith(".meam"):
+            self.core.save(path)
+        else:
+            scripting.write_model(self.data, path)
 
 
-class Detections:
-    """The poses found, best first: `poses` (N x 4 x 4, each takes the part's coordinates to the scan's, mm), `scores` (the
-    share of what should be visible that is there), `probabilities` (that a pose is right), `certainties` (that no
-    near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without training; `scan_quality`, what an
-    organized scan shows of its sensor, by name as vtkMEAMSceneEdgeExtraction has it. `data` is the VTK data object with all
-    that is known."""
+class Detections(Rows):
+    """The poses found, best first: found[0] is the best one, a Pose. In columns `poses` (N x 4 x 4, each takes the part's
+    coordinates to the scan's, mm), `scores` (the share of what should be visible that is there), `probabilities` (that a pose
+    is right), `certainties` (that no near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without
+    training; `scan_quality`, what an organized scan shows of its sensor, by name as vtkMEAMSceneEdgeExtraction has it."""
+    COLUMNS = {"poses": ("transform", (4, 4)), "scores": ("score", ()), "probabilities": ("probability", ()),
+               "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ())}
 
-    def __init__(self, data):
-        self.data = data
-        self.poses = scripting.column(data, "Transform", 4, 4)
-        self.scores = scripting.column(data, "Score")
-        self.probabilities = scripting.column(data, "Probability")
-        self.certainties = scripting.column(data, "Certainty")
-        self.visible_fractions = scripting.column(data, "VisibleFraction")
-        self.seconds = scripting.field(data, "SecondsTotal") - scripting.field(data, "SecondsTraining")
-        quality = data.GetFieldData().GetArray("ScanQuality")
-        self.scan_quality = {quality.GetComponentName(i): quality.GetComponent(0, i)
-                             for i in range(quality.GetNumberOfComponents())} if quality else {}
+    def __init__(self, found, model):
+        super().__init__(found.poses)
+        self.core, self.model = found, model
+        self.seconds, self.scan_quality = found.seconds, found.quality
 
-    def __len__(self):
-        return len(self.poses)
+    def __str__(self):
+        lines = ["rank  likely  score  certainty  visible  translation (mm)"]
+        lines += [f"{rank:4d}  {100 * pose.probability:4.0f} %  {pose.score:.3f}  {100 * pose.certainty:7.0f} %  "
+                  f"{100 * pose.visible_fraction:5.0f} %  {pose.transform[0, 3]:9.3f} {pose.transform[1, 3]:9.3f} "
+                  f"{pose.transform[2, 3]:9.3f}" for rank, pose in enumerate(self, 1)]
+        return "\n".join(lines if self.rows else lines + ["      no part found"])
+
+    @property
+    def data(self):
+        """VTK's data object, as the filters take it."""
+        data = scripting.poses_of(self.poses)
+        columns = {"Rank": range(1, len(self) + 1)}
+        for name in ("quaternion", "score", "probability", "certainty", "visible_fraction", "votes", "view_id", "residual"):
+            columns["".join(map(str.capitalize, name.split("_")))] = [getattr(pose, name) for pose in self]
+        columns["Covariance"] = [pose.covariance.ravel() for pose in self]
+        for name, values in columns.items():
+            add_array(data.GetPointData(), name, numpy.array(values).reshape(len(self), -1))
+        low, high = self.model.core.bounds
+        for name, values in (("SecondsTotal", [self.seconds]), ("Diameter", [self.model.diameter]),
+                             ("PartBounds", numpy.column_stack((low, high)).ravel()), ("PartMiddle", self.model.core.middle)):
+            add_array(data.GetFieldData(), name, numpy.array(values).reshape(1, -1))
+        return data
 
     def save(self, path):
-        """Writes .csv (BOP results), .json, or .txt (4x4 matrices)."""
+        """Writes .csv (BOP results), .json, .detections.json (ROS 2), or .txt (4x4 matrices)."""
         scripting.write_with(filters.vtkMEAMPoseWriter(), self.data, path)
+
+
+def add_array(attributes, name, values):
+    array = numpy_to_vtk(values, deep=True)
+    array.SetName(name)
+    attributes.AddArray(array)
 
 
 class Diagnosis:
@@ -81,59 +134,84 @@ class Diagnosis:
         self.points = vtk_to_numpy(data.GetPoints().GetData()).copy() if count else numpy.zeros((0, 3))
         self.states = scripting.texts(data, "StateName")
 
+    def __repr__(self):
+        return f"{self.verdict} {self.advice}".rstrip()
 
-def train(cad, scale=1.0, offset=(0.0, 0.0, 0.0), preset="recommended", features="both"):
+
+@takes(settings="train")
+def train(cad, *, settings):
     """Learns how a part looks from all sides; takes seconds. `cad`: a .stl, .obj, .ply or .off file, or a vtkPolyData with
-    faces. `scale` brings its lengths to mm: 1000 for metres; `offset`, mm, is added after it. features: which points make pairs, edges
-    (flat, thin and ribbed parts), surface (smooth, round and thick ones), or both. preset: recommended, paper, or what the
-    paper compares itself with: without-meam, ppf, b2b."""
-    if isinstance(cad, vtkDataObject):
-        mesh = scripting.prepare_mesh(cad, offset, scale)
-    else:
-        mesh = scripting.read_mesh(os.fspath(cad), offset, scale)
-    return Model(scripting.train(mesh, chosen("preset", preset, scripting.PRESETS), chosen("features", features, scripting.FEATURES)))
+    faces. Returns a Model."""
+    return Model(_core.train(inputs.mesh_of(cad), settings.apply(_core.TrainSettings(), _core)))
 
 
 def load(path):
     """The model in a file that Model.save, or C++, wrote."""
-    return Model(scripting.read_model(os.fspath(path)))
+    path = inputs.path_of(path)
+    return Model(_core.load_model(path) if path.lower().endswith(".meam") else scripting.read_model(path))
 
 
-def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
-           probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended",
-           features="both", seed=1, threads=0, present=False):
-    """Finds the copies of a part in a scan.
+@takes(settings="detect")
+def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, *, settings):
+    """Finds the copies of a part in a scan; returns Detections.
 
     part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm).
     scan: a file (.pcd, .ply, or a depth image with its `camera`), an array H x W x 3 of points in the sensor's frame (x
-    right, y down, z the way it looks; NaN: not measured), an array N x 3 with a `boundary`, or VTK's data object.
+    right, y down, z the way it looks; NaN: not measured), an array N x 3 with a `boundary`, or VTK's data object. Points are
+    taken in single precision.
     image: a file or an array H x W (grey) or H x W x 3 (colours) of bytes, from the top; where the scan has none. It has a
     pixel for each point, unless `image_camera`, a calibration file, says which other camera took it.
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
-    poses: so many of the best ones, 0 for all; probability: of each at least, 0 to 1. present: the part is known to be in the
-    scan, as in a cell that counts what it takes: no pose is less likely because it may be missing.
-    image_edges, depth_edges, creases: where edges are looked for, the last two not with preset paper. references: the share
-    of points that vote, 0: as many as the scene needs, by how many copies its edges would make. preset: recommended, paper, without-meam, ppf or b2b, the one that the part was trained with; the others than
-    recommended have features of their own. features: edges, surface or both, as train() has them. threads: 0 for all cores.
     """
-    estimation = filters.vtkMEAMPoseEstimation()
-    set_inputs(estimation, part, scan, image, boundary, camera, image_camera, scale, cad_scale, poses, probability, image_edges,
-               depth_edges, creases, references, preset, features, seed, threads, present)
-    return Detections(scripting.update(estimation).GetOutput())
+    seen = inputs.scan_of(scan, camera, scale)
+    if boundary is not None:
+        seen.edges = inputs.points_of(boundary, scale)
+    if image is not None:
+        inputs.set_image(seen, image, image_camera)
+    model = part_of(part, cad_scale, settings)
+    found = _core.detect(model.core, seen, settings.apply(_core.DetectSettings(), _core))
+    if found.warning:
+        warnings.warn(found.warning, stacklevel=3)
+    return Detections(found, model)
 
 
-def why(part, scan, at=None, pose=None, fit=False, **options):
+def part_of(part, scale, settings):
+    """The trained model."""
+    if isinstance(part, Model):
+        return part
+    if isinstance(part, vtkPartitionedDataSetCollection):
+        return Model(part)
+    if not isinstance(part, vtkDataObject) and os.fspath(part).lower().endswith(MODELS):
+        return load(part)
+    return train(part, scale=scale, **{name: settings.values[name] for name in ("preset", "features", "seed")})
+
+
+@takes(settings="detect")
+def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, camera=None, image_camera=None, scale=1.0,
+        cad_scale=1.0, *, settings):
     """Tells why a part of a scan was missed: which step lost it, and what to change.
 
-    part, scan and options: as detect() has them. at: a point of the scan on the part, three numbers, mm; or pose: where the
-    part lies, 4 x 4, or several, N x 4 x 4. fit: poses that are nearly right, laid by hand, are first fitted to the scan.
-    Returns a Diagnosis; of several poses a list, which takes one detection.
+    part, scan, image, boundary, cameras and scales: as detect() takes them. at: a point of the scan on the part, three
+    numbers, mm; or pose: where the part lies, 4 x 4, or several, N x 4 x 4. fit: poses that are nearly right, laid by hand,
+    are first fitted to the scan. Returns a Diagnosis; of several poses a list, which takes one detection.
     """
     if (at is None) == (pose is None):
         raise Error("give either at, a point on the part, or pose, where the part lies")
+    seen = inputs.scan_of(scan, camera, scale)
+    if boundary is not None:
+        seen.edges = inputs.points_of(boundary, scale)
+    if image is not None:
+        inputs.set_image(seen, image, image_camera)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
-    set_inputs(diagnosis, part, scan, **options)
+    diagnosis.SetInputDataObject(part_of(part, cad_scale, settings).data)
+    for port, data in enumerate(inputs.to_vtk(seen), 1):
+        diagnosis.SetInputDataObject(port, data)
+    if isinstance(image, vtkDataObject):
+        diagnosis.SetInputDataObject(3, image)
+    if image_camera is not None:
+        diagnosis.SetCameraFile(os.fspath(image_camera))
+    settings.set(diagnosis)
     diagnosis.SetFit(fit)
     if pose is None:
         place = numpy.asarray(at, float)
@@ -159,92 +237,3 @@ def diagnosed(filter):
     data = vtkPolyData()
     data.ShallowCopy(filter.GetOutput())
     return Diagnosis(data, filter.GetOutputDataObject(1))
-
-
-def set_inputs(filter, part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, poses=5,
-               probability=0.0, image_edges=True, depth_edges=True, creases=True, references=0.0, preset="recommended",
-               features="both", seed=1, threads=0, present=False):
-    """The inputs and properties of a filter that detects."""
-    filter.SetInputDataObject(part_of(part, cad_scale))
-    filter.SetInputDataObject(1, scan_of(scan, camera, scale))
-    if boundary is not None:
-        filter.SetInputDataObject(2, points_of(boundary, scale, "boundary"))
-    if image is not None:
-        filter.SetInputDataObject(3, image_of(image))
-    if image_camera is not None:
-        scripting.require_file(os.fspath(image_camera))
-        filter.SetCameraFile(os.fspath(image_camera))
-    scripting.set_preset(filter, chosen("preset", preset, scripting.PRESETS))
-    scripting.set_choice(filter, "Features", chosen("features", features, scripting.FEATURES))
-    for name, value in dict(MaximumNumberOfPoses=poses, MinimumProbability=probability, PartIsPresent=present, ImageEdges=image_edges,
-                            DepthEdges=depth_edges, Creases=creases, ReferenceShare=references, Seed=seed,
-                            NumberOfThreads=threads).items():
-        getattr(filter, "Set" + name)(value)
-
-
-def chosen(name, value, choices):
-    if value not in choices:
-        raise Error(f"{name} has to be one of {', '.join(map(repr, choices))}, not {value!r}")
-    return value
-
-
-def part_of(part, scale):
-    """The trained model, or the clean mesh in mm."""
-    if isinstance(part, Model):
-        return part.data
-    if isinstance(part, vtkPartitionedDataSetCollection):
-        return part
-    if isinstance(part, vtkDataObject):
-        return scripting.prepare_mesh(part, scale=scale)
-    path = os.fspath(part)
-    if path.lower().endswith(MODELS):
-        return scripting.read_model(path)
-    return scripting.read_mesh(path, scale=scale)
-
-
-def scan_of(scan, camera, scale):
-    if isinstance(scan, (vtkDataObject, numpy.ndarray)):
-        return points_of(scan, scale, "scan")
-    path = os.fspath(scan)
-    camera = camera if camera is None else os.fspath(camera)
-    if path.lower().endswith(DEPTH_IMAGES):
-        if camera is None:
-            raise Error(f"{path}: a depth image needs the calibration of its camera")
-        return scripting.read_depth(path, camera)
-    return scripting.read_scan(path, scale, camera)
-
-
-def points_of(points, scale, what):
-    """Points as VTK has them: those of a grid, when the array has rows and columns."""
-    if isinstance(points, vtkDataObject):
-        return scripting.scaled(points, scale, f"the {what}")
-    if not isinstance(points, numpy.ndarray):
-        return scripting.read(os.fspath(points), scale)
-    if points.ndim not in (2, 3) or points.shape[-1] != 3 or points.dtype.kind != "f":
-        raise Error(f"the {what} has to be an array of floats, H x W x 3 or N x 3, not {points.dtype} with the shape "
-                    f"{points.shape}")
-    kind = numpy.float64 if points.dtype == numpy.float64 else numpy.float32
-    coordinates = vtkPoints()
-    coordinates.SetData(numpy_to_vtk(numpy.ascontiguousarray(points.reshape(-1, 3), kind), deep=True))
-    if points.ndim == 3:
-        data = vtkStructuredGrid()
-        data.SetDimensions(points.shape[1], points.shape[0], 1)
-    else:
-        data = vtkPolyData()
-    data.SetPoints(coordinates)
-    return scripting.scaled(data, scale, f"the {what}")
-
-
-def image_of(image):
-    if isinstance(image, vtkDataObject):
-        return image
-    if not isinstance(image, numpy.ndarray):
-        return scripting.read_image(os.fspath(image))
-    if image.dtype != numpy.uint8 or image.ndim not in (2, 3) or image.shape[2:] not in ((), (1,), (3,), (4,)):
-        raise Error(f"the image has to be an array of bytes, H x W or H x W x 3, not {image.dtype} with the shape "
-                    f"{image.shape}")
-    data = vtkImageData()
-    data.SetDimensions(image.shape[1], image.shape[0], 1)
-    pixels = numpy.ascontiguousarray(image[::-1]).reshape(image.shape[0] * image.shape[1], -1)  # VTK's rows go upwards
-    data.GetPointData().SetScalars(numpy_to_vtk(pixels, deep=True))
-    return data

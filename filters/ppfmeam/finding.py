@@ -1,32 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The copies of one part, or of several, in scan after scan."""
-from . import filters, scripting
+from . import choices, filters, scripting
 
 
 class Finder:
-    """Holds the parts, trained models or of a single one its mesh, and the options of a script that detects: preset,
-    features, no_image, poses, probability, references and threads."""
+    """Holds the parts, trained models or of a single one its mesh, and the options of a script that detects."""
 
     def __init__(self, parts, options):
         self.parts, self.options = parts, options
         self.estimations = [self.estimation_of(part) for part in parts]
 
     def estimation_of(self, part):
-        options, estimation = self.options, filters.vtkMEAMPoseEstimation()
+        estimation = filters.vtkMEAMPoseEstimation()
         estimation.SetInputDataObject(part)
-        scripting.set_preset(estimation, options.preset)
-        scripting.set_choice(estimation, "Features", options.features)
-        # Of several parts conflicts decide which poses stay.
-        estimation.SetMaximumNumberOfPoses(options.poses if len(self.parts) == 1 else 0)
-        estimation.SetMinimumProbability(options.probability)
-        estimation.SetImageEdges(not options.no_image)
-        estimation.SetReferenceShare(options.references)
-        estimation.SetNumberOfThreads(options.threads)
+        choices.of_options("detect", self.options).set(estimation)
+        if len(self.parts) > 1:
+            estimation.SetMaximumNumberOfPoses(0)  # conflicts decide which poses stay
         return estimation
 
     def find(self, scene, boundary=None, image=None, image_camera=None):
         """The poses in a scan, best first; of several parts `PartId` tells which. They are good until the next scan."""
-        has_edges = boundary or image or scripting.has_image(scene) or self.options.no_image
+        has_edges = boundary or image or scripting.has_image(scene) or not self.options.image_edges
         if not has_edges and scene.IsA("vtkStructuredGrid"):
             raise scripting.Failure("the scan has no image: give it with --image, or in a list after a tab, or take the edges "
                                     "of the depth alone, --no-image")

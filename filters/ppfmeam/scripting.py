@@ -23,7 +23,7 @@ from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
 from . import Error as Failure
-from . import filters
+from . import choices, filters
 
 EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj")
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
@@ -210,26 +210,12 @@ def share(text):
     return in_range(float, text, 1, "a number from 0 to 1")
 
 
-def add_reference_argument(parser):
-    parser.add_argument("--references", type=share, default=0, metavar="SHARE",
-                        help="share of the scene's points that are reference points, more finds more of the hidden "
-                             "copies and takes longer (default: as many as the scene needs, by how many copies its edges would make; of "
-                             "other methods than meam and of preset paper 0.2)")
-
-
-def add_image_argument(parser):
-    parser.add_argument("--no-image", action="store_true",
-                        help="edges of the depth alone (ImageEdges off): for scans without an image, or one that shows no "
-                             "edges of the part")
-
-
 def has_image(scan):
     """Whether a scan carries the image of its sensor."""
     return any(map(scan.GetPointData().HasArray, ("Intensity", "RGB")))
 
 
-PRESETS = {"recommended": "Recommended", "paper": "Paper", "without-meam": "WithoutMEAM", "ppf": "OriginalPPF", "b2b": "B2B"}
-FEATURES = ("edges", "surface", "both")
+PRESETS, FEATURES = (choices.TABLE["detect"][name]["values"] for name in ("preset", "features"))
 
 
 class MethodAction(argparse.Action):
@@ -254,12 +240,6 @@ def add_method_options(parser):
 def set_preset(estimation, preset):
     """A preset of vtkMEAMPoseEstimation by its name on the command line."""
     set_choice(estimation, "Preset", PRESETS[preset])
-
-
-def add_features_argument(parser):
-    parser.add_argument("--features", choices=FEATURES, default="both",
-                        help="points that vote: of edges, which carry flat, thin and ribbed parts; of the surface, which "
-                             "carry smooth, round and thick ones; or both. Preset paper takes edges (default: %(default)s)")
 
 
 def add_bin_arguments(parser, scenes):

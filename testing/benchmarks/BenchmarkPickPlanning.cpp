@@ -55,8 +55,8 @@ void plan(benchmark::State& state, const meam::Gripper& gripper)
 {
   const FullBin& bin = fullBin();
   meam::PickSettings settings; // that leave most of the work to do
-  settings.mostCovered = 100.0;
-  settings.mostTilt = 90.0;
+  settings.maximumCovered = 100.0;
+  settings.maximumTilt = 90.0;
   meam::PickPlanner planner(bin.part, {}, bin.grasps, gripper, settings);
   int possible = 0;
   int looked = 0; // whose clearance had to be found

@@ -123,7 +123,7 @@ Pick GraspSearch::pickAt(const Pose& pose, int copy, int index, const PickSurrou
     Pick pick;
     pick.T_scene_grasp = pose.T_scene_model * this->Frames[index][turn];
     pick.tilt = tiltOf(pick.T_scene_grasp, around.up);
-    if (pick.tilt > this->Settings.mostTilt)
+    if (pick.tilt > this->Settings.maximumTilt)
     {
       pick.obstruction = PickObstruction::Tilted;
     }

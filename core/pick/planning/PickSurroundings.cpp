@@ -51,7 +51,7 @@ PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud,
   std::vector<bool> explained(around.points.size(), false);
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    if (confidence(poses[k]) < settings.leastProbability)
+    if (confidence(poses[k]) < settings.minimumProbability)
     {
       continue;
     }

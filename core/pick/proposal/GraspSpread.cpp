@@ -70,9 +70,9 @@ Grasps spreadOut(const Grasps& all, const Symmetries& symmetries, double spread,
     open.push_back({ &grasp, grasp.quality });
   }
   Grasps taken;
-  while (!open.empty() && static_cast<int>(taken.size()) < settings.most)
+  while (!open.empty() && static_cast<int>(taken.size()) < settings.maximumGrasps)
   {
-    report(progress, static_cast<double>(taken.size()) / settings.most);
+    report(progress, static_cast<double>(taken.size()) / settings.maximumGrasps);
     const auto best = std::max_element(
       open.begin(), open.end(), [](const Candidate& a, const Candidate& b) { return a.worth < b.worth; }); // the first
     taken.push_back(*best->grasp);

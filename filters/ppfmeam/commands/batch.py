@@ -11,7 +11,7 @@ with the reason."""
 import argparse
 import traceback
 
-from .. import evaluation, scripting
+from .. import choices, evaluation, scripting
 from ..batch import run, watch
 from ..batch.ranks import ranks
 
@@ -53,9 +53,7 @@ def options_of_user(arguments=None):
     parser.add_argument("--probability", type=scripting.share, metavar="P",
                         help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with "
                              "--poses 0)")
-    scripting.add_features_argument(parser)
-    scripting.add_image_argument(parser)
-    scripting.add_reference_argument(parser)
+    choices.add_options(parser, "detect", "features", "image_edges", "references")
     parser.add_argument("--threads", type=scripting.count, default=0,
                         help="threads of each process; 0: all cores for one process, one thread for each of several "
                              "(default)")

@@ -2,16 +2,14 @@
 """Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
 import argparse
 
-from .. import finding, picture, scripting
+from .. import choices, finding, picture, scripting
 
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cad", action="append", default=[], metavar="PART",
                         help="CAD file of the part: .stl, .obj, .ply or .off, in mm; once for each type of part")
-    parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
-                        help="added to the CAD's coordinates, in mm")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    choices.add_options(parser, "train", "offset", "scale")
     parser.add_argument("--model", action="append", default=[],
                         help="trained model of `train`, instead of training, once for each type of part; --cad is then for "
                              "the picture")
@@ -33,10 +31,7 @@ def options_of_user():
                         help="poses wanted, the best ones; 0: all that reach --probability (default: %(default)s)")
     parser.add_argument("--probability", type=scripting.share, metavar="P",
                         help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with --poses 0)")
-    scripting.add_features_argument(parser)
-    scripting.add_image_argument(parser)
-    scripting.add_reference_argument(parser)
-    parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
+    choices.add_options(parser, "detect", "features", "image_edges", "references", "threads")
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
     parser.add_argument("--json", help="write the poses as JSON")

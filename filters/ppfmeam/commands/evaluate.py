@@ -33,7 +33,7 @@ import time
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .. import dataset, evaluation, instances, paper, scripting, simulation, world
+from .. import choices, dataset, evaluation, instances, paper, scripting, simulation, world
 
 COLUMNS = ("scenes  poses   paper  strict    top1  recall      AP  AP2-20    R@99  median error: mm  degrees (axis  roll)  ms/scene")
 ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6.1f}  {recall:6.1f}  {AP:6.1f}  {AP_mm:6.1f}  {recall_99:6.1f}"
@@ -284,7 +284,7 @@ def names_of(known):
 def main():
     shared = argparse.ArgumentParser(add_help=False)
     scripting.add_method_options(shared)
-    scripting.add_reference_argument(shared)
+    choices.add_options(shared, "detect", "references")
     shared.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     datasets = parser.add_subparsers(dest="dataset", required=True)
@@ -294,7 +294,7 @@ def main():
     stored.add_argument("--why", metavar="CSV",
                         help="write a row for each true instance: the pose that found it, or the stage that lost it and why, which takes "
                              "another search of each scene that misses one")
-    scripting.add_features_argument(stored)
+    choices.add_options(stored, "detect", "features")
     one = datasets.add_parser("tohoku", parents=[stored, shared])
     one.set_defaults(run=tohoku)
     one.add_argument("--parts", type=evaluation.numbers, default=[1, 2, 3], help="such as 1,3 (default: 1,2,3)")
@@ -326,7 +326,7 @@ def main():
                      help=f"(default: {','.join(simulation.PARTS)})")
     one.add_argument("--sensors", type=names_of(simulation.SENSORS), default=simulation.SENSORS, metavar="SENSOR,...",
                      help=f"(default: {','.join(simulation.SENSORS)})")
-    one.add_argument("--features", type=names_of(scripting.FEATURES), default=scripting.FEATURES, metavar="FEATURES,...",
+    one.add_argument("--features", type=names_of(scripting.FEATURES), default=tuple(scripting.FEATURES), metavar="FEATURES,...",
                      help=f"points that vote (default: {','.join(scripting.FEATURES)})")
     one.add_argument("--bins", type=scripting.count, default=5,
                      help="of each part and sensor, and as many without the part (default: %(default)s)")

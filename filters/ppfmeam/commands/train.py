@@ -4,17 +4,15 @@ import argparse
 import json
 import time
 
-from .. import scripting
+from .. import choices, scripting
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
-    parser.add_argument("--cad-offset", nargs=3, type=float, default=(0, 0, 0), metavar=("X", "Y", "Z"),
-                        help="added to the CAD's coordinates, in mm")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    choices.add_options(parser, "train", "offset", "scale")
     scripting.add_method_options(parser)
-    scripting.add_features_argument(parser)
+    choices.add_options(parser, "train", "features")
     parser.add_argument("--out", required=True, help="the trained model to write: NAME.meam, or NAME.vtpc with a folder NAME beside")
     parser.add_argument("--models-info", metavar="FILE",
                         help="write diameter, bounds and symmetries as a BOP models_info.json; the part is object 1")

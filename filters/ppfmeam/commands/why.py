@@ -6,7 +6,7 @@ import math
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from .. import api, filters, scripting
+from .. import api, choices, filters, scripting
 
 
 def options_of_user():
@@ -26,16 +26,9 @@ def options_of_user():
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="FILE", help="image of an organized scan that carries none")
     parser.add_argument("--image-camera", metavar="FILE", help="calibration of the camera beside the sensor that took it")
-    parser.add_argument("--poses", type=scripting.count, default=5,
-                        help="poses wanted, as of `detect`; 0: all (default: %(default)s)")
-    parser.add_argument("--probability", type=scripting.share, default=0, metavar="P",
-                        help="poses less likely to be right than P, 0 to 1, are not wanted (default: %(default)s)")
-    scripting.add_features_argument(parser)
-    scripting.add_image_argument(parser)
-    scripting.add_reference_argument(parser)
+    choices.add_options(parser, "detect", "poses", "probability", "features", "image_edges", "references", "threads")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
-    parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     return parser.parse_args()
 
 
@@ -76,8 +69,7 @@ def main():
     options = options_of_user()
     inputs = {name: getattr(options, name) for name in (
         "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "references", "preset",
-        "features", "threads")}
-    inputs["image_edges"] = not options.no_image
+        "features", "image_edges", "threads")}
     if options.at:
         print_report(api.why(options.part, options.scan, at=options.at, **inputs))
     elif options.pose:

@@ -196,7 +196,7 @@ TEST(GraspProposal, equalPlacesOfABoxComeOnce)
     turns.discrete.push_back(meam::turnAbout(Eigen::Vector3d::Unit(axis), M_PI, Eigen::Vector3d::Zero()));
   }
   meam::GraspProposalSettings settings;
-  settings.most = 1000;
+  settings.maximumGrasps = 1000;
   const std::size_t all = meam::proposeGrasps(box, {}, meam::Gripper(), settings).size();
   const std::size_t some = meam::proposeGrasps(box, turns, meam::Gripper(), settings).size();
   EXPECT_LT(some, 0.45 * static_cast<double>(all)); // four, but for places near the axes

@@ -160,7 +160,7 @@ TEST(PickPlanning, WhatIsCoveredStays)
   EXPECT_EQ(picks[0].grasp, 1) << "what is shown of it is the grasp that comes from above";
   EXPECT_NEAR(picks[1].tilt, 90.0, 1e-6);
   meam::PickSettings bold;
-  bold.mostCovered = 50.0;
+  bold.maximumCovered = 50.0;
   EXPECT_NE(onlyPick({ at(0, 0) }, cloud, fromAbove(), bold).obstruction, meam::PickObstruction::Covered);
 }
 
@@ -281,10 +281,10 @@ TEST(PickPlanning, WrongInputIsOneSentence)
   huge.fingerWidth = 400.0;
   EXPECT_NE(messageOf([&] { plan({ fromAbove() }, huge); }).find("does not go into the bin"), std::string::npos);
   meam::PickSettings settings;
-  settings.mostTilt = 200.0;
+  settings.maximumTilt = 200.0;
   EXPECT_EQ(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }),
     "The maximum tilt has to be 0 to 180 degrees, not 200.");
-  settings.mostTilt = 60.0;
+  settings.maximumTilt = 60.0;
   settings.wayIn = NAN;
   EXPECT_EQ(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }), "The way in has to be 0 mm or more, not nan.");
   meam::Pose nowhere = at(0, 0);

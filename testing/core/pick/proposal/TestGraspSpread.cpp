@@ -60,7 +60,7 @@ TEST(GraspSpread, onePlaceDoesNotTakeAll)
   // at the first place 0.9 * 0.8 * 0.8, and the third the same twice.
   const Grasps all{ above(0, 0, 1.0), above(0, 60, 0.9), above(0, 120, 0.85), above(50, 0, 0.7) };
   meam::GraspProposalSettings settings;
-  settings.most = 3;
+  settings.maximumGrasps = 3;
   EXPECT_EQ(chosen(all, settings), Qualities({ 1.0, 0.9, 0.7 }));
   settings.crowding = 1.0;
   EXPECT_EQ(chosen(all, settings), Qualities({ 1.0, 0.9, 0.85 }));

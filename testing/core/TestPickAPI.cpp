@@ -90,7 +90,7 @@ meam::GripperModel slim()
 }
 }
 
-TEST(PickDoor, PlansWhatTheCorePlans)
+TEST(PickAPI, PlansWhatTheCorePlans)
 {
   meam::PlanSettings settings;
   settings.minimumProbability = 0.5;
@@ -138,7 +138,7 @@ TEST(PickDoor, PlansWhatTheCorePlans)
   EXPECT_TRUE(both.picks[0].possible && both.picks[1].possible) << both.report;
 }
 
-TEST(PickDoor, FindsTheBin)
+TEST(PickAPI, FindsTheBin)
 {
   const meam::Bin found = meam::detectBin(scanOfBin());
   EXPECT_TRUE(found.size.isApprox(Vector3d(160, 120, 60), 0.03)) << found.size.transpose();
@@ -153,7 +153,7 @@ TEST(PickDoor, FindsTheBin)
   EXPECT_THROW(picker.plan({}, scanOfBin(), {}, stop), meam::Aborted);
 }
 
-TEST(PickDoor, ProposesGraspsAndKeepsThem)
+TEST(PickAPI, ProposesGraspsAndKeepsThem)
 {
   meam::ProposeSettings settings;
   settings.maximumGrasps = 6;
@@ -162,7 +162,7 @@ TEST(PickDoor, ProposesGraspsAndKeepsThem)
   meam::Gripper gripper;
   static_cast<meam::GripperLengths&>(gripper) = slim();
   meam::GraspProposalSettings proposal;
-  proposal.most = 6;
+  proposal.maximumGrasps = 6;
   const meam::Grasps expected =
     meam::proposeGrasps(meam::prepareMesh(parts::lBracket()).mesh, scenes::bracket().symmetries, gripper, proposal);
   ASSERT_EQ(grasps.size(), 6u);
@@ -182,7 +182,7 @@ TEST(PickDoor, ProposesGraspsAndKeepsThem)
   EXPECT_EQ(plan.picks.size(), 12u);
 }
 
-TEST(PickDoor, TakesAGripperOfAnyShape)
+TEST(PickAPI, TakesAGripperOfAnyShape)
 {
   meam::GripperModel wall = slim();
   const meam::TriangleMesh box = parts::box({ -200, 10, -50 }, { 200, 20, 5 });
@@ -192,7 +192,7 @@ TEST(PickDoor, TakesAGripperOfAnyShape)
   EXPECT_FALSE(plan.picks[0].possible); // it reaches through both walls
 }
 
-TEST(PickDoor, ReadsTheRobotsFrame)
+TEST(PickAPI, ReadsTheRobotsFrame)
 {
   const files::Folder folder;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -201,7 +201,7 @@ TEST(PickDoor, ReadsTheRobotsFrame)
   EXPECT_TRUE(meam::loadRobotFrame(folder.path("robot.json")).isApprox(T));
 }
 
-TEST(PickDoor, WrongInputIsOneSentence)
+TEST(PickAPI, WrongInputIsOneSentence)
 {
   const auto errorOf = [](const std::function<void()>& act) { return files::errorOf(act); };
   meam::Mesh metres = bracketMesh();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/Bounds.h"
 #include "meam.h"
 #include "model/ModelFile.h"
 #include "model/TrainedModel.h"
@@ -11,6 +12,10 @@ Model::Model(std::shared_ptr<const TrainedModel> trained)
 }
 
 double Model::diameter() const { return this->trained().diameter; }
+
+Eigen::AlignedBox3d Model::bounds() const { return meam::bounds(this->trained().surface.points).cast<double>(); }
+
+Eigen::Vector3d Model::middle() const { return this->trained().visibility->middle().cast<double>(); }
 
 void Model::save(const std::string& path) const { writeModel(path, this->trained()); }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "door/DoorConversion.h"
+#include "api/Conversion.h"
 
 #include "base/Bounds.h"
+#include "model/TrainedModel.h"
 
 #include <iomanip>
 #include <sstream>
@@ -35,6 +36,10 @@ TriangleMesh partOf(const Model& model, const Mesh& part)
 {
   TriangleMesh mesh{ part.vertices, part.triangles };
   requireMesh(mesh);
+  if (!model)
+  {
+    return mesh;
+  }
   const Eigen::Vector3d sides = bounds(mesh.vertices).cast<double>().sizes();
   const double longest = sides.maxCoeff(), diagonal = sides.norm(), diameter = model.diameter();
   if (longest > (1.0 + Rounding) * diameter || diagonal < (1.0 - Rounding) * diameter)
@@ -44,6 +49,8 @@ TriangleMesh partOf(const Model& model, const Mesh& part)
   }
   return mesh;
 }
+
+Symmetries symmetriesOf(const Model& model) { return model ? model.trained().symmetries : Symmetries(); }
 
 Gripper gripperOf(const GripperModel& gripper)
 {

@@ -47,7 +47,7 @@ meam::Scan step(int width = 60, int height = 40)
 }
 }
 
-TEST(Door, FindsWhatTheCoreFinds)
+TEST(API, FindsWhatTheCoreFinds)
 {
   meam::DetectSettings settings;
   settings.maximumPoses = 3;
@@ -69,7 +69,7 @@ TEST(Door, FindsWhatTheCoreFinds)
   EXPECT_EQ(found.warning, "");
 }
 
-TEST(Door, SettingsReachTheSteps)
+TEST(API, SettingsReachTheSteps)
 {
   meam::DetectSettings settings;
   settings.maximumPoses = 1;
@@ -101,7 +101,7 @@ TEST(Door, SettingsReachTheSteps)
   EXPECT_TRUE(files::contains(meam::detect(bracketModel(), centimetres).warning, "factor is 10"));
 }
 
-TEST(Door, TrainsSavesAndLoads)
+TEST(API, TrainsSavesAndLoads)
 {
   const files::Folder folder;
   double done = 0.0;
@@ -132,14 +132,14 @@ TEST(Door, TrainsSavesAndLoads)
   EXPECT_NEAR(meam::train(metres, settings).diameter(), model.diameter(), 1e-3);
 }
 
-TEST(Door, CanBeStopped)
+TEST(API, CanBeStopped)
 {
   const auto stop = [](double) { return false; };
   EXPECT_THROW(meam::train(bracketMesh(), {}, stop), meam::Aborted);
   EXPECT_THROW(meam::detect(bracketModel(), scanOfThree(), {}, stop), meam::Aborted);
 }
 
-TEST(Door, WhatIsWrongWithAScan)
+TEST(API, WhatIsWrongWithAScan)
 {
   const meam::Model model = bracketModel();
   const auto errorOf = [&](const meam::Scan& scan, const meam::DetectSettings& settings = {})
@@ -167,7 +167,7 @@ TEST(Door, WhatIsWrongWithAScan)
   EXPECT_NE(errorOf(scan), "");
 }
 
-TEST(Door, EdgesOfTheCloudAlone)
+TEST(API, EdgesOfTheCloudAlone)
 {
   meam::DetectSettings settings;
   settings.imageEdges = false;
@@ -175,7 +175,7 @@ TEST(Door, EdgesOfTheCloudAlone)
   EXPECT_NO_THROW(meam::detect(bracketModel(), step(), settings)); // no image is asked for
 }
 
-TEST(Door, ReadsScans)
+TEST(API, ReadsScans)
 {
   const files::Folder folder;
   meam::PCDData data;

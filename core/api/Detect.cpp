@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "door/DoorConversion.h"
+#include "api/Conversion.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
-#include "pose/DetectionChoices.h"
+#include "pose/DetectionSteps.h"
 #include "scene/Units.h"
 
 #include <chrono>
@@ -44,35 +44,18 @@ Sensor sensorOf(const Scan& scan)
   return sensor;
 }
 
-DetectionChoices choicesOf(const DetectSettings& settings)
-{
-  DetectionChoices choices;
-  choices.preset = settings.preset;
-  choices.features = settings.features;
-  choices.maximumPoses = settings.maximumPoses;
-  choices.minimumProbability = settings.minimumProbability;
-  choices.partIsPresent = settings.partIsPresent;
-  choices.referenceShare = settings.referenceShare;
-  choices.imageEdges = settings.imageEdges;
-  choices.depthEdges = settings.depthEdges;
-  choices.creases = settings.creases;
-  choices.seed = settings.seed;
-  choices.threads = settings.threads;
-  return choices;
-}
-
 /// Sets the scan's edge points as given, or as extracted, with what the scan shows of the sensor.
-void setEdges(const Scan& scan, const DetectionChoices& choices, SceneInput& input, const Progress& progress)
+void setEdges(const Scan& scan, const DetectSettings& settings, SceneInput& input, const Progress& progress)
 {
   if (!scan.edges.empty())
   {
     requirePoints(scan.edges, "The scan's edge cloud");
     PointCloud edges;
     edges.points = scan.edges;
-    input.edges = toLocalCloud(edges, choices.threads);
+    input.edges = toLocalCloud(edges, settings.threads);
     return;
   }
-  SceneEdgeExtractionSettings extraction = sceneEdgeSettings(choices);
+  SceneEdgeExtractionSettings extraction = sceneEdgeSettings(settings);
   extraction.camera = scan.imageCamera;
   if (extraction.imageEdges && scan.image.pixels.empty())
   {
@@ -80,7 +63,7 @@ void setEdges(const Scan& scan, const DetectionChoices& choices, SceneInput& inp
                 "look for depthEdges and creases alone.");
   }
   setFoundEdges(extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress),
-    choices.threads, input);
+    settings.threads, input);
 }
 }
 
@@ -89,21 +72,20 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   const auto start = std::chrono::steady_clock::now();
   const TrainedModel& trained = model.trained();
   requireScan(scan);
-  const DetectionChoices choices = choicesOf(settings);
   SceneInput input;
   input.sensor = sensorOf(scan);
-  setEdges(scan, choices, input, subProgress(progress, 0.0, AfterSceneEdges));
+  setEdges(scan, settings, input, subProgress(progress, 0.0, AfterSceneEdges));
   input.measured = toLocalPoints(scan.points, input.edges.T_local_scene, settings.threads);
   requirePoints(scan.points.size(), input.measured.size(), "The scan");
 
   Detections result;
   result.quality = input.quality;
   const Progress ofPoses = subProgress(progress, AfterSceneEdges, 1.0);
-  const Poses poses = estimatePoses(trained, input, detectionSettings(choices), nullptr, ofPoses);
+  const Poses poses = estimatePoses(trained, input, detectionSettings(settings), nullptr, ofPoses);
   for (const Pose& pose : poses)
   {
-    result.poses.push_back(
-      { pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction, pose.fit.residual });
+    result.poses.push_back({ pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction,
+      pose.fit.residual, pose.votes, pose.viewId, pose.fit.covariance });
   }
   const std::string ofUnits = unitsWarning(input.edges.cloud.points, trained.diameter), doubts = doubtsOf(poses);
   result.warning = ofUnits + (ofUnits.empty() || doubts.empty() ? "" : " ") + doubts;

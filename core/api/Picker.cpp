@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/RobotFrameFile.h"
-#include "door/DoorConversion.h"
+#include "api/Conversion.h"
 #include "mesh/Symmetries.h"
-#include "model/TrainedModel.h"
 #include "pick/BinDetection.h"
 #include "pick/Grasp.h"
 #include "pick/PickPlanning.h"
@@ -16,19 +15,6 @@ namespace meam
 namespace
 {
 constexpr double AfterBin = 0.2; // share of the work, for the progress
-
-PickSettings settingsOf(const PlanSettings& given)
-{
-  PickSettings settings;
-  settings.safetyMargin = given.safetyMargin;
-  settings.wayIn = given.wayIn;
-  settings.leastProbability = given.minimumProbability;
-  settings.mostTilt = given.maximumTilt;
-  settings.mostCovered = given.maximumCovered;
-  settings.turnStep = given.turnStep;
-  settings.tolerance = given.tolerance;
-  return settings;
-}
 
 OrganizedCloud cloudOf(const Scan& scan)
 {
@@ -60,7 +46,7 @@ Picker::Picker(
 {
   const TriangleMesh mesh = partOf(model, part);
   this->Planner =
-    std::make_shared<PickPlanner>(mesh, model.trained().symmetries, grasps, gripperOf(gripper), settingsOf(settings));
+    std::make_shared<PickPlanner>(mesh, symmetriesOf(model), grasps, gripperOf(gripper), PickSettings{ settings });
 }
 
 PickPlan Picker::plan(const Detections& found, const Scan& scan, const Workplace& place, const Progress& progress) const

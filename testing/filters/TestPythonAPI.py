@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ppfmeam.train and ppfmeam.detect: files and NumPy arrays in, NumPy arrays out, exceptions and nothing on the console; the
-files of a trained model hold the same."""
+"""ppfmeam's functions: files and NumPy arrays in, rows and NumPy arrays out, the same as of the filters; exceptions and nothing
+on the console; threads and signals of Python while they work; the files of a trained model hold the same."""
 import os
 import shutil
+import signal
 import sys
 import tempfile
+import threading
+import time
 import warnings
 
 import numpy
@@ -12,10 +15,14 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
 import ppfmeam
+from ppfmeam import _core, inputs, scripting
 from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
+    vtkMEAMGraspDefinition,
     vtkMEAMModelReader,
     vtkMEAMModelWriter,
+    vtkMEAMPickPlanning,
+    vtkMEAMPoseEstimation,
     vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
 )
@@ -83,6 +90,57 @@ def same(a, b):
           "the poses differ")
 
 
+def in_threads(count, work):
+    threads = [threading.Thread(target=work) for _ in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def check_threads(call):
+    """Python goes on while the library works: two calls overlap, and signals are handled meanwhile."""
+    running, most, interval = [], [], sys.getswitchinterval()
+
+    def work():
+        running.append(None)
+        most.append(len(running))
+        call()
+        running.pop()
+
+    sys.setswitchinterval(1000)  # only where the lock is given away another thread goes on
+    try:
+        in_threads(2, work)
+    finally:
+        sys.setswitchinterval(interval)
+    check(max(most) == 2, "two calls do not overlap")
+
+    handled, done = [], threading.Event()
+
+    def send():
+        while not done.wait(0.1):
+            os.kill(os.getpid(), signal.SIGINT)
+
+    def count(*_):
+        handled.append(time.monotonic())
+        if len(handled) == 3:
+            raise KeyboardInterrupt
+
+    before, sender = signal.signal(signal.SIGINT, count), threading.Thread(target=send)
+    sender.start()
+    try:
+        while True:
+            first = len(handled)
+            call()
+            check(len(handled) - first < 2, "signals are handled, and the call goes on")
+    except KeyboardInterrupt:
+        check(len(handled) - first > 1, "signals wait until the call ends")
+    finally:
+        done.set()
+        sender.join()
+        signal.signal(signal.SIGINT, before)
+
+
 part = vtkMEAMSamplePartSource()
 part.SetPartToHolePlate()  # soon trained
 source = vtkMEAMBinSceneSource()
@@ -115,6 +173,41 @@ try:
     nearest = min(numpy.linalg.norm(found.poses[0, :3, 3] - T[:3, 3]) for T in truth)
     print(f"the best of {len(found)} poses is {nearest:.2f} mm from a true one, probability {found.probabilities[0]:.2f}")
     check(nearest < 1 and found.probabilities[0] > 0.5, "the best pose is wrong")
+
+    # Rows and a table.
+    pose = found[0]
+    check((pose.transform == found.poses[0]).all() and pose.probability == found.probabilities[0], "the first row")
+    check([row.score for row in found] == list(found.scores) and found[-1].score == found.scores[-1], "rows in their order")
+    check(len(str(found).splitlines()) == 1 + len(found) and f"{100 * pose.probability:.0f} %" in str(found), str(found))
+    check(pose.covariance.shape == (6, 6) and (numpy.linalg.eigvalsh(pose.covariance) > 0).all(), "the covariance")
+    try:
+        found[len(found)]
+        check(False, "an index that is out of range")
+    except IndexError:
+        pass
+    check({"detect", "train", "load", "why", "grasps", "pick", "Error", "filters"} <= set(dir(ppfmeam)), f"{dir(ppfmeam)}")
+    check(all(getattr(ppfmeam, name) is not None for name in dir(ppfmeam)), "a name that is not there")
+
+    # The same bits as of the filters.
+    same_model(model.data, scripting.train(scripting.read_mesh("part.stl")))
+    estimation = connect(vtkMEAMPoseEstimation(), model.data)
+    estimation.SetInputDataObject(1, scan)
+    poses = run(estimation)
+    for name, column in (("Transform", found.poses.reshape(-1, 16)), ("Score", found.scores), ("Probability", found.probabilities),
+                         ("Certainty", found.certainties), ("VisibleFraction", found.visible_fractions)):
+        check((vtk_to_numpy(poses.GetPointData().GetArray(name)) == column).all(), f"{name} is another one than of the filter")
+    for name in ("Quaternion", "Votes", "ViewId", "Residual", "Covariance"):
+        check((vtk_to_numpy(poses.GetPointData().GetArray(name)) == vtk_to_numpy(found.data.GetPointData().GetArray(name))).all(), name)
+    for name in ("PartBounds", "PartMiddle", "Diameter"):
+        check(field(poses, name) == field(found.data, name), name)
+
+    # Several threads, and signals.
+    settings = _core.DetectSettings()
+    settings.threads, settings.referenceShare = 1, 1.0
+    seen = inputs.scan_of(scan)
+    check_threads(lambda: _core.detect(model.core, seen, settings))
+    mesh = _core.load_mesh("part.stl")
+    check_threads(lambda: _core.train(mesh, _core.TrainSettings()))
 
     # The model comes back from both kinds of file as it was.
     for name in ("model.meam", "model.vtpc"):
@@ -155,7 +248,7 @@ try:
     check((grasps.widths[:3] <= 40 - 2 * 3).all() and (grasps.qualities > 0).all(), f"{grasps.widths} {grasps.qualities}")
     check(grasps.free_turns[3:] == ["approach"] * 3, f"{grasps.free_turns}")
     raises("no such file", ppfmeam.grasps, "part.stl", file="missing.json")
-    raises("opening", ppfmeam.grasps, "part.stl", jaws=3)
+    raises("opening", ppfmeam.grasps, "part.stl", opening="wide")
     raises("propose", ppfmeam.grasps, "part.stl", propose="magnet")
 
     # What the gripper can take of what was found.
@@ -163,7 +256,7 @@ try:
         picks = ppfmeam.pick(found, grasps, scan, opening=60)
         cup = ppfmeam.pick(found.poses, grasps, points, gripper="cup", bin="none")
         place = numpy.diag((1.0, -1.0, -1.0, 1.0))
-        place[:3, 3] = picks.data.GetFieldData().GetArray("Bin").GetTuple(0)[3:12:4]
+        place[:3, 3] = picks.bin.transform[:3, 3]
         deep = ppfmeam.pick(found, grasps, bin=(place, 200, 200, 50, 4))
     check(len(picks) == len(found) * len(grasps) and picks.transforms.shape == (len(picks), 4, 4), f"{len(picks)} picks")
     check((picks.possible == [reason == "" for reason in picks.reasons]).all() and picks.report.endswith("."), picks.report)
@@ -175,24 +268,41 @@ try:
         check(numpy.linalg.norm(held[:3, 3] - picks.transforms[row][:3, 3]) < 1e-6, "the gripper stands at the grasp")
     check(all(("kind of gripper" in reason) == (grasps.kinds[k] == "parallel") for k, reason in zip(cup.grasps, cup.reasons)),
           f"a cup needs grasps for a cup: {cup.reasons}")
-    check(numpy.allclose(deep.data.GetFieldData().GetArray("Bin").GetTuple(0), (*place.ravel(), 200, 200, 50, 4)), "the bin given")
+    check((deep.bin.transform == place).all() and (*deep.bin.size, deep.bin.wall) == (200, 200, 50, 4), "the bin given")
+    check(len(str(picks).splitlines()) == 2 + len(picks) and picks.report in str(picks), str(picks))
+    check([row.name for row in grasps] == grasps.names and "suction" in str(grasps), str(grasps))
     check(deep.robot_transforms is None and len(deep.clearances) == len(deep), "no robot")
     raises("bin", ppfmeam.pick, found, grasps, scan, bin="box")
     raises("4 x 4", ppfmeam.pick, found, grasps, scan, bin=(numpy.eye(3), 1, 1, 1))
     raises("N x 4 x 4", ppfmeam.pick, numpy.eye(4), grasps, scan)
-    raises("no length", ppfmeam.pick, found, grasps, scan, fingers=3)
     raises("no such file", ppfmeam.pick, found, grasps, scan, gripper="hook.stl")
-    raises("set Bin", ppfmeam.pick, found, grasps)
-    for option, words in (("tilt", "tilt has to be 0 to 180 degrees, not 500"), ("probability", "probability has to be 0 to 1"),
-                          ("covered", "covered share has to be 0 to 100 %"), ("margin", "margin has to be 0 mm"),
-                          ("way_in", "way in has to be 0 mm"), ("opening", "opening has to be")):
-        raises(words, ppfmeam.pick, found, grasps, scan, **{option: 500 if option in ("tilt", "probability", "covered") else -1})
+    raises("bin is found in the scan", ppfmeam.pick, found, grasps)
+    raises("tilt has to be a number from 0 to 180, not 500", ppfmeam.pick, found, grasps, scan, tilt=500)
+    raises("opening has to be a number, 0 or more, not -1", ppfmeam.pick, found, grasps, scan, opening=-1)
+
+    # Of the filters the same grasps and picks.
+    definition = connect(vtkMEAMGraspDefinition(), scripting.read_mesh("part.stl"), model.data)
+    definition.SetProposeToBoth()
+    definition.SetMaximumNumberOfGrasps(3)
+    definition.SetOpening(40)
+    definition.SetCupDiameter(8)
+    given = run(definition).GetPointData()
+    check((vtk_to_numpy(given.GetArray("Transform")).reshape(-1, 4, 4) == grasps.transforms).all(), "other grasps")
+    check(scripting.texts(definition.GetOutput(), "GraspName") == grasps.names, "grasps of other names")
+    planning = connect(vtkMEAMPickPlanning(), found.data, scripting.read_mesh("part.stl"), definition.GetOutput(), scan)
+    planning.SetOpening(60)
+    planning.SetCupDiameter(8)
+    planned = run(planning).GetPointData()
+    for name, column in (("Transform", picks.transforms.reshape(-1, 16)), ("Possible", picks.possible), ("Score", picks.scores),
+                         ("Clearance", picks.clearances), ("Tilt", picks.tilts), ("Covered", picks.covered), ("Reach", picks.reaches),
+                         ("Width", picks.widths), ("Instance", picks.instances + 1), ("Grasp", picks.grasps + 1)):
+        check((vtk_to_numpy(planned.GetArray(name)) == column).all(), f"{name} of a pick is another one than of the filter")
 
     # What is wrong is an exception, what may be wrong a warning.
     flat = points.reshape(-1, 3)
     raises("no such file", ppfmeam.train, "missing.stl")
     raises("unknown kind of file", ppfmeam.train, __file__)
-    raises("positive", ppfmeam.train, "part.stl", scale=-1)
+    raises("scale has to be a number above 0, not -1", ppfmeam.train, "part.stl", scale=-1)
     raises("preset", ppfmeam.train, "part.stl", preset="best")
     raises("no such file", ppfmeam.load, "missing.meam")
     raises("no such file", ppfmeam.detect, "missing.meam", scan)

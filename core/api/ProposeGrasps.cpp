@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "door/DoorConversion.h"
+#include "api/Conversion.h"
 #include "mesh/preparation/MeshPreparation.h"
-#include "model/TrainedModel.h"
 #include "pick/GraspProposal.h"
 #include "picks.h"
 
@@ -15,14 +14,8 @@ constexpr double AfterPreparation = 0.1; // share of the work, for the progress
 Grasps proposeGrasps(const Model& model, const Mesh& part, const GripperModel& gripper, const ProposeSettings& settings,
   const Progress& progress)
 {
-  GraspProposalSettings proposal;
-  proposal.most = settings.maximumGrasps;
-  proposal.frictionAngle = settings.frictionAngle;
-  proposal.spread = settings.spread;
-  proposal.seed = settings.seed;
-  proposal.threads = settings.threads;
   const PreparedMesh prepared = prepareMesh(partOf(model, part), {}, subProgress(progress, 0.0, AfterPreparation));
-  return proposeGrasps(prepared.mesh, model.trained().symmetries, gripperOf(gripper), proposal,
+  return proposeGrasps(prepared.mesh, symmetriesOf(model), gripperOf(gripper), GraspProposalSettings{ settings },
     subProgress(progress, AfterPreparation, 1.0));
 }
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "features/Preset.h"
+
+namespace meam
+{
+/// What a user chooses of detection; the preset has everything else. filters/ppfmeam/choices.json names each field's
+/// property, Python argument and command line option.
+struct DetectSettings
+{
+  Preset preset = Preset::Recommended;
+  Features features = Features::Both; ///< by which poses are looked for; with the preset Paper edges alone
+  int maximumPoses = 5;               ///< the best ones; 0: all
+  double minimumProbability = 0.0;    ///< [0, 1], of each
+  /// Known to be in the scan, as in a cell that counts what it takes: poses are not less likely because it may be
+  /// missing.
+  bool partIsPresent = false;
+  /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
+  /// preset's
+  double referenceShare = 0.0;
+  bool imageEdges = true; ///< edges from the image
+  bool depthEdges = true; ///< and where a surface ends in front of another one; not with the preset Paper
+  bool creases = true;    ///< and where two flat pieces meet; not with the preset Paper
+  unsigned seed = 1;      ///< of all random choices
+  int threads = 0;        ///< 0: one for each processor
+};
+}

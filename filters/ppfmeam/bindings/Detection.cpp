@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conversion.h"
+
+namespace meamPython
+{
+namespace
+{
+using namespace meam;
+using Unlocked = py::call_guard<py::gil_scoped_release>;
+using Pixels = py::array_t<std::uint8_t, py::array::c_style>;
+
+/// H x W x 3 points are a grid, N x 3 are not organized.
+Scan scanOf(const Triples<float>& points)
+{
+  const bool organized = points.ndim() == 3;
+  Scan scan;
+  scan.width = static_cast<int>(points.shape(organized ? 1 : 0));
+  scan.height = organized ? static_cast<int>(points.shape(0)) : 1;
+  scan.points = vectorsOf(points);
+  return scan;
+}
+
+py::array_t<float> pointsOf(const Scan& scan)
+{
+  py::array_t<float> points = arrayOf(scan.points);
+  return scan.height > 1 ? points.reshape({ scan.height, scan.width, 3 }) : points;
+}
+
+/// H x W, or H x W x 1 or 3.
+Image imageOf(const Pixels& pixels)
+{
+  Image image;
+  image.height = static_cast<int>(pixels.shape(0));
+  image.width = static_cast<int>(pixels.shape(1));
+  image.channels = pixels.ndim() == 3 ? static_cast<int>(pixels.shape(2)) : 1;
+  image.pixels.assign(pixels.data(), pixels.data() + pixels.size());
+  return image;
+}
+
+/// None when there is no image.
+py::object pixelsOf(const Image& image)
+{
+  if (image.pixels.empty())
+  {
+    return py::none();
+  }
+  std::vector<py::ssize_t> shape{ image.height, image.width };
+  if (image.channels > 1)
+  {
+    shape.push_back(image.channels);
+  }
+  return Pixels(shape, image.pixels.data());
+}
+
+Camera cameraOf(int width, int height, const Eigen::Matrix3d& matrix, const Eigen::Matrix4d& T_camera_scan)
+{
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = matrix(0, 0);
+  camera.fy = matrix(1, 1);
+  camera.cx = matrix(0, 2);
+  camera.cy = matrix(1, 2);
+  camera.T_camera_scene.matrix() = T_camera_scan;
+  return camera;
+}
+
+/// Empty when it is not known.
+py::dict numbersOf(const ScanQuality& quality)
+{
+  using namespace py::literals;
+  return !quality.isKnown()
+           ? py::dict()
+           : py::dict("PointDistance"_a = quality.pointDistance, "Noise"_a = quality.noise,
+               "Smoothing"_a = quality.smoothing, "DepthStep"_a = quality.depthStep, "JumpGap"_a = quality.jumpGap,
+               "Flying"_a = quality.flying, "Coverage"_a = quality.coverage);
+}
+
+/// Poses N x 4 x 4 of which no more is known.
+Detections detectionsOf(const py::array_t<double, py::array::c_style | py::array::forcecast>& transforms)
+{
+  Detections found;
+  found.poses.resize(static_cast<std::size_t>(transforms.shape(0)));
+  for (std::size_t k = 0; k < found.poses.size(); ++k)
+  {
+    found.poses[k].T_scan_part.matrix() =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(transforms.data() + 16 * k);
+  }
+  return found;
+}
+
+void bindData(py::module_& module)
+{
+  py::class_<Mesh>(module, "Mesh")
+    .def(py::init(
+      [](const Triples<float>& vertices, const Triples<int>& triangles) {
+        return Mesh{ vectorsOf(vertices), vectorsOf(triangles) };
+      }))
+    .def_property_readonly("vertices", [](const Mesh& mesh) { return arrayOf(mesh.vertices); })
+    .def_property_readonly("triangles", [](const Mesh& mesh) { return arrayOf(mesh.triangles); });
+  py::class_<Camera>(module, "Camera").def(py::init(&cameraOf));
+  py::class_<Scan>(module, "Scan")
+    .def(py::init(&scanOf))
+    .def_property_readonly("points", &pointsOf)
+    .def_property(
+      "image", [](const Scan& scan) { return pixelsOf(scan.image); },
+      [](Scan& scan, const Pixels& pixels) { scan.image = imageOf(pixels); })
+    .def_property(
+      "edges", [](const Scan& scan) { return arrayOf(scan.edges); },
+      [](Scan& scan, const Triples<float>& edges) { scan.edges = vectorsOf(edges); })
+    .def_readwrite("image_camera", &Scan::imageCamera);
+  module.def("load_mesh", &loadMesh, Unlocked());
+  module.def("load_scan", &loadScan, Unlocked());
+  module.def("load_depth_image", &loadDepthImage, Unlocked());
+  module.def("load_image", [](const std::string& path) { return pixelsOf(loadImage(path)); });
+  module.def("load_camera", &loadCamera, Unlocked());
+}
+
+void bindSettings(py::module_& module)
+{
+  py::enum_<Preset> presets(module, "Preset");
+  for (int preset = 0; preset < Presets; ++preset)
+  {
+    presets.value(nameOf(static_cast<Preset>(preset)), static_cast<Preset>(preset));
+  }
+  py::enum_<Features> features(module, "Features");
+  for (const Features each : { Features::Edges, Features::Surface, Features::Both })
+  {
+    features.value(nameOf(each), each);
+  }
+  py::class_<DetectSettings>(module, "DetectSettings")
+    .def(py::init<>())
+    .def_readwrite("preset", &DetectSettings::preset)
+    .def_readwrite("features", &DetectSettings::features)
+    .def_readwrite("maximumPoses", &DetectSettings::maximumPoses)
+    .def_readwrite("minimumProbability", &DetectSettings::minimumProbability)
+    .def_readwrite("partIsPresent", &DetectSettings::partIsPresent)
+    .def_readwrite("referenceShare", &DetectSettings::referenceShare)
+    .def_readwrite("imageEdges", &DetectSettings::imageEdges)
+    .def_readwrite("depthEdges", &DetectSettings::depthEdges)
+    .def_readwrite("creases", &DetectSettings::creases)
+    .def_readwrite("seed", &DetectSettings::seed)
+    .def_readwrite("threads", &DetectSettings::threads);
+  py::class_<TrainSettings>(module, "TrainSettings")
+    .def(py::init<>())
+    .def_readwrite("preset", &TrainSettings::preset)
+    .def_readwrite("features", &TrainSettings::features)
+    .def_readwrite("scale", &TrainSettings::scale)
+    .def_readwrite("offset", &TrainSettings::offset)
+    .def_readwrite("seed", &TrainSettings::seed);
+}
+}
+
+void bindDetection(py::module_& module)
+{
+  bindData(module);
+  bindSettings(module);
+  py::class_<Model>(module, "Model")
+    .def(py::init<>())
+    .def_property_readonly("diameter", &Model::diameter)
+    .def_property_readonly("middle", &Model::middle)
+    .def_property_readonly("bounds",
+      [](const Model& model) { return std::make_pair(model.bounds().min().eval(), model.bounds().max().eval()); })
+    .def("save", &Model::save, Unlocked());
+  module.def("load_model", &loadModel, Unlocked());
+  module.def("train", [](const Mesh& mesh, const TrainSettings& settings)
+    { return withoutLock([&](const Progress& progress) { return train(mesh, settings, progress); }); });
+
+  py::class_<DetectedPose>(module, "Pose", "A copy of the part.")
+    .def_property_readonly(
+      "transform", [](const DetectedPose& pose) { return pose.T_scan_part.matrix(); },
+      "4 x 4, takes the part's coordinates (mm) to the scan's.")
+    .def_property_readonly(
+      "quaternion", [](const DetectedPose& pose) { return Eigen::Quaterniond(pose.T_scan_part.linear()).coeffs(); },
+      "Its rotation: x y z w.")
+    .def_readonly("score", &DetectedPose::score, "[0, 1], share of what should be visible that is there.")
+    .def_readonly("probability", &DetectedPose::probability, "[0, 1], that the pose is right.")
+    .def_readonly("certainty", &DetectedPose::certainty,
+      "[0, 1], that no near-symmetry turns it: low when what breaks it is not visible.")
+    .def_readonly("visible_fraction", &DetectedPose::visibleFraction,
+      "[0, 1], share of the part's side towards the sensor that nothing hides.")
+    .def_readonly("residual", &DetectedPose::residual, "mm, root mean square between the part and the scan.")
+    .def_readonly("votes", &DetectedPose::votes, "Of the peak that it came from.")
+    .def_readonly("view_id", &DetectedPose::viewId, "The appearance model that shows what the sensor sees of it.")
+    .def_readonly("covariance", &DetectedPose::covariance,
+      "6 x 6, of a small motion about the middle of the part's surface, axes of the scan: rotation vector (radians), "
+      "then translation (mm).");
+  py::class_<Detections>(module, "Detections")
+    .def(py::init(&detectionsOf))
+    .def_readonly("poses", &Detections::poses)
+    .def_property_readonly("quality", [](const Detections& found) { return numbersOf(found.quality); })
+    .def_readonly("seconds", &Detections::seconds)
+    .def_readonly("warning", &Detections::warning);
+  module.def("detect", [](const Model& model, const Scan& scan, const DetectSettings& settings)
+    { return withoutLock([&](const Progress& progress) { return detect(model, scan, settings, progress); }); });
+}
+}

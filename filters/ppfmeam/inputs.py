@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What users have, files, NumPy arrays or VTK's data objects, as the C++ library takes it, and back to VTK's for the filters."""
+import os
+import tempfile
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData, vtkStructuredGrid
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
+from . import Error, _core, scripting
+
+DEPTH_IMAGES = (".png", ".tif", ".tiff")
+HIDDEN = vtkDataSetAttributes.HIDDENPOINT
+
+
+def path_of(file):
+    """The name of a file that is there."""
+    path = os.fspath(file)
+    scripting.require_file(path)
+    return path
+
+
+def mesh_of(cad):
+    """The mesh of a file or a vtkPolyData, as it came."""
+    if not isinstance(cad, vtkDataObject):
+        return _core.load_mesh(mesh_file(cad))
+    triangles = vtkTriangleFilter()
+    triangles.SetInputDataObject(cad)
+    triangles.PassLinesOff()
+    triangles.PassVertsOff()
+    mesh = scripting.update(triangles).GetOutput()
+    corners = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return _core.Mesh(vtk_to_numpy(mesh.GetPoints().GetData()), corners)
+
+
+def mesh_file(file):
+    """The name of a file that is there, and of a kind that has a mesh."""
+    path = os.fspath(file)
+    if os.path.splitext(path)[1].lower() not in scripting.EXTENSIONS:
+        raise Error(f"{path}: unknown kind of file; known are {', '.join(scripting.EXTENSIONS)}")
+    return path_of(path)
+
+
+def model_from_vtk(data):
+    """The model in a vtkPartitionedDataSetCollection."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "model.meam")
+        scripting.write_model(data, path)
+        return _core.load_model(path)
+
+
+def model_to_vtk(model):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "model.meam")
+        model.save(path)
+        return scripting.read_model(path)
+
+
+def scan_of(scan, camera=None, scale=1.0):
+    """The points, with the image of an organized scan that carries one."""
+    if not 0 < scale < float("inf"):
+        raise Error(f"scale has to be a positive number, not {scale!r}")
+    if isinstance(scan, vtkDataObject):
+        return from_dataset(scan, scale)
+    if isinstance(scan, numpy.ndarray):
+        return _core.Scan(scaled(scan, scale, "scan"))
+    path = os.fspath(scan)
+    extension = os.path.splitext(path)[1].lower()
+    if extension in DEPTH_IMAGES and camera is None:
+        raise Error(f"{path}: a depth image needs the calibration of its camera")
+    if camera is not None and extension not in (".ply", *DEPTH_IMAGES):
+        raise Error(f"{path}: only a .ply cloud is organized with the camera of the sensor")
+    path_of(path)
+    if extension in DEPTH_IMAGES:
+        return _core.load_depth_image(path, path_of(camera))
+    if extension in (".pcd", ".ply"):
+        return _core.load_scan(path, "" if camera is None else path_of(camera), scale)
+    return _core.Scan(scaled(_core.load_mesh(mesh_file(path)).vertices, scale, "scan"))
+
+
+def scaled(points, scale, what):
+    """An array of points, in mm."""
+    if points.ndim not in (2, 3) or points.shape[-1] != 3 or points.dtype.kind != "f":
+        raise Error(f"the {what} has to be an array of floats, H x W x 3 or N x 3, not {points.dtype} with the shape {points.shape}")
+    return points if scale == 1.0 else points * scale
+
+
+def from_dataset(data, scale):
+    """The points of a vtkStructuredGrid, a grid, or of another vtkPointSet."""
+    points = vtk_to_numpy(data.GetPoints().GetData()) if data.GetNumberOfPoints() else numpy.zeros((0, 3), numpy.float32)
+    if not data.IsA("vtkStructuredGrid"):
+        return _core.Scan(scaled(points, scale, "scan"))
+    width, height, layers = data.GetDimensions()
+    if layers != 1:
+        raise Error(f"the scan is a grid of {width} x {height} x {layers} points: an organized cloud is width x height x 1")
+    ghosts = data.GetPointGhostArray()
+    if ghosts:
+        points = points.copy()
+        points[vtk_to_numpy(ghosts) & HIDDEN != 0] = numpy.nan
+    scan = _core.Scan(scaled(points.reshape(height, width, 3), scale, "scan"))
+    values = data.GetPointData()
+    pixels = values.GetArray("Intensity") or values.GetArray("RGB")
+    if pixels:
+        scan.image = bytes_of(vtk_to_numpy(pixels)).reshape(height, width, -1)
+    return scan
+
+
+def bytes_of(pixels):
+    """Grey values or colours; those of 16 bits have the whole range."""
+    if pixels.dtype == numpy.uint8:
+        return pixels
+    values = numpy.rint(pixels / 257.0 if pixels.dtype == numpy.uint16 else pixels)
+    if not ((values >= 0) & (values <= 255)).all():
+        raise Error("the image has values outside of 0 to 255")
+    return values.astype(numpy.uint8)
+
+
+def points_of(points, scale):
+    """Edge points: N x 3."""
+    if isinstance(points, (numpy.ndarray, vtkDataObject)):
+        return scan_of(points, scale=scale).points.reshape(-1, 3)
+    return scan_of(os.fspath(points), scale=scale).points.reshape(-1, 3)
+
+
+def set_image(scan, image, camera):
+    """The image of the sensor, or of another camera, whose calibration is a file or stands in the field data of a vtkImageData."""
+    if isinstance(image, vtkDataObject):
+        width, height, _ = image.GetDimensions()
+        pixels = image.GetPointData().GetScalars() or image.GetPointData().GetArray(0)
+        scan.image = numpy.ascontiguousarray(bytes_of(vtk_to_numpy(pixels)).reshape(height, width, -1)[::-1, :, :3])
+        fields = [image.GetFieldData().GetArray(name) for name in ("CameraMatrix", "CameraPose")]
+        if all(fields) and camera is None:
+            matrix, pose = (vtk_to_numpy(field).reshape(n, n) for field, n in zip(fields, (3, 4)))
+            if scan.points.shape[:2] != (height, width) or not numpy.allclose(pose, numpy.eye(4), atol=1e-9):
+                scan.image_camera = _core.Camera(width, height, matrix, pose)
+    elif isinstance(image, numpy.ndarray):
+        if image.dtype != numpy.uint8 or image.ndim not in (2, 3) or image.shape[2:] not in ((), (1,), (3,), (4,)):
+            raise Error(f"the image has to be an array of bytes, H x W or H x W x 3, not {image.dtype} with the shape {image.shape}")
+        scan.image = numpy.ascontiguousarray(image[..., :3] if image.ndim == 3 else image)
+    else:
+        scan.image = _core.load_image(path_of(image))
+    if camera is not None:
+        scan.image_camera = _core.load_camera(path_of(camera))
+
+
+def to_vtk(scan):
+    """A scan as the filters take it: a grid, or points; its edge points; and its image. None for what it has not."""
+    points = scan.points
+    data = vtkStructuredGrid() if points.ndim == 3 else vtkPolyData()
+    if points.ndim == 3:
+        data.SetDimensions(points.shape[1], points.shape[0], 1)
+    data.SetPoints(vtk_points(points))
+    edges = image = None
+    if len(scan.edges):
+        edges = vtkPolyData()
+        edges.SetPoints(vtk_points(scan.edges))
+    if scan.image is not None:
+        pixels, image = scan.image[::-1], vtkImageData()  # VTK's rows go upwards
+        image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
+        image.GetPointData().SetScalars(vtk_array(pixels.reshape(pixels.shape[0] * pixels.shape[1], -1)))
+    return data, edges, image
+
+
+def vtk_points(points):
+    result = vtkPoints()
+    result.SetData(vtk_array(points.reshape(-1, 3)))
+    return result
+
+
+def vtk_array(values):
+    return numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
