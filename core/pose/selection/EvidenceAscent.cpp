@@ -26,15 +26,20 @@ EvidenceAscent::EvidenceAscent(const EvidenceCollector& collector, const Evidenc
   {
     axes = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), round.front().axis).toRotationMatrix();
   }
+  std::vector<Motion> motions;
   for (int k = 0; k < 3; ++k)
   {
-    this->ShiftsFirst.push_back({ axes.col(k), false });
+    motions.push_back({ axes.col(k), false });
   }
   for (int k = static_cast<int>(round.size()); k < 3; ++k)
   {
-    this->ShiftsFirst.push_back({ axes.col(k), true });
+    motions.push_back({ axes.col(k), true });
   }
-  this->TurnsFirst.assign(this->ShiftsFirst.rbegin(), this->ShiftsFirst.rend());
+  this->Orders.push_back(motions);
+  if (settings.bothOrders)
+  {
+    this->Orders.emplace_back(motions.rbegin(), motions.rend());
+  }
 }
 
 EvidenceAscent::Result EvidenceAscent::at(const Eigen::Isometry3d& T_scene_model) const
@@ -49,9 +54,9 @@ EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_mod
   Result best = this->at(T_scene_model);
   if (this->isContradicted(best))
   {
-    for (const std::vector<Motion>* motions : { &this->ShiftsFirst, &this->TurnsFirst })
+    for (const std::vector<Motion>& motions : this->Orders)
     {
-      Result moved = this->at(this->climb(T_scene_model, *motions));
+      Result moved = this->at(this->climb(T_scene_model, motions));
       moved.logOdds -= this->Settings.price;
       moved.logOddsBefore = best.logOddsBefore;
       moved.isMoved = true;
@@ -72,8 +77,8 @@ bool EvidenceAscent::isContradicted(const Result& pose) const
     return false;
   }
   const EvidenceCounts& counts = pose.evidence.counts;
-  return counts.past + counts.farPast >= this->Settings.leastPast ||
-         (probability < this->Settings.covered &&
+  return (this->Settings.ifPast && counts.past + counts.farPast >= this->Settings.leastPast) ||
+         (this->Settings.ifClose && probability < this->Settings.covered &&
            this->Collector.closelyHidden(pose.T_scene_model) >= this->Settings.leastClose);
 }
 

@@ -10,6 +10,9 @@ namespace meam
 {
 struct EvidenceAscentSettings
 {
+  bool ifPast = true;        ///< poses move that the sensor saw past,
+  bool ifClose = true;       ///< and those that a surface close before them hides
+  bool bothOrders = true;    ///< shifts first and turns first; else shifts first alone
   double leastPast = 1.0;    ///< patches that the sensor saw past,
   double leastClose = 0.2;   ///< or that a surface hides which is close before them; fewer, and a pose stays
   double covered = 0.9;      ///< probability from which on what is close before a pose is another object
@@ -47,7 +50,9 @@ public:
     double logOddsBefore;  ///< of the pose as it was
     bool isMoved;
   };
-  /// What the scan says of a pose, in the local frame, or of one near by that is worth its price.
+  /// What the scan says of a pose, in the local frame.
+  Result at(const Eigen::Isometry3d& T_scene_model) const;
+  /// The same, or of one near by that is worth its price.
   Result best(const Eigen::Isometry3d& T_scene_model) const;
 
 private:
@@ -57,7 +62,6 @@ private:
     bool isTurn;
   };
 
-  Result at(const Eigen::Isometry3d& T_scene_model) const;
   bool isContradicted(const Result& pose) const;
   Eigen::Isometry3d moved(const Eigen::Isometry3d& T_scene_model, const Motion& motion, double step) const;
   bool isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
@@ -68,8 +72,8 @@ private:
   EvidenceRates Rates;
   const TrainedModel& Model;
   EvidenceAscentSettings Settings;
-  std::vector<Motion> ShiftsFirst; ///< and turns, but about the axis of a round part, and of a nearly round one
-                                   ///< (RotationDecision)
-  std::vector<Motion> TurnsFirst;  ///< the same in the other order
+  /// Shifts and then turns, but about the axis of a round part, and of a nearly round one (RotationDecision); and the
+  /// same in the other order.
+  std::vector<std::vector<Motion>> Orders;
 };
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meam
 {
@@ -47,14 +48,22 @@ public:
   Finished finish(Pose pose, InstanceChoice& choice, int index) const
   {
     PoseComparison::Contender asItIs = choice.contender(index);
-    pose = this->Restarts.best(pose, asItIs);
-    if (!this->Model.symmetries.near.empty())
+    if (this->Settings.restartsRefinement)
+    {
+      pose = this->Restarts.best(pose, asItIs);
+    }
+    const bool hasNear = !this->Model.symmetries.near.empty();
+    if (hasNear && this->Settings.searchesRotation)
     {
       this->rotate(pose, asItIs);
+    }
+    if (hasNear && this->Settings.decidesRotation)
+    {
       this->Decision.decide(pose, asItIs);
     }
     pose = alignRobustly(pose, this->InScene, this->Model, this->Settings.alignment);
-    const EvidenceAscent::Result best = this->Ascent.best(pose.T_scene_model);
+    const EvidenceAscent::Result best =
+      this->Settings.ascends ? this->Ascent.best(pose.T_scene_model) : this->Ascent.at(pose.T_scene_model);
     const Eigen::Isometry3d T_aligned = pose.T_scene_model;
     pose.T_scene_model = best.T_scene_model;
     if (best.isMoved)
@@ -174,7 +183,16 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     });
   std::stable_sort(
     finished.begin(), finished.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
-  Poses instances = withoutShared(finished, model, settings);
+  Poses instances;
+  if (settings.dropsShared)
+  {
+    instances = withoutShared(finished, model, settings);
+  }
+  else
+  {
+    std::transform(finished.begin(), finished.end(), std::back_inserter(instances),
+      [](const Finished& instance) { return instance.pose; });
+  }
   if (haveSurfaces(scene, model) && !finished.empty())
   {
     const auto best = std::max_element(finished.begin(), finished.end(),

@@ -35,6 +35,11 @@ struct PoseSelectionSettings
   double worthRefining = 3e-7;     ///< are more: probability, of poses that are not refined yet
   double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
   // Instances
+  bool restartsRefinement = true; ///< from rotations about the pose
+  bool searchesRotation = true;   ///< about the axis of a nearly round part
+  bool decidesRotation = true;    ///< between near-symmetries
+  bool ascends = true;            ///< where the scan contradicts an aligned pose
+  bool dropsShared = true;        ///< poses whose surface better ones have
   InstanceChoiceSettings instances;
   EvidenceSettings evidence; ///< that poses are scored by once more
   PoseComparisonSettings comparison;

@@ -55,9 +55,15 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
   };
   for (int axis = 0; axis < 3; ++axis)
   {
-    add(axis, 180.0, this->HalfTurns);
-    add(axis, -settings.turn, this->SmallTurns);
-    add(axis, settings.turn, this->SmallTurns);
+    if (settings.halfTurns)
+    {
+      add(axis, 180.0, this->HalfTurns);
+    }
+    if (settings.smallTurns)
+    {
+      add(axis, -settings.turn, this->SmallTurns);
+      add(axis, settings.turn, this->SmallTurns);
+    }
   }
 }
 

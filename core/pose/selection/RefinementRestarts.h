@@ -9,6 +9,8 @@ namespace meam
 {
 struct RefinementRestartsSettings
 {
+  bool halfTurns = true;      ///< starts at half turns
+  bool smallTurns = true;     ///< starts at `turn` to both sides
   double turn = 10.0;         ///< degrees, beside half a turn
   double distanceShare = 0.1; ///< of the diameter, the correspondences at the start
   int iterations = 6;         ///< steps; what stays is aligned afterwards
