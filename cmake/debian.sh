@@ -39,7 +39,7 @@ packages=(
   libflann-dev liblzf-dev nlohmann-json3-dev libbullet-dev libfcl-dev pybind11-dev
   openmpi-bin python3-mpi4py # several processes: ppfmeam batch
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev pybind11-dev
   qemu-user # a processor without AVX: TestSameBits
   "${suite[@]}"
 )

@@ -54,9 +54,16 @@ Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFr
     { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
       [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter, settings.edges); } });
   const double tolerance = std::max(settings.enclosureTolerance * diameter, settings.enclosureNoises * quality.noise);
-  this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter, settings.enclosure);
-  this->isOnLongLine =
-    onLongLines(this->edgePoints(), this->edgeIndex, diameter, tolerance, settings.longLines, settings.threads);
+  if (settings.findsEnclosure)
+  {
+    this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter, settings.enclosure);
+  }
+  this->isOnLongLine.assign(this->edgePoints().size(), 0);
+  if (settings.findsLongLines)
+  {
+    this->isOnLongLine =
+      onLongLines(this->edgePoints(), this->edgeIndex, diameter, tolerance, settings.longLines, settings.threads);
+  }
   Points onLines;
   for (std::size_t i = 0; i < this->isOnLongLine.size(); ++i)
   {

@@ -15,6 +15,8 @@ namespace meam
 /// Cells of what is looked up in a scene, as shares of the part's diameter: about the distances that are asked for.
 struct SceneSettings
 {
+  bool findsEnclosure = true;       ///< floor and walls of the bin
+  bool findsLongLines = true;       ///< edges longer than the part
   double edgeCell = 0.08;           ///< of the edge index; refinement starts with correspondences of 10 %
   double depthCell = 0.02;          ///< of the depth map: some points of a usual scan each
   double surfaceCell = 0.05;        ///< of the measured surface's grid

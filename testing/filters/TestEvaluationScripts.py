@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The scripts of examples/ that measure, on a dataset of one scene or on simulated bins: evaluate.py, compare_models.py,
-ablation.py, calibration.py, robustness.py. With --long more of their choices."""
+calibration.py, robustness.py. With --long more of their choices."""
 import csv
 import math
 import os
@@ -92,9 +92,8 @@ noisy = [works("evaluate.py", "tohoku", "data", "--parts", "1", "--scenes", "0",
 check(noisy[0] == noisy[1] != noisy[2], "the noise is not what was asked for")
 check(noisy[0] != read("result/Part_1/trans0.txt"), "there is no noise")
 for noise in ("loud", "-1", "nan", "inf", "%"):
-    for name in (("evaluate.py", "tohoku"), ("ablation.py",)):
-        result = script(*name, "data", "--noise", noise)
-        check(result.returncode == 2 and result.stderr.rstrip().endswith(f"0 or more, not {noise}"), result.stderr)
+    result = script("evaluate.py", "tohoku", "data", "--noise", noise)
+    check(result.returncode == 2 and result.stderr.rstrip().endswith(f"0 or more, not {noise}"), result.stderr)
 
 # compare_models.py: a row for each model, the same scenes for all.
 text = works("compare_models.py", "--tohoku", "data", "--parts", "1", "--scenes", "1", "--simulated", "1", "--copies", "2",
@@ -102,15 +101,6 @@ text = works("compare_models.py", "--tohoku", "data", "--parts", "1", "--scenes"
 check(text.strip() == read("models.md").strip() and text.count("###") == 2, f"two tables: {text}")
 rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if "MEAM |" in line or "mesh edges |" in line]
 check(len(rows) == (4 if LONG else 2) and all(float(row[1].rstrip(" %")) >= 50 and float(row[5]) > 1000 for row in rows), f"{text}")
-
-# ablation.py: a row for each decision, with a time where the online phase is as it was.
-choices = {"none": "nothing", "near": "no near-symmetries", "edges": "edges alone, no surface", "no-refinement": "no refinement"}
-choices = choices if LONG else {key: choices[key] for key in ("none", "no-refinement")}
-text = works("ablation.py", "data", "--parts", "1", "--scenes", "0", "--poses", "2", "--only", ",".join(choices))
-rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()[4:] if line]
-check([row[0] for row in rows] == list(choices.values()), text)
-check(all(float(row[1].rstrip(" %")) >= 50 for row in rows), text)
-check([row[5] == "-" for row in rows] == [key in ("edges", "no-refinement") for key in choices], text)
 
 # calibration.py: every pose is in one row; by edges and surface right poses are likely.
 text = works("calibration.py", "data", "--parts", "1", "--scenes", "0", "--noise", "0")
@@ -183,7 +173,6 @@ if LONG:
 for arguments, word in ((("--parts", "nothing"), "there is no nothing"), (("--sensors", "eye"), "there is no eye"), (("--features", "ears"), "there is no ears")):
     result = script("evaluate.py", "world", *arguments, "--out", "o")
     check(result.returncode == 2 and word in result.stderr and not os.path.exists("o"), result.stderr)
-refuses("cannot read nowhere", "ablation.py", "nowhere")
 refuses("cannot read nowhere", "compare_models.py", "--tohoku", "nowhere", "--out", "o.md")
 result = script("evaluate.py", "tohoku", "nowhere", "--out", "o")
 check(result.returncode == 1 and "cannot read nowhere" in result.stderr and not os.path.exists("o"), result.stderr)
