@@ -82,8 +82,8 @@ void byEdgeCoverage(DetectionSettings& settings)
 
 void withoutNoise(DetectionSettings& settings)
 {
-  settings.candidateVerification.evidence.noises = settings.verification.evidence.noises =
-    settings.selection.evidence.noises = settings.scene.enclosureNoises = 0.0;
+  settings.candidateVerification.evidence.followsNoise = settings.verification.evidence.followsNoise =
+    settings.selection.evidence.followsNoise = false;
 }
 
 std::vector<Switch> makeSwitches()
@@ -106,14 +106,15 @@ std::vector<Switch> makeSwitches()
   instances("ascent", "no maximization of the log odds", [](S& s) { s.ascends = false; });
   instances("ascent-past", "the same where the sensor saw past", [](S& s) { s.ascent.ifPast = false; });
   instances("ascent-close", "the same where something close hides", [](S& s) { s.ascent.ifClose = false; });
-  instances("ascent-covered", "likely poses move that something close hides", [](S& s) { s.ascent.covered = 2.0; });
-  instances("ascent-sure", "sure poses move, too", [](S& s) { s.ascent.sure = 2.0; });
+  instances(
+    "ascent-covered", "likely poses move that something close hides", [](S& s) { s.ascent.leavesLikely = false; });
+  instances("ascent-sure", "sure poses move, too", [](S& s) { s.ascent.leavesSure = false; });
   instances("ascent-orders", "one order of motions", [](S& s) { s.ascent.bothOrders = false; });
-  instances("ascent-price", "no penalty of a moved pose", [](S& s) { s.ascent.price = 0.0; });
+  instances("ascent-price", "no penalty of a moved pose", [](S& s) { s.ascent.penalizes = false; });
   instances("shared", "poses that share their surface stay", [](S& s) { s.dropsShared = false; });
-  instances("absence", "no absence prior", [](S& s) { s.evidence.calibration.leastPresent = 1.0; });
-  instances("comparison", "instances by their evidence alone", [](S& s) { s.instances.equalEvidence = 0.0; });
-  instances("alignment", "no final alignment", [](S& s) { s.alignment.steps = 0; });
+  instances("absence", "no absence prior", [](S& s) { s.partIsPresent = true; });
+  instances("comparison", "instances by their evidence alone", [](S& s) { s.comparesInstances = false; });
+  instances("alignment", "no final alignment", [](S& s) { s.aligns = false; });
   instances(
     "own-visibility", "rotations each judged on all they predict", [](S& s) { s.comparison.sameVisibility = false; });
   // Candidates
@@ -155,11 +156,7 @@ std::vector<Switch> makeSwitches()
   add(Stage::Voting, "one-turn", "peaks of one bin, not of three", [](D& d) { d.detection.smoothPeaks = false; });
   add(Stage::Voting, "peaks", "two peaks of each reference", [](D& d) { d.detection.peaksPerReference = 2; });
   add(Stage::Voting, "scan-references", "as many references in a scan as of a boundary",
-    [](D& d)
-    {
-      d.detection.scanReferences = d.detection.boundaryReferences;
-      d.detection.leastScanReferences = d.detection.leastReferences;
-    });
+    [](D& d) { d.detection.moreInScans = false; });
   add(Stage::Voting, "long-buckets", "long buckets vote, too",
     [](D& d) { d.detection.longestBucket = std::numeric_limits<double>::max(); });
   // Training
