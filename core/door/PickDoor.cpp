@@ -107,7 +107,7 @@ Bin detectBin(const Scan& scan, const Progress& progress)
     throw Error("The bin is found in an organized scan: give one, or the bin (Workplace::bin), or set "
                 "Workplace::hasBin to false.");
   }
-  return detectBin(cloudOf(scan), {}, progress);
+  return detectBin(cloudOf(scan), progress);
 }
 
 Grasp graspAt(GraspKind kind, const Eigen::Vector3d& position, const Eigen::Vector3d& approach,

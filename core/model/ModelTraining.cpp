@@ -2,6 +2,7 @@
 #include "model/ModelTraining.h"
 
 #include "mesh/ConvexHull.h"
+#include "mesh/symmetry/SymmetryDetection.h"
 #include "model/AppearanceModel.h"
 
 namespace meam
@@ -53,7 +54,7 @@ TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settin
   PartSurface part{ surface, partDiameter, {} };
   if (settings.findSymmetries)
   {
-    part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
+    part.symmetries = detectSymmetries(surface, {}, subProgress(progress, 0.4, 0.7));
   }
   return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
 }

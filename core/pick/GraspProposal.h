@@ -12,32 +12,10 @@ namespace meam
 struct GraspProposalSettings
 {
   int most = 20;       ///< grasps that come out
-  double spread = 0.0; ///< mm: nearer than this and turned by less than `turnApart` two grasps are one; 0: 10 % of D
-  double turnApart = 40.0; ///< degrees, between grasps at one place; less than the step between approaches
-
-  double crowding = 0.8; ///< times its worth for each grasp taken at its place, and for each with its way in; 1: by
-                         ///< quality alone, however many are at one place
-
-  // Of jaws.
+  double spread = 0.0; ///< mm: nearer than this and turned by less than 40 degrees two grasps are one; 0: 10 % of D
   double frictionAngle = 15.0; ///< degrees between the closing direction and the surface's normals: friction of 0.27
-  double leastWidth = 0.5;     ///< mm, of what the jaws hold: thinner sheets bend
-  double padTolerance = 0.5;   ///< mm that a jaw's pad may be from the surface where it is said to touch
-  double leastContact = 0.15;  ///< share of each pad that has to touch; a pin touches a fifth all along the pad
-  int approaches = 8;          ///< directions about the closing one that are tried
-
-  // Of cups.
-  double sealTolerance = 0.4; ///< mm between the cup's rim and the surface that a lip of rubber closes
-  double mostBend = 5.0;      ///< degrees between the surface's normals under the cup
-
-  double wayIn = 80.0;       ///< mm, straight along the approach, on which the gripper must not touch the part
-  double wayStep = 2.0;      ///< mm between the places on it at which a gripper that is a mesh is looked at
-  int contacts = 1500;       ///< places on the surface that are tried, about: more finds more and takes longer
-  double turnStep = 15.0;    ///< degrees between the turns at which a free one is proved
-  double freeTurnLoss = 0.1; ///< share of the contact that a free turn may cost
-  double centreWeight = 0.5; ///< of the quality that is lost half a diameter away from the centre of mass
-  double angleWeight = 0.5;  ///< of the quality that is lost at the limit of friction, or of what a lip closes
-  unsigned seed = 1;         ///< of the places: the same gives the same grasps
-  int threads = 0;           ///< 0: one for each processor; no part in the result
+  unsigned seed = 1;           ///< of the places: the same gives the same grasps
+  int threads = 0;             ///< 0: one for each processor; no part in the result
 };
 
 /// Grasps from the part's faces (mm, closed meshes facing outwards), spread over it, best first, for jaws or a cup as

@@ -86,9 +86,8 @@ Picks PickPlanner::plan(
       pick.reach = around.top - around.up.dot(pick.T_scene_grasp.translation());
       if (pick.possible())
       {
-        const double comfort = settings.comfortableClearance;
         pick.score = confidence(poses[k]) * search.grasps()[g].quality * (1.0 - covered) *
-                     (comfort > 0.0 ? std::min(1.0, pick.clearance / comfort) : 1.0);
+                     std::min(1.0, pick.clearance / ComfortableClearance);
       }
       picks.push_back(pick);
     }

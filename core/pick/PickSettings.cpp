@@ -35,11 +35,7 @@ void requireSettings(const PickSettings& s)
   requireWithin("minimum probability", s.leastProbability, 0.0, 1.0);
   requireWithin("maximum tilt", s.mostTilt, 0.0, 180.0, " degrees");
   requireWithin("maximum covered share", s.mostCovered, 0.0, 100.0, " %");
-  requireWithin("comfortable clearance", s.comfortableClearance, 0.0, Unbounded, " mm");
   requireWithin("turn step", s.turnStep, 1.0, 360.0, " degrees");
-  requireWithin("cup's slack", s.cupSlack, 0.0, Unbounded, " mm");
-  requireWithin("margin from the part", s.partMargin, 0.0, Unbounded, " mm");
   requireWithin("tolerance", s.tolerance, 0.0, Unbounded, " mm");
-  requireWithin("voxel size", s.voxelSize, 0.0, Unbounded, " mm");
 }
 }

@@ -9,31 +9,19 @@ namespace meam
 /// What a pick has to keep, and how finely planning looks.
 struct PickSettings
 {
-  double safetyMargin = 2.0;          ///< mm that the gripper keeps from all but the part that it holds
-  double wayIn = 80.0;                ///< mm, straight along the grasp's z, that have to be free
-  double leastProbability = 0.5;      ///< of a pose that is picked; less likely ones do not stand in
-                                      ///< the way either; one of unknown probability and score (0) is certain
-  double mostTilt = 60.0;             ///< degrees between the way in and straight down
-  double mostCovered = 20.0;          ///< % of the part, from above, that may lie under something
-  double comfortableClearance = 10.0; ///< mm; more is no better
-  double turnStep = 30.0;             ///< degrees between the turns that a free one is tried at
-  double cupSlack = 2.0;              ///< mm that a cup gives way when it comes down on the part
-  double partMargin = 1.0; ///< mm that the open gripper keeps from the part that it takes, but between its pads
-  double tolerance = 0.0;  ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
-                           ///< 1 % of the part's size, its box from corner to corner; at most 6 %
-  double voxelSize = 0.0;  ///< mm, of what is measured besides; 0: 4 point distances, at least 1 % of the diameter
-
-  // Shares of the part's size, the diagonal of its box.
-  double toleranceOfPart = 0.01; ///< the tolerance without noise, and the smallest voxel
-  double mostTolerance = 0.06;   ///< however noisy: farther away lies something else
-  double surfaceSpacing = 0.03;  ///< of the points on the part that tell what lies at it and on it
-  double mostOutside = 0.5;      ///< a grasp so far from the part is one of another part, or in another unit
-  double noiseInTolerance = 3.0; ///< standard deviations: all but 3 of 1,000 points
-  double pointsInVoxel = 4.0;    ///< point distances in the side of a voxel, so that a slanted surface has no holes
-  double thinnedInVoxel = 2.0;   ///< of the points along that side so many are taken: more say no more
-  int fewestInVoxel = 2;         ///< a point alone is none of a surface
+  double safetyMargin = 2.0;     ///< mm that the gripper keeps from all but the part that it holds
+  double wayIn = 80.0;           ///< mm, straight along the grasp's z, that have to be free
+  double leastProbability = 0.5; ///< of a pose that is picked; less likely ones do not stand in
+                                 ///< the way either; one of unknown probability and score (0) is certain
+  double mostTilt = 60.0;        ///< degrees between the way in and straight down
+  double mostCovered = 20.0;     ///< % of the part, from above, that may lie under something
+  double turnStep = 30.0;        ///< degrees between the turns that a free one is tried at
+  double tolerance = 0.0; ///< mm: measured points so near to a copy or the bin are of it; 0: 3 times the noise and
+                          ///< 1 % of the part's size, its box from corner to corner; at most 6 %
 };
 
+constexpr double MostTolerance = 0.06;        // of the part's size, however noisy: farther away lies something else
+constexpr double ComfortableClearance = 10.0; // mm; more is no better
 constexpr double Unbounded = std::numeric_limits<double>::infinity();
 
 /// Throws Error for a number that is not finite or not within its range: "The maximum tilt has to be 0 to 180 degrees,

@@ -78,9 +78,8 @@ DirectedPoints surfacePointsOf(const Scene& scene, double leaf, const PoseDetect
 {
   const Points& means = scene.depth.means();
   const std::vector<int> thinned = thinPoints(means, leaf);
-  NormalEstimationSettings estimation = settings.normals;
-  estimation.threads = settings.threads;
-  const Points normals = estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, estimation);
+  const Points normals =
+    estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, settings.threads);
   DirectedPoints result;
   for (std::size_t k = 0; k < thinned.size(); ++k)
   {

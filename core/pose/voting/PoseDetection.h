@@ -32,8 +32,7 @@ struct PoseDetectionSettings
   /// Buckets of the table of surface points with more entries for each of the model's points tell nothing: pairs on a
   /// plane.
   double longestBucket = 2.0;
-  NormalEstimationSettings normals{}; ///< of the scene's surface
-  int peaksPerReference = 1;          ///< candidates of one reference point; more find more hidden parts, at a cost
+  int peaksPerReference = 1; ///< candidates of one reference point; more find more hidden parts, at a cost
   /// The sense of d along a tangent tells which way round it lies; else stored signs are taken for right, which is
   /// wrong for half of the references.
   bool signedTangents = true;

@@ -231,7 +231,6 @@ TEST(GraspProposal, aCupSitsOnFlatSpots)
 TEST(GraspProposal, theSameForAnyNumberOfThreads)
 {
   meam::GraspProposalSettings settings;
-  settings.contacts = 400;
   settings.threads = 1;
   const Grasps one = meam::proposeGrasps(parts::windowPlate(), {}, meam::Gripper(), settings);
   settings.threads = 3;

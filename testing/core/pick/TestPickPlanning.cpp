@@ -205,9 +205,8 @@ TEST(PickPlanning, TheOpenGripperDoesNotGrazeThePart)
   meam::Grasp deep = fromAbove();
   deep.T_model_grasp.translation().z() = 33.5;
   EXPECT_EQ(onlyPick({ at(0, 0) }, {}, deep, {}, std::nullopt).obstruction, meam::PickObstruction::PartItself);
-  meam::PickSettings bold;
-  bold.partMargin = 0.25;
-  EXPECT_TRUE(onlyPick({ at(0, 0) }, {}, deep, bold, std::nullopt).possible());
+  deep.T_model_grasp.translation().z() -= 1.0; // more than the margin
+  EXPECT_TRUE(onlyPick({ at(0, 0) }, {}, deep, {}, std::nullopt).possible());
 }
 
 TEST(PickPlanning, TheWallIsInTheWay)
