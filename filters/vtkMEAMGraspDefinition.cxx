@@ -43,7 +43,7 @@ void makeNamesUnique(meam::Grasps& grasps)
 }
 
 vtkMEAMGraspDefinition::vtkMEAMGraspDefinition()
-  : Settings(std::make_unique<meam::GraspProposalSettings>())
+  : Settings(std::make_unique<meam::ProposeSettings>())
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);

@@ -29,7 +29,7 @@
 namespace meam
 {
 struct Grasp;
-struct GraspProposalSettings;
+struct ProposeSettings;
 }
 
 class PPFMEAMFILTERS_EXPORT vtkMEAMGraspDefinition : public vtkMEAMGripperAlgorithm
@@ -140,7 +140,7 @@ private:
 
   meam::Grasp LaidByHand() const;
 
-  std::unique_ptr<meam::GraspProposalSettings> Settings;
+  std::unique_ptr<meam::ProposeSettings> Settings;
   char* FileName = nullptr;
   int Propose = ParallelJaws;
   int HandGrasp = NoHandGrasp;

@@ -85,11 +85,10 @@ int vtkMEAMHandEyeCalibration::RequestData(vtkInformation*, vtkInformationVector
         throw meam::Error("No file is given: set FileName to the name of a file with pairs of poses.");
       }
       const meam::HandEyeFile file = meam::readHandEye(this->FileName);
-      meam::HandEyeSettings settings;
-      settings.mount = this->Mount == Hand     ? meam::CameraMount::Hand
-                       : this->Mount == Beside ? meam::CameraMount::Beside
-                                               : file.mount.value_or(settings.mount);
-      fromCalibration(meam::calibrateHandEye(file.pairs, settings), settings.mount, output, table);
+      const meam::CameraMount mount = this->Mount == Hand     ? meam::CameraMount::Hand
+                                      : this->Mount == Beside ? meam::CameraMount::Beside
+                                                              : file.mount.value_or(meam::CameraMount::Beside);
+      fromCalibration(meam::calibrateHandEye(file.pairs, mount), mount, output, table);
     },
     output, table);
 }

@@ -49,7 +49,7 @@ meam::OrganizedCloud cloudOf(vtkPointSet* scan)
 }
 
 vtkMEAMPickPlanning::vtkMEAMPickPlanning()
-  : Settings(std::make_unique<meam::PickSettings>())
+  : Settings(std::make_unique<meam::PlanSettings>())
 {
   this->SetNumberOfInputPorts(5);
   this->SetNumberOfOutputPorts(4);
@@ -144,7 +144,7 @@ int vtkMEAMPickPlanning::RequestData(
         {
           throw meam::Error("The bin is found in an organized scan: connect Scan, or set Bin to Given or None.");
         }
-        bin = meam::detectBin(cloud, {}, meam::subProgress(progress, 0.0, 0.2));
+        bin = meam::detectBin(cloud, meam::subProgress(progress, 0.0, 0.2));
       }
       meam::PickPlanner planner(toMesh(part), symmetries, grasps, gripper, *this->Settings);
       const meam::Picks picks = planner.plan(poses, cloud, bin, meam::subProgress(progress, 0.4, 1.0));

@@ -45,7 +45,7 @@
 
 namespace meam
 {
-struct PickSettings;
+struct PlanSettings;
 }
 
 class PPFMEAMFILTERS_EXPORT vtkMEAMPickPlanning : public vtkMEAMGripperAlgorithm
@@ -210,7 +210,7 @@ private:
   vtkMEAMPickPlanning(const vtkMEAMPickPlanning&) = delete;
   void operator=(const vtkMEAMPickPlanning&) = delete;
 
-  const std::unique_ptr<meam::PickSettings> Settings;
+  const std::unique_ptr<meam::PlanSettings> Settings;
   int Bin = DetectedBin;
   double BinPosition[3] = { 0.0, 0.0, 0.0 };
   double BinRotation[3] = { 180.0, 0.0, 0.0 };

@@ -2,7 +2,7 @@
 # The order of the house; prints what breaks it and fails:
 # - dependencies point one way: examples -> plugin, xml -> filters -> core
 # - a folder of core/ holds a dozen units, and testing/core/ has the same folders
-# - tuned numbers of core/features, mesh, model, pose and scene are fields of settings
+# - a number has a reason, a field of settings is set somewhere
 cd "$1" || exit 2
 status=0
 forbid() { # reason, pattern, files...; `except`: lines that may
@@ -33,11 +33,19 @@ for test in testing/core/*/**/Test*.cpp; do
   [ -f "$folder/${stem#Test}.h" ] || { echo "$test: there is no $folder/${stem#Test}.h"; status=1; }
 done
 
-# A size, a mark or a share of the progress says so: `constexpr int chunk = 128; // not tuned: bins that wait`.
-tuned="tuned numbers are fields of settings"
-untuned="a number that is not tuned has a comment that begins with 'not tuned:'"
-except='//+<? not tuned: ' forbid "$tuned; $untuned" '^(static |inline )*(constexpr|const) [^(]*[={].*[0-9]' "${steps[@]}"
-except='//+<? not tuned: ' forbid "$tuned; $untuned" \
-  '^ +(static |inline )*(constexpr|const) [^(=]*( =|\{) *-?\.?[0-9][-+*/ .0-9e]*[fFuUlL]*[};]' "${steps[@]}" "${stepHeaders[@]}"
-except=' = 1\.0[,)]|: +const (double|float) [A-Za-z]+ = ' forbid "$tuned, and no arguments' defaults" '(double|float) [A-Za-z]+ = [^,;)]*[1-9][^,;)]*[,)]' "${stepHeaders[@]}"
+# A number is a constexpr with its reason as a comment, behind it or before it (`constexpr int chunk = 128; // bins that
+# wait`), or a field of settings, and a preset, a filter, a benchmark or an example sets that.
+awk '
+  function constant(line) {
+    return FILENAME ~ /cpp$/ && line ~ /^(static |inline )*(constexpr|const) [^(]*[={].*[0-9]/ ||
+      line ~ /^ +(static |inline )*(constexpr|const) [^(=]*( =|[{]) *-?\.?[0-9][-+*\/ .0-9e]*[fFuUlL]*[};]/
+  }
+  FNR == 1 { told = begun = 0 }
+  /^ *\/\// { told = 1; next }
+  constant($0) { begun = 1 }
+  !begun { told = 0; next }
+  /;/ { if (!told && !/; *\/\//) { print FILENAME ":" FNR ":" $0; wrong = 1 } begun = 0 }
+  END { if (wrong) { print "^ a number has its reason as a comment" } exit wrong }' "${steps[@]}" "${stepHeaders[@]}" || status=1
+/usr/bin/python3 testing/settings.py . || status=1
+except=' = 1\.0[,)]|: +const (double|float) [A-Za-z]+ = ' forbid "a tuned number is no argument's default" '(double|float) [A-Za-z]+ = [^,;)]*[1-9][^,;)]*[,)]' "${stepHeaders[@]}"
 exit $status

@@ -45,8 +45,7 @@ Picker::Picker(
   : Given(grasps)
 {
   const TriangleMesh mesh = partOf(model, part);
-  this->Planner =
-    std::make_shared<PickPlanner>(mesh, symmetriesOf(model), grasps, gripperOf(gripper), PickSettings{ settings });
+  this->Planner = std::make_shared<PickPlanner>(mesh, symmetriesOf(model), grasps, gripperOf(gripper), settings);
 }
 
 PickPlan Picker::plan(const Detections& found, const Scan& scan, const Workplace& place, const Progress& progress) const
@@ -93,7 +92,7 @@ Bin detectBin(const Scan& scan, const Progress& progress)
     throw Error("The bin is found in an organized scan: give one, or the bin (Workplace::bin), or set "
                 "Workplace::hasBin to false.");
   }
-  return detectBin(cloudOf(scan), {}, progress);
+  return detectBin(cloudOf(scan), progress);
 }
 
 Grasp graspAt(GraspKind kind, const Eigen::Vector3d& position, const Eigen::Vector3d& approach,

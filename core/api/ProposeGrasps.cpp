@@ -15,7 +15,7 @@ Grasps proposeGrasps(const Model& model, const Mesh& part, const GripperModel& g
   const Progress& progress)
 {
   const PreparedMesh prepared = prepareMesh(partOf(model, part), {}, subProgress(progress, 0.0, AfterPreparation));
-  return proposeGrasps(prepared.mesh, symmetriesOf(model), gripperOf(gripper), GraspProposalSettings{ settings },
-    subProgress(progress, AfterPreparation, 1.0));
+  return proposeGrasps(
+    prepared.mesh, symmetriesOf(model), gripperOf(gripper), settings, subProgress(progress, AfterPreparation, 1.0));
 }
 }

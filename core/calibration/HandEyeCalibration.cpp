@@ -14,6 +14,8 @@ namespace meam
 {
 namespace
 {
+constexpr double LeastTurn = 5.0; // degrees that some motions have to turn, about axes that are not parallel
+
 constexpr std::size_t FewestPairs = 3;
 constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
 constexpr double Degrees = 180.0 / M_PI;
@@ -175,7 +177,7 @@ std::optional<Eigen::Isometry3d> solved(
 }
 }
 
-HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, const HandEyeSettings& settings)
+HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, CameraMount mount)
 {
   if (pairs.size() < FewestPairs)
   {
@@ -191,14 +193,14 @@ HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, const
     targets.push_back(requireRigid(pair.T_camera_target, "T_camera_target", exact.size()));
     exact.push_back({ grippers.back(), targets.back() });
   }
-  requireTurns(grippers, "gripper", settings.leastTurn);
-  requireTurns(targets, "target", settings.leastTurn);
+  requireTurns(grippers, "gripper", LeastTurn);
+  requireTurns(targets, "target", LeastTurn);
   std::optional<HandEyeCalibration> best;
   for (const auto& [method, name] : Methods)
   {
-    if (const auto found = solved(exact, settings.mount, method))
+    if (const auto found = solved(exact, mount, method))
     {
-      HandEyeCalibration calibration = judged(*found, exact, settings.mount);
+      HandEyeCalibration calibration = judged(*found, exact, mount);
       calibration.method = name;
       if (std::isfinite(calibration.shift) && (!best || calibration.shift < best->shift))
       {

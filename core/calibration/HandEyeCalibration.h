@@ -22,12 +22,6 @@ enum class CameraMount
   Hand    ///< the camera is on the gripper, the target stands still (eye-in-hand)
 };
 
-struct HandEyeSettings
-{
-  CameraMount mount = CameraMount::Beside;
-  double leastTurn = 5.0; ///< degrees that some motions have to turn, about axes that are not parallel
-};
-
 struct HandEyeCalibration
 {
   /// Takes the camera's points to the robot's: to its base of a camera beside it, to its gripper of one on it; mm.
@@ -45,7 +39,7 @@ struct HandEyeCalibration
 /// (1994), Horaud and Dornaika (1995), Daniilidis (1999) and Tsai and Lenz (1989), and takes that under which the
 /// target moves least. Throws Error for fewer than three pairs, poses that are not rigid, and motions that turn too
 /// little or about parallel axes alone, which leave the camera's place open.
-HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, const HandEyeSettings& settings = {});
+HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, CameraMount mount = CameraMount::Beside);
 
 /// In a sentence, the residual.
 std::string describe(const HandEyeCalibration& calibration);

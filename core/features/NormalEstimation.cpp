@@ -8,14 +8,20 @@
 
 namespace meam
 {
+namespace
+{
+constexpr double NormalRadius = 0.06; // of the neighbourhood, share of the part's diameter
+constexpr int FewestNeighbours = 6;   // with fewer there is no normal
+}
+
 Points estimateNormals(const Points& points, const PointGrid& surface, const std::vector<int>& indices,
-  const Sensor& sensor, double partDiameter, const NormalEstimationSettings& settings)
+  const Sensor& sensor, double partDiameter, int threads)
 {
   const PCLCloud::Ptr cloud = toPCL(points);
-  const double radius = settings.radius * partDiameter;
+  const double radius = NormalRadius * partDiameter;
   const int count = static_cast<int>(indices.size());
   Points normals(count, Eigen::Vector3f::Zero());
-  parallelFor(count, settings.threads, {},
+  parallelFor(count, threads, {},
     [&](int begin, int end, int)
     {
       pcl::Indices neighbours;
@@ -26,7 +32,7 @@ Points estimateNormals(const Points& points, const PointGrid& surface, const std
         surface.forEachWithin(point, radius, [&](int index, float) { neighbours.push_back(index); });
         Eigen::Vector4f plane;
         float curvature = 0.0f;
-        if (static_cast<int>(neighbours.size()) >= settings.fewestNeighbours &&
+        if (static_cast<int>(neighbours.size()) >= FewestNeighbours &&
             pcl::computePointNormal(*cloud, neighbours, plane, curvature))
         {
           const Eigen::Vector3f normal = plane.head<3>();

@@ -6,16 +6,9 @@
 
 namespace meam
 {
-struct NormalEstimationSettings
-{
-  double radius = 0.06;     ///< of the neighbourhood, share of the part's diameter
-  int fewestNeighbours = 6; ///< with fewer there is no normal
-  int threads = 0;          ///< 0: one for each processor
-};
-
 /// Unit normals, towards the sensor, of the planes that fit a measured surface best about some of its points (PCL:
 /// principal components of the neighbourhood; Rusu 2010); zero where too little was measured. `surface`: grid of all
 /// points of the surface, `points`. The same for any number of threads.
 Points estimateNormals(const Points& points, const PointGrid& surface, const std::vector<int>& indices,
-  const Sensor& sensor, double partDiameter, const NormalEstimationSettings& settings = {});
+  const Sensor& sensor, double partDiameter, int threads = 0);
 }

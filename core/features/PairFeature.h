@@ -128,7 +128,7 @@ public:
   }
 
 private:
-  static constexpr double Rounding = 1e-5; // not tuned: by which the part's longest pair may be longer than d_max
+  static constexpr double Rounding = 1e-5; // by which the part's longest pair may be longer than d_max
 
   PairFeatureKind Kind = PairFeatureKind::Oriented;
   float InverseDistance = 1.0f;

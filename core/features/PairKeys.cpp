@@ -36,7 +36,7 @@ struct Reference
 };
 
 constexpr int Lanes = BlockedPoints::Size;
-constexpr float FarAway = 1e15f; // not tuned: its square is finite
+constexpr float FarAway = 1e15f; // its square is finite
 
 template <bool OfLines>
 [[gnu::always_inline]] inline void computeKeys(const Reference& reference, const SoAPoints& referred,

@@ -9,7 +9,7 @@
 namespace meam
 {
 /// Angles about a direction as whole numbers: a full turn is 2^15, so sums wrap by a mask.
-constexpr int TurnBits = 15; // not tuned: of the 32 of an entry, which name the sheet of votes, too
+constexpr int TurnBits = 15; // of the 32 of an entry, which name the sheet of votes, too
 constexpr std::uint32_t TurnMask = (1u << TurnBits) - 1;
 
 /// How a referred point lies to a reference: its angle about the reference's direction in the low TurnBits bits, and
@@ -17,7 +17,7 @@ constexpr std::uint32_t TurnMask = (1u << TurnBits) - 1;
 using PairTurn = std::uint32_t;
 
 /// Votes that are computed at once.
-constexpr int VoteBlock = 16; // not tuned: of 32 bits, those of the widest register
+constexpr int VoteBlock = 16; // of 32 bits, those of the widest register
 
 /// Bits of an entry of the table that name the sheet of votes.
 constexpr int SheetBits = 32 - TurnBits;

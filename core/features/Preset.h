@@ -12,7 +12,7 @@ enum class Preset
   OriginalPPF, ///< pairs of surface points with normals (Drost et al., CVPR 2010, the paper's [12])
   B2B          ///< pairs of points on line segments (Choi et al., ICRA 2012, the paper's [23])
 };
-constexpr int Presets = 5; // not tuned: their number
+constexpr int Presets = 5; // their number
 constexpr const char* nameOf(Preset preset)
 {
   constexpr const char* names[Presets] = { "Paper", "Recommended", "WithoutMEAM", "OriginalPPF", "B2B" };

@@ -21,7 +21,25 @@ namespace meam
 {
 namespace
 {
-constexpr int Lanes = 8; // not tuned: offsets that are looked at together
+constexpr double SceneLeafShare = 0.03;  // of the diameter, in a scene,
+constexpr double ModelLeafShare = 0.02;  // and in a model, whose points are exact
+constexpr double RadiusShare = 0.06;     // of the diameter, and no less than a segment needs; of measured points more:
+constexpr double RadiusInliers = 4.0;    // times the inlier distance,
+constexpr double RadiusSpacings = 3.0;   // and times the spacing of the points,
+constexpr double MostRadiusShare = 0.12; // of the diameter, at most
+constexpr double InlierShare = 0.012;    // of the diameter; of measured points more:
+constexpr double InlierNoise = 2.2;      // standard deviations of their noise,
+constexpr double MostInlierShare = 0.03; // of the diameter, at most
+constexpr double CandidateShare = 0.3;   // of the radius: lines are tried through one point in each cube of this side
+constexpr int FewestInliers = 4;         // of a line: one through three points of a band of edge points is chance
+constexpr int MeasuredPoints = 400;      // around so many noise and spacing are measured,
+constexpr int FewestForNoise = 12;       // noise where there are so many neighbours
+constexpr double NoiseQuantile = 0.25;   // of their distances from a plane: more where edges are curved or planes many
+constexpr double SegmentShare = 0.15;    // of the diameter
+constexpr double SegmentReach = 1.25;    // lengths of a segment, the radius at least: its ends have to see all of it
+constexpr double SegmentGap = 0.2;       // of that length: a longer gap ends a segment
+
+constexpr int Lanes = 8; // offsets that are looked at together
 
 float squaredDistanceToLine(const Eigen::Vector3f& offset, const Eigen::Vector3f& direction)
 {
@@ -80,7 +98,7 @@ int lineSupport(const float* x, const float* y, const float* z, int count, const
   return support;
 }
 
-constexpr int Moments = 10; // not tuned: their number, sums of x, y and z, of xx, xy, xz, yy, yz and zz
+constexpr int Moments = 10; // their number, sums of x, y and z, of xx, xy, xz, yy, yz and zz
 
 /// Adds up those of the offsets within sqrt(limit) of the line through the origin.
 MEAM_ALL_VECTORS
@@ -221,11 +239,10 @@ double quantile(std::vector<double>& values, double share)
 PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius,
   const TangentEstimationSettings& settings)
 {
-  const int stride = static_cast<int>(kept.size()) / settings.measuredPoints + 1;
+  const int stride = static_cast<int>(kept.size()) / MeasuredPoints + 1;
   const int count = (static_cast<int>(kept.size()) + stride - 1) / stride;
-  constexpr double unknown = -1.0; // not tuned: a mark
+  constexpr double unknown = -1.0; // a mark
   std::vector<double> deviations(count, unknown), distances(count, unknown);
-  const int fewestForNoise = settings.fewestForNoise;
   parallelFor(count, settings.threads, {},
     [&](int begin, int end, int)
     {
@@ -248,7 +265,7 @@ PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, 
           distances[k] = nearest;
         }
         const double size = offsets.size();
-        if (size >= fewestForNoise)
+        if (size >= FewestForNoise)
         {
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
           solver.computeDirect(products - sum * sum.transpose() / size, Eigen::EigenvaluesOnly);
@@ -260,7 +277,7 @@ PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, 
   { values.erase(std::remove(values.begin(), values.end(), unknown), values.end()); };
   known(deviations);
   known(distances);
-  return { quantile(deviations, settings.noiseQuantile), quantile(distances, 0.5) };
+  return { quantile(deviations, NoiseQuantile), quantile(distances, 0.5) };
 }
 
 /// Tangents at the points `kept`, by lines through points of `ends`; with the length of a `segment`, 0 for none, of
@@ -270,20 +287,19 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
   double radius, double segment, double partDiameter, const TangentEstimationSettings& settings,
   const Progress& progress)
 {
-  double inlierDistance = settings.inlierDistance;
-  if (settings.radius <= 0.0 || settings.inlierDistance <= 0.0)
+  double inlierDistance = settings.inlierDistance > 0.0 ? settings.inlierDistance : InlierShare * partDiameter;
+  if (settings.followsNoise && (settings.radius <= 0.0 || settings.inlierDistance <= 0.0))
   {
     const PointStatistics statistics = statisticsOf(edges, kept, grid, radius, settings);
     if (settings.inlierDistance <= 0.0)
     {
-      inlierDistance = std::clamp(settings.inlierNoise * statistics.noise, settings.inlierShare * partDiameter,
-        settings.mostInlierShare * partDiameter);
+      inlierDistance =
+        std::clamp(InlierNoise * statistics.noise, InlierShare * partDiameter, MostInlierShare * partDiameter);
     }
     if (settings.radius <= 0.0)
     {
-      const double wanted =
-        std::max(settings.radiusInliers * inlierDistance, settings.radiusSpacings * statistics.spacing);
-      radius = std::max(radius, std::min(wanted, settings.mostRadiusShare * partDiameter));
+      const double wanted = std::max(RadiusInliers * inlierDistance, RadiusSpacings * statistics.spacing);
+      radius = std::max(radius, std::min(wanted, MostRadiusShare * partDiameter));
     }
   }
   Points tangents(kept.size());
@@ -296,8 +312,8 @@ Points robustTangents(const Points& edges, const std::vector<int>& kept, const P
         const Eigen::Vector3f& centre = edges[kept[i]];
         offsets.gather(grid, centre, radius);
         candidates.gather(ends, centre, radius);
-        tangents[i] = robustLine(offsets, candidates, inlierDistance, settings.fewestInliers);
-        if (segment > 0.0 && !isOnSegment(offsets, tangents[i], inlierDistance, segment, settings.segmentGap * segment))
+        tangents[i] = robustLine(offsets, candidates, inlierDistance, FewestInliers);
+        if (segment > 0.0 && !isOnSegment(offsets, tangents[i], inlierDistance, segment, SegmentGap * segment))
         {
           tangents[i].setZero();
         }
@@ -311,7 +327,7 @@ Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection,
   const TangentEstimationSettings& settings, const Progress& progress)
 {
   // The projection plane: that of x and y for a view along z, as in the paper.
-  constexpr double along = 0.999; // not tuned: cosine, 1 but for rounding
+  constexpr double along = 0.999; // cosine, 1 but for rounding
   const bool alongZ = std::abs(viewDirection.z()) > along;
   const Eigen::Matrix3f frame = frameAround(viewDirection.cast<float>());
   const Eigen::Vector3f right = alongZ ? Eigen::Vector3f::UnitX().eval() : frame.col(1).eval();
@@ -326,7 +342,7 @@ Points tileTangents(const Points& points, const Eigen::Vector3d& viewDirection,
   }
   Points tangents(points.size(), Eigen::Vector3f::Zero());
   const float limit = static_cast<float>(settings.lineDistance * settings.lineDistance);
-  constexpr std::size_t mostPerTile = 4000; // not tuned: the work grows with its cube
+  constexpr std::size_t mostPerTile = 4000; // the work grows with its cube
   std::size_t done = 0;
   for (const auto& [place, members] : tiles)
   {
@@ -409,18 +425,18 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
   std::vector<std::function<void()>> works{ [&] { kept = thinWithWeights(local, leaf); } };
   if (robust)
   {
-    radius = length(std::max(0.0, settings.radius), settings.radiusShare);
+    radius = length(std::max(0.0, settings.radius), RadiusShare);
     if (settings.method == TangentMethod::LineSegments)
     {
-      segment = length(std::max(0.0, settings.segmentLength), settings.segmentShare);
-      radius = std::max(radius, settings.segmentReach * segment);
+      segment = length(std::max(0.0, settings.segmentLength), SegmentShare);
+      radius = std::max(radius, SegmentReach * segment);
     }
-    length(settings.inlierDistance, settings.inlierShare);
+    length(settings.inlierDistance, InlierShare);
     works.push_back(
       [&]
       {
         Points sparse;
-        for (const int i : thinPoints(local, settings.candidateShare * radius))
+        for (const int i : thinPoints(local, CandidateShare * radius))
         {
           sparse.push_back(local[i]);
         }
@@ -488,8 +504,7 @@ ThinnedEdges estimateTangents(const LocalCloud& edges, double partDiameter, cons
     return moved(
       tileTangents(moved(local.subset(kept).points, T_scene_local), viewDirection, settings, progress), turn);
   };
-  LocalTangents found =
-    estimate(local.points, local.tangents, partDiameter, settings.sceneLeafShare, tiles, settings, progress);
+  LocalTangents found = estimate(local.points, local.tangents, partDiameter, SceneLeafShare, tiles, settings, progress);
   ThinnedEdges result;
   result.edges.T_local_scene = edges.T_local_scene;
   result.edges.fromScan = edges.fromScan;
@@ -508,10 +523,8 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
   const TangentEstimationSettings& settings, const Progress& progress)
 {
   const double share = 1.0 / static_cast<double>(models.size());
-  // A model's points are exact: nothing has to be made of their noise.
   TangentEstimationSettings exact = settings;
-  exact.radius = settings.radius > 0.0 ? settings.radius : settings.radiusShare * partDiameter;
-  exact.inlierDistance = settings.inlierDistance > 0.0 ? settings.inlierDistance : settings.inlierShare * partDiameter;
+  exact.followsNoise = false;
   for (std::size_t v = 0; v < models.size(); ++v)
   {
     requirePoints(models[v].cloud.points, "The edge cloud");
@@ -520,8 +533,7 @@ std::vector<AppearanceModel> estimateTangents(std::vector<AppearanceModel> model
     const auto tiles = [&](const std::vector<int>& kept)
     { return tileTangents(cloud.subset(kept).points, models[v].direction.cast<double>(), exact, ofView); };
     // In the part frame, so that views share the cubes.
-    LocalTangents found =
-      estimate(cloud.points, cloud.tangents, partDiameter, settings.modelLeafShare, tiles, exact, ofView);
+    LocalTangents found = estimate(cloud.points, cloud.tangents, partDiameter, ModelLeafShare, tiles, exact, ofView);
     models[v].cloud = cloud.subset(found.points); // without weights: a view that sees a point, sees it
     models[v].cloud.tangents = std::move(found.tangents);
   }

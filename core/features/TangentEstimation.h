@@ -18,39 +18,20 @@ enum class TangentMethod
 struct TangentEstimationSettings
 {
   TangentMethod method = TangentMethod::RobustLine;
-  double leafSize = 0.0;        ///< of the points in a cube of this side one is kept; negative: all; 0: sceneLeafShare
-  double sceneLeafShare = 0.03; ///< of the diameter, in a scene,
-  double modelLeafShare = 0.02; ///< and in a model, whose points are exact
-
+  double leafSize = 0.0; ///< of the points in a cube of this side one is kept; negative: all; 0: 3 % of the diameter in
+                         ///< a scene, 2 % in a model
   // RobustLine, LineSegments
-  double radius = 0.0;           ///< of the sphere; 0: radiusShare
-  double radiusShare = 0.06;     ///< of the diameter, and no less than a segment needs; of measured points more:
-  double radiusInliers = 4.0;    ///< times the inlier distance,
-  double radiusSpacings = 3.0;   ///< and times the spacing of the points,
-  double mostRadiusShare = 0.12; ///< of the diameter, at most
-  double inlierDistance = 0.0;   ///< to the line; 0: inlierShare
-  double inlierShare = 0.012;    ///< of the diameter; of measured points more:
-  double inlierNoise = 2.2;      ///< standard deviations of their noise,
-  double mostInlierShare = 0.03; ///< of the diameter, at most
-  double candidateShare = 0.3;   ///< of the radius: lines are tried through one point in each cube of this side
-  int fewestInliers = 4;         ///< of a line: one through three points of a band of edge points is chance
-  int measuredPoints = 400;      ///< around so many noise and spacing are measured,
-  int fewestForNoise = 12;       ///< noise where there are so many neighbours
-  double noiseQuantile = 0.25;   ///< of their distances from a plane: more where edges are curved or planes many
-
+  double radius = 0.0;         ///< of the sphere; 0: 6 % of the diameter, of measured points up to 12
+  bool followsNoise = true;    ///< radius and inlier distance that are 0 grow with noise and spacing of measured points
+  double inlierDistance = 0.0; ///< to the line; 0: 1.2 % of the diameter, of measured points up to 3
   // LineSegments
-  double segmentLength = 0.0; ///< a shorter run of points on a line is no segment; 0: segmentShare
-  double segmentShare = 0.15; ///< of the diameter
-  double segmentReach = 1.25; ///< lengths of a segment, the radius at least: its ends have to see all of it
-  double segmentGap = 0.2;    ///< of that length: a longer gap ends a segment
-
+  double segmentLength = 0.0; ///< a shorter run of points on a line is no segment; 0: 15 % of the diameter
   // Tiles
   int tilePixels = 10;       ///< H_rec = W_rec
   double pixelSize = 0.5;    ///< mm on the projection plane; the paper does not say
   double lineDistance = 0.3; ///< D_thresh
   double lineSupport = 0.18; ///< S_thresh, share of a tile's points
-
-  int threads = 0; ///< 0: one for each processor
+  int threads = 0;           ///< 0: one for each processor
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.

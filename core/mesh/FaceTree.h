@@ -13,7 +13,7 @@
 namespace meam
 {
 /// Faces seen more slantwise than this, 0.06 degrees, are edge-on: as good as not there.
-constexpr double EdgeOnCosine = 1e-3; // not tuned: rounding
+constexpr double EdgeOnCosine = 1e-3; // rounding
 
 /// Asked exactly, so that nothing slips through between two faces; degenerate ones are left out. Any number of threads
 /// may ask. Throws Error for a mesh without faces, an invalid vertex or index.

@@ -3,6 +3,7 @@
 
 #include "mesh/ConvexHull.h"
 #include "mesh/MeshEdges.h"
+#include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
 
 #include <cmath>
@@ -20,7 +21,7 @@ PointCloud extractFeatureEdges(const TriangleMesh& mesh, const FeatureEdgesSetti
   {
     throw Error("The spacing of the edge points must be 0 (automatic) or a positive length in mm.");
   }
-  const double spacing = settings.spacing > 0.0 ? settings.spacing : settings.spacingShare * diameter(mesh.vertices);
+  const double spacing = settings.spacing > 0.0 ? settings.spacing : SpacingShare * diameter(mesh.vertices);
   if (!(spacing > 0.0))
   {
     throw Error("The mesh has no area: all of its faces are degenerate.");
@@ -53,7 +54,7 @@ PointCloud extractFeatureEdges(const TriangleMesh& mesh, const FeatureEdgesSetti
       Eigen::Vector3f normal = normals[edge.faces[0]];
       if (edge.faceCount > 1)
       {
-        constexpr float foldedBack = 1e-3f; // not tuned: where faces lie on each other the first one counts
+        constexpr float foldedBack = 1e-3f; // where faces lie on each other the first one counts
         const Eigen::Vector3f sum = normal + normals[edge.faces[1]];
         normal = sum.norm() > foldedBack ? sum.normalized() : normal;
       }

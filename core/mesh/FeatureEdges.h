@@ -3,7 +3,6 @@
 
 #include "base/Error.h"
 #include "base/PointCloud.h"
-#include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
 
 namespace meam
@@ -11,8 +10,7 @@ namespace meam
 struct FeatureEdgesSettings
 {
   double angle = 30.0;  ///< degrees: faces that meet at more than this make a sharp edge
-  double spacing = 0.0; ///< mm, between neighbouring points along an edge; 0: spacingShare
-  double spacingShare = SurfaceSamplingSettings().spacingShare; ///< of d_max
+  double spacing = 0.0; ///< mm, between neighbouring points along an edge; 0: 1 % of d_max
 };
 
 /// Finds the sharp edges (EdgeType::Crease) and the borders (EdgeType::HoleBorder) of a prepared mesh and

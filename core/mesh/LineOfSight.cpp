@@ -9,7 +9,7 @@ namespace meam
 {
 namespace
 {
-constexpr double HairShare = 1e-4; // not tuned: of the part's extent
+constexpr double HairShare = 1e-4; // of the part's extent
 }
 
 class LineOfSight::Tree : public FaceTree

@@ -10,7 +10,7 @@ namespace meam
 {
 namespace
 {
-constexpr double MaximumSamples = 5e6; // not tuned: 140 MB
+constexpr double MaximumSamples = 5e6; // 140 MB
 
 /// The edges at each vertex: those of vertex v are edges[starts[v]] to edges[starts[v + 1]].
 struct Incidence

@@ -10,7 +10,7 @@ namespace meam
 {
 namespace
 {
-constexpr double SamePlaceShare = 1e-6; // not tuned: of the part's extent
+constexpr double SamePlaceShare = 1e-6; // of the part's extent
 
 Eigen::Vector3d toEigen(const FaceTree::Kernel::Point_3& point) { return { point.x(), point.y(), point.z() }; }
 }

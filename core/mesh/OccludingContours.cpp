@@ -11,6 +11,14 @@ namespace meam
 {
 namespace
 {
+constexpr double Neighbour = 1.6; // of the samples' spacing, up to which two are neighbours
+constexpr double Flattest = 1.0;  // degrees between the normals of neighbours: less, and the surface is flat there
+constexpr double Sharpest = 30.0; // degrees; more, and an edge of the part lies between them
+constexpr double Smooth = 15.0;   // degrees between the normals about an edge point and their mean: more is an edge
+constexpr double SeenLast = 0.12; // cosine at which any sensor loses a surface that turns away
+constexpr double SeenFirst = 0.7; // cosine at which it does not, however coarse
+constexpr double Grazing = 0.25;  // cosine: an edge point whose surface all views see flatter was a contour there
+
 float cosineOf(double degrees) { return static_cast<float>(std::cos(degrees * M_PI / 180.0)); }
 
 /// Of directions to one.
@@ -28,21 +36,19 @@ void findCosines(const SoAPoints& directions, const Eigen::Vector3f& to, float* 
 }
 }
 
-OccludingContours::OccludingContours(
-  const PointCloud& surface, double spacing, const OccludingContoursSettings& settings)
+OccludingContours::OccludingContours(const PointCloud& surface, double spacing)
   : Samples(surface.points)
   , Spacing(spacing)
-  , Settings(settings)
 {
   const Points &points = surface.points, &normals = surface.normals;
-  const float flat = cosineOf(settings.flattest), sharp = cosineOf(settings.sharpest);
-  const PointGrid grid(points, settings.neighbour * spacing);
+  const float flat = cosineOf(Flattest), sharp = cosineOf(Sharpest);
+  const PointGrid grid(points, Neighbour * spacing);
   for (int i = 0; i < static_cast<int>(points.size()); ++i)
   {
     this->Normals.add(normals[i]);
     const int begin = static_cast<int>(this->Neighbours.size());
     float least = 1.0f; // cosine to the normals of its neighbours
-    grid.forEachWithin(points[i], settings.neighbour * spacing,
+    grid.forEachWithin(points[i], Neighbour * spacing,
       [&](int k, float)
       {
         const float cosine = normals[i].dot(normals[k]);
@@ -57,7 +63,7 @@ OccludingContours::OccludingContours(
     const int end = static_cast<int>(this->Neighbours.size());
     if (begin < end)
     {
-      constexpr float rounding = 1e-3f; // not tuned: of the cosine
+      constexpr float rounding = 1e-3f; // of the cosine
       this->Bends.push_back({ i, std::sqrt(1.0f - least * least) + rounding, begin, end });
     }
   }
@@ -68,7 +74,7 @@ std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vecto
   std::vector<Point> contour;
   const Points& points = this->Samples;
   const SoAPoints& normals = this->Normals;
-  const float least = static_cast<float>(this->Settings.seenLast), most = static_cast<float>(this->Settings.seenFirst);
+  const float least = static_cast<float>(SeenLast), most = static_cast<float>(SeenFirst);
   thread_local std::vector<float> cosineRoom; // there are hundreds of directions
   cosineRoom.resize(points.size());
   float* cosines = cosineRoom.data();
@@ -112,8 +118,8 @@ std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vecto
 std::vector<bool> OccludingContours::areContours(
   const Points& edges, const std::vector<std::uint32_t>& views, const Points& viewDirections) const
 {
-  const float smooth = cosineOf(this->Settings.smooth);
-  const double near = this->Settings.neighbour * this->Spacing;
+  const float smooth = cosineOf(Smooth);
+  const double near = Neighbour * this->Spacing;
   const PointGrid grid(this->Samples, near);
   std::vector<bool> result(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i)
@@ -134,7 +140,7 @@ std::vector<bool> OccludingContours::areContours(
     for (std::size_t v = 0; v < viewDirections.size(); ++v)
     {
       const bool isSeen = views[i] >> v & 1u;
-      isContour = isContour && !(isSeen && std::abs(viewDirections[v].dot(normal)) > this->Settings.grazing);
+      isContour = isContour && !(isSeen && std::abs(viewDirections[v].dot(normal)) > Grazing);
     }
     result[i] = isContour;
   }

@@ -7,17 +7,6 @@
 
 namespace meam
 {
-struct OccludingContoursSettings
-{
-  double neighbour = 1.6; ///< of the samples' spacing, up to which two are neighbours
-  double flattest = 1.0;  ///< degrees between the normals of neighbours: less, and the surface is flat there
-  double sharpest = 30.0; ///< degrees; more, and an edge of the part lies between them, which is seen from all sides
-  double smooth = 15.0; ///< degrees between the normals about an edge point and their mean: more, and it is of an edge
-  double seenLast = 0.12; ///< cosine at which any sensor loses a surface that turns away
-  double seenFirst = 0.7; ///< cosine at which it does not, however coarse
-  double grazing = 0.25;  ///< cosine: an edge point from whose views its surface is seen flatter was a contour there
-};
-
 /// Where a part's smooth surface turns away from the sensor. Other than a sharp edge such a contour moves with the
 /// view, so it is looked up for each direction: between neighbouring samples the cosine of the normal to the line of
 /// sight passes through zero.
@@ -26,7 +15,7 @@ class OccludingContours
 public:
   OccludingContours() = default;
   /// `surface` with normals, `spacing` of its samples in mm.
-  OccludingContours(const PointCloud& surface, double spacing, const OccludingContoursSettings& settings = {});
+  OccludingContours(const PointCloud& surface, double spacing);
 
   /// A point of a contour.
   struct Point
@@ -49,7 +38,6 @@ private:
   Points Samples;
   SoAPoints Normals; ///< of these
   double Spacing = 0.0;
-  OccludingContoursSettings Settings;
   /// A sample beside which the surface bends away, and the samples there.
   struct Bend
   {

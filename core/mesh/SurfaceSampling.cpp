@@ -12,6 +12,11 @@ namespace meam
 {
 namespace
 {
+// In a square whose side is the spacing: a point of the surface is at most the spacing and the distance to the nearest
+// candidate away from a sample.
+constexpr double CandidatesPerSquare = 20.0;
+constexpr float SameSide = 0.5f; // cosine of 60 degrees: samples that face farther apart do not displace each other
+
 struct Candidate
 {
   Eigen::Vector3f point;
@@ -23,11 +28,10 @@ struct Candidate
 class SampleGrid
 {
 public:
-  SampleGrid(const Eigen::Vector3f& origin, double spacing, double sameSide, std::size_t expected)
+  SampleGrid(const Eigen::Vector3f& origin, double spacing, std::size_t expected)
     : Origin(origin)
     , InverseCell(static_cast<float>(0.5 / spacing))
     , SquaredSpacing(static_cast<float>(spacing * spacing))
-    , SameSide(static_cast<float>(sameSide))
   {
     std::size_t buckets = 1024;
     while (buckets < 2 * expected)
@@ -50,7 +54,7 @@ public:
       for (int i = this->Heads[this->bucket(own + offset * side)]; i >= 0; i = this->Next[i])
       {
         if ((samples.points[i] - point).squaredNorm() < this->SquaredSpacing &&
-            samples.normals[i].dot(normal) > this->SameSide)
+            samples.normals[i].dot(normal) > SameSide)
         {
           return false;
         }
@@ -77,7 +81,6 @@ private:
   Eigen::Vector3f Origin;
   float InverseCell;
   float SquaredSpacing;
-  float SameSide;
   std::vector<int> Heads;
   std::vector<int> Next;
 };
@@ -114,13 +117,13 @@ PointCloud sampleSurface(const TriangleMesh& mesh, const SurfaceSamplingSettings
     throw Error("The mesh has no area: all of its faces are degenerate.");
   }
 
-  const double spacing = settings.spacing > 0.0 ? settings.spacing : settings.spacingShare * diameter(mesh.vertices);
-  constexpr double most = 1e8; // not tuned: candidates, 1.6 GB
-  const double wanted = std::ceil(settings.candidatesPerSquare * area / (spacing * spacing));
+  const double spacing = settings.spacing > 0.0 ? settings.spacing : SpacingShare * diameter(mesh.vertices);
+  constexpr double most = 1e8; // candidates, 1.6 GB
+  const double wanted = std::ceil(CandidatesPerSquare * area / (spacing * spacing));
   if (!(wanted <= most))
   {
     throw Error("The spacing of the surface samples is too small for the part (it asks for more than " +
-                std::to_string(static_cast<int>(0.7 * most / settings.candidatesPerSquare)) +
+                std::to_string(static_cast<int>(0.7 * most / CandidatesPerSquare)) +
                 " samples): enlarge it, or check the unit of the CAD file.");
   }
 
@@ -147,8 +150,8 @@ PointCloud sampleSurface(const TriangleMesh& mesh, const SurfaceSamplingSettings
   report(progress, 0.3);
 
   PointCloud samples;
-  const auto expected = static_cast<std::size_t>(wanted / settings.candidatesPerSquare);
-  SampleGrid grid(bounds(mesh.vertices).min(), spacing, settings.sameSide, expected);
+  const auto expected = static_cast<std::size_t>(wanted / CandidatesPerSquare);
+  SampleGrid grid(bounds(mesh.vertices).min(), spacing, expected);
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
     grid.insert(samples, candidates[i].point, normals[candidates[i].triangle]);

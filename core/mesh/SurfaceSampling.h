@@ -7,14 +7,12 @@
 
 namespace meam
 {
+constexpr double SpacingShare = 0.01; // of d_max: samples, and points on feature edges
+
 struct SurfaceSamplingSettings
 {
-  double spacing = 0.0;              ///< mm, between neighbouring samples; 0: spacingShare
-  unsigned seed = 1;                 ///< the same seed gives the same samples
-  double spacingShare = 0.01;        ///< of d_max
-  double candidatesPerSquare = 20.0; ///< of side `spacing`: a point of the surface is at most the spacing and the
-                                     ///< distance to the nearest candidate away from a sample
-  double sameSide = 0.5; ///< cosine of 60 degrees: samples that face farther apart do not displace each other
+  double spacing = 0.0; ///< mm, between neighbouring samples; 0: 1 % of d_max
+  unsigned seed = 1;    ///< the same seed gives the same samples
 };
 
 /// Samples the surface evenly (Poisson discs): no two samples are closer than the spacing and no more would fit. This

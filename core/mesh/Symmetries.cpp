@@ -8,8 +8,13 @@ namespace meam
 {
 namespace
 {
+// From which on turns of a part, and their axes, are one and the same.
+constexpr double SameTurn = 3.0;        // degrees between turns that differ by less
+constexpr double SameAxisCosine = 0.99; // between axes that are nearer, 8 degrees
+constexpr double HalfTurn = 170.0;      // degrees: a turn by more is half a turn
+
 /// No axis or plane of symmetry that a part is drawn with runs along it.
-const Eigen::Vector3d Generic = Eigen::Vector3d(0.48, 0.36, 0.8).normalized(); // not tuned: along no axis
+const Eigen::Vector3d Generic = Eigen::Vector3d(0.48, 0.36, 0.8).normalized(); // along no axis
 
 /// The turn about the axis after which T_scene_model is turned least against the reference.
 Eigen::Isometry3d turnedTowards(
@@ -58,7 +63,7 @@ Eigen::Isometry3d nearestEqual(
   }
   const auto turned = [&](const Eigen::Isometry3d& T)
   { return symmetries.continuous.empty() ? T : turnedTowards(T, reference, symmetries.continuous.front()); };
-  constexpr double clearly = 1e-9; // not tuned: more than rounding
+  constexpr double clearly = 1e-9; // more than rounding
   Eigen::Isometry3d best = turned(T_scene_model);
   for (const Eigen::Isometry3d& S : symmetries.discrete)
   {
@@ -71,15 +76,15 @@ Eigen::Isometry3d nearestEqual(
   return best;
 }
 
-std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries, const SameSymmetry& same)
+std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries)
 {
-  const double halfTurn = same.halfTurn * M_PI / 180.0;
+  const double halfTurn = HalfTurn * M_PI / 180.0;
   std::vector<ContinuousSymmetry> axes;
   for (const NearSymmetry& near : symmetries.near)
   {
     const ContinuousSymmetry found = axisOf(near.T);
     const bool known = std::any_of(axes.begin(), axes.end(),
-      [&](const ContinuousSymmetry& axis) { return std::abs(axis.axis.dot(found.axis)) > same.axisCosine; });
+      [&](const ContinuousSymmetry& axis) { return std::abs(axis.axis.dot(found.axis)) > SameAxisCosine; });
     if (!known && Eigen::AngleAxisd(Eigen::Matrix3d(near.T.linear())).angle() < halfTurn)
     {
       axes.push_back(found);
@@ -99,9 +104,9 @@ Symmetries asIfRound(const Symmetries& symmetries)
   return result;
 }
 
-Symmetries withKnownExact(const Symmetries& found, const Symmetries& known, const SameSymmetry& same)
+Symmetries withKnownExact(const Symmetries& found, const Symmetries& known)
 {
-  const double sameTurn = same.turn * M_PI / 180.0;
+  const double sameTurn = SameTurn * M_PI / 180.0;
   Symmetries result = known;
   result.near.clear();
   for (const NearSymmetry& near : found.near)

@@ -32,14 +32,6 @@ struct Symmetries
   bool exact() const { return !this->continuous.empty() || !this->discrete.empty(); }
 };
 
-/// From which on turns of a part, and their axes, are one and the same.
-struct SameSymmetry
-{
-  double turn = 3.0;        ///< degrees between turns that differ by less
-  double axisCosine = 0.99; ///< between axes that are nearer, 8 degrees
-  double halfTurn = 170.0;  ///< degrees: a turn by more is half a turn
-};
-
 /// A turn by `angle` (radians) about the axis through `centre`.
 Eigen::Isometry3d turnAbout(const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& centre);
 
@@ -49,13 +41,13 @@ Eigen::Isometry3d nearestEqual(
   const Eigen::Isometry3d& T_scene_model, const Eigen::Isometry3d& reference, const Symmetries& symmetries);
 
 /// The axes about which a part is nearly round: those of its near-symmetries other than half turns.
-std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries, const SameSymmetry& same = {});
+std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries);
 
 /// The same as if a nearly round part were round: any turn about the first such axis is a symmetry, too.
 Symmetries asIfRound(const Symmetries& symmetries);
 
 /// The exact symmetries that are known of a part, and what was found of near ones besides them.
-Symmetries withKnownExact(const Symmetries& found, const Symmetries& known, const SameSymmetry& same = {});
+Symmetries withKnownExact(const Symmetries& found, const Symmetries& known);
 
 /// For each point whether it is one of those that stand for all others: every point has an image under the exact
 /// symmetries that is within `margin` (mm) of them. All points of a part without symmetries.

@@ -31,7 +31,7 @@ void requireMesh(const TriangleMesh& mesh)
 
 void requireSamplesOf(const TriangleMesh& mesh, const Points& points)
 {
-  constexpr float share = 1e-3f; // not tuned: of the extent, rounding of samples
+  constexpr float share = 1e-3f; // of the extent, rounding of samples
   Eigen::AlignedBox3f box = bounds(mesh.vertices);
   const Eigen::Vector3f margin = Eigen::Vector3f::Constant(share * box.diagonal().norm());
   box.extend((box.max() + margin).eval());

@@ -10,7 +10,7 @@ namespace meam
 {
 namespace
 {
-constexpr double BorderOfCone = 1e-6; // not tuned: a direction on the cone's border, to within rounding, is inside
+constexpr double BorderOfCone = 1e-6; // a direction on the cone's border, to within rounding, is inside
 
 /// Axes first, +z before all, then corners, then edge middles of a cube.
 Points cubeDirections()

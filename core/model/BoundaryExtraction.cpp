@@ -21,6 +21,11 @@ namespace meam
 {
 namespace
 {
+constexpr double RadiusSpacings = 2.5; // times the spacing of the points
+// Surface that is seen flatter (7 degrees) is no more than a line in an image: for the wall of a hole that is seen
+// along its axis, the hole's rim is where the surface ends.
+constexpr double EdgeOnCosine = 0.12;
+
 std::vector<int> boundaryPoints(const PointCloud& cloud, double radius, double angle)
 {
   const auto points = toPCL(cloud.points);
@@ -46,7 +51,7 @@ std::vector<int> boundaryPoints(const PointCloud& cloud, double radius, double a
 
 Eigen::Vector3d viewpointOf(const AppearanceModel& model)
 {
-  constexpr float farAway = 1000.0f; // not tuned: extents of the part, a viewpoint that is not known
+  constexpr float farAway = 1000.0f; // extents of the part, a viewpoint that is not known
   const Eigen::AlignedBox3f box = bounds(model.cloud.points);
   const Eigen::Vector3f viewpoint = model.viewpoint.allFinite()
                                       ? model.viewpoint
@@ -77,14 +82,14 @@ std::vector<double> gapsBetween(std::vector<double> directions, double angle)
 /// The same criterion as for the boundary, but in the image: where the neighbours, of all faces that are
 /// plainly seen, leave a gap, the visible surface ends.
 std::vector<EdgeType> boundaryTypes(const PointCloud& cloud, const std::vector<int>& boundary, double radius,
-  const BoundaryExtractionSettings& settings, const Eigen::Vector3d& viewpoint, const Silhouette& silhouette)
+  double angle, const Eigen::Vector3d& viewpoint, const Silhouette& silhouette)
 {
   const PointGrid grid(cloud.points, radius);
   std::vector<EdgeType> types;
   types.reserve(boundary.size());
   std::vector<double> directions;
-  const auto isGrazing = [&, edgeOn = settings.edgeOnCosine](int index, const Eigen::Vector3d& towards)
-  { return std::abs(cloud.normals[index].cast<double>().dot(towards)) < edgeOn; };
+  const auto isGrazing = [&](int index, const Eigen::Vector3d& towards)
+  { return std::abs(cloud.normals[index].cast<double>().dot(towards)) < EdgeOnCosine; };
   for (const int i : boundary)
   {
     const Eigen::Vector3d point = cloud.points[i].cast<double>();
@@ -100,7 +105,7 @@ std::vector<EdgeType> boundaryTypes(const PointCloud& cloud, const std::vector<i
           directions.push_back(std::atan2(frame.col(2).dot(offset), frame.col(1).dot(offset)));
         }
       });
-    const std::vector<double> gaps = gapsBetween(directions, settings.angle * M_PI / 180.0);
+    const std::vector<double> gaps = gapsBetween(directions, angle * M_PI / 180.0);
     const bool showsEnclosed = std::any_of(gaps.begin(), gaps.end(),
       [&](double gap)
       {
@@ -156,7 +161,7 @@ std::unique_ptr<const VisibleEdges> meshEdgesOf(const std::vector<AppearanceMode
   {
     requireSamplesOf(*mesh, model.cloud.points);
   }
-  return std::make_unique<const VisibleEdges>(*mesh, settings.sharpAngle, spacing, settings.edgeOnCosine);
+  return std::make_unique<const VisibleEdges>(*mesh, settings.sharpAngle, spacing, EdgeOnCosine);
 }
 }
 
@@ -167,7 +172,7 @@ double pointSpacing(const Points& points)
     return 0.0;
   }
   const auto cloud = toPCL(points);
-  constexpr int most = 6; // not tuned: points at one place, or nearly so
+  constexpr int most = 6; // points at one place, or nearly so
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(cloud);
   std::vector<float> distances;
@@ -235,7 +240,7 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
       continue;
     }
     const Eigen::Vector3d viewpoint = viewpointOf(models[view]);
-    const Silhouette silhouette(part, viewpoint, spacing, settings.silhouette);
+    const Silhouette silhouette(part, viewpoint, spacing);
     if (meshEdges)
     {
       edges[view].cloud =
@@ -243,12 +248,12 @@ std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>&
       edges[view].cloud.pointIds = nearestIds(edges[view].cloud.points, cloud, spacing);
       continue;
     }
-    const double radius = settings.radius > 0.0 ? settings.radius : settings.radiusSpacings * spacings[view];
+    const double radius = settings.radius > 0.0 ? settings.radius : RadiusSpacings * spacings[view];
     const std::vector<int> boundary = boundaryPoints(cloud, radius, settings.angle);
     edges[view].cloud = cloud.subset(boundary);
     edges[view].cloud.edgeTypes = models[view].wholePart
                                     ? std::vector<EdgeType>(boundary.size(), EdgeType::Crease)
-                                    : boundaryTypes(cloud, boundary, radius, settings, viewpoint, silhouette);
+                                    : boundaryTypes(cloud, boundary, radius, settings.angle, viewpoint, silhouette);
   }
   report(progress, 1.0);
   return edges;

@@ -5,7 +5,6 @@
 #include "base/PointCloud.h"
 #include "mesh/TriangleMesh.h"
 #include "model/AppearanceModel.h"
-#include "model/Silhouette.h"
 
 namespace meam
 {
@@ -18,19 +17,11 @@ enum class BoundaryMethod
 struct BoundaryExtractionSettings
 {
   BoundaryMethod method = BoundaryMethod::PointBoundary;
-
   // PointBoundary
-  double radius = 0.0;         ///< mm, neighbourhood of a point; 0: radiusSpacings
-  double radiusSpacings = 2.5; ///< times the spacing of the points
-  double angle = 90.0;         ///< degrees: a point with a wider gap between its neighbours is on the boundary
-
+  double radius = 0.0; ///< mm, neighbourhood of a point; 0: 2.5 times the spacing of the points
+  double angle = 90.0; ///< degrees: a point with a wider gap between its neighbours is on the boundary
   // MeshEdges
   double sharpAngle = 30.0; ///< degrees: faces that meet at more than this make a sharp edge
-
-  // The types of edge points
-  double edgeOnCosine = 0.12; ///< surface that is seen flatter (7 degrees) is no more than a line in an image: for the
-                              ///< wall of a hole that is seen along its axis, the hole's rim is where the surface ends
-  SilhouetteSettings silhouette{};
 };
 
 /// Reduces each appearance model to its boundary points (paper, Section 4), each with its type. The

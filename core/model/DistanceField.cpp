@@ -11,7 +11,7 @@ namespace meam
 {
 namespace
 {
-constexpr double MostCells = 2.0e7; // not tuned: 20 MB; larger cells are taken for more
+constexpr double MostCells = 2.0e7; // 20 MB; larger cells are taken for more
 
 /// The cells of points, `outside` of those in none.
 MEAM_ALL_VECTORS
@@ -56,7 +56,7 @@ void lower(const Row& row, const Eigen::Vector3f& point, const Eigen::Vector3f& 
   const float x = point.x(), dx = direction.x(), cell = row.cell, step = row.step;
   const float y = row.y - point.y(), z = row.z - point.z();
   const float alongYZ = direction.y() * y + direction.z() * z, squaredYZ = y * y + z * z;
-  constexpr int lanes = 16; // not tuned: rows are a few of them long, and what lies beyond is dropped
+  constexpr int lanes = 16; // rows are a few of them long, and what lies beyond is dropped
   for (int first = row.begin; first < row.end; first += lanes)
   {
     int stored[lanes];
@@ -106,7 +106,7 @@ DistanceField::DistanceField(
   this->Size = (size / cell).floor().cast<int>() + 1;
   this->Extent = this->Size.cast<float>();
   this->Distances.assign(static_cast<std::size_t>(this->Size.prod()) + 1, Farthest);
-  constexpr float margin = 1.001f; // not tuned: for rounding
+  constexpr float margin = 1.001f; // for rounding
   const float width = static_cast<float>(cell), around = static_cast<float>(reach + spacing);
   for (std::size_t i = 0; i < points.size(); ++i)
   {

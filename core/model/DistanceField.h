@@ -44,7 +44,7 @@ public:
   float outerRadius() const { return (0.5f * this->Extent.matrix().norm() + 1.0f) / this->InverseCell; }
 
 private:
-  static constexpr std::uint8_t Farthest = 255; ///< not tuned: of what a cell stores: `reach` or more
+  static constexpr std::uint8_t Farthest = 255; ///< of what a cell stores: `reach` or more
 
   enum class Kind
   {

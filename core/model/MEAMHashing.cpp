@@ -19,12 +19,17 @@ namespace meam
 {
 namespace
 {
-/// Collects the edge points of all views.
+constexpr double VoxelShare = 0.015;    // of the diameter
+constexpr double SameEdgeCosine = 0.94; // of 20 degrees between the tangents of one edge in two views
+constexpr double EdgeVoxels = 2.0;      // so near is the surface point of an edge point that does not have its number
+constexpr double SurfaceLeafShare = 0.015; // of the diameter: of the surface samples in a cube of this side one stays
+
+constexpr double FacingCosine = 0.1; // of 84 degrees: a point turned farther from a direction faces elsewhere
 void collectEdges(
   const std::vector<AppearanceModel>& edgeModels, double mergeDistance, TrainedModel& model, const Progress& progress)
 {
   PointCloud& edges = model.edges;
-  const float sameEdge = static_cast<float>(model.settings.sameEdgeCosine);
+  const float sameEdge = static_cast<float>(SameEdgeCosine);
   const bool haveIds = std::all_of(edgeModels.begin(), edgeModels.end(),
     [](const auto& view) { return view.cloud.pointIds.size() == view.cloud.size(); });
   for (std::size_t view = 0; view < edgeModels.size(); ++view)
@@ -179,7 +184,7 @@ int bringVotersForward(TrainedModel& model)
 
 void requireRoom(std::size_t entries, const char* what, const char* leaf)
 {
-  constexpr std::size_t most = 50000000; // not tuned: 2 GB while the table is made
+  constexpr std::size_t most = 50000000; // 2 GB while the table is made
   if (entries > most)
   {
     throw Error("The pair table would have more than 50 million entries: thin the " + std::string(what) +
@@ -239,7 +244,7 @@ private:
   /// Of the references in one voxel, of which there may be all: the progress is asked whether to go on.
   void findFrom(const std::vector<int>& references, const Progress& progress)
   {
-    constexpr std::size_t between = 64; // not tuned: references between two reports
+    constexpr std::size_t between = 64; // references between two reports
     const PointCloud& edges = this->Model.edges;
     std::vector<std::pair<int, int>> known(this->Voxels.size(), { -1, 0 }); // to a voxel: reference, and its entry
     for (std::size_t k = 0; k < references.size(); ++k)
@@ -319,7 +324,7 @@ void buildSurfaceTable(TrainedModel& model, const PointCloud& surface, const std
 {
   const bool haveDirections = model.settings.coVisibilityDirections > 0;
   const Points towards = haveDirections ? viewDirections(model.settings.coVisibilityDirections) : Points();
-  const float facingCosine = static_cast<float>(model.settings.surface.facingCosine);
+  const float facingCosine = static_cast<float>(FacingCosine);
   std::vector<int> seen;
   std::vector<std::uint32_t> faced; // of these
   for (std::size_t i = 0; i < surface.size(); ++i)
@@ -466,7 +471,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
     everything.insert(everything.end(), view.cloud.points.begin(), view.cloud.points.end());
   }
   model.diameter = part.diameter > 0.0 ? part.diameter : diameter(everything);
-  const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : settings.voxelShare * model.diameter;
+  const double voxelSize = settings.voxelSize > 0.0 ? settings.voxelSize : VoxelShare * model.diameter;
   if (std::max(model.quantizer().numberOfKeys(), model.surfaceQuantizer().numberOfKeys()) > TrainedModel::MostKeys)
   {
     throw Error("The pair table would have more than 50 million keys: enlarge the distance step or the angle step.");
@@ -480,8 +485,8 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   const int voters = bringVotersForward(model);
   const std::vector<std::uint32_t> surfaceBits =
     visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.1, 0.7));
-  model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, settings.edgeVoxels * voxelSize);
-  for (const int i : thinPoints(surface.points, settings.surfaceLeafShare * model.diameter))
+  model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, EdgeVoxels * voxelSize);
+  for (const int i : thinPoints(surface.points, SurfaceLeafShare * model.diameter))
   {
     model.surface.points.push_back(surface.points[i]);
     model.surface.normals.push_back(surface.normals[i]);

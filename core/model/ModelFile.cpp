@@ -32,9 +32,9 @@ Eigen::Isometry3d transformAt(const Numbers& numbers, std::size_t at)
 }
 
 // Numbers of a row: a symmetry in each.
-constexpr std::size_t DiscreteRow = 16;  // not tuned: row-major 4 x 4
-constexpr std::size_t ContinuousRow = 6; // not tuned: axis, point on it
-constexpr std::size_t NearRow = 18;      // not tuned: row-major 4 x 4, overlap, deviation
+constexpr std::size_t DiscreteRow = 16;  // row-major 4 x 4
+constexpr std::size_t ContinuousRow = 6; // axis, point on it
+constexpr std::size_t NearRow = 18;      // row-major 4 x 4, overlap, deviation
 
 /// Calls take(numbers, at) for each whole row of an array.
 template <typename Take>

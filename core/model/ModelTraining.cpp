@@ -3,6 +3,7 @@
 
 #include "mesh/ConvexHull.h"
 #include "mesh/preparation/MeshPreparation.h"
+#include "mesh/symmetry/SymmetryDetection.h"
 #include "model/AppearanceModel.h"
 
 namespace meam
@@ -54,7 +55,7 @@ TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settin
   PartSurface part{ surface, partDiameter, {} };
   if (settings.findSymmetries)
   {
-    part.symmetries = detectSymmetries(surface, settings.symmetry, subProgress(progress, 0.4, 0.7));
+    part.symmetries = detectSymmetries(surface, {}, subProgress(progress, 0.4, 0.7));
   }
   return hashModels(models, part, settings.hashing, subProgress(progress, 0.7, 1.0));
 }

@@ -4,7 +4,6 @@
 #include "features/Preset.h"
 #include "features/TangentEstimation.h"
 #include "mesh/SurfaceSampling.h"
-#include "mesh/symmetry/SymmetryDetection.h"
 #include "mesh/TriangleMesh.h"
 #include "model/BoundaryExtraction.h"
 #include "model/MEAMHashing.h"
@@ -20,7 +19,6 @@ struct TrainingSettings
   BoundaryExtractionSettings boundary;
   TangentEstimationSettings tangents;
   bool findSymmetries = true;
-  SymmetryDetectionSettings symmetry;
   MEAMHashingSettings hashing;
 };
 

@@ -11,11 +11,11 @@ namespace meam
 {
 namespace
 {
-constexpr double LeastDiameter = 1e-6; // not tuned: mm; of less single precision cannot take the inverse
-constexpr double MostDiameter = 1e9;   // not tuned: mm
-constexpr double MostExtent = 2.0;     // not tuned: of the points along an axis, over the diameter; 1 but for rounding
-constexpr float MostAngle = 3.15f;     // not tuned: radians; pi but for rounding
-constexpr double Rotation = 1e-3;      // not tuned: rounding of matrices, off rotations, and of axes, off unit vectors
+constexpr double LeastDiameter = 1e-6; // mm; of less single precision cannot take the inverse
+constexpr double MostDiameter = 1e9;   // mm
+constexpr double MostExtent = 2.0;     // of the points along an axis, over the diameter; 1 but for rounding
+constexpr float MostAngle = 3.15f;     // radians; pi but for rounding
+constexpr double Rotation = 1e-3;      // rounding of matrices, off rotations, and of axes, off unit vectors
 
 bool isMotion(const Eigen::Isometry3d& T)
 {

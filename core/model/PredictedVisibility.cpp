@@ -14,6 +14,21 @@ namespace meam
 {
 namespace
 {
+// Lengths are shares of the part's diameter.
+constexpr double Cell = 0.025;     // of the depth buffer across the line of sight; a little over the samples' spacing
+constexpr double Tolerance = 0.01; // depth that a point may lie behind the nearest of its cell: that of rounded faces
+constexpr double EdgeSlope = 1.5;  // slope allowed for at an edge point, whose surface is not known
+constexpr double GrazingCosine = 0.15; // surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
+constexpr double Outward = 1.5;        // cells from a contour to where the buffer tells whether the part hides it
+constexpr int DirectionSteps = 32;     // of each coordinate of the direction to the sensor from 0 to 1: 1.8 degrees
+constexpr int WidestBorder = 4;        // cells
+constexpr double EdgeCell = 0.1;       // of the grid that finds visible edges
+constexpr double Border = 2.5;         // point distances: so near to the outline sensors mix what is before and behind
+constexpr double Drop = 0.025; // fall of the part from cell to cell beside which sensors may see just its lower side
+constexpr double Inset = 0.5;  // point distances: where a smooth surface ends the last point is measured so far inside
+constexpr double PitchStep = 0.0005; // to which point distances are rounded
+constexpr int PitchSteps = 200;      // at most
+
 Eigen::Vector3f meanOf(const Points& points)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -191,8 +206,8 @@ void keepInSight(const Projected& points, const std::vector<float>& buffer, floa
 }
 }
 
-PredictedVisibility::PredictedVisibility(const TrainedModel& model, const PredictedVisibilitySettings& settings)
-  : Settings(settings)
+PredictedVisibility::PredictedVisibility(const TrainedModel& model, int cachedDirections)
+  : CachedDirections(cachedDirections)
   , Diameter(model.diameter)
   , ViewDirections(model.viewDirections)
   , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
@@ -212,7 +227,7 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, const Predic
   std::vector<bool> areContours(model.edges.size());
   if (!model.surface.empty() && model.edgeViews.size() == model.edges.size())
   {
-    this->Contours = OccludingContours(model.surface, model.settings.derivation.surfaceSpacing * model.diameter);
+    this->Contours = OccludingContours(model.surface, SurfacePointSpacing * model.diameter);
     areContours = this->Contours.areContours(model.edges.points, model.edgeViews, model.viewDirections);
   }
   for (std::size_t i = 0; i < model.edges.size(); ++i)
@@ -227,6 +242,8 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, const Predic
     this->VerificationPoints.add(model.surface.points[i] - this->Middle, model.surface.normals[i]);
   }
 }
+
+double PredictedVisibility::cellSize() const { return Cell * this->Diameter; }
 
 Eigen::Vector3f PredictedVisibility::towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
 {
@@ -251,12 +268,11 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
   Eigen::Vector3i steps = Eigen::Vector3i::Zero(); // of poses beyond all measure, too
   if (direction.allFinite())
   {
-    steps = (static_cast<float>(this->Settings.directionSteps) * direction).array().round().cast<int>();
+    steps = (static_cast<float>(DirectionSteps) * direction).array().round().cast<int>();
   }
-  const int range = 2 * this->Settings.directionSteps + 1;
-  const double pitchStep = this->Settings.pitchStep * this->Diameter;
-  const int pitchSteps =
-    static_cast<int>(std::clamp(std::round(pitch / pitchStep), 0.0, 1.0 * this->Settings.pitchSteps));
+  const int range = 2 * DirectionSteps + 1;
+  const double pitchStep = PitchStep * this->Diameter;
+  const int pitchSteps = static_cast<int>(std::clamp(std::round(pitch / pitchStep), 0.0, 1.0 * PitchSteps));
   const int key = ((pitchSteps * range + steps.z()) * range + steps.y()) * range + steps.x();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -280,7 +296,7 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::visible
 std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::keep(
   int key, std::shared_ptr<const Visible> visible) const
 {
-  if (2 * this->Recent.size() >= static_cast<std::size_t>(this->Settings.cachedDirections))
+  if (2 * this->Recent.size() >= static_cast<std::size_t>(this->CachedDirections))
   {
     this->Older = std::move(this->Recent);
     this->Recent.clear();
@@ -290,12 +306,12 @@ std::shared_ptr<const PredictedVisibility::Visible> PredictedVisibility::keep(
 
 PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vector3f& towards, double pitch) const
 {
-  const int borderCells = static_cast<int>(
-    std::clamp(std::round(this->Settings.border * pitch / this->cellSize()), 1.0, 1.0 * this->Settings.widestBorder));
-  const double inset = this->Settings.inset * pitch;
+  const int borderCells =
+    static_cast<int>(std::clamp(std::round(Border * pitch / this->cellSize()), 1.0, 1.0 * WidestBorder));
+  const double inset = Inset * pitch;
   Visible visible{ towards, {}, {}, {}, {}, {}, {} };
-  const float cell = static_cast<float>(this->Settings.cell * this->Diameter);
-  const float tolerance = static_cast<float>(this->Settings.tolerance * this->Diameter);
+  const float cell = static_cast<float>(Cell * this->Diameter);
+  const float tolerance = static_cast<float>(Tolerance * this->Diameter);
   const float half = static_cast<float>(this->Diameter); // a point is never farther from the middle
   const View across{ frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
   const auto projected = [&](const SoAPoints& points, Projected& result)
@@ -322,14 +338,14 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
     point += this->Middle;
   }
   projected(this->SharpEdges.points, others);
-  keepInSight(others, nearest, tolerance + static_cast<float>(this->Settings.edgeSlope) * cell, inSight);
+  keepInSight(others, nearest, tolerance + static_cast<float>(EdgeSlope) * cell, inSight);
   const std::vector<OccludingContours::Point> contours = this->Contours.from(towards, inset);
   visible.edges.reserve(inSight.size() + contours.size());
   for (const int k : inSight)
   {
     visible.edges.add(this->SharpEdges.points[k] + this->Middle, this->SharpEdges.directions[k]);
   }
-  const float outward = static_cast<float>(this->Settings.outward * cell + inset);
+  const float outward = static_cast<float>(Outward * cell + inset);
   for (const OccludingContours::Point& contour : contours)
   {
     if (!isHidden(nearest, across, contour.point - this->Middle, outward * contour.normal, tolerance))
@@ -342,16 +358,16 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   {
     edges[k] = visible.edges.points[k];
   }
-  visible.edgeGrid = PointGrid(edges, this->Settings.edgeCell * this->Diameter);
+  visible.edgeGrid = PointGrid(edges, EdgeCell * this->Diameter);
   projected(this->VerificationPoints.points, others);
   const SoAPoints& normals = this->VerificationPoints.directions;
   allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
-    static_cast<float>(this->Settings.grazingCosine), others.heights.data());
+    static_cast<float>(GrazingCosine), others.heights.data());
   keepInSight(others, nearest, tolerance, inSight);
   visible.surface.reserve(inSight.size());
   visible.isInner.reserve(inSight.size());
   visible.falls.reserve(inSight.size());
-  const float drop = static_cast<float>(this->Settings.drop * this->Diameter);
+  const float drop = static_cast<float>(Drop * this->Diameter);
   for (const int k : inSight)
   {
     visible.surface.push_back(this->VerificationIndices[k]);

@@ -13,25 +13,6 @@ namespace meam
 struct Sensor;
 struct TrainedModel;
 
-/// Lengths are shares of the part's diameter.
-struct PredictedVisibilitySettings
-{
-  double cell = 0.025;         ///< of the depth buffer across the line of sight; a little over the samples' spacing
-  double tolerance = 0.01;     ///< depth that a point may lie behind the nearest of its cell: that of rounded faces
-  double edgeSlope = 1.5;      ///< slope allowed for at an edge point, whose surface is not known
-  double grazingCosine = 0.15; ///< surface seen at a flatter angle (81 degrees) is not predicted: sensors miss it
-  double outward = 1.5;        ///< cells from a contour to where the buffer tells whether the part hides it
-  int directionSteps = 32;     ///< of each coordinate of the direction to the sensor from 0 to 1: 1.8 degrees
-  int widestBorder = 4;        ///< cells
-  double edgeCell = 0.1;       ///< of the grid that finds visible edges
-  double border = 2.5; ///< of the scan's point distances: so near to the outline sensors mix what is before and behind
-  double drop = 0.025; ///< where the part falls off by more from cell to cell, sensors may see just its lower side
-  double inset = 0.5;  ///< point distances: where a smooth surface ends the last point is measured so far inside
-  double pitchStep = 0.0005;   ///< to which point distances are rounded
-  int pitchSteps = 200;        ///< at most
-  int cachedDirections = 2000; ///< that are kept, up to 120 MB of a part: a full bin asks for a thousand
-};
-
 /// Which points of a part the sensor should see from a direction, if nothing else were in the way: a depth buffer of
 /// its samples, cached by direction. Calls may run in parallel.
 class PredictedVisibility
@@ -39,7 +20,9 @@ class PredictedVisibility
 public:
   /// Needs no more of the model than its edges, surface, verification points, view directions, diameter and
   /// settings.
-  explicit PredictedVisibility(const TrainedModel& model, const PredictedVisibilitySettings& settings = {});
+  /// Of the directions asked for, the last `cachedDirections` are kept, up to 120 MB of a part: a full bin asks for a
+  /// thousand.
+  explicit PredictedVisibility(const TrainedModel& model, int cachedDirections = 2000);
 
   /// Middle of the part's surface, model frame: the notch or lug that fixes a round part's turn hardly moves it.
   const Eigen::Vector3f& middle() const { return this->Middle; }
@@ -64,7 +47,7 @@ public:
     Points outside;
   };
   /// mm, of the depth buffer.
-  double cellSize() const { return this->Settings.cell * this->Diameter; }
+  double cellSize() const;
   /// `pitch`: mm between neighbouring points of the scan (DepthMap::pitch); 0: not known, and very fine.
   std::shared_ptr<const Visible> visible(
     const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double pitch = 0.0) const;
@@ -76,7 +59,7 @@ private:
   /// Puts it among the recent ones, unless it is there. The mutex is locked.
   std::shared_ptr<const Visible> keep(int key, std::shared_ptr<const Visible> visible) const;
 
-  PredictedVisibilitySettings Settings;
+  int CachedDirections;
   double Diameter;
   Points ViewDirections;
   Eigen::Vector3f Middle;

@@ -13,6 +13,10 @@ namespace meam
 {
 namespace
 {
+constexpr double CellsPerSpacing = 2.0; // of the samples, at the part's middle
+constexpr int SampleRadius = 3;         // cells; no gaps stay between samples
+constexpr double Reach = 2.0;           // spacings from an edge point to where the background must show
+
 /// The cells beside one.
 std::array<Eigen::Vector2i, 4> beside(const Eigen::Vector2i& cell)
 {
@@ -21,17 +25,15 @@ std::array<Eigen::Vector2i, 4> beside(const Eigen::Vector2i& cell)
 }
 }
 
-Silhouette::Silhouette(
-  const Points& part, const Eigen::Vector3d& viewpoint, double spacing, const SilhouetteSettings& settings)
-  : Settings(settings)
-  , Viewpoint(viewpoint)
+Silhouette::Silhouette(const Points& part, const Eigen::Vector3d& viewpoint, double spacing)
+  : Viewpoint(viewpoint)
 {
-  constexpr double mostCells = 2000.0; // not tuned: along a side, for an image of bounded size
+  constexpr double mostCells = 2000.0; // along a side, for an image of bounded size
   const Eigen::AlignedBox3f box = bounds(part);
   const Eigen::Vector3d depth = box.center().cast<double>() - viewpoint;
-  this->Spacing = std::max(spacing, settings.cellsPerSpacing * box.diagonal().norm() / mostCells);
+  this->Spacing = std::max(spacing, CellsPerSpacing * box.diagonal().norm() / mostCells);
   this->Axes = frameAround(depth.normalized().cast<float>()).cast<double>().transpose();
-  this->CellsPerSlope = depth.norm() * settings.cellsPerSpacing / this->Spacing;
+  this->CellsPerSlope = depth.norm() * CellsPerSpacing / this->Spacing;
 
   std::vector<Eigen::Vector2i> places;
   places.reserve(part.size());
@@ -54,8 +56,8 @@ Silhouette::Silhouette(
     high = high.cwiseMax(place);
   }
   // A margin that holds the samples' discs and a ring of background around them.
-  this->Low.array() -= settings.sampleRadius + 1;
-  this->Size = high - this->Low + Eigen::Vector2i::Constant(settings.sampleRadius + 2);
+  this->Low.array() -= SampleRadius + 1;
+  this->Size = high - this->Low + Eigen::Vector2i::Constant(SampleRadius + 2);
   this->Cells.assign(static_cast<std::size_t>(this->Size.x()) * this->Size.y(), Cell::Enclosed);
   for (const auto& place : places)
   {
@@ -86,7 +88,7 @@ Silhouette::Silhouette(
 
 void Silhouette::markDisc(const Eigen::Vector2i& middle, Cell mark)
 {
-  const int radius = this->Settings.sampleRadius;
+  const int radius = SampleRadius;
   for (int y = -radius; y <= radius; ++y)
   {
     for (int x = -radius; x <= radius; ++x)
@@ -122,8 +124,8 @@ void Silhouette::markAround()
 
 Silhouette::Cell Silhouette::beyond(const Eigen::Vector3d& point, const Eigen::Vector3d& outward) const
 {
-  const double cells = this->Settings.cellsPerSpacing;
-  for (double step = 0.0; step <= this->Settings.reach * cells; step += 1.0)
+  const double cells = CellsPerSpacing;
+  for (double step = 0.0; step <= Reach * cells; step += 1.0)
   {
     const Eigen::Vector2i cell = this->cellOf(point + step * this->Spacing / cells * outward);
     if (!this->isInside(cell))

@@ -5,13 +5,6 @@
 
 namespace meam
 {
-struct SilhouetteSettings
-{
-  double cellsPerSpacing = 2.0; ///< of the samples, at the part's middle
-  int sampleRadius = 3;         ///< cells; no gaps stay between samples
-  double reach = 2.0;           ///< spacings from an edge point to where the background must show
-};
-
 /// A small image of what a viewpoint sees of a part: the cells that the part covers, the background
 /// around it, and background that it encloses, such as what shows through a hole.
 class Silhouette
@@ -26,8 +19,7 @@ public:
 
   /// `part` are evenly spaced samples, hidden ones or not; openings narrower than twice the settings'
   /// sample radius count as covered. `spacing` in mm.
-  Silhouette(
-    const Points& part, const Eigen::Vector3d& viewpoint, double spacing, const SilhouetteSettings& settings = {});
+  Silhouette(const Points& part, const Eigen::Vector3d& viewpoint, double spacing);
 
   /// What shows next to the part at a point of its edge, the way `outward` (unit) leads. Part: its own
   /// surface goes on there, or another one starts.
@@ -42,7 +34,6 @@ private:
   void markDisc(const Eigen::Vector2i& middle, Cell mark);
   void markAround();
 
-  SilhouetteSettings Settings;
   Eigen::Vector3d Viewpoint;
   Eigen::Matrix3d Axes; ///< rows: depth, right, down
   double Spacing;

@@ -8,20 +8,28 @@
 
 namespace meam
 {
+namespace
+{
+// Shares of the diameter.
+constexpr double VotingLeaf = 0.04; // of the edge points in a cube of this side one makes pairs, in model and scene
+constexpr double VerificationLeaf = 0.03; // of the surface points in such a cube one verifies poses
+constexpr double Reach = 0.03;            // of the distance fields: tolerances are less
+constexpr double Cell = 0.0075;           // of the distance fields
+}
+
 double TrainedModel::votingLeaf() const
 {
   if (this->settings.merging != ViewMerging::Points)
   {
     return 0.0;
   }
-  return this->settings.leafSize > 0.0 ? this->settings.leafSize
-                                       : this->settings.derivation.votingLeaf * this->diameter;
+  return this->settings.leafSize > 0.0 ? this->settings.leafSize : VotingLeaf * this->diameter;
 }
 
 double TrainedModel::verificationArea() const
 {
-  constexpr double cubesOfSquare = 1.5; // not tuned: that a plane of any direction meets, on average
-  const double leaf = this->settings.derivation.verificationLeaf * this->diameter;
+  constexpr double cubesOfSquare = 1.5; // that a plane of any direction meets, on average
+  const double leaf = VerificationLeaf * this->diameter;
   return leaf * leaf / cubesOfSquare;
 }
 
@@ -55,12 +63,11 @@ void TrainedModel::deriveFields()
   this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
   this->surfaceTable.deriveVotes(
     this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
-  const ModelDerivationSettings& shares = this->settings.derivation;
-  this->verificationPoints = thinPoints(this->surface.points, shares.verificationLeaf * this->diameter);
-  const double reach = shares.reach * this->diameter;
-  const double cell = shares.cell * this->diameter;
-  this->surfaceDistance = DistanceField::ofSurface(this->surface, shares.surfaceSpacing * this->diameter, reach, cell);
-  this->edgeDistance = DistanceField::ofEdges(this->edges, shares.edgeSpacing * this->diameter, reach, cell);
+  this->verificationPoints = thinPoints(this->surface.points, VerificationLeaf * this->diameter);
+  const double reach = Reach * this->diameter;
+  const double cell = Cell * this->diameter;
+  this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell);
+  this->edgeDistance = DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell);
   this->visibility = std::make_shared<const PredictedVisibility>(*this);
 }
 }

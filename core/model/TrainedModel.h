@@ -25,21 +25,12 @@ struct SurfacePairSettings
   double distanceStep = 0.05; ///< d_dist
   double angleStep = 12.0;    ///< d_angle, degrees; also the step of the votes' turn about the normal
   double leafSize = 0.05;     ///< of the points in a cube of this side one makes pairs, in the model as in a scene
-  double facingCosine = 0.1;  ///< of 84 degrees: a point that is turned farther away from a direction faces elsewhere
 };
 
-/// What is made of a model that is there, with lengths as shares of the diameter. Files do not hold these: a model that
-/// is read has the defaults.
-struct ModelDerivationSettings
-{
-  double votingLeaf = 0.04; ///< of the edge points in a cube of this side one makes pairs, in the model as in a scene
-  double verificationLeaf = 0.03; ///< of the surface points in such a cube one verifies poses
-  double reach = 0.03;            ///< of the distance fields: tolerances are less
-  double cell = 0.0075;           ///< of the distance fields
-  double edgeSpacing = 0.03;      ///< so far along its tangent an edge point stands for the edge
-  double surfaceSpacing = 0.018;  ///< so far along its plane a surface point stands for the surface: a little over
-                                  ///< the spacing of these points
-};
+// Shares of the diameter: so far along its tangent an edge point stands for the edge, and along its plane a surface
+// point for the surface, a little over the spacing of these points.
+constexpr double EdgePointSpacing = 0.03;
+constexpr double SurfacePointSpacing = 0.018;
 
 struct MEAMHashingSettings
 {
@@ -49,18 +40,13 @@ struct MEAMHashingSettings
   double distanceStep = 0.07;                          ///< tau_d: d_dist as a share of d_max
   double angleStep = 7.2; ///< d_angle, degrees; also the step of the votes' turn about the tangent
   ViewMerging merging = ViewMerging::Points;
-  double voxelSize = 0.0;       ///< L_voxel in mm; 0: voxelShare
-  double voxelShare = 0.015;    ///< of the diameter
-  double sameEdgeCosine = 0.94; ///< of 20 degrees: ViewMerging::Points, between the tangents of one edge in two views
-  double edgeVoxels = 2.0; ///< an edge point without the number of its surface point is the nearest of those this near
-  double surfaceLeafShare = 0.015; ///< of the diameter: of the surface samples in a cube of this side one stays
+  double voxelSize = 0.0; ///< L_voxel in mm; 0: 1.5 % of the diameter
   /// ViewMerging::Points: of the edge points in a cube of this side (mm) one makes pairs, in the model as in a scene;
-  /// the others are there to judge and refine poses; 0: ModelDerivationSettings::votingLeaf. Otherwise all make pairs.
+  /// the others are there to judge and refine poses; 0: 4 % of the diameter. Otherwise all make pairs.
   double leafSize = 0.0;
   /// Directions from which two points must be visible together to make a pair; 0: only the views
   /// themselves (paper).
   int coVisibilityDirections = 26;
-  ModelDerivationSettings derivation{};
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.
@@ -69,11 +55,11 @@ MEAMHashingSettings paperHashingSettings();
 /// All that detection needs to know of a part: the result of the offline phase.
 struct TrainedModel
 {
-  static constexpr int FormatVersion = 4;            ///< not tuned: a mark
-  static constexpr int MaximumViews = 32;            ///< not tuned: views and directions are bits of a word
-  static constexpr std::int64_t MostKeys = 50000000; ///< not tuned: 200 MB of offsets
+  static constexpr int FormatVersion = 4;            ///< a mark
+  static constexpr int MaximumViews = 32;            ///< views and directions are bits of a word
+  static constexpr std::int64_t MostKeys = 50000000; ///< 200 MB of offsets
   static constexpr std::size_t MostEdges = std::size_t{ 1 }
-                                           << (SheetBits - 1); ///< not tuned: edge points; two sheets of votes each
+                                           << (SheetBits - 1); ///< edge points; two sheets of votes each
 
   double diameter = 0.0; ///< d_max, mm
   std::string digest;    ///< of the surface, the edges and the settings
@@ -94,7 +80,7 @@ struct TrainedModel
 
   // What deriveFields() makes of the above.
   std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
-  DistanceField surfaceDistance;       ///< up to ModelDerivationSettings::reach
+  DistanceField surfaceDistance;       ///< up to 3 % of the diameter
   DistanceField edgeDistance;
   std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
 

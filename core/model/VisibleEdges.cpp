@@ -12,7 +12,7 @@ namespace meam
 {
 namespace
 {
-constexpr double HairsFromEdge = 4.0; // not tuned: a face is looked at this far from its edge
+constexpr double HairsFromEdge = 4.0; // a face is looked at this far from its edge
 
 Eigen::Vector3d vertexOf(const TriangleMesh& mesh, int face, int corner)
 {

@@ -15,6 +15,19 @@ namespace meam
 {
 namespace
 {
+constexpr double MostTilt = 30.0;      // degrees between the floor's normal and the sensor's direction
+constexpr double FullSides = 60.0;     // % of each side of the rim that must have been measured
+constexpr double LeastSize = 10.0;     // % of the scan's extent: a smaller rectangle is none
+constexpr double SideTolerance = 0.02; // of the rectangle's shorter side: so near a side is on it
+constexpr double PointsInLevel = 2.0;  // point distances in the height of a level
+constexpr double NoiseInLevel = 4.0;   // standard deviations of the noise besides
+constexpr double LowestShare = 0.02;   // of the points inside may be lower than the floor: wrong ones
+constexpr double ThinnestWall = 2.0;   // point distances
+constexpr double MiddleShare = 0.7;    // of the sides: what lies there is inside of any wall
+constexpr double MostInside = 0.5;     // of the points there may be as high as the rim: it is no solid block
+constexpr double SameArea = 0.05;      // rectangles that differ by less are of one rim
+constexpr double ThickestWall = 0.25;  // of the rim's shorter side
+
 constexpr std::size_t EnoughPoints = 60000;
 constexpr int SideBins = 25; // pieces of a side that are looked at for points
 constexpr int FewestInLevel = 4 * SideBins / 2;
@@ -84,7 +97,7 @@ std::ptrdiff_t countInside(const Rectangle& rectangle, const PlanePoints& points
 }
 }
 
-Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings, const Progress& progress)
+Bin detectBin(const OrganizedCloud& cloud, const Progress& progress)
 {
   const BackgroundRemoval background = removeBackground(cloud, nullptr, {}, subProgress(progress, 0.0, 0.6));
   Eigen::Vector3d up = -Eigen::Vector3d::UnitZ();
@@ -92,7 +105,7 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
   for (const auto& plane : background.planes)
   {
     const Eigen::Vector3d normal = plane.normal().cast<double>();
-    if (-normal.z() >= std::cos(settings.mostTilt * M_PI / 180.0))
+    if (-normal.z() >= std::cos(MostTilt * M_PI / 180.0))
     {
       up = normal;
       floor = -plane.offset();
@@ -105,7 +118,7 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
   const Points points = everyNth(cloud, static_cast<int>(spread));
   const GridScale scale = gridScale(cloud);
   const double distance = scale.pointDistance * spread;
-  const double level = settings.pointsInLevel * scale.pointDistance + settings.noiseInLevel * scale.noise;
+  const double level = PointsInLevel * scale.pointDistance + NoiseInLevel * scale.noise;
   std::vector<std::pair<double, Eigen::Vector2d>> highest; // height, and place across
   for (const auto& point : points)
   {
@@ -116,7 +129,7 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
   PlanePoints all;
   std::transform(
     highest.begin(), highest.end(), std::back_inserter(all), [](const auto& point) { return point.second; });
-  const double leastSize = settings.leastSize / 100.0 * bounds(points).cast<double>().sizes().minCoeff();
+  const double leastSize = LeastSize / 100.0 * bounds(points).cast<double>().sizes().minCoeff();
 
   // Levels from the top on, each half a level lower than the last one: the largest rectangle, of levels of about the
   // same one the fullest.
@@ -137,14 +150,14 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
     PlanePoints inLevel;
     std::transform(begin, end, std::back_inserter(inLevel), [](const auto& point) { return point.second; });
     const Rectangle outside = smallestAround(inLevel);
-    const double tolerance = std::max(settings.sideTolerance * outside.size.minCoeff(), 2.0 * distance);
+    const double tolerance = std::max(SideTolerance * outside.size.minCoeff(), 2.0 * distance);
     const double area = outside.size.prod();
-    if (area < (1.0 - settings.sameArea) * rim.size.prod() ||
-        (area < (1.0 + settings.sameArea) * rim.size.prod() && inLevel.size() <= rimPoints.size()) ||
+    if (area < (1.0 - SameArea) * rim.size.prod() ||
+        (area < (1.0 + SameArea) * rim.size.prod() && inLevel.size() <= rimPoints.size()) ||
         outside.size.minCoeff() < std::max(leastSize, 4.0 * tolerance) ||
-        100.0 * leastFullSide(outside, inLevel, 0.0, tolerance) < settings.fullSides ||
-        static_cast<double>(countInside(outside, inLevel, settings.middleShare)) >
-          settings.mostInside * static_cast<double>(countInside(outside, all, settings.middleShare)))
+        100.0 * leastFullSide(outside, inLevel, 0.0, tolerance) < FullSides ||
+        static_cast<double>(countInside(outside, inLevel, MiddleShare)) >
+          MostInside * static_cast<double>(countInside(outside, all, MiddleShare)))
     {
       continue;
     }
@@ -156,9 +169,9 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
   Bin bin;
   if (!rimPoints.empty())
   {
-    bin.wall = settings.thinnestWall * scale.pointDistance;
-    while (bin.wall < settings.thickestWall * rim.size.minCoeff() &&
-           100.0 * leastFullSide(rim, rimPoints, bin.wall, bin.wall + 2.0 * distance) >= settings.fullSides)
+    bin.wall = ThinnestWall * scale.pointDistance;
+    while (bin.wall < ThickestWall * rim.size.minCoeff() &&
+           100.0 * leastFullSide(rim, rimPoints, bin.wall, bin.wall + 2.0 * distance) >= FullSides)
     {
       bin.wall += 0.5 * distance;
     }
@@ -172,7 +185,7 @@ Bin detectBin(const OrganizedCloud& cloud, const BinDetectionSettings& settings,
           inside.push_back(height);
         }
       }
-      floor = inside[static_cast<std::size_t>((1.0 - settings.lowestShare) * static_cast<double>(inside.size() - 1))];
+      floor = inside[static_cast<std::size_t>((1.0 - LowestShare) * static_cast<double>(inside.size() - 1))];
     }
     bin.size << rim.size.x() - 2.0 * bin.wall, rim.size.y() - 2.0 * bin.wall, heights[heights.size() / 2] - *floor;
   }

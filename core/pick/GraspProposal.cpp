@@ -16,32 +16,25 @@ namespace meam
 {
 namespace
 {
+constexpr double LeastWidth = 0.5;   // mm, of what the jaws hold: thinner sheets bend
+constexpr int Approaches = 8;        // directions about the closing one that are tried
+constexpr double WayIn = 80.0;       // mm, straight along the approach, on which the gripper must not touch the part
+constexpr double WayStep = 2.0;      // mm between the places on it at which a gripper that is a mesh is looked at
+constexpr int Contacts = 1500;       // places on the surface that are tried, about: more finds more and takes longer
+constexpr double FreeTurnLoss = 0.1; // share of the contact that a free turn may cost
+constexpr double CentreWeight = 0.5; // of the quality that is lost half a diameter away from the centre of mass
+constexpr double AngleWeight = 0.5;  // of the quality that is lost at the limit of friction, or of what a lip closes
+
 constexpr double SamePlaces = 0.1;      // of the diameter, the spread where none is given
 constexpr double QualitySteps = 1e6;    // finer differences of quality are rounding
 constexpr double AlongAxis = 0.9;       // cosine: a direction of the CAD that is no reference for approaches
-constexpr double LeastTolerance = 1e-3; // mm
 constexpr double AfterCandidates = 0.8; // of the work, for the progress
 
-void requireSettings(const GraspProposalSettings& s)
+void requireSettings(const ProposeSettings& s)
 {
   requireWithin("maximum number of grasps", s.maximumGrasps, 0, Unbounded);
-  requireWithin("number of places to try", s.contacts, 1, Unbounded);
-  requireWithin("number of approaches", s.approaches, 1, 360);
   requireWithin("spread of grasps", s.spread, 0.0, Unbounded, " mm");
-  requireWithin("least width", s.leastWidth, 0.0, Unbounded, " mm");
-  requireWithin("pads' tolerance", s.padTolerance, LeastTolerance, Unbounded, " mm");
-  requireWithin("seal's tolerance", s.sealTolerance, LeastTolerance, Unbounded, " mm");
-  requireWithin("way in", s.wayIn, 0.0, Unbounded, " mm");
-  requireWithin("step on the way in", s.wayStep, LeastTolerance, Unbounded, " mm");
   requireWithin("friction angle", s.frictionAngle, 0.1, 89.0, " degrees");
-  requireWithin("bend under a cup", s.mostBend, 0.0, 89.0, " degrees");
-  requireWithin("turn between grasps at a place", s.turnApart, 0.0, 180.0, " degrees");
-  requireWithin("turn step", s.turnStep, 1.0, 90.0, " degrees");
-  requireWithin("least contact", s.leastContact, 0.0, 1.0);
-  requireWithin("loss of a free turn", s.freeTurnLoss, 0.0, 1.0);
-  requireWithin("weight of the centre", s.centreWeight, 0.0, 1.0);
-  requireWithin("weight of the angle", s.angleWeight, 0.0, 1.0);
-  requireWithin("crowding", s.crowding, 0.0, 1.0);
 }
 
 /// A direction of the CAD that does not run along the axis: down, because parts are drawn as they stand, or else along
@@ -55,12 +48,12 @@ Eigen::Vector3d referenceAcross(const Eigen::Vector3d& axis)
 class GraspJudge
 {
 public:
-  GraspJudge(const TriangleMesh& part, const Gripper& gripper, const GraspProposalSettings& settings)
+  GraspJudge(const TriangleMesh& part, const Gripper& gripper, double frictionAngle)
     : Rays(part)
     , Balance(balanceOf(part))
     , Collisions(part, gripper)
     , Claw(gripper)
-    , Settings(settings)
+    , FrictionAngle(frictionAngle)
   {
   }
 
@@ -71,12 +64,11 @@ public:
   std::optional<GripperContact> contact(const Grasp& grasp) const
   {
     const bool isCup = grasp.kind == GraspKind::Suction;
-    const auto found = isCup ? cupContact(this->Rays, grasp, this->Claw, this->Settings)
-                             : jawContact(this->Rays, grasp, this->Claw, this->Settings);
+    const auto found = isCup ? cupContact(this->Rays, grasp, this->Claw)
+                             : jawContact(this->Rays, grasp, this->Claw, this->FrictionAngle);
     Grasp before = grasp; // a cup that sits on the surface touches it
-    before.T_model_grasp.translate(Eigen::Vector3d(0.0, 0.0, isCup ? -this->Settings.sealTolerance : 0.0));
-    return found && !this->Collisions.touchesHeld(before, this->Settings.wayIn, this->Settings.wayStep) ? found
-                                                                                                        : std::nullopt;
+    before.T_model_grasp.translate(Eigen::Vector3d(0.0, 0.0, isCup ? -SealTolerance : 0.0));
+    return found && !this->Collisions.touchesHeld(before, WayIn, WayStep) ? found : std::nullopt;
   }
 
   double quality(const Grasp& grasp, const GripperContact& contact) const
@@ -88,8 +80,7 @@ public:
       lever -= lever.dot(axis) * axis;
     }
     const double away = std::min(1.0, lever.norm() / (0.5 * this->Balance.diameter));
-    return contact.share * (1.0 - this->Settings.centreWeight * away) *
-           (1.0 - this->Settings.angleWeight * std::min(1.0, contact.slant));
+    return contact.share * (1.0 - CentreWeight * away) * (1.0 - AngleWeight * std::min(1.0, contact.slant));
   }
 
   /// The turn after which the gripper holds as well, all around.
@@ -107,13 +98,13 @@ private:
   bool isFree(const Grasp& grasp, const Eigen::Vector3d& axis) const
   {
     const auto here = this->contact(grasp);
-    const int turns = static_cast<int>(std::lround(360.0 / this->Settings.turnStep));
+    const int turns = static_cast<int>(std::lround(360.0 / GraspTurnStep));
     for (int k = 1; here && k < turns; ++k)
     {
       Grasp turned = grasp;
       turned.T_model_grasp.rotate(Eigen::AngleAxisd(2.0 * M_PI * k / turns, axis));
       const auto there = this->contact(turned);
-      if (!there || there->share < (1.0 - this->Settings.freeTurnLoss) * here->share)
+      if (!there || there->share < (1.0 - FreeTurnLoss) * here->share)
       {
         return false;
       }
@@ -125,19 +116,19 @@ private:
   PartBalance Balance;
   PickCollisions Collisions;
   const Gripper& Claw;
-  const GraspProposalSettings& Settings;
+  double FrictionAngle; ///< degrees
 };
 
 /// The grasps of jaws that close along the normal of a place: a face on the other side, and approaches across.
 Grasps jawGrasps(
-  const ContactPlace& place, const MeshRays& rays, const Gripper& gripper, const GraspProposalSettings& settings)
+  const ContactPlace& place, const MeshRays& rays, const Gripper& gripper, const ProposeSettings& settings)
 {
   Grasps grasps;
   const double most = gripper.mesh.triangles.empty() ? gripper.opening - 2.0 * gripper.jawClearance : gripper.opening;
   const double cone = std::cos(settings.frictionAngle * M_PI / 180.0);
   for (const RayHit& hit : rays.hits(place.point, -place.normal, most))
   {
-    if (hit.entering || hit.distance < settings.leastWidth || hit.normal.dot(-place.normal) < cone)
+    if (hit.entering || hit.distance < LeastWidth || hit.normal.dot(-place.normal) < cone)
     {
       continue;
     }
@@ -146,10 +137,10 @@ Grasps jawGrasps(
     const Eigen::Vector3d middle = place.point - 0.5 * hit.distance * place.normal;
     grasp.T_model_grasp = graspFrame(middle, place.normal.cross(referenceAcross(place.normal)), place.normal);
     grasp.T_model_grasp.rotate(Eigen::AngleAxisd(-0.5 * M_PI, Eigen::Vector3d::UnitX())); // to the reference
-    for (int k = 0; k < settings.approaches; ++k)
+    for (int k = 0; k < Approaches; ++k)
     {
       grasps.push_back(grasp);
-      const double angle = 2.0 * M_PI * k / settings.approaches;
+      const double angle = 2.0 * M_PI * k / Approaches;
       grasps.back().T_model_grasp.rotate(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
     }
   }
@@ -166,7 +157,7 @@ Grasps cupGrasps(const ContactPlace& place)
 
 /// All that hold, best first.
 Grasps candidates(const std::vector<ContactPlace>& places, const GraspJudge& judge, const Gripper& gripper,
-  const GraspProposalSettings& settings, const Progress& progress)
+  const ProposeSettings& settings, const Progress& progress)
 {
   std::vector<Grasps> found(places.size());
   parallelFor(static_cast<int>(places.size()), numberOfThreads(settings.threads), progress,
@@ -197,20 +188,20 @@ Grasps candidates(const std::vector<ContactPlace>& places, const GraspJudge& jud
 }
 
 Grasps proposeGrasps(const TriangleMesh& part, const Symmetries& symmetries, const Gripper& gripper,
-  const GraspProposalSettings& settings, const Progress& progress)
+  const ProposeSettings& settings, const Progress& progress)
 {
   requireMesh(part);
   requireGripper(gripper);
   requireSettings(settings);
-  const GraspJudge judge(part, gripper, settings);
+  const GraspJudge judge(part, gripper, settings.frictionAngle);
   const double size = judge.balance().diameter;
   const std::vector<ContactPlace> places =
-    contactPlaces(part, judge.rays(), judge.balance(), symmetries, settings.contacts, settings.seed);
+    contactPlaces(part, judge.rays(), judge.balance(), symmetries, Contacts, settings.seed);
   const Grasps all = candidates(places, judge, gripper, settings, subProgress(progress, 0.0, AfterCandidates));
 
   const double spread = settings.spread > 0.0 ? settings.spread : SamePlaces * size;
   Grasps best = spreadOut(
-    all, symmetries, spread, size, settings, [&](const Grasp& grasp) { return judge.freeTurn(grasp); },
+    all, symmetries, spread, size, settings.maximumGrasps, [&](const Grasp& grasp) { return judge.freeTurn(grasp); },
     subProgress(progress, AfterCandidates, 1.0));
   int number = 0;
   for (Grasp& grasp : best)

@@ -41,7 +41,7 @@ void check(const Bin& bin, const Gripper& gripper, double margin)
 }
 
 PickPlanner::PickPlanner(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps,
-  const Gripper& gripper, const PickSettings& settings)
+  const Gripper& gripper, const PlanSettings& settings)
 {
   requireSettings(settings);
   this->Search = std::make_unique<GraspSearch>(part, symmetries, grasps, gripper, settings);
@@ -53,7 +53,7 @@ Picks PickPlanner::plan(
   const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress)
 {
   GraspSearch& search = *this->Search;
-  const PickSettings& settings = search.settings();
+  const PlanSettings& settings = search.settings();
   check(poses);
   if (bin)
   {
@@ -86,9 +86,8 @@ Picks PickPlanner::plan(
       pick.reach = around.top - around.up.dot(pick.T_scene_grasp.translation());
       if (pick.possible())
       {
-        const double comfort = settings.comfortableClearance;
         pick.score = confidence(poses[k]) * search.grasps()[g].quality * (1.0 - covered) *
-                     (comfort > 0.0 ? std::min(1.0, pick.clearance / comfort) : 1.0);
+                     std::min(1.0, pick.clearance / ComfortableClearance);
       }
       picks.push_back(pick);
     }

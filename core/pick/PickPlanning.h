@@ -27,7 +27,7 @@ public:
   /// Throws Error for an invalid mesh, gripper, grasp (among them one outside the part) or setting, and without a
   /// grasp.
   PickPlanner(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps, const Gripper& gripper,
-    const PickSettings& settings = {});
+    const PlanSettings& settings = {});
   ~PickPlanner();
 
   /// A pick for each pose and each grasp, in mm of the scan's frame: those that are possible first, best first, then

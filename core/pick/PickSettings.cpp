@@ -28,18 +28,14 @@ void requireWithin(const std::string& name, double value, double low, double hig
   throw Error(text.str());
 }
 
-void requireSettings(const PickSettings& s)
+void requireSettings(const PlanSettings& s)
 {
   requireWithin("safety margin", s.safetyMargin, 0.0, Unbounded, " mm");
   requireWithin("way in", s.wayIn, 0.0, Unbounded, " mm");
   requireWithin("minimum probability", s.minimumProbability, 0.0, 1.0);
   requireWithin("maximum tilt", s.maximumTilt, 0.0, 180.0, " degrees");
   requireWithin("maximum covered share", s.maximumCovered, 0.0, 100.0, " %");
-  requireWithin("comfortable clearance", s.comfortableClearance, 0.0, Unbounded, " mm");
   requireWithin("turn step", s.turnStep, 1.0, 360.0, " degrees");
-  requireWithin("cup's slack", s.cupSlack, 0.0, Unbounded, " mm");
-  requireWithin("margin from the part", s.partMargin, 0.0, Unbounded, " mm");
   requireWithin("tolerance", s.tolerance, 0.0, Unbounded, " mm");
-  requireWithin("voxel size", s.voxelSize, 0.0, Unbounded, " mm");
 }
 }

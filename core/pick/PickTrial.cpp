@@ -8,6 +8,8 @@ namespace meam
 {
 namespace
 {
+constexpr double Step = 1.0; // mm between the places at which a gripper that is a mesh is looked at
+
 PickTrial tryPick(const PickCollisions& world, const Grasp& pick, const std::vector<Eigen::Isometry3d>& truths,
   const PickTrialSettings& settings)
 {
@@ -23,7 +25,7 @@ PickTrial tryPick(const PickCollisions& world, const Grasp& pick, const std::vec
   // A cup gives way as it comes down on the part.
   const double back = pick.kind == GraspKind::Suction ? settings.cupSlack : 0.0;
   const Eigen::Isometry3d stop = T_scene_grasp * Eigen::Translation3d(0.0, 0.0, -back);
-  const Clearance clearance = world.clearance(pick, stop, trial.instance, settings.wayIn, settings.step, settings.step);
+  const Clearance clearance = world.clearance(pick, stop, trial.instance, settings.wayIn, Step, Step);
   if (clearance.distance <= 0.0)
   {
     trial.outcome = clearance.obstacle == Obstacle::Bin ? TrialOutcome::HitsBin
@@ -34,8 +36,7 @@ PickTrial tryPick(const PickCollisions& world, const Grasp& pick, const std::vec
   {
     Grasp actual = pick;
     actual.T_model_grasp = truths[trial.instance].inverse() * stop;
-    trial.outcome =
-      world.touchesHeld(actual, settings.wayIn, settings.step) ? TrialOutcome::HitsPart : TrialOutcome::Success;
+    trial.outcome = world.touchesHeld(actual, settings.wayIn, Step) ? TrialOutcome::HitsPart : TrialOutcome::Success;
   }
   return trial;
 }

@@ -30,7 +30,6 @@ struct PickTrialSettings
 {
   double wayIn = 80.0;   ///< mm of the gripper's way that are looked at
   double cupSlack = 2.0; ///< mm that a cup gives way, and that it may be off the surface
-  double step = 1.0;     ///< mm between the places at which a gripper that is a mesh is looked at
 };
 
 /// Plays picks, grasps whose frames are the scene's (T_scene_grasp, mm), each for itself, among copies whose true poses

@@ -39,8 +39,8 @@ Distorted distort(const std::array<double, 5>& distortion, const Eigen::Vector2d
 /// The ray that the lens turns into `seen`, by Newton's method; NaN when there is none near it.
 Eigen::Vector2d undistort(const std::array<double, 5>& distortion, const Eigen::Vector2d& seen)
 {
-  constexpr int mostSteps = 30;    // not tuned: it takes a few
-  constexpr double enough = 1e-12; // not tuned: of a focal length, what rounding leaves
+  constexpr int mostSteps = 30;    // it takes a few
+  constexpr double enough = 1e-12; // of a focal length, what rounding leaves
   Eigen::Vector2d ray = seen;
   for (int step = 0; step < mostSteps; ++step)
   {

@@ -19,9 +19,14 @@ namespace meam
 {
 namespace
 {
-constexpr float LargestSide = 2048.0f; // not tuned: cells, a limit of memory; a wider scene gets coarser cells
-constexpr double MiddleShare = 0.49;   // not tuned: of the points, at each end of each axis; leaves next to the medians
-constexpr int RunLength = 64; // not tuned: points looked at together; a longer run comes to more rows of the map
+constexpr double LayerCells = 2.0;   // cells, depth of the layer that is averaged: a slope of 63 degrees across a cell
+constexpr int FewestNeighbours = 4;  // of the eight cells about one, that tell which way the surface faces
+constexpr double StrayShare = 0.001; // of the points, at each end of each axis: left out of a map too wide
+constexpr double FarDepths = 1.9;    // times the mean depth: nothing of a bin is farther, only stray points are
+
+constexpr float LargestSide = 2048.0f; // cells, a limit of memory; a wider scene gets coarser cells
+constexpr double MiddleShare = 0.49;   // of the points, at each end of each axis; leaves next to the medians
+constexpr int RunLength = 64;          // points looked at together; a longer run comes to more rows of the map
 
 /// Where a map's cells lie across the lines of sight.
 struct MapCells
@@ -210,10 +215,8 @@ void findGaps(const std::uint8_t* above, const std::uint8_t* row, const std::uin
 }
 }
 
-DepthMap::DepthMap(
-  const Points& surface, const Sensor& sensor, double cellSize, int threads, const DepthMapSettings& settings)
-  : Settings(settings)
-  , IsPerspective(sensor.perspective)
+DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads)
+  : IsPerspective(sensor.perspective)
   , Eye(sensor.perspective ? sensor.position.cast<float>().eval() : Eigen::Vector3f::Zero().eval())
   , CellSize(cellSize)
 {
@@ -292,7 +295,7 @@ DepthMap::DepthMap(
     return points;
   };
   Eigen::AlignedBox3f box = all.box;
-  if (sensor.perspective && box.max().z() > settings.farDepths * all.depths / all.count)
+  if (sensor.perspective && box.max().z() > FarDepths * all.depths / all.count)
   {
     // Stray points do not tell where the scene is.
     all.depths = all.count * innerBounds(projected(), MiddleShare).center().z();
@@ -301,7 +304,7 @@ DepthMap::DepthMap(
   float cell = static_cast<float>(sensor.perspective ? cellSize * all.count / all.depths : cellSize);
   if (!(box.sizes().head<2>().maxCoeff() < LargestSide * cell))
   {
-    box = innerBounds(projected(), settings.strayShare); // stray points are left out
+    box = innerBounds(projected(), StrayShare); // stray points are left out
   }
   cell = std::max(cell, box.sizes().head<2>().maxCoeff() / LargestSide);
   this->InverseCell = 1.0f / cell;
@@ -311,7 +314,7 @@ DepthMap::DepthMap(
   this->Width = static_cast<int>(last.x()) + 1;
   this->Height = static_cast<int>(last.y()) + 1;
   this->Cells.assign(static_cast<std::size_t>(this->Width) * this->Height + 1, nothing());
-  const float layer = static_cast<float>(settings.layerCells * cellSize);
+  const float layer = static_cast<float>(LayerCells * cellSize);
   // Each thread has rows of its own, and sums up their points in order. Runs that come to the rows of two are looked at
   // by both: more threads than processors would only look more often.
   const std::int64_t shares = std::min(numberOfThreads(threads), numberOfThreads(0));
@@ -396,7 +399,7 @@ Eigen::Vector3f DepthMap::normalOf(int place) const
   {
     return Eigen::Vector3f::Zero();
   }
-  const float layer = static_cast<float>(this->Settings.layerCells * this->CellSize);
+  const float layer = static_cast<float>(LayerCells * this->CellSize);
   const int row = place / this->Width, column = place % this->Width;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero(), last = Eigen::Vector3f::Zero();
   int neighbours = 0;
@@ -417,8 +420,7 @@ Eigen::Vector3f DepthMap::normalOf(int place) const
     last = edge;
   }
   const float length = sum.norm();
-  return neighbours >= this->Settings.fewestNeighbours && length > 0.0f ? Eigen::Vector3f(sum / length)
-                                                                        : Eigen::Vector3f::Zero();
+  return neighbours >= FewestNeighbours && length > 0.0f ? Eigen::Vector3f(sum / length) : Eigen::Vector3f::Zero();
 }
 
 Points DepthMap::fillRows(const Points& surface, const std::vector<Run>& runs, float layer, int firstRow, int lastRow)

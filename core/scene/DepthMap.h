@@ -9,14 +9,6 @@
 
 namespace meam
 {
-struct DepthMapSettings
-{
-  double layerCells = 2.0;   ///< cells, depth of the layer that is averaged: a slope of 63 degrees across a cell
-  int fewestNeighbours = 4;  ///< of the eight cells about one, that tell which way the surface faces
-  double strayShare = 0.001; ///< of the points, at each end of each axis: left out where the map would be too wide
-  double farDepths = 1.9;    ///< times the mean depth: nothing of a bin is farther, only stray points are
-};
-
 /// What the sensor sees along each line of sight, from a cloud of any kind: a grid across the lines of sight, with the
 /// nearest and the farthest surface in each cell.
 class DepthMap
@@ -33,8 +25,7 @@ public:
 
   /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the first axis,
   /// as seen by the sensor. The same for any number of threads.
-  DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads = 1,
-    const DepthMapSettings& settings = {});
+  DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads = 1);
 
   /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
   double cellSize() const { return this->CellSize; }
@@ -176,7 +167,6 @@ private:
     return { infinity, -infinity, Eigen::Vector3f::Zero(), 0.0f, false };
   }
 
-  DepthMapSettings Settings;
   bool IsPerspective;
   Eigen::Vector3f Eye;  ///< the sensor's position, or anywhere
   Eigen::Matrix3f Axes; ///< rows: right, down, depth

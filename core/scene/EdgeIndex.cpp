@@ -9,8 +9,11 @@ namespace meam
 {
 namespace
 {
-constexpr int Lanes = 8;       // not tuned: edge points looked at together
-constexpr int MostRanges = 64; // not tuned: of columns looked at together
+constexpr float Parallel = 0.85f;      // cosine, 32 degrees: edges whose tangents are farther apart do not match
+constexpr float NearlyParallel = 0.8f; // cosine, five degrees more: for points that turn before they look again
+
+constexpr int Lanes = 8;       // edge points looked at together
+constexpr int MostRanges = 64; // of columns looked at together
 
 struct Query
 {
@@ -144,7 +147,7 @@ void average(const EdgeIndex::Neighbours& neighbours, const SoAOrientedPoints& p
   const float *lx = lines.directions.x.data(), *ly = lines.directions.y.data(), *lz = lines.directions.z.data();
   const float* shares = neighbours.weights.data();
   const float inverseRadius = weights.inverseRadius, inverseAcross = weights.inverseAcross;
-  const float least = neighbours.parallel * neighbours.parallel;
+  const float least = Parallel * Parallel;
   const float inverseRest = 1.0f / (1.0f - least);
   const int count = static_cast<int>(points.size());
   for (int i = 0; i < count; ++i)
@@ -192,10 +195,8 @@ void gather(const std::vector<float>& from, const std::vector<int>& places, int 
 }
 }
 
-EdgeIndex::EdgeIndex(const PointCloud& edges, double cellSize, const EdgeIndexSettings& settings)
+EdgeIndex::EdgeIndex(const PointCloud& edges, double cellSize)
   : Grid(edges.points, cellSize)
-  , Parallel(static_cast<float>(settings.parallel))
-  , NearlyParallel(static_cast<float>(settings.nearlyParallel))
 {
   const std::vector<int>& order = this->Grid.order();
   this->Lines.resize(order.size() + Lanes);
@@ -233,7 +234,7 @@ void EdgeIndex::forEachGroupOfRanges(const Eigen::Vector3f& point, double radius
 
 EdgeIndex::Match EdgeIndex::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const
 {
-  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius), this->Parallel };
+  const Query query{ point, tangent, static_cast<float>(radius) * static_cast<float>(radius), Parallel };
   Nearest nearest;
   std::fill_n(nearest.distances, Lanes, query.squaredRadius);
   std::fill_n(nearest.places, Lanes, -1);
@@ -270,12 +271,10 @@ EdgeIndex::Neighbours EdgeIndex::neighbours(
   std::vector<int> selected;
   int found = 0;
   Neighbours result;
-  result.parallel = this->Parallel;
   result.starts.push_back(0);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Query query{ points.points[i], points.directions[i], static_cast<float>(reach * reach),
-      this->NearlyParallel };
+    const Query query{ points.points[i], points.directions[i], static_cast<float>(reach * reach), NearlyParallel };
     this->forEachGroupOfRanges(query.point, reach,
       [&](const Range* ranges, int count)
       {

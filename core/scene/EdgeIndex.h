@@ -5,12 +5,6 @@
 
 namespace meam
 {
-struct EdgeIndexSettings
-{
-  double parallel = 0.85;      ///< cosine, 32 degrees: edges whose tangents are farther apart do not match
-  double nearlyParallel = 0.8; ///< cosine, five degrees more: what points find that turn so far before they look again
-};
-
 /// Tangent lines of a scene's edge points, for look-ups of the one that an edge of a part may lie on: several at a time
 /// with the widest vectors the processor has. Calls may run in parallel.
 class EdgeIndex
@@ -19,7 +13,7 @@ public:
   /// No edges.
   EdgeIndex() = default;
   /// `cellSize` in mm, that of the grid of the edges' points.
-  EdgeIndex(const PointCloud& edges, double cellSize, const EdgeIndexSettings& settings = {});
+  EdgeIndex(const PointCloud& edges, double cellSize);
 
   /// Of the edges' points.
   const PointGrid& grid() const { return this->Grid; }
@@ -29,8 +23,8 @@ public:
     int edge = -1;                ///< -1: none
     float squaredDistance = 0.0f; ///< of the point to its line, mm^2
   };
-  /// Of the edge points within `radius` (mm) of a point whose tangent is parallel to `tangent` (EdgeIndexSettings) the
-  /// one whose line is nearest to the point.
+  /// Of the edge points within `radius` (mm) of a point whose tangent is parallel to `tangent` the one whose line
+  /// is nearest to the point.
   Match nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& tangent, double radius) const;
 
   /// For each of several points the lines of the edge points about it.
@@ -39,10 +33,9 @@ public:
     std::vector<int> starts;    ///< of each point's lines, and the end of the last one's
     SoAOrientedPoints lines;    ///< and room at the end for as many as are looked at together
     std::vector<float> weights; ///< of these
-    float parallel = 0.0f;      ///< the index's cosine
   };
   /// Those that `meansAround` looks at for points with unit tangents, until one has moved by `margin` (mm) or turned by
-  /// what `nearlyParallel` allows, 5 degrees. `radius` and `across` as there.
+  /// 5 degrees. `radius` and `across` as there.
   Neighbours neighbours(const SoAOrientedPoints& points, double radius, double across, double margin) const;
 
   struct Means
@@ -65,7 +58,5 @@ private:
   PointGrid Grid;
   SoAOrientedPoints Lines;    ///< the points and their tangents, in the order of the grid, and room at the end
   std::vector<float> Weights; ///< of these
-  float Parallel = 0.0f;      ///< cosines
-  float NearlyParallel = 0.0f;
 };
 }

@@ -11,6 +11,17 @@ namespace meam
 {
 namespace
 {
+// With what lies behind such planes counted 9.9 of ten rings on a plate are among the ten best poses instead of 8.3.
+constexpr int MostPlanes = 5;         // a floor and four walls
+constexpr int Samples = 1500;         // measured points that are looked at, spread evenly
+constexpr int Seeds = 150;            // of them, whose planes are tried
+constexpr double LeastShare = 0.05;   // of the points that lie on a plane
+constexpr double MostBehind = 0.01;   // of the points: wrong ones
+constexpr double Behind = 2.0;        // times the tolerance from a plane: farther is behind it
+constexpr double LeastExtent = 1.5;   // of the part's diameter: a smaller plane may be a part's own
+constexpr double SeedTolerance = 2.0; // times the tolerance: the normal at one point is not exact
+constexpr int Fits = 3;               // of a plane to the points near it
+
 Points near(const Plane& plane, const Points& points, double tolerance)
 {
   Points result;
@@ -20,11 +31,11 @@ Points near(const Plane& plane, const Points& points, double tolerance)
 }
 
 /// Of planes through single points, across their normals, the one with the most points near. No points: none.
-Points nearBestSeed(const Points& points, const DepthMap& depth, double tolerance, int seeds)
+Points nearBestSeed(const Points& points, const DepthMap& depth, double tolerance)
 {
   Points best;
   std::ptrdiff_t most = 2;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / seeds);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / Seeds);
   for (std::size_t i = 0; i < points.size(); i += step)
   {
     const Eigen::Vector3f normal = depth.normalAt(points[i]);
@@ -67,24 +78,23 @@ PlaneFit fitPlane(const Points& points, const Sensor& sensor)
     std::sqrt(12.0 * std::max(0.0, variance)) };
 }
 
-std::vector<Plane> enclosingPlanes(
-  const DepthMap& depth, const Sensor& sensor, double tolerance, double partDiameter, const EnclosureSettings& settings)
+std::vector<Plane> enclosingPlanes(const DepthMap& depth, const Sensor& sensor, double tolerance, double partDiameter)
 {
   const Points& means = depth.means();
   Points all;
-  const std::size_t count = std::min<std::size_t>(means.size(), settings.samples);
+  const std::size_t count = std::min<std::size_t>(means.size(), Samples);
   for (std::size_t i = 0; i < count; ++i)
   {
     all.push_back(means[i * means.size() / count]);
   }
-  const double fewest = std::max(3.0, settings.leastShare * static_cast<double>(count));
+  const double fewest = std::max(3.0, LeastShare * static_cast<double>(count));
   std::vector<Plane> planes;
   Points left = all;
-  while (static_cast<int>(planes.size()) < settings.mostPlanes)
+  while (static_cast<int>(planes.size()) < MostPlanes)
   {
-    Points on = nearBestSeed(left, depth, settings.seedTolerance * tolerance, settings.seeds);
+    Points on = nearBestSeed(left, depth, SeedTolerance * tolerance);
     PlaneFit fit;
-    for (int k = 0; k < settings.fits && on.size() >= 3; ++k)
+    for (int k = 0; k < Fits && on.size() >= 3; ++k)
     {
       fit = fitPlane(on, sensor);
       on = near(fit.plane, left, tolerance);
@@ -94,9 +104,9 @@ std::vector<Plane> enclosingPlanes(
       break; // those with fewer points follow
     }
     const auto behind = std::count_if(all.begin(), all.end(),
-      [&](const Eigen::Vector3f& point) { return fit.plane.signedDistance(point) < -settings.behind * tolerance; });
-    if (static_cast<double>(behind) <= settings.mostBehind * static_cast<double>(count) &&
-        fit.extent >= settings.leastExtent * partDiameter)
+      [&](const Eigen::Vector3f& point) { return fit.plane.signedDistance(point) < -Behind * tolerance; });
+    if (static_cast<double>(behind) <= MostBehind * static_cast<double>(count) &&
+        fit.extent >= LeastExtent * partDiameter)
     {
       planes.push_back(fit.plane);
     }

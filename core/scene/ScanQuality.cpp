@@ -6,8 +6,10 @@
 #include "scene/OrganizedCloud.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -15,9 +17,16 @@ namespace meam
 {
 namespace
 {
+constexpr int Samples = 100000;                            // points of the grid that are looked at, about
+constexpr std::array<int, 7> Lags{ 1, 2, 3, 4, 6, 8, 12 }; // points in a row, so far apart, tell of the noise
+constexpr double Growth =
+  1.0 / 3.0;                  // power of the distance with which noise of points that do not share it grows at most
+constexpr double Ties = 0.03; // share of neighbours of the same depth, from which on the sensor's steps are seen
+constexpr double LongestGap = 0.02; // of a row: a longer hole is not one that a jump made
+
 // Standard deviations, the mean of the half of a normal distribution that is nearest to 0.
-constexpr double SmallerHalf = 0.3247;          // not tuned: of that distribution
-const double ThirdDifference = std::sqrt(20.0); // not tuned: standard deviations, of points that share no noise
+constexpr double SmallerHalf = 0.3247;          // of that distribution
+const double ThirdDifference = std::sqrt(20.0); // standard deviations, of points that share no noise
 
 /// 0 without values.
 double quantileOf(std::vector<float>& values, double quantile)
@@ -32,9 +41,9 @@ double quantileOf(std::vector<float>& values, double quantile)
 }
 
 /// Every so many rows.
-int strideOf(const OrganizedCloud& cloud, int samples)
+int strideOf(const OrganizedCloud& cloud)
 {
-  return std::max(1, static_cast<int>(cloud.size() / static_cast<std::size_t>(samples)));
+  return std::max(1, static_cast<int>(cloud.size() / static_cast<std::size_t>(Samples)));
 }
 
 const Eigen::Vector3f* rowOf(const OrganizedCloud& cloud, int row)
@@ -73,7 +82,7 @@ struct Steps
   double pointDistance, depthStep;
 };
 
-Steps stepsOf(const OrganizedCloud& cloud, int stride, double ties)
+Steps stepsOf(const OrganizedCloud& cloud, int stride)
 {
   std::vector<float> distances, differences;
   for (int row = stride / 2; row < cloud.height; row += stride)
@@ -85,7 +94,7 @@ Steps stepsOf(const OrganizedCloud& cloud, int stride, double ties)
       if (step.allFinite())
       {
         distances.push_back(step.head<2>().norm());
-        const float least = 1e-6f * std::abs(points[column].z()); // not tuned: single precision, of equal depths
+        const float least = 1e-6f * std::abs(points[column].z()); // single precision, of equal depths
         differences.push_back(std::abs(step.z()) > least ? std::abs(step.z()) : 0.0f);
       }
     }
@@ -93,21 +102,21 @@ Steps stepsOf(const OrganizedCloud& cloud, int stride, double ties)
   const auto firstStep = std::partition(differences.begin(), differences.end(), [](float d) { return d == 0.0f; });
   const auto equal = static_cast<double>(firstStep - differences.begin());
   const auto unequal = static_cast<double>(differences.end() - firstStep);
-  const double least = ties * static_cast<double>(differences.size());
+  const double least = Ties * static_cast<double>(differences.size());
   Steps steps{ quantileOf(distances, 0.5), 0.0 };
   if (equal > least && unequal > least) // few that differ are edges
   {
     std::vector<float> changes(firstStep, differences.end());
-    steps.depthStep = quantileOf(changes, ties); // there are about twice as many single steps as ties
+    steps.depthStep = quantileOf(changes, Ties); // there are about twice as many single steps as ties
   }
   return steps;
 }
 
 /// Counts depth jumps along the rows, the holes in them and the points that hang in them.
-void lookAtJumps(const OrganizedCloud& cloud, int stride, const ScanQualitySettings& settings, ScanQuality& quality)
+void lookAtJumps(const OrganizedCloud& cloud, int stride, ScanQuality& quality)
 {
-  const double jump = settings.jump * quality.pointDistance + settings.jumpNoise * quality.noise;
-  const int longest = std::max(1, static_cast<int>(settings.longestGap * cloud.width));
+  const double jump = JumpSlopes * quality.pointDistance + JumpNoises * quality.noise;
+  const int longest = std::max(1, static_cast<int>(LongestGap * cloud.width));
   int jumps = 0, gaps = 0, flying = 0, measured = 0, looked = 0;
   for (int row = stride / 2; row < cloud.height; row += stride)
   {
@@ -154,7 +163,7 @@ void lookAtJumps(const OrganizedCloud& cloud, int stride, const ScanQualitySetti
 }
 }
 
-ScanQuality measureQuality(const OrganizedCloud& cloud, int threads, const ScanQualitySettings& settings)
+ScanQuality measureQuality(const OrganizedCloud& cloud, int threads)
 {
   if (cloud.size() != static_cast<std::size_t>(cloud.width) * static_cast<std::size_t>(cloud.height))
   {
@@ -164,14 +173,13 @@ ScanQuality measureQuality(const OrganizedCloud& cloud, int threads, const ScanQ
   {
     return {};
   }
-  const int stride = strideOf(cloud, settings.samples);
-  const auto& lags = settings.lags;
-  std::vector<double> noise(lags.size(), 0.0);
+  const int stride = strideOf(cloud);
+  std::vector<double> noise(Lags.size(), 0.0);
   Steps steps{};
-  std::vector<std::function<void()>> works{ [&] { steps = stepsOf(cloud, stride, settings.ties); } };
-  for (std::size_t i = 0; i < lags.size(); ++i)
+  std::vector<std::function<void()>> works{ [&] { steps = stepsOf(cloud, stride); } };
+  for (std::size_t i = 0; i < Lags.size(); ++i)
   {
-    works.emplace_back([&, i] { noise[i] = noiseAt(cloud, lags[i], stride); });
+    works.emplace_back([&, i] { noise[i] = noiseAt(cloud, Lags[i], stride); });
   }
   inParallel(threads, works);
 
@@ -179,16 +187,16 @@ ScanQuality measureQuality(const OrganizedCloud& cloud, int threads, const ScanQ
   quality.pointDistance = steps.pointDistance;
   quality.depthStep = steps.depthStep;
   const auto steady = [&](std::size_t i)
-  { return noise[i + 1] <= noise[i] * std::pow(static_cast<double>(lags[i + 1]) / lags[i], settings.growth); };
+  { return noise[i + 1] <= noise[i] * std::pow(static_cast<double>(Lags[i + 1]) / Lags[i], Growth); };
   std::size_t apart = 0;
-  while (apart + 1 < lags.size() && !steady(apart))
+  while (apart + 1 < Lags.size() && !steady(apart))
   {
     ++apart;
   }
-  apart = apart + 1 < lags.size() ? apart : 0; // it never is: the surface's own bends
-  quality.smoothing = lags[apart];
+  apart = apart + 1 < Lags.size() ? apart : 0; // it never is: the surface's own bends
+  quality.smoothing = Lags[apart];
   quality.noise = std::max(noise[apart], quality.depthStep / std::sqrt(12.0));
-  lookAtJumps(cloud, stride, settings, quality);
+  lookAtJumps(cloud, stride, quality);
   return quality;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Parallel.h"
+#include "scene/edges/LongLines.h"
 
 #include <algorithm>
 
@@ -10,7 +11,12 @@ namespace meam
 {
 namespace
 {
-/// The edges, when they can be looked up.
+// Cells of what is looked up in a scene, as shares of the part's diameter: about the distances that are asked for.
+constexpr double EdgeCell = 0.08;           // of the edge index; refinement starts with correspondences of 10 %
+constexpr double DepthCell = 0.02;          // of the depth map: some points of a usual scan each
+constexpr double SurfaceCell = 0.05;        // of the measured surface's grid
+constexpr double EnclosureTolerance = 0.03; // so near to a plane or line of the bin what was measured lies on it,
+constexpr double EnclosureNoises = 3.0;     // and no less than so many times the noise of the scan
 LocalCloud checked(LocalCloud edges)
 {
   const PointCloud& cloud = edges.cloud;
@@ -48,21 +54,20 @@ Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFr
   , sensor(moved(seenFrom, edges.T_local_scene))
   , quality(measuredQuality)
   , partDiameter(diameter)
-  , depth(measured, sensor, settings.depthCell * diameter, settings.threads, settings.depth)
+  , depth(measured, sensor, DepthCell * diameter, settings.threads)
 {
-  inParallel(settings.threads,
-    { [&] { this->surface = PointGrid(this->depth.means(), settings.surfaceCell * diameter); },
-      [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, settings.edgeCell * diameter, settings.edges); } });
-  const double tolerance = std::max(settings.enclosureTolerance * diameter, settings.enclosureNoises * quality.noise);
+  inParallel(settings.threads, { [&] { this->surface = PointGrid(this->depth.means(), SurfaceCell * diameter); },
+                                 [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, EdgeCell * diameter); } });
+  const double noise = settings.followsNoise ? EnclosureNoises * quality.noise : 0.0;
+  const double tolerance = std::max(EnclosureTolerance * diameter, noise);
   if (settings.findsEnclosure)
   {
-    this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter, settings.enclosure);
+    this->enclosure = enclosingPlanes(this->depth, this->sensor, tolerance, diameter);
   }
   this->isOnLongLine.assign(this->edgePoints().size(), 0);
   if (settings.findsLongLines)
   {
-    this->isOnLongLine =
-      onLongLines(this->edgePoints(), this->edgeIndex, diameter, tolerance, settings.longLines, settings.threads);
+    this->isOnLongLine = onLongLines(this->edgePoints(), this->edgeIndex, diameter, tolerance, settings.threads);
   }
   Points onLines;
   for (std::size_t i = 0; i < this->isOnLongLine.size(); ++i)
@@ -72,7 +77,7 @@ Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFr
       onLines.push_back(this->edgePoints().points[i]);
     }
   }
-  this->longLines = PointGrid(onLines, settings.depthCell * diameter);
+  this->longLines = PointGrid(onLines, DepthCell * diameter);
   if (!measured.empty() && !this->hasSurface())
   {
     throw Error(

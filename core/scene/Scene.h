@@ -8,25 +8,15 @@
 #include "scene/Enclosure.h"
 #include "scene/ScanQuality.h"
 #include "scene/Sensor.h"
-#include "scene/edges/LongLines.h"
 
 namespace meam
 {
-/// Cells of what is looked up in a scene, as shares of the part's diameter: about the distances that are asked for.
 struct SceneSettings
 {
-  bool findsEnclosure = true;       ///< floor and walls of the bin
-  bool findsLongLines = true;       ///< edges longer than the part
-  double edgeCell = 0.08;           ///< of the edge index; refinement starts with correspondences of 10 %
-  double depthCell = 0.02;          ///< of the depth map: some points of a usual scan each
-  double surfaceCell = 0.05;        ///< of the measured surface's grid
-  double enclosureTolerance = 0.03; ///< what was measured so near to a plane or a line of the bin lies on it, and no
-  double enclosureNoises = 3.0;     ///< less than so many times the scan's noise
-  EdgeIndexSettings edges;
-  DepthMapSettings depth;
-  EnclosureSettings enclosure;
-  LongLineSettings longLines;
-  int threads = 0; ///< 0: one for each processor
+  bool findsEnclosure = true; ///< floor and walls of the bin
+  bool findsLongLines = true; ///< edges longer than the part
+  bool followsNoise = true;   ///< the tolerance of both is no less than 3 times the scan's noise
+  int threads = 0;            ///< 0: one for each processor
 };
 
 /// A bin at the time of detection, prepared for parts of one diameter: built once, in the frame of its edge points, in

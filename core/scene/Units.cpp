@@ -10,6 +10,15 @@ namespace meam
 {
 namespace
 {
+// A scene's extent, the diagonal of its bounds, in diameters of the part.
+constexpr double LeastUsual = 0.7;      // less is possible, but unlikely: a scene spans a part or more,
+constexpr double MostUsual = 200.0;     // and mostly some tens of them
+constexpr double LeastLikely = 1.5;     // the likely factor is 10 when it takes the extent to one from here
+constexpr double MostLikely = 100.0;    // to here, else 1000
+constexpr double LeastPossible = 0.2;   // less is an error,
+constexpr double MostPossible = 1000.0; // and so is more
+constexpr double StrayShare = 0.02;     // of the points, at each end of each axis: they are left out when there is more
+
 std::string number(double value)
 {
   char text[32];
@@ -18,35 +27,35 @@ std::string number(double value)
 }
 }
 
-std::string unitsWarning(const Points& scene, double partDiameter, const UnitCheckSettings& settings)
+std::string unitsWarning(const Points& scene, double partDiameter)
 {
   const double parts = bounds(scene).diagonal().norm() / partDiameter;
-  if (parts >= settings.leastUsual && parts <= settings.mostUsual)
+  if (parts >= LeastUsual && parts <= MostUsual)
   {
     return {};
   }
-  const bool isTen = parts < 1.0 ? 10.0 * parts >= settings.leastLikely : parts / 10.0 <= settings.mostLikely;
+  const bool isTen = parts < 1.0 ? 10.0 * parts >= LeastLikely : parts / 10.0 <= MostLikely;
   const int factor = isTen ? 10 : 1000;
   return "The scene spans " + number(parts * partDiameter) + " and the part's diameter is " + number(partDiameter) +
          ": if their units differ, the likely factor is " + std::to_string(factor) + ". Scale the " +
          (parts < 1.0 ? "scene" : "part") + " by it.";
 }
 
-void requireSameUnits(const Points& scene, double partDiameter, const UnitCheckSettings& settings)
+void requireSameUnits(const Points& scene, double partDiameter)
 {
   double extent = bounds(scene).diagonal().norm();
-  if (extent > settings.mostPossible * partDiameter)
+  if (extent > MostPossible * partDiameter)
   {
-    extent = innerBounds(scene, settings.strayShare).diagonal().norm(); // stray points are no other unit
+    extent = innerBounds(scene, StrayShare).diagonal().norm(); // stray points are no other unit
   }
-  if (extent < settings.leastPossible * partDiameter)
+  if (extent < LeastPossible * partDiameter)
   {
     throw Error(
       "The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +
       ": their units differ (a scene in metres and a part in millimetres differ by 1000). Scale the scene to the "
       "part's unit.");
   }
-  if (extent > settings.mostPossible * partDiameter)
+  if (extent > MostPossible * partDiameter)
   {
     throw Error(
       "The scene spans " + number(extent) + " but the part's diameter is only " + number(partDiameter) +

@@ -54,7 +54,7 @@ const FullBin& fullBin()
 void plan(benchmark::State& state, const meam::Gripper& gripper)
 {
   const FullBin& bin = fullBin();
-  meam::PickSettings settings; // that leave most of the work to do
+  meam::PlanSettings settings; // that leave most of the work to do
   settings.maximumCovered = 100.0;
   settings.maximumTilt = 90.0;
   meam::PickPlanner planner(bin.part, {}, bin.grasps, gripper, settings);

@@ -161,7 +161,7 @@ TEST(PickAPI, ProposesGraspsAndKeepsThem)
   const meam::Grasps grasps = meam::proposeGrasps(bracketModel(), bracketMesh(), slim(), settings);
   meam::Gripper gripper;
   static_cast<meam::GripperLengths&>(gripper) = slim();
-  meam::GraspProposalSettings proposal;
+  meam::ProposeSettings proposal;
   proposal.maximumGrasps = 6;
   const meam::Grasps expected =
     meam::proposeGrasps(meam::prepareMesh(parts::lBracket()).mesh, scenes::bracket().symmetries, gripper, proposal);

@@ -83,7 +83,7 @@ void byEdgeCoverage(DetectionSettings& settings)
 void withoutNoise(DetectionSettings& settings)
 {
   settings.candidateVerification.evidence.followsNoise = settings.verification.evidence.followsNoise =
-    settings.selection.evidence.followsNoise = false;
+    settings.selection.evidence.followsNoise = settings.scene.followsNoise = false;
 }
 
 std::vector<Switch> makeSwitches()
@@ -140,7 +140,7 @@ std::vector<Switch> makeSwitches()
   add(Stage::Scene, "enclosure", "floor and walls not looked for", [](D& d) { d.scene.findsEnclosure = false; });
   add(Stage::Scene, "long-lines", "edges longer than the part count", [](D& d) { d.scene.findsLongLines = false; });
   add(Stage::Scene, "line-noise", "tangents whose lengths do not grow with the noise",
-    [](D& d) { d.tangents.inlierNoise = d.tangents.radiusInliers = d.tangents.radiusSpacings = 0.0; });
+    [](D& d) { d.tangents.followsNoise = false; });
   all.push_back(
     sceneEdges("image-edges", "no edges of the image", [](SceneEdgeExtractionSettings& s) { s.imageEdges = false; }));
   all.push_back(

@@ -16,6 +16,8 @@ namespace meam
 {
 namespace
 {
+constexpr int LeastPoints = 20000; // that are measured at least, and as many as the finer mesh has vertices
+
 using Kernel = CGAL::Simple_cartesian<double>;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
@@ -102,15 +104,14 @@ double largestDistance(const Points& points, const TriangleMesh& mesh, const Pro
 }
 }
 
-double meshDistance(
-  const TriangleMesh& a, const TriangleMesh& b, const Progress& progress, const MeshDistanceSettings& settings)
+double meshDistance(const TriangleMesh& a, const TriangleMesh& b, const Progress& progress)
 {
   double area = 0.0;
   for (const auto& triangle : a.triangles)
   {
     area += areaOf(a, triangle);
   }
-  const double wanted = std::max({ static_cast<double>(settings.points), static_cast<double>(a.vertices.size()),
+  const double wanted = std::max({ static_cast<double>(LeastPoints), static_cast<double>(a.vertices.size()),
     static_cast<double>(b.vertices.size()) });
   const double spacing = std::sqrt(area / wanted);
   const double ofA = largestDistance(spread(a, spacing), b, subProgress(progress, 0.0, 0.5));

@@ -7,13 +7,7 @@
 
 namespace meam
 {
-struct MeshDistanceSettings
-{
-  int points = 20000; ///< that are measured at least, and as many as the finer mesh has vertices
-};
-
 /// The largest distance (mm) of a point of either surface from the other surface, measured at the
 /// corners of faces and at points spread evenly over faces and edges, as dense as the finer mesh's vertices.
-double meshDistance(const TriangleMesh& a, const TriangleMesh& b, const Progress& progress = {},
-  const MeshDistanceSettings& settings = {});
+double meshDistance(const TriangleMesh& a, const TriangleMesh& b, const Progress& progress = {});
 }

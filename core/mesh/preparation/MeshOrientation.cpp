@@ -14,6 +14,10 @@ namespace
 {
 namespace PMP = CGAL::Polygon_mesh_processing;
 
+// Six times the volume behind an open mesh, of the area to the power of 1.5: with less it is nearly flat and has no
+// outside, and its winding stays.
+constexpr double LeastHollow = 6e-3;
+
 /// Six times the volume between each component and its middle, with the sign of its winding.
 std::vector<double> signedVolumes(const SurfaceMesh& mesh, const FaceNumbers& componentOf, std::size_t components)
 {
@@ -35,7 +39,7 @@ std::vector<double> signedVolumes(const SurfaceMesh& mesh, const FaceNumbers& co
 }
 }
 
-int orientOutward(SurfaceMesh& mesh, bool crossesItself, double leastHollow)
+int orientOutward(SurfaceMesh& mesh, bool crossesItself)
 {
   FaceNumbers componentOf;
   const std::vector<double> areas = componentAreas(mesh, componentOf);
@@ -49,7 +53,7 @@ int orientOutward(SurfaceMesh& mesh, bool crossesItself, double leastHollow)
       componentOf[face] = 0;
     }
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    if (signedVolumes(mesh, componentOf, 1)[0] >= -leastHollow * std::pow(area, 1.5))
+    if (signedVolumes(mesh, componentOf, 1)[0] >= -LeastHollow * std::pow(area, 1.5))
     {
       return 0;
     }

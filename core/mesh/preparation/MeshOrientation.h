@@ -6,6 +6,6 @@
 namespace meam
 {
 /// Turns the mesh outwards, where that can be told; returns how many components were turned.
-/// `crossesItself`: some of its triangles intersect. `leastHollow`: see MeshPreparationSettings.
-int orientOutward(SurfaceMesh& mesh, bool crossesItself, double leastHollow);
+/// `crossesItself`: some of its triangles intersect.
+int orientOutward(SurfaceMesh& mesh, bool crossesItself);
 }

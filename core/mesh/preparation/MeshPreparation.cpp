@@ -41,12 +41,11 @@ void refine(SurfaceMesh& mesh, const MeshPreparationSettings& settings, const Pr
   TriangleMesh triangles = toTriangleMesh(mesh);
   if (settings.maximumError > 0.0)
   {
-    triangles =
-      simplifyMesh(triangles, settings.maximumError, subProgress(progress, 0.0, 0.6), settings.simplification);
+    triangles = simplifyMesh(triangles, settings.maximumError, subProgress(progress, 0.0, 0.6));
   }
   if (settings.edgeLength > 0.0)
   {
-    triangles = remesh(triangles, settings.edgeLength, subProgress(progress, 0.6, 1.0), settings.remeshing);
+    triangles = remesh(triangles, settings.edgeLength, subProgress(progress, 0.6, 1.0));
   }
   mesh = toSurfaceMesh(triangles);
 }
@@ -119,7 +118,7 @@ PreparedMesh prepareMesh(const TriangleMesh& input, const MeshPreparationSetting
     closeHoles(mesh, settings.holeSize, counts, subProgress(progress, 0.3, 0.4));
   }
   counts.intersections = countIntersections(mesh, subProgress(progress, 0.4, 0.6));
-  counts.flippedComponents = orientOutward(mesh, counts.intersections > 0, settings.leastHollow);
+  counts.flippedComponents = orientOutward(mesh, counts.intersections > 0);
   report(progress, 0.6);
   if (settings.maximumError > 0.0 || settings.edgeLength > 0.0)
   {

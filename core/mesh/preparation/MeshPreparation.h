@@ -4,8 +4,6 @@
 #include "base/Error.h"
 #include "base/PointCloud.h"
 #include "mesh/TriangleMesh.h"
-#include "mesh/preparation/MeshRemeshing.h"
-#include "mesh/preparation/MeshSimplification.h"
 
 #include <string>
 
@@ -25,10 +23,6 @@ struct MeshPreparationSettings
   double holeSize = 0.0;     ///< mm: holes whose border is at most this long are closed; 0: none
   double maximumError = 0.0; ///< mm: the mesh is simplified as far as this bound allows; 0: not at all
   double edgeLength = 0.0;   ///< mm: the mesh is remade of triangles of this size; 0: not at all
-  double leastHollow = 6e-3; ///< six times the volume behind an open mesh, of the area to the power of 1.5: with less
-                             ///< it is nearly flat and has no outside, and its winding stays
-  MeshSimplificationSettings simplification{};
-  MeshRemeshingSettings remeshing{};
 };
 
 /// Pairs of triangles that intersect are counted up to this number.

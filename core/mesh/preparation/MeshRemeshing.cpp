@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/preparation/MeshRemeshing.h"
 
+#include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/SurfaceMesh.h"
 
@@ -14,12 +15,14 @@ namespace meam
 {
 namespace
 {
+constexpr double SharpAngle = FeatureEdgesSettings().angle; // degrees: edges where faces meet at more than this stay
+constexpr int Rounds = 3;                                   // of splitting, collapsing, flipping and smoothing
+
 namespace PMP = CGAL::Polygon_mesh_processing;
-constexpr double MaximumTriangles = 5e6; // not tuned: a limit of memory and time
+constexpr double MaximumTriangles = 5e6; // a limit of memory and time
 }
 
-TriangleMesh remesh(
-  const TriangleMesh& input, double edgeLength, const Progress& progress, const MeshRemeshingSettings& settings)
+TriangleMesh remesh(const TriangleMesh& input, double edgeLength, const Progress& progress)
 {
   requireMesh(input);
   if (!(edgeLength > 0.0) || !std::isfinite(edgeLength))
@@ -36,7 +39,7 @@ TriangleMesh remesh(
   }
 
   auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
-  PMP::detect_sharp_edges(mesh, settings.sharpAngle, sharp);
+  PMP::detect_sharp_edges(mesh, SharpAngle, sharp);
   std::vector<SurfaceMesh::Edge_index> fixed;
   for (const auto edge : mesh.edges())
   {
@@ -51,7 +54,7 @@ TriangleMesh remesh(
   report(progress, 0.2);
   PMP::isotropic_remeshing(mesh.faces(), edgeLength, mesh,
     CGAL::parameters::edge_is_constrained_map(sharp).protect_constraints(true).number_of_iterations(
-      static_cast<unsigned>(settings.rounds)));
+      static_cast<unsigned>(Rounds)));
   report(progress, 1.0);
   return toTriangleMesh(mesh);
 }

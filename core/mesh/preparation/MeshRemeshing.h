@@ -3,20 +3,12 @@
 
 #include "base/Error.h"
 #include "base/PointCloud.h"
-#include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"
 
 namespace meam
 {
-struct MeshRemeshingSettings
-{
-  double sharpAngle = FeatureEdgesSettings().angle; ///< degrees: edges where faces meet at more than this stay
-  int rounds = 3;                                   ///< of splitting, collapsing, flipping and smoothing
-};
-
 /// The same surface in even triangles with edges of about `edgeLength` mm (CGAL's isotropic remeshing). Sharp edges and
 /// borders stay where they are; they are only cut into pieces. Throws Error for an edge length that is not positive or
 /// asks for millions of triangles.
-TriangleMesh remesh(const TriangleMesh& mesh, double edgeLength, const Progress& progress = {},
-  const MeshRemeshingSettings& settings = {});
+TriangleMesh remesh(const TriangleMesh& mesh, double edgeLength, const Progress& progress = {});
 }

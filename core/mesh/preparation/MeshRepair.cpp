@@ -30,7 +30,7 @@ using Halfedge = SurfaceMesh::Halfedge_index;
 
 // Of the mesh's extent, vertices nearer to each other are one: ten times what is lost when coordinates are written as
 // floats.
-constexpr double SamePlace = 1e-6; // not tuned: rounding
+constexpr double SamePlace = 1e-6; // rounding
 
 Eigen::Vector3d toVector(const Point& point) { return { point.x(), point.y(), point.z() }; }
 

@@ -19,6 +19,14 @@ namespace meam
 {
 namespace
 {
+// Nothing promises that the collapses keep the bound: the result is measured, and they are repeated with less
+// tolerance when it does not hold.
+constexpr double LeastCosine = 0.26;   // of 75 degrees: a triangle turns by less when one of its corners moves
+constexpr int Tries = 4;               // then the mesh stays as it is
+constexpr double ToleranceShare = 0.9; // of the largest error, in the first try; then it shrinks by what was too much
+constexpr double LeastNext = 0.2;      // of the last tolerance, the next one at least,
+constexpr double MostNext = 0.8;       // and at most
+
 namespace OMD = OpenMesh::Decimater;
 
 struct Traits : OpenMesh::DefaultTraits
@@ -29,7 +37,7 @@ struct Traits : OpenMesh::DefaultTraits
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 // Twice the area of a triangle, as a share of its longest edge squared, below which it is a line.
-constexpr double LeastArea = 1e-7; // not tuned: rounding
+constexpr double LeastArea = 1e-7; // rounding
 
 /// Allows a collapse only if the vertex that stays is near to the planes of all faces of the original
 /// mesh that have come together in it (Ronfard and Rossignac, "Full-range approximation of triangulated
@@ -48,7 +56,6 @@ public:
   ~ModPlanes() override { Base::mesh().remove_property(this->PlanesAt); }
 
   void setTolerance(double tolerance) { this->Tolerance = tolerance; }
-  void setLeastCosine(double cosine) { this->LeastCosine = cosine; }
 
   void initialize() override
   {
@@ -151,11 +158,10 @@ private:
     const Vector now = (after[1] - after[0]) % (after[2] - after[0]);
     const double longest =
       std::max({ (after[1] - after[0]).sqrnorm(), (after[2] - after[1]).sqrnorm(), (after[0] - after[2]).sqrnorm() });
-    return now.norm() > LeastArea * longest && (old | now) > this->LeastCosine * old.norm() * now.norm();
+    return now.norm() > LeastArea * longest && (old | now) > LeastCosine * old.norm() * now.norm();
   }
 
   double Tolerance = 0.0;
-  double LeastCosine = 0.0;
   Vector Origin;
   std::vector<Plane> Planes;
   std::map<std::array<long long, 4>, int> Numbers;
@@ -226,7 +232,7 @@ TriangleMesh fromOpenMesh(Mesh& mesh)
   return result;
 }
 
-TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, double leastCosine, const Progress& progress)
+TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, const Progress& progress)
 {
   Mesh result = toOpenMesh(mesh);
   {
@@ -238,7 +244,6 @@ TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, double leastC
     decimater.add(distance);
     decimater.add(order);
     decimater.module(planes).setTolerance(tolerance);
-    decimater.module(planes).setLeastCosine(leastCosine);
     decimater.module(distance).set_tolerance(tolerance);
     decimater.initialize();
     ProgressObserver observer(progress, mesh.vertices.size());
@@ -249,26 +254,25 @@ TriangleMesh collapsed(const TriangleMesh& mesh, double tolerance, double leastC
 }
 }
 
-TriangleMesh simplifyMesh(
-  const TriangleMesh& mesh, double maximumError, const Progress& progress, const MeshSimplificationSettings& settings)
+TriangleMesh simplifyMesh(const TriangleMesh& mesh, double maximumError, const Progress& progress)
 {
   requireMesh(mesh);
   if (!(maximumError > 0.0) || !std::isfinite(maximumError))
   {
     throw Error("The largest error of the simplified mesh must be a positive length in mm.");
   }
-  const double ofTry = 1.0 / settings.tries; // of the progress
-  double tolerance = settings.toleranceShare * maximumError;
-  for (int i = 0; i < settings.tries; ++i)
+  const double ofTry = 1.0 / Tries; // of the progress
+  double tolerance = ToleranceShare * maximumError;
+  for (int i = 0; i < Tries; ++i)
   {
     const Progress share = subProgress(progress, ofTry * i, ofTry * (i + 1));
-    TriangleMesh result = collapsed(mesh, tolerance, settings.leastCosine, subProgress(share, 0.0, 0.8));
-    const double distance = meshDistance(mesh, result, subProgress(share, 0.8, 1.0), settings.distance);
+    TriangleMesh result = collapsed(mesh, tolerance, subProgress(share, 0.0, 0.8));
+    const double distance = meshDistance(mesh, result, subProgress(share, 0.8, 1.0));
     if (distance <= maximumError)
     {
       return result;
     }
-    tolerance *= std::clamp(settings.toleranceShare * maximumError / distance, settings.leastNext, settings.mostNext);
+    tolerance *= std::clamp(ToleranceShare * maximumError / distance, LeastNext, MostNext);
   }
   return mesh;
 }

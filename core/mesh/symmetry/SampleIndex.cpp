@@ -10,7 +10,7 @@ namespace meam
 {
 namespace
 {
-constexpr int Lanes = 8; // not tuned: samples looked at together
+constexpr int Lanes = 8; // samples looked at together
 
 struct Query
 {

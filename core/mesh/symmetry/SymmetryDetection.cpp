@@ -16,7 +16,33 @@ namespace meam
 {
 namespace
 {
-constexpr double Degree = M_PI / 180.0; // not tuned: radians
+constexpr double ToleranceShare = 0.01; // of the diameter
+// Axes
+constexpr int AxesTried = 1500;    // directions on a sphere that are tried: 3 degrees from any direction to the nearest
+constexpr int Orders = 8;          // turns by 360 / k degrees up to this k find axes; the scan finds the others
+constexpr double MostMisfit = 0.6; // mean distance of a turned surface, of the reach: more is no axis or angle
+constexpr int MostAxes = 24;       // the best of them that are looked at,
+constexpr double AxisSeparation = 12.0;  // degrees: nearer ones are the same; a fitted one that is farther is another
+constexpr double CoarseLeafShare = 0.15; // of the diameter, cubes of which one point finds axes,
+constexpr double ScanLeafShare = 0.06;   // and one finds angles and fits,
+constexpr double SparseLeafShare = 0.03; // cubes of which one point is the surface that both are laid on
+// Angles
+constexpr int ScanSteps = 120;          // of a full turn about an axis,
+constexpr int FirstStep = 3;            // from which on, to both sides, a turn is looked at,
+constexpr double LeastTurn = 8.0;       // degrees: fitted, a smaller one is none,
+constexpr double SameTurn = 4.0;        // and two that differ by less are one
+constexpr int ContinuousTurns = 11;     // of a continuous symmetry, all of which have to be exact,
+constexpr double ContinuousStep = 31.0; // degrees from one to the next, which no small order shares
+// Distances from the surface, and the fit of a turn
+constexpr double ReachShare = 0.08;     // of the diameter: larger distances are told as this
+constexpr double NearSpacings = 2.0;    // spacings: most points that lie on the surface have a sample this near
+constexpr double AlongSpacings = 1.5;   // along the surface from a sample to where the next one stands for it
+constexpr double SameSideCosine = 0.7;  // cosine of 45 degrees between the normals of corresponding points
+constexpr int FitSteps = 12;            // with correspondences within the reach in the first,
+constexpr double LastReachShare = 0.25; // and within this share of it in the last
+constexpr double ShownSpacing = 0.1;    // of the reach in surfaceDeviation(), taken for the spacing of the samples
+
+constexpr double Degree = M_PI / 180.0; // radians
 
 double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 {
@@ -27,15 +53,12 @@ double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 class SurfaceMatcher
 {
 public:
-  SurfaceMatcher(const PointCloud& surface, double spacing, double reach, const SymmetryDetectionSettings& settings)
+  SurfaceMatcher(const PointCloud& surface, double spacing, double reach)
     : Surface(surface)
-    , Index(surface, settings.nearSpacings * spacing, settings.sameSide)
-    , Near(settings.nearSpacings * static_cast<float>(spacing))
-    , Along(static_cast<float>(settings.alongSpacings) * static_cast<float>(spacing))
+    , Index(surface, NearSpacings * spacing, SameSideCosine)
+    , Near(NearSpacings * static_cast<float>(spacing))
+    , Along(static_cast<float>(AlongSpacings) * static_cast<float>(spacing))
     , Reach(static_cast<float>(reach))
-    , SameSide(static_cast<float>(settings.sameSide))
-    , FitSteps(settings.fitSteps)
-    , LastReachShare(settings.lastReachShare)
   {
   }
 
@@ -61,7 +84,7 @@ public:
   /// The same; the reach where it is more than `most` for sure, without a look farther than that takes.
   float distance(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, double most) const
   {
-    constexpr double margin = 1.01; // not tuned: for rounding
+    constexpr double margin = 1.01; // for rounding
     const double enough = margin * (most + this->Along);
     const int k = this->corresponding(point, normal, std::min<double>(this->Reach, enough));
     if (k < 0)
@@ -79,8 +102,10 @@ public:
   {
     bool alone = true;
     this->Index.grid().forEachWithin(this->Surface.points[sample], this->Near,
-      [&](int k, float) {
-        alone = alone && (k == sample || this->Surface.normals[k].dot(this->Surface.normals[sample]) <= this->SameSide);
+      [&](int k, float)
+      {
+        alone = alone && (k == sample || this->Surface.normals[k].dot(this->Surface.normals[sample]) <=
+                                           static_cast<float>(SameSideCosine));
       });
     return alone;
   }
@@ -111,10 +136,10 @@ public:
   /// Moves T to where the samples fit the surface best.
   Eigen::Isometry3d fitted(const PointCloud& samples, Eigen::Isometry3d T, const Eigen::Vector3d& middle) const
   {
-    for (int step = 0; step < this->FitSteps; ++step)
+    for (int step = 0; step < FitSteps; ++step)
     {
-      const double share = static_cast<double>(step) / (this->FitSteps - 1);
-      const double reach = this->Reach * std::pow(this->LastReachShare, share);
+      const double share = static_cast<double>(step) / (FitSteps - 1);
+      const double reach = this->Reach * std::pow(LastReachShare, share);
       const Eigen::Isometry3f Tf = T.cast<float>();
       NormalEquations fit(T * middle);
       for (std::size_t i = 0; i < samples.size(); ++i)
@@ -138,9 +163,6 @@ private:
   double Near; ///< mm
   float Along; ///< mm
   float Reach; ///< mm
-  float SameSide;
-  int FitSteps;
-  double LastReachShare;
 };
 
 struct Candidate
@@ -164,13 +186,13 @@ public:
     : Surface(surface)
     , Settings(settings)
     , Diameter(diameter(surface.points))
-    , Tolerance(settings.tolerance > 0.0 ? settings.tolerance : settings.toleranceShare * this->Diameter)
-    , Reach(settings.reachShare * this->Diameter)
-    , Sparse(surface.subset(thinPoints(surface.points, settings.sparseLeafShare * this->Diameter)))
-    , Matcher(surface, this->spacing(), this->Reach, settings)
-    , SparseMatcher(this->Sparse, settings.sparseLeafShare * this->Diameter, this->Reach, settings)
-    , Coarse(surface.subset(thinPoints(surface.points, settings.coarseLeafShare * this->Diameter)))
-    , Scan(surface.subset(thinPoints(surface.points, settings.scanLeafShare * this->Diameter)))
+    , Tolerance(settings.tolerance > 0.0 ? settings.tolerance : ToleranceShare * this->Diameter)
+    , Reach(ReachShare * this->Diameter)
+    , Sparse(surface.subset(thinPoints(surface.points, SparseLeafShare * this->Diameter)))
+    , Matcher(surface, this->spacing(), this->Reach)
+    , SparseMatcher(this->Sparse, SparseLeafShare * this->Diameter, this->Reach)
+    , Coarse(surface.subset(thinPoints(surface.points, CoarseLeafShare * this->Diameter)))
+    , Scan(surface.subset(thinPoints(surface.points, ScanLeafShare * this->Diameter)))
   {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& point : surface.points)
@@ -234,9 +256,9 @@ private:
   double spacing() const
   {
     // Of an even sampling: the mean area of a sample is close to the square of the spacing.
-    constexpr double cell = 0.02;         // not tuned: of the diameter, of the grid
-    constexpr double farthest = 0.1;      // not tuned: of the diameter, samples are denser
-    constexpr std::size_t measured = 500; // not tuned: samples, for a median
+    constexpr double cell = 0.02;         // of the diameter, of the grid
+    constexpr double farthest = 0.1;      // of the diameter, samples are denser
+    constexpr std::size_t measured = 500; // samples, for a median
     std::vector<float> nearest;
     const PointGrid grid(this->Surface.points, cell * this->Diameter);
     for (std::size_t i = 0; i < this->Surface.size(); i += 1 + this->Surface.size() / measured)
@@ -259,7 +281,7 @@ private:
   /// Axes about which some turn maps the surface roughly onto itself, best first.
   std::vector<Candidate> axes(const Progress& progress) const
   {
-    Points directions = viewDirections(this->Settings.axes);
+    Points directions = viewDirections(AxesTried);
     for (const auto& axis : viewDirections(26))
     {
       directions.push_back(axis); // the axes of coordinates are likely ones: CAD parts are drawn along them
@@ -275,7 +297,7 @@ private:
         for (int i = begin; i < end; ++i)
         {
           candidates[i].axis = directions[i].cast<double>().normalized();
-          for (int order = 2; order <= this->Settings.orders; ++order)
+          for (int order = 2; order <= Orders; ++order)
           {
             const double misfit = this->SparseMatcher.misfit(
               this->Coarse, turnAbout(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
@@ -285,16 +307,16 @@ private:
       });
     std::stable_sort(
       candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
-    const double same = std::cos(this->Settings.axisSeparation * Degree);
+    const double same = std::cos(AxisSeparation * Degree);
     std::vector<Candidate> best;
     for (const Candidate& candidate : candidates)
     {
       const bool known = std::any_of(best.begin(), best.end(),
         [&](const Candidate& other) { return std::abs(other.axis.dot(candidate.axis)) > same; });
-      if (!known && candidate.misfit < this->Settings.mostMisfit)
+      if (!known && candidate.misfit < MostMisfit)
       {
         best.push_back(candidate);
-        if (static_cast<int>(best.size()) == this->Settings.mostAxes)
+        if (static_cast<int>(best.size()) == MostAxes)
         {
           break;
         }
@@ -373,18 +395,17 @@ private:
     const Eigen::Isometry3d T =
       this->Matcher.fitted(this->Scan, turnAbout(roughly, 2.0 * M_PI / 3.0, this->Middle), this->Middle);
     const Eigen::AngleAxisd exact(T.linear());
-    if (std::abs(exact.axis().dot(roughly)) < std::cos(this->Settings.axisSeparation * Degree))
+    if (std::abs(exact.axis().dot(roughly)) < std::cos(AxisSeparation * Degree))
     {
       return false;
     }
     result.axis = exact.axis();
     result.point = this->fixedPoint(T, exact.axis());
-    for (int i = 1; i <= this->Settings.continuousTurns; ++i)
+    for (int i = 1; i <= ContinuousTurns; ++i)
     {
       // Angles that no small order shares.
-      const Eigen::Isometry3d S = turnAbout(result.axis, i * this->Settings.continuousStep * Degree, result.point);
-      if (this->Matcher.misfit(this->Scan, S) * this->Settings.reachShare * this->Diameter > this->Tolerance ||
-          !this->isExact(S))
+      const Eigen::Isometry3d S = turnAbout(result.axis, i * ContinuousStep * Degree, result.point);
+      if (this->Matcher.misfit(this->Scan, S) * ReachShare * this->Diameter > this->Tolerance || !this->isExact(S))
       {
         return false;
       }
@@ -404,7 +425,7 @@ private:
   /// Turns about an axis where the fit is best among their neighbours.
   std::vector<NearSymmetry> turnsAbout(const Eigen::Vector3d& axis) const
   {
-    const int steps = this->Settings.scanSteps, first = this->Settings.firstStep;
+    const int steps = ScanSteps, first = FirstStep;
     std::vector<double> misfits(steps);
     for (int step = 0; step < steps; ++step)
     {
@@ -414,12 +435,12 @@ private:
     for (int step = first; step <= steps - first; ++step)
     {
       if (misfits[step] > misfits[step - 1] || misfits[step] > misfits[(step + 1) % steps] ||
-          misfits[step] > this->Settings.mostMisfit)
+          misfits[step] > MostMisfit)
       {
         continue;
       }
       const NearSymmetry turn = this->bestNear(turnAbout(axis, 2.0 * M_PI * step / steps, this->Middle));
-      if (Eigen::AngleAxisd(turn.T.linear()).angle() > this->Settings.leastTurn * Degree)
+      if (Eigen::AngleAxisd(turn.T.linear()).angle() > LeastTurn * Degree)
       {
         turns.push_back(turn);
       }
@@ -435,7 +456,7 @@ private:
     }
     for (NearSymmetry& known : turns)
     {
-      if (turnBetween(known.T, candidate.T) < this->Settings.sameTurn)
+      if (turnBetween(known.T, candidate.T) < SameTurn)
       {
         if (candidate.overlap > known.overlap ||
             (candidate.overlap == known.overlap && candidate.deviation < known.deviation))
@@ -450,7 +471,7 @@ private:
 
   bool isTurnAbout(const Eigen::Isometry3d& T, const ContinuousSymmetry& symmetry) const
   {
-    return (T.linear() * symmetry.axis).dot(symmetry.axis) > std::cos(this->Settings.sameTurn * Degree);
+    return (T.linear() * symmetry.axis).dot(symmetry.axis) > std::cos(SameTurn * Degree);
   }
 
   /// Exact turns, closed to a group, and near ones.
@@ -480,16 +501,15 @@ private:
     }
     std::stable_sort(
       found.near.begin(), found.near.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
-    constexpr std::size_t most = 120; // not tuned: turns, twice as many as an icosahedron has
+    constexpr std::size_t most = 120; // turns, twice as many as an icosahedron has
     for (std::size_t i = 0; i < exact.size(); ++i)
     {
       for (std::size_t k = 0; k < exact.size() && exact.size() < most; ++k)
       {
         const Eigen::Isometry3d product = exact[i].T * exact[k].T;
-        const bool known =
-          Eigen::AngleAxisd(product.linear()).angle() < this->Settings.sameTurn * Degree ||
-          std::any_of(exact.begin(), exact.end(),
-            [&](const NearSymmetry& other) { return turnBetween(other.T, product) < this->Settings.sameTurn; });
+        const bool known = Eigen::AngleAxisd(product.linear()).angle() < SameTurn * Degree ||
+                           std::any_of(exact.begin(), exact.end(),
+                             [&](const NearSymmetry& other) { return turnBetween(other.T, product) < SameTurn; });
         if (!known)
         {
           // The product of two symmetries is one; fitted again, so that errors do not add up.
@@ -533,10 +553,9 @@ Symmetries detectSymmetries(
   return Detector(surface, settings).detect(progress);
 }
 
-std::vector<float> surfaceDeviation(
-  const PointCloud& surface, const Eigen::Isometry3d& T, double reach, const SymmetryDetectionSettings& settings)
+std::vector<float> surfaceDeviation(const PointCloud& surface, const Eigen::Isometry3d& T, double reach)
 {
-  const SurfaceMatcher matcher(surface, settings.shownSpacing * reach, reach, settings);
+  const SurfaceMatcher matcher(surface, ShownSpacing * reach, reach);
   const Eigen::Isometry3f Tf = T.cast<float>();
   std::vector<float> deviation;
   for (std::size_t i = 0; i < surface.size(); ++i)

@@ -13,18 +13,24 @@ namespace meam
 {
 namespace
 {
-constexpr double LeastLength = 1e-3; // mm, of a spacing
+constexpr double CupSlack = 2.0;   // mm that a cup gives way when it comes down on the part
+constexpr double PartMargin = 1.0; // mm that the open gripper keeps from the part that it takes, but between its pads
+constexpr int FewestInVoxel = 2;   // a point alone is none of a surface
+// Shares of the part's size, the diagonal of its box.
+constexpr double SurfaceSpacing = 0.03; // of the points on the part that tell what lies at it and on it
+constexpr double MostOutside = 0.5;     // a grasp so far from the part is one of another part, or in another unit
+constexpr double LeastLength = 1e-3;    // mm, of a spacing
 
 /// A gripper that touches the part it holds only where it holds it, however little its pose is off: thicker by the
 /// margin but on the pads of the jaws, whose room is their clearance, and on the cup's rim, which gives way.
-Gripper widened(Gripper gripper, const PickSettings& settings)
+Gripper widened(Gripper gripper, double safetyMargin)
 {
-  gripper.cupDiameter += 2.0 * settings.safetyMargin;
-  gripper.fingerWidth += 2.0 * settings.partMargin;
-  gripper.fingerThickness += settings.partMargin;
-  gripper.tipLength += settings.partMargin; // and so is the body nearer to the part
-  gripper.fingerLength = std::max(gripper.fingerLength, gripper.tipLength + settings.partMargin);
-  gripper.bodyWidth += 2.0 * settings.partMargin;
+  gripper.cupDiameter += 2.0 * safetyMargin;
+  gripper.fingerWidth += 2.0 * PartMargin;
+  gripper.fingerThickness += PartMargin;
+  gripper.tipLength += PartMargin; // and so is the body nearer to the part
+  gripper.fingerLength = std::max(gripper.fingerLength, gripper.tipLength + PartMargin);
+  gripper.bodyWidth += 2.0 * PartMargin;
   return gripper;
 }
 
@@ -49,27 +55,27 @@ double tiltOf(const Eigen::Isometry3d& T_scene_grasp, const Eigen::Vector3d& up)
 }
 
 GraspSearch::GraspSearch(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps,
-  const Gripper& gripper, const PickSettings& settings)
+  const Gripper& gripper, const PlanSettings& settings)
   : Claw(gripper)
   , Settings(settings)
   , Given(grasps)
   , Box(bounds(part.vertices).cast<double>())
   , Collisions(part, gripper)
-  , Surface(part, std::max(settings.surfaceSpacing * this->partSize(), LeastLength),
-      std::max(settings.mostTolerance * this->partSize(), LeastLength))
+  , Surface(part, std::max(SurfaceSpacing * this->partSize(), LeastLength),
+      std::max(MostTolerance * this->partSize(), LeastLength))
 {
   if (grasps.empty())
   {
     throw Error("There is no grasp: define one at least, or have some proposed.");
   }
-  const Gripper wide = widened(gripper, settings);
+  const Gripper wide = widened(gripper, settings.safetyMargin);
   const PickCollisions own(part, wide);
   const std::vector<Eigen::Isometry3d> symmetric = turnsOf(symmetries, settings.turnStep);
   for (const Grasp& grasp : grasps)
   {
     requireGrasp(grasp);
     const double outside = this->Box.exteriorDistance(grasp.T_model_grasp.translation());
-    if (outside > settings.mostOutside * this->partSize())
+    if (outside > MostOutside * this->partSize())
     {
       throw Error("The grasp '" + grasp.name + "' lies " + std::to_string(std::lround(outside)) +
                   " mm outside the part: check that it is one of this part, in its coordinates and in mm.");
@@ -78,7 +84,7 @@ GraspSearch::GraspSearch(const TriangleMesh& part, const Symmetries& symmetries,
     this->Touching.push_back({});
     for (const auto& frame : this->Frames.back())
     {
-      const double back = grasp.kind == GraspKind::Suction ? settings.cupSlack : 0.0;
+      const double back = grasp.kind == GraspKind::Suction ? CupSlack : 0.0;
       const Grasp open = at(grasp, frame * Eigen::Translation3d(0.0, 0.0, -back));
       this->Touching.back().push_back(this->fits(grasp) && own.touchesHeld(open, settings.wayIn, this->step()));
     }
@@ -102,7 +108,7 @@ void GraspSearch::setObstacles(const Poses& poses, const std::optional<Bin>& bin
   }
   this->Collisions.setBin(bin ? &*bin : nullptr);
   this->Collisions.setInstances(places);
-  this->Collisions.setMeasured(around.unexplained, around.voxelSize, this->Settings.fewestInVoxel);
+  this->Collisions.setMeasured(around.unexplained, around.voxelSize, FewestInVoxel);
 }
 
 Pick GraspSearch::pickAt(const Pose& pose, int copy, int index, const PickSurroundings& around) const
@@ -115,7 +121,7 @@ Pick GraspSearch::pickAt(const Pose& pose, int copy, int index, const PickSurrou
   {
     return best;
   }
-  const double most = std::max(this->Settings.comfortableClearance, this->Settings.safetyMargin);
+  const double most = std::max(ComfortableClearance, this->Settings.safetyMargin);
   best.obstruction = PickObstruction::Tilted;
   best.tilt = 180.0;
   for (std::size_t turn = 0; turn < this->Frames[index].size(); ++turn)

@@ -23,10 +23,10 @@ class GraspSearch
 public:
   /// Throws Error for an invalid mesh, gripper or grasp, for one outside the part, and without a grasp.
   GraspSearch(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps, const Gripper& gripper,
-    const PickSettings& settings);
+    const PlanSettings& settings);
 
   const Gripper& gripper() const { return this->Claw; }
-  const PickSettings& settings() const { return this->Settings; }
+  const PlanSettings& settings() const { return this->Settings; }
   const Grasps& grasps() const { return this->Given; }
   const PartSurface& surface() const { return this->Surface; }
   double partSize() const { return this->Box.diagonal().norm(); } ///< mm, the diagonal of its box
@@ -44,7 +44,7 @@ private:
   double step() const;
 
   Gripper Claw;
-  PickSettings Settings;
+  PlanSettings Settings;
   Grasps Given;
   Eigen::AlignedBox3d Box; ///< of the mesh, mm
   PickCollisions Collisions;

@@ -9,11 +9,17 @@ namespace meam
 {
 namespace
 {
+// Shares of the part's size, the diagonal of its box.
+constexpr double ToleranceOfPart = 0.01; // the tolerance without noise, and the smallest voxel
+constexpr double NoiseInTolerance = 3.0; // standard deviations: all but 3 of 1,000 points
+constexpr double PointsInVoxel = 4.0;  // point distances in the side of a voxel, so that a slanted surface has no holes
+constexpr double ThinnedInVoxel = 2.0; // of the points along that side so many are taken: more say no more
+
 /// Every so-manieth finite point of the scan, so that a few of them are in the side of a voxel.
-Points thinned(const OrganizedCloud& cloud, double pointDistance, double voxelSize, double pointsInVoxel)
+Points thinned(const OrganizedCloud& cloud, double pointDistance, double voxelSize)
 {
   const int step = cloud.height > 1 && pointDistance > 0.0
-                     ? std::max(1, static_cast<int>(voxelSize / (pointsInVoxel * pointDistance)))
+                     ? std::max(1, static_cast<int>(voxelSize / (ThinnedInVoxel * pointDistance)))
                      : 1;
   return everyNth(cloud, step);
 }
@@ -26,16 +32,15 @@ double confidence(const Pose& pose)
 }
 
 PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin,
-  const PartSurface& surface, double partSize, const PickSettings& settings)
+  const PartSurface& surface, double partSize, const PlanSettings& settings)
 {
   PickSurroundings around;
   const GridScale scale = cloud.points.empty() ? GridScale{} : gridScale(cloud);
-  const double ofPart = settings.toleranceOfPart * partSize;
-  around.tolerance = settings.tolerance > 0.0 ? settings.tolerance : ofPart + settings.noiseInTolerance * scale.noise;
-  around.tolerance = std::min(around.tolerance, settings.mostTolerance * partSize);
-  around.voxelSize =
-    settings.voxelSize > 0.0 ? settings.voxelSize : std::max(ofPart, settings.pointsInVoxel * scale.pointDistance);
-  around.points = thinned(cloud, scale.pointDistance, around.voxelSize, settings.thinnedInVoxel);
+  const double ofPart = ToleranceOfPart * partSize;
+  around.tolerance = settings.tolerance > 0.0 ? settings.tolerance : ofPart + NoiseInTolerance * scale.noise;
+  around.tolerance = std::min(around.tolerance, MostTolerance * partSize);
+  around.voxelSize = std::max(ofPart, PointsInVoxel * scale.pointDistance);
+  around.points = thinned(cloud, scale.pointDistance, around.voxelSize);
   if (bin)
   {
     around.up = bin->T_scene_bin.linear().col(2);

@@ -27,7 +27,7 @@ struct PickSurroundings
 
 /// What lies around the copies of a part that is `partSize` mm large.
 PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin,
-  const PartSurface& surface, double partSize, const PickSettings& settings);
+  const PartSurface& surface, double partSize, const PlanSettings& settings);
 
 /// Share, [0, 1], of a pose, the `copy`th of the copies, that lies under something, from above.
 double coveredShare(const Pose& pose, int copy, const PartSurface& surface, const PickSurroundings& around);

@@ -10,6 +10,8 @@ namespace meam
 {
 namespace
 {
+constexpr double TurnApart = 40.0; // degrees, between grasps at one place; less than the step between approaches
+constexpr double Crowding = 0.8;   // times its worth for each grasp taken at its place, and for each with its way in
 /// The frames at which a grasp is as good.
 std::vector<Eigen::Isometry3d> equalFrames(
   const Grasp& grasp, const std::vector<Eigen::Isometry3d>& symmetric, double step, double size)
@@ -58,34 +60,32 @@ Nearness nearnessOf(
 }
 }
 
-Grasps spreadOut(const Grasps& all, const Symmetries& symmetries, double spread, double size,
-  const GraspProposalSettings& settings, const std::function<FreeTurn(const Grasp&)>& freeTurnOf,
-  const Progress& progress)
+Grasps spreadOut(const Grasps& all, const Symmetries& symmetries, double spread, double size, int most,
+  const std::function<FreeTurn(const Grasp&)>& freeTurnOf, const Progress& progress)
 {
-  const std::vector<Eigen::Isometry3d> symmetric = turnsOf(symmetries, settings.turnStep);
-  const double angle = settings.turnApart * M_PI / 180.0;
+  const std::vector<Eigen::Isometry3d> symmetric = turnsOf(symmetries, GraspTurnStep);
+  const double angle = TurnApart * M_PI / 180.0;
   std::vector<Candidate> open;
   for (const Grasp& grasp : all)
   {
     open.push_back({ &grasp, grasp.quality });
   }
   Grasps taken;
-  while (!open.empty() && static_cast<int>(taken.size()) < settings.maximumGrasps)
+  while (!open.empty() && static_cast<int>(taken.size()) < most)
   {
-    report(progress, static_cast<double>(taken.size()) / settings.maximumGrasps);
+    report(progress, static_cast<double>(taken.size()) / most);
     const auto best = std::max_element(
       open.begin(), open.end(), [](const Candidate& a, const Candidate& b) { return a.worth < b.worth; }); // the first
     taken.push_back(*best->grasp);
     taken.back().freeTurn = freeTurnOf(taken.back());
-    const std::vector<Eigen::Isometry3d> frames = equalFrames(taken.back(), symmetric, settings.turnStep, size);
+    const std::vector<Eigen::Isometry3d> frames = equalFrames(taken.back(), symmetric, GraspTurnStep, size);
     std::vector<Candidate> rest;
     for (const Candidate& candidate : open)
     {
       const Nearness near = nearnessOf(candidate.grasp->T_model_grasp, frames, spread, angle);
       if (!near.same && candidate.grasp != best->grasp)
       {
-        const double worth =
-          candidate.worth * (near.place ? settings.crowding : 1.0) * (near.wayIn ? settings.crowding : 1.0);
+        const double worth = candidate.worth * (near.place ? Crowding : 1.0) * (near.wayIn ? Crowding : 1.0);
         rest.push_back({ candidate.grasp, worth });
       }
     }

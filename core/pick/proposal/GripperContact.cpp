@@ -8,7 +8,10 @@ namespace meam
 {
 namespace
 {
-constexpr int PadRays = 5; // along each side of a pad: odd, so that one is in its middle
+constexpr double PadTolerance = 0.5;  // mm that a jaw's pad may be from the surface where it is said to touch
+constexpr double LeastContact = 0.15; // share of each pad that has to touch; a pin touches a fifth all along the pad
+constexpr double MostBend = 5.0;      // degrees between the surface's normals under a cup
+constexpr int PadRays = 5;            // along each side of a pad: odd, so that one is in its middle
 constexpr int CupRings = 3;
 constexpr int CupRays = 16;          // on each ring
 constexpr double CupLook = 5.0;      // seal tolerances above and below the rim
@@ -18,11 +21,10 @@ constexpr double LeastOpening = 1.0; // mm beside the part from where rays look 
 class Pad
 {
 public:
-  Pad(const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, const GraspProposalSettings& settings,
-    double side)
+  Pad(const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, double frictionAngle, double side)
     : Rays(rays)
     , Frame(grasp.T_model_grasp)
-    , Settings(settings)
+    , FrictionAngle(frictionAngle * M_PI / 180.0)
     , Inward(-side * grasp.T_model_grasp.linear().col(0))
     , Open(std::max(gripper.jawClearance, LeastOpening))
     , X(side * (0.5 * grasp.width + this->Open))
@@ -50,8 +52,7 @@ public:
 
   bool touches(const Touch& touch) const
   {
-    return std::abs(touch.depth) <= this->Settings.padTolerance &&
-           touch.angle <= this->Settings.frictionAngle * M_PI / 180.0;
+    return std::abs(touch.depth) <= PadTolerance && touch.angle <= this->FrictionAngle;
   }
 
   /// The share that touches; none when something keeps the pad away.
@@ -64,7 +65,7 @@ public:
       {
         const auto place = [](int cell) { return (cell + 0.5) / PadRays - 0.5; };
         const std::optional<Touch> touch = this->at(place(i) * width, place(k) * length);
-        if (touch && touch->depth < -this->Settings.padTolerance)
+        if (touch && touch->depth < -PadTolerance)
         {
           return {};
         }
@@ -77,7 +78,7 @@ public:
 private:
   const MeshRays& Rays;
   const Eigen::Isometry3d& Frame;
-  const GraspProposalSettings& Settings;
+  double FrictionAngle; ///< radians
   Eigen::Vector3d Inward;
   double Open;
   double X;
@@ -86,9 +87,9 @@ private:
 }
 
 std::optional<GripperContact> jawContact(
-  const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, const GraspProposalSettings& settings)
+  const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, double frictionAngle)
 {
-  const Pad pads[] = { { rays, grasp, gripper, settings, -1.0 }, { rays, grasp, gripper, settings, 1.0 } };
+  const Pad pads[] = { { rays, grasp, gripper, frictionAngle, -1.0 }, { rays, grasp, gripper, frictionAngle, 1.0 } };
   GripperContact contact;
   contact.share = 1.0;
   for (const Pad& pad : pads)
@@ -98,12 +99,12 @@ std::optional<GripperContact> jawContact(
     {
       return {};
     }
-    contact.slant = std::max(contact.slant, middle->angle / (settings.frictionAngle * M_PI / 180.0));
+    contact.slant = std::max(contact.slant, middle->angle / (frictionAngle * M_PI / 180.0));
   }
   for (const Pad& pad : pads)
   {
     const std::optional<double> share = pad.share(gripper.fingerWidth, 2.0 * gripper.tipLength);
-    if (!share || *share < settings.leastContact)
+    if (!share || *share < LeastContact)
     {
       return {};
     }
@@ -112,17 +113,16 @@ std::optional<GripperContact> jawContact(
   return contact;
 }
 
-std::optional<GripperContact> cupContact(
-  const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, const GraspProposalSettings& settings)
+std::optional<GripperContact> cupContact(const MeshRays& rays, const Grasp& grasp, const Gripper& gripper)
 {
   const Eigen::Vector3d down = grasp.T_model_grasp.linear().col(2);
-  const double above = CupLook * settings.sealTolerance;
+  const double above = CupLook * SealTolerance;
   double farthest = 0.0;
   const auto isFlat = [&](double x, double y)
   {
     const auto hit = rays.firstEntered(grasp.T_model_grasp * Eigen::Vector3d(x, y, -above), down, 2.0 * above);
     farthest = hit ? std::max(farthest, std::abs(hit->distance - above)) : farthest;
-    return hit && -hit->normal.dot(down) >= std::cos(settings.mostBend * M_PI / 180.0);
+    return hit && -hit->normal.dot(down) >= std::cos(MostBend * M_PI / 180.0);
   };
   bool flat = isFlat(0.0, 0.0);
   for (int ring = CupRings; flat && ring > 0; --ring)
@@ -134,10 +134,10 @@ std::optional<GripperContact> cupContact(
       flat = isFlat(radius * std::cos(angle), radius * std::sin(angle));
     }
   }
-  if (!flat || farthest > settings.sealTolerance)
+  if (!flat || farthest > SealTolerance)
   {
     return {};
   }
-  return GripperContact{ 1.0, farthest / settings.sealTolerance };
+  return GripperContact{ 1.0, farthest / SealTolerance };
 }
 }

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "mesh/MeshRays.h"
-#include "pick/GraspProposal.h"
+#include "pick/Grasp.h"
+#include "pick/Gripper.h"
 
 #include <optional>
 
 namespace meam
 {
+constexpr double SealTolerance = 0.4; // mm between a cup's rim and the surface that a lip of rubber closes
+
 /// How a gripper touches the part at a grasp.
 struct GripperContact
 {
@@ -16,11 +19,10 @@ struct GripperContact
 };
 
 /// Jaws that close on the part until they are as wide apart as the grasp says. None when a middle of their pads does
-/// not touch within the friction cone, something keeps a pad away, or too little touches.
+/// not touch within the cone of `frictionAngle` (degrees), something keeps a pad away, or too little touches.
 std::optional<GripperContact> jawContact(
-  const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, const GraspProposalSettings& settings);
+  const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, double frictionAngle);
 
 /// A cup that sits down on the part. None when its rim, or the surface under it, is not flat enough.
-std::optional<GripperContact> cupContact(
-  const MeshRays& rays, const Grasp& grasp, const Gripper& gripper, const GraspProposalSettings& settings);
+std::optional<GripperContact> cupContact(const MeshRays& rays, const Grasp& grasp, const Gripper& gripper);
 }

@@ -90,9 +90,7 @@ DirectedPoints surfacePointsOf(const Scene& scene, double leaf, int threads)
 {
   const Points& means = scene.depth.means();
   const std::vector<int> thinned = thinPoints(means, leaf);
-  NormalEstimationSettings estimation;
-  estimation.threads = threads;
-  const Points normals = estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, estimation);
+  const Points normals = estimateNormals(means, scene.surface, thinned, scene.sensor, scene.partDiameter, threads);
   DirectedPoints result;
   for (std::size_t k = 0; k < thinned.size(); ++k)
   {

@@ -16,19 +16,29 @@ namespace meam
 {
 namespace
 {
+// Depth edges
+constexpr int WidestShadow = 20;   // grid steps from the end of a surface to the one behind, the shadow between them
+constexpr int FewestOfSurface = 3; // of the eight neighbours, within the jump: a point that flies alone is no edge
+constexpr int DirectionWindow = 2; // grid steps: where the surface goes on in it tells how its border runs
+// Creases
+constexpr double CreaseNoises = 4.0;     // standard deviations of the angle that noise makes: a crease has no less
+constexpr double BendWithin = 0.35;      // of the crease's angle: a piece that bends by more behind its window is round
+constexpr double MeetingDistance = 0.75; // grid steps from the point to where the two pieces meet
+constexpr float LeastSpread = 1e-3f; // of points in a window, 1: in both directions alike; less is a line, and no plane
+
 /// Columns, rows.
 using GridStep = std::pair<int, int>;
-const std::array<GridStep, 4> Across{ { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } } }; // not tuned: all ways across
+const std::array<GridStep, 4> Across{ { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } } }; // all ways across
 
-constexpr float CosineError = 1e-4f; // not tuned: more than what rounding makes of a cosine
-constexpr int BandRows = 96; // not tuned: rows of the grid that are worked on together, so that they stay in the cache
+constexpr float CosineError = 1e-4f; // more than what rounding makes of a cosine
+constexpr int BandRows = 96;         // rows of the grid that are worked on together, so that they stay in the cache
 
 using GridEdges = std::vector<GridEdge>;
 
 /// Eight neighbours in a row.
 using Floats = float __attribute__((vector_size(32)));
 using Bits = int __attribute__((vector_size(32)));
-constexpr int Lanes = 8; // not tuned: of these vectors
+constexpr int Lanes = 8; // of these vectors
 
 /// A row's points coordinate by coordinate; depths of those that are not finite are no numbers. `x` and `y` may be
 /// null.
@@ -136,12 +146,12 @@ const Eigen::Vector3f* pointAt(const OrganizedCloud& cloud, int row, int column)
 }
 
 /// Whether the surface ends at a point in a direction, in front of another one: farther away than its slope leads.
-bool endsInFront(const OrganizedCloud& cloud, int row, int column, int down, int right, float jump, int widestShadow)
+bool endsInFront(const OrganizedCloud& cloud, int row, int column, int down, int right, float jump)
 {
   const float z = pointAt(cloud, row, column)->z();
   const Eigen::Vector3f* before = pointAt(cloud, row - down, column - right);
   const float slope = before && before->allFinite() ? std::max(0.0f, z - before->z()) : 0.0f;
-  for (int step = 1; step <= widestShadow; ++step)
+  for (int step = 1; step <= WidestShadow; ++step)
   {
     const Eigen::Vector3f* next = pointAt(cloud, row + step * down, column + step * right);
     if (!next)
@@ -157,13 +167,13 @@ bool endsInFront(const OrganizedCloud& cloud, int row, int column, int down, int
 }
 
 /// Along the border of the surface that a point is on; zero when it has none nearby.
-Eigen::Vector2f borderDirection(const OrganizedCloud& cloud, int row, int column, float jump, int window)
+Eigen::Vector2f borderDirection(const OrganizedCloud& cloud, int row, int column, float jump)
 {
   const float z = pointAt(cloud, row, column)->z();
   Eigen::Vector2f inwards = Eigen::Vector2f::Zero();
-  for (int v = -window; v <= window; ++v)
+  for (int v = -DirectionWindow; v <= DirectionWindow; ++v)
   {
-    for (int u = -window; u <= window; ++u)
+    for (int u = -DirectionWindow; u <= DirectionWindow; ++u)
     {
       const Eigen::Vector3f* other = pointAt(cloud, row + v, column + u);
       const bool cut = !pointAt(cloud, row - v, column - u); // the window is even on all sides, also beside the grid
@@ -191,12 +201,6 @@ void findEnds(const float* z, std::ptrdiff_t stride, int width, float jump, std:
     isCandidate[k] = (depth == depth) & !goesOn ? 1 : 0;
   }
 }
-
-/// What makes the points of a window no plane.
-struct PlaneLimits
-{
-  float fewestPoints, leastSpread;
-};
 
 /// Planes through the surface around the points of some rows, coordinate by coordinate.
 class PlaneRows
@@ -242,7 +246,7 @@ public:
 
   /// Fits planes in square windows to the points of a row; those that are `jump` before or behind the middle are of
   /// another surface. Planes of a full window depend on its points alone.
-  void fit(const GridRows& grid, int row, int radius, float jump, const PlaneLimits& limits);
+  void fit(const GridRows& grid, int row, int radius, float jump);
 
 private:
   std::size_t placeOf(int row, int column) const
@@ -270,10 +274,10 @@ inline __attribute__((always_inline)) Floats kept(const Floats& values, const Bi
 /// of PlaneRows.
 MEAM_ALL_VECTORS
 void fitRow(const float* x, const float* y, const float* z, std::ptrdiff_t stride, int width, int radius, float jump,
-  const PlaneLimits& limits, float* const* to)
+  float* const* to)
 {
   const Bits magnitude = Bits{} + 0x7fffffff;
-  const float fewestPoints = limits.fewestPoints, leastSpread = limits.leastSpread;
+  constexpr float fewestPoints = FewestPoints;
   const Floats ones = Floats{} + 1.0f, limit = Floats{} + jump,
                none = Floats{} + std::numeric_limits<float>::quiet_NaN();
   for (int begin = 0; begin < width; begin += Lanes)
@@ -335,7 +339,7 @@ void fitRow(const float* x, const float* y, const float* z, std::ptrdiff_t strid
     along(sumX, sumUX, sumVX, columnX, rowX);
     along(sumY, sumUY, sumVY, columnY, rowY);
     along(sumZ, sumUZ, sumVZ, columnZ, rowZ);
-    const Bits isPlane = (n >= fewestPoints) & (determinant > leastSpread * spreadU * spreadV); // false for no numbers
+    const Bits isPlane = (n >= fewestPoints) & (determinant > LeastSpread * spreadU * spreadV); // false for no numbers
     const Floats values[6] = { columnY * rowZ - columnZ * rowY, columnZ * rowX - columnX * rowZ,
       columnX * rowY - columnY * rowX, atZ + sumZ / n - columnZ * meanU - rowZ * meanV, columnZ, rowZ };
     for (int k = 0; k < 6; ++k)
@@ -359,14 +363,14 @@ void normalize(float* x, float* y, float* z, int count)
   }
 }
 
-void PlaneRows::fit(const GridRows& grid, int row, int radius, float jump, const PlaneLimits& limits)
+void PlaneRows::fit(const GridRows& grid, int row, int radius, float jump)
 {
   float* to[6];
   for (int k = 0; k < 6; ++k)
   {
     to[k] = this->row(static_cast<Value>(k), row);
   }
-  fitRow(grid.x(row), grid.y(row), grid.z(row), grid.stride(), this->Width, radius, jump, limits, to);
+  fitRow(grid.x(row), grid.y(row), grid.z(row), grid.stride(), this->Width, radius, jump, to);
   normalize(to[NormalX], to[NormalY], to[NormalZ], this->Width);
 }
 
@@ -391,14 +395,12 @@ float angleBetween(const PlaneRows::Plane& a, const PlaneRows::Plane& b)
 }
 }
 
-std::vector<GridEdge> findDepthEdges(
-  const OrganizedCloud& cloud, double jump, int threads, const Progress& progress, const CloudEdgeSettings& settings)
+std::vector<GridEdge> findDepthEdges(const OrganizedCloud& cloud, double jump, int threads, const Progress& progress)
 {
   const float limit = static_cast<float>(jump);
   const auto isEdge = [&](int row, int column, GridEdge& edge)
   {
-    const auto ends = [&](int down, int right)
-    { return endsInFront(cloud, row, column, down, right, limit, settings.widestShadow); };
+    const auto ends = [&](int down, int right) { return endsInFront(cloud, row, column, down, right, limit); };
     if (!ends(0, 1) && !ends(0, -1) && !ends(1, 0) && !ends(-1, 0))
     {
       return false;
@@ -409,8 +411,8 @@ std::vector<GridEdge> findDepthEdges(
       const Eigen::Vector3f* other = pointAt(cloud, row + k / 3 - 1, column + k % 3 - 1);
       sameSurface += other && std::abs(other->z() - cloud.points[edge.point].z()) <= limit;
     }
-    edge.direction = borderDirection(cloud, row, column, limit, settings.directionWindow);
-    return sameSurface >= settings.fewestOfSurface && !edge.direction.isZero();
+    edge.direction = borderDirection(cloud, row, column, limit);
+    return sameSurface >= FewestOfSurface && !edge.direction.isZero();
   };
   return inBands(cloud, threads, progress,
     [&](int begin, int end, std::vector<GridEdges>& ofRow)
@@ -434,16 +436,14 @@ std::vector<GridEdge> findDepthEdges(
     });
 }
 
-std::vector<GridEdge> findCreases(const OrganizedCloud& cloud, const GridScale& scale, double angle, int threads,
-  const Progress& progress, const CloudEdgeSettings& settings)
+std::vector<GridEdge> findCreases(
+  const OrganizedCloud& cloud, const GridScale& scale, double angle, int threads, const Progress& progress)
 {
   const int radius = scale.windowRadius();
   const float jump = static_cast<float>(scale.depthJump());
   const int reach = radius + 1; // a window whose middle is so far away ends beside the point
   const float limit =
-    static_cast<float>(std::max(angle * M_PI / 180.0, settings.noises * std::sqrt(2.0) * scale.slopeError(radius)));
-  const PlaneLimits ofPlane{ static_cast<float>(scale.settings.fewestPoints),
-    static_cast<float>(settings.leastSpread) };
+    static_cast<float>(std::max(angle * M_PI / 180.0, CreaseNoises * std::sqrt(2.0) * scale.slopeError(radius)));
   const float cosine = std::cos(std::min(limit, static_cast<float>(M_PI))) + CosineError;
   const auto isInside = [&](int row, int column)
   { return row >= 0 && column >= 0 && row < cloud.height && column < cloud.width; };
@@ -469,7 +469,7 @@ std::vector<GridEdge> findCreases(const OrganizedCloud& cloud, const GridScale& 
       const float depthBefore = before.depth + reach * (right * before.columnSlope + down * before.rowSlope);
       const float depthAfter = after.depth - reach * (right * after.columnSlope + down * after.rowSlope);
       const float rate = slope.dot(step);
-      if (!(std::abs(depthAfter - depthBefore) <= settings.meetingDistance * std::abs(rate)) ||
+      if (!(std::abs(depthAfter - depthBefore) <= MeetingDistance * std::abs(rate)) ||
           !(std::abs(depthAfter - cloud.points[edge.point].z()) <= jump))
       {
         continue;
@@ -489,8 +489,7 @@ std::vector<GridEdge> findCreases(const OrganizedCloud& cloud, const GridScale& 
         }
         const PlaneRows::Plane far = planes.plane(farRow, farColumn);
         const float expected = near.depth + side * reach * (right * near.columnSlope + down * near.rowSlope);
-        return far.valid() && std::abs(far.depth - expected) <= jump &&
-               angleBetween(far, near) > settings.bendWithin * bend;
+        return far.valid() && std::abs(far.depth - expected) <= jump && angleBetween(far, near) > BendWithin * bend;
       };
       if (round(before, -1) || round(after, 1))
       {
@@ -510,7 +509,7 @@ std::vector<GridEdge> findCreases(const OrganizedCloud& cloud, const GridScale& 
         const GridRows grid(cloud, first, last, radius, GridRows::All);
         for (int row = first; row < last; ++row)
         {
-          planes.fit(grid, row, radius, jump, ofPlane);
+          planes.fit(grid, row, radius, jump);
         }
       }
       std::vector<std::uint8_t> isCandidate(cloud.width);

@@ -3,6 +3,7 @@
 
 #include "base/AllVectors.h"
 #include "base/Parallel.h"
+#include "scene/ScanQuality.h"
 
 #include <Eigen/LU>
 
@@ -14,6 +15,11 @@ namespace meam
 {
 namespace
 {
+constexpr int Samples = 100000;            // pairs of neighbours that the scale is told from, about
+constexpr double LargestSlopeError = 0.05; // mm per mm, a window's: a larger one is used where noise makes more,
+constexpr int SmallestWindow = 2;          // grid steps from the middle,
+constexpr int LargestWindow = 6;           // and no more than these
+
 double median(std::vector<float>& values)
 {
   if (values.empty())
@@ -48,7 +54,7 @@ struct PlaneSums
   float squares[4]{}; ///< uu, uv and vv
 };
 
-GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of, int fewestPoints)
+GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of)
 {
   GridPlane plane;
   const float count = of.points[3], u1 = of.columns[3], v1 = of.rows[3];
@@ -56,8 +62,8 @@ GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of, int fewest
   moments << count, u1, v1, u1, of.squares[0], of.squares[1], v1, of.squares[1], of.squares[2];
   Eigen::Matrix3f inverse;
   bool solvable = false;
-  moments.computeInverseWithCheck(inverse, solvable, 0.5f); // not tuned: a determinant of whole numbers
-  if (count < static_cast<float>(fewestPoints) || !solvable)
+  moments.computeInverseWithCheck(inverse, solvable, 0.5f); // a determinant of whole numbers
+  if (count < static_cast<float>(FewestPoints) || !solvable)
   {
     return plane;
   }
@@ -70,7 +76,7 @@ GridPlane planeOf(const Eigen::Vector3f& centre, const PlaneSums& of, int fewest
   return plane;
 }
 
-constexpr float Rim = 0.01f; // not tuned: grid steps, points on the border of a window belong to it
+constexpr float Rim = 0.01f; // grid steps, points on the border of a window belong to it
 
 /// Two windows side by side in a vector, four numbers each.
 using Floats = float __attribute__((vector_size(32)));
@@ -123,15 +129,12 @@ void sumUpTwo(const float* first, const float* second, std::ptrdiff_t stride, co
 }
 }
 
-double GridScale::depthJump() const
-{
-  return this->settings.slopesInJump * this->pointDistance + this->settings.noiseInJump * this->noise;
-}
+double GridScale::depthJump() const { return JumpSlopes * this->pointDistance + JumpNoises * this->noise; }
 
 int GridScale::windowRadius() const
 {
-  int radius = this->settings.smallestWindow;
-  while (this->slopeError(radius) > this->settings.slopeError && radius < this->settings.largestWindow)
+  int radius = SmallestWindow;
+  while (this->slopeError(radius) > LargestSlopeError && radius < LargestWindow)
   {
     ++radius;
   }
@@ -144,13 +147,13 @@ double GridScale::slopeError(int radius) const
   return this->noise / (this->pointDistance * (2.0 * radius + 1.0) * std::sqrt(radius * (radius + 1.0) / 3.0));
 }
 
-GridScale gridScale(const OrganizedCloud& cloud, int threads, const GridSurfaceSettings& settings)
+GridScale gridScale(const OrganizedCloud& cloud, int threads)
 {
   std::vector<float> distances;
   std::vector<float> bends;
-  distances.reserve(2 * static_cast<std::size_t>(settings.samples));
-  bends.reserve(2 * static_cast<std::size_t>(settings.samples));
-  const int stride = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cloud.size()) / settings.samples)));
+  distances.reserve(2 * static_cast<std::size_t>(Samples));
+  bends.reserve(2 * static_cast<std::size_t>(Samples));
+  const int stride = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cloud.size()) / Samples)));
   for (int row = 0; row < cloud.height; row += std::max(stride, 1))
   {
     const Eigen::Vector3f* points = cloud.points.data() + static_cast<std::size_t>(row) * cloud.width;
@@ -169,15 +172,13 @@ GridScale gridScale(const OrganizedCloud& cloud, int threads, const GridSurfaceS
     }
   }
   GridScale scale;
-  scale.settings = settings;
   // Of a normal distribution half is within 0.6745 deviations; the second difference has the root of 6 of them.
   inParallel(threads, { [&] { scale.pointDistance = median(distances); },
                         [&] { scale.noise = median(bends) / (0.6745 * std::sqrt(6.0)); } });
   return scale;
 }
 
-GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridWindow& window, double jump,
-  const GridSurfaceSettings& settings)
+GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridWindow& window, double jump)
 {
   const Eigen::Vector3f& centre = cloud.points[static_cast<std::size_t>(row) * cloud.width + column];
   if (!centre.allFinite())
@@ -215,11 +216,11 @@ GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridW
   Eigen::Vector4f::Map(sums.columns) = columns;
   Eigen::Vector4f::Map(sums.rows) = rows;
   Eigen::Vector4f::Map(sums.squares) = squares;
-  return planeOf(centre, sums, settings.fewestPoints);
+  return planeOf(centre, sums);
 }
 
-void fitPlanes(const OrganizedCloud& cloud, const int* points, const GridWindow* windows, int count, double jump,
-  GridPlane* planes, const GridSurfaceSettings& settings)
+void fitPlanes(
+  const OrganizedCloud& cloud, const int* points, const GridWindow* windows, int count, double jump, GridPlane* planes)
 {
   const auto isInside = [&](int row, int column, const HalfBox& box)
   {
@@ -227,7 +228,7 @@ void fitPlanes(const OrganizedCloud& cloud, const int* points, const GridWindow*
            column + box.columns < cloud.width;
   };
   const auto fitOne = [&](int i)
-  { planes[i] = fitPlane(cloud, points[i] / cloud.width, points[i] % cloud.width, windows[i], jump, settings); };
+  { planes[i] = fitPlane(cloud, points[i] / cloud.width, points[i] % cloud.width, windows[i], jump); };
   int i = 0;
   for (; i + 1 < count; i += 2)
   {
@@ -246,8 +247,8 @@ void fitPlanes(const OrganizedCloud& cloud, const int* points, const GridWindow*
     PlaneSums sums[2];
     sumUpTwo(first.data(), second.data(), 3 * static_cast<std::ptrdiff_t>(cloud.width), windows[i], windows[i + 1], box,
       static_cast<float>(jump), sums);
-    planes[i] = planeOf(first, sums[0], settings.fewestPoints);
-    planes[i + 1] = planeOf(second, sums[1], settings.fewestPoints);
+    planes[i] = planeOf(first, sums[0]);
+    planes[i + 1] = planeOf(second, sums[1]);
   }
   if (i < count)
   {

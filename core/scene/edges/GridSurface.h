@@ -2,27 +2,16 @@
 #pragma once
 
 #include "scene/OrganizedCloud.h"
-#include "scene/ScanQuality.h"
 
 namespace meam
 {
-struct GridSurfaceSettings
-{
-  int samples = 100000;                     ///< pairs of neighbours that the scale is told from, about
-  double slopesInJump = DepthJump().slopes; ///< point distances of a depth jump,
-  double noiseInJump = DepthJump().noises;  ///< and so many times the noise
-  double slopeError = 0.05;                 ///< mm per mm, a window's: a larger one is used where noise makes more,
-  int smallestWindow = 2;                   ///< grid steps from the middle,
-  int largestWindow = 6;                    ///< and no more than these
-  int fewestPoints = 6;                     ///< of a surface in a window, for a plane
-};
+constexpr int FewestPoints = 6; // of a surface in a window, for a plane
 
 /// How finely and how exactly a sensor sampled its scene.
 struct GridScale
 {
-  double pointDistance = 0.0;     ///< mm across the line of sight, median over neighbours in a row
-  double noise = 0.0;             ///< mm, standard deviation of z, from its second differences along rows
-  GridSurfaceSettings settings{}; ///< of what follows from these
+  double pointDistance = 0.0; ///< mm across the line of sight, median over neighbours in a row
+  double noise = 0.0;         ///< mm, standard deviation of z, from its second differences along rows
 
   /// mm: neighbours that differ by more in z are of two surfaces, for all that slopes and noise do.
   double depthJump() const;
@@ -33,7 +22,7 @@ struct GridScale
 };
 
 /// Zeros for a cloud without neighbours that both have depth.
-GridScale gridScale(const OrganizedCloud& cloud, int threads = 1, const GridSurfaceSettings& settings = {});
+GridScale gridScale(const OrganizedCloud& cloud, int threads = 1);
 
 /// A plane through the surface around a grid point.
 struct GridPlane
@@ -61,9 +50,8 @@ struct GridWindow
 
 /// The plane that fits the points in a window around a grid point best; those that are a jump (mm) or more
 /// before or behind it in z are of another surface. Invalid for a point without depth, or with too few others.
-GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridWindow& window, double jump,
-  const GridSurfaceSettings& settings = {});
+GridPlane fitPlane(const OrganizedCloud& cloud, int row, int column, const GridWindow& window, double jump);
 /// The same of `count` points of the grid, several at a time: planes[i] is that of points[i] in windows[i].
-void fitPlanes(const OrganizedCloud& cloud, const int* points, const GridWindow* windows, int count, double jump,
-  GridPlane* planes, const GridSurfaceSettings& settings = {});
+void fitPlanes(
+  const OrganizedCloud& cloud, const int* points, const GridWindow* windows, int count, double jump, GridPlane* planes);
 }

@@ -15,8 +15,15 @@ namespace meam
 {
 namespace
 {
+constexpr double EdgeShare = 0.18;     // the gradient that this share of the pixels exceeds
+constexpr double GradientNoises = 5.0; // standard deviations of what noise does to the gradient
+constexpr double LeastGradient = 12.0; // grey values
+constexpr double LowShare = 0.4;       // of the high threshold
+constexpr int Dark = 3;                // grey values: darker pixels hide their noise,
+constexpr int Bright = 252;            // and so do brighter ones
+
 // The gradient of pure noise is spread as Rayleigh found: half of it is below 1.18 standard deviations.
-const double RayleighMedian = std::sqrt(2.0 * std::log(2.0)); // not tuned: of that distribution
+const double RayleighMedian = std::sqrt(2.0 * std::log(2.0)); // of that distribution
 
 void check(const Image& image, const ImageEdgeSettings& settings)
 {
@@ -52,8 +59,8 @@ cv::Mat smoothGrey(const Image& image, double smoothing)
   return grey;
 }
 
-constexpr double GradientSteps = 4.0; // not tuned: of a grey value, how finely gradients are counted
-constexpr int GradientBins = 6144;    // not tuned: more than Sobel makes of 8 bits, sqrt(2) times 4 times 255, in steps
+constexpr double GradientSteps = 4.0; // of a grey value, how finely gradients are counted
+constexpr int GradientBins = 6144;    // more than Sobel makes of 8 bits, sqrt(2) times 4 times 255, in steps
 
 /// How many pixels have each gradient.
 using Histogram = std::array<std::size_t, GradientBins>;
@@ -82,19 +89,18 @@ double quantile(const Histogram& histogram, double share)
 
 /// The gradients' bins of a row, and GradientBins more for pixels that are nearly black or white.
 MEAM_ALL_VECTORS
-void binsOf(const std::uint8_t* value, const short* x, const short* y, int count, int dark, int bright, int* bins)
+void binsOf(const std::uint8_t* value, const short* x, const short* y, int count, int* bins)
 {
 #pragma omp simd
   for (int k = 0; k < count; ++k)
   {
     const float gradient = std::sqrt(static_cast<float>(x[k] * x[k] + y[k] * y[k]));
-    const bool isSaturated = (value[k] < dark) | (value[k] > bright);
+    const bool isSaturated = (value[k] < Dark) | (value[k] > Bright);
     bins[k] = static_cast<int>(static_cast<float>(GradientSteps) * gradient) + (isSaturated ? GradientBins : 0);
   }
 }
 
-double automaticThreshold(
-  const cv::Mat& grey, const cv::Mat& dx, const cv::Mat& dy, const ImageEdgeSettings& settings, int threads)
+double automaticThreshold(const cv::Mat& grey, const cv::Mat& dx, const cv::Mat& dy, int threads)
 {
   Histogram all{}, unsaturated{};
   const int used = numberOfThreads(threads);
@@ -107,8 +113,7 @@ double automaticThreshold(
       std::vector<int> bins(grey.cols);
       for (int row = begin; row < end; ++row)
       {
-        binsOf(grey.ptr<std::uint8_t>(row), dx.ptr<short>(row), dy.ptr<short>(row), grey.cols, settings.dark,
-          settings.bright, bins.data());
+        binsOf(grey.ptr<std::uint8_t>(row), dx.ptr<short>(row), dy.ptr<short>(row), grey.cols, bins.data());
         for (const int bin : bins)
         {
           ++mine[bin];
@@ -124,7 +129,7 @@ double automaticThreshold(
     }
   }
   const double noise = quantile(unsaturated, 0.5) / RayleighMedian;
-  return std::max({ quantile(all, 1.0 - settings.edgeShare), settings.noises * noise, settings.leastGradient });
+  return std::max({ quantile(all, 1.0 - EdgeShare), GradientNoises * noise, LeastGradient });
 }
 
 /// Across the gradients around a pixel, summed so that opposite ones agree (the structure tensor).
@@ -156,9 +161,8 @@ std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSetting
   cv::Mat dx, dy;
   inParallel(threads, { [&] { cv::Sobel(grey, dx, CV_16S, 1, 0, 3, 1.0, 0.0, cv::BORDER_REPLICATE); },
                         [&] { cv::Sobel(grey, dy, CV_16S, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE); } });
-  const double high =
-    settings.highThreshold > 0.0 ? settings.highThreshold : automaticThreshold(grey, dx, dy, settings, threads);
-  const double low = settings.lowThreshold > 0.0 ? settings.lowThreshold : settings.lowShare * high;
+  const double high = settings.highThreshold > 0.0 ? settings.highThreshold : automaticThreshold(grey, dx, dy, threads);
+  const double low = settings.lowThreshold > 0.0 ? settings.lowThreshold : LowShare * high;
   cv::Mat edges;
   cv::Canny(dx, dy, edges, std::min(low, high), high, true);
 
@@ -167,7 +171,7 @@ std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSetting
   {
     const std::uint8_t* const begin = edges.ptr<std::uint8_t>(row);
     const std::uint8_t* const end = begin + edges.cols;
-    constexpr int isEdge = 255; // not tuned: a mark
+    constexpr int isEdge = 255; // a mark
     for (const void* at = begin; (at = std::memchr(at, isEdge, end - static_cast<const std::uint8_t*>(at)));)
     {
       const auto* pixel = static_cast<const std::uint8_t*>(at);

@@ -10,15 +10,8 @@ struct ImageEdgeSettings
 {
   double smoothing = 1.0; ///< pixels, sigma of the Gaussian before Canny; 0: none
   // Canny's thresholds on the gradient (grey values, Sobel)
-  double lowThreshold = 0.0;   ///< 0: lowShare of the high threshold
-  double highThreshold = 0.0;  ///< 0: the largest of the next three
-  double edgeShare = 0.18;     ///< the gradient that this share of the pixels exceeds
-  double noises = 5.0;         ///< standard deviations of what noise does to the gradient
-  double leastGradient = 12.0; ///< grey values
-  double lowShare = 0.4;       ///< of the high threshold
-  // Grey values; darker pixels and brighter ones hide their noise, which is told from the others.
-  int dark = 3;
-  int bright = 252;
+  double lowThreshold = 0.0;  ///< 0: 0.4 of the high threshold
+  double highThreshold = 0.0; ///< 0: automatic
 };
 
 /// A pixel on an edge of an image.

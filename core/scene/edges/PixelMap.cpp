@@ -16,7 +16,12 @@ namespace meam
 {
 namespace
 {
-constexpr std::uint32_t Unknown = 0xffffffffu; // not tuned: a mark instead of a point, for what hides all behind it
+constexpr int SmallHole = 4;        // grid steps: so wide a hole in a surface is taken as closed,
+constexpr double WidestHole = 1.0;  // and one between two depths that is no wider than so many times the difference
+constexpr double BeyondImage = 1.1; // of the image's widest ray: the lens model is not asked for more
+constexpr int Stride = 7; // of the grid points one of so many tells of the distance to its neighbour in the image
+
+constexpr std::uint32_t Unknown = 0xffffffffu; // a mark instead of a point, for what hides all behind it
 
 /// Where the camera sees a grid point, in pixels, and how far away; NaN when it does not.
 struct Seen
@@ -118,7 +123,7 @@ private:
 
 /// The tangent of the angle between the camera's axis and the farthest ray that its image has. A lens model
 /// holds there; far outside it may fold points back into the image.
-double widestRay(const Camera& camera, double beyond)
+double widestRay(const Camera& camera)
 {
   double widest = 0.0;
   for (int k = 0; k < 8; ++k)
@@ -129,12 +134,12 @@ double widestRay(const Camera& camera, double beyond)
     const Eigen::Vector3d ray = camera.T_camera_scene * unproject(camera, pixel, 1.0);
     widest = ray.allFinite() ? std::max(widest, ray.head<2>().norm()) : widest;
   }
-  return widest > 0.0 ? beyond * widest : std::numeric_limits<double>::infinity();
+  return widest > 0.0 ? BeyondImage * widest : std::numeric_limits<double>::infinity();
 }
 
 /// Holes in the rows of the grid that are small, or narrow for their depth, get points on the line between their
 /// borders; those are not measured.
-std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row, const PixelMapSettings& settings)
+std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row)
 {
   const auto begin = cloud.points.begin() + static_cast<std::ptrdiff_t>(row) * cloud.width;
   std::vector<Eigen::Vector3f> points(begin, begin + cloud.width);
@@ -149,7 +154,7 @@ std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row, 
     if (last >= 0 && steps > 1)
     {
       const Eigen::Vector3f across = points[column] - points[last];
-      if (steps <= settings.smallHole || across.head<2>().norm() <= settings.widestHole * std::abs(across.z()))
+      if (steps <= SmallHole || across.head<2>().norm() <= WidestHole * std::abs(across.z()))
       {
         for (int k = 1; k < steps; ++k)
         {
@@ -162,17 +167,16 @@ std::vector<Eigen::Vector3f> withoutHoles(const OrganizedCloud& cloud, int row, 
   return points;
 }
 
-std::vector<Seen> seenBy(const Camera& camera, const OrganizedCloud& cloud, const PixelMapSettings& settings,
-  int threads, const Progress& progress)
+std::vector<Seen> seenBy(const Camera& camera, const OrganizedCloud& cloud, int threads, const Progress& progress)
 {
-  const double widest = widestRay(camera, settings.beyondImage);
+  const double widest = widestRay(camera);
   std::vector<Seen> all(cloud.size());
   parallelFor(cloud.height, threads, progress,
     [&](int begin, int end, int)
     {
       for (int row = begin; row < end; ++row)
       {
-        const std::vector<Eigen::Vector3f> points = withoutHoles(cloud, row, settings);
+        const std::vector<Eigen::Vector3f> points = withoutHoles(cloud, row);
         for (int column = 0; column < cloud.width; ++column)
         {
           const std::size_t index = static_cast<std::size_t>(row) * cloud.width + column;
@@ -204,10 +208,10 @@ std::size_t placeOf(const Eigen::Vector2i& pixel, const Camera& camera)
 }
 
 /// Median distance in the image of neighbours in a row; at least one pixel.
-double pixelsPerPoint(const std::vector<Seen>& seen, int width, int stride)
+double pixelsPerPoint(const std::vector<Seen>& seen, int width)
 {
   std::vector<float> distances;
-  for (std::size_t i = 1; i < seen.size(); i += stride)
+  for (std::size_t i = 1; i < seen.size(); i += Stride)
   {
     const float distance = (seen[i].pixel - seen[i - 1].pixel).norm();
     if (i % width != 0 && distance >= 0.0f)
@@ -271,15 +275,15 @@ int nearestAround(int width, int height, int row, int column, int radius, double
 }
 }
 
-PixelMap projectedPixels(const OrganizedCloud& cloud, const Camera& camera, double jump, int threads,
-  const Progress& progress, const PixelMapSettings& settings)
+PixelMap projectedPixels(
+  const OrganizedCloud& cloud, const Camera& camera, double jump, int threads, const Progress& progress)
 {
   requireCamera(camera);
   if (camera.width < 1 || camera.height < 1)
   {
     throw Error("The size of the camera's image is not known: give its width and height in pixels.");
   }
-  const std::vector<Seen> seen = seenBy(camera, cloud, settings, threads, subProgress(progress, 0.0, 0.4));
+  const std::vector<Seen> seen = seenBy(camera, cloud, threads, subProgress(progress, 0.0, 0.4));
   LeastBuffer front(camera.width, camera.height); // the least depth
   parallelFor(cloud.height, threads, subProgress(progress, 0.4, 0.8),
     [&](int begin, int end, int)
@@ -340,7 +344,7 @@ PixelMap projectedPixels(const OrganizedCloud& cloud, const Camera& camera, doub
     throw Error("The camera does not see the scene: check its position (the transform takes points of the scan to the "
                 "camera, in mm) and its focal lengths.");
   }
-  map.pixelsPerPoint = pixelsPerPoint(seen, cloud.width, settings.stride);
+  map.pixelsPerPoint = pixelsPerPoint(seen, cloud.width);
   return map;
 }
 

@@ -17,22 +17,14 @@ struct PixelMap
   double pixelsPerPoint = 1.0; ///< distance in the image of neighbouring grid points, median
 };
 
-struct PixelMapSettings
-{
-  int smallHole = 4;        ///< grid steps: so wide a hole in a surface is taken as closed,
-  double widestHole = 1.0;  ///< and one between two depths that is no wider than so many times the difference
-  double beyondImage = 1.1; ///< of the image's widest ray: the lens model is not asked for more
-  int stride = 7;           ///< of the grid points one of so many tells of the distance to its neighbour in the image
-};
-
 /// The image of a camera beside the sensor, whose size has to be known. The surface is filled between
 /// neighbouring points, so that nothing shows through it, and a pixel gets the nearest point on what is in front.
 /// Where neighbours are more than `jump` (mm) apart, or an opening between them was not measured, something
 /// unknown stands: it hides what lies behind it and has no points itself.
 ///
 /// Throws Error for a camera without a size or that does not see the scene.
-PixelMap projectedPixels(const OrganizedCloud& cloud, const Camera& camera, double jump, int threads = 0,
-  const Progress& progress = {}, const PixelMapSettings& settings = {});
+PixelMap projectedPixels(
+  const OrganizedCloud& cloud, const Camera& camera, double jump, int threads = 0, const Progress& progress = {});
 
 /// The point of an edge pixel, or -1: of the pixels within `radius`, the closest one that shows the nearest
 /// surface there; `jump` (mm) tells surfaces apart.

@@ -2,6 +2,9 @@
 #include "scene/edges/SceneEdgeExtraction.h"
 
 #include "base/Parallel.h"
+#include "scene/edges/CloudEdges.h"
+#include "scene/edges/GridSurface.h"
+#include "scene/edges/PixelMap.h"
 
 #include <Eigen/LU>
 
@@ -15,6 +18,8 @@ namespace meam
 {
 namespace
 {
+constexpr int TangentLength = 2; // of that surface's window in its widths: the slope along the edge is what counts
+
 std::string sizeOf(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
 void check(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtractionSettings& settings)
@@ -183,8 +188,7 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
     Camera camera = *settings.camera;
     camera.width = image.width;
     camera.height = image.height;
-    const PixelMap map =
-      projectedPixels(cloud, camera, jump, settings.threads, subProgress(progress, 0.5, 0.9), settings.pixelMap);
+    const PixelMap map = projectedPixels(cloud, camera, jump, settings.threads, subProgress(progress, 0.5, 0.9));
     lookUp(map, map.pixelsPerPoint, subProgress(progress, 0.9, 1.0));
   }
   else
@@ -208,11 +212,10 @@ SceneEdges withTangents(const EdgePoints& found, const OrganizedCloud& cloud,
       std::vector<GridWindow> windows;
       for (int i = begin; i < end; ++i)
       {
-        windows.push_back({ settings.tangentLength * radius, radius, found.directions[i] });
+        windows.push_back({ TangentLength * radius, radius, found.directions[i] });
       }
       std::vector<GridPlane> planes(windows.size());
-      fitPlanes(
-        cloud, &edges.cloud.pointIds[begin], windows.data(), end - begin, jump, planes.data(), settings.surface);
+      fitPlanes(cloud, &edges.cloud.pointIds[begin], windows.data(), end - begin, jump, planes.data());
       for (int i = begin; i < end; ++i)
       {
         const GridPlane& plane = planes[i - begin];
@@ -253,7 +256,7 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
 {
   check(cloud, image, settings);
   report(progress, 0.0);
-  const GridScale scale = gridScale(cloud, settings.threads, settings.surface);
+  const GridScale scale = gridScale(cloud, settings.threads);
   const double jump = settings.depthJump > 0.0 ? settings.depthJump : scale.depthJump();
   std::vector<Finding> found;
   const auto add = [&](const std::vector<Finding>& some) { found.insert(found.end(), some.begin(), some.end()); };
@@ -263,20 +266,19 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   }
   if (settings.depthEdges)
   {
-    add(findingsOf(findDepthEdges(cloud, jump, settings.threads, subProgress(progress, 0.5, 0.6), settings.cloud),
-      EdgeSource::DepthJump));
+    add(findingsOf(
+      findDepthEdges(cloud, jump, settings.threads, subProgress(progress, 0.5, 0.6)), EdgeSource::DepthJump));
   }
   if (settings.creases)
   {
-    add(findingsOf(findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8),
-                     settings.cloud),
+    add(findingsOf(findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)),
       EdgeSource::Crease));
   }
   EdgePoints points = merged(cloud, found, settings.threads);
   SceneEdges result = settings.tangents ? withTangents(points, cloud, settings, jump, scale.windowRadius(),
                                             subProgress(progress, 0.8, 1.0))
                                         : std::move(points.edges);
-  result.quality = measureQuality(cloud, settings.threads, settings.quality);
+  result.quality = measureQuality(cloud, settings.threads);
   report(progress, 1.0);
   return result;
 }

@@ -5,10 +5,7 @@
 #include "scene/Camera.h"
 #include "scene/OrganizedCloud.h"
 #include "scene/ScanQuality.h"
-#include "scene/edges/CloudEdges.h"
-#include "scene/edges/GridSurface.h"
 #include "scene/edges/ImageEdges.h"
-#include "scene/edges/PixelMap.h"
 
 #include <optional>
 
@@ -30,15 +27,10 @@ struct SceneEdgeExtractionSettings
   ImageEdgeSettings image;
   std::optional<Camera> camera; ///< that took the image; none: the image is registered with the cloud
   int searchRadius = 1;         ///< grid steps around an edge pixel in which its depth is looked for
-  double depthJump = 0.0;       ///< mm between two surfaces that are neighbours; 0: that of `surface`
+  double depthJump = 0.0;       ///< mm between two surfaces that are neighbours; 0: by point distance and noise
   double creaseAngle = 30.0;    ///< degrees between the two pieces of a crease
   bool tangents = true;         ///< from the edge's direction and the local surface; points without it are left out
-  int tangentLength = 2;        ///< of that surface's window in its widths: the slope along the edge is what counts
-  GridSurfaceSettings surface;
-  CloudEdgeSettings cloud;
-  PixelMapSettings pixelMap; ///< with a camera
-  ScanQualitySettings quality;
-  int threads = 0; ///< 0: one for each processor
+  int threads = 0;              ///< 0: one for each processor
 };
 
 /// What a preset looks for: Paper edges of the image, whose tangents are estimated later (Algorithm 1); Recommended

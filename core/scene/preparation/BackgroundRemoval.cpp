@@ -17,6 +17,14 @@ namespace meam
 {
 namespace
 {
+constexpr double PointsInTolerance = 2.0; // point distances,
+constexpr double NoiseInTolerance = 3.0;  // and standard deviations of the noise
+constexpr double MostBehind = 0.03;       // share of these points: dirt and wrong points behind a floor
+constexpr int Samples = 10000;            // points that planes are found among, spread evenly
+constexpr int Tries = 3;                  // planes looked at for each one that may go
+constexpr int MostTriples = 2000;         // of points whose planes RANSAC counts for, and fewer
+constexpr double Missed = 0.001;          // when the probability that none of them lies on the largest plane is this
+
 void check(const OrganizedCloud& cloud, const Image* mask, const BackgroundRemovalSettings& settings)
 {
   requirePoints(cloud.points, "The scene");
@@ -52,17 +60,17 @@ std::vector<int> spread(const std::vector<int>& indices, std::size_t most)
 }
 
 /// The plane with the most points within the tolerance (RANSAC, then least squares); none of points on a line.
-std::optional<Plane> largestPlane(const Points& points, double tolerance, const BackgroundRemovalSettings& settings)
+std::optional<Plane> largestPlane(const Points& points, double tolerance)
 {
-  constexpr std::size_t leastPoints = 3; // not tuned: of a plane
+  constexpr std::size_t leastPoints = 3; // of a plane
   if (points.size() < leastPoints)
   {
     return {};
   }
   pcl::RandomSampleConsensus<pcl::PointXYZ> search(
     pcl::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(toPCL(points)), tolerance);
-  search.setMaxIterations(settings.mostTriples);
-  search.setProbability(1.0 - settings.missed);
+  search.setMaxIterations(MostTriples);
+  search.setProbability(1.0 - Missed);
   std::vector<int> inliers;
   if (!search.computeModel() || (search.getInliers(inliers), inliers.size() < leastPoints))
   {
@@ -106,16 +114,16 @@ BackgroundRemoval removeBackground(
   }
 
   const GridScale scale = gridScale(cloud);
-  const double tolerance = settings.tolerance > 0.0 ? settings.tolerance
-                                                    : settings.pointsInTolerance * scale.pointDistance +
-                                                        settings.noiseInTolerance * scale.noise;
+  const double tolerance = settings.tolerance > 0.0
+                             ? settings.tolerance
+                             : PointsInTolerance * scale.pointDistance + NoiseInTolerance * scale.noise;
   const double fewest = std::max(3.0, settings.leastShare / 100.0 * static_cast<double>(left.size()));
   // Those of a plane that stays are not looked at again.
-  std::vector<int> candidates = spread(left, static_cast<std::size_t>(settings.samples));
+  std::vector<int> candidates = spread(left, static_cast<std::size_t>(Samples));
   const auto on = [&](const Plane& plane) {
     return [&plane, &cloud, tolerance](int i) { return std::abs(plane.signedDistance(cloud.points[i])) <= tolerance; };
   };
-  const int tries = settings.tries * settings.planes;
+  const int tries = Tries * settings.planes;
   for (int k = 0; k < tries && static_cast<int>(result.planes.size()) < settings.planes; ++k)
   {
     report(progress, static_cast<double>(k) / tries);
@@ -124,7 +132,7 @@ BackgroundRemoval removeBackground(
     {
       points.push_back(cloud.points[i]);
     }
-    const std::optional<Plane> plane = largestPlane(points, tolerance, settings);
+    const std::optional<Plane> plane = largestPlane(points, tolerance);
     if (!plane)
     {
       break;
@@ -133,7 +141,7 @@ BackgroundRemoval removeBackground(
     const auto behind = static_cast<double>(std::count_if(
       left.begin(), left.end(), [&](int i) { return plane->signedDistance(cloud.points[i]) < -tolerance; }));
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), on(*plane)), candidates.end());
-    if (size < fewest || behind > settings.mostBehind * static_cast<double>(left.size()))
+    if (size < fewest || behind > MostBehind * static_cast<double>(left.size()))
     {
       continue;
     }

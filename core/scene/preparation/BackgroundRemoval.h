@@ -17,17 +17,10 @@ enum class Background : unsigned char
 
 struct BackgroundRemovalSettings
 {
-  Eigen::AlignedBox3f region;     ///< mm, scene coordinates; points outside are removed; empty: all are inside
-  int planes = 1;                 ///< at most so many planes are removed, the largest first
-  double tolerance = 0.0;         ///< mm from a plane; 0: pointsInTolerance
-  double pointsInTolerance = 2.0; ///< point distances,
-  double noiseInTolerance = 3.0;  ///< and standard deviations of the noise
-  double leastShare = 10.0;       ///< % of the points that are left; a smaller plane stays
-  double mostBehind = 0.03;       ///< share of these points: dirt and wrong points behind a floor
-  int samples = 10000;            ///< points that planes are found among, spread evenly
-  int tries = 3;                  ///< planes looked at for each one that may go
-  int mostTriples = 2000;         ///< of points whose planes RANSAC counts for, and fewer
-  double missed = 0.001;          ///< when the probability that none of them lies on the largest plane is this
+  Eigen::AlignedBox3f region; ///< mm, scene coordinates; points outside are removed; empty: all are inside
+  int planes = 1;             ///< at most so many planes are removed, the largest first
+  double tolerance = 0.0;     ///< mm from a plane; 0: by point distance and noise
+  double leastShare = 10.0;   ///< % of the points that are left; a smaller plane stays
 };
 
 struct BackgroundRemoval

@@ -7,7 +7,7 @@ namespace meam
 {
 namespace
 {
-constexpr std::int64_t MostPixels = 1 << 26; // not tuned: of a sensor, a limit of memory
+constexpr std::int64_t MostPixels = 1 << 26; // of a sensor, a limit of memory
 
 /// For each pixel the point that it sees, or -1.
 std::vector<int> seenPoints(const Points& points, const Camera& camera, const Progress& progress)

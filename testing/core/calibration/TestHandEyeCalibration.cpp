@@ -42,9 +42,7 @@ std::vector<HandEyePair> pairsOf(CameraMount mount, int count, double noise = 0.
 
 meam::HandEyeCalibration calibrated(const std::vector<HandEyePair>& pairs, CameraMount mount)
 {
-  meam::HandEyeSettings settings;
-  settings.mount = mount;
-  return meam::calibrateHandEye(pairs, settings);
+  return meam::calibrateHandEye(pairs, mount);
 }
 }
 

@@ -17,9 +17,7 @@ std::vector<int> all(const meam::Points& points)
 
 meam::Points normalsOf(const meam::Points& points, const meam::Sensor& sensor, int threads = 1)
 {
-  meam::NormalEstimationSettings settings;
-  settings.threads = threads;
-  return meam::estimateNormals(points, meam::PointGrid(points, 5.0), all(points), sensor, 100.0, settings);
+  return meam::estimateNormals(points, meam::PointGrid(points, 5.0), all(points), sensor, 100.0, threads);
 }
 
 /// Every mm of z = slope * x.

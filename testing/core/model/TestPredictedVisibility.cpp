@@ -97,9 +97,7 @@ TEST(PredictedVisibility, PosesThatHardlyDifferPredictTheSamePoints)
 
 TEST(PredictedVisibility, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
 {
-  meam::PredictedVisibilitySettings settings;
-  settings.cachedDirections = 100; // fewer than are asked for
-  const meam::PredictedVisibility one(scenes::bracket(), settings), other(scenes::bracket());
+  const meam::PredictedVisibility one(scenes::bracket(), 100), other(scenes::bracket()); // fewer than are asked for
   const auto first = one.visible(turned(10.0), fromAbove());
   for (int k = 0; k < 1500; ++k)
   {
@@ -118,9 +116,7 @@ TEST(PredictedVisibility, WhatIsVisibleIsTheSameInAnyOrderOfQuestions)
 
 TEST(PredictedVisibility, WhatWasAskedForLastIsKept)
 {
-  meam::PredictedVisibilitySettings settings;
-  settings.cachedDirections = 10;
-  const meam::PredictedVisibility view(scenes::bracket(), settings);
+  const meam::PredictedVisibility view(scenes::bracket(), 10);
   const auto askForOthers = [&](int begin, int end)
   {
     for (int k = begin; k < end; ++k)
@@ -137,8 +133,7 @@ TEST(PredictedVisibility, WhatWasAskedForLastIsKept)
   const auto again = view.visible(turned(10.0), fromAbove());
   EXPECT_NE(again, first);
   EXPECT_EQ(again->surface, first->surface);
-  settings.cachedDirections = 0;
-  const meam::PredictedVisibility forgetful(scenes::bracket(), settings);
+  const meam::PredictedVisibility forgetful(scenes::bracket(), 0);
   EXPECT_EQ(forgetful.visible(turned(10.0), fromAbove())->surface, first->surface);
   EXPECT_EQ(forgetful.visible(turned(10.0), fromAbove())->surface, first->surface);
 }
@@ -173,13 +168,12 @@ TEST(PredictedVisibility, OfACubeTheSidesThatFaceTheSensorAreVisible)
 
 TEST(PredictedVisibility, TheOutlineOfACubeFromAboveIsASquare)
 {
-  const meam::TrainedModel model = cube();
-  meam::PredictedVisibilitySettings settings;
-  settings.cell = 0.06; // 2.1 mm
-  const meam::PredictedVisibility visibility(model, settings);
+  meam::TrainedModel model = cube();
+  model.diameter = 80.0;
+  const meam::PredictedVisibility visibility(model);
   const auto visible = visibility.visible(Eigen::Isometry3d::Identity(), fromAbove());
   const double cell = visibility.cellSize();
-  EXPECT_NEAR(cell, 0.06 * 20.0 * std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(cell, 2.0, 1e-9);
   // Four sides of 20 mm, of cells that begin anywhere.
   EXPECT_NEAR(visible->outside.size(), 4 * 20.0 / cell, 6.0);
   for (const Eigen::Vector3f& point : visible->outside)

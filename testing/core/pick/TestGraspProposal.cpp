@@ -195,7 +195,7 @@ TEST(GraspProposal, equalPlacesOfABoxComeOnce)
   {
     turns.discrete.push_back(meam::turnAbout(Eigen::Vector3d::Unit(axis), M_PI, Eigen::Vector3d::Zero()));
   }
-  meam::GraspProposalSettings settings;
+  meam::ProposeSettings settings;
   settings.maximumGrasps = 1000;
   const std::size_t all = meam::proposeGrasps(box, {}, meam::Gripper(), settings).size();
   const std::size_t some = meam::proposeGrasps(box, turns, meam::Gripper(), settings).size();
@@ -230,8 +230,7 @@ TEST(GraspProposal, aCupSitsOnFlatSpots)
 
 TEST(GraspProposal, theSameForAnyNumberOfThreads)
 {
-  meam::GraspProposalSettings settings;
-  settings.contacts = 400;
+  meam::ProposeSettings settings;
   settings.threads = 1;
   const Grasps one = meam::proposeGrasps(parts::windowPlate(), {}, meam::Gripper(), settings);
   settings.threads = 3;
@@ -270,7 +269,7 @@ TEST(GraspProposal, badInput)
   meam::Gripper gripper;
   gripper.opening = -1.0;
   EXPECT_THROW(meam::proposeGrasps(box, {}, gripper), meam::Error);
-  meam::GraspProposalSettings settings;
+  meam::ProposeSettings settings;
   settings.frictionAngle = 90.0;
   EXPECT_THROW(meam::proposeGrasps(box, {}, meam::Gripper(), settings), meam::Error);
 }

@@ -74,7 +74,7 @@ meam::OrganizedCloud scan(Height&& height)
 float blockOnFloor(float x, float y) { return std::abs(x) < 10.0f && std::abs(y) < 20.0f ? 480.0f : 500.0f; }
 
 meam::Pick onlyPick(const meam::Poses& poses, const meam::OrganizedCloud& cloud = {},
-  const meam::Grasp& grasp = fromAbove(), const meam::PickSettings& settings = {},
+  const meam::Grasp& grasp = fromAbove(), const meam::PlanSettings& settings = {},
   const std::optional<meam::Bin>& inBin = bin())
 {
   meam::PickPlanner planner(block(), {}, { grasp }, jaws(), settings);
@@ -130,7 +130,7 @@ TEST(PickPlanning, TheNeighbourThatIsInTheWayIsNamed)
   EXPECT_NEAR(pick.clearance, 1.0, 1e-3);
   EXPECT_EQ(meam::describe(pick), "collides with instance 3");
   EXPECT_EQ(meam::labelOf(pick, 7), "hits 3");
-  meam::PickSettings narrow;
+  meam::PlanSettings narrow;
   narrow.safetyMargin = 0.5;
   EXPECT_TRUE(onlyPick(poses, {}, fromAbove(), narrow).possible());
   // One that is not likely is none.
@@ -159,7 +159,7 @@ TEST(PickPlanning, WhatIsCoveredStays)
   const meam::Picks picks = planner.plan({ at(0, 0) }, cloud, bin());
   EXPECT_EQ(picks[0].grasp, 1) << "what is shown of it is the grasp that comes from above";
   EXPECT_NEAR(picks[1].tilt, 90.0, 1e-6);
-  meam::PickSettings bold;
+  meam::PlanSettings bold;
   bold.maximumCovered = 50.0;
   EXPECT_NE(onlyPick({ at(0, 0) }, cloud, fromAbove(), bold).obstruction, meam::PickObstruction::Covered);
 }
@@ -205,9 +205,8 @@ TEST(PickPlanning, TheOpenGripperDoesNotGrazeThePart)
   meam::Grasp deep = fromAbove();
   deep.T_model_grasp.translation().z() = 33.5;
   EXPECT_EQ(onlyPick({ at(0, 0) }, {}, deep, {}, std::nullopt).obstruction, meam::PickObstruction::PartItself);
-  meam::PickSettings bold;
-  bold.partMargin = 0.25;
-  EXPECT_TRUE(onlyPick({ at(0, 0) }, {}, deep, bold, std::nullopt).possible());
+  deep.T_model_grasp.translation().z() -= 1.0; // more than the margin
+  EXPECT_TRUE(onlyPick({ at(0, 0) }, {}, deep, {}, std::nullopt).possible());
 }
 
 TEST(PickPlanning, TheWallIsInTheWay)
@@ -273,14 +272,14 @@ TEST(PickPlanning, MovesWithTheScene)
 TEST(PickPlanning, WrongInputIsOneSentence)
 {
   const auto plan = [](
-                      const meam::Grasps& grasps, const meam::Gripper& gripper, const meam::PickSettings& settings = {})
+                      const meam::Grasps& grasps, const meam::Gripper& gripper, const meam::PlanSettings& settings = {})
   { meam::PickPlanner(block(), {}, grasps, gripper, settings).plan({ at(0, 0) }, {}, bin()); };
   EXPECT_NE(messageOf([&] { plan({}, jaws()); }).find("no grasp"), std::string::npos);
   EXPECT_NE(messageOf([&] { plan({ fromAbove(500.0) }, jaws()); }).find("outside the part"), std::string::npos);
   meam::Gripper huge = jaws();
   huge.fingerWidth = 400.0;
   EXPECT_NE(messageOf([&] { plan({ fromAbove() }, huge); }).find("does not go into the bin"), std::string::npos);
-  meam::PickSettings settings;
+  meam::PlanSettings settings;
   settings.maximumTilt = 200.0;
   EXPECT_EQ(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }),
     "The maximum tilt has to be 0 to 180 degrees, not 200.");
