@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The VTK module (filters/), its Python package `ppfmeam` and, with ParaView, the plugin.
-# The module is scanned, built and wrapped here and not inside the plugin:
+# The VTK modules (filters/), their Python package `ppfmeam` and, with ParaView, the plugin.
+# The modules are scanned, built and wrapped here and not inside the plugin:
 # in ParaView 5.11 a plugin does not Python-wrap the modules it brings along.
 
 # The interpreter that Debian's VTK is built for, whatever comes first on the PATH.
 set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The interpreter VTK was built for")
 
-# What filters/vtk.module names. The wrapping tools come with it; VTK 9.3 as in ParaView 5.13 refuses them as components.
+# What filters/*/vtk.module name. The wrapping tools come with it; VTK 9.3 as in ParaView 5.13 refuses them as components.
 set(vtk_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem CommonTransforms
-  FiltersCore IOCore vtksys Python)
+  CommonCore CommonDataModel CommonExecutionModel CommonSystem FiltersCore FiltersSources IOCore vtksys Python)
 include(PPFMEAMPythonModules)
 if(PPFMEAM_USE_PARAVIEW)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager RemotingClientServerStream ProcessXML WrapClientServer)
@@ -22,12 +21,29 @@ endif()
 find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components} PATHS ${elsewhere})
 message(STATUS "VTK ${VTK_VERSION} from ${VTK_DIR}")
 
+# For filters/*/CMakeLists.txt: a module of these classes and of sources that are not wrapped, with one library of the core.
+function(ppfmeam_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 module "" "CORE" "CLASSES;SOURCES")
+  set(module PPFMEAM::${name})
+  vtk_module_add_module(${module} CLASSES ${module_CLASSES} SOURCES ${module_SOURCES})
+  vtk_module_link(${module} PRIVATE ${module_CORE})
+  vtk_module_compile_options(${module} PRIVATE -Wall -Wextra)
+  if(NOT CMAKE_CXX_COMPILER_LAUNCHER) # ccache keeps nothing of files that are compiled with one
+    get_target_property(target ${module} ALIASED_TARGET)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <string> <vector>
+      <vtkDoubleArray.h> <vtkFieldData.h> <vtkInformation.h> <vtkInformationVector.h> <vtkNew.h> <vtkObjectFactory.h>
+      <vtkPointData.h> <vtkPolyData.h> <vtkStructuredGrid.h>)
+  endif()
+endfunction()
+set(PPFMEAM_MODULES Detection IO IOImage Picking Training)
+list(TRANSFORM PPFMEAM_MODULES REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/filters/\\1/vtk.module" OUTPUT_VARIABLE module_files)
 vtk_module_scan(
-  MODULE_FILES "${PROJECT_SOURCE_DIR}/filters/vtk.module"
+  MODULE_FILES ${module_files}
   PROVIDES_MODULES modules
   WANT_BY_DEFAULT ON
   HIDE_MODULES_FROM_CACHE ON
   ENABLE_TESTS OFF)
+set_property(GLOBAL PROPERTY _vtk_module_autoinit_include "${VTK_AUTOINIT_INCLUDE}") # for IMPLEMENTABLE modules
 vtk_module_build(
   MODULES ${modules}
   LIBRARY_NAME_SUFFIX ""
@@ -90,7 +106,8 @@ endif()
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
 
 # Everything a script or ParaView needs, without the tests.
-add_custom_target(runtime DEPENDS ppfmeamFiltersPython ppfmeamBindings ppfmeamPackage)
+list(TRANSFORM PPFMEAM_MODULES REPLACE "(.+)" "ppfmeam\1Python" OUTPUT_VARIABLE python_modules)
+add_custom_target(runtime DEPENDS ${python_modules} ppfmeamBindings ppfmeamPackage)
 
 if(PPFMEAM_USE_PARAVIEW)
   paraview_plugin_scan(

@@ -27,7 +27,7 @@ is in the one, and Debian's image readers, which the other links, need Poppler."
 set(CPACK_COMPONENT_DEV_DESCRIPTION "6D poses of industrial parts in a bin, C++ headers
 Headers and CMake files for find_package(PPFMEAM): meam::detect, meam::images,
 meam::pick, meam::train and, with python3-ppfmeam and paraview-dev, the VTK
-module PPFMEAM::Filters.")
+modules PPFMEAM::Detection, IO, IOImage, Picking and Training.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "6D poses of industrial parts in a bin, Python and command
 Finds the copies of an industrial part in a bin: a CAD file and an organized 3D
 scan go in, ranked 6D poses come out. The Python module ppfmeam with its VTK
@@ -87,7 +87,7 @@ set(note_pick "Everything in this package is under the BSD 3-Clause licence; it 
  nlohmann's JSON, and holds nothing under the GPL.")
 set(note_train "${gpl}")
 set(note_dev "The headers are under the BSD 3-Clause licence. What is linked with meam::train, with meam::images (Debian's GDAL
- and Poppler) or with PPFMEAM::Filters can be passed on under the GPL 3 only (/usr/share/common-licenses/GPL-3).")
+ and Poppler), PPFMEAM::IOImage or PPFMEAM::Training can be passed on under the GPL 3 only (/usr/share/common-licenses/GPL-3).")
 set(note_python "${gpl}")
 set(note_paraview "${gpl}")
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)

@@ -11,8 +11,8 @@ forbid() { # reason, pattern, files...; `except`: lines that may
 }
 shopt -s nullglob globstar
 core=(core/**/*.h core/**/*.cpp)
-headers=(filters/*.h)
-sources=(filters/*.h filters/*.cxx)
+headers=(filters/*/*.h)
+sources=(filters/*/*.h filters/*/*.cxx)
 steps=(core/{features,mesh,model,pose,scene}/**/*.cpp)
 stepHeaders=(core/{features,mesh,model,pose,scene}/**/*.h)
 [ ${#core[@]} -gt 0 ] && [ ${#headers[@]} -gt 0 ] && [ ${#steps[@]} -gt 0 ] || { echo "no sources under $1"; exit 2; }

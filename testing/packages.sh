@@ -65,7 +65,7 @@ pvpython plugin.py || failed "the plugin"
 
 echo "== C++ with find_package(PPFMEAM)"
 get "$folder"/libppfmeam-{train,dev}_*.deb g++ make cmake
-bash "$here/install/libraries.sh" /usr/lib/libmeam{Detect,Images,Pick,Train}.so || failed "libraries"
+bash "$here/install/libraries.sh" /usr/lib/libmeam{Detect,Images,Pick,Train}.so /usr/lib/libppfmeam{Detection,IO,Picking}.so || failed "libraries"
 cmake -S /usr/share/doc/libppfmeam-dev/examples/cpp -B cpp -DCMAKE_BUILD_TYPE=Release >cpp.log 2>&1 && cmake --build cpp >>cpp.log 2>&1 ||
   { cat cpp.log; failed "the examples do not compile"; }
 python3 "$here/install/scan.py" make "$work"
@@ -75,11 +75,12 @@ cpp/propose_grasps part.meam part.stl part.grasps.json
 cpp/pick part.meam part.stl part.grasps.json scan.pcd robot.json >picks.txt
 python3 "$here/install/scan.py" check "$work"
 
-echo "== the VTK module in C++"
+echo "== the VTK modules in C++"
 get paraview-dev
 cmake -S "$here/install/module" -B module >module.log 2>&1 && cmake --build module >>module.log 2>&1 ||
-  { cat module.log; failed "a program with PPFMEAM::Filters does not compile"; }
-module/read_scan scan.pcd || failed "a program with PPFMEAM::Filters"
+  { cat module.log; failed "programs with the VTK modules do not compile"; }
+module/find_parts part.stl scan.pcd || failed "a program with PPFMEAM::Filters"
+module/find_trained_parts part.meam scan.pcd || failed "a program with PPFMEAM::Detection"
 
 echo "== lintian"
 get lintian

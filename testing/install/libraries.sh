@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# What is shipped with a cell, detection and picks, has nothing under the GPL in it and nothing that training needs; all
-# export what meam.h and picks.h declare and nothing else. Usage: libraries.sh DETECT IMAGES PICK TRAIN
+# What is shipped with a cell, detection and picks, has nothing under the GPL in it and nothing that training needs; the
+# libraries of the door export what meam.h and picks.h declare and nothing else.
+# Usage: libraries.sh DETECT IMAGES PICK TRAIN [VTK MODULE OF A CELL...]
 status=0
 fail() { echo "$1"; status=1; }
 detect=$1 images=$2 pick=$3 train=$4
+shift 4
 # GDAL and Poppler come with OpenCV's imgcodecs.
-training='CGAL|gmp|mpfr|OpenMesh|Bullet|LinearMath|libvtk|imgcodecs|gdal|poppler'
+training='CGAL|gmp|mpfr|OpenMesh|Bullet|LinearMath|imgcodecs|gdal|poppler|meamTrain|ppfmeam(Training|IOImage)'
 for library in "$detect" "$images" "$pick" "$train"; do
   [ -f "$library" ] || { echo "missing: $library"; exit 1; }
   if ldd "$library" | grep 'not found'; then fail "^ $library does not load"; fi
@@ -22,7 +24,8 @@ for library in "$detect" "$images" "$pick" "$train"; do
 ^ $library exports what is inside"
   fi
 done
-for library in "$detect" "$pick"; do
+for library in "$detect" "$pick" "$@"; do
+  [ -f "$library" ] || { echo "missing: $library"; exit 1; }
   if ldd "$library" | grep -E "$training"; then fail "^ $library links what only training needs"; fi
   if nm -C "$library" 2>/dev/null | grep -E 'CGAL::|OpenMesh::|__gmp|mpfr_|btRigidBody'; then fail "^ $library contains it"; fi
   if nm -DC "$library" | grep -E 'CGAL|OpenMesh|__gmp|mpfr_|bt[A-Z]'; then fail "^ $library contains or asks for it"; fi

@@ -16,7 +16,7 @@ fi
 if grep -rhE '#include' "$prefix/include/meam" | grep -vE '#include (<(Eigen/.*|[a-z_]+)>|"(meam\.h|(base|features|pick|pose|scene)/.*)")'; then
   echo "^ meam.h or picks.h includes more than Eigen and its own headers"; exit 1
 fi
-bash "$here/libraries.sh" "$prefix/lib/libmeam"{Detect,Images,Pick,Train}.so
+bash "$here/libraries.sh" "$prefix/lib/libmeam"{Detect,Images,Pick,Train}.so "$prefix/lib/libppfmeam"{Detection,IO,Picking}.so
 
 configure() { # FOLDER SOURCE
   cmake -S "$2" -B "$1" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" >"$1.log" 2>&1 &&
@@ -29,13 +29,16 @@ configure "$folder/module-build" "$folder/module"
 
 export PYTHONPATH=$prefix/$python_dir${PYTHONPATH:+:$PYTHONPATH}
 "$python" "$here/scan.py" make "$folder"
-"$folder/module-build/read_scan" "$folder/scan.pcd"
 "$folder/cpp-build/find_parts" "$folder/part.stl" "$folder/scan.pcd" "$folder/part.meam" >"$folder/found.txt"
 "$folder/cpp-build/cell" "$folder/part.meam" "$folder/scan.pcd" >"$folder/cell.txt"
 "$folder/cpp-build/propose_grasps" "$folder/part.meam" "$folder/part.stl" "$folder/part.grasps.json"
 "$folder/cpp-build/pick" "$folder/part.meam" "$folder/part.stl" "$folder/part.grasps.json" "$folder/scan.pcd" "$folder/robot.json" \
   >"$folder/picks.txt"
 "$python" "$here/scan.py" check "$folder"
+"$folder/module-build/find_parts" "$folder/part.stl" "$folder/scan.pcd"
+"$folder/module-build/find_trained_parts" "$folder/part.meam" "$folder/scan.pcd"
+if "$folder/module-build/find_trained_parts" "$folder/part.stl" "$folder/scan.pcd" 2>"$folder/errors.txt"; then echo "trained without Training"; exit 1; fi
+grep -qF 'PPFMEAM::Training' "$folder/errors.txt" || { cat "$folder/errors.txt"; exit 1; }
 for program in cell pick; do
   ldd "$folder/cpp-build/$program" | grep -E 'meamTrain|gmp|mpfr|OpenMesh|vtk|poppler' && { echo "^ $program links what only training needs"; exit 1; }
 done

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMEstimationAlgorithm.h"
+
+#include "features/TrainSettings.h"
+#include "pose/DetectionSteps.h"
+#include "vtkMEAMCloudConversion.h"
+#include "vtkMEAMEstimationWork.h"
+#include "vtkMEAMPartTrainer.h"
+#include "vtkMEAMRun.h"
+#include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSceneConversion.h"
+#include "vtkMEAMSceneEdgeConversion.h"
+#include "vtkMEAMSceneRequests.h"
+#include "vtkMEAMSettings.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTimerLog.h"
+
+#include <vector>
+
+namespace
+{
+constexpr double AfterSceneEdges = 0.1; // of the work, for the progress
+}
+
+/// The trained model and what it was made of.
+class vtkMEAMEstimationAlgorithm::Training
+{
+public:
+  std::shared_ptr<const vtkMEAMConversion::TrainedPart> partOf(
+    vtkDataObject* input, const meam::TrainSettings& settings, const meam::Progress& progress)
+  {
+    using namespace vtkMEAMConversion;
+    if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
+    {
+      const auto model = sharedModel(collection);
+      if (!this->Part || this->Part->model != model)
+      {
+        auto part = std::make_shared<TrainedPart>();
+        part->model = model;
+        fromCloud(model->surface, part->shape);
+        this->Part = part;
+      }
+      return this->Part;
+    }
+    auto* mesh = vtkPolyData::SafeDownCast(input);
+    const std::vector<double> numbers{ static_cast<double>(settings.preset), static_cast<double>(settings.features),
+      static_cast<double>(settings.seed), settings.scale, settings.offset[0], settings.offset[1], settings.offset[2] };
+    const auto known = sharedTraining(mesh, numbers);
+    if (!known)
+    {
+      this->Part = nullptr; // until the new one is there
+      const auto trained = vtkMEAMPartTrainer::Create()->Train(mesh, settings, progress);
+      shareTraining(mesh, numbers, trained);
+      this->Part = trained;
+      return this->Part;
+    }
+    this->Part = known;
+    return this->Part;
+  }
+
+private:
+  std::shared_ptr<const vtkMEAMConversion::TrainedPart> Part; ///< what other filters find as long as this one holds it
+};
+
+vtkMEAMEstimationAlgorithm::vtkMEAMEstimationAlgorithm()
+  : Trained(new Training)
+  , Settings(std::make_unique<meam::DetectSettings>())
+{
+  this->SetNumberOfInputPorts(4);
+}
+
+vtkMEAMEstimationAlgorithm::~vtkMEAMEstimationAlgorithm() { this->SetCameraFile(nullptr); }
+
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Preset, int, preset, Paper, B2B);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Features, int, features, Edges, Both);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MinimumProbability, double, minimumProbability, 0.0, 1.0);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, PartIsPresent, bool, partIsPresent);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, ReferenceShare, double, referenceShare, 0.0, 1.0);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Seed, int, seed, 0, VTK_INT_MAX);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, ImageEdges, bool, imageEdges);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, DepthEdges, bool, depthEdges);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, Creases, bool, creases);
+
+int vtkMEAMEstimationAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  static const char* const types[4][2] = { { "vtkPolyData", "vtkPartitionedDataSetCollection" },
+    { "vtkStructuredGrid", "vtkPolyData" }, { "vtkPolyData", nullptr }, { "vtkImageData", nullptr } };
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  for (const char* type : types[port])
+  {
+    if (type)
+    {
+      info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+    }
+  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMEstimationAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMSceneRequests::announceTime(inputVector, { 1, 2, 3 }, outputVector);
+  return 1;
+}
+
+int vtkMEAMEstimationAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  vtkMEAMSceneRequests::askForWhole(inputVector, this->GetNumberOfInputPorts());
+  return 1;
+}
+
+vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformationVector** inputVector)
+{
+  using namespace vtkMEAMConversion;
+  vtkDataObject* part = vtkDataObject::GetData(inputVector[0]);
+  auto* sceneInput = vtkPointSet::GetData(inputVector[1]);
+  auto* organized = vtkStructuredGrid::SafeDownCast(sceneInput);
+  auto* boundary = vtkPolyData::GetData(inputVector[2]);
+  auto* image = vtkImageData::GetData(inputVector[3]);
+  const meam::Progress progress = progressOf(this);
+  meam::DetectSettings& settings = *this->Settings;
+  settings.threads = this->NumberOfThreads;
+  Work work;
+  double last = vtkTimerLog::GetUniversalTime();
+  const auto watch = [&last]
+  {
+    const double before = last;
+    last = vtkTimerLog::GetUniversalTime();
+    return last - before;
+  };
+
+  // What is wrong with the scene is told before any time goes into training.
+  meam::requirePoints(sceneInput->GetNumberOfPoints(), sceneInput->GetNumberOfPoints(), "The scene");
+  int size[3] = { 0, 0, 0 };
+  if (organized)
+  {
+    organized->GetDimensions(size);
+  }
+  if (!boundary && size[1] <= 1)
+  {
+    throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
+                      "points, the boundary, to Boundary, or an organized scan (a grid of width x height points) to "
+                      "Scene.");
+  }
+  meam::SceneInput& scene = work.scene;
+  scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+  if (boundary)
+  {
+    scene.edges = toLocalCloud(boundary, this->NumberOfThreads);
+    meam::requirePoints(scene.edges.cloud.points, "The scene's boundary cloud");
+  }
+  else
+  {
+    const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
+    meam::requirePoints(cloud.points, "The scene");
+    meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(settings);
+    meam::Image pixels;
+    if (settings.imageEdges)
+    {
+      pixels = image ? toImage(image) : imageOfCloud(organized);
+      extraction.camera = cameraOf(this->CameraFile, image, cloud);
+    }
+    work.found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
+    meam::setFoundEdges(work.found, this->NumberOfThreads, scene);
+  }
+  work.secondsEdges = watch();
+  scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
+  work.secondsLoading = watch();
+
+  work.part = this->Trained->partOf(part,
+    { settings.preset, settings.features, this->CADScale, Eigen::Vector3d(this->CADOffset), settings.seed },
+    meam::subProgress(progress, AfterSceneEdges, Work::Prepared));
+  work.secondsTraining = watch();
+
+  work.settings = meam::detectionSettings(settings);
+  return work;
+}
+
+void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const meam::DetectSettings& settings = *this->Settings;
+  os << indent << "Preset: " << meam::nameOf(settings.preset) << "\n";
+  os << indent << "Features: " << meam::nameOf(settings.features) << "\n";
+  os << indent << "MaximumNumberOfPoses: " << settings.maximumPoses << "\n";
+  os << indent << "MinimumProbability: " << settings.minimumProbability << "\n";
+  os << indent << "PartIsPresent: " << settings.partIsPresent << "\n";
+  os << indent << "ReferenceShare: " << settings.referenceShare << "\n";
+  os << indent << "Seed: " << settings.seed << "\n";
+  os << indent << "ImageEdges: " << settings.imageEdges << "\n";
+  os << indent << "DepthEdges: " << settings.depthEdges << "\n";
+  os << indent << "Creases: " << settings.creases << "\n";
+  os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
+  os << indent << "CADScale: " << this->CADScale << "\n";
+  os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2] << "\n";
+}

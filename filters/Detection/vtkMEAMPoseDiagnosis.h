@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseDiagnosis
+ * @brief Tells why a part of a scan was missed: which step lost it, and what to change.
+ *
+ * Detects the part as vtkMEAMPoseEstimation does with the same properties, and looks at one place: where a picked point
+ * lies, at a pose, or at one of the poses on port 4. It tells what of the part the scan shows there (edges with their
+ * tangents, surface), what the scene's points on it voted for, at which stage its candidates ended, and which pose took
+ * their place. The detection is kept until an input or a setting that it depends on changes, so that the next place
+ * takes a fraction of the time.
+ *
+ * Input ports 0 to 3: as vtkMEAMEstimationAlgorithm has them. Input port 4 (optional): poses, a vtkPolyData with
+ * `Transform` (16, row-major T_scene_model), such as true ones.
+ *
+ * Output port 0: vtkPolyData, the points of the part that should be visible at the place, in the scene's coordinates,
+ * with the point arrays `State` (0 matched; 1 turned, a surface that faces elsewhere; 2 hidden, something lies in front
+ * of it; 3 not measured, or lost beside a step of the part; 4 violated, the sensor saw past it, or of an edge point
+ * there is no edge), `StateName` (the same as a text) and `IsEdge` (1 of an edge point). Field data: `Verdict` (a
+ * sentence), `Advice` (what to change; may be empty), `LostIn` (the stage; empty: it was found), `Rank` (of the pose
+ * that came out there; 0: none), `Transform` (16, the place; not there when no pose lies at the point). Output port 1:
+ * vtkTable, the numbers of all steps: `Step`, `Quantity`, `Value`, `Of` (what the value is out of, or is compared with;
+ * NaN: nothing). Output port 2: the part at the place, as vtkMEAMPoseInstances has it. Output port 3: vtkTable with one
+ * row, `Text`: verdict and advice in lines, to show in a view.
+ */
+#ifndef vtkMEAMPoseDiagnosis_h
+#define vtkMEAMPoseDiagnosis_h
+
+#include "ppfmeamDetectionModule.h"
+#include "vtkMEAMEstimationAlgorithm.h"
+
+class PPFMEAMDETECTION_EXPORT vtkMEAMPoseDiagnosis : public vtkMEAMEstimationAlgorithm
+{
+public:
+  static vtkMEAMPoseDiagnosis* New();
+  vtkTypeMacro(vtkMEAMPoseDiagnosis, vtkMEAMEstimationAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Poses of the part, such as true ones. */
+  void SetPosesConnection(vtkAlgorithmOutput* poses) { this->SetInputConnection(4, poses); }
+
+  enum Places
+  {
+    Point = 0,
+    Pose = 1,
+    RankedPose = 2
+  };
+
+  ///@{
+  /**
+   * What gives the place: Position (Point, 0), PosePosition and PoseRotation (Pose, 1), or RankOfPose of the poses on
+   * port 4 (RankedPose, 2). Default: Point.
+   */
+  vtkSetClampMacro(Place, int, Point, RankedPose);
+  vtkGetMacro(Place, int);
+  void SetPlaceToPoint() { this->SetPlace(Point); }
+  void SetPlaceToPose() { this->SetPlace(Pose); }
+  void SetPlaceToRankedPose() { this->SetPlace(RankedPose); }
+  ///@}
+
+  ///@{
+  /** Point: a point of the scan on the part, scene coordinates, mm. Default: 0, 0, 0. */
+  vtkSetVector3Macro(Position, double);
+  vtkGetVector3Macro(Position, double);
+  ///@}
+
+  ///@{
+  /** Pose: where the part's origin lies, scene coordinates, mm. Default: 0, 0, 0. */
+  vtkSetVector3Macro(PosePosition, double);
+  vtkGetVector3Macro(PosePosition, double);
+  ///@}
+
+  ///@{
+  /**
+   * Pose: turns about x, y and z in degrees, as vtkProp3D has them: first about y, then about x, then about z. Default:
+   * 0, 0, 0.
+   */
+  vtkSetVector3Macro(PoseRotation, double);
+  vtkGetVector3Macro(PoseRotation, double);
+  ///@}
+
+  ///@{
+  /** RankedPose: which of the poses on port 4, from 1, in their order. Default: 1. */
+  vtkSetClampMacro(RankOfPose, int, 1, VTK_INT_MAX);
+  vtkGetMacro(RankOfPose, int);
+  ///@}
+
+  ///@{
+  /**
+   * A place that is given as a pose is first fitted to the scan, where that leaves it nearby: for poses laid by hand.
+   * Default: true.
+   */
+  vtkSetMacro(Fit, bool);
+  vtkGetMacro(Fit, bool);
+  vtkBooleanMacro(Fit, bool);
+  ///@}
+
+protected:
+  vtkMEAMPoseDiagnosis();
+  ~vtkMEAMPoseDiagnosis() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPoseDiagnosis(const vtkMEAMPoseDiagnosis&) = delete;
+  void operator=(const vtkMEAMPoseDiagnosis&) = delete;
+
+  struct Detection;
+  std::unique_ptr<Detection> Detected; ///< the last one
+  Detection& Detect(vtkInformationVector** inputVector);
+
+  int Place = Point;
+  double Position[3] = { 0.0, 0.0, 0.0 };
+  double PosePosition[3] = { 0.0, 0.0, 0.0 };
+  double PoseRotation[3] = { 0.0, 0.0, 0.0 };
+  int RankOfPose = 1;
+  bool Fit = true;
+};
+
+#endif

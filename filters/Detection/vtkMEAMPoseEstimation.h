@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPoseEstimation
+ * @brief The whole method in one filter: CAD and scan in, ranked poses out.
+ *
+ * Trains the model of the part (paper, Section 4) unless it gets one, extracts the scene's edges from
+ * its image unless it gets them, and finds, verifies, refines and selects poses (paper, Section 5) with
+ * the parameters of the preset. The steps are those of the single filters, which have all the
+ * parameters, and return the same poses. The trained model is kept until the CAD or a setting that it depends on
+ * changes. The outputs have the time steps of the scene.
+ *
+ * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the
+ * poses and changes nothing else.
+ *
+ * Input ports: as vtkMEAMEstimationAlgorithm has them.
+ *
+ * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
+ * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
+ * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on port 2), and those
+ * that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether parts were found and
+ * how sure that is; where nothing is, a warning says so, too), `ScanReport` and `ScanQuality` (of an organized scan, as
+ * vtkMEAMSceneEdgeExtraction has them), `EdgesFound` and `EdgesByChance` (share of the edge points of a part that a
+ * scene edge lies on, where the part is and anywhere: how far this scan's edges can be trusted), `SecondsTraining`,
+ * `SecondsSceneEdges`, `SecondsScene`,
+ * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
+ * `SecondsSelection`, `SecondsOutput` (to fill the outputs), which add up to `SecondsTotal`, and the counts
+ * `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a
+ * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in, and `Rank` (active
+ * scalars): of the first pose that has an edge of the part there, 0 of edge points that no pose explains. Output port
+ * 2: the part at each pose that is likely enough to be shown (ShownProbability), as vtkMEAMPoseInstances has it; of a
+ * trained model points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank),
+ * `Probability`, `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`,
+ * `Seconds`. Output port 5: a vtkTable with one row, `Text`: that no part was found, or how many poses are not shown,
+ * to show in a view; empty when all are.
+ */
+#ifndef vtkMEAMPoseEstimation_h
+#define vtkMEAMPoseEstimation_h
+
+#include "ppfmeamDetectionModule.h"
+#include "vtkMEAMEstimationAlgorithm.h"
+
+class PPFMEAMDETECTION_EXPORT vtkMEAMPoseEstimation : public vtkMEAMEstimationAlgorithm
+{
+public:
+  static vtkMEAMPoseEstimation* New();
+  vtkTypeMacro(vtkMEAMPoseEstimation, vtkMEAMEstimationAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Poses that are less likely to be right, [0, 1], have neither a part on port 2 nor a `Label`; they stay among the
+   * poses. Default: 0.5, those that are more likely right than wrong are shown.
+   */
+  vtkSetClampMacro(ShownProbability, double, 0.0, 1.0);
+  vtkGetMacro(ShownProbability, double);
+  ///@}
+
+protected:
+  vtkMEAMPoseEstimation();
+  ~vtkMEAMPoseEstimation() override = default;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPoseEstimation(const vtkMEAMPoseEstimation&) = delete;
+  void operator=(const vtkMEAMPoseEstimation&) = delete;
+
+  double ShownProbability = 0.5;
+};
+
+#endif

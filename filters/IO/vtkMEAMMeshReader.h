@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMMeshReader
+ * @brief Reads the mesh of a part: STL, OBJ, PLY or OFF, by the file's extension.
+ *
+ * What is damaged or cut off is an error. Polygons are cut into triangles; all but the shape is skipped. The triangles
+ * of an STL file share the vertices that lie at exactly the same place. OFF is ascii, also COFF, NOFF, STOFF and their
+ * combinations.
+ *
+ * Output port 0: vtkPolyData, the triangles, in the file's unit; vtkMEAMMeshPreparation brings them to mm.
+ */
+#ifndef vtkMEAMMeshReader_h
+#define vtkMEAMMeshReader_h
+
+#include "ppfmeamIOModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+class PPFMEAMIO_EXPORT vtkMEAMMeshReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkMEAMMeshReader* New();
+  vtkTypeMacro(vtkMEAMMeshReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The file to read. Default: none. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+protected:
+  vtkMEAMMeshReader();
+  ~vtkMEAMMeshReader() override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMMeshReader(const vtkMEAMMeshReader&) = delete;
+  void operator=(const vtkMEAMMeshReader&) = delete;
+
+  char* FileName = nullptr;
+};
+
+#endif

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMEAMPickPlanning
+ * @brief Where a gripper can take which part out of the bin, and why not elsewhere.
+ *
+ * Every grasp of every pose is tried, at all turns that are as good: the part's exact symmetries and those that the
+ * grasp leaves free. A pick is possible when the pose is likely enough, nothing lies on the part, the gripper comes
+ * from above and keeps, on its whole way in, a safety margin from the bin, from other copies and from what was measured
+ * besides (FCL). Of the turns of a grasp the one comes out where it is possible with most clearance.
+ *
+ * Input port 0: poses of the part, best first, a vtkPolyData with `Transform` and, where it is known, `Probability`.
+ * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; with the field data of vtkMEAMSymmetryDetection,
+ * or the grasps with it, symmetric grasps are tried, too.
+ * Input port 2: grasps, a vtkPolyData with `Transform` (vtkMEAMGraspDefinition).
+ * Input port 3, optional: all points the sensor measured, a vtkPointSet in mm. Without it only copies and bin are in
+ * the way.
+ * Input port 4, optional: any gripper as it stands open, a vtkPolyData with faces in the grasp's frame, mm:
+ * origin between the jaws, z the way in. It takes the place of the one by lengths.
+ *
+ * Output port 0: a vtkPolyData, a vertex at each pick: possible ones first, best first, then those that come farthest
+ * in the order of Obstructions. Point arrays: `Transform` (16, row-major T_scene_grasp), `Quaternion` (x y z w), `Rank`
+ * (from 1), `Possible` (0 or 1, active scalars), `Obstruction` (int, see Obstructions), `Reason` (text), `Label` (text:
+ * where the gripper is shown the rank, or the reason in a word), `Instance` and
+ * `Grasp` (from 1: which pose, which grasp), `GraspName` (text), `Kind` and `Width` (of the grasp), `Obstacle` (the
+ * instance in the way, 0: none), `Clearance`, `Reach` (mm, down from the bin's rim or the highest point), `Tilt`
+ * (degrees), `Covered` and `Score` ([0, 1]); with a RobotFrameFile `RobotTransform` (16, row-major T_robot_grasp, mm).
+ * Field data: `PickReport`, in a sentence: how many copies can be picked, and what keeps the gripper from the others;
+ * `PickAdvice`: what to change for these, a sentence for each reason, empty where all can be picked; `Gripper` (11,
+ * named: kind and lengths; not of a mesh); with a bin `Bin` (20: its frame, row-major, inner length, inner width,
+ * height, wall; mm).
+ *
+ * Output port 1: the gripper at the picks, a vtkPolyData with `Possible` (active scalars), `Rank` and `Obstruction` for
+ * its cells.
+ *
+ * Output port 2: the bin's floor and walls, a vtkPolyData; empty without a bin.
+ *
+ * Output port 3: vtkTable with one row, `Text`: report and advice in lines, to show in a view.
+ */
+#ifndef vtkMEAMPickPlanning_h
+#define vtkMEAMPickPlanning_h
+
+#include "vtkMEAMGripperAlgorithm.h"
+
+#include <memory>
+
+namespace meam
+{
+struct PlanSettings;
+}
+
+class PPFMEAMPICKING_EXPORT vtkMEAMPickPlanning : public vtkMEAMGripperAlgorithm
+{
+public:
+  static vtkMEAMPickPlanning* New();
+  vtkTypeMacro(vtkMEAMPickPlanning, vtkMEAMGripperAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Values of `Obstruction`: why a pick is not possible. */
+  enum Obstructions
+  {
+    NoObstruction,
+    Uncertain,
+    Covered,
+    WrongKind,
+    TooWide,
+    Tilted,
+    PartItself,
+    CollidesWithBin,
+    CollidesWithInstance,
+    CollidesWithMeasured
+  };
+
+  enum Grippers
+  {
+    ParallelJaws,
+    SuctionCup
+  };
+
+  ///@{
+  /** What the gripper is, when its mesh is not given: two jaws, or a cup. Default: ParallelJaws. */
+  void SetGripper(int gripper);
+  int GetGripper();
+  void SetGripperToParallelJaws() { this->SetGripper(ParallelJaws); }
+  void SetGripperToSuctionCup() { this->SetGripper(SuctionCup); }
+  ///@}
+
+  enum Bins
+  {
+    DetectedBin,
+    GivenBin,
+    NoBin
+  };
+
+  ///@{
+  /**
+   * Where the bin is: found in the scan by its rim, given by the next four, or none; then down is the way the sensor
+   * looks and walls are what was measured of them. Default: DetectedBin.
+   */
+  vtkSetClampMacro(Bin, int, DetectedBin, NoBin);
+  vtkGetMacro(Bin, int);
+  void SetBinToDetected() { this->SetBin(DetectedBin); }
+  void SetBinToGiven() { this->SetBin(GivenBin); }
+  void SetBinToNone() { this->SetBin(NoBin); }
+  ///@}
+
+  ///@{
+  /** mm, scene coordinates: the middle of the bin's floor, when it is given. Default: 0, 0, 0. */
+  vtkSetVector3Macro(BinPosition, double);
+  vtkGetVector3Macro(BinPosition, double);
+  ///@}
+
+  ///@{
+  /**
+   * Degrees about x, y and z, first about y, then about x, then about z: turns the bin, whose z goes from its floor to
+   * its rim. Default: 180, 0, 0, a bin under a sensor that looks down.
+   */
+  vtkSetVector3Macro(BinRotation, double);
+  vtkGetVector3Macro(BinRotation, double);
+  ///@}
+
+  ///@{
+  /** mm: inner length, inner width and height of the bin, when it is given. Default: 300, 200, 100. */
+  vtkSetVector3Macro(BinSize, double);
+  vtkGetVector3Macro(BinSize, double);
+  ///@}
+
+  ///@{
+  /** mm, thickness of the walls of a bin that is given. Default: 5. */
+  vtkSetMacro(BinWall, double);
+  vtkGetMacro(BinWall, double);
+  ///@}
+
+  ///@{
+  /** mm that the gripper keeps from all but the part it takes. Default: 2. */
+  void SetSafetyMargin(double margin);
+  double GetSafetyMargin();
+  ///@}
+
+  ///@{
+  /** mm straight along the grasp's z that have to be free. Default: 80. */
+  void SetWayIn(double length);
+  double GetWayIn();
+  ///@}
+
+  ///@{
+  /** [0, 1], of a pose that is picked; less likely ones do not stand in the way either. Default: 0.5. */
+  void SetMinimumProbability(double probability);
+  double GetMinimumProbability();
+  ///@}
+
+  ///@{
+  /** Degrees between the way in and straight down, at most. Default: 60. */
+  void SetMaximumTilt(double degrees);
+  double GetMaximumTilt();
+  ///@}
+
+  ///@{
+  /** % of the part, from above, that may lie under something. Default: 20. */
+  void SetMaximumCovered(double percent);
+  double GetMaximumCovered();
+  ///@}
+
+  ///@{
+  /** Degrees between the turns that free and symmetric grasps are tried at, 1 to 360. Default: 30. */
+  void SetTurnStep(double degrees);
+  double GetTurnStep();
+  ///@}
+
+  ///@{
+  /**
+   * mm: measured points so near to a copy or to the bin are of it; 0: 3 times the noise and 1 % of the part. Default:
+   * 0.
+   */
+  void SetTolerance(double tolerance);
+  double GetTolerance();
+  ///@}
+
+  ///@{
+  /**
+   * A file with T_robot_camera, as vtkMEAMHandEyeCalibration writes it, OpenCV's or ROS's form: picks have the array
+   * `RobotTransform`, too. Default: none.
+   */
+  vtkSetFilePathMacro(RobotFrameFile);
+  vtkGetFilePathMacro(RobotFrameFile);
+  ///@}
+
+  enum Shown
+  {
+    BestOfEachInstance,
+    AllPossible,
+    AllPicks
+  };
+
+  ///@{
+  /** At which picks the gripper is shown by output port 1, with a label. Default: BestOfEachInstance. */
+  vtkSetClampMacro(ShownGrippers, int, BestOfEachInstance, AllPicks);
+  vtkGetMacro(ShownGrippers, int);
+  ///@}
+
+protected:
+  vtkMEAMPickPlanning();
+  ~vtkMEAMPickPlanning() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMEAMPickPlanning(const vtkMEAMPickPlanning&) = delete;
+  void operator=(const vtkMEAMPickPlanning&) = delete;
+
+  const std::unique_ptr<meam::PlanSettings> Settings;
+  int Bin = DetectedBin;
+  double BinPosition[3] = { 0.0, 0.0, 0.0 };
+  double BinRotation[3] = { 180.0, 0.0, 0.0 };
+  double BinSize[3] = { 300.0, 200.0, 100.0 };
+  double BinWall = 5.0;
+  char* RobotFrameFile = nullptr;
+  int ShownGrippers = BestOfEachInstance;
+};
+
+#endif
