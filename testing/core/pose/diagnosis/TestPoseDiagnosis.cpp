@@ -230,10 +230,11 @@ TEST(PoseDiagnosis, ScoresThatAreTooLow)
 {
   meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
   detection.candidateVerification.posesPerView = 1;
+  meam::PoseDiagnosis diagnosis(scenes::copiesScene(), scenes::bracket(), detection);
   int lost = 0; // of two copies that are seen from the same side one
   for (const Eigen::Isometry3d& T : scenes::threeCopies())
   {
-    const meam::Diagnosis of = diagnose(scenes::seenCopies(), T, detection);
+    const meam::Diagnosis of = diagnosis.atPose(T);
     lost += of.cause == LossCause::LowScore && of.lostIn == PoseStage::CandidateVerification ? 1 : 0;
   }
   EXPECT_EQ(lost, 1);

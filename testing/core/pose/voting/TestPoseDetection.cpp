@@ -166,7 +166,7 @@ TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
   const double ofBoundary = candidates(100, false);
   EXPECT_GE(ofBoundary, 1000.0);
   EXPECT_LE(ofBoundary, 4000.0);
-  EXPECT_NEAR(candidates(50, false), 0.5 * ofBoundary, 2.0) << "as many for each copy";
+  EXPECT_NEAR(candidates(50, false), 0.5 * ofBoundary, 0.01 * ofBoundary) << "as many for each copy";
   EXPECT_NEAR(candidates(100, true), 4.0 * ofBoundary, 4.0);
   EXPECT_EQ(candidates(2, false), 100.0) << "no fewer";
   meam::PoseDetectionSettings settings;
