@@ -92,7 +92,7 @@ class Detections(Rows):
         columns = {"Rank": range(1, len(self) + 1)}
         for name in ("quaternion", "score", "probability", "certainty", "visible_fraction", "votes", "view_id", "residual"):
             columns["".join(map(str.capitalize, name.split("_")))] = [getattr(pose, name) for pose in self]
-        columns["Covariance"] = [pose.covariance.ravel() for pose in self]
+        columns["Covariance"] = [pose.covariance.ravel("F") for pose in self]  # as the filters write it
         for name, values in columns.items():
             add_array(data.GetPointData(), name, numpy.array(values).reshape(len(self), -1))
         low, high = self.model.core.bounds

@@ -108,6 +108,9 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
         transforms = numpy.asarray(found, float)
         if transforms.ndim != 3 or transforms.shape[1:] != (4, 4):
             raise Error(f"the poses have to be an array N x 4 x 4, not one with the shape {transforms.shape}")
+        turns = transforms[:, :3, :3]
+        if not numpy.allclose(turns @ turns.transpose(0, 2, 1), numpy.eye(3), atol=1e-3):
+            raise Error("the poses have to be rotations and translations")
     poses = found.core if isinstance(found, Detections) else _core.Detections(transforms)
     is_mesh = not (isinstance(gripper, str) and gripper in GRIPPERS)
     shape = gripper_model(Chosen("gripper", {**grasps.gripper, **lengths.given}), GRIPPERS.get(gripper) if not is_mesh else None,

@@ -171,8 +171,13 @@ void bindDetection(py::module_& module)
       "transform", [](const DetectedPose& pose) { return pose.T_scan_part.matrix(); },
       "4 x 4, takes the part's coordinates (mm) to the scan's.")
     .def_property_readonly(
-      "quaternion", [](const DetectedPose& pose) { return Eigen::Quaterniond(pose.T_scan_part.linear()).coeffs(); },
-      "Its rotation: x y z w.")
+      "quaternion",
+      [](const DetectedPose& pose)
+      {
+        const Eigen::Quaterniond rotation = Eigen::Quaterniond(pose.T_scan_part.linear()).normalized();
+        return Eigen::Vector4d(rotation.coeffs() * (rotation.w() < 0.0 ? -1.0 : 1.0));
+      },
+      "Its rotation: x y z w, w not negative.")
     .def_readonly("score", &DetectedPose::score, "[0, 1], share of what should be visible that is there.")
     .def_readonly("probability", &DetectedPose::probability, "[0, 1], that the pose is right.")
     .def_readonly("certainty", &DetectedPose::certainty,
