@@ -2,6 +2,7 @@
 #include "api/Conversion.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
+#include "pick/PickSettings.h"
 #include "pose/DetectionSteps.h"
 #include "scene/Units.h"
 
@@ -12,6 +13,13 @@ namespace meam
 namespace
 {
 constexpr double AfterSceneEdges = 0.2; // share of the work, for the progress
+
+void requireSettings(const DetectSettings& settings)
+{
+  requireWithin("number of poses (maximumPoses)", settings.maximumPoses, 0.0, Unbounded);
+  requireWithin("probability of each pose (minimumProbability)", settings.minimumProbability, 0.0, 1.0);
+  requireWithin("share of the reference points (referenceShare)", settings.referenceShare, 0.0, 1.0);
+}
 
 void requireScan(const Scan& scan)
 {
@@ -71,6 +79,7 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
 {
   const auto start = std::chrono::steady_clock::now();
   const TrainedModel& trained = model.trained();
+  requireSettings(settings);
   requireScan(scan);
   SceneInput input;
   input.sensor = sensorOf(scan);

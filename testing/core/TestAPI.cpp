@@ -4,7 +4,7 @@
 #include "TestImages.h"
 #include "TestScene.h"
 #include "io/PCDFile.h"
-#include "meam.h"
+#include "picks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,8 @@ TEST(API, FindsWhatTheCoreFinds)
     EXPECT_EQ(found.poses[i].certainty, poses[i].certainty) << i;
     EXPECT_EQ(found.poses[i].visibleFraction, poses[i].visibleFraction) << i;
     EXPECT_EQ(found.poses[i].residual, poses[i].fit.residual) << i;
+    EXPECT_EQ(found.poses[i].votes, poses[i].votes) << i;
+    EXPECT_EQ(found.poses[i].covariance, poses[i].fit.covariance) << i;
   }
   EXPECT_GT(found.seconds, 0.0);
   EXPECT_EQ(found.warning, "");
@@ -114,6 +116,8 @@ TEST(API, TrainsSavesAndLoads)
     });
   EXPECT_DOUBLE_EQ(done, 1.0);
   EXPECT_NEAR(model.diameter(), scenes::bracket().diameter, 1e-3);
+  EXPECT_TRUE(model.bounds().contains(model.middle()));
+  EXPECT_LE(model.bounds().sizes().maxCoeff(), model.diameter());
   model.save(folder.path("bracket.meam"));
   const meam::Model loaded = meam::loadModel(folder.path("bracket.meam"));
   const meam::Detections a = meam::detect(model, scanOfThree()), b = meam::detect(loaded, scanOfThree());
@@ -165,6 +169,27 @@ TEST(API, WhatIsWrongWithAScan)
     point.setConstant(NAN);
   }
   EXPECT_NE(errorOf(scan), "");
+}
+
+TEST(API, SettingsOutOfRangeAreNamed)
+{
+  const auto errorOf = [](const meam::DetectSettings& settings)
+  { return files::errorOf([&] { meam::detect(bracketModel(), scanOfThree(), settings); }); };
+  meam::DetectSettings settings;
+  settings.maximumPoses = -1;
+  EXPECT_TRUE(files::contains(errorOf(settings), "maximumPoses"));
+  settings = {};
+  settings.minimumProbability = 1.5;
+  EXPECT_TRUE(files::contains(errorOf(settings), "minimumProbability"));
+  settings = {};
+  settings.referenceShare = NAN;
+  EXPECT_TRUE(files::contains(errorOf(settings), "referenceShare"));
+}
+
+TEST(API, PartWithoutAModel)
+{
+  EXPECT_EQ(meam::prepareMesh(bracketMesh(), 1000.0, { 1, 2, 3 }).triangles.size(), bracketMesh().triangles.size());
+  EXPECT_FALSE(meam::proposeGrasps({}, bracketMesh(), {}).empty());
 }
 
 TEST(API, EdgesOfTheCloudAlone)

@@ -40,7 +40,7 @@ done
 for name in 'meam::Picker::plan(' 'meam::detectBin(' 'meam::graspAt(' 'meam::loadGrasps(' 'meam::saveGrasps(' 'meam::loadRobotFrame('; do
   nm -DC --defined-only "$pick" | grep -qF " $name" || fail "$pick does not export $name"
 done
-for name in 'meam::train(' 'meam::proposeGrasps('; do
+for name in 'meam::train(' 'meam::prepareMesh(' 'meam::proposeGrasps('; do
   nm -DC --defined-only "$train" | grep -qF " $name" || fail "$train does not export $name"
 done
 exit $status
