@@ -164,11 +164,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
     """
-    seen = inputs.scan_of(scan, camera, scale)
-    if boundary is not None:
-        seen.edges = inputs.points_of(boundary, scale)
-    if image is not None:
-        inputs.set_image(seen, image, image_camera)
+    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera)
     model = part_of(part, cad_scale, settings)
     found = _core.detect(model.core, seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
@@ -198,11 +194,7 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
     """
     if (at is None) == (pose is None):
         raise Error("give either at, a point on the part, or pose, where the part lies")
-    seen = inputs.scan_of(scan, camera, scale)
-    if boundary is not None:
-        seen.edges = inputs.points_of(boundary, scale)
-    if image is not None:
-        inputs.set_image(seen, image, image_camera)
+    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
     diagnosis.SetInputDataObject(part_of(part, cad_scale, settings).data)
     for port, data in enumerate(inputs.to_vtk(seen), 1):

@@ -58,7 +58,17 @@ def model_to_vtk(model):
         return scripting.read_model(path)
 
 
-def scan_of(scan, camera=None, scale=1.0):
+def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camera=None):
+    """A scan with its image and its edge points, where they are given."""
+    seen = cloud_of(scan, camera, scale)
+    if boundary is not None:
+        seen.edges = cloud_of(boundary, None, scale).points.reshape(-1, 3)
+    if image is not None:
+        set_image(seen, image, image_camera)
+    return seen
+
+
+def cloud_of(scan, camera, scale):
     """The points, with the image of an organized scan that carries one."""
     if not 0 < scale < float("inf"):
         raise Error(f"scale has to be a positive number, not {scale!r}")
@@ -115,13 +125,6 @@ def bytes_of(pixels):
     if not ((values >= 0) & (values <= 255)).all():
         raise Error("the image has values outside of 0 to 255")
     return values.astype(numpy.uint8)
-
-
-def points_of(points, scale):
-    """Edge points: N x 3."""
-    if isinstance(points, (numpy.ndarray, vtkDataObject)):
-        return scan_of(points, scale=scale).points.reshape(-1, 3)
-    return scan_of(os.fspath(points), scale=scale).points.reshape(-1, 3)
 
 
 def set_image(scan, image, camera):
