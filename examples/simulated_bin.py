@@ -5,7 +5,7 @@ compares the poses with the truth."""
 import argparse
 import os
 
-from ppfmeam import filters, picture, scripting
+from ppfmeam import choices, filters, picture, scripting
 
 BUILD = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "build")
 
@@ -14,8 +14,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--copies", type=scripting.count, default=20, help="copies in the bin (default: %(default)s)")
     parser.add_argument("--seed", type=scripting.count, default=1, help="another seed, another bin (default: %(default)s)")
-    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted; 0: all (default: %(default)s)")
-    parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
+    choices.add_options(parser, "detect", "poses", "threads")
     scripting.add_method_options(parser)
     parser.add_argument("--picture", metavar="PNG", default=os.path.join(BUILD, "simulated_bin.png"),
                         help="the picture to write (default: %(default)s)")

@@ -189,25 +189,11 @@ def update(algorithm, step="Update", *arguments):
     return algorithm
 
 
-def in_range(kind, text, most, wanted):
-    """A number from 0 to `most`, or argparse's error, which says what is wanted."""
-    try:
-        number = kind(text)
-    except ValueError:
-        number = -1
-    if not 0 <= number <= most:
-        raise argparse.ArgumentTypeError(f"it has to be {wanted}, not {text}")
-    return number
-
-
 def count(text):
     """A number of things, as argparse wants it."""
-    return in_range(int, text, math.inf, "a whole number, 0 or more")
-
-
-def share(text):
-    """A number from 0 to 1, as argparse wants it."""
-    return in_range(float, text, 1, "a number from 0 to 1")
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"it has to be a whole number, 0 or more, not {text}")
+    return int(text)
 
 
 def has_image(scan):
@@ -245,8 +231,7 @@ def set_preset(estimation, preset):
 def add_bin_arguments(parser, scenes):
     """What a script that simulates bins asks for: the part, and how many bins of how many copies; `scenes` by default."""
     parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F",
-                        help="factor to mm: 1000 for a CAD in metres")
+    choices.add_options(parser, "train", "scale")
     parser.add_argument("--copies", type=count, default=20, help="copies in a bin (default: %(default)s)")
     parser.add_argument("--scenes", type=count, default=scenes, help="bins to fill (default: %(default)s)")
     parser.add_argument("--seed", type=count, default=1,

@@ -36,8 +36,7 @@ def options_of_user(arguments=None):
                        help="CAD file of the part, once for each type of part: it is trained first")
     parts.add_argument("--objects", type=evaluation.numbers,
                        help="of a BOP dataset without --model and --cad, such as 1,5-7 (default: all in models/)")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F",
-                        help="factor to mm: 1000 for a CAD in metres")
+    choices.add_options(parser, "train", "scale")
     parser.add_argument("--split", default="test", help="folder of a BOP dataset's scenes (default: %(default)s)")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of depth images and of .ply scans")
     parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
@@ -47,13 +46,7 @@ def options_of_user(arguments=None):
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took a list's images (default: they are "
                              "registered)")
-    parser.add_argument("--poses", type=scripting.count, default=5,
-                        help="poses wanted of a scan, the best ones; 0: all, most of which are unlikely: take --probability, "
-                             "too (default: %(default)s)")
-    parser.add_argument("--probability", type=scripting.share, default=0, metavar="P",
-                        help="poses less likely to be right than P, 0 to 1, are left out; 0.5 leaves those that are more "
-                             "likely right than wrong (default: %(default)s)")
-    choices.add_options(parser, "detect", "features", "image_edges", "references")
+    choices.add_options(parser, "detect", "poses", "probability", "features", "image_edges", "references")
     parser.add_argument("--threads", type=scripting.count, default=0,
                         help="threads of each process; 0: all cores for one process, one thread for each of several "
                              "(default)")

@@ -27,13 +27,7 @@ def options_of_user():
                         help="image of an organized scan that carries none: .png, .jpg, .bmp or .tif")
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
-    parser.add_argument("--poses", type=scripting.count, default=5,
-                        help="poses wanted, the best ones; 0: all, most of which are unlikely: take --probability, too "
-                             "(default: %(default)s)")
-    parser.add_argument("--probability", type=scripting.share, default=0, metavar="P",
-                        help="poses less likely to be right than P, 0 to 1, are left out; 0.5 leaves those that are more likely "
-                             "right than wrong (default: %(default)s)")
-    choices.add_options(parser, "detect", "features", "image_edges", "references", "threads")
+    choices.add_options(parser, "detect", "poses", "probability", "features", "image_edges", "references", "threads")
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
     parser.add_argument("--json", help="write the poses as JSON")

@@ -20,7 +20,7 @@ def options_of_user():
                             "a row, from 1; it is fitted to the scan first")
     place.add_argument("--truth", metavar="FILE",
                        help="the true poses of all parts, a file of the same kinds: a line for each with the stage that lost it")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    choices.add_options(parser, "train", "scale")
     parser.add_argument("--scale", type=float, default=1, metavar="F", help="the same of the scan and the boundary")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
