@@ -3,6 +3,7 @@
 
 #include "OpenData.h"
 #include "PartView.h"
+#include "ScanPicking.h"
 #include "ScoreCharts.h"
 #include "Tutorial.h"
 
@@ -197,6 +198,7 @@ void build()
   }
   addTutorial(window);
   addPartView();
+  addScanPicking(window);
   qApp->installEventFilter(new InputNames(window));
 }
 }

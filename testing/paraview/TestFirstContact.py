@@ -1,23 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of three scans is opened,
-MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked why a hidden part was missed; grasps
-are proposed, and picks planned. The state that is saved then is opened by pvpython, which looks at it. The
-tutorial shows its text and opens its example; the dialog of the menu names its inputs.
+MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked about a point of the scan by Ctrl+P,
+and why a hidden part was missed; grasps are proposed, and picks planned. The state that is saved then is opened by
+pvpython, which looks at it. The tutorial shows its text and opens its example; the dialog of the menu names its inputs.
 
 Usage: TestFirstContact.py PARAVIEW PVPYTHON REPOSITORY; with PPFMEAM_PICTURE=FOLDER pictures of the whole window go there,
 those of docs/gallery.md (needs python3-pil).
 """
 import json
+import math
 import os
 import re
 import subprocess
 import sys
 import tempfile
 import time
-from xml.sax.saxutils import quoteattr
+import xml.etree.ElementTree as ElementTree
 
-from clicks import (APPLY, BROWSER, PROPERTIES, WINDOW, accept_inputs, choice, connect, event, files, filter_of_menu, item,
-                    menu, number)
+from clicks import (APPLY, BROWSER, PROPERTIES, accept_inputs, choice, connect, event, expect, files, filter_of_menu, item,
+                    menu, number, point_and_press, view)
 
 RED, GREEN, VIOLET = (220, 30, 30), (40, 170, 50), (150, 60, 190)
 SCANS = 3
@@ -35,7 +36,8 @@ def clicks(folder, hidden):
     yield "first_contact", estimation(folder)
     yield "series", [event("PoseEstimationToolbar/ShowCharts", "activate"), event("VCRToolbar/actionVCRPlay", "activate")]
     yield "why", [
-        event("PoseEstimationToolbar/AskWhy", "activate"),
+        event("PoseEstimationToolbar/AskWhy", "activate"), *point_and_press(view(1), "P"), APPLY, expect(view(1), "focus", "true"),
+        *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/picked.pvsm"),
         *(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", hidden)), APPLY]
 
 
@@ -57,10 +59,8 @@ def tutorial(folder, text):
     select = "SelectInputDialog/buttonFrame"
     return [
         menu("menu_Help", "actionPPFMEAMTutorial"),
-        f'<pqcheck object="{WINDOW}/PPFMEAMTutorial/Page/Text" property="plainText" arguments={quoteattr(text, {chr(10): "&#10;"})} />',
-        *filter_of_menu("MEAMPoseEstimation"),
-        f'<pqcheck object="{WINDOW}/{select}/Input" property="text" arguments="Part" />',
-        f'<pqcheck object="{WINDOW}/{select}/Scene" property="text" arguments="Scan" />',
+        expect("PPFMEAMTutorial/Page/Text", "plainText", text), *filter_of_menu("MEAMPoseEstimation"),
+        expect(f"{select}/Input", "text", "Part"), expect(f"{select}/Scene", "text", "Scan"),
         event("SelectInputDialog/buttonBox/1QPushButton1", "activate"),
         event("PPFMEAMTutorial/Page/OpenExample", "activate"),
         event("PoseEstimationToolbar/EstimatePoses", "activate"),
@@ -196,6 +196,7 @@ def look(folder):
     text = output(why, 3).GetValueByName(0, "Text").ToString()
     check(verdict in text.replace("\n", " ") and max(map(len, text.split("\n"))) <= 75, f"the answer in the view: {text}")
     look_at_charts(simple, found)
+    look_at_pick(os.path.join(folder, "picked.pvsm"), output(simple.FindSource("camera.json")))
 
 
 def look_at_charts(simple, found):
@@ -233,10 +234,22 @@ def look_at_picks(simple, view, folder):
         shown["PickPlanning", port].Visibility = 0
 
 
+def look_at_pick(path, scan):
+    """The point of Pose Diagnosis is that of the scan in the middle of the picture."""
+    from vtkmodules.vtkCommonDataModel import vtkLine
+
+    numbers = {(proxy.get("type"), entry.get("name")): [float(element.get("value")) for element in entry.iter("Element")]
+               for proxy in ElementTree.parse(path).getroot().iter("Proxy") for entry in proxy.iterfind("Property")
+               if entry.get("name") in ("Position", "CameraPosition", "CameraFocalPoint")}
+    point = numbers["PoseDiagnosis", "Position"]
+    beside = math.dist(point, scan.GetPoint(scan.FindPoint(point)))
+    check(beside < 0.001, f"{point} is {beside} mm from the nearest point of the scan")
+    off = vtkLine.DistanceToLine(point, numbers["RenderView", "CameraPosition"], numbers["RenderView", "CameraFocalPoint"])
+    check(math.sqrt(off) < 2, f"{point} is {math.sqrt(off)} mm from the ray through the middle")
+
+
 def look_at_example(path):
     """The button took the example's part and scan."""
-    import xml.etree.ElementTree as ElementTree
-
     proxies = {p.get("type"): p for p in ElementTree.parse(path).getroot().iter("Proxy") if p.get("group") in ("sources", "filters")
                and p.get("type") == "BinSceneSource"}
     check(proxies, "the example is not open")

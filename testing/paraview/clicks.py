@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Clicks in the application, as ParaView's own player takes them."""
+from xml.sax.saxutils import quoteattr
+
 WINDOW = "pqClientMainWindow"
 PANEL = "propertiesDock/propertiesPanel"
 PROPERTIES = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
 BROWSER = "pipelineBrowserDock/pipelineBrowser"
 DIALOG = "SelectInputDialog"
+VIEWS = "centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget/MultiViewWidget1/Container"
 
 
 def event(widget, command, arguments=""):
@@ -48,3 +51,18 @@ def choice(name, text):
 
 def number(name, value):
     return event(f"{PROPERTIES}/{name}/DoubleLineEdit0", "set_string", str(value))
+
+
+def view(cell):
+    """The picture in a cell of the layout: 0 of all, 1 and 2 are its halves."""
+    return f"{VIEWS}/Frame.{cell}/CentralWidgetFrame/Viewport"
+
+
+def point_and_press(picture, key):
+    """The mouse to the middle of a picture, and Ctrl with a letter."""
+    press, control = 6, 0x04000000  # as Qt has them
+    return [event(picture, "mouseMove", "(0.5,0.5,0,0,0)"), event(picture, "keyEvent", f"{press}:{ord(key)}:{control}::0:1")]
+
+
+def expect(widget, name, value):
+    return f'<pqcheck object="{WINDOW}/{widget}" property="{name}" arguments={quoteattr(value, {chr(10): "&#10;"})} />'

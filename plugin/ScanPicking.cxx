@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScanPicking.h"
+
+#include "pqActiveObjects.h"
+#include "pqPropertiesPanel.h"
+#include "pqPropertyWidget.h"
+#include "pqProxy.h"
+#include "pqQVTKWidget.h"
+#include "pqRenderView.h"
+#include "vtkAlgorithm.h"
+#include "vtkCamera.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPointSet.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkStructuredGrid.h"
+
+#include <QApplication>
+#include <QCursor>
+#include <QKeyEvent>
+#include <QMainWindow>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace
+{
+constexpr double NotThere = std::numeric_limits<double>::quiet_NaN();
+
+/// A point in the picture: pixels to the right of the mouse and above it, and depth.
+using Projected = std::array<double, 3>;
+
+double squaredDistance(const Projected& point) { return point[0] * point[0] + point[1] * point[1]; }
+
+/// The scan's points against the pixel; NaN where nothing was measured, and behind the camera.
+std::vector<Projected> project(vtkPointSet* scan, vtkRenderer* renderer, const int pixel[2])
+{
+  const double* M = renderer->GetActiveCamera()
+                      ->GetCompositeProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0)
+                      ->GetData();
+  const int* size = renderer->GetSize();
+  auto* grid = vtkStructuredGrid::SafeDownCast(scan);
+  std::vector<Projected> projected(scan->GetNumberOfPoints(), { NotThere, NotThere, NotThere });
+  for (vtkIdType k = 0; k < scan->GetNumberOfPoints(); ++k)
+  {
+    double p[3];
+    scan->GetPoint(k, p);
+    const auto row = [&](int r) { return M[4 * r] * p[0] + M[4 * r + 1] * p[1] + M[4 * r + 2] * p[2] + M[4 * r + 3]; };
+    const double w = row(3);
+    if (w > 0.0 && (!grid || grid->IsPointVisible(k)))
+    {
+      projected[k] = { (row(0) / w + 1.0) / 2.0 * size[0] - pixel[0] - 0.5,
+        (row(1) / w + 1.0) / 2.0 * size[1] - pixel[1] - 0.5, row(2) / w };
+    }
+  }
+  return projected;
+}
+
+/// Whether the mouse is in the polygon, by the number of its edges to the right of it.
+bool isAtMouse(const std::array<const Projected*, 4>& corners)
+{
+  bool isInside = false;
+  for (int k = 0; k < 4; ++k)
+  {
+    const Projected &a = *corners[k], &b = *corners[(k + 1) % 4];
+    if ((a[1] > 0.0) != (b[1] > 0.0) && a[0] + (b[0] - a[0]) * a[1] / (a[1] - b[1]) > 0.0)
+    {
+      isInside = !isInside;
+    }
+  }
+  return isInside;
+}
+
+/// The point of the scan at the pixel: of the nearest cell of its grid there the corner that is next to the pixel;
+/// where there is no cell the point next to the pixel. -1: the scan has no point in front of the camera.
+vtkIdType pointAt(vtkPointSet* scan, vtkRenderer* renderer, const int pixel[2])
+{
+  const std::vector<Projected> projected = project(scan, renderer, pixel);
+  std::vector<vtkIdType> candidates;
+  double nearest = std::numeric_limits<double>::infinity();
+  int size[3] = { 0, 0, 0 };
+  if (auto* grid = vtkStructuredGrid::SafeDownCast(scan))
+  {
+    grid->GetDimensions(size);
+  }
+  for (vtkIdType y = 0; y + 1 < size[1]; ++y)
+  {
+    for (vtkIdType x = 0; x + 1 < size[0]; ++x)
+    {
+      const vtkIdType first = y * size[0] + x;
+      const std::array<vtkIdType, 4> cell{ first, first + 1, first + 1 + size[0], first + size[0] };
+      const std::array<const Projected*, 4> corners{ &projected[cell[0]], &projected[cell[1]], &projected[cell[2]],
+        &projected[cell[3]] };
+      const double depth = (*corners[0])[2] + (*corners[1])[2] + (*corners[2])[2] + (*corners[3])[2]; // NaN, if one is
+      if (depth < nearest && isAtMouse(corners))
+      {
+        nearest = depth;
+        candidates.assign(cell.begin(), cell.end());
+      }
+    }
+  }
+  if (candidates.empty())
+  {
+    for (vtkIdType k = 0; k < scan->GetNumberOfPoints(); ++k)
+    {
+      if (!std::isnan(projected[k][2]))
+      {
+        candidates.push_back(k);
+      }
+    }
+  }
+  const auto found = std::min_element(candidates.begin(), candidates.end(),
+    [&](vtkIdType a, vtkIdType b) { return squaredDistance(projected[a]) < squaredDistance(projected[b]); });
+  return found == candidates.end() ? -1 : *found;
+}
+
+/// The scan of a diagnosis, where it is in this process.
+vtkPointSet* scanOf(vtkSMProxy* diagnosis)
+{
+  const vtkSMPropertyHelper scene(diagnosis, "Scene");
+  vtkSMProxy* source = scene.GetNumberOfElements() == 1 ? scene.GetAsProxy() : nullptr;
+  auto* producer = source ? vtkAlgorithm::SafeDownCast(source->GetClientSideObject()) : nullptr;
+  return producer ? vtkPointSet::SafeDownCast(producer->GetOutputDataObject(static_cast<int>(scene.GetOutputPort())))
+                  : nullptr;
+}
+
+bool isDiagnosis(vtkSMProxy* proxy) { return std::strcmp(proxy->GetXMLName(), "PoseDiagnosis") == 0; }
+
+class ScanPicking : public QObject
+{
+public:
+  explicit ScanPicking(QMainWindow* window)
+    : QObject(window)
+    , Window(window)
+  {
+  }
+
+  /// Accepts the keys before ParaView's shortcut gets them.
+  bool eventFilter(QObject* object, QEvent* event) override
+  {
+    const bool isKey = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
+    if (isKey && static_cast<QKeyEvent*>(event)->key() == Qt::Key_P)
+    {
+      pqPropertyWidget* point = this->shownPoint();
+      auto* view = point ? qobject_cast<pqRenderView*>(point->view()) : nullptr;
+      vtkPointSet* scan = view ? scanOf(point->proxy()) : nullptr;
+      if (scan && isPick(static_cast<QKeyEvent*>(event)->modifiers(), view->widget()))
+      {
+        event->accept();
+        if (event->type() == QEvent::KeyPress &&
+            view->widget()->rect().contains(view->widget()->mapFromGlobal(QCursor::pos())))
+        {
+          pick(point, view->getRenderViewProxy(), scan);
+        }
+        return true;
+      }
+    }
+    return QObject::eventFilter(object, event);
+  }
+
+private:
+  /// P alone is a letter where a text is written.
+  static bool isPick(Qt::KeyboardModifiers modifiers, QWidget* view)
+  {
+    return modifiers == Qt::ControlModifier ||
+           (modifiers == Qt::NoModifier && view->isAncestorOf(QApplication::focusWidget()));
+  }
+
+  /// The point of the diagnosis in the panel; null: there is none.
+  pqPropertyWidget* shownPoint() const
+  {
+    for (auto* widget : this->Window->findChildren<pqPropertyWidget*>())
+    {
+      if (widget->inherits("pqHandlePropertyWidget") && widget->isVisible() && isDiagnosis(widget->proxy()))
+      {
+        return widget;
+      }
+    }
+    return nullptr;
+  }
+
+  static void pick(pqPropertyWidget* point, vtkSMRenderViewProxy* view, vtkPointSet* scan)
+  {
+    const vtkIdType found = pointAt(scan, view->GetRenderer(), view->GetInteractor()->GetEventPosition());
+    if (found >= 0)
+    {
+      double place[3];
+      scan->GetPoint(found, place);
+      QMetaObject::invokeMethod(
+        point, "setWorldPosition", Q_ARG(double, place[0]), Q_ARG(double, place[1]), Q_ARG(double, place[2]));
+    }
+  }
+
+  QMainWindow* Window;
+};
+
+/// After Apply the keys are those of the picture again.
+void giveFocusBack(pqProxy* applied)
+{
+  auto* view = pqActiveObjects::instance().activeView();
+  auto* picture = view ? qobject_cast<pqQVTKWidget*>(view->widget()) : nullptr;
+  if (applied && picture && isDiagnosis(applied->getProxy()))
+  {
+    picture->renderWidget()->setFocus();
+  }
+}
+}
+
+void addScanPicking(QMainWindow* window)
+{
+  qApp->installEventFilter(new ScanPicking(window));
+  for (auto* panel : window->findChildren<pqPropertiesPanel*>())
+  {
+    QObject::connect(panel, QOverload<pqProxy*>::of(&pqPropertiesPanel::applied), panel, giveFocusBack);
+  }
+}
