@@ -16,6 +16,7 @@
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMPVRepresentationProxy.h"
