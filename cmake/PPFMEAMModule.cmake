@@ -90,9 +90,8 @@ if(NOT SKBUILD) # pip makes it
 endif()
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
 
-# Everything a script or ParaView needs, without the tests.
 list(TRANSFORM PPFMEAM_MODULES REPLACE "(.+)" "ppfmeam\\1Python" OUTPUT_VARIABLE python_modules)
-add_custom_target(runtime DEPENDS ${python_modules} ppfmeamPackage)
+add_dependencies(runtime ${python_modules} ppfmeamPackage)
 
 if(PPFMEAM_USE_PARAVIEW)
   paraview_plugin_scan(
