@@ -81,7 +81,7 @@ install(TARGETS ppfmeamBindings LIBRARY DESTINATION "${PPFMEAM_PYTHON_DIR}/ppfme
 set(package_files __init__.py __main__.py api.py bop.py cell.py cellpicture.py chains.py charts.py choices.json choices.py dataset.py
   evaluation.py filters.py finding.py inputs.py instances.py paper.py papertables.py picking.py picture.py scripting.py simulation.py stage.py world.py)
 set(command_files __init__.py batch.py cell.py detect.py evaluate.py hand_eye.py simulate.py train.py why.py)
-set(batch_files __init__.py __main__.py apart.py journal.py nearby.py parts.py progress.py ranks.py run.py scans.py table.py
+set(batch_files __init__.py __main__.py apart.py journal.py parts.py progress.py ranks.py run.py scans.py table.py
   watch.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
 set(package_copies)
@@ -105,9 +105,8 @@ if(NOT SKBUILD) # pip makes it
 endif()
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
 
-# Everything a script or ParaView needs, without the tests.
-list(TRANSFORM PPFMEAM_MODULES REPLACE "(.+)" "ppfmeam\1Python" OUTPUT_VARIABLE python_modules)
-add_custom_target(runtime DEPENDS ${python_modules} ppfmeamBindings ppfmeamPackage)
+list(TRANSFORM PPFMEAM_MODULES REPLACE "(.+)" "ppfmeam\\1Python" OUTPUT_VARIABLE python_modules)
+add_dependencies(runtime ${python_modules} ppfmeamBindings ppfmeamPackage)
 
 if(PPFMEAM_USE_PARAVIEW)
   paraview_plugin_scan(

@@ -36,10 +36,10 @@ packages=(
   paraview paraview-dev python3-paraview python3-numpy xvfb xauth libgl1-mesa-dri
   libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}"$pcl"
   libopencv-imgcodecs-dev libopencv-calib3d-dev libeigen3-dev libcgal-dev libopenmesh-dev
-  libflann-dev liblzf-dev nlohmann-json3-dev libbullet-dev libfcl-dev pybind11-dev
+  libflann-dev liblzf-dev nlohmann-json3-dev libyaml-cpp-dev libbullet-dev libfcl-dev pybind11-dev
   openmpi-bin python3-mpi4py # several processes: ppfmeam batch
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
-  libgtest-dev libbenchmark-dev pybind11-dev
+  libgtest-dev libbenchmark-dev
   qemu-user # a processor without AVX: TestSameBits
   "${suite[@]}"
 )

@@ -13,11 +13,11 @@ name=${DEBFULLNAME:-$(git -C "$root" config user.name || id -un)}
 address=${DEBEMAIL:-$(git -C "$root" config user.email || echo "$(id -un)@$(hostname -f)")}
 
 "$root/cmake/debian.sh" packages
-"$root/cmake/build.sh" release runtime meamDetect meamImages meamPick meamTrain
+"$root/cmake/build.sh" release runtime
 log=$root/build/packaging.log
 failed() { tail -n 40 "$log" >&2; echo "making packages failed; the whole output is in build/packaging.log" >&2; exit 1; }
 cmake -S "$root" --preset release -DPPFMEAM_MAINTAINER="$name <$address>" >"$log" 2>&1 || failed
-cmake --build "$root/build/release" --target runtime meamDetect meamImages meamPick meamTrain >>"$log" 2>&1 || failed
+cmake --build "$root/build/release" --target runtime >>"$log" 2>&1 || failed
 rm -f "$folder"/*ppfmeam*.deb
 cpack --config "$root/build/release/CPackConfig.cmake" -B "$folder" >>"$log" 2>&1 || failed
 rm -rf "$folder/_CPack_Packages"

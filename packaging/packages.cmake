@@ -81,8 +81,8 @@ string(REGEX REPLACE "\n" "\n " LICENSE_TEXT " ${LICENSE_TEXT}")
 set(gpl "Our sources are under the BSD 3-Clause licence. This package is built with parts of CGAL (https://www.cgal.org) that are
  under the GNU General Public License, version 3 or later, so it can be passed on under the GPL 3 only, without any warranty;
  /usr/share/common-licenses/GPL-3 is its text.")
-set(note_detect "Everything in this package is under the BSD 3-Clause licence; it is built with headers of PCL, FLANN, Boost, Eigen
- and nlohmann's JSON, and holds nothing under the GPL.")
+set(note_detect "Everything in this package is under the BSD 3-Clause licence; it is built with headers of PCL, FLANN, Boost, Eigen,
+ nlohmann's JSON and yaml-cpp, and holds nothing under the GPL.")
 set(note_pick "Everything in this package is under the BSD 3-Clause licence; it is built with headers of FCL, OctoMap, Eigen and
  nlohmann's JSON, and holds nothing under the GPL.")
 set(note_train "${gpl}")

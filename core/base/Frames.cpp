@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -13,7 +14,6 @@ namespace meam
 {
 namespace
 {
-static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "points are plain coordinates");
 static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points are plain coordinates");
 
 /// Sums over points: their number, x, y, z, xx, xy, xz, yy, yz, zz, and xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz,
@@ -21,15 +21,14 @@ static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points are plain c
 constexpr int Moments = 20;
 
 /// Adds those of the finite points, as seen from `from`.
-template <typename Scalar>
-inline __attribute__((always_inline)) void addEachMoment(
-  const Scalar* xyz, std::size_t count, const double* from, double (*sums)[PointLanes])
+MEAM_ALL_VECTORS
+void addMoments(const double* xyz, std::size_t count, const double* from, double (*sums)[PointLanes])
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double fromX = from[0], fromY = from[1], fromZ = from[2];
   for (std::size_t begin = 0; begin < count; begin += PointLanes)
   {
-    const Scalar* at = xyz + 3 * begin;
+    const double* at = xyz + 3 * begin;
 #pragma omp simd
     for (int k = 0; k < PointLanes; ++k)
     {
@@ -61,61 +60,57 @@ inline __attribute__((always_inline)) void addEachMoment(
   }
 }
 
-MEAM_ALL_VECTORS
-void addMoments(const float* xyz, std::size_t count, const double* from, double (*sums)[PointLanes])
-{
-  addEachMoment(xyz, count, from, sums);
-}
-
-MEAM_ALL_VECTORS
-void addMoments(const double* xyz, std::size_t count, const double* from, double (*sums)[PointLanes])
-{
-  addEachMoment(xyz, count, from, sums);
-}
-
 constexpr double Spread = 1e4;        // mm, root mean square from the mean, of no bin: looked at for stray points
 constexpr double StrayDistance = 1e3; // of the extent of the middle half of the points
 
 /// The points that are not far beyond all measure from the middle half of them.
-template <typename Scalar>
-std::vector<Scalar> withoutStrays(const Scalar* xyz, std::size_t count)
+PrecisePoints withoutStrays(const PrecisePoints& points)
 {
-  Points points(count);
-  for (std::size_t i = 0; i < count; ++i)
+  Points rounded(points.size());
+  std::transform(
+    points.begin(), points.end(), rounded.begin(), [](const Eigen::Vector3d& point) { return point.cast<float>(); });
+  const Eigen::AlignedBox3d middle = innerBounds(rounded, 0.25).cast<double>();
+  PrecisePoints stay;
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    points[i] = Eigen::Matrix<Scalar, 3, 1>(xyz + 3 * i).template cast<float>();
-  }
-  const Eigen::AlignedBox3d middle = innerBounds(points, 0.25).cast<double>();
-  std::vector<Scalar> stay;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if ((points[i].cast<double>() - middle.center()).norm() <= StrayDistance * middle.diagonal().norm())
+    if ((rounded[i].cast<double>() - middle.center()).norm() <= StrayDistance * middle.diagonal().norm())
     {
-      stay.insert(stay.end(), xyz + 3 * i, xyz + 3 * i + 3);
+      stay.push_back(points[i]);
     }
   }
   return stay;
 }
+}
 
-template <typename Scalar>
-Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
+bool isRigid(const Eigen::Matrix4d& matrix)
+{
+  constexpr double tolerance = 1e-3;
+  const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
+  return matrix.allFinite() && R.isUnitary(tolerance) && R.determinant() > 0.0 &&
+         matrix.row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
+}
+
+Eigen::Isometry3d transformOf(const double* numbers)
+{
+  Eigen::Isometry3d T;
+  T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers);
+  return T;
+}
+
+Eigen::Isometry3d principalFrame(const PrecisePoints& points)
 {
   // Moments are about one of the points, so they keep their precision far from the origin.
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  const auto at = [xyz](std::size_t i)
-  { return Eigen::Matrix<Scalar, 3, 1>(xyz + 3 * i).template cast<double>().eval(); };
-  std::size_t first = 0;
-  while (first < count && !at(first).allFinite())
-  {
-    ++first;
-  }
-  if (first == count)
+  const auto first =
+    std::find_if(points.begin(), points.end(), [](const Eigen::Vector3d& point) { return point.allFinite(); });
+  if (first == points.end())
   {
     return frame;
   }
-  const Eigen::Vector3d from = at(first);
+  const Eigen::Vector3d from = *first;
   double lanes[Moments][PointLanes] = {};
-  inLanes(xyz, count, [&](const Scalar* some, std::size_t size) { addMoments(some, size, from.data(), lanes); });
+  inLanes(points.front().data(), points.size(),
+    [&](const double* some, std::size_t size) { addMoments(some, size, from.data(), lanes); });
   double m[Moments];
   for (int i = 0; i < Moments; ++i)
   {
@@ -128,10 +123,10 @@ Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
   squares /= n;
   if (squares.trace() - mean.squaredNorm() > Spread * Spread)
   {
-    const std::vector<Scalar> stay = withoutStrays(xyz, count);
-    if (!stay.empty() && stay.size() < 3 * static_cast<std::size_t>(n))
+    const PrecisePoints stay = withoutStrays(points);
+    if (!stay.empty() && stay.size() < static_cast<std::size_t>(n))
     {
-      return frameOf(stay.data(), stay.size() / 3);
+      return principalFrame(stay);
     }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - mean * mean.transpose());
@@ -161,7 +156,6 @@ Eigen::Isometry3d frameOf(const Scalar* xyz, std::size_t count)
   frame.translation() = -(axes.transpose() * (from + mean));
   return frame;
 }
-}
 
 Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
 {
@@ -174,7 +168,4 @@ Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis)
   frame.col(2) = axis.cross(frame.col(1));
   return frame;
 }
-
-Eigen::Isometry3d principalFrame(const float* xyz, std::size_t count) { return frameOf(xyz, count); }
-Eigen::Isometry3d principalFrame(const double* xyz, std::size_t count) { return frameOf(xyz, count); }
 }

@@ -2,6 +2,7 @@
 #include "calibration/HandEyeCalibration.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 
 #include <opencv2/calib3d.hpp>
 
@@ -17,7 +18,6 @@ namespace
 constexpr double LeastTurn = 5.0; // degrees that some motions have to turn, about axes that are not parallel
 
 constexpr std::size_t FewestPairs = 3;
-constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
 constexpr double Degrees = 180.0 / M_PI;
 
 const std::pair<cv::HandEyeCalibrationMethod, const char*> Methods[] = { { cv::CALIB_HAND_EYE_PARK, "Park" },
@@ -26,14 +26,13 @@ const std::pair<cv::HandEyeCalibrationMethod, const char*> Methods[] = { { cv::C
 
 Eigen::Isometry3d requireRigid(const Eigen::Isometry3d& T, const char* name, std::size_t pair)
 {
-  const Eigen::Matrix3d R = T.linear();
-  if (!T.matrix().allFinite() || !R.isUnitary(RotationTolerance) || R.determinant() < 0.0)
+  if (!isRigid(T.matrix()))
   {
     throw Error("The " + std::string(name) + " of pair " + std::to_string(pair + 1) +
                 " is not a rotation and a translation: check its 4x4 matrix.");
   }
   Eigen::Isometry3d exact = T;
-  exact.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  exact.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
   return exact;
 }
 

@@ -2,21 +2,20 @@
 #include "calibration/HandEyeFile.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/JSONFile.h"
 #include "io/parsing/TextLines.h"
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <string_view>
 
 namespace meam
 {
 namespace
 {
-constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
-constexpr double Metre = 1000.0;           // mm
+constexpr double Metre = 1000.0; // mm
 constexpr std::string_view Separators = ",; \t";
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
@@ -27,11 +26,8 @@ constexpr std::string_view Separators = ",; \t";
 Eigen::Isometry3d poseOf(
   const std::string& path, const double* numbers, double unit, const char* name, std::size_t pair)
 {
-  Eigen::Isometry3d T;
-  T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers);
-  const Eigen::Matrix3d R = T.linear();
-  if (!T.matrix().allFinite() || !R.isUnitary(RotationTolerance) || R.determinant() < 0.0 ||
-      T.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+  Eigen::Isometry3d T = transformOf(numbers);
+  if (!isRigid(T.matrix()))
   {
     fail(path,
       std::string("has a ") + name + " that is not a rotation and a translation: pair " + std::to_string(pair + 1));

@@ -2,16 +2,16 @@
 #include "calibration/RobotFrameFile.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 #include "io/PoseFile.h"
 #include "io/parsing/FileBytes.h"
-#include "io/parsing/JSONFile.h"
-#include "io/parsing/NestedText.h"
 #include "io/parsing/StorageText.h"
 
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace meam
@@ -19,10 +19,10 @@ namespace meam
 namespace
 {
 constexpr std::size_t MostBytes = 1 << 20; // a transform is a page of text
+constexpr std::size_t MostName = 256;      // characters; numbers with a longer name would fill the memory
 constexpr double Tolerance = 1e-3;         // of entries that were printed with few digits
 constexpr double Metre = 1000.0;           // mm
 constexpr const char* Entry = "T_robot_camera";
-constexpr const char* Blanks = " \t\r\n";
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
@@ -35,17 +35,37 @@ Eigen::Isometry3d poseOf(const std::string& path, const std::vector<double>& num
   {
     fail(path, "has " + std::to_string(numbers.size()) + " numbers as " + Entry + " instead of 16");
   }
-  Eigen::Isometry3d T;
-  T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  const Eigen::Matrix3d R = T.linear();
-  if (!T.matrix().allFinite() || !R.isUnitary(Tolerance) || R.determinant() < 0.0 ||
-      T.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+  Eigen::Isometry3d T = transformOf(numbers.data());
+  if (!isRigid(T.matrix()))
   {
     fail(path, std::string("has a ") + Entry + " that is not a rotation and a translation");
   }
-  T.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
   T.translation() *= unit;
   return T;
+}
+
+/// Numbers by the names that lead to them, as in "transform.translation.x".
+using NestedNumbers = std::map<std::string, double>;
+
+/// Places in lists are names from 0 on.
+void append(const nlohmann::json& value, const std::string& name, NestedNumbers& numbers)
+{
+  if (name.size() > MostName)
+  {
+    return;
+  }
+  if (value.is_number())
+  {
+    numbers[name] = value.get<double>();
+  }
+  else if (value.is_structured())
+  {
+    for (const auto& [key, entry] : value.items())
+    {
+      append(entry, (name.empty() ? "" : name + ".") + key, numbers);
+    }
+  }
 }
 
 /// The numbers whose names end in each of these, within one transform: `a.` + each. None when there is none of them.
@@ -99,21 +119,20 @@ std::optional<Eigen::Isometry3d> transformIn(const std::string& path, const Nest
   return apart ? apart : transformIn(path, numbers, { "x", "y", "z", "qx", "qy", "qz", "qw" });
 }
 
-std::optional<Eigen::Isometry3d> frameInJSON(const std::string& path, const std::string& bytes)
+std::optional<Eigen::Isometry3d> frameIn(const std::string& path, const nlohmann::json& file)
 {
-  const nlohmann::json file = parseJSON(path, bytes);
-  if (!file.contains(Entry))
+  if (!file.is_object() || !file.contains(Entry))
   {
-    return transformIn(path, numbersInJSONTree(file));
+    NestedNumbers numbers;
+    append(file, "", numbers);
+    return transformIn(path, numbers);
   }
   const nlohmann::json units = file.value("units", nlohmann::json("mm"));
   if (units != "mm" && units != "m")
   {
     fail(path, "has 'units' other than \"mm\" and \"m\"");
   }
-  const nlohmann::json& value = file[Entry];
-  const nlohmann::json& numbers = value.is_object() && value.contains("data") ? value["data"] : value;
-  return poseOf(path, numbersOf(numbers, path, Entry), units == "m" ? Metre : 1.0);
+  return poseOf(path, numbersOfMatrix(file[Entry], path, Entry), units == "m" ? Metre : 1.0);
 }
 }
 
@@ -124,21 +143,10 @@ Eigen::Isometry3d readRobotFrame(const std::string& path)
   {
     fail(path, "is not a text with a transform");
   }
-  const std::size_t first = bytes.find_first_not_of(Blanks);
   std::optional<Eigen::Isometry3d> found;
-  if (first != std::string::npos && bytes[first] == '{')
+  if (bytes.find_first_of("{<:") != std::string::npos)
   {
-    found = frameInJSON(path, bytes);
-  }
-  else if (bytes.find(Entry) != std::string::npos)
-  {
-    const NamedNumbers entries = numbersInStorage(path, bytes);
-    const auto entry = entries.find(Entry);
-    found = entry != entries.end() ? std::optional(poseOf(path, entry->second, 1.0)) : std::nullopt;
-  }
-  else if (bytes.find(':') != std::string::npos)
-  {
-    found = transformIn(path, numbersInIndentedText(bytes));
+    found = frameIn(path, parseStorage(path, bytes));
   }
   else
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/BOPDataset.h"
 
+#include "base/Frames.h"
 #include "io/DepthImage.h"
 #include "io/ImageFile.h"
 #include "io/parsing/FileBytes.h"
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
@@ -170,7 +170,7 @@ Eigen::Isometry3d poseOf(const nlohmann::json& entry, const std::string& path)
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
   pose.translation() = Eigen::Map<const Eigen::Vector3d>(t.data());
-  if (!Eigen::Matrix3d(pose.linear()).isUnitary(RotationTolerance) || pose.linear().determinant() < 0.0)
+  if (!isRigid(pose.matrix()))
   {
     fail(path, "has a cam_R_m2c that is not a rotation");
   }

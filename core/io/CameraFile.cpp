@@ -2,8 +2,8 @@
 #include "io/CameraFile.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 #include "io/parsing/FileBytes.h"
-#include "io/parsing/JSONFile.h"
 #include "io/parsing/StorageText.h"
 
 #include <nlohmann/json.hpp>
@@ -17,63 +17,37 @@ namespace
 {
 // A calibration is a page of text; more is another kind of file.
 constexpr std::size_t MostBytes = 1 << 20;
-constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
-constexpr double MostPixels = 65535.0;     // in a row or a column
+constexpr double MostPixels = 65535.0; // in a row or a column
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
   throw Error("The camera file '" + path + "' " + what + ".");
 }
 
-/// The numbers of the file's first level.
-NamedNumbers numbersInJSON(const std::string& path, const std::string& bytes)
-{
-  const nlohmann::json root = parseJSON(path, bytes);
-  NamedNumbers entries;
-  for (const auto& [name, value] : root.items())
-  {
-    // OpenCV's matrices are objects with their rows one after the other.
-    const nlohmann::json& numbers = value.is_object() && value.contains("data") ? value["data"] : value;
-    if (numbers.is_number() || numbers.is_array())
-    {
-      entries[name] = numbersOf(numbers, path, name);
-    }
-  }
-  return entries;
-}
-
-/// Numbers by any of the names, or null; fails when there are not as many as there should be.
-const std::vector<double>* find(const std::string& path, const NamedNumbers& entries,
+/// Numbers by any of the names, empty without; fails when there are not as many as there should be.
+std::vector<double> find(const std::string& path, const nlohmann::json& entries,
   std::initializer_list<const char*> names, std::size_t fewest, std::size_t most)
 {
   for (const char* name : names)
   {
-    const auto entry = entries.find(name);
-    if (entry == entries.end())
+    if (!entries.is_object() || !entries.contains(name))
     {
       continue;
     }
-    const std::vector<double>& numbers = entry->second;
+    const std::vector<double> numbers = numbersOfMatrix(entries[name], path, name);
     if (numbers.size() < fewest || numbers.size() > most)
     {
       fail(path,
         "has " + std::to_string(numbers.size()) + " numbers as " + name + " instead of " + std::to_string(fewest));
     }
-    for (const double number : numbers)
-    {
-      if (!std::isfinite(number))
-      {
-        fail(path, std::string("has a value in ") + name + " that is not a number");
-      }
-    }
-    return &numbers;
+    return numbers;
   }
-  return nullptr;
+  return {};
 }
 
-int pixels(const std::string& path, const std::vector<double>* numbers)
+int pixels(const std::string& path, const std::vector<double>& numbers)
 {
-  const double value = numbers ? numbers->front() : 0.0;
+  const double value = numbers.empty() ? 0.0 : numbers.front();
   if (!(value >= 0.0 && value <= MostPixels) || value != std::floor(value))
   {
     fail(path, "has an impossible width or height of the image");
@@ -82,40 +56,37 @@ int pixels(const std::string& path, const std::vector<double>* numbers)
 }
 
 /// Where the camera is, from `T_camera_scene` or `R` and `T`; the identity without.
-Eigen::Isometry3d placeOf(const std::string& path, const NamedNumbers& entries)
+Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries)
 {
-  const std::vector<double>* whole = find(path, entries, { "T_camera_scene" }, 16, 16);
-  const std::vector<double>* rotation = find(path, entries, { "R" }, 9, 9);
-  const std::vector<double>* translation = find(path, entries, { "T" }, 3, 3);
+  const std::vector<double> whole = find(path, entries, { "T_camera_scene" }, 16, 16);
+  const std::vector<double> rotation = find(path, entries, { "R" }, 9, 9);
+  const std::vector<double> translation = find(path, entries, { "T" }, 3, 3);
   Eigen::Isometry3d T_camera_scene = Eigen::Isometry3d::Identity();
-  if (whole)
+  if (!whole.empty())
   {
-    T_camera_scene.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(whole->data());
+    T_camera_scene = transformOf(whole.data());
   }
-  else if (rotation && translation)
+  else if (!rotation.empty() && !translation.empty())
   {
-    T_camera_scene.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation->data());
-    T_camera_scene.translation() = Eigen::Map<const Eigen::Vector3d>(translation->data());
+    T_camera_scene.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
+    T_camera_scene.translation() = Eigen::Map<const Eigen::Vector3d>(translation.data());
   }
-  else if (rotation || translation)
+  else if (!rotation.empty() || !translation.empty())
   {
     fail(path, "has only one of R and T: the camera's place needs both, or T_camera_scene");
   }
-  const Eigen::Matrix3d R = T_camera_scene.linear();
-  if (!R.isUnitary(RotationTolerance) || R.determinant() < 0.0 ||
-      T_camera_scene.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+  if (!isRigid(T_camera_scene.matrix()))
   {
     fail(path, "has a place of the camera that is not a rotation and a translation");
   }
   return T_camera_scene;
 }
 
-Camera cameraOf(const std::string& path, const NamedNumbers& entries)
+Camera cameraOf(const std::string& path, const nlohmann::json& entries)
 {
   Camera camera;
-  if (const auto* matrix = find(path, entries, { "camera_matrix", "cameraMatrix" }, 9, 9))
+  if (const auto m = find(path, entries, { "camera_matrix", "cameraMatrix" }, 9, 9); !m.empty())
   {
-    const auto& m = *matrix;
     if (m[1] != 0.0 || m[3] != 0.0 || m[6] != 0.0 || m[7] != 0.0 || m[8] != 1.0)
     {
       fail(path, "has a camera matrix that is not fx 0 cx, 0 fy cy, 0 0 1");
@@ -131,29 +102,27 @@ Camera cameraOf(const std::string& path, const NamedNumbers& entries)
       { "cy", &camera.cy } };
     for (const auto& [name, value] : values)
     {
-      const auto* number = find(path, entries, { name }, 1, 1);
-      if (!number)
+      const auto number = find(path, entries, { name }, 1, 1);
+      if (number.empty())
       {
         fail(path, "has neither a camera_matrix nor all of fx, fy, cx and cy: it is not a camera's calibration");
       }
-      *value = number->front();
+      *value = number.front();
     }
   }
   camera.width = pixels(path, find(path, entries, { "image_width", "width" }, 1, 1));
   camera.height = pixels(path, find(path, entries, { "image_height", "height" }, 1, 1));
   // OpenCV also knows models of up to 14 numbers; the first five are Brown's.
-  if (const auto* numbers = find(path, entries, { "distortion_coefficients", "dist_coeffs" }, 4, 14))
+  const auto numbers = find(path, entries, { "distortion_coefficients", "dist_coeffs" }, 4, 14);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    for (std::size_t i = 0; i < numbers->size(); ++i)
+    if (i < camera.distortion.size())
     {
-      if (i < camera.distortion.size())
-      {
-        camera.distortion[i] = (*numbers)[i];
-      }
-      else if ((*numbers)[i] != 0.0)
-      {
-        fail(path, "has a lens of the rational or a still larger model: calibrate with k1 k2 p1 p2 k3 alone");
-      }
+      camera.distortion[i] = numbers[i];
+    }
+    else if (numbers[i] != 0.0)
+    {
+      fail(path, "has a lens of the rational or a still larger model: calibrate with k1 k2 p1 p2 k3 alone");
     }
   }
   camera.T_camera_scene = placeOf(path, entries);
@@ -168,9 +137,7 @@ CameraFile readCamera(const std::string& path)
   {
     fail(path, "is not a text of a camera's calibration");
   }
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  const bool json = first != std::string::npos && bytes[first] == '{';
-  const NamedNumbers entries = json ? numbersInJSON(path, bytes) : numbersInStorage(path, bytes);
+  const nlohmann::json entries = parseStorage(path, bytes);
   CameraFile result;
   result.camera = cameraOf(path, entries);
   try
@@ -181,9 +148,9 @@ CameraFile readCamera(const std::string& path)
   {
     throw Error("The camera file '" + path + "' does not fit. " + error.what());
   }
-  if (const auto* scale = find(path, entries, { "depth_scale" }, 1, 1))
+  if (const auto scale = find(path, entries, { "depth_scale" }, 1, 1); !scale.empty())
   {
-    result.depthScale = scale->front();
+    result.depthScale = scale.front();
     if (!(result.depthScale > 0.0))
     {
       fail(path, "has a depth_scale that is not positive");

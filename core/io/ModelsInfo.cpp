@@ -2,6 +2,7 @@
 #include "io/ModelsInfo.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/JSONFile.h"
 
@@ -11,7 +12,6 @@ namespace meam
 {
 namespace
 {
-constexpr double RotationTolerance = 1e-3; // of entries that were printed with few digits
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
@@ -83,16 +83,11 @@ Symmetries readModelsInfo(const std::string& path, int objectId)
   for (const nlohmann::json& matrix : listUnder(*entry, "symmetries_discrete", path))
   {
     const std::vector<double> numbers = numbersOf(matrix, path, "discrete symmetry");
-    Eigen::Isometry3d S = Eigen::Isometry3d::Identity();
-    if (numbers.size() == 16)
-    {
-      S.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-    }
-    if (numbers.size() != 16 || !Eigen::Matrix3d(S.linear()).isUnitary(RotationTolerance) ||
-        S.linear().determinant() < 0.0)
+    if (numbers.size() != 16 || !isRigid(transformOf(numbers.data()).matrix()))
     {
       fail(path, "has a discrete symmetry that is not a 4x4 matrix of a rotation and a translation");
     }
+    const Eigen::Isometry3d S = transformOf(numbers.data());
     if (!S.isApprox(Eigen::Isometry3d::Identity()))
     {
       symmetries.discrete.push_back(S);

@@ -2,15 +2,14 @@
 #include "io/PCDFile.h"
 
 #include "io/parsing/FileBytes.h"
+#include "io/parsing/TextLines.h"
 
 #include <liblzf/lzf.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <limits>
-#include <sstream>
 
 namespace meam
 {
@@ -39,7 +38,6 @@ struct Header
   std::uint64_t height = 0;
   std::uint64_t points = 0;
   std::uint64_t record = 0; ///< bytes, or values in ascii, of a point
-  std::array<double, 7> viewpoint = { 0, 0, 0, 1, 0, 0, 0 };
   Encoding encoding = Encoding::Ascii;
   std::size_t dataAt = 0; ///< position in the file
 };
@@ -49,20 +47,11 @@ struct Header
   throw Error("The PCD file '" + path + "' " + what + ".");
 }
 
-/// Locale does not matter to from_chars; it takes nan and inf, but no plus sign.
-template <typename Number>
-bool parse(const std::string& text, Number& value)
-{
-  const char* first = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
-  const auto [end, failure] = std::from_chars(first, text.data() + text.size(), value);
-  return failure == std::errc() && end == text.data() + text.size();
-}
-
 template <typename Number>
 Number parseOrFail(const std::string& path, const std::string& key, const std::string& text)
 {
   Number value{};
-  if (!parse(text, value))
+  if (!parseNumber(text, value))
   {
     fail(path, "has a header line " + key + " that is not a number: '" + text.substr(0, 40) + "'");
   }
@@ -136,22 +125,11 @@ Header parseHeader(const std::string& path, const std::string& bytes)
       header.points = parseOrFail<std::uint64_t>(path, key, values[0]);
       hasPoints = true;
     }
-    else if (key == "VIEWPOINT")
-    {
-      if (values.size() != 7)
-      {
-        fail(path, "has a VIEWPOINT line of " + std::to_string(values.size()) + " numbers instead of 7");
-      }
-      for (int i = 0; i < 7; ++i)
-      {
-        header.viewpoint[i] = parseOrFail<double>(path, key, values[i]);
-      }
-    }
     else if (key == "DATA")
     {
       encoding = values[0];
     }
-    else
+    else if (key != "VIEWPOINT") // the sensor's pose: points are in its frame
     {
       fail(path, "has an unknown header line '" + key.substr(0, 40) + "': it is not a PCD file");
     }
@@ -398,7 +376,7 @@ std::string decompressed(const std::string& path, const std::string& bytes, cons
 }
 }
 
-PCDData readPCD(const std::string& path, const Progress& progress)
+MeasuredCloud readPCD(const std::string& path, const Progress& progress)
 {
   std::string bytes = readFile(path);
   report(progress, 0.0);
@@ -465,10 +443,9 @@ PCDData readPCD(const std::string& path, const Progress& progress)
     return points;
   };
 
-  PCDData result;
+  MeasuredCloud result;
   result.cloud.width = static_cast<int>(header.width);
   result.cloud.height = static_cast<int>(header.height);
-  result.viewpoint = header.viewpoint;
   result.cloud.points = take("x", "y", "z");
   if (result.cloud.points.empty())
   {
@@ -505,78 +482,5 @@ std::array<int, 2> readPCDSize(const std::string& path)
 {
   const Header header = parseHeader(path, readFile(path));
   return { static_cast<int>(header.width), static_cast<int>(header.height) };
-}
-
-void writePCD(const std::string& path, const PCDData& data)
-{
-  const std::size_t points = data.cloud.size();
-  const auto fits = [&](std::size_t size, std::size_t each) { return size == 0 || size == each * points; };
-  if (data.cloud.width < 1 || data.cloud.height < 1 ||
-      points != static_cast<std::size_t>(data.cloud.width) * static_cast<std::size_t>(data.cloud.height) ||
-      !fits(data.normals.size(), 1) || !fits(data.intensities.size(), 1) || !fits(data.colors.size(), 3))
-  {
-    throw Error(
-      "The cloud for '" + path + "' cannot be written: it is empty, or its arrays are not of width x height.");
-  }
-  std::string names = "x y z";
-  std::size_t fields = 3;
-  if (!data.normals.empty())
-  {
-    names += " normal_x normal_y normal_z";
-    fields += 3;
-  }
-  if (!data.intensities.empty())
-  {
-    names += " intensity";
-    ++fields;
-  }
-  if (!data.colors.empty())
-  {
-    names += " rgb";
-    ++fields;
-  }
-  const auto repeated = [&](const char* word)
-  {
-    std::string line;
-    for (std::size_t i = 0; i < fields; ++i)
-    {
-      line += word;
-    }
-    return line + "\n";
-  };
-  std::ostringstream header;
-  header.imbue(std::locale::classic());
-  header.precision(17);
-  header << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS " << names << "\nSIZE" << repeated(" 4")
-         << "TYPE" << repeated(" F") << "COUNT" << repeated(" 1") << "WIDTH " << data.cloud.width << "\nHEIGHT "
-         << data.cloud.height << "\nVIEWPOINT";
-  for (const double value : data.viewpoint)
-  {
-    header << ' ' << value;
-  }
-  header << "\nPOINTS " << points << "\nDATA binary\n";
-
-  std::string bytes = header.str();
-  bytes.reserve(bytes.size() + 4 * fields * points);
-  const auto append = [&](const void* from, std::size_t size) { bytes.append(static_cast<const char*>(from), size); };
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    append(data.cloud.points[i].data(), 12);
-    if (!data.normals.empty())
-    {
-      append(data.normals[i].data(), 12);
-    }
-    if (!data.intensities.empty())
-    {
-      append(&data.intensities[i], 4);
-    }
-    if (!data.colors.empty())
-    {
-      const std::uint8_t* color = &data.colors[3 * i];
-      const std::uint32_t packed = (color[0] << 16) | (color[1] << 8) | color[2];
-      append(&packed, 4);
-    }
-  }
-  writeFile(path, bytes);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/PoseFile.h"
 
+#include "base/Frames.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/JSONFile.h"
 #include "io/parsing/TextLines.h"
@@ -17,7 +18,6 @@ namespace meam
 namespace
 {
 // The entries of a rotation that was printed with few digits.
-constexpr double RotationTolerance = 1e-3;
 constexpr double MostIds = 1e9; // of scenes, images, objects, ranks
 constexpr const char* JSONFormat = "meam-poses";
 constexpr int JSONVersion = 1;
@@ -61,17 +61,9 @@ namespace
 {
 constexpr std::string_view BOPHeader = "scene_id,im_id,obj_id,score,R,t,time";
 
-bool isPose(const Eigen::Matrix4d& matrix)
-{
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  const double skew = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  return skew < RotationTolerance && rotation.determinant() > 0.0 && // false for NaN
-         matrix.row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
-}
-
 Eigen::Isometry3d requirePose(const Eigen::Matrix4d& matrix, const std::string& what, std::size_t place)
 {
-  if (!isPose(matrix))
+  if (!isRigid(matrix))
   {
     throw Error(what + "has a matrix that is not a rotation and a translation: number " + std::to_string(place) + ".");
   }
@@ -174,8 +166,7 @@ std::vector<PoseRow> readJSON(const std::string& bytes, const std::string& path,
       throw Error(what + "has a pose without a 4x4 'matrix': number " + std::to_string(poses.size() + 1) + ".");
     }
     PoseRow row;
-    row.T_scene_model = requirePose(
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix.data()), what, poses.size() + 1);
+    row.T_scene_model = requirePose(transformOf(matrix.data()).matrix(), what, poses.size() + 1);
     row.sceneId = idIn(value("scene_id", row.sceneId), what);
     row.imageId = idIn(value("im_id", row.imageId), what);
     row.objectId = idIn(value("obj_id", row.objectId), what);
@@ -254,8 +245,7 @@ std::vector<Eigen::Isometry3d> readMatrices(const std::string& path)
   poses.reserve(numbers.size() / 16);
   for (std::size_t i = 0; i < numbers.size(); i += 16)
   {
-    const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&numbers[i]);
-    poses.push_back(requirePose(matrix, what, i / 16 + 1));
+    poses.push_back(requirePose(transformOf(&numbers[i]).matrix(), what, i / 16 + 1));
   }
   return poses;
 }

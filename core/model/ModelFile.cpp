@@ -2,6 +2,7 @@
 #include "model/ModelFile.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/NamedArrays.h"
 #include "model/ModelValidation.h"
@@ -24,12 +25,7 @@ void append(Numbers& numbers, const Eigen::Isometry3d& T)
   numbers.insert(numbers.end(), rows.data(), rows.data() + 16);
 }
 
-Eigen::Isometry3d transformAt(const Numbers& numbers, std::size_t at)
-{
-  Eigen::Isometry3d T;
-  T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data() + at);
-  return T;
-}
+Eigen::Isometry3d transformAt(const Numbers& numbers, std::size_t at) { return transformOf(numbers.data() + at); }
 
 // Numbers of a row: a symmetry in each.
 constexpr std::size_t DiscreteRow = 16;  // row-major 4 x 4

@@ -2,6 +2,7 @@
 #include "model/ModelValidation.h"
 
 #include "base/Error.h"
+#include "base/Frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,9 @@ constexpr double LeastDiameter = 1e-6; // mm; of less single precision cannot ta
 constexpr double MostDiameter = 1e9;   // mm
 constexpr double MostExtent = 2.0;     // of the points along an axis, over the diameter; 1 but for rounding
 constexpr float MostAngle = 3.15f;     // radians; pi but for rounding
-constexpr double Rotation = 1e-3;      // rounding of matrices, off rotations, and of axes, off unit vectors
+constexpr double Rotation = 1e-3;      // rounding of axes, off unit vectors
 
-bool isMotion(const Eigen::Isometry3d& T)
-{
-  const Eigen::Matrix3d R = T.linear();
-  return T.matrix().allFinite() && R.isUnitary(Rotation) && R.determinant() > 0.0;
-}
+bool isMotion(const Eigen::Isometry3d& T) { return isRigid(T.matrix()); }
 
 void requireFinite(const Points& points, const char* what)
 {

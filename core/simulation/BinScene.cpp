@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/BinScene.h"
 
+#include "base/Frames.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/BinPhysics.h"
@@ -50,12 +51,8 @@ std::vector<TriangleMesh> walls(double size, double height, double thickness)
 void check(const BinSceneSettings& settings)
 {
   const auto valid = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  const auto isPose = [](const Eigen::Isometry3d& T)
-  {
-    const Eigen::Matrix3d R = T.linear();
-    return T.matrix().allFinite() && (R.transpose() * R).isIdentity(1e-6) && R.determinant() > 0.0;
-  };
-  if (!std::all_of(settings.poses.begin(), settings.poses.end(), isPose))
+  if (!std::all_of(
+        settings.poses.begin(), settings.poses.end(), [](const Eigen::Isometry3d& T) { return isRigid(T.matrix()); }))
   {
     throw Error("A pose that a copy shall stand at is not a rotation and a translation.");
   }

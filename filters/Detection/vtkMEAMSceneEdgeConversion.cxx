@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMSceneEdgeConversion.h"
 
+#include "base/Frames.h"
 #include "io/CameraFile.h"
 #include "scene/edges/SceneEdgeExtraction.h"
 #include "vtkMEAMArrays.h"
@@ -79,7 +80,7 @@ std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, cons
   camera.cx = (*matrix)[2];
   camera.fy = (*matrix)[4];
   camera.cy = (*matrix)[5];
-  camera.T_camera_scene.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(pose->data());
+  camera.T_camera_scene = meam::transformOf(pose->data());
   if (camera.width == cloud.width && camera.height == cloud.height &&
       camera.T_camera_scene.isApprox(Eigen::Isometry3d::Identity(), 1e-9))
   {

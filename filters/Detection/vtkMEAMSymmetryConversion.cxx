@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 
+#include "base/Frames.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -44,10 +45,8 @@ std::vector<Eigen::Isometry3d> fieldTransforms(vtkDataObject* input, const char*
   std::vector<Eigen::Isometry3d> transforms;
   for (std::size_t i = 0; i < values.size(); i += 16)
   {
-    Eigen::Isometry3d T;
-    T.matrix() = Eigen::Map<const Row>(values.data() + i);
-    const Eigen::Matrix3d R = T.linear();
-    if (!(T.matrix().allFinite() && R.isUnitary(1e-3) && R.determinant() > 0.0))
+    const Eigen::Isometry3d T = meam::transformOf(values.data() + i);
+    if (!meam::isRigid(T.matrix()))
     {
       throw meam::Error("The field data '" + std::string(name) +
                         "' has a matrix that is not a rigid motion: use the "

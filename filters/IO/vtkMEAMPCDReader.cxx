@@ -92,7 +92,7 @@ int vtkMEAMPCDReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
       {
         throw meam::Error("No file is given: set FileName to the name of a PCD file.");
       }
-      meam::PCDData data = meam::readPCD(this->FileName, vtkMEAMConversion::progressOf(this));
+      meam::MeasuredCloud data = meam::readPCD(this->FileName, vtkMEAMConversion::progressOf(this));
       meam::requirePoints(data.cloud.points, std::string("The PCD file '") + this->FileName + "'");
       for (auto& point : data.cloud.points)
       {

@@ -3,7 +3,7 @@
 #include "TestFiles.h"
 #include "TestImages.h"
 #include "TestScene.h"
-#include "io/PCDFile.h"
+#include "meam.h"
 #include "picks.h"
 
 #include <algorithm>
@@ -203,11 +203,10 @@ TEST(API, EdgesOfTheCloudAlone)
 TEST(API, ReadsScans)
 {
   const files::Folder folder;
-  meam::PCDData data;
-  data.cloud = { 2, 2, { { 1, 2, 3 }, { 4, 5, 6 }, { 7, 8, 9 }, { 10, 11, 12 } } };
-  data.intensities = { 0, 100, 200, 255 };
-  meam::writePCD(folder.path("a.pcd"), data);
-  meam::Scan scan = meam::loadScan(folder.path("a.pcd"), {}, 1000.0);
+  const std::string pcd =
+    folder.write("a.pcd", "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 2\nHEIGHT 2\n"
+                          "DATA ascii\n1 2 3 0\n4 5 6 100\n7 8 9 200\n10 11 12 255\n");
+  meam::Scan scan = meam::loadScan(pcd, {}, 1000.0);
   EXPECT_EQ(scan.width, 2);
   EXPECT_EQ(scan.height, 2);
   EXPECT_EQ(scan.points[3], Eigen::Vector3f(10000, 11000, 12000));

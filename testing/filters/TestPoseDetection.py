@@ -4,15 +4,12 @@ import math
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam.filters import vtkMEAMPoseDetection, vtkMEAMTangentEstimation
-from meamtest import (MovedView, Trained, Warnings, bracket, check, close, cloud, connect, fails, field, image, is_empty, points,
-                      pose_error, prints, run, tuples)
+from ppfmeam.filters import vtkMEAMPoseDetection
+from meamtest import (Warnings, check, close, cloud, connect, fails, field, image, is_empty, points, pose_error, prints, run,
+                      trained_bracket, tuples)
 
-trained = Trained(bracket())
-model = run(trained.model)
+trained, model, scene, edges = trained_bracket()
 diameter = field(model, "Diameter")[0][0]
-scene = MovedView(trained)
-edges = run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
 
 
 def detection(edges=edges, model=model, **properties):

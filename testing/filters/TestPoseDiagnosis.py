@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Of a simulated bin: what came out is found, hidden parts are hidden, and the numbers and points are told."""
 import math
+import os
+import re
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
@@ -65,7 +67,7 @@ last = max(came_out)
 diagnosis.SetRankOfPose(ranks.index(last) + 1)
 diagnosis.SetMinimumProbability(0.5 * (least + 1.0))
 verdict = text(run(diagnosis), "Verdict")
-check(f"with a probability of {100 * least:.0f} %" in verdict, f"{verdict}: it has {least}")
+check(verdict.startswith(f"Found as rank {last}, {100 * least:.0f} %, ") and "only poses of at least" in verdict, verdict)
 diagnosis.SetMinimumProbability(0.5)
 
 # The points lie on the scan where they match, and have their names.
@@ -115,6 +117,32 @@ diagnosis.SetRankOfPose(ranks.index(2) + 1)
 output = run(diagnosis)
 check("only the best 1" in text(output, "Verdict") and "MaximumNumberOfPoses" in text(output, "Advice"),
       text(output, "Verdict") + text(output, "Advice"))
+
+# A point on a part that is found beyond the limit, wherever its pose is picked.
+sixth = ranks.index(max(came_out))
+diagnosis.SetRankOfPose(sixth + 1)
+diagnosis.SetMaximumNumberOfPoses(0)
+output = run(diagnosis)
+on = [p for p, s in zip(points(output), tuples(output, "State")) if int(s[0]) == 0]
+diagnosis.SetPlaceToPoint()
+diagnosis.SetMaximumNumberOfPoses(max(came_out) - 1)
+for point in on[::max(1, len(on) // 5)]:
+    diagnosis.SetPosition(point)
+    verdict = text(run(diagnosis), "Verdict")
+    check(verdict.startswith("Found as rank"), f"{point}: {verdict}")
+diagnosis.SetPlaceToRankedPose()
+
+# What advice names is a property of the filter, or a value of one.
+source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "core", "pose", "diagnosis", "DiagnosisReport.cpp")
+with open(source, encoding="utf-8") as file:
+    advice = re.search(r"\nstd::string adviceOf\(.*?\n}\n", file.read(), re.DOTALL)[0]
+advice = " ".join(re.findall(r'"([^"]*)"', advice))
+named = set(re.findall(r"\b[A-Z][a-z]+(?:[A-Z][a-z]*)+\b|Creases|Features", advice))
+check({"MaximumNumberOfPoses", "MinimumProbability", "ReferenceShare", "Features", "DepthEdges"} <= named, f"{named}")
+for name in named:
+    check(all(hasattr(f, "Set" + name) for f in (diagnosis, estimation)), f"there is no property {name}")
+for name, value in re.findall(r"\b([A-Z]\w+): ([A-Z]\w+)", advice):
+    check(hasattr(diagnosis, f"Set{name}To{value}"), f"{name} has no value {value}")
 
 diagnosis.SetRankOfPose(99)
 fails(diagnosis, "no pose 99", "RankOfPose")

@@ -4,15 +4,12 @@ import math
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam.filters import vtkMEAMPoseRefinement, vtkMEAMTangentEstimation
-from meamtest import (MovedView, Trained, bracket, check, cloud, connect, fails, field, image, is_empty,
-                      points, pose_error, poses, prints, run, tuples)
+from ppfmeam.filters import vtkMEAMPoseRefinement
+from meamtest import (check, cloud, connect, fails, field, image, is_empty, points, pose_error, poses, prints, run,
+                      trained_bracket, tuples)
 
-trained = Trained(bracket())
-model = run(trained.model)
+trained, model, scene, edges = trained_bracket()
 diameter = field(model, "Diameter")[0][0]
-scene = MovedView(trained)
-edges = run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
 
 
 def near(degrees, *mm):

@@ -4,27 +4,12 @@ import math
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam.filters import vtkMEAMPoseScreening, vtkMEAMTangentEstimation
-from meamtest import (MovedView, Trained, bracket, check, cloud, connect, fails, field, image, is_empty, poses, prints, run,
-                      tuples)
+from ppfmeam.filters import vtkMEAMPoseScreening
+from meamtest import check, cloud, connect, fails, field, image, is_empty, poses, prints, run, trained_bracket, tuples
 
-trained = Trained(bracket())
-model = run(trained.model)
+_, model, scene, edges = trained_bracket()
 diameter = field(model, "Diameter")[0][0]
-scene = MovedView(trained)
-edges = run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
-
-
-def shifted(x=0.0, y=0.0, z=0.0, turned=False):
-    """The true pose, moved; `turned`: upside down about the middle of the part (y -> 25 - y, z -> 15 - z)."""
-    t = list(scene.transform)
-    for row in range(3) if turned else ():
-        t[4 * row + 3] += 25 * t[4 * row + 1] + 15 * t[4 * row + 2]
-        t[4 * row + 1] *= -1
-        t[4 * row + 2] *= -1
-    for k, d in zip((3, 7, 11), (x, y, z)):
-        t[k] += d
-    return tuple(t)
+shifted = scene.shifted
 
 
 def screening(candidates, surface=scene.surface, **properties):

@@ -24,7 +24,7 @@ row = stages.index("found")
 report = works("why.py", "part.meam", "scan.pcd", "--pose", f"truth.txt:{row + 1}", "--poses", "0").splitlines()
 check(report[-1].startswith("Found as rank ") and any(line.startswith("voting ") for line in report), f"{report}")
 few = works("why.py", "part.meam", "scan.pcd", "--truth", "truth.txt", "--poses", "1")
-check(few.count("only the best 1 are wanted. Raise MaximumNumberOfPoses") == found - 1, few)
+check(few.count("only the best 1 are wanted. Raise MaximumNumberOfPoses") >= found - 1, few)
 
 # In Python; the point is one of the part's that the scan shows.
 model = ppfmeam.load("part.meam")

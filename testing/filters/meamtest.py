@@ -209,6 +209,24 @@ class MovedView:
         filter.Update()
         return filter.GetOutput()
 
+    def shifted(self, x=0.0, y=0.0, z=0.0, turned=False):
+        """The true pose, moved; `turned`: upside down about the middle of the bracket (y -> 25 - y, z -> 15 - z)."""
+        t = list(self.transform)
+        for row in range(3) if turned else ():
+            t[4 * row + 3] += 25 * t[4 * row + 1] + 15 * t[4 * row + 2]
+            t[4 * row + 1] *= -1
+            t[4 * row + 2] *= -1
+        for k, d in zip((3, 7, 11), (x, y, z)):
+            t[k] += d
+        return tuple(t)
+
+
+def trained_bracket():
+    """The bracket trained, its model, what a sensor sees of it, and that one's edges with tangents."""
+    trained = Trained(bracket())
+    model, scene = run(trained.model), MovedView(trained)
+    return trained, model, scene, run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
+
 
 def collection(*pieces, **fields):
     """vtkPartitionedDataSetCollection of (name, data) with numbers as field data."""

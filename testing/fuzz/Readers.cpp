@@ -71,7 +71,7 @@ void requireArrays(const meam::MeasuredCloud& measured)
 void readPCD(const std::string& path)
 {
   const auto [width, height] = meam::readPCDSize(path);
-  const meam::PCDData data = meam::readPCD(path);
+  const meam::MeasuredCloud data = meam::readPCD(path);
   requireArrays(data);
   require(data.cloud.width == width && data.cloud.height == height, "another size than the header's");
 }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
 namespace meam
 {
-/// Names, and the numbers under them.
-using NamedNumbers = std::map<std::string, std::vector<double>>;
+/// What a text of OpenCV's FileStorage holds, in YAML, JSON or XML; of XML only the numbers of the first level, where a
+/// word that is no number becomes NaN. OpenCV's own reader ends the program on damaged files. Throws Error, naming the
+/// file `path` that the text is from, when it is none of them.
+nlohmann::json parseStorage(const std::string& path, const std::string& text);
 
-/// The numbers in a text that OpenCV's FileStorage wrote, in YAML or XML: those of the first level, lists and
-/// matrices among them, row by row. What holds no numbers is left out; a word in a list of numbers becomes NaN.
-/// OpenCV's own reader ends the program on damaged files. Throws Error, naming the file `path` that the text is from,
-/// when it is neither.
-NamedNumbers numbersInStorage(const std::string& path, const std::string& text);
+/// The numbers of an entry, row by row: a number, a list, or a matrix with its list `data`. Throws Error as
+/// numbersOf().
+std::vector<double> numbersOfMatrix(const nlohmann::json& value, const std::string& path, const std::string& what);
 }

@@ -85,6 +85,24 @@ std::string takerWords(const Diagnosis& diagnosis)
          " of the points that match here";
 }
 
+bool isBeyondMaximum(const Diagnosis& diagnosis, const PoseSelectionSettings& selection)
+{
+  return selection.maximumPoses > 0 && diagnosis.rankWithoutLimits > selection.maximumPoses;
+}
+
+bool isUnlikely(const Diagnosis& diagnosis, const PoseSelectionSettings& selection)
+{
+  return diagnosis.probability < selection.minimumProbability;
+}
+
+/// The limits that keep a pose back.
+std::string wantedWords(const Diagnosis& diagnosis, const PoseSelectionSettings& selection)
+{
+  return (isBeyondMaximum(diagnosis, selection) ? "the best " + std::to_string(selection.maximumPoses)
+                                                : std::string("poses")) +
+         (isUnlikely(diagnosis, selection) ? " of at least " + percent(selection.minimumProbability) : "");
+}
+
 std::string lostIn(const Diagnosis& diagnosis) { return "Lost in " + nameOf(*diagnosis.lostIn) + ": "; }
 
 std::string votingVerdict(const Diagnosis& diagnosis)
@@ -138,19 +156,16 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
   const PlaceEvidence& evidence = diagnosis.evidence;
   const std::string rank = std::to_string(std::max(diagnosis.rank, diagnosis.rankWithoutLimits));
   const std::string off = offsetWords(diagnosis.offset) + " off";
+  const std::string found = "Found as rank " + rank + ", " + percent(diagnosis.probability) + ", ";
   const auto afterwards = [&] { return "; lost in " + nameOf(*diagnosis.lostIn) + "."; };
   switch (diagnosis.cause)
   {
     case LossCause::None:
-      return "Found as rank " + rank + ", " + off + ".";
+      return found + off + ".";
     case LossCause::Inaccurate:
-      return "Found as rank " + rank + ", but " + off + ".";
-    case LossCause::BeyondMaximum:
-      return "Found as rank " + rank + ", " + off + ", but only the best " +
-             std::to_string(detection.selection.maximumPoses) + " are wanted.";
-    case LossCause::Unlikely:
-      return "Found, " + off + ", but with a probability of " + percent(diagnosis.probability) + ", and less than " +
-             percent(detection.selection.minimumProbability) + " is not wanted.";
+      return found + "but " + off + ".";
+    case LossCause::NotWanted:
+      return found + off + ", but only " + wantedWords(diagnosis, detection.selection) + " are wanted.";
     case LossCause::NoPose:
       return "No part there: however closely it is looked for, no pose of the part has its surface at this point.";
     case LossCause::NotThere:
@@ -201,23 +216,23 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
 
 std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detection)
 {
+  const PoseSelectionSettings& selection = detection.selection;
+  const bool canVoteMore = detection.detection.features != Features::Both;
   switch (diagnosis.cause)
   {
-    case LossCause::BeyondMaximum:
-      return "Raise MaximumNumberOfPoses to " + std::to_string(diagnosis.rankWithoutLimits) +
-             " or more, or set it to 0.";
-    case LossCause::Unlikely:
-      return "Lower MinimumProbability.";
+    case LossCause::NotWanted:
+      return (isBeyondMaximum(diagnosis, selection)
+                 ? "Raise MaximumNumberOfPoses to " + std::to_string(diagnosis.rankWithoutLimits) +
+                     " or more, or set it to 0." + (isUnlikely(diagnosis, selection) ? " " : "")
+                 : "") +
+             (isUnlikely(diagnosis, selection) ? "Lower MinimumProbability." : "");
     case LossCause::NotMeasured:
       return "Measure the part from another side or with another exposure.";
     case LossCause::Hidden:
       return "Take out what lies on it, and scan again.";
     case LossCause::Enclosed:
-      return "When there is a part, it is the floor that is wrong: a plane behind which nothing was measured. Scan "
-             "what is "
-             "below, too.";
-    case LossCause::SurfaceMissing:
-      return "Lower LeastSurface of Pose Screening.";
+      return "When there is a part, it is the floor that is wrong: a plane behind which nothing was measured. "
+             "Scan what is below, too.";
     case LossCause::NoPose:
       return "Take a point of the scan that lies on the part.";
     default:
@@ -227,24 +242,12 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
   {
     return "Raise ReferenceShare: with all points on the part voting it is found.";
   }
-  if (diagnosis.peaksThatFind > 0)
-  {
-    return "Raise ReferenceShare, and PeaksPerReference of Pose Detection to " +
-           std::to_string(diagnosis.peaksThatFind) + ": with all points on the part voting so it is found.";
-  }
   if (diagnosis.cause == LossCause::FewEdges)
   {
-    return "Look for edges in the depth, too (DepthEdges, Creases), lower the thresholds of Scene Edge Extraction, "
-           "light "
-           "the bin from another side, or let the surface vote (Features: Both).";
+    return std::string("Light the bin from another side, switch on DepthEdges and Creases") +
+           (canVoteMore ? ", or let the surface vote, too (Features: Both)." : ".");
   }
-  if (diagnosis.cause == LossCause::Outvoted && detection.detection.features != Features::Both)
-  {
-    return "Let edges and surface vote (Features: Both).";
-  }
-  return diagnosis.cause == LossCause::Taken
-           ? "When that pose is wrong, raise PosesPerInstance of Pose Selection (method Alternatives)."
-           : "";
+  return diagnosis.cause == LossCause::Outvoted && canVoteMore ? "Let edges and surface vote (Features: Both)." : "";
 }
 
 std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)

@@ -11,7 +11,7 @@ namespace meam
 /// The step that lost a part, and why, in a plain sentence.
 std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detection);
 
-/// What to change, naming the properties of the filters; empty where nothing is known to help.
+/// What to change: in the scan, or properties of the filter MEAM Pose Estimation; empty where nothing is known to help.
 std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detection);
 
 /// A number of a step.

@@ -91,9 +91,12 @@ Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& p
   const Poses nearby = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.3, 0.6));
   const auto best = firstOn(nearby);
-  if (best != nearby.end())
+  const auto notWanted = firstOn(this->Trace.unlimited());
+  const bool isKeptBack = notWanted != this->Trace.unlimited().end();
+  if (isKeptBack || best != nearby.end())
   {
-    return this->at(best->T_scene_model, subProgress(progress, 0.6, 1.0));
+    const bool takesBest = best != nearby.end() && (!isKeptBack || best->evidence > notWanted->evidence);
+    return this->at((takesBest ? best : notWanted)->T_scene_model, subProgress(progress, 0.6, 1.0));
   }
   Diagnosis nothing;
   nothing.cause = LossCause::NoPose;
@@ -190,16 +193,18 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
   }
   const auto last =
     std::find_if(stages.rbegin(), stages.rend(), [](const StageCount& stage) { return stage.here > 0; });
+  this->findTaker(diagnosis);
   // What selection turns or fits anew may come here from poses that were not here before.
-  const bool isDropped = !posesAt(this->Trace.unlimited(), T_local_model, this->tolerance(), this->Model).empty();
-  diagnosis.lostIn = isDropped               ? PoseStage::Selection
-                     : last == stages.rend() ? PoseStage::Voting
-                                             : std::prev(last)->stage;
-  this->findTaker(diagnosis, this->Trace.ranked());
+  const std::vector<int> keptBack = posesAt(this->Trace.unlimited(), T_local_model, this->tolerance(), this->Model);
+  if (!keptBack.empty())
+  {
+    return this->notWanted(diagnosis, keptBack.front() + 1, T_local_model);
+  }
+  diagnosis.lostIn = last == stages.rend() ? PoseStage::Voting : std::prev(last)->stage;
   if (*diagnosis.lostIn == PoseStage::Voting || *diagnosis.lostIn == PoseStage::Screening ||
       *diagnosis.lostIn == PoseStage::CandidateSelection)
   {
-    this->findWhatHelps(diagnosis, T_local_model, progress);
+    diagnosis.isFoundByAllPoints = this->isFoundByAllPoints(T_local_model, progress);
   }
   LossCause cause = LossCause::LowScore;
   switch (*diagnosis.lostIn)
@@ -227,15 +232,16 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
       break;
     }
     case PoseStage::Selection:
-      cause = this->causeInSelection(diagnosis, T_local_model);
+      cause = this->isTurnedAmong(this->Trace.unlimited(), T_local_model) ? LossCause::OtherRotation : LossCause::Taken;
       break;
     case PoseStage::CandidateVerification:
     case PoseStage::Verification:
       break;
   }
-  if (cause == LossCause::Unlikely || cause == LossCause::BeyondMaximum)
+  if (cause == LossCause::Taken && diagnosis.takenBy > static_cast<int>(this->Trace.ranked().size()) &&
+      diagnosis.takenShare > SharedByOne)
   {
-    return cause; // whatever the scan shows of it, it was found
+    return this->notWanted(diagnosis, diagnosis.takenBy, T_local_model);
   }
   const PlaceEvidence& evidence = diagnosis.evidence;
   const double missing = evidence.surfaceShare(PointState::Violated) + evidence.surfaceShare(PointState::Unknown);
@@ -247,35 +253,26 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
                                                                     : cause;
 }
 
-bool PoseDiagnosis::isFoundBy(int peaks, const Eigen::Isometry3d& T_local_model, const Progress& progress) const
+LossCause PoseDiagnosis::notWanted(Diagnosis& diagnosis, int rank, const Eigen::Isometry3d& T_local_model)
 {
-  PoseDetectionSettings voting = this->Detection.detection;
-  voting.peaksPerReference = peaks;
+  const Pose& pose = this->Trace.unlimited()[rank - 1];
+  diagnosis.lostIn = PoseStage::Selection;
+  diagnosis.rankWithoutLimits = rank;
+  diagnosis.offset = offsetBetween(pose.T_scene_model, T_local_model, this->Model);
+  diagnosis.probability = pose.probability;
+  return LossCause::NotWanted;
+}
+
+bool PoseDiagnosis::isFoundByAllPoints(const Eigen::Isometry3d& T_local_model, const Progress& progress) const
+{
   const Eigen::Vector3f middle = T_local_model.cast<float>() * this->Model.visibility->middle();
-  Poses candidates = detectPosesNear(
-    middle, LookedFor * this->Model.diameter, this->InScene, this->Model, voting, subProgress(progress, 0.0, 0.4));
+  Poses candidates = detectPosesNear(middle, LookedFor * this->Model.diameter, this->InScene, this->Model,
+    this->Detection.detection, subProgress(progress, 0.0, 0.4));
   const Poses& voted = this->Trace.posesOf(PoseStage::Voting);
   candidates.insert(candidates.end(), voted.begin(), voted.end());
   const Poses ranked = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.4, 1.0));
   return !posesAt(ranked, T_local_model, this->tolerance(), this->Model).empty();
-}
-
-void PoseDiagnosis::findWhatHelps(
-  Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress) const
-{
-  const int peaks = this->Detection.detection.peaksPerReference;
-  diagnosis.isFoundByAllPoints = this->isFoundBy(peaks, T_local_model, subProgress(progress, 0.0, 0.5));
-  int best = 0; // rank of a peak that leads here
-  for (const PointVotes& point : diagnosis.votes)
-  {
-    best = point.rank > peaks && (best == 0 || point.rank < best) ? point.rank : best;
-  }
-  if (!diagnosis.isFoundByAllPoints && best > 0 &&
-      this->isFoundBy(best, T_local_model, subProgress(progress, 0.5, 1.0)))
-  {
-    diagnosis.peaksThatFind = best;
-  }
 }
 
 LossCause PoseDiagnosis::causeInVoting(const Diagnosis& diagnosis)
@@ -303,22 +300,6 @@ LossCause PoseDiagnosis::causeInScreening(Diagnosis& diagnosis, const Eigen::Iso
                                                                                          : LossCause::Duplicate;
 }
 
-LossCause PoseDiagnosis::causeInSelection(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model)
-{
-  const Poses& all = this->Trace.unlimited();
-  const std::vector<int> here = posesAt(all, T_local_model, this->tolerance(), this->Model);
-  if (!here.empty())
-  {
-    diagnosis.rankWithoutLimits = here.front() + 1;
-    diagnosis.offset = offsetBetween(all[here.front()].T_scene_model, T_local_model, this->Model);
-    diagnosis.probability = all[here.front()].probability;
-    return diagnosis.probability < this->Detection.selection.minimumProbability ? LossCause::Unlikely
-                                                                                : LossCause::BeyondMaximum;
-  }
-  this->findTaker(diagnosis, all);
-  return this->isTurnedAmong(all, T_local_model) ? LossCause::OtherRotation : LossCause::Taken;
-}
-
 PoseVerificationSettings PoseDiagnosis::verification() const
 {
   PoseVerificationSettings settings = this->Detection.verification;
@@ -333,8 +314,9 @@ bool PoseDiagnosis::isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T
     { return offsetUpToNear(pose.T_scene_model, T_local_model, this->Model).within(this->tolerance()); });
 }
 
-void PoseDiagnosis::findTaker(Diagnosis& diagnosis, const Poses& ranked) const
+void PoseDiagnosis::findTaker(Diagnosis& diagnosis)
 {
+  const Poses& ranked = this->Trace.unlimited();
   const double near = SharedDistance * this->Model.diameter;
   const Points points = diagnosis.evidence.points.matched();
   const EvidenceCollector collector(this->InScene, this->Model, this->Detection.selection.evidence);

@@ -27,8 +27,7 @@ enum class LossCause
   NotRefined,     ///< too unlikely for refinement
   MovedAway,      ///< refinement led elsewhere
   Inaccurate,     ///< it came out, but turned too far
-  Unlikely,       ///< less likely than wanted
-  BeyondMaximum   ///< of all found not among the best that were wanted
+  NotWanted       ///< found, but not among the best that were wanted, or less likely
 };
 
 /// How many poses of a stage are at the place.
@@ -54,16 +53,14 @@ struct Diagnosis
   double bestEvidence = 0.0;       ///< of these
   std::vector<PointVotes> votes;   ///< of points on the part
   std::vector<StageCount> stages;
-  int rank = 0;                  ///< of what came out here, from 1; 0: nothing did
-  PoseOffset offset{ 0.0, 0.0 }; ///< of what came out here, or of where refinement led to
-  double probability = 0.0;      ///< of what came out here, or would without limits
-  int rankWithoutLimits = 0;     ///< the same if all poses came out
-  int takenBy = 0;               ///< rank, from 1, of the pose that came out and has most of the place's points
-  double takenShare = 0.0;       ///< of the points that match at the place, those that match at that pose, too
-  double takenEvidence = 0.0;    ///< of that pose
-  // Lost before refinement:
-  bool isFoundByAllPoints = false; ///< it comes out when all points about it vote
-  int peaksThatFind = 0;           ///< or else with so many candidates of each of them; 0: it does not
+  int rank = 0;                    ///< of what came out here, from 1; 0: nothing did
+  PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
+  double probability = 0.0;        ///< of what came out here, or would without limits
+  int rankWithoutLimits = 0;       ///< the same if all poses came out
+  int takenBy = 0;                 ///< rank without limits, from 1, of the pose that has most of the place's points
+  double takenShare = 0.0;         ///< of the points that match at the place, those that match at that pose, too
+  double takenEvidence = 0.0;      ///< of that pose
+  bool isFoundByAllPoints = false; ///< lost before refinement, it comes out when all points about it vote
 };
 
 /// Runs the detection of parts in a scene once, and then tells of places what became of a part there. Keeps references.
@@ -79,7 +76,7 @@ public:
   /// Of the part at a pose, in the scene's own coordinates. Throws Error for a pose that is not finite.
   Diagnosis atPose(const Eigen::Isometry3d& T_scene_model, const Progress& progress = {});
   /// Of the part that a point of the scan (the scene's own coordinates) lies on: at the pose that came out there, or
-  /// else at the best that is found where all points about it vote.
+  /// else at the best of those that limits kept back and those that are found where all points about it vote.
   Diagnosis atPoint(const Eigen::Vector3d& point, const Progress& progress = {});
 
   const DetectionTrace& trace() const { return this->Trace; }
@@ -90,15 +87,15 @@ private:
   Eigen::Isometry3d fitted(const Eigen::Isometry3d& T_local_model) const;
   void score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   void count(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
-  /// Sets which pose that came out has the place's points.
-  void findTaker(Diagnosis& diagnosis, const Poses& ranked) const;
+  /// Sets which pose has the place's points.
+  void findTaker(Diagnosis& diagnosis);
   LossCause causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress);
-  /// Whether it comes out, without limits, when all points about it vote with so many candidates each.
-  bool isFoundBy(int peaks, const Eigen::Isometry3d& T_local_model, const Progress& progress) const;
-  void findWhatHelps(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress) const;
+  /// Whether it comes out, without limits, when all points about it vote.
+  bool isFoundByAllPoints(const Eigen::Isometry3d& T_local_model, const Progress& progress) const;
   static LossCause causeInVoting(const Diagnosis& diagnosis);
   LossCause causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
-  LossCause causeInSelection(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
+  /// Found as this pose without limits.
+  LossCause notWanted(Diagnosis& diagnosis, int rank, const Eigen::Isometry3d& T_local_model);
   /// As the refined poses were verified.
   PoseVerificationSettings verification() const;
   bool isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T_local_model) const;

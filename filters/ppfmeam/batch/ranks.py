@@ -57,10 +57,7 @@ class MPIRanks(Alone):
     def __init__(self, MPI, numpy):
         self.MPI, self.comm = MPI, MPI.COMM_WORLD
         self.rank, self.size = self.comm.rank, self.comm.size
-        self.here = self.comm.Split_type(MPI.COMM_TYPE_SHARED)  # those of this machine
-        self.leads = self.here.rank == 0
-        self.leaders = self.comm.Split(0 if self.leads else MPI.UNDEFINED, self.rank)  # the first ones of the machines
-        self.serves = self.here.size < self.size
+        self.serves = self.comm.Split_type(MPI.COMM_TYPE_SHARED).size < self.size  # there are others than this machine's
         self.serves = self.comm.bcast(self.serves) and self.rank == 0
         self.numbers = numpy.zeros(2, numpy.int64)
         self.window = MPI.Win.Allocate(8 if self.rank == 0 else 0, 8, comm=self.comm)
@@ -81,14 +78,6 @@ class MPIRanks(Alone):
 
     def share(self, value):
         return self.comm.bcast(value)
-
-    def share_here(self, value):
-        """The value of the first one of this machine."""
-        return self.here.bcast(value)
-
-    def hand_on(self, make):
-        """What make() returns in the first process, in the first ones of all machines, which call this."""
-        return self.leaders.bcast(make() if self.rank == 0 else None)
 
     def all(self, value):
         self.wait()

@@ -9,7 +9,6 @@ from ..version import VERSION
 from . import parts, progress, scans, table
 from .apart import Ended, apart
 from .journal import Journal
-from .nearby import nearby
 from .ranks import SERVICE_PAUSE, together
 
 ELSEWHERE = ("out", "threads", "watch", "form")  # options that change no pose
@@ -44,17 +43,9 @@ class Plan:
 class Search:
     """Reads scans and finds the parts in them."""
 
-    def __init__(self, options, plan, copies):
-        """`copies`: where the models' files are read."""
+    def __init__(self, options, plan):
         self.source, self.objects = scans.source(options), plan.objects
-        self.finder = finding.Finder([self.model(*paths) for paths in zip(plan.models, copies)], options)
-
-    @staticmethod
-    def model(path, copy):
-        try:
-            return scripting.read_model(copy)
-        except scripting.Failure as failure:
-            raise scripting.Failure(str(failure).replace(copy, path)) from None
+        self.finder = finding.Finder([scripting.read_model(path) for path in plan.models], options)
 
     def line(self, scan, rank=0):
         """All that becomes known of a scan; what fails is a reason."""
@@ -134,8 +125,7 @@ def run(options, ranks):
     try:
         plan = ranks.share(together(ranks, lambda: Plan(options, journal) if ranks.rank == 0 else None))
         if plan.todo:
-            with nearby(ranks, plan.models) as copies:
-                search = together(ranks, lambda: Search(options, plan, copies))
+            search = together(ranks, lambda: Search(options, plan))
             together(ranks, lambda: work(ranks, journal, search, plan))
     except scripting.Failure:
         journal.remove_unused()

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace
 {
@@ -28,11 +29,25 @@ TEST(Frames, FrameIsRightHandedWithTheAxisFirst)
   }
 }
 
+TEST(Frames, RigidMatricesAreRotationsAndTranslations)
+{
+  const double numbers[] = { 0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1.0004, 30, 0, 0, 0, 1 };
+  Eigen::Matrix4d matrix = meam::transformOf(numbers).matrix();
+  EXPECT_EQ(matrix(1, 3), 20.0);
+  EXPECT_TRUE(meam::isRigid(matrix));
+  for (const auto& [row, column, value] : { std::tuple(2, 2, 1.01), { 2, 2, -1.0 }, { 0, 3, NAN }, { 3, 0, 1e-6 } })
+  {
+    Eigen::Matrix4d other = matrix;
+    other(row, column) = value;
+    EXPECT_FALSE(meam::isRigid(other)) << other;
+  }
+}
+
 TEST(Frames, ThePrincipalFrameOfPointsOnALine)
 {
   // Their mean is (3, 0, 2); along x they are skewed towards greater values.
   const Eigen::Isometry3d frame =
-    meam::principalFrame(meam::Points{ { 0, 0, 2 }, { NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
+    meam::principalFrame({ { 0, 0, 2 }, { NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
   EXPECT_TRUE((frame * Eigen::Vector3d(3, 0, 2)).isZero(1e-9));
   EXPECT_TRUE((frame * Eigen::Vector3d(8, 0, 2)).isApprox(Eigen::Vector3d(5, 0, 0), 1e-9));
 }
@@ -46,17 +61,17 @@ TEST(Frames, ThePrincipalFrameMovesWithThePoints)
   {
     points.push_back({ 9.0f * skewed(random), 4.0f * skewed(random), skewed(random) });
   }
-  const Eigen::Isometry3d frame = meam::principalFrame(points);
+  const Eigen::Isometry3d frame = meam::principalFrame(parts::precise(points));
   EXPECT_NEAR(frame.linear().determinant(), 1.0, 1e-9);
   EXPECT_GT(std::abs(frame.linear()(0, 0)), 0.9) << "most extent along x";
   const meam::Points inFrame = meam::moved(points, frame);
   const Eigen::Isometry3d T = parts::motion(random, 100.0);
   meam::Points elsewhere = meam::moved(points, T);
   elsewhere.push_back(Eigen::Vector3f::Constant(NAN));
-  const meam::Points again = meam::moved(elsewhere, meam::principalFrame(elsewhere));
+  const meam::Points again = meam::moved(elsewhere, meam::principalFrame(parts::precise(elsewhere)));
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     EXPECT_LT((inFrame[i] - again[i]).norm(), 1e-3f);
   }
-  EXPECT_TRUE(meam::principalFrame(meam::Points{}).isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(meam::principalFrame({}).isApprox(Eigen::Isometry3d::Identity()));
 }

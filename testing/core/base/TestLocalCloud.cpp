@@ -44,7 +44,7 @@ TEST(LocalCloud, PointsOnALine)
 {
   // Their mean is (3, 0, 2); along x they are skewed towards greater values.
   const meam::Points points{ { 0, 0, 2 }, { NAN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } };
-  const meam::Points found = meam::toLocalPoints(points, meam::principalFrame(points));
+  const meam::Points found = meam::toLocalPoints(points, meam::principalFrame(parts::precise(points)));
   ASSERT_EQ(found.size(), 3u) << "those that are finite";
   for (int k = 0; k < 3; ++k)
   {
@@ -137,7 +137,7 @@ TEST(LocalCloud, ACloudKeepsWhatBelongsToItsPoints)
   edges.weights = { 1.0f, 0.5f, 0.25f, 1.0f };
   const meam::LocalCloud found = meam::toLocalCloud(edges);
   const Eigen::Isometry3d& T = found.T_local_scene;
-  EXPECT_TRUE(T.isApprox(meam::principalFrame(edges.points), 1e-12));
+  EXPECT_TRUE(T.isApprox(meam::principalFrame(parts::precise(edges.points)), 1e-12));
   ASSERT_EQ(found.cloud.size(), 4u);
   EXPECT_FALSE(found.cloud.points[3].allFinite());
   EXPECT_EQ(found.cloud.weights, edges.weights);

@@ -132,14 +132,14 @@ TEST(CameraFile, whatIsNoCalibration)
   expectError("nothing of the kind", "neither");
   expectError("{}", "neither");
   expectError("{ \"fx\": 1, ", "not JSON");
-  expectError(yaml.substr(0, 150), "neither");
-  expectError(yaml.substr(0, yaml.find("511.5")), "within a list");
+  expectError(yaml.substr(0, 150), "a camera_matrix that is not made of numbers");
+  expectError(yaml.substr(0, yaml.find("511.5")), "not YAML in line 10");
   expectError(xml.substr(0, 200), "cut off");
   expectError(xml.substr(0, xml.find("</opencv")), "no end of <opencv_storage>");
   expectError(replaced(xml, "</dist_coeffs>", "</lens>"), "wrong place");
   expectError(replaced(bop, "\"fy\"", "\"fz\""), "neither");
   expectError(replaced(bop, "573.57", "-1"), "focal lengths");
-  expectError(replaced(bop, "573.57", "\"wide\""), "neither");
+  expectError(replaced(bop, "573.57", "\"wide\""), "a fy that is not made of numbers");
   expectError(replaced(bop, "640", "640.5"), "width or height");
   expectError(replaced(bop, "640", "4000000000"), "width or height");
   expectError(replaced(bop, "0.1", "0"), "depth_scale");
@@ -151,8 +151,8 @@ TEST(CameraFile, whatIsNoCalibration)
   expectError(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0, 0, 0, 1"), "rational");
   expectError(replaced(json, "[1, 0, 0, 5]", "[2, 0, 0, 5]"), "not a rotation");
   expectError(replaced(yaml, "T: [ 400, 0, -100 ]\n", ""), "only one of R and T");
-  expectError(replaced(yaml, "400, 0, -100", "400, 0, .Nan"), "in T that is not a number");
-  expectError(replaced(yaml, "400, 0, -100", "400, 0, x"), "in T that is not a number");
+  expectError(replaced(yaml, "400, 0, -100", "400, 0, .Nan"), "a T that is not made of numbers");
+  expectError(replaced(yaml, "400, 0, -100", "400, 0, x"), "a T that is not made of numbers");
   expectError(std::string(2 << 20, ' ') + bop, "not a text");
 }
 

@@ -45,11 +45,9 @@ std::string verdict(LossCause cause, std::optional<PoseStage> lostIn = {})
 
 TEST(DiagnosisReport, VerdictsAreSentences)
 {
-  EXPECT_EQ(verdict(LossCause::None), "Found as rank 7, 0.6 mm and 1.2 degrees off.");
-  EXPECT_EQ(verdict(LossCause::BeyondMaximum, PoseStage::Selection),
-    "Found as rank 7, 0.6 mm and 1.2 degrees off, but only the best 5 are wanted.");
-  EXPECT_EQ(verdict(LossCause::Unlikely, PoseStage::Selection),
-    "Found, 0.6 mm and 1.2 degrees off, but with a probability of 30 %, and less than 50 % is not wanted.");
+  EXPECT_EQ(verdict(LossCause::None), "Found as rank 7, 30 %, 0.6 mm and 1.2 degrees off.");
+  EXPECT_EQ(verdict(LossCause::NotWanted, PoseStage::Selection),
+    "Found as rank 7, 30 %, 0.6 mm and 1.2 degrees off, but only the best 5 of at least 50 % are wanted.");
   EXPECT_EQ(verdict(LossCause::Hidden, PoseStage::Voting),
     "Hidden: something lies in front of 88 % of the part's side towards the sensor; lost in voting.");
   EXPECT_EQ(verdict(LossCause::NotThere, PoseStage::Refinement),
@@ -71,16 +69,33 @@ TEST(DiagnosisReport, VerdictsAreSentences)
     "Lost in refinement: the best candidate here came to a place that is 0.6 mm and 1.2 degrees off.");
 }
 
+TEST(DiagnosisReport, TheLimitsThatKeepAPoseBackAreNamed)
+{
+  meam::Diagnosis diagnosis = example(LossCause::NotWanted, PoseStage::Selection);
+  diagnosis.rankWithoutLimits = 7;
+  const auto words = [&](int maximum, double least)
+  {
+    const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, maximum, 0, least);
+    const std::string verdict = meam::verdictOf(diagnosis, detection);
+    return verdict.substr(verdict.find("but")) + " " + meam::adviceOf(diagnosis, detection);
+  };
+  EXPECT_EQ(words(6, 0.3), "but only the best 6 are wanted. Raise MaximumNumberOfPoses to 7 or more, or set it to 0.");
+  EXPECT_EQ(words(7, 0.5), "but only poses of at least 50 % are wanted. Lower MinimumProbability.");
+  EXPECT_EQ(words(0, 0.5), "but only poses of at least 50 % are wanted. Lower MinimumProbability.");
+  EXPECT_EQ(words(5, 0.4), "but only the best 5 of at least 40 % are wanted. Raise MaximumNumberOfPoses to 7 or more, "
+                           "or set it to 0. Lower MinimumProbability.");
+}
+
 TEST(DiagnosisReport, EveryCauseHasAVerdictOfItsOwn)
 {
   std::set<std::string> verdicts;
-  for (int cause = 0; cause <= static_cast<int>(LossCause::BeyondMaximum); ++cause)
+  for (int cause = 0; cause <= static_cast<int>(LossCause::NotWanted); ++cause)
   {
     const std::string words = verdict(static_cast<LossCause>(cause), PoseStage::Selection);
     EXPECT_EQ(words.back(), '.');
     verdicts.insert(words);
   }
-  EXPECT_EQ(verdicts.size(), static_cast<std::size_t>(LossCause::BeyondMaximum) + 1);
+  EXPECT_EQ(verdicts.size(), static_cast<std::size_t>(LossCause::NotWanted) + 1);
 }
 
 TEST(DiagnosisReport, AdviceNamesAProperty)
@@ -93,8 +108,6 @@ TEST(DiagnosisReport, AdviceNamesAProperty)
     diagnosis.rankWithoutLimits = 7;
     return meam::adviceOf(diagnosis, detection);
   };
-  EXPECT_EQ(advice(LossCause::BeyondMaximum), "Raise MaximumNumberOfPoses to 7 or more, or set it to 0.");
-  EXPECT_EQ(advice(LossCause::Unlikely), "Lower MinimumProbability.");
   EXPECT_EQ(advice(LossCause::Outvoted), "");
   EXPECT_EQ(advice(LossCause::Outvoted, meam::Features::Edges), "Let edges and surface vote (Features: Both).");
   EXPECT_EQ(advice(LossCause::None), "");
@@ -107,10 +120,6 @@ TEST(DiagnosisReport, WhatWasTriedAndHelpedIsAdvised)
          LossCause::Duplicate, LossCause::NotRefined, LossCause::Taken, LossCause::FewEdges })
   {
     meam::Diagnosis diagnosis = example(cause, PoseStage::Screening);
-    diagnosis.peaksThatFind = 4;
-    EXPECT_EQ(meam::adviceOf(diagnosis, detection),
-      "Raise ReferenceShare, and PeaksPerReference of Pose Detection to 4: with all points on the part voting so it is "
-      "found.");
     diagnosis.isFoundByAllPoints = true;
     EXPECT_EQ(
       meam::adviceOf(diagnosis, detection), "Raise ReferenceShare: with all points on the part voting it is found.");
