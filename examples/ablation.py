@@ -11,11 +11,16 @@ one in what its name says. Columns:
            filters do that, and each of them reads the model anew. meamBenchmarks --benchmark_filter=Decision measures it.
 """
 import argparse
+import os
 import sys
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam import evaluation, scripting
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "testing", "evaluation"))
+import chains
+import scenes as sources
 
 
 def length(training, share):
@@ -111,7 +116,7 @@ def measure(mesh, scenes, decision, plain, options):
         training = scripting.Training(mesh)
         train(training)
         model = training.model()
-    run = evaluation.Chain(model, choose, options.poses, options.threads) if choose else evaluation.Evaluation(
+    run = chains.Evaluation(model, choose, poses_asked_for=options.poses, threads=options.threads) if choose else evaluation.Evaluation(
         model, poses_asked_for=options.poses, threads=options.threads)
     for surface, edges, truth in scenes:
         run.add(run.find(surface, edges), truth)
@@ -127,7 +132,7 @@ def main():
     parser.add_argument("--only", type=lambda text: text.split(","), default=list(DECISIONS), metavar="NAMES",
                         help=f"rows, such as none,near (default: all: {', '.join(DECISIONS)})")
     parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
-    parser.add_argument("--noise", type=evaluation.noise, default="0", help=evaluation.NOISE_HELP)
+    parser.add_argument("--noise", type=sources.noise, default="0", help=sources.NOISE_HELP.replace("%", "%%"))
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     options = parser.parse_args()
     unknown = [name for name in options.only if name not in DECISIONS]
@@ -136,10 +141,10 @@ def main():
 
     failed = 0
     for part in options.parts:
-        mesh = evaluation.tohoku_mesh(options.folder, part)
+        mesh = sources.tohoku_mesh(options.folder, part)
         plain = scripting.train(mesh)
         deviation = options.noise(scripting.field(plain, "Diameter"))
-        scenes = [evaluation.tohoku_scene(options.folder, part, scene, plain, deviation) for scene in options.scenes]
+        scenes = [sources.tohoku_scene(options.folder, part, scene, plain, deviation) for scene in options.scenes]
         print(f"### Part {part}; scenes: {len(scenes)}\n\n{HEAD}", flush=True)
         for decision in options.only:
             try:

@@ -14,8 +14,8 @@ struct LogisticRegression
 
 /// What turns counts into probabilities, with the default weights of evidence. `withSurface` and `present` were fitted
 /// on what comes out of simulated bins of all parts, seen by each kind of sensor, with the part in them or not;
-/// `edgesAlone` on the Tohoku dataset without its surface. examples/calibration.py tells how they hold for other
-/// scenes.
+/// `edgesAlone` on the Tohoku dataset without its surface. testing/evaluation/calibration.py tells how they hold for
+/// other scenes.
 struct ProbabilityCalibration
 {
   /// Of EvidenceCounts::sum: whether a pose is right, but for a turn by a near-symmetry.
