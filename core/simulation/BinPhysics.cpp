@@ -95,7 +95,7 @@ Part makePart(const TriangleMesh& input)
 class World
 {
 public:
-  World(const Part& part, double binSize)
+  World(const Part& part, const Eigen::Vector2d& binSize)
     : Piece(part)
     , Size(binSize)
   {
@@ -111,8 +111,8 @@ public:
     this->addWall({ 0.0, 0.0, 1.0 }, 0.0);
     for (const double side : { -1.0, 1.0 })
     {
-      this->addWall({ side, 0.0, 0.0 }, -0.5 * binSize);
-      this->addWall({ 0.0, side, 0.0 }, -0.5 * binSize);
+      this->addWall({ side, 0.0, 0.0 }, -0.5 * binSize.x());
+      this->addWall({ 0.0, side, 0.0 }, -0.5 * binSize.y());
     }
   }
   ~World()
@@ -147,15 +147,15 @@ public:
       const Eigen::Quaterniond turn = randomTurn(random);
       pose.setRotation(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()));
       this->Piece.shape->getAabb(pose, low, high);
-      fits = std::max(high.x() - low.x(), high.y() - low.y()) < this->Size;
+      fits = high.x() - low.x() < this->Size.x() && high.y() - low.y() < this->Size.y();
     }
     if (!fits)
     {
       throw Error("The part does not fit into the bin: make the bin larger.");
     }
-    const double half = 0.5 * this->Size;
-    const double x = random.uniform(-half - low.x(), half - high.x());
-    const double y = random.uniform(-half - low.y(), half - high.y());
+    const Eigen::Vector2d half = 0.5 * this->Size;
+    const double x = random.uniform(-half.x() - low.x(), half.x() - high.x());
+    const double y = random.uniform(-half.y() - low.y(), half.y() - high.y());
     pose.setOrigin(btVector3(x, y, top + Clearance - low.z()));
     this->add(pose);
   }
@@ -245,7 +245,7 @@ private:
   }
 
   const Part& Piece;
-  double Size;
+  Eigen::Vector2d Size;
   btDefaultCollisionConfiguration Configuration;
   btCollisionDispatcher Dispatcher{ &this->Configuration };
   btDbvtBroadphase Broadphase;
@@ -279,7 +279,8 @@ FilledBin rested(World& world, const Part& part, Advance&& advance)
 }
 }
 
-FilledBin fillBin(const TriangleMesh& input, double binSize, int copies, Random& random, const Progress& progress)
+FilledBin fillBin(
+  const TriangleMesh& input, const Eigen::Vector2d& binSize, int copies, Random& random, const Progress& progress)
 {
   const Part part = makePart(input);
   report(progress, 0.05);
@@ -309,8 +310,8 @@ FilledBin fillBin(const TriangleMesh& input, double binSize, int copies, Random&
   return filled;
 }
 
-FilledBin settleBin(
-  const TriangleMesh& input, double binSize, const std::vector<Eigen::Isometry3d>& poses, const Progress& progress)
+FilledBin settleBin(const TriangleMesh& input, const Eigen::Vector2d& binSize,
+  const std::vector<Eigen::Isometry3d>& poses, const Progress& progress)
 {
   const Part part = makePart(input);
   report(progress, 0.05);

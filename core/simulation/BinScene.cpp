@@ -39,13 +39,15 @@ TriangleMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
   return mesh;
 }
 
-/// Four walls around a square of side `size`, standing on z = 0.
-std::vector<TriangleMesh> walls(double size, double height, double thickness)
+/// Four walls around a rectangle, standing on z = 0.
+std::vector<TriangleMesh> walls(const Eigen::Vector2d& size, double height, double thickness)
 {
-  const double in = 0.5 * size;
-  const double out = in + thickness;
-  return { box({ -out, -out, 0 }, { out, -in, height }), box({ -out, in, 0 }, { out, out, height }),
-    box({ -out, -in, 0 }, { -in, in, height }), box({ in, -in, 0 }, { out, in, height }) };
+  const Eigen::Vector2d in = 0.5 * size;
+  const Eigen::Vector2d out = in + Eigen::Vector2d::Constant(thickness);
+  return { box({ -out.x(), -out.y(), 0 }, { out.x(), -in.y(), height }),
+    box({ -out.x(), in.y(), 0 }, { out.x(), out.y(), height }),
+    box({ -out.x(), -in.y(), 0 }, { -in.x(), in.y(), height }),
+    box({ in.x(), -in.y(), 0 }, { out.x(), in.y(), height }) };
 }
 
 void check(const BinSceneSettings& settings)
@@ -64,20 +66,21 @@ void check(const BinSceneSettings& settings)
   {
     throw Error("The sensor's image must be 16 to 8192 pixels wide and high.");
   }
-  if (!valid(settings.binSize) || !valid(settings.sensorHeight) || !valid(settings.baseline))
+  if (!valid(settings.binSize) || !valid(settings.binWidth) || !valid(settings.wallHeight) ||
+      !valid(settings.sensorHeight) || !valid(settings.baseline))
   {
     throw Error("Sizes of the simulated bin must be 0 or more.");
   }
   requireQuality(settings.quality);
 }
 
-/// A camera of a size in pixels whose image a square of side `side` fills, `distance` mm away.
-Camera cameraFor(int width, int height, double side, double distance)
+/// A camera of a size in pixels whose image a rectangle fills, `distance` mm away.
+Camera cameraFor(int width, int height, const Eigen::Vector2d& size, double distance)
 {
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.fx = camera.fy = FilledView * std::min(width, height) * distance / side;
+  camera.fx = camera.fy = std::min(FilledView * width * distance / size.x(), FilledView * height * distance / size.y());
   camera.cx = 0.5 * (width - 1);
   camera.cy = 0.5 * (height - 1);
   return camera;
@@ -127,27 +130,28 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
   scene.binSize = settings.binSize > 0.0
                     ? settings.binSize
                     : partDiameter * std::max(LeastBinSize, SpacePerCopy * std::sqrt(static_cast<double>(copies)));
-  if (scene.binSize > 100.0 * partDiameter)
+  const Eigen::Vector2d size(scene.binSize, settings.binWidth > 0.0 ? settings.binWidth : scene.binSize);
+  if (size.maxCoeff() > 100.0 * partDiameter)
   {
     throw Error("The bin is more than a hundred times larger than the part: check their units.");
   }
-  const double sensorHeight = settings.sensorHeight > 0.0 ? settings.sensorHeight : 3.0 * scene.binSize;
-  const double wallHeight = WallHeight * partDiameter;
+  const double sensorHeight = settings.sensorHeight > 0.0 ? settings.sensorHeight : 3.0 * size.maxCoeff();
+  const double wallHeight = settings.wallHeight > 0.0 ? settings.wallHeight : WallHeight * partDiameter;
   const double wallThickness = WallThickness * partDiameter;
   Random random(settings.seed);
   // The sensor's z looks down, its x along the bin's x.
   Eigen::Isometry3d T_scene_bin = Eigen::Isometry3d::Identity();
   T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   T_scene_bin.translation().z() = sensorHeight;
-  scene.bin = { T_scene_bin, { scene.binSize, scene.binSize, wallHeight }, wallThickness };
+  scene.bin = { T_scene_bin, { size.x(), size.y(), wallHeight }, wallThickness };
   std::vector<Eigen::Isometry3d> poses = settings.poses;
   if (poses.empty() || settings.settle)
   {
     const Progress falling = subProgress(progress, 0.0, 0.6);
     std::transform(poses.begin(), poses.end(), poses.begin(),
       [&](const Eigen::Isometry3d& pose) { return T_scene_bin.inverse() * pose; });
-    const FilledBin bin = poses.empty() ? fillBin(part, scene.binSize, settings.copies, random, falling)
-                                        : settleBin(part, scene.binSize, poses, falling);
+    const FilledBin bin =
+      poses.empty() ? fillBin(part, size, settings.copies, random, falling) : settleBin(part, size, poses, falling);
     poses = bin.poses;
     std::transform(
       poses.begin(), poses.end(), poses.begin(), [&](const Eigen::Isometry3d& pose) { return T_scene_bin * pose; });
@@ -162,14 +166,14 @@ BinScene simulateBin(const TriangleMesh& part, const BinSceneSettings& settings,
     const double brightness = random.uniform(0.72, 0.88);
     bodies.push_back({ &part, pose, brightness * PartTint });
   }
-  const std::vector<TriangleMesh> sides = walls(scene.binSize, wallHeight, wallThickness);
+  const std::vector<TriangleMesh> sides = walls(size, wallHeight, wallThickness);
   for (const auto& side : sides)
   {
     bodies.push_back({ &side, T_scene_bin, WallAlbedo });
   }
   const std::vector<Facet> facets = facetsOf(bodies);
-  scene.sensor =
-    cameraFor(settings.width, settings.height, scene.binSize + 2.0 * wallThickness, sensorHeight - wallHeight);
+  scene.sensor = cameraFor(
+    settings.width, settings.height, size + Eigen::Vector2d::Constant(2.0 * wallThickness), sensorHeight - wallHeight);
   scene.camera = settings.baseline > 0.0 ? cameraBeside(scene.sensor, settings.baseline, sensorHeight) : scene.sensor;
 
   const View view = rasterize(facets, sensorHeight, scene.sensor);

@@ -16,8 +16,10 @@ struct BinSceneSettings
   std::vector<Eigen::Isometry3d> poses{};
   bool settle = false;       ///< they are let go at `poses` and come to rest; otherwise nothing falls
   unsigned seed = 1;         ///< the same seed gives the same scene
-  double binSize = 0.0;      ///< mm, inner side of the square bin; 0: follows the part and the copies
-  double sensorHeight = 0.0; ///< mm above the floor; 0: three times the bin's side
+  double binSize = 0.0;      ///< mm, inner side of the bin; 0: follows the part and the copies
+  double binWidth = 0.0;     ///< mm, its other inner side, along y; 0: the bin is a square
+  double wallHeight = 0.0;   ///< mm; 0: 0.6 diameters of the part
+  double sensorHeight = 0.0; ///< mm above the floor; 0: three times the bin's longer side
   int width = 960;           ///< pixels
   int height = 768;
   bool colored = false;  ///< the image: red, green and blue, or grey

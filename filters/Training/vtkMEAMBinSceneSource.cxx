@@ -98,6 +98,8 @@ vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, Copies, int, copies, 1, 10000)
 vtkMEAMSettingMacro(vtkMEAMBinSceneSource, Settle, bool, settle)
 vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, Seed, int, seed, 0, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, BinSize, double, binSize, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, BinWidth, double, binWidth, 0.0, VTK_DOUBLE_MAX)
+vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, WallHeight, double, wallHeight, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, SensorHeight, double, sensorHeight, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMSettingMacro(vtkMEAMBinSceneSource, Colored, bool, colored)
 vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, Baseline, double, baseline, 0.0, VTK_DOUBLE_MAX)
@@ -217,6 +219,8 @@ void vtkMEAMBinSceneSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Settle: " << this->GetSettle() << "\n";
   os << indent << "Seed: " << this->GetSeed() << "\n";
   os << indent << "BinSize: " << this->GetBinSize() << " mm\n";
+  os << indent << "BinWidth: " << this->GetBinWidth() << " mm\n";
+  os << indent << "WallHeight: " << this->GetWallHeight() << " mm\n";
   os << indent << "SensorHeight: " << this->GetSensorHeight() << " mm\n";
   os << indent << "Sensor: " << this->Sensor << "\n";
   os << indent << "Width: " << this->Width << " pixels\n";

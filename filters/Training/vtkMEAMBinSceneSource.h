@@ -3,7 +3,7 @@
  * @class vtkMEAMBinSceneSource
  * @brief A simulated bin: copies of a part as they fell, seen by a virtual sensor, and the truth.
  *
- * Copies of the part are dropped into a square bin one after the other and come to rest (rigid bodies with
+ * Copies of the part are dropped into a bin one after the other and come to rest (rigid bodies with
  * friction); a sensor straight above measures the depth, a camera takes the image. `Sensor` is its kind, with the
  * pixels, noise, steps and missing points of such sensors; each of these can be chosen on its own, too.
  *
@@ -73,7 +73,19 @@ public:
   ///@}
 
   ///@{
-  /** mm: sensor above the floor; 0 for three times the bin's side. Default: 0. */
+  /** mm: other inner side of the bin, along y; 0: the bin is a square. Default: 0. */
+  virtual void SetBinWidth(double value);
+  virtual double GetBinWidth();
+  ///@}
+
+  ///@{
+  /** mm: height of the bin's walls; 0 for 0.6 diameters of the part. Default: 0. */
+  virtual void SetWallHeight(double value);
+  virtual double GetWallHeight();
+  ///@}
+
+  ///@{
+  /** mm: sensor above the floor; 0 for three times the bin's longer side. Default: 0. */
   virtual void SetSensorHeight(double value);
   virtual double GetSensorHeight();
   ///@}

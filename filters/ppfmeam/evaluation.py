@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the scripts that measure share: scenes with their true poses, and the figures over them."""
-import argparse
+"""Poses of scene after scene beside the true ones, and the figures over them."""
 import math
-import os
 import statistics
 import warnings
 
-import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from . import chains, dataset, filters, scripting
+from . import dataset, filters, scripting
 
-# mm. Part 3's STL is in another frame than its true poses.
-OFFSETS = {3: (-20.9645, -17.4974, -9.3144)}
 FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "recall": "Recall",
            "AP": "AveragePrecision", "AP_mm": "AveragePrecisionMSSD", "recall_99": "RecallAtPrecision99", "mm": "MedianTranslationError", "deg": "MedianRotationError",
            "axis_deg": "MedianAxisError", "roll_deg": "MedianRollError", "mean_mm": "MeanTranslationError",
@@ -24,8 +18,6 @@ FIGURES = {"paper": "PaperRate", "strict": "StrictRate", "top1": "Top1Rate", "re
 LEAST_FIT = 0.35
 HALF = 0.5  # visible
 STAGES = scripting.STAGES[scripting.STAGES.index("Scene"):scripting.STAGES.index("Selection") + 1]
-NOISE_HELP = ("normal noise of every coordinate of the scenes' points: mm, or %% of the part's diameter, such as 0.3 or 1%% "
-              "(default: %(default)s)")
 
 
 def numbers(text):
@@ -35,48 +27,6 @@ def numbers(text):
         first, _, last = item.partition("-")
         result += range(int(first), int(last or first) + 1)
     return result
-
-
-def noise(text):
-    """0.3 (mm) or 1% (of a part's diameter): a function of the diameter in mm that returns the deviation in mm."""
-    try:
-        amount = float(text.removesuffix("%"))
-    except ValueError:
-        amount = -1
-    if not 0 <= amount < math.inf:
-        raise argparse.ArgumentTypeError(f"noise is a number of mm or a percentage, 0 or more, not {text}")
-    return lambda diameter: amount / 100 * diameter if text.endswith("%") else amount
-
-
-def tohoku_mesh(folder, part):
-    """The part of the Tohoku dataset in DIR/Part_P, in the frame of its true poses."""
-    return scripting.read_mesh(os.path.join(folder, f"Part_{part}", f"Part_{part}.STL"), OFFSETS.get(part, (0, 0, 0)))
-
-
-def tohoku_truth(folder, part, scene):
-    """The true poses of a scene."""
-    path = os.path.join(folder, f"Part_{part}", "Results", f"trans{scene}.txt")
-    return scripting.read_with(filters.vtkMEAMPoseReader(), path)
-
-
-def tohoku_clouds(folder, part, scene):
-    """The measured surface and the edge points of a scene."""
-    names = (f"Scene{scene}.pcd", f"Scene_boundary{scene}.pcd")
-    return tuple(scripting.read(os.path.join(folder, f"Part_{part}", "Scenes", name)) for name in names)
-
-
-def tohoku_scenes(folder, part, most):
-    """Of the first scenes of a part, up to `most`, those of which there is a scan or a file of true poses."""
-    folder = os.path.join(folder, f"Part_{part}")
-    return [k for k in range(most) if any(os.path.exists(os.path.join(folder, *names)) for names in (
-        ("Scenes", f"Scene{k}.pcd"), ("Results", f"trans{k}.txt")))]
-
-
-def require_found(folder, parts):
-    """Raises a Failure when another program has left no poses of a part in a folder."""
-    for part in parts:
-        if not os.path.isdir(os.path.join(folder, f"Part_{part}")):
-            raise scripting.Failure(f"{folder} has no folder Part_{part} with the poses of part {part}")
 
 
 def half_visible(truth):
@@ -113,26 +63,6 @@ def scene_edges(scan, image=None, camera=None):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # detection says the same
         return scripting.update(extraction).GetOutput()
-
-
-def with_noise(clouds, deviation, seed):
-    """The clouds with normal noise of every coordinate, of `deviation` (mm)."""
-    random, noisy = numpy.random.default_rng(seed), []
-    for cloud in clouds:
-        places = vtk_to_numpy(cloud.GetPoints().GetData())
-        places = places + random.normal(0.0, deviation, places.shape) if deviation else places
-        noisy.append(cloud.NewInstance())
-        noisy[-1].ShallowCopy(cloud)
-        noisy[-1].SetPoints(vtkPoints())
-        noisy[-1].GetPoints().SetData(numpy_to_vtk(places.astype(numpy.float32), deep=True))
-    return noisy
-
-
-def tohoku_scene(folder, part, scene, model, deviation=0):
-    """Of a scene the surface and the edge points, with noise of that deviation (mm), and the true poses with their visibility."""
-    surface, edges = tohoku_clouds(folder, part, scene)
-    truth = with_visibility(tohoku_truth(folder, part, scene), model, edges, surface)
-    return *with_noise((surface, edges), deviation, scene), truth
 
 
 class Evaluation:
@@ -197,18 +127,3 @@ class Evaluation:
         row["ms"] = median(lambda times: times["Total"] - times["Training"])
         row.update((f"{stage}_ms", median(lambda times: times[stage])) for stage in STAGES)
         return row
-
-
-class Chain(Evaluation):
-    """Finds the poses of a scene step by step, with parameters that vtkMEAMPoseEstimation does not have."""
-
-    def __init__(self, model, choose, poses_asked_for, threads):
-        super().__init__(model, poses_asked_for=poses_asked_for, threads=threads)
-        self.chain = chains.Detection(model, threads=threads)
-        choose(self.chain)
-
-    def find(self, surface, edges):
-        self.chain.set_scene(edges, surface)
-        poses = vtkPolyData()
-        poses.ShallowCopy(scripting.update(self.chain.selection).GetOutput())
-        return poses

@@ -101,7 +101,7 @@ source.SetBinSize(5)
 fails(source, "fit")
 check(is_empty(truth) and is_empty(mesh), "no truth without a scene")
 fails(bin_of(part, SensorHeight=10), "raise")
-prints(source, "Copies", "Seed", "BinSize", "SensorHeight", "Sensor", "Width", "Height", "Colored", "Baseline", "DepthNoise",
+prints(source, "Copies", "Seed", "BinSize", "BinWidth", "WallHeight", "SensorHeight", "Sensor", "Width", "Height", "Colored", "Baseline", "DepthNoise",
        "DepthStep", "Dropout", "JumpDropout", "MatchingWindow", "GlareAngle", "NoiseWindow", "StereoBaseline",
        "DisparityNoise", "DisparityStep", "SmoothingWindow", "RangeNoise", "PixelBlur", "Multipath", "ImageNoise", "ImageBlur")
 

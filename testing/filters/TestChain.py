@@ -7,7 +7,6 @@ import sys
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 
 from ppfmeam import scripting
-from ppfmeam.chains import Detection, set_preset
 from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
     vtkMEAMPCDReader,
@@ -16,6 +15,7 @@ from ppfmeam.filters import (
     vtkMEAMSceneEdgeExtraction,
 )
 from meamtest import Trained, check, connect, field, pose_error, run, tuples
+from chains import Detection, set_preset
 
 PRESETS = ("recommended", "paper", "without-meam", "ppf", "b2b")
 

@@ -9,8 +9,10 @@ import tempfile
 
 import numpy
 
-from ppfmeam import Error, bop, scripting, simulation, world
+from ppfmeam import Error, bop, scripting, simulation
+from ppfmeam.lines import Lines
 from meamtest import check
+import scenes
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
 PLATE = os.path.join(EXAMPLES, "parts", "hole_plate.stl")
@@ -67,8 +69,8 @@ def writers_say_so():
     pixels = numpy.random.default_rng(1).integers(0, 255, (90, 120)).astype("uint8")
     refused("a.png", lambda: bop.write_png("images/a.png", pixels))
     refused("obj_000001.ply", lambda: bop.write_part(".", mesh, "{}"))
-    bins = simulation.Bins(1, "bins")
-    refused("hole_plate", lambda: bins.scene("hole_plate", simulation.SENSORS[2], 1))
+    bins = scenes.Bins("bins")
+    refused("hole_plate", lambda: bins.scene("hole_plate", simulation.SENSORS[2], 1, 1))
     poses = scripting.poses_of(numpy.tile(numpy.eye(4), (500, 1, 1)))
     for form in ("BOPCSV", "JSON", "Matrices"):
         refused("poses", lambda: scripting.write_poses(poses, "poses", form))
@@ -76,7 +78,7 @@ def writers_say_so():
     check(left(".") == [], f"left behind: {left('.')}")
     bop.write_png("images/a.png", pixels)
     bop.write_part(".", mesh, "{}")
-    bins.scene("hole_plate", simulation.SENSORS[2], 2)
+    bins.scene("hole_plate", simulation.SENSORS[2], 1, 2)
     check(len(left(".")) == 5, f"with room: {left('.')}")
     check((bop.pixels_of(scripting.read_image("images/a.png")) == pixels).all(), "another image")
     check(scripting.read_mesh("models/obj_000001.ply").GetNumberOfCells() == mesh.GetNumberOfCells(), "another mesh")
@@ -84,10 +86,10 @@ def writers_say_so():
 
 
 def a_table_that_grows_is_gone_on_with():
-    lines = world.Lines("grows.csv", ("a", "b"))
+    lines = Lines("grows.csv", ("a", "b"))
     lines.add([{"a": k, "b": "x" * 10} for k in range(10)])
     refused("grows.csv", lambda: lines.add([{"a": 10 + k, "b": "x" * 10} for k in range(100)]), 500)
-    again = world.Lines("grows.csv", ("a", "b"))
+    again = Lines("grows.csv", ("a", "b"))
     check(10 <= len(again.rows) < 110 and all(row == {"a": str(k), "b": "x" * 10} for k, row in enumerate(again.rows)),
           f"{len(again.rows)} rows, the last {again.rows[-1]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of every step, examples/gallery.py: what docs/gallery.md shows of the sample part; every one is there, small,
+"""The pictures of every step, testing/evaluation/gallery.py: what docs/gallery.md shows of the sample part; every one is there, small,
 and has something in it."""
 import os
 import re
@@ -11,11 +11,11 @@ from meamtest import check, skip
 
 if not os.environ.get("DISPLAY"):
     skip("no display")
-EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
-with open(os.path.join(EXAMPLES, "..", "docs", "gallery.md"), encoding="utf-8") as file:
+EVALUATION = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "evaluation")
+with open(os.path.join(EVALUATION, "..", "..", "docs", "gallery.md"), encoding="utf-8") as file:
     names = set(re.findall(r"gallery_sample_\w+\.jpg", file.read()))
 with tempfile.TemporaryDirectory() as folder:
-    result = subprocess.run([sys.executable, os.path.join(EXAMPLES, "gallery.py"), "--out", folder], capture_output=True,
+    result = subprocess.run([sys.executable, os.path.join(EVALUATION, "gallery.py"), "--out", folder], capture_output=True,
                             text=True)
     check(result.returncode == 0 and result.stderr == "", f"status {result.returncode}: {result.stderr}")
     check(names == set(os.listdir(folder)) and len(names) == 17, f"{sorted(names)} and {sorted(os.listdir(folder))}")

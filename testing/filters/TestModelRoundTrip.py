@@ -10,7 +10,6 @@ from vtkmodules.vtkCommonDataModel import vtkPartitionedDataSetCollection
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
-from ppfmeam.chains import Detection
 from ppfmeam.filters import (
     vtkMEAMHashing,
     vtkMEAMPoseDetection,
@@ -33,6 +32,7 @@ from meamtest import (
     set_fields,
     tuples,
 )
+from chains import Detection
 
 
 def detect(scene, model):

@@ -11,12 +11,12 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 
-from ppfmeam.chains import Detection
 from ppfmeam.filters import (
     vtkMEAMPCDReader,
     vtkMEAMPoseEstimation,
 )
 from meamtest import LONG, MovedView, Trained, bracket, check, connect, is_rotation, pose_error, run, tuples
+from chains import Detection
 
 
 class Scene:

@@ -4,7 +4,6 @@ from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-from ppfmeam.chains import Detection
 from ppfmeam.filters import (
     vtkMEAMBinSceneSource,
     vtkMEAMConflictResolution,
@@ -15,6 +14,7 @@ from ppfmeam.filters import (
     vtkMEAMSceneEdgeExtraction,
 )
 from meamtest import Errors, Trained, check, connect, field, pose_error, run, tuples
+from chains import Detection
 
 TIMES = (0.0, 1.5, 4.0)  # seconds of the three scans
 

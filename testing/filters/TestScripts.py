@@ -13,14 +13,15 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 
 from ppfmeam.filters import vtkMEAMBinSceneSource
 from meamtest import box, bracket, check, connect, run, scaled, tuples
-from scripttest import EXAMPLES, H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
+from scripttest import EVALUATION, EXAMPLES, H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
-SUBCOMMANDS = {"evaluate.py": ("tohoku", "bop")}
+SUBCOMMANDS = {"evaluate.py": ("bop",)}
 
 
 def helps():
     """Each script and each of its subcommands says what it takes."""
-    for name in sorted(os.listdir(EXAMPLES)):
+    shared = {"benchmarks.py", "chains.py", "charts.py", "page.py", "results.py", "scenes.py", "search.py", "stage.py"}  # no programs
+    for name in sorted({*os.listdir(EXAMPLES), *os.listdir(EVALUATION)} - shared):
         if name.endswith(".py"):
             for subcommand in ((), *((word,) for word in SUBCOMMANDS.get(name, ()))):
                 text = works(name, *subcommand, "--help")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""examples/evaluate.py on a tenth of the scenes of the Tohoku data, with --long on all: enough of the top five are right
+"""testing/evaluation/tohoku.py on a tenth of the scenes of the Tohoku data, with --long on all: enough of the top five are right
 on every part, enough of the visible instances come out, they are precise, and what it prints agrees with what it wrote."""
 import csv
 import os
@@ -19,10 +19,11 @@ if not os.path.isdir(data):
     skip(f"no dataset at {data}: set PPFMEAM_DATA")
 root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 with tempfile.TemporaryDirectory() as out:
-    subprocess.run([sys.executable, os.path.join(root, "examples", "evaluate.py"), "tohoku", data, "--out", out,
+    rows = os.path.join(out, "tohoku.csv")
+    subprocess.run([sys.executable, os.path.join(root, "testing", "evaluation", "tohoku.py"), data, "--matrices", out, "--out", rows,
                     "--scenes", ",".join(map(str, SCENES))],
                    check=True)
-    with open(os.path.join(out, "tohoku.csv"), newline="", encoding="utf-8") as table:
+    with open(rows, newline="", encoding="utf-8") as table:
         rows = list(csv.DictReader(table))
     check([row["part"] for row in rows] == ["1", "2", "3"], rows)
     for row in rows:

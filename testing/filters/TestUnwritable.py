@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A folder that nobody may write to: every sub-command that writes says so in a sentence and leaves nothing behind."""
+"""A folder that nobody may write to: every sub-command and program that writes says so in a sentence and leaves nothing behind."""
 import json
 import os
 import shutil
@@ -7,9 +7,10 @@ import subprocess
 import sys
 
 from ppfmeam import scripting
+from ppfmeam.commands import SUMMARIES
 from batchtest import H, W, dataset
 from meamtest import check, skip
-from scripttest import write_pcd
+from scripttest import EVALUATION, write_pcd
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 PLATE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "parts", "hole_plate.stl")
@@ -28,10 +29,12 @@ def content(folder):
 def refuses(*arguments):
     """Status 1, one sentence that names the folder or the file in it, nothing in the folder or beside it."""
     before = content(".")
-    result = subprocess.run([*AS_OTHERS, sys.executable, "-m", "ppfmeam", *arguments], capture_output=True, text=True)
+    installed = arguments[0] in SUMMARIES
+    program = ("-m", "ppfmeam", *arguments) if installed else (os.path.join(EVALUATION, arguments[0]), *arguments[1:])
+    result = subprocess.run([*AS_OTHERS, sys.executable, *program], capture_output=True, text=True)
     what = f"{' '.join(arguments)}: status {result.returncode}, {result.stderr}"
     check(result.returncode == 1 and result.stderr.count("\n") == 1, what)
-    check(result.stderr.startswith(f"ppfmeam {arguments[0]}: cannot write protected"), what)
+    check(result.stderr.startswith(f"{'ppfmeam ' if installed else ''}{arguments[0]}: cannot write protected"), what)
     check(content(".") == before, f"left behind: {set(content('.')) - set(before)} by {what}")
 
 
@@ -58,12 +61,12 @@ for command in (("train", "--cad", PLATE, "--out", "protected/plate.meam"),
                 ("batch", "bins", "--model", "plate.meam", "--out", "protected/poses.csv"),
                 ("batch", "--watch", "protected/scans", "--model", "plate.meam"),
                 ("simulate", "--cad", PLATE, "--copies", "1", "--out", "protected/bins"),
-                ("cell", "--bins", "1", "--copies", "1", "--out", "protected/cell"),
+                ("cell", "--cad", PLATE, "--copies", "1", "--out", "protected/cell"),
                 ("hand-eye", "pairs.json", "--out", "protected/robot.json"),
                 ("evaluate", "bop", "bins", "--out", "protected/results.csv"),
-                ("evaluate", "paper", "--quick", "--table", "1", "--out", "protected/paper"),
-                ("evaluate", "world", "--out", "protected/world"),
-                ("evaluate", "world", "--out", "world", "--scenes", "protected/scenes")):
+                ("paper.py", "--quick", "--table", "1", "--out", "protected/paper"),
+                ("world.py", "protected/world"),
+                ("world.py", "world", "--scenes", "protected/scenes")):
     refuses(*command)
 os.chmod("protected", 0o755)  # the folder is removed at the end
 os.chmod("protected/scans", 0o755)

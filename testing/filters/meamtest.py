@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the filter tests share: error collection, small inputs, a trained part, comparisons. Not a test."""
 import math
+import os
 import sys
 
 from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkDoubleArray, vtkPoints
@@ -18,6 +19,8 @@ from ppfmeam.filters import (
     vtkMEAMTangentEstimation,
     vtkMEAMVisibilityExtraction,
 )
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "evaluation"))  # chains and the like
 
 SKIPPED = 77
 LONG = "--long" in sys.argv  # all of it, not a small part

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs scripts of examples/, each in a process of its own that is forked off this one: what they import is loaded once. Of
+"""Runs scripts of examples/ or testing/evaluation/, each in a process of its own that is forked off this one: what they import is loaded once. Of
 each line of input, a JSON list of the script and its arguments, the output is a line: exit status, output, errors. Not a
 test."""
 import json
@@ -9,11 +9,10 @@ import sys
 import tempfile
 
 import ppfmeam.bop  # noqa: F401
-import ppfmeam.chains  # noqa: F401
+import ppfmeam.cell  # noqa: F401
 import ppfmeam.evaluation  # noqa: F401
 import ppfmeam.picture  # noqa: F401
 import ppfmeam.simulation  # noqa: F401
-import ppfmeam.world  # noqa: F401
 
 for line in sys.stdin:
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of examples/ share: a temporary folder to work in, a scan of a bin, scripts in processes of their own. Not
+"""What the tests of examples/ and testing/evaluation/ share: a temporary folder to work in, a scan of a bin, scripts in processes of their own. Not
 a test."""
 import json
 import os
@@ -13,7 +13,8 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMSamplePartSource
 from meamtest import check, connect, run
 
-EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+TESTING = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+EXAMPLES, EVALUATION = os.path.join(TESTING, "..", "examples"), os.path.join(TESTING, "evaluation")
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
 server = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "scriptserver.py")],
@@ -23,7 +24,8 @@ server = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(os.path.
 
 def script(name, *arguments):
     """Runs it without a display, in a process of its own."""
-    print(json.dumps([os.path.join(EXAMPLES, name), *arguments]), file=server.stdin, flush=True)
+    path = next(filter(os.path.exists, (os.path.join(folder, name) for folder in (EXAMPLES, EVALUATION))))
+    print(json.dumps([path, *arguments]), file=server.stdin, flush=True)
     answer = server.stdout.readline()
     check(answer, f"{name} {arguments}: the server of scripts has ended")
     return subprocess.CompletedProcess((name, *arguments), *json.loads(answer))

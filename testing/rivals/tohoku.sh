@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What others would use instead, on scenes of the Tohoku dataset, judged as our own poses are (evaluate.py --found).
+# What others would use instead, on scenes of the Tohoku dataset, judged as our own poses are (testing/evaluation/tohoku.py --found).
 #
 #   testing/rivals/tohoku.sh BUILD DATASET OUT [SCENES]      such as build/release data/tohoku /tmp/rivals 10
 #
@@ -28,6 +28,6 @@ for name in OpenCV PCL; do
         grep '\.pcd [0-9.e-]*$' >> "$to/seconds.txt" # PCL tells of its votes, too
     done
     echo "== $name $refined: $(sort -k2 -g "$to/seconds.txt" | awk '{ t[NR] = $2 } END { print t[int((NR + 1) / 2)] }') s of processor time a scene (median)"
-    bash "$root/examples/run.sh" evaluate.py tohoku "$data" --scenes "0-$((scenes - 1))" --found "$to"
+    bash "$root/examples/run.sh" "$root/testing/evaluation/tohoku.py" "$data" --scenes "0-$((scenes - 1))" --found "$to"
   done
 done

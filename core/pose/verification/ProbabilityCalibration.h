@@ -14,7 +14,7 @@ struct LogisticRegression
 
 // What turns counts into probabilities. With the surface, and whether the part is there, were fitted on what comes out
 // of simulated bins of all parts, seen by each kind of sensor, with the part in them or not; edges alone on the Tohoku
-// dataset without its surface. examples/calibration.py tells how they hold for other scenes.
+// dataset without its surface. testing/evaluation/calibration.py tells how they hold for other scenes.
 
 /// Of EvidenceCounts::sum: whether a pose is right, but for a turn by a near-symmetry.
 inline constexpr LogisticRegression CalibrationWithSurface{ -6.3, 0.64 };

@@ -1,37 +1,77 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulates a picking cell: parts fall into a bin, a sensor scans it, the best pick of what is found is played among the true
-parts, the part is taken away and the others settle, until the bin is empty or nothing can be picked. Prints Table 9 of the
-paper, with every failure and its reason.
+"""Will my bin be emptied? Simulates a picking cell: copies of the part fall into a bin, a sensor scans it, the best pick of what
+is found is played among the true parts, the part is taken away and the others come to rest, until the bin is empty, nothing can
+be picked, or three picks in a row fail. Prints each pick, and what was left and why.
 
-DIR gets cell.csv, a row for each trial, from which a run goes on that was stopped; table9.md, with a display a chart of it; and of each bin a film
-that ParaView plays (.pvd)."""
+DIR gets picks.csv, a row for each pick, from which a run goes on that was stopped; of each bin a film that ParaView plays (.pvd),
+and with a display a strip of pictures (.png)."""
 import argparse
+import os
+import sys
+import zlib
 
-from .. import cell, charts, scripting, simulation
+from .. import cell, picking, scripting, simulation
+from .pick import add_gripper_options, gripper_of
+
+HEAD = ("bin", "pick", "left", "found", "picks", "outcome", "mm off", "degrees", "detection, ms", "planning, ms",
+        "by, or why not")
 
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--part", choices=simulation.PARTS, action="append", help="again for more (default: ridged_disc)")
-    parser.add_argument("--sensor", choices=simulation.SENSORS, action="append", help="again for more (default: structured-light)")
-    parser.add_argument("--gripper", choices=("jaws", "cup"), default="jaws", help="default: %(default)s")
-    parser.add_argument("--bins", type=scripting.count, default=cell.BINS, help="of each part and sensor (default: %(default)s)")
-    parser.add_argument("--copies", type=scripting.count, default=cell.COPIES, help="in a bin, up to 10000 (default: %(default)s)")
-    parser.add_argument("--seed", type=scripting.count, default=1, help="of the first bin, the next has the next one")
-    parser.add_argument("--threads", type=int, default=0, help="0: all cores")
-    parser.add_argument("--pictures", action="store_true", help="a strip of pictures of each bin, too (needs a display)")
-    parser.add_argument("--out", required=True, metavar="DIR", help="folder to write")
+    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
+    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    simulation.add_sensor_argument(parser)
+    add_gripper_options(parser)
+    parser.add_argument("--bin", type=float, nargs=3, metavar=("LENGTH", "WIDTH", "HEIGHT"),
+                        help="of the bin inside, mm (default: a square that the copies fill about twice)")
+    parser.add_argument("--copies", type=scripting.count, default=20, help="in the bin, up to 10000 (default: %(default)s)")
+    parser.add_argument("--bins", type=scripting.count, default=1,
+                        help="to fill and pick, one after the other (default: %(default)s)")
+    parser.add_argument("--seed", type=scripting.count, default=1,
+                        help="of the first bin, the next has the next one (default: %(default)s)")
+    parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
+    parser.add_argument("--out", default="cell", metavar="DIR", help="folder to write (default: %(default)s)")
     options = parser.parse_args()
     if options.bins < 1 or not 1 <= options.copies <= 10000:
         parser.error("--bins has to be 1 or more, --copies 1 to 10000")
+    if options.bin and min(options.bin) <= 0:
+        parser.error("--bin has to be three positive lengths, mm")
     return options
+
+
+def print_picks(rows):
+    cells = [HEAD, *([row[name] for name in ("seed", "pick", "left", "found", "possible", "outcome", "mm", "degrees", "detect_ms",
+                                             "plan_ms", "reason")]
+                     for row in rows)]
+    widths = [max(len(line[column]) for line in cells) for column in range(len(HEAD) - 1)]
+    for line in cells:
+        print("  ".join([*(word.rjust(width) for word, width in zip(line, widths)), line[-1]]))
+    done, empty, tried, taken, left = cell.summary(rows)
+    print(f"{empty} of {done} bins were emptied; {taken} of {tried} picks took a part; {left} parts were left"
+          if done else f"no bin is done; {taken} of {tried} picks took a part")
 
 
 def main():
     options = options_of_user()
-    if options.pictures:
-        from .. import picture
-        picture.require_display()
-    print(cell.run(options.out, options.part or ["ridged_disc"], options.sensor or [simulation.SENSORS[0]], options.gripper,
-                   options.bins, options.copies, options.seed, options.threads, options.pictures))
-    charts.tell_of_display()
+    mesh = scripting.read_mesh(options.cad, scale=options.cad_scale)
+    gripper, lengths = gripper_of(options)
+    unknown = [name for name in lengths if name not in picking.GRIPPER_LENGTHS]
+    if unknown:
+        raise scripting.Failure(f"a gripper has no length {unknown[0]}; it has {', '.join(picking.GRIPPER_LENGTHS)}")
+    with open(options.cad, "rb") as file:  # another part under the same name is another cell
+        digest = zlib.crc32(file.read() + repr(options.cad_scale).encode())
+    known = (f"{os.path.splitext(os.path.basename(options.cad))[0]}-{digest:08x}", options.sensor,
+             "-".join((gripper, *(f"{name}={value:g}" for name, value in lengths.items()))))
+    size = "x".join(f"{side:g}" for side in options.bin) if options.bin else "0"
+    wanted = [(*known, size, str(options.copies), str(seed)) for seed in range(options.seed, options.seed + options.bins)]
+    picks = cell.Cell(options.out)
+    try:
+        picks.run(wanted, lambda *_: cell.Station(options.cad, mesh, options.sensor, gripper, lambda diameter: lengths,
+                                                  options.threads), options.bin)
+    except KeyboardInterrupt:
+        print_picks(picks.rows(wanted))  # what is known
+        raise
+    print_picks(picks.rows(wanted))
+    if not os.environ.get("DISPLAY"):
+        print("no picture was made, there is no display: xvfb-run -a makes one", file=sys.stderr)

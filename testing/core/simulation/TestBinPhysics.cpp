@@ -86,7 +86,7 @@ meam::TriangleMesh box(double x, double y, double z)
 meam::FilledBin fill(const meam::TriangleMesh& part, double size, int copies, unsigned seed = 1)
 {
   meam::Random random(seed);
-  return meam::fillBin(part, size, copies, random);
+  return meam::fillBin(part, Eigen::Vector2d::Constant(size), copies, random);
 }
 
 Eigen::AlignedBox3d boundsOf(const meam::TriangleMesh& part, const Eigen::Isometry3d& pose)
@@ -197,7 +197,7 @@ TEST(BinPhysics, whatLosesItsSupportFallsAndWhatRestsStays)
   const meam::TriangleMesh part = box(40, 30, 10);
   const auto at = [](double x, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, -15.0, z)); };
   // One on the floor, and one where another has been taken from under it.
-  const meam::FilledBin bin = meam::settleBin(part, 200.0, { at(-70.0, 0.1), at(20.0, 10.2) });
+  const meam::FilledBin bin = meam::settleBin(part, { 200.0, 200.0 }, { at(-70.0, 0.1), at(20.0, 10.2) });
   ASSERT_EQ(bin.poses.size(), 2u);
   expectAtRest(bin, part, 200.0, 51.0);
   for (const auto& pose : bin.poses)
@@ -207,7 +207,7 @@ TEST(BinPhysics, whatLosesItsSupportFallsAndWhatRestsStays)
   }
   EXPECT_LT((bin.poses[0].translation() - at(-70.0, 0.0).translation()).norm(), 1.0);
   EXPECT_LT((bin.poses[1].translation() - at(20.0, 0.0).translation()).norm(), 3.0);
-  EXPECT_TRUE(meam::settleBin(part, 200.0, {}).poses.empty());
+  EXPECT_TRUE(meam::settleBin(part, { 200.0, 200.0 }, {}).poses.empty());
 }
 
 TEST(BinPhysics, sheetsWithoutThicknessDoNotCross)
@@ -257,5 +257,6 @@ TEST(BinPhysics, badInput)
   EXPECT_THROW(fill({}, 100.0, 1), meam::Error);
   EXPECT_THROW(fill(part, 5.0, 1), meam::Error);
   meam::Random random(1);
-  EXPECT_THROW(meam::fillBin(part, 100.0, 5, random, [](double share) { return share < 0.3; }), meam::Aborted);
+  EXPECT_THROW(
+    meam::fillBin(part, { 100.0, 100.0 }, 5, random, [](double share) { return share < 0.3; }), meam::Aborted);
 }

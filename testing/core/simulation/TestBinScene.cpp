@@ -88,6 +88,28 @@ TEST(BinScene, cloudAndImageAreOneGrid)
   }
 }
 
+TEST(BinScene, aBinWithSides)
+{
+  meam::BinSceneSettings settings = small(6);
+  settings.binSize = 400.0;
+  settings.binWidth = 150.0;
+  settings.wallHeight = 120.0;
+  const meam::BinScene scene = meam::simulateBin(tetrahedron(), settings);
+  EXPECT_EQ(scene.bin.size, Eigen::Vector3d(400.0, 150.0, 120.0));
+  const double height = scene.bin.T_scene_bin.translation().z();
+  EXPECT_EQ(height, 3 * 400.0);
+  double farthest = 0.0;
+  for (const meam::BinInstance& instance : scene.instances)
+  {
+    EXPECT_LT(std::abs(instance.T_scene_model.translation().y()), 75.0);
+    farthest = std::max(farthest, std::abs(instance.T_scene_model.translation().x()));
+  }
+  EXPECT_GT(farthest, 75.0);
+  // The rim fills the image's width, to both sides.
+  const Eigen::Vector2d corner = meam::project(scene.sensor, Eigen::Vector3d(200.0, 75.0, height - 120.0));
+  EXPECT_TRUE(corner.x() > 150 && corner.x() < 160 && corner.y() < 120) << corner.transpose();
+}
+
 TEST(BinScene, theTruthInTheImage)
 {
   const meam::BinScene scene = meam::simulateBin(meam::makeSamplePart(), small(8));
@@ -194,6 +216,8 @@ TEST(BinScene, badInput)
   fails([](auto& s) { s.height = 100000; });
   fails([](auto& s) { s.binSize = 10.0; });
   fails([](auto& s) { s.binSize = 1e9; });
+  fails([](auto& s) { s.binWidth = 1e9; });
+  fails([](auto& s) { s.wallHeight = -1.0; });
   fails([](auto& s) { s.sensorHeight = 20.0; });
   fails([](auto& s) { s.baseline = -1.0; });
   fails([](auto& s) { s.quality.dropout = 1.5; });

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finds the parts in two real scans, prints the poses and writes the pictures of docs/gallery.md.
+"""Finds the parts in real scans: how many of the known poses are met. `--pictures DIR` writes those of docs/gallery.md.
 
-DATA holds rings/ (structured light, ten rings with three lugs: triangles_scene.ply, triangle_model.ply and the poses
-pseudo_gt_poses.txt, which are made by ICP) and scanner/ (time of flight, one housing among other things: data.ply and
-V2D63xModel.ply, without true poses). Both come as PLY clouds that have lost their pixels; the cameras below give them
-back. The ring's model is points only: its mesh is made here."""
-import argparse
+DATA may hold pipes/ (known.csv, elbow.stl and the scans that it names) and real/ (in its folders SCAN.pcd, SCAN_known.txt and the
+part's mesh beside), of which the poses are known of some copies alone. It holds rings/ (structured light, ten rings with three
+lugs: triangles_scene.ply, triangle_model.ply and the poses pseudo_gt_poses.txt, which are made by ICP) and scanner/ (time of
+flight, one housing among other things: data.ply and V2D63xModel.ply, without true poses). Both come as PLY clouds that have lost
+their pixels; the cameras below give them back. The ring's model is points only: its mesh is made here."""
+import glob
 import json
 import os
 import tempfile
@@ -17,6 +18,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from ppfmeam import filters, picture, scripting
+
+import results
 
 SIZE = (840, 650)
 MOST_BYTES = 119000
@@ -85,25 +88,22 @@ def ring_truth(path):
     return poses, poses @ flip
 
 
-def judge(found, truth, model):
-    """The rows (right, instance, mm, degrees) of the poses found, and the symmetries of the model count."""
-    true = poly_data(truth[:, :3, 3])
-    matrices = numpy_to_vtk(truth.reshape(-1, 16), deep=True)
-    matrices.SetName("Transform")
-    true.GetPointData().AddArray(matrices)
+def judge(found, truth, model, degrees=5):
+    """The rows (right, instance, mm, degrees) of the poses found, and the symmetries of the model, or of samples, count."""
     evaluation = filters.vtkMEAMPoseEvaluation()
-    for port, data in enumerate((found, true, model)):
+    for port, data in enumerate((found, scripting.poses_of(truth), model)):
         evaluation.SetInputDataObject(port, data)
     evaluation.SetDiameter(scripting.field(model, "Diameter"))
     evaluation.SetPosesAskedFor(0)
+    evaluation.SetRotationTolerance(degrees)
     table = scripting.update(evaluation).GetOutput()
     names = ("Right", "Instance", "TranslationError", "RotationError")
     return numpy.stack([vtk_to_numpy(table.GetColumnByName(name)).astype(float) for name in names], axis=1)
 
 
-def figures(found, truth, model, others=()):
+def figures(found, truth, model, others=(), degrees=5):
     """How many true poses, or their others, are met, which ranks are wrong, and the median errors of the right ones."""
-    rows = judge(found, numpy.concatenate((truth, *others)), model)
+    rows = judge(found, numpy.concatenate((truth, *others)), model, degrees)
     right = rows[rows[:, 0] == 1]
     met = len(set(right[:, 1].astype(int) % len(truth)))
     return met, numpy.nonzero(rows[:, 0] == 0)[0] + 1, numpy.median(right[:, 2:], axis=0) if met else (numpy.nan, numpy.nan)
@@ -167,56 +167,103 @@ def read_scan(path, scale, camera):
         return scripting.read_scan(path, scale, calibration)
 
 
-def rings(options):
-    folder = os.path.join(options.data, "rings")
+def rings(data, edges, seeds, pictures=None):
+    """A row; with pictures what was found, too."""
+    folder = os.path.join(data, "rings")
     scene = read_scan(os.path.join(folder, "triangles_scene.ply"), 1000, RINGS_CAMERA)
     points = vtk_to_numpy(scripting.read(os.path.join(folder, "triangle_model.ply"), 1000).GetPoints().GetData())
     truth, flipped = ring_truth(os.path.join(folder, "pseudo_gt_poses.txt"))
     mesh = ring_mesh(points.astype(float))
-    training = scripting.Training(mesh)
-    model = training.model()
-    edge_kinds = options.edges or ("image", "depth")  # the image is dark
-    poses, edges = estimate(model, scene, len(truth), edge_kinds)
-    print(f"rings: {mesh.GetFieldData().GetAbstractArray('Report').GetValue(0)}; "
-          f"symmetries: {scripting.symmetry_words(training.symmetric_samples())[0]}; edges: {', '.join(edge_kinds)}")
-    scripting.print_poses(poses)
-    scripting.print_times(poses)
-    for words, others in (("wrong", ()), ("right", (flipped,))):
-        met, wrong, medians = figures(poses, truth, model, others)
-        print(f"flips are {words}: {met} of {len(truth)} pseudo poses met, median error {medians[0]:.2f} mm, "
-              f"{medians[1]:.2f} degrees; wrong ranks: {', '.join(map(str, wrong)) or 'none'}")
-    if options.seeds > 1:
-        found = [estimate(model, scene, len(truth), edge_kinds, seed)[0] for seed in range(1, options.seeds + 1)]
-        met, _, medians = zip(*(figures(each, truth, model) for each in found))
-        print(f"{options.seeds} seeds: {numpy.mean(met):.1f} met on average, {min(met)} to {max(met)}; median errors "
-              "{:.2f} mm, {:.2f} degrees".format(*numpy.median(medians, axis=0)))
-    save_pictures(options.out, "rings", scene, edges, poses, mesh)
+    model = scripting.train(mesh)
+    poses, found = estimate(model, scene, len(truth), edges)
+    met, wrong, medians = figures(poses, truth, model)
+    several = [met, *(figures(estimate(model, scene, len(truth), edges, seed)[0], truth, model)[0]
+                      for seed in range(2, seeds + 1))]
+    if pictures:
+        scripting.print_poses(poses)
+        scripting.print_times(poses)
+        save_pictures(pictures, "rings", scene, found, poses, mesh)
+    return {"scan": "rings", "edges": ", ".join(edges), "known": len(truth), "met": met,
+            "or on the other side": figures(poses, truth, model, (flipped,))[0],
+            "wrong ranks": " ".join(map(str, wrong)), "mm": float(medians[0]), "degrees": float(medians[1]), "seeds": seeds,
+            "met on average": float(numpy.mean(several)), "least": min(several), "most": max(several)}
 
 
-def scanner(options):
-    folder = os.path.join(options.data, "scanner")
+def scanner(data, pictures):
+    folder = os.path.join(data, "scanner")
     scene = read_scan(os.path.join(folder, "data.ply"), 1, SCANNER_CAMERA)
     mesh = scripting.read_mesh(os.path.join(folder, "V2D63xModel.ply"))
-    poses, edges = estimate(scripting.train(mesh), scene, 5, options.edges or ("image",))
-    print(f"scanner: {mesh.GetFieldData().GetAbstractArray('Report').GetValue(0)}")
+    poses, edges = estimate(scripting.train(mesh), scene, 5, ("image",))
     scripting.print_poses(poses)
-    scripting.print_times(poses)
-    save_pictures(options.out, "scanner", scene, edges, poses, mesh, SCANNER_BOX)
+    save_pictures(pictures, "scanner", scene, edges, poses, mesh, SCANNER_BOX)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("data", metavar="DATA", help="the folder that holds rings/ and scanner/")
-    parser.add_argument("--out", metavar="DIR", default=".", help="folder for the pictures (default: %(default)s)")
-    parser.add_argument("--edges", nargs="+", choices=("image", "depth", "creases"),
-                        help="edges of the scene to look for (default: image, and depth for the rings)")
-    parser.add_argument("--seeds", type=scripting.count, default=1, metavar="N",
-                        help="search the rings with this many seeds and print the mean (default: %(default)s)")
-    options = parser.parse_args()
-    picture.require_display()
-    scripting.require_folder_of(os.path.join(options.out, "gallery"))
-    rings(options)
-    scanner(options)
+def exact(poses):
+    """The poses with the nearest rotations: those of files are rounded."""
+    u, _, v = numpy.linalg.svd(poses[:, :3, :3])
+    poses[:, :3, :3] = u @ v
+    return poses
 
 
-scripting.run(main)
+def of_known(data):
+    """The mesh, the scan and the known poses, N x 4 x 4, of the scans of pipes/ and real/ that are there."""
+    path = os.path.join(data, "pipes", "known.csv")
+    rows = results.read(path) if os.path.exists(path) else []
+    for name in dict.fromkeys(row["scene"] for row in rows):
+        truth = numpy.tile(numpy.eye(4), (sum(row["scene"] == name for row in rows), 1, 1))
+        for pose, row in zip(truth, (row for row in rows if row["scene"] == name)):
+            pose[:3, :3], pose[:3, 3] = numpy.reshape(row["R"].split(), (3, 3)), row["t"].split()
+        yield os.path.join(data, "pipes", "elbow.stl"), os.path.join(data, "pipes", name + ".pcd"), exact(truth)
+    for known in sorted(glob.glob(os.path.join(data, "real", "*", "*_known.txt"))):
+        stem, truth = known.removesuffix("_known.txt"), numpy.loadtxt(known).reshape(-1, 4, 4)
+        meshes = glob.glob(os.path.join(os.path.dirname(known), "*.stl"))
+        mesh = next((path for path in meshes if stem.endswith(os.path.splitext(os.path.basename(path))[0])), meshes[0])
+        scan = next(path for path in (stem + ".pcd", stem.rpartition("_")[0] + ".pcd") if os.path.exists(path))
+        yield mesh, scan, exact(truth)
+
+
+def samples_of(mesh, path):
+    """The part's samples with its symmetries, those of PART.json beside its mesh where that is there (an entry of a BOP
+    models_info.json)."""
+    training, info = scripting.Training(mesh), os.path.splitext(path)[0] + ".json"
+    if not os.path.exists(info):
+        return training.symmetric_samples()
+    with tempfile.TemporaryDirectory() as folder:
+        entry = os.path.join(folder, "models_info.json")
+        with scripting.written(entry) as file:
+            json.dump({"1": scripting.read_json(info)}, file)
+        training.symmetries.SetModelsInfoFile(entry)
+        training.symmetries.SetObjectId(1)
+        return training.symmetric_samples()
+
+
+def known(data, poses=10):
+    """Of each scan a row: how many of the known poses, which are fitted, are met by the best ones: within 10 % of D and 10
+    degrees. Poses that are not known are not wrong."""
+    rows, parts = [], {}
+    for path, scan, truth in of_known(data):
+        if path not in parts:
+            mesh = scripting.read_mesh(path)
+            parts[path] = scripting.train(mesh), samples_of(mesh, path)
+        found, _ = estimate(parts[path][0], scripting.read(scan), poses, ("image", "depth", "creases"))
+        met, _, medians = figures(found, truth, parts[path][1], degrees=10)
+        rows.append({"scan": os.path.relpath(scan, data), "part": os.path.splitext(os.path.basename(path))[0],
+                     "known": len(truth), "met": met,
+                     "mm": float(medians[0]), "degrees": float(medians[1]),
+                     "likely": int((scripting.column(found, "Probability") > 0.5).sum()),
+                     "ms": 1000 * (scripting.field(found, "SecondsTotal") - scripting.field(found, "SecondsTraining"))})
+    return rows
+
+
+def measure(data, edges=("image", "depth", "creases"), seeds=1, pictures=None):
+    if pictures:
+        picture.require_display()
+        scripting.require_folder_of(os.path.join(pictures, "gallery"))
+        scanner(data, pictures)
+    return [rings(data, edges, seeds, pictures)]
+
+
+if __name__ == "__main__":
+    results.command(measure, data="the folder that holds rings/ and scanner/", edges="of the scan to look for",
+                    seeds="to search the rings with",
+                    pictures="folder for the pictures of docs/gallery.md")

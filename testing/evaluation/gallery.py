@@ -11,7 +11,10 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 
-from ppfmeam import cellpicture, chains, evaluation, filters, picture, scripting
+from ppfmeam import cellpicture, evaluation, filters, picture, scripting
+
+import chains
+import scenes
 
 SIZE = (840, 650)
 MOST_BYTES = 119000
@@ -266,9 +269,9 @@ def main():
     poses = gallery.online(source.GetOutputDataObject(0), edges.GetOutputDataObject(0), (0, 0, 1))
     gallery.picks(source.GetOutputDataObject(0), source.GetOutputDataObject(1), poses)
     if options.tohoku:
-        gallery = Gallery(options.out, "tohoku", evaluation.tohoku_mesh(options.tohoku, 1), (0.6, -1.1, 1.6))
+        gallery = Gallery(options.out, "tohoku", scenes.tohoku_mesh(options.tohoku, 1), (0.6, -1.1, 1.6))
         gallery.offline(0)
-        surface, edges = evaluation.tohoku_clouds(options.tohoku, 1, 0)
+        surface, edges = scenes.tohoku_clouds(options.tohoku, 1, 0)
         gallery.online(surface, edges, (0, 0, -1))
 
 

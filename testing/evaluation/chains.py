@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The single filters, connected: the same steps as those of vtkMEAMPoseEstimation, with all their parameters."""
-from . import filters
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from ppfmeam import evaluation, filters, scripting
 
 
 def set_preset(algorithm, preset):
@@ -74,3 +76,18 @@ class Detection:
             getattr(step, "SetProjectionTo" + projection)()
             step.SetViewDirection(view_direction)
             step.SetSensorPosition(position)
+
+
+class Evaluation(evaluation.Evaluation):
+    """Finds the poses of a scene step by step, with parameters that vtkMEAMPoseEstimation does not have."""
+
+    def __init__(self, model, choose=lambda chain: None, preset="recommended", poses_asked_for=5, threads=0):
+        super().__init__(model, poses_asked_for=poses_asked_for, threads=threads)
+        self.chain = Detection(model, preset=preset, threads=threads)
+        choose(self.chain)
+
+    def find(self, surface, edges):
+        self.chain.set_scene(edges, surface)
+        poses = vtkPolyData()
+        poses.ShallowCopy(scripting.update(self.chain.selection).GetOutput())
+        return poses

@@ -3,13 +3,15 @@
 compared with it, with the noise of the sensor."""
 import math
 import os
-import sys
-import time
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from . import charts, filters, scripting, simulation, world
+from ppfmeam import filters, scripting
+from ppfmeam.lines import Lines
+
+import charts
+import results
+from scenes import bin_source, part_mesh
 
 MOVES = (5, 10, 15, 20)  # mm
 TURNS = (5, 10, 15, 20)  # degrees
@@ -43,7 +45,7 @@ class Stage:
     """A part alone below the sensor, and what finds it."""
 
     def __init__(self, part, preset, threads):
-        self.mesh = simulation.part_mesh(part)
+        self.mesh = part_mesh(part)
         self.middle = numpy.array(self.mesh.GetCenter())
         self.estimation = filters.vtkMEAMPoseEstimation()
         model = scripting.train(self.mesh, preset)
@@ -53,28 +55,20 @@ class Stage:
         self.estimation.SetMaximumNumberOfPoses(1)
         self.estimation.SetNumberOfThreads(threads)
 
-    def source(self, seed):
-        source = filters.vtkMEAMBinSceneSource()
-        source.SetInputDataObject(self.mesh)
-        source.SetCopies(1)
-        source.SetSeed(seed)
-        return source
-
     def lying(self, seed):
         """The pose of the part as it comes to rest, lifted by the stage."""
-        source = self.source(seed)
-        scripting.update(source)
-        transform = vtk_to_numpy(source.GetOutputDataObject(1).GetPointData().GetArray("Transform")).reshape(4, 4).copy()
+        source = scripting.update(bin_source(self.mesh, 1, seed))
+        transform = scripting.column(source.GetOutputDataObject(1), "Transform", 4, 4)[0]
         transform[2, 3] -= self.height
         return transform
 
     def found(self, transform, seed):
         """The pose that is found of the part at a pose, seen with noise of its own; None where none is."""
-        source = self.source(seed)
+        source = bin_source(self.mesh, 1, seed)
         source.SetInputDataObject(1, scripting.poses_of(transform[None]))
         self.estimation.SetInputDataObject(1, scripting.update(source).GetOutput())
-        array = scripting.update(self.estimation).GetOutput().GetPointData().GetArray("Transform")
-        return vtk_to_numpy(array).reshape(-1, 4, 4)[0] if array and array.GetNumberOfTuples() else None
+        poses = scripting.column(scripting.update(self.estimation).GetOutput(), "Transform", 4, 4)
+        return poses[0] if len(poses) else None
 
 
 def errors(before, after, middle, distance=None, degrees=None):
@@ -96,54 +90,58 @@ def trial(stage, seed):
         there = moved(start, amount) if unit == "mm" else turned(start, middle, amount, unit[-1])
         after = stage.found(there, seed + number)
         known = before is not None and after is not None
-        result.append(errors(before, after, stage.middle, **{"distance" if unit == "mm" else "degrees": amount}) if known else None)
+        result.append(errors(before, after, stage.middle, **{"distance" if unit == "mm" else "degrees": amount}) if known
+                      else None)
     return result
 
 
 def measure(folder, part, preset, threads, seeds):
     """The rows of the trials; DIR/figure13_trials.csv has one for each and is gone on with; those that failed are made again."""
-    lines = world.Lines(os.path.join(folder, "figure13_trials.csv"), ROW, lambda row: not row["failure"])
+    lines = Lines(os.path.join(folder, "figure13_trials.csv"), ROW, lambda row: not row["failure"])
     wanted = [(part, preset, str(seed)) for seed in seeds]
     done = {tuple(row[name] for name in TRIAL) for row in lines.rows}
     todo = [kind for kind in wanted if kind not in done]
-    stage, start = Stage(part, preset, threads) if todo else None, time.time()
-    for count, kind in enumerate(todo):
+    stage, progress = Stage(part, preset, threads) if todo else None, results.Progress(len(wanted), len(todo))
+    for kind in todo:
         row = {**dict.fromkeys(ROW, ""), **dict(zip(TRIAL, kind))}
         try:
             of_steps = trial(stage, int(row["seed"]))
             row.update((name, "" if error is None else f"{error:.5f}") for name, error in zip(ROW[len(TRIAL):], of_steps))
         except scripting.Failure as failure:
             row["failure"] = str(failure)
+            results.failed.append(kind)
         lines.add([row])
-        left = (time.time() - start) / (count + 1) * (len(todo) - count - 1)
-        print(f"Figure 13, trial {len(wanted) - len(todo) + count + 1} of {len(wanted)}"
-              f"{': ' + row['failure'] if row['failure'] else ''}; {left / 60:.0f} min left", file=sys.stderr, flush=True)
+        outcome = "failed: " + row["failure"] if row["failure"] else "is done"
+        progress.tell(f"Figure 13, the trial of seed {row['seed']} {outcome}")
     return [row for row in lines.rows if tuple(row[name] for name in TRIAL) in wanted]
 
 
 def run(folder, part, preset, threads, first, trials=TRIALS):
-    """The table in Markdown, which is also written, as CSV and as charts where there is a display; and how many trials failed."""
+    """The figure's text in Markdown, which is also written, as CSV and as charts where there is a display; and its rows."""
     trials_done = measure(folder, part, preset, threads, [first + trial * SCANS for trial in range(trials)])
-    lines = [f"Figure 13. Relative errors of a {part} that is moved and turned by known amounts, {trials} trial{'s' if trials > 1 else ''}, preset {preset}.", "",
-             "| step | found in | mean error | largest |", "|---|---|---|---|"]
-    rows, figures = ["unit,step,found,mean,largest"], {}
+    rows = []
     for unit, amount in STEPS:
-        known = [float(row[f"{amount} {unit}"]) for row in trials_done if row[f"{amount} {unit}"]]
-        mean, largest = (numpy.mean(known), max(known)) if known else (math.nan, math.nan)
-        figures.setdefault(unit, []).append((mean, largest))
-        told = [f"{error:.3f} {unit.split()[0]}" if known else "-" for error in (mean, largest)]
-        lines.append(f"| {amount} {unit} | {len(known)} of {trials} | {told[0]} | {told[1]} |")
-        rows.append(f"{unit},{amount},{len(known)}," + (f"{mean:.5f},{largest:.5f}" if known else ","))
-    lines += ["", "The paper turns its part about theta_x alone, and shows its errors in a chart without numbers."]
-    failed = [row for row in trials_done if row["failure"]]
-    lines += [line for row in failed for line in ("", f"The trial of seed {row['seed']} failed: {row['failure']}")]
-    text = "\n".join(lines) + "\n"
-    for name, content in (("figure13.md", text), ("figure13.csv", "\n".join(rows) + "\n")):
-        with scripting.written(os.path.join(folder, name)) as file:
-            file.write(content)
-    for unit, of_unit in figures.items():
-        means, largest = zip(*of_unit)
+        known = results.values(trials_done, f"{amount} {unit}")
+        rows.append({"unit": unit, "step": amount, "found": len(known), "trials": trials,
+                     "mean error": float(known.mean()) if known.size else None,
+                     "largest": float(known.max()) if known.size else None})
+    text = "\n\n".join([
+        f"Figure 13. Relative errors of a {part} that is moved and turned by known amounts, trials: {trials}, preset {preset}.",
+        results.markdown(("step", "found in", "mean error", "largest"), [
+            (f"{row['step']} {row['unit']}", f"{row['found']} of {trials}",
+             *(f"{row[name]:.3f} {row['unit'].split()[0]}" if row["found"] else "-"
+                                                                              for name in ("mean error", "largest")))
+                                                                              for row in rows]),
+        "The paper turns its part about theta_x alone, and shows its errors in a chart without numbers.",
+        *(f"The trial of seed {row['seed']} failed: {row['failure']}" for row in trials_done if row["failure"])]) + "\n"
+    results.write(os.path.join(folder, "figure13.csv"), rows)
+    with scripting.written(os.path.join(folder, "figure13.md")) as file:
+        file.write(text)
+    for unit in dict.fromkeys(unit for unit, _ in STEPS):
+        of_unit = [row for row in rows if row["unit"] == unit]
         word = "moved" if unit == "mm" else "turned about " + unit[-1]
         charts.lines(os.path.join(folder, f"figure13_{word.replace(' ', '_')}.png"), f"The part {word} on a stage",
-                     MOVES if unit == "mm" else TURNS, {"mean error": means, "largest error": largest}, unit, f"error, {unit.split()[0]}")
-    return text, len(failed)
+                     [row["step"] for row in of_unit],
+                     {name: [row[name] for row in of_unit] for name in ("mean error", "largest")}, unit,
+                     f"error, {unit.split()[0]}")
+    return text, rows

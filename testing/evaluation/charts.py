@@ -13,11 +13,12 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
-from . import scripting
+from ppfmeam import scripting
 
 SIZE = (960, 540)
 # Okabe and Ito's colours, which colour-blind people tell apart, and a few for more.
-COLORS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (86, 180, 233), (213, 94, 0), (240, 228, 66), (120, 120, 120),
+COLORS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (86, 180, 233), (213, 94, 0), (240, 228, 66),
+          (120, 120, 120),
           (0, 0, 0), (140, 80, 30), (170, 225, 170), (100, 30, 140))
 
 
@@ -28,7 +29,8 @@ def there_is_display():
 def tell_of_display():
     """Says on stderr why there are no charts, and how to get them."""
     if not there_is_display():
-        print("no charts were made, there is no display: the same command after `xvfb-run -a` adds them to what is done", file=sys.stderr)
+        print("no charts were made, there is no display: the same command after `xvfb-run -a` adds them to what is done",
+              file=sys.stderr)
 
 
 def bars(path, title, groups, series, unit):
@@ -86,7 +88,7 @@ def add(chart, kind, table, column, name):
 def save(chart, series, path):
     if not there_is_display():
         return
-    highest = numpy.nanmax([1e-9, *(value for values in series.values() for value in values)])
+    highest = numpy.nanmax(numpy.array([1e-9, *(value for values in series.values() for value in values)], float))
     chart.GetAxis(vtkAxis.LEFT).SetBehavior(vtkAxis.FIXED)
     chart.GetAxis(vtkAxis.LEFT).SetRange(0, 1.05 * highest)
     view = vtkContextView()

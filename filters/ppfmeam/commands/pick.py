@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a scan to picks: where jaws or a cup can take which part out of the bin, best first, and what is against the others."""
+import argparse
+
+import numpy
+
+import ppfmeam
+
+
+def length(words):
+    """For argparse: NAME=MM."""
+    name, _, value = words.partition("=")
+    try:
+        return name, float(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"it has to be NAME=MM, not {words}") from None
+
+
+def add_gripper_options(parser):
+    parser.add_argument("--opening", type=float, default=60.0, metavar="MM", help="of the jaws (default: %(default)s)")
+    parser.add_argument("--cup", type=float, metavar="MM", help="diameter of a suction cup, in place of the jaws")
+    parser.add_argument("--gripper", type=length, nargs="+", default=[], metavar="NAME=MM",
+                        help="other lengths of the gripper, such as finger_length=80, as ppfmeam.grasps() has them")
+
+
+def gripper_of(options):
+    """Jaws or cup, and its lengths by name."""
+    main = {"opening": options.opening} if options.cup is None else {"cup_diameter": options.cup}
+    return "jaws" if options.cup is None else "cup", {**main, **dict(options.gripper)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("part", help="the CAD, mm")
+    parser.add_argument("scan", help="an organized cloud of the bin, from above")
+    add_gripper_options(parser)
+    parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")
+    options = parser.parse_args()
+    gripper, lengths = gripper_of(options)
+    model = ppfmeam.train(options.part)
+    grasps = ppfmeam.grasps(options.part, propose="suction" if gripper == "cup" else "parallel", symmetries=model, **lengths)
+    found = ppfmeam.detect(model, options.scan, poses=0, probability=0.5)
+    picks = ppfmeam.pick(found, grasps, options.scan, gripper=gripper, bin="none" if options.no_bin else "detected")
+    print(picks.report, picks.advice)
+    for k in numpy.flatnonzero(picks.possible):
+        print(f"part {picks.instances[k] + 1} by {picks.names[k]}, clearance {picks.clearances[k]:.1f} mm")
+        print(picks.transforms[k])
