@@ -106,10 +106,9 @@ def from_dataset(data, scale):
     if layers != 1:
         raise Error(f"the scan is a grid of {width} x {height} x {layers} points: an organized cloud is width x height x 1")
     ghosts = data.GetPointGhostArray()
-    if ghosts:
-        points = points.copy()
-        points[vtk_to_numpy(ghosts) & HIDDEN != 0] = numpy.nan
     scan = _core.Scan(scaled(points.reshape(height, width, 3), scale, "scan"))
+    if ghosts:
+        scan.blank(vtk_to_numpy(ghosts) & HIDDEN)
     values = data.GetPointData()
     pixels = values.GetArray("Intensity") or values.GetArray("RGB")
     if pixels:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conversion.h"
 
+#include <limits>
+
 namespace meamPython
 {
 namespace
@@ -24,6 +26,18 @@ py::array_t<float> pointsOf(const Scan& scan)
 {
   py::array_t<float> points = arrayOf(scan.points);
   return scan.height > 1 ? points.reshape({ scan.height, scan.width, 3 }) : points;
+}
+
+/// Points with a flag that is not 0 are not measured.
+void blank(Scan& scan, const Pixels& flags)
+{
+  for (std::size_t i = 0; i < scan.points.size(); ++i)
+  {
+    if (flags.data()[i] != 0)
+    {
+      scan.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+    }
+  }
 }
 
 /// H x W, or H x W x 1 or 3.
@@ -101,6 +115,7 @@ void bindData(py::module_& module)
   py::class_<Camera>(module, "Camera").def(py::init(&cameraOf));
   py::class_<Scan>(module, "Scan")
     .def(py::init(&scanOf))
+    .def("blank", &blank)
     .def_property_readonly("points", &pointsOf)
     .def_property(
       "image", [](const Scan& scan) { return pixelsOf(scan.image); },
