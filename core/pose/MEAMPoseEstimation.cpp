@@ -130,7 +130,7 @@ Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model,
 Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
   DetectionReport* report, const Progress& progress, const PoseObserver& observer)
 {
-  constexpr double votingShare = 0.45; // not tuned: of the progress
+  constexpr double votingShare = 0.45; // of the progress
   Stopwatch watch;
   Poses candidates = detectPoses(scene, model, settings.detection, subProgress(progress, 0.0, votingShare));
   if (report)

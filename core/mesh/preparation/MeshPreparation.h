@@ -26,7 +26,7 @@ struct MeshPreparationSettings
 };
 
 /// Pairs of triangles that intersect are counted up to this number.
-constexpr int MostIntersections = 10000; // not tuned: a limit of time
+constexpr int MostIntersections = 10000; // a limit of time
 
 /// What was found in a mesh and what was done to it. Lengths in mm.
 struct MeshReport

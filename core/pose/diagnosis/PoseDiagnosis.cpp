@@ -144,7 +144,7 @@ Eigen::Isometry3d PoseDiagnosis::fitted(const Eigen::Isometry3d& T_local_model) 
 
 void PoseDiagnosis::score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
 {
-  constexpr int mark = -1; // not tuned: votes that no other pose has
+  constexpr int mark = -1; // votes that no other pose has
   Poses poses = this->Trace.posesOf(PoseStage::Verification);
   poses.push_back(poseAt(T_local_model));
   poses.back().votes = mark;

@@ -61,9 +61,9 @@ public:
   Result result();
 
 private:
-  static constexpr int Lanes = 8;         // not tuned: residuals that are summed at once
-  static constexpr int Values = 8;        // not tuned: of a residual: its row of the Jacobian, itself, its weight
-  static constexpr int Sums = 21 + 6 + 2; // not tuned: lower triangle of the information, right side, squares, weights
+  static constexpr int Lanes = 8;         // residuals that are summed at once
+  static constexpr int Values = 8;        // of a residual: its row of the Jacobian, itself, its weight
+  static constexpr int Sums = 21 + 6 + 2; // lower triangle of the information, right side, squares, weights
 
   void sum();
 

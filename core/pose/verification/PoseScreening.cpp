@@ -100,7 +100,7 @@ std::vector<double> surfaceShares(
 Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedModel& model,
   const PoseScreeningSettings& settings, const Progress& progress)
 {
-  constexpr std::size_t posesPerReport = 256; // not tuned: each is compared with those near by, which may be many
+  constexpr std::size_t posesPerReport = 256; // each is compared with those near by, which may be many
   const std::vector<double> shares = surfaceShares(candidates, scene, model, settings);
   const double least = static_cast<int>(candidates.size()) > settings.enough ? settings.leastSurface : 0.0;
   const double distance = DuplicateDistance * model.diameter;

@@ -62,7 +62,7 @@ public:
   void vote(const PairFrame& reference, VoteAccumulator& accumulator) const;
 
 private:
-  static constexpr int MostPairs = 512; ///< not tuned: whose keys are computed at once
+  static constexpr int MostPairs = 512; ///< whose keys are computed at once
 
   /// Votes of `count` pairs. Leaves in `keys` and `turns` what it pleases.
   void cast(int* keys, PairTurn* turns, int count, VoteAccumulator& accumulator) const;

@@ -92,7 +92,7 @@ template <typename References>
 Poses detectBy(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings,
   References&& referencesOf, const Progress& progress)
 {
-  constexpr double edgeWork = 0.6; // not tuned: of the progress of both rounds
+  constexpr double edgeWork = 0.6; // of the progress of both rounds
   const std::vector<VotingRound> rounds = votingRounds(scene, model, settings);
   Poses poses;
   for (const VotingRound& round : rounds)

@@ -42,7 +42,7 @@ void castVotes(const std::uint32_t* entries, const VoteBucket* buckets, int pair
   bool mayOverflow, std::uint16_t* counts)
 {
   constexpr std::uint32_t laneMask = SheetGroup::Sheets - 1;
-  constexpr int chunk = 128; // not tuned: bins that wait until they are counted
+  constexpr int chunk = 128; // bins that wait until they are counted
   std::uint32_t bins[chunk + VoteBlock];
   int waiting = 0;
   for (int pair = 0; pair < pairs; ++pair)

@@ -28,8 +28,8 @@ struct VoteBucket
 /// A number for each of some sheets of the accumulator; a model point has two sheets, one for each flip.
 struct alignas(32) SheetGroup
 {
-  static constexpr int Sheets = 16;       ///< not tuned: of 16 bits, as many as a vector register holds
-  static constexpr int MostVotes = 21845; ///< not tuned: of a bin: three fit into 16 bits
+  static constexpr int Sheets = 16;       ///< of 16 bits, as many as a vector register holds
+  static constexpr int MostVotes = 21845; ///< of a bin: three fit into 16 bits
   std::uint16_t of[Sheets] = {};
 };
 static_assert(
