@@ -49,6 +49,7 @@ struct Switch
   std::function<void(TrainingSettings&, double)> training{}; ///< with the part's diameter
   std::function<void(SceneEdgeExtractionSettings&)> edges = [](SceneEdgeExtractionSettings&) {};
   bool withoutSurface = false;
+  bool withoutNearSymmetries = false;
 };
 
 using ChangeTraining = std::function<void(TrainingSettings&, double)>;
@@ -69,7 +70,7 @@ Switch sceneEdges(const char* name, const char* what, std::function<void(SceneEd
 
 void withoutFreeSpace(DetectionSettings& settings)
 {
-  settings.screening->evidence.freeSpace = settings.candidateVerification.evidence.freeSpace =
+  settings.screening->freeSpace = settings.candidateVerification.evidence.freeSpace =
     settings.verification.evidence.freeSpace = settings.selection.evidence.freeSpace =
       settings.selection.comparison.freeSpace = false;
 }
@@ -187,7 +188,8 @@ std::vector<Switch> makeSwitches()
     [](T& t, double diameter) { t.hashing.leafSize = 0.03 * diameter; });
   train("sparse-edges", "only points that vote judge, too",
     [](T& t, double diameter) { t.tangents.leafSize = 0.04 * diameter; });
-  train("near", "no near-symmetries", [](T& t, double) { t.symmetry.leastOverlap = 2.0; });
+  train("near", "no near-symmetries", [](T&, double) {});
+  all.back().withoutNearSymmetries = true;
   return all;
 }
 
@@ -281,6 +283,10 @@ public:
         change.training(settings, diameter(this->Mesh.vertices));
       }
       model = std::make_unique<TrainedModel>(trainModel(this->Mesh, settings));
+      if (change.withoutNearSymmetries)
+      {
+        model->symmetries.near.clear();
+      }
     }
     return *model;
   }
@@ -535,7 +541,7 @@ py::tuple arraysOf(const OrganizedCloud& cloud, const std::vector<std::uint8_t>&
 
 py::tuple readScan(const std::string& path)
 {
-  const PCDData data = readPCD(path);
+  const MeasuredCloud data = readPCD(path);
   return arraysOf(data.cloud, data.colors, 3);
 }
 
