@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Poses saved and opened, and OFF meshes opened, as the application does it: by the file's extension, with our writer and
-our readers."""
+"""Poses saved and opened, clouds and OFF meshes opened, as the application does it: by the file's extension, with our writer
+and our readers."""
 import os
 import tempfile
 
-from paraview import simple
+from paraview import make_name_valid, servermanager, simple
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_SHORT
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
 folder = tempfile.TemporaryDirectory()
 
@@ -53,3 +56,47 @@ check(simple.OpenDataFile(path("table.csv")).GetXMLName() == "CSVReader", "a tab
 simple.SaveData(path("saved.csv"), poses)
 with open(path("saved.csv")) as file:
     check("Transform" in file.readline(), "ParaView's own CSV has all arrays")
+
+# A reader with several file properties opens the file as its data, not as its calibration or its image.
+with open(path("camera.json"), "w") as file:
+    file.write('{"fx": 10, "fy": 10, "cx": 2, "cy": 1, "width": 4, "height": 3}')
+with open(path("cloud.ply"), "w") as file:
+    file.write("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+               "0 0 100\n10 0 100\n")
+depth = vtkImageData()
+depth.SetDimensions(4, 3, 1)
+depth.AllocateScalars(VTK_UNSIGNED_SHORT, 1)
+depth.GetPointData().GetScalars().Fill(100)
+writer = vtkPNGWriter()
+writer.SetFileName(path("depth.png"))
+writer.SetInputData(depth)
+writer.Write()
+FILES = {"PLYCloudReader": "cloud.ply", "DepthImageReader": "depth.png"}
+
+
+def readers_of_several_files():
+    manager = servermanager.ProxyManager().SMProxyManager
+    definitions = manager.GetProxyDefinitionManager().NewSingleGroupIterator("sources")
+    while not definitions.IsDoneWithTraversal():
+        reader = manager.GetPrototypeProxy("sources", definitions.GetProxyName())
+        files = servermanager.vtkSMCoreUtilities.GetFileNameProperties(reader)
+        if len(files) > 1 and reader.GetVTKClassName().startswith("vtkMEAM"):
+            yield reader
+        definitions.GoToNextItem()
+
+
+several = {reader.GetXMLName(): reader for reader in readers_of_several_files()}
+check(set(several) == set(FILES), f"readers with several files: {sorted(several)}; of each a file has to be opened")
+for name, reader in several.items():
+    file = path(FILES[name])
+    if reader.GetHints().FindNestedElementByName("ReaderFactory"):
+        opened = simple.OpenDataFile(file, CameraFile=path("camera.json"))
+    else:  # of the menu Sources
+        file_property = servermanager.vtkSMCoreUtilities.GetFileNameProperty(reader)
+        opened = getattr(simple, make_name_valid(reader.GetXMLLabel()))(**{file_property: file, "CameraFile": path("camera.json")})
+    check((opened.GetXMLName(), opened.FileName) == (name, file), f"{name} takes {opened.FileName} for its data")
+    opened.UpdatePipeline()
+    check(opened.GetDataInformation().GetNumberOfPoints() == 12, f"{name} does not read the camera's 4 x 3 pixels")
+cloud = simple.OpenDataFile(path("cloud.ply"))
+cloud.UpdatePipeline()
+check(cloud.GetDataInformation().GetNumberOfPoints() == 2, "the points of a cloud without a camera")
