@@ -126,7 +126,7 @@ def main():
     parser.add_argument("--scenes", type=evaluation.numbers, default=list(range(10)), help="such as 0-4,7 (default: 0-9)")
     parser.add_argument("--only", type=lambda text: text.split(","), default=list(DECISIONS), metavar="NAMES",
                         help=f"rows, such as none,near (default: all: {', '.join(DECISIONS)})")
-    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
+    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene; 0: all (default: %(default)s)")
     parser.add_argument("--noise", type=evaluation.noise, default="0", help=evaluation.NOISE_HELP)
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     options = parser.parse_args()

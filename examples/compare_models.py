@@ -110,7 +110,7 @@ def main():
     parser.add_argument("--only", type=lambda text: text.split(","), default=list(CHOICES), metavar="NAMES",
                         help=f"models to compare, such as preset,whole (default: all: {', '.join(CHOICES)})")
     scripting.add_method_options(parser)
-    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
+    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene; 0: all (default: %(default)s)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--out", metavar="FILE", help="write the tables as Markdown")
     options = parser.parse_args()

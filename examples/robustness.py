@@ -31,12 +31,12 @@ FIGURES = ("strict", "top1", "recall", "AP", "mm", "deg")
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     scripting.add_bin_arguments(parser, scenes=5)
-    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
+    parser.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene; 0: all (default: %(default)s)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
     parser.add_argument("--out", metavar="CSV", help="write the table, with more columns")
     options = parser.parse_args()
-    if min(options.copies, options.scenes, options.poses) < 1:
-        parser.error("--copies, --scenes and --poses have to be 1 or more")
+    if min(options.copies, options.scenes) < 1:
+        parser.error("--copies and --scenes have to be 1 or more")
     return options
 
 

@@ -16,6 +16,7 @@
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMPVRepresentationProxy.h"
@@ -41,7 +42,8 @@ QList<pqOutputPort*> outputsOfPart(pqPipelineSource* source, pqView* view)
   for (pqOutputPort* port : source->getOutputPorts())
   {
     pqDataRepresentation* shown = port->getRepresentation(view);
-    if (shown && shown->isVisible() && !isInScene(port->getDataInformation()) &&
+    if (shown && shown->isVisible() && !port->getDataInformation()->DataSetTypeIsA("vtkTable") && // a text
+        !isInScene(port->getDataInformation()) &&
         !comesFromScan(port->getSourceProxy(), port->getPortNumber()))
     {
       outputs.append(port);

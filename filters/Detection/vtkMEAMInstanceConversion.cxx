@@ -210,4 +210,17 @@ void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData*
   }
   output->GetPointData()->AddArray(labels);
 }
+
+std::string describeHidden(const meam::Poses& poses, double minimumProbability, const std::string& property)
+{
+  const auto hidden = std::count_if(
+    poses.begin(), poses.end(), [&](const meam::Pose& pose) { return !isDrawn(pose, minimumProbability); });
+  if (hidden == 0)
+  {
+    return {};
+  }
+  return std::to_string(hidden) + " of " + std::to_string(poses.size()) + (poses.size() == 1 ? " pose" : " poses") +
+         (hidden == 1 ? " is" : " are") + " not shown: less likely to be right than " +
+         std::to_string(std::lround(100.0 * minimumProbability)) + " % (" + property + ").";
+}
 }

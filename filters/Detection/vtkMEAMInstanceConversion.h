@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 class vtkPolyData;
 
@@ -36,6 +37,9 @@ void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, d
 /// The text `Label` for each pose: its rank and, where it is known, its probability, as in "1: 98 %"; nothing for a
 /// pose that is less likely, which gets no copy.
 void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output);
+
+/// In a sentence how many poses get no copy for their probability, which `property` of a filter limits; empty: none.
+std::string describeHidden(const meam::Poses& poses, double minimumProbability, const std::string& property);
 }
 
 #endif

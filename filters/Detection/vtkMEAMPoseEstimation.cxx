@@ -43,7 +43,7 @@ void addRanks(const std::vector<int>& explained, vtkPolyData* edges)
 }
 }
 
-vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(5); }
+vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(6); }
 
 int vtkMEAMPoseEstimation::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -61,6 +61,7 @@ int vtkMEAMPoseEstimation::RequestData(
   auto* parts = vtkPolyData::GetData(outputVector, 2);
   auto* scores = vtkTable::GetData(outputVector, 3);
   auto* stages = vtkTable::GetData(outputVector, 4);
+  auto* answer = vtkTable::GetData(outputVector, 5);
   return vtkMEAMRun(
     this,
     [&]
@@ -95,10 +96,14 @@ int vtkMEAMPoseEstimation::RequestData(
         meam::explainEdges(scene.edges, poses, model, scene.quality.noise, {}, this->GetNumberOfThreads()), edges);
       fromPoses(poses, output);
       output->GetPointData()->SetActiveScalars("Rank");
-      const InstanceSettings drawn;
+      InstanceSettings drawn;
+      drawn.minimumProbability = this->ShownProbability;
       addLabels(poses, drawn.minimumProbability, output);
       fromInstances(
         work.part->shape, poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
+      fromAnswer(
+        poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability"), {},
+        answer);
       setDiameter(output, model.diameter);
       setPartExtent(output, model);
       setFieldText(output, "Report", meam::describe(poses));
@@ -143,5 +148,11 @@ int vtkMEAMPoseEstimation::RequestData(
       setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
       setFieldValue(output, "SecondsTotal", filled - start);
     },
-    output, edges, parts, scores, stages);
+    output, edges, parts, scores, stages, answer);
+}
+
+void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ShownProbability: " << this->ShownProbability << "\n";
 }

@@ -27,9 +27,11 @@
  * `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a
  * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in, and `Rank` (active
  * scalars): of the first pose that has an edge of the part there, 0 of edge points that no pose explains. Output port
- * 2: the part at each pose that is more likely right than wrong, as vtkMEAMPoseInstances has it; of a trained model
- * points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank), `Probability`,
- * `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`.
+ * 2: the part at each pose that is likely enough to be shown (ShownProbability), as vtkMEAMPoseInstances has it; of a
+ * trained model points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank),
+ * `Probability`, `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`,
+ * `Seconds`. Output port 5: a vtkTable with one row, `Text`: that no part was found, or how many poses are not shown,
+ * to show in a view; empty when all are.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h
@@ -42,6 +44,16 @@ class PPFMEAMDETECTION_EXPORT vtkMEAMPoseEstimation : public vtkMEAMEstimationAl
 public:
   static vtkMEAMPoseEstimation* New();
   vtkTypeMacro(vtkMEAMPoseEstimation, vtkMEAMEstimationAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Poses that are less likely to be right, [0, 1], have neither a part on port 2 nor a `Label`; they stay among the
+   * poses. Default: 0.5, those that are more likely right than wrong are shown.
+   */
+  vtkSetClampMacro(ShownProbability, double, 0.0, 1.0);
+  vtkGetMacro(ShownProbability, double);
+  ///@}
 
 protected:
   vtkMEAMPoseEstimation();
@@ -53,6 +65,8 @@ protected:
 private:
   vtkMEAMPoseEstimation(const vtkMEAMPoseEstimation&) = delete;
   void operator=(const vtkMEAMPoseEstimation&) = delete;
+
+  double ShownProbability = 0.5;
 };
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseInstances.h"
 
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMInstanceConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
@@ -12,6 +13,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 
@@ -21,7 +23,7 @@ vtkMEAMPoseInstances::vtkMEAMPoseInstances()
   : Settings(new vtkMEAMConversion::InstanceSettings)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkMEAMPoseInstances::~vtkMEAMPoseInstances() = default;
@@ -36,6 +38,12 @@ int vtkMEAMPoseInstances::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+int vtkMEAMPoseInstances::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");
+  return 1;
+}
+
 int vtkMEAMPoseInstances::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -43,6 +51,7 @@ int vtkMEAMPoseInstances::RequestData(
   auto* mesh = vtkPolyData::GetData(inputVector[1]);
   auto* output = vtkPolyData::GetData(outputVector, 0);
   auto* ellipsoids = vtkPolyData::GetData(outputVector, 1);
+  auto* answer = vtkTable::GetData(outputVector, 2);
   return vtkMEAMRun(
     this,
     [&]
@@ -54,6 +63,8 @@ int vtkMEAMPoseInstances::RequestData(
       const auto rankOf = [&](std::size_t k)
       { return ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : static_cast<int>(k) + 1; };
       vtkMEAMConversion::fromInstances(mesh, poses, rankOf, *this->Settings, progress, output);
+      vtkMEAMConversion::fromAnswer(
+        vtkMEAMConversion::describeHidden(poses, this->Settings->minimumProbability, "MinimumProbability"), {}, answer);
       if (this->UncertaintyScale > 0.0)
       {
         const auto extent = vtkMEAMConversion::partExtentOf(posesInput);
@@ -67,7 +78,7 @@ int vtkMEAMPoseInstances::RequestData(
           poses, *extent, this->UncertaintyScale, rankOf, *this->Settings, ellipsoids);
       }
     },
-    output, ellipsoids);
+    output, ellipsoids, answer);
 }
 
 void vtkMEAMPoseInstances::PrintSelf(ostream& os, vtkIndent indent)

@@ -16,6 +16,9 @@
  * Output port 1: with an UncertaintyScale the ellipsoids of how uncertain the place of each copy's middle is, a
  * vtkPolyData with the same arrays; empty otherwise. For it the poses need the arrays of vtkMEAMPoseRefinement and the
  * field data `PartBounds` and `PartMiddle`, as vtkMEAMPoseEstimation gives them.
+ *
+ * Output port 2: a vtkTable with one row, `Text`: how many poses get no copy for their probability, to show in a view;
+ * empty when all get one.
  */
 #ifndef vtkMEAMPoseInstances_h
 #define vtkMEAMPoseInstances_h
@@ -66,6 +69,7 @@ protected:
   ~vtkMEAMPoseInstances() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

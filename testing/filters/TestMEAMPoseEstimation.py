@@ -45,6 +45,11 @@ def found(filter):
     return tuples(run(filter), "Transform")
 
 
+def answer(filter):
+    run(filter)
+    return filter.GetOutputDataObject(5).GetValueByName(0, "Text").ToString().replace("\n", " ")
+
+
 def seconds(filter, stage):
     return field(filter.GetOutput(), "Seconds" + stage)[0][0]
 
@@ -80,6 +85,7 @@ check(report == "2 of 2 poses are more likely right than wrong.", f"in words: {r
 doubtful = estimation(part, scan, MinimumProbability=1.0)
 warnings = Warnings(doubtful)
 check(is_empty(run(doubtful)) and "No part was found." in str(warnings), f"no part without a word: {warnings}")
+check(answer(doubtful) == "No part was found.", answer(doubtful))
 edges = filter.GetOutputDataObject(1)
 check(field(poses, "SceneEdgePoints") == [(edges.GetNumberOfPoints(),)], "the edges are the second output")
 explained = [r for r, in tuples(edges, "Rank")]
@@ -90,6 +96,7 @@ check(copies.GetNumberOfPolys() == 2 * part.GetNumberOfPolys(), "the third outpu
 check([r for r, in tuples(copies, "Rank")[::part.GetNumberOfPoints()]] == [1, 2], "in the order of the poses")
 labels = [poses.GetPointData().GetAbstractArray("Label").GetValue(i) for i in range(2)]
 check(labels == [f"{i + 1}: {round(100 * p)} %" for i, (p,) in enumerate(tuples(poses, "Probability"))], f"labels {labels}")
+check(answer(filter) == answer(estimation(part, scan, MaximumNumberOfPoses=0, ShownProbability=0.0)) == "", "all are shown")
 scores, stages = filter.GetOutputDataObject(3), filter.GetOutputDataObject(4)
 check([scores.GetValueByName(i, "Pose").ToString() for i in range(scores.GetNumberOfRows())] == ["1", "2"], "rows of poses")
 check(scores.GetValueByName(1, "Probability").ToDouble() == tuples(poses, "Probability")[1][0], "probabilities to plot")
@@ -98,11 +105,15 @@ check([(stages.GetValueByName(i, "Stage").ToString(), stages.GetValueByName(i, "
 check(field(poses, "ScenePoints")[0][0] > 0.9 * 640 * 480, "points are counted")
 
 # One column orders poses: their ranks, and their scores in files, follow it.
-everything = run(estimation(part, scan, MaximumNumberOfPoses=0))
+all_poses = estimation(part, scan, MaximumNumberOfPoses=0)
+everything = run(all_poses)
 evidence = [e for e, in tuples(everything, "Evidence")]
 likely = [p for p, in tuples(everything, "Probability")]
 check(len(evidence) > 2 and evidence == sorted(evidence, reverse=True), f"evidence {evidence}")
 check(likely == sorted(likely, reverse=True), f"probabilities {likely}")
+hidden = sum(0 < p < 0.5 for p in likely)
+check(hidden and answer(all_poses) == f"{hidden} of {len(likely)} poses are not shown: less likely to be right than 50 % "
+      "(ShownProbability).", answer(all_poses))
 check([r for r, in tuples(everything, "Rank")] == list(range(1, len(evidence) + 1)), "ranks")
 with tempfile.TemporaryDirectory() as folder:
     writer = connect(vtkMEAMPoseWriter(), everything)
@@ -215,4 +226,4 @@ sideways = estimation(model, surface, ready, ViewDirection=(0, 0, 0))
 fails(sideways, "view direction")
 fails(estimation(part, scan, CADScale=0.0), "scale")
 fails(estimation(model, image()), "vtkStructuredGrid")
-prints(filter, "Preset", "MaximumNumberOfPoses", "MinimumProbability", "PartIsPresent", "ReferenceShare", "Features", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")
+prints(filter, "Preset", "MaximumNumberOfPoses", "MinimumProbability", "ShownProbability", "PartIsPresent", "ReferenceShare", "Features", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")

@@ -36,6 +36,10 @@ def share(image, color):
     return (near & (level - image.min(axis=1) > 40)).mean()
 
 
+def answers(view):
+    return [r for r in view.Representations if r.GetXMLName() == "TextSourceRepresentation" and r.Visibility]
+
+
 def shown_by_default(source):
     """Ports that are shown when the source is applied for the first time."""
     view = simple.GetActiveView().SMProxy
@@ -131,6 +135,10 @@ found = simple.MEAMPoseEstimation(Input=plate, Scene=simple.OutputPort(bin, 0))
 edges = simple.Show(simple.OutputPort(found, 1), view)
 check(list(edges.ColorArrayName) == ["POINTS", "Rank"], f"edges are coloured by {edges.ColorArrayName}, not by what explains them")
 poses = simple.Show(simple.OutputPort(found, 0), view)
+answer, = answers(view)
+hidden = [k for k in range(5) if not found.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetAbstractArray("Label").GetValue(k)]
+text = found.GetClientSideObject().GetOutputDataObject(5).GetValueByName(0, "Text").ToString()
+check(hidden and text.startswith(f"{len(hidden)} of 5 poses are not shown") and answer.Input.Port == 5, f"{len(hidden)} are hidden: {text}")
 model = simple.MEAMHashing(Input=simple.TangentEstimation(Input=simple.BoundaryExtraction(Input=simple.VisibilityExtraction(
     Input=simple.SurfaceSampling(Input=simple.MeshPreparation(Input=plate))))))
 verified = simple.PoseVerification(Input=simple.OutputPort(found, 0), Model=model, SceneEdges=simple.OutputPort(found, 1),
@@ -144,7 +152,7 @@ for name in ("SceneEdgeExtraction", "PoseDetection", "PoseScreening", "PoseVerif
     check(hint and hint.GetAttribute("replace_input") == "0", f"{name} hides the scan in the application")
 why = simple.PoseDiagnosis(Input=plate, Scene=simple.OutputPort(bin, 0), Place="Point")
 simple.Show(why, view)
-answer, = [r for r in view.Representations if r.GetXMLName() == "TextSourceRepresentation" and r.Visibility]
+answer, = answers(view)
 check(answer.WindowLocation == "Upper Left Corner" and answer.FontSize == 12, f"the answer is {answer.WindowLocation}")
 
 # A scan with colours shows them.

@@ -48,11 +48,11 @@ def options_of_user(arguments=None):
                         help="calibration of the camera beside the sensor that took a list's images (default: they are "
                              "registered)")
     parser.add_argument("--poses", type=scripting.count, default=5,
-                        help="poses wanted of a scan, the best ones; 0: all that reach --probability "
-                             "(default: %(default)s)")
-    parser.add_argument("--probability", type=scripting.share, metavar="P",
-                        help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with "
-                             "--poses 0)")
+                        help="poses wanted of a scan, the best ones; 0: all, most of which are unlikely: take --probability, "
+                             "too (default: %(default)s)")
+    parser.add_argument("--probability", type=scripting.share, default=0, metavar="P",
+                        help="poses less likely to be right than P, 0 to 1, are left out; 0.5 leaves those that are more "
+                             "likely right than wrong (default: %(default)s)")
     scripting.add_features_argument(parser)
     scripting.add_image_argument(parser)
     scripting.add_reference_argument(parser)
@@ -67,8 +67,6 @@ def options_of_user(arguments=None):
         parser.error("give SCANS and --out, or --watch")
     if options.watch and not options.model and not options.cad:
         parser.error("give the part: --cad, or --model of `train`")
-    if options.probability is None:
-        options.probability = 0 if options.poses else 0.5
     return options
 
 

@@ -30,9 +30,11 @@ def options_of_user():
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
     parser.add_argument("--poses", type=scripting.count, default=5,
-                        help="poses wanted, the best ones; 0: all that reach --probability (default: %(default)s)")
-    parser.add_argument("--probability", type=scripting.share, metavar="P",
-                        help="poses less likely to be right than P, 0 to 1, are left out (default: 0, and 0.5 with --poses 0)")
+                        help="poses wanted, the best ones; 0: all, most of which are unlikely: take --probability, too "
+                             "(default: %(default)s)")
+    parser.add_argument("--probability", type=scripting.share, default=0, metavar="P",
+                        help="poses less likely to be right than P, 0 to 1, are left out; 0.5 leaves those that are more likely "
+                             "right than wrong (default: %(default)s)")
     scripting.add_features_argument(parser)
     scripting.add_image_argument(parser)
     scripting.add_reference_argument(parser)
@@ -47,8 +49,6 @@ def options_of_user():
         parser.error("give the part: --cad, or --model of `train`")
     if options.cad and options.model and len(options.cad) != len(options.model):
         parser.error("give a --cad for each --model, in the same order, or none")
-    if options.probability is None:
-        options.probability = 0 if options.poses else 0.5
     if options.depth and not options.camera:
         parser.error("a depth image needs its --camera")
     return options

@@ -299,7 +299,7 @@ def main():
     one.set_defaults(run=tohoku)
     one.add_argument("--parts", type=evaluation.numbers, default=[1, 2, 3], help="such as 1,3 (default: 1,2,3)")
     one.add_argument("--scenes", type=evaluation.numbers, default=list(range(20)), help="such as 0-4,7 (default: 0-19)")
-    one.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene (default: %(default)s)")
+    one.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a scene; 0: all (default: %(default)s)")
     one.add_argument("--noise", type=evaluation.noise, default="0", help=evaluation.NOISE_HELP)
     one.add_argument("--found", metavar="DIR",
                      help="judge the poses that another program left in DIR/Part_P/transI.txt, best first, 16 numbers each, "
@@ -333,7 +333,7 @@ def main():
     one.add_argument("--seed", type=scripting.count, default=1,
                      help="of the first bin, the next has the next one (default: %(default)s)")
     one.add_argument("--copies", type=scripting.count, default=20, help="copies in a bin (default: %(default)s)")
-    one.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a bin (default: %(default)s)")
+    one.add_argument("--poses", type=scripting.count, default=5, help="poses wanted of a bin; 0: all (default: %(default)s)")
     one.add_argument("--scenes", metavar="DIR",
                      help="keep the simulated bins there (.vts and .vtp) and read those that are there")
     one.add_argument("--out", metavar="DIR", required=True, help="write DIR/world.csv, DIR/poses.csv and DIR/world.md")
