@@ -153,6 +153,13 @@ def rivals():
     return rows
 
 
+def ablation():
+    """By the target meamAblation, in several worlds."""
+    folder, program = kept("ablation", anew=True), os.path.join(ROOT, "testing", "evaluation", "ablation.py")
+    subprocess.run([sys.executable, program, "--out", folder], check=True)
+    return results.read(os.path.join(folder, "ablation.csv"))
+
+
 def robust():
     return [{"part": name, **row} for name in list(BIN_PARTS)[:4]
             for row in robustness.measure(BIN_PARTS[name][0])]  # those of our own
@@ -197,6 +204,7 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
         TOHOKU, scenes=20, only=("preset", "mesh-visibility", "mesh-edges", "mesh-both", "views-14")), False),
     "models-paper": ("Which model to train, with the paper's parameters", lambda: models.measure(
         TOHOKU, preset="paper", only=("preset", "mesh-edges", "separate", "whole")), False),
+    "ablation": ("Each decision switched off", ablation, False),
     "voting": ("Speed of voting", lambda: benchmarks.medians(
         "ReadEntries|Increments|IncrementsInFirstCache|CastVotes|Voting|VotingByHashMap|Peaks|PairKeys|PairKeysOneByOne", 9),
                False),

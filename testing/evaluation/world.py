@@ -86,7 +86,7 @@ def largest_gap(claims, right):
             f"{100 * by_chance:.1f} % or more once in 20 times.")
 
 
-def measure(dir, parts=PARTS, sensors=simulation.SENSORS, features=scripting.FEATURES, method="recommended", bins=5, seed=1,
+def measure(dir, parts=PARTS, sensors=simulation.SENSORS, features=tuple(scripting.FEATURES), method="recommended", bins=5, seed=1,
             copies=20,
             poses=5, scenes=None, threads=0):
     # Those in a bin one after the other: it is simulated for the next part, too.

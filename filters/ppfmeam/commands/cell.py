@@ -10,7 +10,7 @@ import os
 import sys
 import zlib
 
-from .. import cell, picking, scripting, simulation
+from .. import cell, choices, scripting, simulation
 from .pick import add_gripper_options, gripper_of
 
 HEAD = ("bin", "pick", "left", "found", "picks", "outcome", "mm off", "degrees", "detection, ms", "planning, ms",
@@ -56,9 +56,9 @@ def main():
     options = options_of_user()
     mesh = scripting.read_mesh(options.cad, scale=options.cad_scale)
     gripper, lengths = gripper_of(options)
-    unknown = [name for name in lengths if name not in picking.GRIPPER_LENGTHS]
+    unknown = [name for name in lengths if name not in choices.TABLE["gripper"]]
     if unknown:
-        raise scripting.Failure(f"a gripper has no length {unknown[0]}; it has {', '.join(picking.GRIPPER_LENGTHS)}")
+        raise scripting.Failure(f"a gripper has no length {unknown[0]}; it has {', '.join(choices.TABLE['gripper'])}")
     with open(options.cad, "rb") as file:  # another part under the same name is another cell
         digest = zlib.crc32(file.read() + repr(options.cad_scale).encode())
     known = (f"{os.path.splitext(os.path.basename(options.cad))[0]}-{digest:08x}", options.sensor,
