@@ -65,7 +65,7 @@ class Scenes:
         return self.last[1]
 
     def tohoku(self, row):
-        return *sources.tohoku_scene(self.data, row["part"][-1], row["seed"], self.model(row["part"])), None
+        return *sources.tohoku_scene(self.data, row["part"][-1], int(row["seed"]), self.model(row["part"])), None
 
     def bin(self, row):
         scan, truth = self.bins.scene(row["bin"], row["sensor"], row["copies"], row["seed"])
