@@ -2,6 +2,7 @@
 #include "pick/planning/GraspSearch.h"
 
 #include "TestParts.h"
+#include "pick/Grasp.h"
 
 #include <gtest/gtest.h>
 
