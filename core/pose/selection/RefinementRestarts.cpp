@@ -15,6 +15,15 @@ constexpr int Iterations = 6;        // what stays is aligned afterwards
 constexpr double WorthTrying = 1e-3; // probability of a pose before: less, and it stays as it is;
 constexpr double Sure = 0.9;         // more, and it is tried at half turns alone
 
+PoseRefinementSettings settingsOfRestarts()
+{
+  PoseRefinementSettings settings;
+  settings.iterations = Iterations;
+  settings.fullLastStep = false; // some points tell which start is best; the final alignment takes all
+  settings.threads = 1;          // poses are worked on in parallel
+  return settings;
+}
+
 /// As columns.
 Eigen::Matrix3d principalAxes(const Points& points, const Eigen::Vector3d& middle)
 {
@@ -34,10 +43,8 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
   , Model(model)
   , Comparison(comparison)
   , Settings(settings)
+  , Refinement(settingsOfRestarts())
 {
-  this->Refinement.iterations = Iterations;
-  this->Refinement.fullLastStep = false; // some points tell which start is best; the final alignment takes all
-  this->Refinement.threads = 1;          // poses are worked on in parallel
   if (model.surface.empty())
   {
     return;
