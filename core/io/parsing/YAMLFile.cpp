@@ -105,6 +105,17 @@ private:
 
 nlohmann::json parseYAML(const std::string& path, const std::string& text)
 {
+  // Before the parser, which keeps all that opens until it closes.
+  int open = 0;
+  for (const char letter : text)
+  {
+    open += letter == '[' || letter == '{' ? 1 : letter == ']' || letter == '}' ? -1 : 0;
+    if (open > static_cast<int>(MostLevels))
+    {
+      throw Error("The file '" + path + "' has lists in lists " + std::to_string(MostLevels) +
+                  " times over: it is damaged, or no file of this kind.");
+    }
+  }
   JSONBuilder builder;
   try
   {
