@@ -247,7 +247,7 @@ TEST(PoseEvidence, EdgesOnLinesLongerThanThePartSayNothing)
   {
     ++on;
   }
-  scenes::Seen withRim = seen;
+  scenes::Seen withRim = scenes::seenCopies();
   const Eigen::Isometry3d back = scene.T_local_scene().inverse();
   const int edge = scene.edgeGrid().nearest(alone.edges[on], scenes::bracket().diameter);
   const Eigen::Vector3f middle = (back * alone.edges[on].cast<double>()).cast<float>();
