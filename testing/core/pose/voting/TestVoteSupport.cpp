@@ -68,7 +68,6 @@ TEST(VoteSupport, ReferencePointsAreThoseOfDetection)
   for (const double share : { 0.2, 1.0 })
   {
     detection.referenceShare = share;
-    detection.leastReferences = 1;
     const auto votes = meam::votesForPose(T, scene, scenes::bracket(), detection);
     const auto references = std::count_if(
       votes.begin(), votes.end(), [](const meam::PointVotes& point) { return point.isReference && point.byEdges; });
