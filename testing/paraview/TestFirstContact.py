@@ -36,7 +36,7 @@ def clicks(folder, hidden):
     yield "first_contact", estimation(folder)
     yield "series", [event("PoseEstimationToolbar/ShowCharts", "activate"), event("VCRToolbar/actionVCRPlay", "activate")]
     yield "why", [
-        event("PoseEstimationToolbar/AskWhy", "activate"), *point_and_press(view(1), "P"), APPLY, expect(view(1), "focus", "true"),
+        event("PoseEstimationToolbar/AskWhy", "activate"), *point_and_press(view(1), "P"), APPLY,
         *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/picked.pvsm"),
         *(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", hidden)), APPLY]
 
