@@ -24,7 +24,7 @@ void addLine(const Eigen::Vector3f& from, const Eigen::Vector3f& along, float le
 
 int onLines(const meam::PointCloud& edges, int threads = 1)
 {
-  const auto found = meam::onLongLines(edges, meam::EdgeIndex(edges, 8.0), PartDiameter, Tolerance, {}, threads);
+  const auto found = meam::onLongLines(edges, meam::EdgeIndex(edges, 8.0), PartDiameter, Tolerance, threads);
   EXPECT_EQ(found.size(), edges.size());
   return static_cast<int>(std::count(found.begin(), found.end(), 1));
 }
