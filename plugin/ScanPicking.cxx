@@ -167,10 +167,10 @@ public:
 
 private:
   /// P alone is a letter where a text is written.
-  static bool isPick(Qt::KeyboardModifiers modifiers, QWidget* view)
+  bool isPick(Qt::KeyboardModifiers modifiers, QWidget* view) const
   {
     return modifiers == Qt::ControlModifier ||
-           (modifiers == Qt::NoModifier && view->isAncestorOf(QApplication::focusWidget()));
+           (modifiers == Qt::NoModifier && view->isAncestorOf(this->Window->focusWidget()));
   }
 
   /// The point of the diagnosis in the panel; null: there is none.

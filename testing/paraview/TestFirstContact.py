@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of three scans is opened,
-MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked about a point of the scan by Ctrl+P,
-and why a hidden part was missed; grasps are proposed, and picks planned. The state that is saved then is opened by
+MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked about points of the scan, by Ctrl+P and
+by P, and why a hidden part was missed; grasps are proposed, and picks planned. The state that is saved then is opened by
 pvpython, which looks at it. The tutorial shows its text and opens its example; the dialog of the menu names its inputs.
 
 Usage: TestFirstContact.py PARAVIEW PVPYTHON REPOSITORY; with PPFMEAM_PICTURE=FOLDER pictures of the whole window go there,
@@ -36,7 +36,8 @@ def clicks(folder, hidden):
     yield "first_contact", estimation(folder)
     yield "series", [event("PoseEstimationToolbar/ShowCharts", "activate"), event("VCRToolbar/actionVCRPlay", "activate")]
     yield "why", [
-        event("PoseEstimationToolbar/AskWhy", "activate"), *point_and_press(view(1), "P"), APPLY,
+        event("PoseEstimationToolbar/AskWhy", "activate"), *point_and_press(view(1), 0.4, 0.6, "P", control=True), APPLY,
+        *point_and_press(view(1), 0.5, 0.5, "P"), APPLY,  # alone it is taken where the focus is in the picture
         *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/picked.pvsm"),
         *(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", hidden)), APPLY]
 

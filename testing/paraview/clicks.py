@@ -58,10 +58,10 @@ def view(cell):
     return f"{VIEWS}/Frame.{cell}/CentralWidgetFrame/Viewport"
 
 
-def point_and_press(picture, key):
-    """The mouse to the middle of a picture, and Ctrl with a letter."""
-    press, control = 6, 0x04000000  # as Qt has them
-    return [event(picture, "mouseMove", "(0.5,0.5,0,0,0)"), event(picture, "keyEvent", f"{press}:{ord(key)}:{control}::0:1")]
+def point_and_press(picture, x, y, key, control=False):
+    """The mouse to a place in a picture, both from 0 to 1, and a letter."""
+    press, modifiers = 6, 0x04000000 if control else 0  # as Qt has them
+    return [event(picture, "mouseMove", f"({x},{y},0,0,0)"), event(picture, "keyEvent", f"{press}:{ord(key)}:{modifiers}::0:1")]
 
 
 def expect(widget, name, value):
