@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "features/Preset.h"
+#include "Preset.h"
 
 #include <Eigen/Core>
 

