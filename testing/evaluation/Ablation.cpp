@@ -449,26 +449,33 @@ Timed<Poses> find(Part& part, const Scan& scan, const Switch& change, Shared& sh
   return { poses, seconds };
 }
 
-py::list findAll(Part& part, const Scan& scan, const std::vector<std::string>& names)
+/// The poses in a scan by one switch after the other. Keeps references to both.
+class Search
 {
-  Shared shared;
-  const Switch& none = switches().front();
-  find(part, scan, none, shared, true); // fills the model's caches: the times of all switches compare
-  find(part, scan, none, shared, true);
-  py::list result;
-  for (const std::string& name : names)
+public:
+  Search(Part& part, const Scan& scan)
+    : OfPart(part)
+    , InScan(scan)
   {
-    const Timed<Poses> found = find(part, scan, switchNamed(name), shared, false);
-    py::dict row;
-    row["name"] = name;
-    row["seconds"] = found.seconds;
-    row["T"] = matricesOf(found.value);
-    row["score"] = column(found.value, [](const Pose& pose) { return pose.score; });
-    row["probability"] = column(found.value, probabilityOrScore);
-    result.append(row);
+    ::find(part, scan, switches().front(), this->Stages, true); // fills the model's caches: times compare
+    ::find(part, scan, switches().front(), this->Stages, true);
   }
-  return result;
-}
+
+  py::dict find(const std::string& name)
+  {
+    const Timed<Poses> found = ::find(this->OfPart, this->InScan, switchNamed(name), this->Stages, false);
+    py::dict result;
+    result["seconds"] = found.seconds;
+    result["T"] = matricesOf(found.value);
+    result["probability"] = column(found.value, probabilityOrScore);
+    return result;
+  }
+
+private:
+  Part& OfPart;
+  const Scan& InScan;
+  Shared Stages;
+};
 
 /// How poses compare with the true ones; `equals` are the part's turns onto itself, without any the model's count.
 py::dict judge(
@@ -601,7 +608,9 @@ PYBIND11_MODULE(meamAblation, module)
       }
       return result;
     });
-  module.def("find", &findAll, "A dictionary for each of the switches, with the poses in the scan");
+  py::class_<Search>(module, "Search")
+    .def(py::init<Part&, const Scan&>(), py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
+    .def("find", &Search::find, "Poses, best first, and the seconds that they took, with a switch");
   module.def("judge", &judge,
     "Of each pose the true copy, or -1, and whether a better one has it; of each copy whether it counts");
   module.def("visible_shares", &visibleShares);

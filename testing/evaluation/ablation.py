@@ -254,9 +254,11 @@ def measure(case, names, write):
     """Rows of a case, of these switches."""
     part, scene = case.part(), case.load()
     scan = meam.Scan(scene["points"], scene["image"], scene["edges"] if "edges" in scene else NO_EDGES)
-    for found in meam.find(part, scan, names):
+    search = meam.Search(part, scan)
+    for name in names:
+        found = search.find(name)
         outcomes, copies = case.judge(part, found["T"], scene)
-        write(dict(zip(COLUMNS, (*case.key, found["name"], copies, outcomes.count(FOUND), f"{found['seconds']:.4f}", " ".join(
+        write(dict(zip(COLUMNS, (*case.key, name, copies, outcomes.count(FOUND), f"{found['seconds']:.4f}", " ".join(
             f"{probability:.6f}:{outcome}" for probability, outcome in zip(found["probability"], outcomes))))))
 
 
