@@ -57,7 +57,7 @@ def main():
         maker.start()
         maker.join()
         options = batch.options_of_user([bins, "--model", path, "--out", os.path.join(folder, "poses.csv"), "--threads", str(given.threads)])
-        search, model = run.Search(options, Plan(path), [path]), ppfmeam.load(path)
+        search, model = run.Search(options, Plan(path)), ppfmeam.load(path)
         rows = scans.source(options).list()
         found, sizes, start = {}, [], time.monotonic()
         for count in range(1, given.scenes + 1):
