@@ -169,11 +169,11 @@ TEST(PredictedVisibility, OfACubeTheSidesThatFaceTheSensorAreVisible)
 TEST(PredictedVisibility, TheOutlineOfACubeFromAboveIsASquare)
 {
   meam::TrainedModel model = cube();
-  model.diameter = 80.0;
+  model.diameter *= 2.4; // cells of 2.1 mm
   const meam::PredictedVisibility visibility(model);
   const auto visible = visibility.visible(Eigen::Isometry3d::Identity(), fromAbove());
   const double cell = visibility.cellSize();
-  EXPECT_NEAR(cell, 2.0, 1e-9);
+  EXPECT_NEAR(cell, 0.06 * 20.0 * std::sqrt(3.0), 1e-9);
   // Four sides of 20 mm, of cells that begin anywhere.
   EXPECT_NEAR(visible->outside.size(), 4 * 20.0 / cell, 6.0);
   for (const Eigen::Vector3f& point : visible->outside)

@@ -60,8 +60,7 @@ TEST(VoteSupport, PointsThatElectAPoseAreItsCandidates)
 
 TEST(VoteSupport, ReferencePointsAreThoseOfDetection)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove({ scenes::lying(0, 0, 20) }));
-  const meam::Scene scene = scenes::prepared(seen);
+  const meam::Scene scene = scenes::alone(parts::lBracket(), scenes::bracket(), scenes::lying(0, 0, 20));
   meam::PoseDetectionSettings detection;
   detection.features = meam::Features::Edges;
   const Eigen::Isometry3d T = scene.T_local_scene() * scenes::lying(0, 0, 20);
@@ -82,9 +81,7 @@ TEST(VoteSupport, AnEqualPoseHasTheSameVotes)
   const meam::TrainedModel& model = scenes::trained<square>();
   ASSERT_FALSE(model.symmetries.discrete.empty());
   const Eigen::Isometry3d T = scenes::lying(0, 0, 10);
-  const scenes::Seen seen =
-    scenes::withTangents(scenes::seenFromAbove(std::vector<scenes::Copy>{ { square(), T } }), model.diameter);
-  const meam::Scene scene = scenes::prepared(seen, model.diameter);
+  const meam::Scene scene = scenes::alone(square(), model, T);
   const auto votes = votesOf(model, scene, T);
   const auto turned = votesOf(model, scene, T * Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitZ()));
   EXPECT_GT(electing(votes), static_cast<int>(votes.size()) / 3);
@@ -97,8 +94,7 @@ TEST(VoteSupport, AnEqualPoseHasTheSameVotes)
 
 TEST(VoteSupport, NothingVotesWhereNothingIs)
 {
-  const scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove({ scenes::lying(0, 0, 20) }));
-  const meam::Scene scene = scenes::prepared(seen);
+  const meam::Scene scene = scenes::alone(parts::lBracket(), scenes::bracket(), scenes::lying(0, 0, 20));
   EXPECT_TRUE(votesOf(scenes::bracket(), scene, scenes::lying(300, 0, 20)).empty());
   EXPECT_EQ(electing(votesOf(scenes::bracket(), scene, scenes::lying(0, 0, 110))), 0); // turned away
 }
