@@ -28,6 +28,7 @@ run() { # PRESET, "what", build target or "", ctest arguments...
   if grep -q ': fuzz$' <<<"$chosen"; then "$root/cmake/build.sh" fuzz meamFuzz || failed+=("fuzz (build)"); fi
   ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${without[@]}" "$@" || failed+=("$preset")
 }
+if [ ${#without[@]} = 0 ]; then "$root/cmake/build.sh" release meamAblation || failed+=("ablation (build)"); fi
 run release "core, filters, plugin" "" "$@"
 if [ ${#without[@]} = 0 ]; then "$root/cmake/build.sh" release meamBenchmarks || failed+=("benchmarks (build)"); fi
 run dev "core under the sanitizers" "" "$@"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Full simulated bins of the sample parts, with seeds that nothing was fitted on: all of the best five are right, the half
-visible copies come out, and the probabilities hold. With --long two bins of each part, else one."""
+visible copies come out, and the probabilities hold. With --long two bins of each part, else one of those of which most is lost."""
 import math
 import os
 import sys
@@ -19,12 +19,12 @@ COPIES, SEED = 20, 7301
 STRICT = 98.0  # % of the best five of a part's bins
 # % of the half visible copies, just below what comes out
 RECALL = {"ridged_disc": 86, "arc_lever": 77, "flap": 89, "hole_plate": 98, "pipe_elbow": 98, "cap": 74, "knob": 60, "handle": 98}
-LOG_LOSS = 0.09
-CLASS, GAP = 100, 0.10  # claim against rate, of classes of so many poses
+LOG_LOSS = 0.09 if LONG else 0.13
+CLASS, GAP = 100, 0.10 if LONG else 0.13  # claim against rate, of classes of so many poses
 
 bins = scenes.Bins()
 claims, outcomes = [], []
-for part, least in RECALL.items():
+for part in RECALL if LONG else ("ridged_disc", "arc_lever", "cap", "knob"):
     mesh = scenes.part_mesh(part)
     run = Evaluation(scripting.train(mesh), mesh=mesh)
     for seed in range(SEED, SEED + (2 if LONG else 1)):
@@ -36,7 +36,7 @@ for part, least in RECALL.items():
     figures = run.figures()
     print(f"{part}: strict {figures['strict']:.1f} %, recall {figures['recall']:.1f} %, {figures['mm']:.3f} mm, {figures['deg']:.3f} degrees")
     check(figures["strict"] >= STRICT, f"{part}: {figures['strict']:.1f} % of the best five")
-    check(figures["recall"] >= least, f"{part}: {figures['recall']:.1f} % come out, not {least}")
+    check(figures["recall"] >= RECALL[part], f"{part}: {figures['recall']:.1f} % come out, not {RECALL[part]}")
 
 claims, outcomes = numpy.concatenate(claims).astype(float), numpy.concatenate(outcomes).astype(bool)
 odds = numpy.clip(claims, 1e-6, 1 - 1e-6)
