@@ -70,7 +70,7 @@ set(bindings "${PROJECT_SOURCE_DIR}/filters/ppfmeam/bindings")
 Python3_add_library(ppfmeamBindings MODULE WITH_SOABI
   "${bindings}/Detection.cpp" "${bindings}/Module.cpp" "${bindings}/Picks.cpp")
 target_link_libraries(ppfmeamBindings PRIVATE pybind11::headers meam::detect meam::images meam::pick meam::train)
-target_compile_options(ppfmeamBindings PRIVATE -Wall -Wextra)
+target_compile_options(ppfmeamBindings PRIVATE -Wall -Wextra -Wno-array-bounds -Wno-maybe-uninitialized) # as of core
 set_target_properties(ppfmeamBindings PROPERTIES
   OUTPUT_NAME _core CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam"
