@@ -66,7 +66,7 @@ vtk_module_wrap_python(
 set(PYBIND11_NOPYTHON ON) # the interpreter is known
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(pybind11 2.10 REQUIRED)
-set(bindings "${PROJECT_SOURCE_DIR}/filters/ppfmeam/bindings")
+set(bindings "${PROJECT_SOURCE_DIR}/core/python")
 Python3_add_library(ppfmeamBindings MODULE WITH_SOABI
   "${bindings}/Detection.cpp" "${bindings}/Module.cpp" "${bindings}/Picks.cpp")
 target_link_libraries(ppfmeamBindings PRIVATE pybind11::headers meam::detect meam::images meam::pick meam::train)

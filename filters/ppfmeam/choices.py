@@ -136,7 +136,7 @@ def add_options(parser, group, *names):
         told = {"dest": choice["option"].lstrip("-").replace("-", "_"), "default": choice["default"],
                 "help": choice["help"].replace("%", "%%") + " (default: %(default)s)"}
         if kind == "flag":
-            told.update(dest=name, action="store_false", help="off: " + told["help"])
+            told.update(dest=name, action="store_false", help=choice["off"])
         elif kind == "choice":
             told["choices"] = list(choice["values"])
         elif kind == "vector":
