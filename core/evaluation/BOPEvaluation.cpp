@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/BOPEvaluation.h"
 
-#include "base/PCLConversion.h"
+#include "features/PCLConversion.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/Rasterizer.h"

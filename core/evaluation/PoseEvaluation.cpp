@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/PoseEvaluation.h"
 
+#include "base/Range.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,12 +31,11 @@ void check(const PoseEvaluationSettings& settings)
   {
     throw Error("Poses can only be judged against the size of the part: give its diameter in mm.");
   }
-  if (!(settings.translationTolerance >= 0.0) || !(settings.rotationTolerance >= 0.0) || settings.posesAskedFor < 0 ||
-      !(settings.axis.norm() > 0.0) || !settings.axis.allFinite() || !settings.middle.allFinite())
-  {
-    throw Error("Settings of the evaluation are out of range: tolerances and the number of poses "
-                "are 0 or more, the axis is not 0, the middle is finite.");
-  }
+  requireWithin("translation tolerance", settings.translationTolerance, 0.0, Unbounded, " %");
+  requireWithin("rotation tolerance", settings.rotationTolerance, 0.0, Unbounded, " degrees");
+  requireWithin("number of poses asked for", settings.posesAskedFor, 0, Unbounded);
+  requirePositive("length of the axis", settings.axis.norm());
+  requireWithin("size of the middle's coordinates", settings.middle.norm(), 0.0, Unbounded, " mm");
 }
 
 /// The turn from one pose to the other as a swing of the axis and a roll about it, degrees.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "features/NormalEstimation.h"
 
-#include "base/PCLConversion.h"
+#include "features/PCLConversion.h"
 #include "base/Parallel.h"
 
 #include <pcl/features/normal_3d.h>

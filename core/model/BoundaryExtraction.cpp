@@ -3,7 +3,7 @@
 
 #include "base/Bounds.h"
 #include "base/Frames.h"
-#include "base/PCLConversion.h"
+#include "features/PCLConversion.h"
 #include "base/PointGrid.h"
 #include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"

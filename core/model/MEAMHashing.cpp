@@ -4,6 +4,7 @@
 #include "base/Bounds.h"
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/Range.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/Viewpoints.h"
 #include "model/AppearanceModel.h"
@@ -435,19 +436,11 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   {
     throw Error("There are more than 32 appearance models or co-visibility directions: use fewer viewpoints.");
   }
-  if (!(settings.distanceStep > 0.0 && settings.distanceStep <= 1.0) ||
-      !(settings.angleStep >= 1.0 && settings.angleStep <= 90.0))
-  {
-    throw Error("The distance step must be in (0, 1] of the diameter and the angle step in [1, 90] degrees.");
-  }
-  if (!(settings.surface.distanceStep > 0.0 && settings.surface.distanceStep <= 1.0) ||
-      !(settings.surface.angleStep >= 1.0 && settings.surface.angleStep <= 90.0) ||
-      !(settings.surface.leafSize > 0.0 && settings.surface.leafSize <= 1.0))
-  {
-    throw Error(
-      "Of pairs of surface points the distance step and the leaf size must be in (0, 1] of the diameter and the "
-      "angle step in [1, 90] degrees.");
-  }
+  requirePositive("distance step", settings.distanceStep, 1.0, " of the diameter");
+  requireWithin("angle step", settings.angleStep, 1.0, 90.0, " degrees");
+  requirePositive("distance step of surface pairs", settings.surface.distanceStep, 1.0, " of the diameter");
+  requireWithin("angle step of surface pairs", settings.surface.angleStep, 1.0, 90.0, " degrees");
+  requirePositive("leaf size of surface pairs", settings.surface.leafSize, 1.0, " of the diameter");
   if (surface.normals.size() != surface.size())
   {
     throw Error("The part's surface has no normals: sample the surface of a mesh first.");

@@ -2,8 +2,8 @@
 #include "pick/GraspProposal.h"
 
 #include "base/Parallel.h"
+#include "base/Range.h"
 #include "pick/PickCollisions.h"
-#include "pick/PickSettings.h"
 #include "pick/proposal/ContactPlaces.h"
 #include "pick/proposal/GraspSpread.h"
 #include "pick/proposal/GripperContact.h"

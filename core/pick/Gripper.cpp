@@ -2,7 +2,7 @@
 #include "pick/Gripper.h"
 
 #include "base/Error.h"
-#include "pick/PickSettings.h"
+#include "base/Range.h"
 
 #include <cmath>
 

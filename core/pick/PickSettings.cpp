@@ -1,33 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/PickSettings.h"
 
-#include "base/Error.h"
-
-#include <cmath>
-#include <sstream>
+#include "base/Range.h"
 
 namespace meam
 {
-void requireWithin(const std::string& name, double value, double low, double high, const std::string& unit)
-{
-  if (std::isfinite(value) && value >= low && value <= high)
-  {
-    return;
-  }
-  std::ostringstream text;
-  text << "The " << name << " has to be " << low;
-  if (high == Unbounded)
-  {
-    text << unit << " or more";
-  }
-  else
-  {
-    text << " to " << high << unit;
-  }
-  text << ", not " << value << ".";
-  throw Error(text.str());
-}
-
 void requireSettings(const PlanSettings& s)
 {
   requireWithin("safety margin", s.safetyMargin, 0.0, Unbounded, " mm");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/PickTrial.h"
 
+#include "base/Range.h"
 #include "pick/PickCollisions.h"
-#include "pick/PickSettings.h"
 
 namespace meam
 {

@@ -2,6 +2,7 @@
 #include "simulation/BinScene.h"
 
 #include "base/Frames.h"
+#include "base/Range.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/BinPhysics.h"
@@ -52,25 +53,19 @@ std::vector<TriangleMesh> walls(const Eigen::Vector2d& size, double height, doub
 
 void check(const BinSceneSettings& settings)
 {
-  const auto valid = [](double value) { return value >= 0.0 && std::isfinite(value); };
   if (!std::all_of(
         settings.poses.begin(), settings.poses.end(), [](const Eigen::Isometry3d& T) { return isRigid(T.matrix()); }))
   {
     throw Error("A pose that a copy shall stand at is not a rotation and a translation.");
   }
-  if (settings.copies < 1 || settings.copies > 10000)
-  {
-    throw Error("The number of copies in the bin must be 1 to 10000.");
-  }
-  if (settings.width < 16 || settings.height < 16 || settings.width > 8192 || settings.height > 8192)
-  {
-    throw Error("The sensor's image must be 16 to 8192 pixels wide and high.");
-  }
-  if (!valid(settings.binSize) || !valid(settings.binWidth) || !valid(settings.wallHeight) ||
-      !valid(settings.sensorHeight) || !valid(settings.baseline))
-  {
-    throw Error("Sizes of the simulated bin must be 0 or more.");
-  }
+  requireWithin("number of copies in the bin", settings.copies, 1, 10000);
+  requireWithin("width of the sensor's image", settings.width, 16, 8192, " pixels");
+  requireWithin("height of the sensor's image", settings.height, 16, 8192, " pixels");
+  requireWithin("size of the bin", settings.binSize, 0.0, Unbounded, " mm");
+  requireWithin("width of the bin", settings.binWidth, 0.0, Unbounded, " mm");
+  requireWithin("height of the bin's walls", settings.wallHeight, 0.0, Unbounded, " mm");
+  requireWithin("height of the sensor", settings.sensorHeight, 0.0, Unbounded, " mm");
+  requireWithin("baseline of the sensor", settings.baseline, 0.0, Unbounded, " mm");
   requireQuality(settings.quality);
 }
 

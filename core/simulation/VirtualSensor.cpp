@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/VirtualSensor.h"
 
+#include "base/Range.h"
 #include "simulation/StereoMatching.h"
 #include "simulation/TimeOfFlight.h"
 
@@ -135,41 +136,36 @@ SensorQuality sensorQuality(SensorKind kind)
   return quality;
 }
 
+namespace
+{
+void requireOdd(const std::string& name, int window)
+{
+  requireWithin(name, window, 1, 101, " pixels");
+  if (window % 2 == 0)
+  {
+    throw Error("The " + name + " has to be odd, not " + std::to_string(window) + " pixels.");
+  }
+}
+}
+
 void requireQuality(const SensorQuality& quality)
 {
-  for (const double value : { quality.depthNoise, quality.depthStep, quality.glareAngle, quality.stereoBaseline,
-         quality.disparityNoise, quality.disparityStep, quality.rangeNoise, quality.imageNoise })
-  {
-    if (!(value >= 0.0 && std::isfinite(value)))
-    {
-      throw Error("Noise, steps, angles and lengths of a simulated sensor must be 0 or more.");
-    }
-  }
-  for (const double value : { quality.dropout, quality.jumpDropout, quality.multipath })
-  {
-    if (!(value >= 0.0 && value <= 1.0))
-    {
-      throw Error("Dropouts and multipath of a simulated sensor must be shares from 0 to 1.");
-    }
-  }
-  if (quality.matchingWindow < 1 || quality.matchingWindow > 101)
-  {
-    throw Error("The matching window of a simulated sensor must be 1 to 101 pixels.");
-  }
-  for (const int window : { quality.noiseWindow, quality.smoothingWindow })
-  {
-    if (window < 1 || window > 101 || window % 2 == 0)
-    {
-      throw Error("Windows of noise and smoothing of a simulated sensor must be odd, 1 to 101 pixels.");
-    }
-  }
-  for (const double blur : { quality.pixelBlur, quality.imageBlur })
-  {
-    if (!(blur >= 0.0 && blur <= 50.0))
-    {
-      throw Error("The blur of a simulated sensor must be 0 to 50 pixels.");
-    }
-  }
+  requireWithin("simulated sensor's depth noise", quality.depthNoise, 0.0, Unbounded, " mm");
+  requireWithin("simulated sensor's depth step", quality.depthStep, 0.0, Unbounded, " mm");
+  requireWithin("simulated sensor's glare angle", quality.glareAngle, 0.0, Unbounded, " degrees");
+  requireWithin("simulated sensor's stereo baseline", quality.stereoBaseline, 0.0, Unbounded, " mm");
+  requireWithin("simulated sensor's disparity noise", quality.disparityNoise, 0.0, Unbounded, " pixels");
+  requireWithin("simulated sensor's disparity step", quality.disparityStep, 0.0, Unbounded, " pixels");
+  requireWithin("simulated sensor's range noise", quality.rangeNoise, 0.0, Unbounded, " mm");
+  requireWithin("simulated sensor's image noise", quality.imageNoise, 0.0, Unbounded);
+  requireWithin("simulated sensor's dropout", quality.dropout, 0.0, 1.0);
+  requireWithin("simulated sensor's dropout at jumps", quality.jumpDropout, 0.0, 1.0);
+  requireWithin("simulated sensor's multipath", quality.multipath, 0.0, 1.0);
+  requireWithin("simulated sensor's matching window", quality.matchingWindow, 1, 101, " pixels");
+  requireOdd("simulated sensor's noise window", quality.noiseWindow);
+  requireOdd("simulated sensor's smoothing window", quality.smoothingWindow);
+  requireWithin("simulated sensor's pixel blur", quality.pixelBlur, 0.0, 50.0, " pixels");
+  requireWithin("simulated sensor's image blur", quality.imageBlur, 0.0, 50.0, " pixels");
 }
 
 OrganizedCloud measureDepth(

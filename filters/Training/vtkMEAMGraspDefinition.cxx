@@ -2,8 +2,8 @@
 #include "vtkMEAMGraspDefinition.h"
 
 #include "base/Bounds.h"
+#include "base/Range.h"
 #include "pick/GraspProposal.h"
-#include "pick/PickSettings.h"
 #include "pick/io/GraspFile.h"
 #include "pick/proposal/GraspFitting.h"
 #include "vtkMEAMGraspConversion.h"

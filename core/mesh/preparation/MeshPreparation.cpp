@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/preparation/MeshPreparation.h"
 
+#include "base/Range.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshOrientation.h"
@@ -21,18 +22,14 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 
 void requireSettings(const MeshPreparationSettings& settings)
 {
-  if (!(settings.scale > 0.0) || !std::isfinite(settings.scale) || !settings.offset.allFinite())
+  requirePositive("scale of the mesh", settings.scale);
+  if (!settings.offset.allFinite())
   {
-    throw Error("The scale of the mesh must be a positive number and its offset three numbers.");
+    throw Error("The offset of the mesh has to be three finite numbers.");
   }
-  for (const double length : { settings.holeSize, settings.maximumError, settings.edgeLength })
-  {
-    if (!(length >= 0.0) || !std::isfinite(length))
-    {
-      throw Error("The size of holes to close, the largest error and the edge length of the mesh must be 0 (off) or "
-                  "positive lengths in mm.");
-    }
-  }
+  requireWithin("size of holes to close", settings.holeSize, 0.0, Unbounded, " mm");
+  requireWithin("largest error of the simplified mesh", settings.maximumError, 0.0, Unbounded, " mm");
+  requireWithin("edge length of the new mesh", settings.edgeLength, 0.0, Unbounded, " mm");
 }
 
 /// Simplifies and remakes the mesh as the settings wish.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/refinement/PoseRefinement.h"
 
-#include "base/PCLConversion.h"
+#include "features/PCLConversion.h"
 #include "base/Parallel.h"
 #include "pose/refinement/PoseFitter.h"
 #include "pose/verification/PoseVerification.h"

@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/Range.h"
 #include "features/NormalEstimation.h"
 #include "pose/voting/VoteAccumulator.h"
 #include "scene/Units.h"
@@ -74,15 +75,9 @@ std::vector<int> chooseShare(const Points& points, double share, int least, doub
 
 void requireSettings(const PoseDetectionSettings& settings)
 {
-  const auto isShare = [](double share) { return share > 0.0 && share <= 1.0; };
-  if (!(settings.referenceShare >= 0.0 && settings.referenceShare <= 1.0) || !isShare(settings.referredShare))
-  {
-    throw Error("The shares of reference and referred points must be in (0, 1].");
-  }
-  if (settings.peaksPerReference < 1)
-  {
-    throw Error("At least one peak of each reference point is needed.");
-  }
+  requireWithin("share of the reference points", settings.referenceShare, 0.0, 1.0);
+  requirePositive("share of the referred points", settings.referredShare, 1.0);
+  requireWithin("number of peaks of a reference point", settings.peaksPerReference, 1, Unbounded);
 }
 
 /// Points of the scene's surface, one in a cube, that have a normal.

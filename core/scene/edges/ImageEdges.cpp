@@ -3,6 +3,7 @@
 
 #include "base/AllVectors.h"
 #include "base/Parallel.h"
+#include "base/Range.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -32,13 +33,9 @@ void check(const Image& image, const ImageEdgeSettings& settings)
   {
     throw Error("The image must have pixels of one channel (grey) or three (red, green, blue), 8 bits each.");
   }
-  const auto valid = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  if (!valid(settings.smoothing) || !valid(settings.lowThreshold) || !valid(settings.highThreshold) ||
-      settings.smoothing > 50.0)
-  {
-    throw Error("Settings of the image's edges are out of range: smoothing is 0 to 50 pixels, thresholds are 0 or "
-                "more.");
-  }
+  requireWithin("smoothing of the image", settings.smoothing, 0.0, 50.0, " pixels");
+  requireWithin("low threshold of the image's edges", settings.lowThreshold, 0.0, Unbounded);
+  requireWithin("high threshold of the image's edges", settings.highThreshold, 0.0, Unbounded);
 }
 
 cv::Mat smoothGrey(const Image& image, double smoothing)

@@ -2,6 +2,7 @@
 #include "scene/edges/SceneEdgeExtraction.h"
 
 #include "base/Parallel.h"
+#include "base/Range.h"
 #include "scene/edges/CloudEdges.h"
 #include "scene/edges/GridSurface.h"
 #include "scene/edges/PixelMap.h"
@@ -46,14 +47,9 @@ void check(const OrganizedCloud& cloud, const Image& image, const SceneEdgeExtra
   {
     throw Error("No edges are asked for: switch on those of the image, of depth jumps or of creases.");
   }
-  const bool angleFits = settings.creaseAngle > 0.0 && settings.creaseAngle < 180.0;
-  if (!(settings.depthJump >= 0.0) || !std::isfinite(settings.depthJump) || settings.searchRadius < 0 ||
-      settings.searchRadius > 50 || !angleFits)
-  {
-    throw Error(
-      "Settings of the scene edges are out of range: the search radius is 0 to 50 points, the depth jump 0 or "
-      "more, and the angle of creases above 0 and below 180 degrees.");
-  }
+  requireWithin("search radius of the image's edges", settings.searchRadius, 0, 50, " points");
+  requireWithin("depth jump", settings.depthJump, 0.0, Unbounded, " mm");
+  requirePositive("angle of creases", settings.creaseAngle, 180.0, " degrees");
 }
 
 /// A point of the grid that something tells to be on an edge.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/BackgroundRemoval.h"
 
-#include "base/PCLConversion.h"
+#include "features/PCLConversion.h"
+#include "base/Range.h"
 #include "scene/Enclosure.h"
 #include "scene/edges/GridSurface.h"
 
@@ -39,12 +40,9 @@ void check(const OrganizedCloud& cloud, const Image* mask, const BackgroundRemov
                 " pixels but the cloud is " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
                 " points: give a mask with a pixel for each point.");
   }
-  if (settings.planes < 0 || settings.planes > 20 || !(settings.tolerance >= 0.0) ||
-      !std::isfinite(settings.tolerance) || !(settings.leastShare >= 0.0 && settings.leastShare <= 100.0))
-  {
-    throw Error("Settings of the background are out of range: 0 to 20 planes, a tolerance of 0 mm or more, and a least "
-                "share of 0 to 100 %.");
-  }
+  requireWithin("number of planes of the background", settings.planes, 0, 20);
+  requireWithin("tolerance of the background", settings.tolerance, 0.0, Unbounded, " mm");
+  requireWithin("least share of the background", settings.leastShare, 0.0, 100.0, " %");
 }
 
 /// Up to `most` of the indices, spread evenly over them.
