@@ -82,19 +82,28 @@ struct Scan
   std::optional<Sensor> sensor;
 };
 
+/// Another rotation of a pose that hardly moves the part's surface, as about the axis of a nearly round part.
+struct DetectedRotation
+{
+  Eigen::Isometry3d T_scan_part = Eigen::Isometry3d::Identity();
+  double share = 0.0; ///< [0, 1], how likely it is where a copy is there
+};
+
 /// A copy of the part.
 struct DetectedPose
 {
   Eigen::Isometry3d T_scan_part = Eigen::Isometry3d::Identity(); ///< takes the part's coordinates (mm) to the scan's
-  double score = 0.0;           ///< [0, 1], share of what should be visible that is there
-  double probability = 0.0;     ///< [0, 1], that the pose is right
-  double certainty = 1.0;       ///< [0, 1], that no near-symmetry turns it: low when what breaks it is not in sight
-  double visibleFraction = 0.0; ///< [0, 1], share of the part's side towards the sensor that nothing hides
-  double residual = 0.0;        ///< mm, root mean square between the part and the scan
-  int votes = 0;                ///< of the peak that it came from
-  int viewId = -1;              ///< the appearance model that shows what the sensor sees of it
+  double score = 0.0;            ///< [0, 1], share of what should be visible that is there
+  double placeProbability = 0.0; ///< [0, 1], that a copy is there, however it is turned by a near-symmetry
+  double probability = 0.0;      ///< [0, 1], that it is also turned like this: placeProbability times certainty
+  double certainty = 1.0;        ///< [0, 1], that no near-symmetry turns it: low when what breaks it is not in sight
+  double visibleFraction = 0.0;  ///< [0, 1], share of the part's side towards the sensor that nothing hides
+  double residual = 0.0;         ///< mm, root mean square between the part and the scan
+  int votes = 0;                 ///< of the peak that it came from
+  int viewId = -1;               ///< the appearance model that shows what the sensor sees of it
   /// Of a small motion about Model::middle(), axes of the scan: rotation vector (radians), then translation (mm).
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  std::vector<DetectedRotation> alternatives; ///< to its rotation, the likeliest first
 };
 
 struct Detections

@@ -57,7 +57,7 @@ void show(pqView* view, vtkSMProxy* bars)
   view->render();
 }
 
-/// Four bars for each pose, from 0 to 1, with the legend above them.
+/// Five bars for each pose, from 0 to 1, with the legend above them.
 void addScores(pqPipelineSource* estimation, vtkSMViewLayoutProxy* layout, int cell)
 {
   constexpr double Highest = 1.5;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "api/Conversion.h"
+#include "base/Range.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
-#include "pick/PickSettings.h"
 #include "pose/DetectionSteps.h"
 #include "scene/Units.h"
 
@@ -93,8 +93,12 @@ Detections detect(const Model& model, const Scan& scan, const DetectSettings& se
   const Poses poses = estimatePoses(trained, input, detectionSettings(settings), nullptr, ofPoses);
   for (const Pose& pose : poses)
   {
-    result.poses.push_back({ pose.T_scene_model, pose.score, pose.probability, pose.certainty, pose.visibleFraction,
-      pose.fit.residual, pose.votes, pose.viewId, pose.fit.covariance });
+    result.poses.push_back({ pose.T_scene_model, pose.score, pose.placeProbability, pose.probability, pose.certainty,
+      pose.visibleFraction, pose.fit.residual, pose.votes, pose.viewId, pose.fit.covariance, {} });
+    for (const RotationAlternative& other : pose.alternatives)
+    {
+      result.poses.back().alternatives.push_back({ other.T_scene_model, other.share });
+    }
   }
   const std::string ofUnits = unitsWarning(input.edges.cloud.points, trained.diameter), doubts = doubtsOf(poses);
   result.warning = ofUnits + (ofUnits.empty() || doubts.empty() ? "" : " ") + doubts;

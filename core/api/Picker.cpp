@@ -33,6 +33,7 @@ Poses posesOf(const Detections& found)
     Pose pose;
     pose.T_scene_model = each.T_scan_part;
     pose.score = each.score;
+    pose.placeProbability = each.placeProbability;
     pose.probability = each.probability;
     poses.push_back(pose);
   }

@@ -176,6 +176,7 @@ std::vector<PoseRow> readJSON(const std::string& bytes, const std::string& path,
     row.score = value("score", row.score);
     row.time = value("time", row.time);
     row.visibleFraction = value("visible_fraction", row.visibleFraction);
+    row.placeProbability = value("place_probability", row.placeProbability);
     row.probability = value("probability", row.probability);
     row.certainty = value("certainty", row.certainty);
     poses.push_back(row);
@@ -311,6 +312,10 @@ void writeJSON(const std::string& path, const std::vector<PoseRow>& poses)
     if (std::isfinite(row.visibleFraction))
     {
       json["visible_fraction"] = row.visibleFraction;
+    }
+    if (std::isfinite(row.placeProbability))
+    {
+      json["place_probability"] = row.placeProbability;
     }
     if (std::isfinite(row.probability))
     {

@@ -22,9 +22,10 @@ struct PoseRow
   int votes = -1;
   int viewId = -1;
   double visibleFraction = std::numeric_limits<double>::quiet_NaN();
-  double probability = std::numeric_limits<double>::quiet_NaN(); ///< that the pose is right
-  double certainty = std::numeric_limits<double>::quiet_NaN();   ///< that no near-symmetry turns it
-  std::optional<Eigen::Matrix<double, 6, 6>> covariance;         ///< as PoseFit has it; only detections hold it
+  double placeProbability = std::numeric_limits<double>::quiet_NaN(); ///< that a copy is there
+  double probability = std::numeric_limits<double>::quiet_NaN();      ///< that the pose is right
+  double certainty = std::numeric_limits<double>::quiet_NaN();        ///< that no near-symmetry turns it
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;              ///< as PoseFit has it; only detections hold it
 };
 
 /// Reads poses in any of the forms below, whatever the file's name is. Throws Error, naming the file and what is wrong.

@@ -76,7 +76,12 @@ Picks PickPlanner::plan(
       pick.T_scene_grasp = poses[k].T_scene_model * search.grasps()[g].T_model_grasp;
       pick.obstruction = likely ? PickObstruction::Covered : PickObstruction::Uncertain;
       pick.tilt = tiltOf(pick.T_scene_grasp, around.up);
-      if (free)
+      const double probability = confidence(poses[k], search.needsRotation(g));
+      if (free && probability < settings.minimumProbability)
+      {
+        pick.obstruction = PickObstruction::Uncertain;
+      }
+      else if (free)
       {
         pick = search.pickAt(poses[k], static_cast<int>(copy), static_cast<int>(g), around);
       }
@@ -86,7 +91,7 @@ Picks PickPlanner::plan(
       pick.reach = around.top - around.up.dot(pick.T_scene_grasp.translation());
       if (pick.possible())
       {
-        pick.score = confidence(poses[k]) * search.grasps()[g].quality * (1.0 - covered) *
+        pick.score = probability * search.grasps()[g].quality * (1.0 - covered) *
                      std::min(1.0, pick.clearance / ComfortableClearance);
       }
       picks.push_back(pick);

@@ -68,9 +68,11 @@ struct PlanSettings
 {
   double safetyMargin = 2.0; ///< mm that the gripper keeps from all but the part that it takes
   double wayIn = 80.0;       ///< mm, straight along the grasp's z, that have to be free
-  /// [0, 1], of a pose that is picked; less likely ones do not stand in the way; one of unknown probability and score
-  /// (0) is certain
+  /// [0, 1], of what is picked, that a copy is there, however it is turned by the part's near-symmetries; where the
+  /// gripper would not find the part's surface at each of them, that the pose is right. Less likely copies do not stand
+  /// in the way; one of unknown probability and score (0) is certain.
   double minimumProbability = 0.5;
+  bool rotationCounts = false;  ///< that of each pick is the pose's, its rotation included
   double maximumTilt = 60.0;    ///< degrees between the way in and straight down
   double maximumCovered = 20.0; ///< % of the part, from above, that may lie under something
   double turnStep = 30.0;       ///< degrees between the turns that free and symmetric grasps are tried at

@@ -12,7 +12,8 @@ struct DetectSettings
   Preset preset = Preset::Recommended;
   Features features = Features::Both; ///< by which poses are looked for; with the preset Paper edges alone
   int maximumPoses = 5;               ///< the best ones; 0: all
-  double minimumProbability = 0.0;    ///< [0, 1], of each
+  double minimumProbability = 0.0;    ///< [0, 1], of each, that a copy is there, however it is turned;
+  bool rotationCounts = false;        ///< or that it is also turned like this
   /// Known to be in the scan, as in a cell that counts what it takes: poses are not less likely because it may be
   /// missing.
   bool partIsPresent = false;

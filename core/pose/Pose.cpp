@@ -12,13 +12,33 @@ namespace meam
 {
 namespace
 {
-bool isRatherRight(const Pose& pose) { return probabilityOrScore(pose) >= 0.5; }
+bool isRatherThere(const Pose& pose) { return placeOrScore(pose) >= 0.5; }
+
+/// Of poses that these symmetries make equal the one that is turned least.
+Eigen::Isometry3d leastTurned(const Eigen::Isometry3d& T, const Symmetries& symmetries)
+{
+  return nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);
+}
+
+Pose leastTurned(Pose pose, const Symmetries& symmetries)
+{
+  pose.T_scene_model = leastTurned(pose.T_scene_model, symmetries);
+  for (RotationAlternative& alternative : pose.alternatives)
+  {
+    alternative.T_scene_model = leastTurned(alternative.T_scene_model, symmetries);
+  }
+  return pose;
+}
 }
 
 Pose moved(const Pose& pose, const Eigen::Isometry3d& motion)
 {
   Pose result = pose;
   result.T_scene_model = motion * pose.T_scene_model;
+  for (RotationAlternative& alternative : result.alternatives)
+  {
+    alternative.T_scene_model = motion * alternative.T_scene_model;
+  }
   Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
   turn.topLeftCorner<3, 3>() = motion.linear();
   turn.bottomRightCorner<3, 3>() = motion.linear();
@@ -35,9 +55,7 @@ Poses toLocalFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
     {
       throw Error("Pose " + std::to_string(result.size()) + " has numbers that are not finite.");
     }
-    result.push_back(moved(pose, T_local_scene));
-    Eigen::Isometry3d& T = result.back().T_scene_model;
-    T = nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);
+    result.push_back(leastTurned(moved(pose, T_local_scene), symmetries));
   }
   return result;
 }
@@ -47,9 +65,7 @@ Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
   Poses result;
   for (const Pose& pose : poses)
   {
-    result.push_back(moved(pose, T_local_scene.inverse()));
-    Eigen::Isometry3d& T = result.back().T_scene_model;
-    T = nearestEqual(T, Eigen::Isometry3d::Identity(), symmetries);
+    result.push_back(leastTurned(moved(pose, T_local_scene.inverse()), symmetries));
   }
   return result;
 }
@@ -60,21 +76,21 @@ std::string describe(const Poses& poses)
   {
     return "No part was found.";
   }
-  const auto count = std::count_if(poses.begin(), poses.end(), isRatherRight);
+  const auto count = std::count_if(poses.begin(), poses.end(), isRatherThere);
   const std::string of = " of " + std::to_string(poses.size()) + (poses.size() == 1 ? " pose" : " poses");
   if (count > 0)
   {
-    return std::to_string(count) + of + (count == 1 ? " is" : " are") + " more likely right than wrong.";
+    return std::to_string(count) + of + (count == 1 ? " is" : " are") + " more likely there than not.";
   }
-  const auto best = std::max_element(poses.begin(), poses.end(),
-    [](const Pose& a, const Pose& b) { return probabilityOrScore(a) < probabilityOrScore(b); });
-  return "Nothing sure was found: the likeliest" + of + " is right with a probability of " +
-         std::to_string(std::lround(100.0 * probabilityOrScore(*best))) + " %.";
+  const auto best = std::max_element(
+    poses.begin(), poses.end(), [](const Pose& a, const Pose& b) { return placeOrScore(a) < placeOrScore(b); });
+  return "Nothing sure was found: the likeliest" + of + " is there with a probability of " +
+         std::to_string(std::lround(100.0 * placeOrScore(*best))) + " %.";
 }
 
 std::string doubtsOf(const Poses& poses)
 {
-  return std::any_of(poses.begin(), poses.end(), isRatherRight) ? std::string() : describe(poses);
+  return std::any_of(poses.begin(), poses.end(), isRatherThere) ? std::string() : describe(poses);
 }
 
 Eigen::Affine3d uncertaintyEllipsoid(const Pose& pose, const Eigen::Vector3d& middle, double deviations)

@@ -5,6 +5,7 @@
 #include "mesh/Symmetries.h"
 
 #include <string>
+#include <vector>
 
 namespace meam
 {
@@ -24,20 +25,32 @@ struct PoseFit
   Eigen::Matrix<double, 6, 1> constrainedAxes = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-/// A copy of the part in the scene: where it is and what speaks for it.
+/// Another rotation of a pose that hardly moves the part's surface.
+struct RotationAlternative
+{
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm
+  double share = 0.0; ///< [0, 1], how likely it is where a copy is there; with those of all others and the pose's own 1
+};
+
+/// A copy of the part in the scene: where it is and what speaks for it. Whether a copy is here, and how it is turned
+/// about the near-symmetries of the part, are two questions.
 struct Pose
 {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity(); ///< mm
-  double score = 0.0;       ///< [0, 1], share of what should be visible that is there; 0 until the pose is verified
-  double probability = 0.0; ///< [0, 1], that the pose is right; 0 until it is verified
-  /// Logarithm of the odds that the pose is right, by all that was measured of it, less what a search for it costs
-  /// (EvidenceAscent): what poses of one scene are ordered by.
+  double score = 0.0; ///< [0, 1], share of what should be visible that is there; 0 until the pose is verified
+  /// [0, 1], that a copy is here, however it is turned by the part's near-symmetries; 0 until the pose is verified.
+  double placeProbability = 0.0;
+  double probability = 0.0; ///< [0, 1], that it is turned like this, too: placeProbability times certainty
+  /// What poses of one scene are ordered by: logarithm of the odds that a copy is here, by all that was measured of it,
+  /// less what a search for it costs (EvidenceAscent); of what is surer than 99 to 1 those that it is turned like this,
+  /// too.
   double evidence = 0.0;
-  /// [0, 1], how sure it is that the part is not turned by one of its near-symmetries: low when what breaks them is
-  /// not in sight.
+  /// [0, 1], where a copy is here, how sure it is that the part is not turned by one of its near-symmetries: low when
+  /// what breaks them is not in sight.
   double certainty = 1.0;
-  int votes = 0;                ///< of the peak it came from
-  int viewId = -1;              ///< the appearance model that shows what the sensor sees of it
+  std::vector<RotationAlternative> alternatives; ///< to the rotation, the likeliest first
+  int votes = 0;                                 ///< of the peak it came from
+  int viewId = -1;                               ///< the appearance model that shows what the sensor sees of it
   double visibleFraction = 0.0; ///< [0, 1], share of the part's side towards the sensor that nothing hides
   PoseFit fit;
 };
@@ -66,10 +79,16 @@ Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
 /// The probability, or the score where none is known, [0, 1]: what poses of different scenes are compared by.
 inline double probabilityOrScore(const Pose& pose) { return pose.probability > 0.0 ? pose.probability : pose.score; }
 
+/// How likely a copy is there, however it is turned; the probability, or else the score, where only they are known.
+inline double placeOrScore(const Pose& pose)
+{
+  return pose.placeProbability > 0.0 ? pose.placeProbability : probabilityOrScore(pose);
+}
+
 /// Whether `a` comes before `b` among the poses of one scene.
 inline bool isBetter(const Pose& a, const Pose& b) { return a.evidence > b.evidence; }
 
-/// In one sentence whether parts were found, and how sure that is: what counts is more likely right than wrong.
+/// In one sentence whether parts were found, and how sure that is: what counts is there more likely than not.
 std::string describe(const Poses& poses);
 /// The same where nothing is likely, and nothing where something is.
 std::string doubtsOf(const Poses& poses);

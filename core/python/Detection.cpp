@@ -149,6 +149,7 @@ void bindSettings(py::module_& module)
     .def_readwrite("features", &DetectSettings::features)
     .def_readwrite("maximumPoses", &DetectSettings::maximumPoses)
     .def_readwrite("minimumProbability", &DetectSettings::minimumProbability)
+    .def_readwrite("rotationCounts", &DetectSettings::rotationCounts)
     .def_readwrite("partIsPresent", &DetectSettings::partIsPresent)
     .def_readwrite("referenceShare", &DetectSettings::referenceShare)
     .def_readwrite("imageEdges", &DetectSettings::imageEdges)
@@ -194,7 +195,10 @@ void bindDetection(py::module_& module)
       },
       "Its rotation: x y z w, w not negative.")
     .def_readonly("score", &DetectedPose::score, "[0, 1], share of what should be visible that is there.")
-    .def_readonly("probability", &DetectedPose::probability, "[0, 1], that the pose is right.")
+    .def_readonly("place_probability", &DetectedPose::placeProbability,
+      "[0, 1], that a copy is there, however it is turned by a near-symmetry of the part.")
+    .def_readonly("probability", &DetectedPose::probability,
+      "[0, 1], that it is also turned like this: place_probability times certainty.")
     .def_readonly("certainty", &DetectedPose::certainty,
       "[0, 1], that no near-symmetry turns it: low when what breaks it is not visible.")
     .def_readonly("visible_fraction", &DetectedPose::visibleFraction,
@@ -204,7 +208,21 @@ void bindDetection(py::module_& module)
     .def_readonly("view_id", &DetectedPose::viewId, "The appearance model that shows what the sensor sees of it.")
     .def_readonly("covariance", &DetectedPose::covariance,
       "6 x 6, of a small motion about the middle of the part's surface, axes of the scan: rotation vector (radians), "
-      "then translation (mm).");
+      "then translation (mm).")
+    .def_property_readonly(
+      "alternatives",
+      [](const DetectedPose& pose)
+      {
+        std::vector<std::pair<Eigen::Matrix4d, double>> rotations;
+        for (const DetectedRotation& other : pose.alternatives)
+        {
+          rotations.emplace_back(other.T_scan_part.matrix(), other.share);
+        }
+        return rotations;
+      },
+      "Other rotations that hardly move the part's surface, the likeliest first: (transform, share), of which the "
+      "share "
+      "is how likely it is where a copy is there.");
   py::class_<Detections>(module, "Detections")
     .def(py::init(&detectionsOf))
     .def_readonly("poses", &Detections::poses)

@@ -82,6 +82,7 @@ vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Preset, int, preset, Pape
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Features, int, features, Edges, Both);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MinimumProbability, double, minimumProbability, 0.0, 1.0);
+vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, RotationCounts, bool, rotationCounts);
 vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, PartIsPresent, bool, partIsPresent);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, ReferenceShare, double, referenceShare, 0.0, 1.0);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Seed, int, seed, 0, VTK_INT_MAX);
@@ -194,6 +195,7 @@ void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Features: " << meam::nameOf(settings.features) << "\n";
   os << indent << "MaximumNumberOfPoses: " << settings.maximumPoses << "\n";
   os << indent << "MinimumProbability: " << settings.minimumProbability << "\n";
+  os << indent << "RotationCounts: " << settings.rotationCounts << "\n";
   os << indent << "PartIsPresent: " << settings.partIsPresent << "\n";
   os << indent << "ReferenceShare: " << settings.referenceShare << "\n";
   os << indent << "Seed: " << settings.seed << "\n";

@@ -38,9 +38,12 @@ constexpr unsigned char RankColors[6][3] = {
   { 150, 150, 150 }, // the others
 };
 
+constexpr double Sure = 0.995; // of a rotation that rounds to 100 %
+
 bool isDrawn(const meam::Pose& pose, double minimumProbability)
 {
-  return !(pose.probability > 0.0) || pose.probability >= minimumProbability;
+  const double place = pose.placeProbability > 0.0 ? pose.placeProbability : pose.probability;
+  return !(place > 0.0) || place >= minimumProbability;
 }
 
 /// A pose that is drawn.
@@ -77,8 +80,8 @@ void describe(vtkDataSetAttributes* attributes, const std::vector<Drawn>& drawn,
   attributes->SetScalars(ranks);
 
   const std::pair<const char*, double meam::Pose::*> values[] = { { "Score", &meam::Pose::score },
-    { "Probability", &meam::Pose::probability }, { "Certainty", &meam::Pose::certainty },
-    { "VisibleFraction", &meam::Pose::visibleFraction } };
+    { "PlaceProbability", &meam::Pose::placeProbability }, { "Probability", &meam::Pose::probability },
+    { "Certainty", &meam::Pose::certainty }, { "VisibleFraction", &meam::Pose::visibleFraction } };
   for (const auto& [name, value] : values)
   {
     vtkNew<vtkDoubleArray> array;
@@ -202,9 +205,11 @@ void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData*
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     std::string label = isDrawn(poses[k], minimumProbability) ? std::to_string(k + 1) : "";
-    if (!label.empty() && poses[k].probability > 0.0)
+    const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
+    if (!label.empty() && meam::placeOrScore(poses[k]) > 0.0 && poses[k].probability > 0.0)
     {
-      label += ": " + std::to_string(std::lround(100.0 * poses[k].probability)) + " %";
+      label += ": " + percent(meam::placeOrScore(poses[k]));
+      label += poses[k].certainty < Sure ? ", rotation " + percent(poses[k].certainty) : "";
     }
     labels->InsertNextValue(label);
   }
@@ -220,7 +225,7 @@ std::string describeHidden(const meam::Poses& poses, double minimumProbability, 
     return {};
   }
   return std::to_string(hidden) + " of " + std::to_string(poses.size()) + (poses.size() == 1 ? " pose" : " poses") +
-         (hidden == 1 ? " is" : " are") + " not shown: less likely to be right than " +
+         (hidden == 1 ? " is" : " are") + " not shown: a copy is there with less than " +
          std::to_string(std::lround(100.0 * minimumProbability)) + " % (" + property + ").";
 }
 }

@@ -20,8 +20,9 @@ namespace vtkMEAMConversion
 /// Which poses get a copy.
 struct InstanceSettings
 {
-  std::size_t most = 0;            ///< the best so many; 0: all
-  double minimumProbability = 0.5; ///< those less likely to be right get none; those of unknown probability (0) do
+  std::size_t most = 0; ///< the best so many; 0: all
+  double minimumProbability =
+    0.5; ///< where a copy is less likely to be there there is none; those of unknown probability (0) do
 };
 
 /// A copy of the part at each pose, best first, with the arrays that vtkMEAMPoseInstances documents, for points and

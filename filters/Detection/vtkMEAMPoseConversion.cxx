@@ -48,6 +48,7 @@ meam::Poses toPoses(vtkPolyData* input)
   vtkDataArray* views = pointArray(input, "ViewId", 1);
   vtkDataArray* fractions = pointArray(input, "VisibleFraction", 1);
   vtkDataArray* certainties = pointArray(input, "Certainty", 1);
+  vtkDataArray* places = pointArray(input, "PlaceProbability", 1);
   vtkDataArray* probabilities = pointArray(input, "Probability", 1);
   vtkDataArray* evidence = pointArray(input, "Evidence", 1);
   vtkDataArray* residuals = pointArray(input, "Residual", 1);
@@ -78,6 +79,7 @@ meam::Poses toPoses(vtkPolyData* input)
     pose.viewId = views ? static_cast<int>(views->GetComponent(i, 0)) : -1;
     pose.visibleFraction = fractions ? fractions->GetComponent(i, 0) : 0.0;
     pose.certainty = certainties ? certainties->GetComponent(i, 0) : 1.0;
+    pose.placeProbability = places ? places->GetComponent(i, 0) : 0.0;
     pose.probability = probabilities ? probabilities->GetComponent(i, 0) : 0.0;
     pose.evidence = evidence ? evidence->GetComponent(i, 0) : 0.0;
     if (residuals && iterations && covariances && constrained && axes)
@@ -116,6 +118,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
   double* transform = doubles("Transform", 16);
   double* quaternion = doubles("Quaternion", 4);
   double* score = doubles("Score", 1);
+  double* place = doubles("PlaceProbability", 1);
   double* probability = doubles("Probability", 1);
   double* evidence = doubles("Evidence", 1);
   int* votes = integers("Votes");
@@ -142,6 +145,7 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output)
     view[i] = pose.viewId;
     fraction[i] = pose.visibleFraction;
     certainty[i] = pose.certainty;
+    place[i] = pose.placeProbability;
     probability[i] = pose.probability;
     evidence[i] = pose.evidence;
     rank[i] = static_cast<int>(i) + 1;

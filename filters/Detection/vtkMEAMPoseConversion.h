@@ -18,8 +18,9 @@ class vtkPolyData;
 namespace vtkMEAMConversion
 {
 /// One vertex for each pose, best first: `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w),
-/// `Score`, `Probability`, `Evidence`, `Votes`, `ViewId`, `VisibleFraction`, `Certainty`, `Rank` (from 1); of refined
-/// poses `Residual`, `Iterations`, `Covariance` (36), `ConstrainedDegreesOfFreedom` and `ConstrainedAxes` (6).
+/// `Score`, `PlaceProbability`, `Probability`, `Evidence`, `Votes`, `ViewId`, `VisibleFraction`, `Certainty`, `Rank`
+/// (from 1); of refined poses `Residual`, `Iterations`, `Covariance` (36), `ConstrainedDegreesOfFreedom` and
+/// `ConstrainedAxes` (6).
 meam::Poses toPoses(vtkPolyData* input);
 void fromPoses(const meam::Poses& poses, vtkPolyData* output);
 

@@ -138,7 +138,7 @@ int vtkMEAMPoseEstimation::RequestData(
         ranks->InsertNextValue(static_cast<int>(k));
       }
       scores->AddColumn(ranks);
-      for (const char* name : { "Probability", "Score", "VisibleFraction", "Certainty" })
+      for (const char* name : { "PlaceProbability", "Probability", "Score", "VisibleFraction", "Certainty" })
       {
         scores->AddColumn(output->GetPointData()->GetArray(name));
       }

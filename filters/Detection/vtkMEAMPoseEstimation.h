@@ -15,23 +15,23 @@
  * Input ports: as vtkMEAMEstimationAlgorithm has them.
  *
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
- * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `Probability`, `Certainty` and
- * `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on port 2), and those
- * that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether parts were found and
- * how sure that is; where nothing is, a warning says so, too), `ScanReport` and `ScanQuality` (of an organized scan, as
- * vtkMEAMSceneEdgeExtraction has them), `EdgesFound` and `EdgesByChance` (share of the edge points of a part that a
- * scene edge lies on, where the part is and anywhere: how far this scan's edges can be trusted), `SecondsTraining`,
- * `SecondsSceneEdges`, `SecondsScene`,
- * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
- * `SecondsSelection`, `SecondsOutput` (to fill the outputs), which add up to `SecondsTotal`, and the counts
- * `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Output port 1: the scene's edge points as extracted, a
- * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in, and `Rank` (active
- * scalars): of the first pose that has an edge of the part there, 0 of edge points that no pose explains. Output port
- * 2: the part at each pose that is likely enough to be shown (ShownProbability), as vtkMEAMPoseInstances has it; of a
- * trained model points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank),
- * `Probability`, `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`,
- * `Seconds`. Output port 5: a vtkTable with one row, `Text`: that no part was found, or how many poses are not shown,
- * to show in a view; empty when all are.
+ * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `PlaceProbability`, `Probability`,
+ * `Certainty` and `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on
+ * port 2), and those that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether
+ * parts were found and how sure that is; where nothing is, a warning says so, too), `ScanReport` and `ScanQuality` (of
+ * an organized scan, as vtkMEAMSceneEdgeExtraction has them), `EdgesFound` and `EdgesByChance` (share of the edge
+ * points of a part that a scene edge lies on, where the part is and anywhere: how far this scan's edges can be
+ * trusted), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`,
+ * `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, `SecondsOutput` (to fill the
+ * outputs), which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`.
+ * Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended
+ * `Tangent`, unless they came in, and `Rank` (active scalars): of the first pose that has an edge of the part there, 0
+ * of edge points that no pose explains. Output port 2: the part at each pose that is likely enough to be shown
+ * (ShownProbability), as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a
+ * vtkTable with a row for each pose, to plot: `Pose` (its rank), `PlaceProbability`, `Probability`, `Score`,
+ * `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`. Output port
+ * 5: a vtkTable with one row, `Text`: that no part was found, or how many poses are not shown, to show in a view; empty
+ * when all are.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h
@@ -48,8 +48,8 @@ public:
 
   ///@{
   /**
-   * Poses that are less likely to be right, [0, 1], have neither a part on port 2 nor a `Label`; they stay among the
-   * poses. Default: 0.5, those that are more likely right than wrong are shown.
+   * Poses where a copy is less likely to be there, [0, 1], have neither a part on port 2 nor a `Label`; they stay among
+   * the poses. Default: 0.5, those that are there more likely than not are shown.
    */
   vtkSetClampMacro(ShownProbability, double, 0.0, 1.0);
   vtkGetMacro(ShownProbability, double);

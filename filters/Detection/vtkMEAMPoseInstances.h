@@ -10,7 +10,7 @@
  * Output port 0: a vtkPolyData with all copies, best first. Point and cell arrays:
  * - `Rank`, the active scalars: 1 for the best; that of the poses, so that those of one part (a threshold of `PartId`)
  *   keep theirs;
- * - `Score`, `Probability`, `Certainty`, `VisibleFraction`: [0, 1], of the pose;
+ * - `Score`, `PlaceProbability`, `Probability`, `Certainty`, `VisibleFraction`: [0, 1], of the pose;
  * - `RankColor` (3, unsigned char): red, green, blue, yellow and pink for the ranks 1 to 5, grey for the others.
  *
  * Output port 1: with an UncertaintyScale the ellipsoids of how uncertain the place of each copy's middle is, a
@@ -51,8 +51,8 @@ public:
 
   ///@{
   /**
-   * Poses that are less likely to be right get no copy; poses whose probability is not known (0), such as true ones,
-   * do. Default: 0.5, those that are more likely right than wrong.
+   * Poses get no copy where one is less likely to be there, however it is turned; poses whose probability is not known
+   * (0), such as true ones, do. Default: 0.5, those that are there more likely than not.
    */
   virtual void SetMinimumProbability(double value);
   virtual double GetMinimumProbability();

@@ -21,6 +21,7 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, ClusterDistance, double, cluste
 vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, PosesPerInstance, int, alternatives, 1, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseSelection, MinimumProbability, double, minimumProbability, 0.0, 1.0)
+vtkMEAMSettingMacro(vtkMEAMPoseSelection, RotationCounts, bool, rotationCounts)
 vtkMEAMSettingMacro(vtkMEAMPoseSelection, SameVisibility, bool, comparison.sameVisibility)
 
 void vtkMEAMPoseSelection::SetFreeSpace(bool value)
@@ -75,6 +76,7 @@ void vtkMEAMPoseSelection::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PosesPerInstance: " << this->GetPosesPerInstance() << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->GetMaximumNumberOfPoses() << "\n";
   os << indent << "MinimumProbability: " << this->GetMinimumProbability() << "\n";
+  os << indent << "RotationCounts: " << this->GetRotationCounts() << "\n";
   os << indent << "FreeSpace: " << this->GetFreeSpace() << "\n";
   os << indent << "SameVisibility: " << this->GetSameVisibility() << "\n";
 }

@@ -76,10 +76,21 @@ public:
 
   ///@{
   /**
-   * Of what comes out, poses that are less likely to be right are dropped, in [0, 1]. Default: 0.
+   * Of what comes out, poses are dropped where a copy is less likely to be there, however it is turned, in [0, 1].
+   * Default: 0.
    */
   virtual void SetMinimumProbability(double value);
   virtual double GetMinimumProbability();
+  ///@}
+
+  ///@{
+  /**
+   * The minimum probability is that of the pose, its rotation included: poses of a nearly round part whose
+   * rotation is unsure are dropped, too. Default: off.
+   */
+  virtual void SetRotationCounts(bool value);
+  virtual bool GetRotationCounts();
+  vtkBooleanMacro(RotationCounts, bool);
   ///@}
 
   ///@{

@@ -81,6 +81,7 @@ int vtkMEAMPoseReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
         pose.votes = std::max(0, row.votes);
         pose.viewId = row.viewId;
         pose.visibleFraction = std::isfinite(row.visibleFraction) ? row.visibleFraction : pose.visibleFraction;
+        pose.placeProbability = std::isfinite(row.placeProbability) ? row.placeProbability : pose.placeProbability;
         pose.probability = std::isfinite(row.probability) ? row.probability : pose.probability;
         pose.certainty = std::isfinite(row.certainty) ? row.certainty : pose.certainty;
       }

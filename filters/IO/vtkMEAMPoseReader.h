@@ -11,8 +11,8 @@
  *
  * Output port 0: a vtkPolyData with one vertex for each pose, in the file's order, with the point
  * arrays `Transform` (16), `Quaternion` (x y z w), `Rank` (the file's, or 1 for the first), `SceneId`, `ImageId` and
- * `ObjectId` (0, 0 and 1 where the file has none), and `Score`, `Probability`, `Certainty`, `Votes`, `ViewId` and
- * `VisibleFraction` as far as the file has them.
+ * `ObjectId` (0, 0 and 1 where the file has none), and `Score`, `PlaceProbability`, `Probability`, `Certainty`,
+ * `Votes`, `ViewId` and `VisibleFraction` as far as the file has them.
  */
 #ifndef vtkMEAMPoseReader_h
 #define vtkMEAMPoseReader_h

@@ -113,6 +113,10 @@ void vtkMEAMPoseWriter::WriteData()
         {
           row.visibleFraction = pose.visibleFraction;
         }
+        if (pose.placeProbability > 0.0)
+        {
+          row.placeProbability = pose.placeProbability;
+        }
         if (pose.probability > 0.0)
         {
           row.probability = pose.probability;

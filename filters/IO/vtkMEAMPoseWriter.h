@@ -7,11 +7,11 @@
  * Write() returns 0 when it did not.
  *
  * Input port 0: poses, a vtkPolyData with the point array `Transform` (16) and, where it is there,
- * `Score`, `Probability`, `Certainty`, `Votes`, `ViewId`, `VisibleFraction` and `Rank`; a pose's score in the file is
- * its probability, by which poses of all scenes can be ordered, or, where that is not known, `Score`. The field data
- * `SecondsTotal` becomes the time. Where there is `PartId` (vtkMEAMConflictResolution), the parts are numbered from
- * ObjectId on. Detections have a bounding box and the covariance of refined poses where the field data `PartBounds` and
- * `PartMiddle` are there, which detection adds.
+ * `Score`, `PlaceProbability`, `Probability`, `Certainty`, `Votes`, `ViewId`, `VisibleFraction` and `Rank`; a pose's
+ * score in the file is its probability, by which poses of all scenes can be ordered, or, where that is not known,
+ * `Score`. The field data `SecondsTotal` becomes the time. Where there is `PartId` (vtkMEAMConflictResolution), the
+ * parts are numbered from ObjectId on. Detections have a bounding box and the covariance of refined poses where the
+ * field data `PartBounds` and `PartMiddle` are there, which detection adds.
  */
 #ifndef vtkMEAMPoseWriter_h
 #define vtkMEAMPoseWriter_h

@@ -80,6 +80,7 @@ int vtkMEAMPickPlanning::RequestInformation(
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, SafetyMargin, double, safetyMargin);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, WayIn, double, wayIn);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, MinimumProbability, double, minimumProbability);
+vtkMEAMSettingMacro(vtkMEAMPickPlanning, RotationCounts, bool, rotationCounts);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumTilt, double, maximumTilt);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, MaximumCovered, double, maximumCovered);
 vtkMEAMSettingMacro(vtkMEAMPickPlanning, TurnStep, double, turnStep);
@@ -189,6 +190,7 @@ void vtkMEAMPickPlanning::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SafetyMargin: " << this->GetSafetyMargin() << " mm\n";
   os << indent << "WayIn: " << this->GetWayIn() << " mm\n";
   os << indent << "MinimumProbability: " << this->GetMinimumProbability() << "\n";
+  os << indent << "RotationCounts: " << this->GetRotationCounts() << "\n";
   os << indent << "MaximumTilt: " << this->GetMaximumTilt() << " degrees\n";
   os << indent << "MaximumCovered: " << this->GetMaximumCovered() << " %\n";
   os << indent << "TurnStep: " << this->GetTurnStep() << " degrees\n";

@@ -143,9 +143,23 @@ public:
   ///@}
 
   ///@{
-  /** [0, 1], of a pose that is picked; less likely ones do not stand in the way either. Default: 0.5. */
+  /**
+   * [0, 1], of what is picked, that a copy is there, however it is turned; where the gripper would not find the part's
+   * surface at each of the near-symmetric rotations, that the pose is right. Less likely copies do not stand in the
+   * way. Default: 0.5.
+   */
   void SetMinimumProbability(double probability);
   double GetMinimumProbability();
+  ///@}
+
+  ///@{
+  /**
+   * The minimum probability of a pick is that of the pose, its rotation included: for parts that have to be put down
+   * turned right. Default: off.
+   */
+  void SetRotationCounts(bool value);
+  bool GetRotationCounts();
+  vtkBooleanMacro(RotationCounts, bool);
   ///@}
 
   ///@{

@@ -67,10 +67,12 @@ class Model:
 
 class Detections(Rows):
     """The poses found, best first: found[0] is the best one, a Pose. In columns `poses` (N x 4 x 4, each takes the part's
-    coordinates to the scan's, mm), `scores` (the share of what should be visible that is there), `probabilities` (that a pose
-    is right), `certainties` (that no near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without
+    coordinates to the scan's, mm), `scores` (the share of what should be visible that is there), `place_probabilities` (that a
+    copy is there, however it is turned), `probabilities` (that it is also turned like this), `certainties` (that no
+    near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without
     training; `scan_quality`, what an organized scan shows of its sensor, by name as vtkMEAMSceneEdgeExtraction has it."""
-    COLUMNS = {"poses": ("transform", (4, 4)), "scores": ("score", ()), "probabilities": ("probability", ()),
+    COLUMNS = {"poses": ("transform", (4, 4)), "scores": ("score", ()),
+               "place_probabilities": ("place_probability", ()), "probabilities": ("probability", ()),
                "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ())}
 
     def __init__(self, found, model):
@@ -79,8 +81,8 @@ class Detections(Rows):
         self.seconds, self.scan_quality = found.seconds, found.quality
 
     def __str__(self):
-        lines = ["rank  likely  score  certainty  visible  translation (mm)"]
-        lines += [f"{rank:4d}  {100 * pose.probability:4.0f} %  {pose.score:.3f}  {100 * pose.certainty:7.0f} %  "
+        lines = ["rank  likely  score   rotation  visible  translation (mm)"]
+        lines += [f"{rank:4d}  {100 * pose.place_probability:4.0f} %  {pose.score:.3f}  {100 * pose.certainty:7.0f} %  "
                   f"{100 * pose.visible_fraction:5.0f} %  {pose.transform[0, 3]:9.3f} {pose.transform[1, 3]:9.3f} "
                   f"{pose.transform[2, 3]:9.3f}" for rank, pose in enumerate(self, 1)]
         return "\n".join(lines if self.rows else lines + ["      no part found"])
@@ -90,7 +92,7 @@ class Detections(Rows):
         """VTK's data object, as the filters take it."""
         data = scripting.poses_of(self.poses)
         columns = {"Rank": range(1, len(self) + 1)}
-        for name in ("quaternion", "score", "probability", "certainty", "visible_fraction", "votes", "view_id", "residual"):
+        for name in ("quaternion", "score", "place_probability", "probability", "certainty", "visible_fraction", "votes", "view_id", "residual"):
             columns["".join(map(str.capitalize, name.split("_")))] = [getattr(pose, name) for pose in self]
         columns["Covariance"] = [pose.covariance.ravel("F") for pose in self]  # as the filters write it
         for name, values in columns.items():

@@ -136,7 +136,8 @@ def add_options(parser, group, *names):
         told = {"dest": choice["option"].lstrip("-").replace("-", "_"), "default": choice["default"],
                 "help": choice["help"].replace("%", "%%") + " (default: %(default)s)"}
         if kind == "flag":
-            told.update(dest=name, action="store_false", help=choice["off"])
+            told.update({"dest": name, "action": "store_false", "help": choice["off"]} if choice["default"] else
+                        {"dest": name, "action": "store_true", "help": choice["help"].replace("%", "%%")})
         elif kind == "choice":
             told["choices"] = list(choice["values"])
         elif kind == "vector":

@@ -60,6 +60,7 @@ TEST(API, FindsWhatTheCoreFinds)
   {
     EXPECT_EQ(found.poses[i].T_scan_part.matrix(), poses[i].T_scene_model.matrix()) << i;
     EXPECT_EQ(found.poses[i].score, poses[i].score) << i;
+    EXPECT_EQ(found.poses[i].placeProbability, poses[i].placeProbability) << i;
     EXPECT_EQ(found.poses[i].probability, poses[i].probability) << i;
     EXPECT_EQ(found.poses[i].certainty, poses[i].certainty) << i;
     EXPECT_EQ(found.poses[i].visibleFraction, poses[i].visibleFraction) << i;

@@ -63,7 +63,7 @@ hidden = [v for verdict, v in zip(verdicts, visible) if verdict.startswith("Hidd
 check(hidden and max(hidden) < 0.5, f"hidden parts: {hidden}, {verdicts}")
 # The least likely one is too unlikely when more is asked for.
 last = max(came_out)
-(least,) = tuples(found, "Probability")[last - 1]
+(least,) = tuples(found, "PlaceProbability")[last - 1]
 diagnosis.SetRankOfPose(ranks.index(last) + 1)
 diagnosis.SetMinimumProbability(0.5 * (least + 1.0))
 verdict = text(run(diagnosis), "Verdict")

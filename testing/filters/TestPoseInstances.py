@@ -49,8 +49,8 @@ for least, ranks in ((0.5, [1, 3, 4]), (0.6, [1, 3]), (0.0, [1, 2, 3, 4])):
     copies = run(filter)
     check([r for r, in tuples(copies, "Rank")][::8] == ranks, f"likelier than {least}: {tuples(copies, 'Rank')[::8]}")
     text = filter.GetOutputDataObject(2).GetValueByName(0, "Text").ToString()
-    told = {3: "1 of 4 poses is not shown: less likely to be right than 50 % (MinimumProbability).",
-            2: "2 of 4 poses are not shown: less likely to be right than 60 % (MinimumProbability).", 4: ""}
+    told = {3: "1 of 4 poses is not shown: a copy is there with less than 50 % (MinimumProbability).",
+            2: "2 of 4 poses are not shown: a copy is there with less than 60 % (MinimumProbability).", 4: ""}
     check(text.replace("\n", " ") == told[len(ranks)], f"of poses that are hidden: {text}")
 for name in ("Probability", "Certainty", "VisibleFraction"):
     check(tuples(copies, name)[::8] == tuples(doubtful, name), f"{name} of points is that of the pose")

@@ -206,7 +206,7 @@ def look_at_charts(simple, found):
     scores, = shown_in(charts["MEAMPoseEstimation", 3]).values()
     check((scores.UseIndexForXAxis, scores.XArrayName) == (0, "Pose"), f"scores over {scores.XArrayName}")
     series = sorted(scores.SeriesVisibility)
-    check(series == ["Certainty", "Probability", "Score", "VisibleFraction"], f"bars of {series}")
+    check(series == ["Certainty", "PlaceProbability", "Probability", "Score", "VisibleFraction"], f"bars of {series}")
     stages = output(found, 4).GetColumnByName("Stage")
     labels = [re.sub(r"\s", "", label) for label in charts["MEAMPoseEstimation", 4].BottomAxisLabels[1::2]]
     check(labels == [stages.GetValue(k) for k in range(stages.GetNumberOfValues())], f"bars of {labels}")

@@ -20,6 +20,8 @@ constexpr int FewestInVoxel = 2;   // a point alone is none of a surface
 constexpr double SurfaceSpacing = 0.03; // of the points on the part that tell what lies at it and on it
 constexpr double MostOutside = 0.5;     // a grasp so far from the part is one of another part, or in another unit
 constexpr double LeastLength = 1e-3;    // mm, of a spacing
+constexpr double SameSurface = 0.02;    // a gripper finds the surface where it is no farther off
+constexpr int RimPoints = 8;            // of a cup
 
 /// A gripper that touches the part it holds only where it holds it, however little its pose is off: thicker by the
 /// margin but on the pads of the jaws, whose room is their clearance, and on the cup's rim, which gives way.
@@ -81,6 +83,7 @@ GraspSearch::GraspSearch(const TriangleMesh& part, const Symmetries& symmetries,
                   " mm outside the part: check that it is one of this part, in its coordinates and in mm.");
     }
     this->Frames.push_back(framesOf(grasp, symmetric, settings.turnStep, this->partSize()));
+    this->NeedsRotation.push_back(settings.rotationCounts || !this->holdsAnyRotation(grasp, symmetries));
     this->Touching.push_back({});
     for (const auto& frame : this->Frames.back())
     {
@@ -95,6 +98,34 @@ bool GraspSearch::tooWide(const Grasp& grasp) const
 {
   return grasp.kind == GraspKind::Parallel && this->Claw.mesh.triangles.empty() &&
          grasp.width + 2.0 * this->Claw.jawClearance > this->Claw.opening;
+}
+
+bool GraspSearch::holdsAnyRotation(const Grasp& grasp, const Symmetries& symmetries) const
+{
+  Points touched;
+  if (grasp.kind == GraspKind::Parallel)
+  {
+    for (const double side : { -0.5, 0.5 })
+    {
+      touched.push_back((grasp.T_model_grasp * Eigen::Vector3d(side * grasp.width, 0.0, 0.0)).cast<float>());
+    }
+  }
+  else
+  {
+    const double radius = 0.5 * this->Claw.cupDiameter;
+    for (int k = 0; k < RimPoints; ++k)
+    {
+      const double angle = 2.0 * M_PI * k / RimPoints;
+      const Eigen::Vector3d rim(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+      touched.push_back((grasp.T_model_grasp * rim).cast<float>());
+    }
+  }
+  const double near = SameSurface * this->partSize();
+  // The part turned by a near-symmetry, where the gripper goes to where it would be as it is.
+  return !symmetries.near.empty() &&
+         std::all_of(symmetries.near.begin(), symmetries.near.end(),
+           [&](const NearSymmetry& symmetry)
+           { return this->Surface.pointsAt(symmetry.T, touched, near).size() == touched.size(); });
 }
 
 double GraspSearch::step() const { return std::max(this->Settings.safetyMargin, 1.0); }

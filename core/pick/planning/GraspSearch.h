@@ -31,6 +31,10 @@ public:
   const PartSurface& surface() const { return this->Surface; }
   double partSize() const { return this->Box.diagonal().norm(); } ///< mm, the diagonal of its box
 
+  /// Whether the grasp may fail where the part is turned by one of its near-symmetries, or the settings want all to
+  /// count the rotation.
+  bool needsRotation(std::size_t grasp) const { return this->NeedsRotation[grasp]; }
+
   /// What is in the way from now on.
   void setObstacles(const Poses& poses, const std::optional<Bin>& bin, const PickSurroundings& around);
 
@@ -40,6 +44,8 @@ public:
 private:
   bool fits(const Grasp& grasp) const { return this->Claw.kind == grasp.kind && !this->tooWide(grasp); }
   bool tooWide(const Grasp& grasp) const;
+  /// Whether what the gripper touches is the part's surface as well at each of its near-symmetries.
+  bool holdsAnyRotation(const Grasp& grasp, const Symmetries& symmetries) const;
   /// mm, between the places at which a gripper's mesh is looked at on its way.
   double step() const;
 
@@ -50,6 +56,7 @@ private:
   PickCollisions Collisions;
   PartSurface Surface;
   std::vector<std::vector<Eigen::Isometry3d>> Frames; ///< T_model_grasp of each grasp at all its turns
+  std::vector<bool> NeedsRotation;                    ///< of each
   std::vector<std::vector<bool>> Touching;            ///< of each, whether the gripper touches the part that it holds
 };
 }

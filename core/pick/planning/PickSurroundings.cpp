@@ -25,9 +25,9 @@ Points thinned(const OrganizedCloud& cloud, double pointDistance, double voxelSi
 }
 }
 
-double confidence(const Pose& pose)
+double confidence(const Pose& pose, bool needsRotation)
 {
-  const double known = probabilityOrScore(pose);
+  const double known = needsRotation ? probabilityOrScore(pose) : placeOrScore(pose);
   return known > 0.0 ? known : 1.0;
 }
 
@@ -56,7 +56,7 @@ PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud,
   std::vector<bool> explained(around.points.size(), false);
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    if (confidence(poses[k]) < settings.minimumProbability)
+    if (confidence(poses[k], false) < settings.minimumProbability)
     {
       continue;
     }

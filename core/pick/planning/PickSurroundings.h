@@ -32,6 +32,7 @@ PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud,
 /// Share, [0, 1], of a pose, the `copy`th of the copies, that lies under something, from above.
 double coveredShare(const Pose& pose, int copy, const PartSurface& surface, const PickSurroundings& around);
 
-/// How likely a pose is, [0, 1]; 1 of one of which nothing is known, such as a true one.
-double confidence(const Pose& pose);
+/// How likely a pose is, [0, 1], `needsRotation`: its rotation included; 1 of one of which nothing is known, such as a
+/// true one.
+double confidence(const Pose& pose, bool needsRotation);
 }

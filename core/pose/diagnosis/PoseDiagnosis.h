@@ -55,7 +55,7 @@ struct Diagnosis
   std::vector<StageCount> stages;
   int rank = 0;                    ///< of what came out here, from 1; 0: nothing did
   PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
-  double probability = 0.0;        ///< of what came out here, or would without limits
+  double probability = 0.0;        ///< of a copy where it came out, or would without limits
   int rankWithoutLimits = 0;       ///< the same if all poses came out
   int takenBy = 0;                 ///< rank without limits, from 1, of the pose that has most of the place's points
   double takenShare = 0.0;         ///< of the points that match at the place, those that match at that pose, too

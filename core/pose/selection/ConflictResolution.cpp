@@ -2,6 +2,7 @@
 #include "pose/selection/ConflictResolution.h"
 
 #include "base/Parallel.h"
+#include "base/Range.h"
 #include "pose/PoseTolerances.h"
 #include "pose/verification/PoseVerification.h"
 
@@ -76,7 +77,7 @@ Claim claimOf(const PartPose& pose, const PartDetections& part, const Measured& 
   const PoseEvidence evidence = collector.collect(T);
   Claim claim{ pose, explainedPoints(measured, part, T, tolerance) };
   claim.pose.pose.viewId = viewOf(pose.pose, part.scene, part.model);
-  const double probability = std::min(probabilityOrScore(pose.pose), MostProbable);
+  const double probability = std::min(placeOrScore(pose.pose), MostProbable);
   claim.support = probability / (1.0 - probability) * claim.points.size() *
                   soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
   return claim;
@@ -87,7 +88,7 @@ bool betterSupported(const Claim& a, const Claim& b)
   const auto key = [](const Claim& claim)
   {
     const Pose& pose = claim.pose.pose;
-    return std::make_tuple(claim.support, probabilityOrScore(pose), pose.score, pose.visibleFraction);
+    return std::make_tuple(claim.support, placeOrScore(pose), pose.score, pose.visibleFraction);
   };
   return key(a) > key(b);
 }
@@ -121,10 +122,7 @@ const PartDetections& smallest(const std::vector<PartDetections>& parts)
 std::vector<PartPose> resolveConflicts(
   const std::vector<PartDetections>& parts, const ConflictResolutionSettings& settings, const Progress& progress)
 {
-  if (!(settings.shared >= 0.0 && settings.shared <= 1.0))
-  {
-    throw Error("The shared surface has to be from 0 to 1.");
-  }
+  requireWithin("share of the surface that is claimed twice", settings.shared, 0.0, 1.0);
   std::vector<Claim> claims;
   for (std::size_t part = 0; part < parts.size(); ++part)
   {

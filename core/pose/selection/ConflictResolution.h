@@ -37,11 +37,11 @@ struct ConflictResolutionSettings
 /// A pose explains the measured points within 2 % of the smallest part's diameter, but 1 % of the own diameter of parts
 /// that are more than twice as large. Two poses are in conflict when more than `shared` of the measured points that
 /// either explains are explained by the other, too: so a small part that fits inside a large one's face is, and one
-/// that lies on top of it is not. The support of a pose is the odds of its probability (no more than 99 to 1) times the
-/// measured points it explains, less those in proportion that the sensor saw past or did not measure: every point more
-/// is one more that had to fit by accident if the pose were wrong, and points of the scene count the same for parts of
-/// any size. Equal support: probability, score, then visible fraction decide, at last the order. Without a surface the
-/// scene's edge points take its place.
+/// that lies on top of it is not. The support of a pose is the odds of its place's probability (no more than 99 to 1)
+/// times the measured points it explains, less those in proportion that the sensor saw past or did not measure: every
+/// point more is one more that had to fit by accident if the pose were wrong, and points of the scene count the same
+/// for parts of any size. Equal support: probability, score, then visible fraction decide, at last the order. Without a
+/// surface the scene's edge points take its place.
 ///
 /// Throws Error for settings out of range and when some parts have the scene's surface and others do not.
 std::vector<PartPose> resolveConflicts(const std::vector<PartDetections>& parts,

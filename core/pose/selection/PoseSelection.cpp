@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace meam
 {
@@ -43,8 +44,9 @@ PoseRefinementSettings rotatedSettings(const TrainedModel& model)
 struct Finished
 {
   Pose pose;
-  Points matched;        ///< by it
-  double evidenceBefore; ///< of the pose before it was moved to where the scan speaks for it the most
+  Points matched;       ///< by it
+  double logOdds;       ///< that a copy is there,
+  double logOddsBefore; ///< and of the pose before it was moved to where the scan speaks for it the most
 };
 
 /// Looks for the rotation of an instance, aligns it, moves it where the scan contradicts it, and scores it.
@@ -82,6 +84,7 @@ public:
     {
       this->Decision.decide(pose, asItIs);
     }
+    const Eigen::Isometry3d T_decided = pose.T_scene_model;
     if (this->Settings.aligns)
     {
       pose = alignRobustly(pose, this->InScene, this->Model);
@@ -98,9 +101,13 @@ public:
     {
       pose.fit = fitInPlace(pose, T_aligned, this->InScene, this->Model);
     }
+    for (RotationAlternative& other : pose.alternatives) // turned as before against where the pose is now
+    {
+      other.T_scene_model = pose.T_scene_model * T_decided.inverse() * other.T_scene_model;
+    }
     setSeen(pose, best.evidence, this->InScene, this->Model);
     setEvidence(pose, best.logOdds);
-    return { pose, best.evidence.matched(), withCertainty(best.logOddsBefore, pose.certainty) };
+    return { pose, best.evidence.matched(), best.logOdds, best.logOddsBefore };
   }
 
 private:
@@ -135,7 +142,7 @@ private:
 
 /// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
 /// come to the same place, and what others explain speaks for no more.
-Poses withoutShared(
+std::vector<Finished> withoutShared(
   const std::vector<Finished>& found, const TrainedModel& model, const PoseSelectionSettings& settings)
 {
   const double near = SharedDistance * model.diameter;
@@ -146,9 +153,11 @@ Poses withoutShared(
     PointGrid matched;
   };
   std::vector<Kept> kept;
-  Poses distinct;
-  for (const auto& [pose, matched, evidenceBefore] : found)
+  std::vector<Finished> distinct;
+  for (const Finished& finished : found)
   {
+    const Pose& pose = finished.pose;
+    const Points& matched = finished.matched;
     const Eigen::Vector3d middle = pose.T_scene_model * model.visibility->middle().cast<double>();
     bool isTaken = false;
     std::vector<const PointGrid*> beside;
@@ -170,7 +179,7 @@ Poses withoutShared(
         std::count_if(matched.begin(), matched.end(), isClaimed) <= SharedByOne * static_cast<double>(matched.size()))
     {
       kept.push_back({ middle, PointGrid(matched, near) });
-      distinct.push_back(pose);
+      distinct.push_back(finished);
     }
   }
   return distinct;
@@ -178,13 +187,18 @@ Poses withoutShared(
 
 /// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
 /// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
-void allowForAbsence(Poses& poses, double bestEvidence)
+void allowForAbsence(std::vector<Finished>& found)
 {
-  const double present = std::max(LeastPresent, probabilityOf(CalibrationOfPresence.logOdds(bestEvidence)));
-  for (Pose& pose : poses)
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Finished& finished : found)
   {
-    pose.evidence = withCertainty(pose.evidence, present);
-    pose.probability = probabilityOf(pose.evidence);
+    best = std::max(best, finished.logOddsBefore);
+  }
+  const double present = std::max(LeastPresent, probabilityOf(CalibrationOfPresence.logOdds(best)));
+  for (Finished& finished : found)
+  {
+    finished.logOdds = withCertainty(finished.logOdds, present);
+    setEvidence(finished.pose, finished.logOdds);
   }
 }
 
@@ -210,22 +224,17 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     });
   std::stable_sort(
     finished.begin(), finished.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
-  Poses instances;
   if (settings.dropsShared)
   {
-    instances = withoutShared(finished, model, settings);
+    finished = withoutShared(finished, model, settings);
   }
-  else
+  if (haveSurfaces(scene, model) && !settings.partIsPresent)
   {
-    std::transform(finished.begin(), finished.end(), std::back_inserter(instances),
-      [](const Finished& instance) { return instance.pose; });
+    allowForAbsence(finished);
   }
-  if (haveSurfaces(scene, model) && !settings.partIsPresent && !finished.empty())
-  {
-    const auto best = std::max_element(finished.begin(), finished.end(),
-      [](const Finished& a, const Finished& b) { return a.evidenceBefore < b.evidenceBefore; });
-    allowForAbsence(instances, best->evidenceBefore);
-  }
+  Poses instances;
+  std::transform(finished.begin(), finished.end(), std::back_inserter(instances),
+    [](const Finished& instance) { return instance.pose; });
   return instances;
 }
 }
@@ -277,9 +286,13 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
                      : selectClusters(scored, model, settings, progress);
   const bool isForRefinement = settings.method == SelectionMethod::Alternatives;
   const double leastScore = isForRefinement && !scored.empty() ? LeastScore * scored.front().score : 0.0;
-  selected.erase(
-    std::remove_if(selected.begin(), selected.end(),
-      [&](const Pose& pose) { return pose.score < leastScore || pose.probability < settings.minimumProbability; }),
+  selected.erase(std::remove_if(selected.begin(), selected.end(),
+                   [&](const Pose& pose)
+                   {
+                     const double probability =
+                       settings.rotationCounts ? pose.probability : std::max(pose.placeProbability, pose.probability);
+                     return pose.score < leastScore || probability < settings.minimumProbability;
+                   }),
     selected.end());
   std::size_t most = settings.maximumPoses > 0 ? settings.maximumPoses : selected.size();
   if (settings.maximumPoses == 0 && isForRefinement)

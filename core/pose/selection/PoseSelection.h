@@ -24,7 +24,8 @@ struct PoseSelectionSettings
   double clusterDistance = 0.0;    ///< mm: poses whose middles are nearer are of one instance; 0: 10 % of the diameter
   int alternatives = 4;            ///< of an instance (Alternatives)
   int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives those that are worth refining
-  double minimumProbability = 0.0; ///< of what comes out, poses less likely are dropped
+  double minimumProbability = 0.0; ///< of what comes out, poses are dropped where a copy is less likely,
+  bool rotationCounts = false;     ///< or, counting its rotation, the pose is
   // Instances
   bool partIsPresent = false;     ///< no pose is less likely because the part may be missing
   bool restartsRefinement = true; ///< from rotations about the pose

@@ -16,6 +16,7 @@ constexpr double SureAdvantage = 13.0; // points that make a rotation e times li
 constexpr double Hopeless = -6.0 * SureAdvantage; // a rotation so unlikely is one in four hundred
 constexpr double WorthAsking = 0.02; // probability of a pose before: less, and only its near-symmetries are compared
 constexpr int Rounds = 3;            // of turns that the scene speaks for more
+constexpr double LeastShare = 0.01;  // of a rotation that is told of
 
 /// Share of the part's surface that a turn takes to its surface.
 double overlapAfter(const Eigen::Isometry3d& turn, const SoAPoints& surface, const DistanceField& distance, double near)
@@ -96,6 +97,17 @@ void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) cons
       odds += std::exp((advantage - *best) / SureAdvantage);
     }
     pose.certainty = 1.0 / odds;
+    pose.alternatives.clear();
+    for (std::size_t k = 0; k < advantages.size(); ++k)
+    {
+      const double share = std::exp((advantages[k] - *best) / SureAdvantage) / odds;
+      if (share >= LeastShare && advantages.begin() + k != best)
+      {
+        pose.alternatives.push_back({ k == 0 ? pose.T_scene_model : pose.T_scene_model * this->Turns[k - 1], share });
+      }
+    }
+    std::stable_sort(pose.alternatives.begin(), pose.alternatives.end(),
+      [](const RotationAlternative& a, const RotationAlternative& b) { return a.share > b.share; });
     if (best == advantages.begin())
     {
       return;
@@ -107,6 +119,7 @@ void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) cons
     {
       turned = refinePoses({ turned }, this->InScene, this->Model, this->Rotated)[0];
       turned.certainty = pose.certainty;
+      turned.alternatives = pose.alternatives;
     }
     asItIs = this->Comparison.contender(turned.T_scene_model);
     pose = turned;

@@ -19,7 +19,8 @@ public:
     const EvidenceCollector& collector, const EvidenceRates& rates, const PoseRefinementSettings& rotated);
 
   /// Turns the pose to where the scene speaks for it most, by the comparison and, of a pose that is likely, by the
-  /// evidence, and sets its certainty: how likely that rotation is among all. `asItIs` is the pose as a contender.
+  /// evidence, and sets its certainty, how likely that rotation is among all, and the alternatives to it. `asItIs` is
+  /// the pose as a contender.
   void decide(Pose& pose, PoseComparison::Contender asItIs) const;
 
 private:

@@ -12,6 +12,8 @@ namespace meam
 {
 namespace
 {
+constexpr double SurePlace = 4.6; // log odds, 99 to 1: of surer places the rotation decides which pose comes first
+
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
 void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)
 {
@@ -19,7 +21,7 @@ void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollecto
   const auto fitted =
     std::count_if(viewEdges.begin(), viewEdges.end(), [&](const auto& point) { return collector.nearEdge(T * point); });
   pose.score = viewEdges.empty() ? 0.0 : static_cast<double>(fitted) / viewEdges.size();
-  pose.probability = pose.score;
+  pose.placeProbability = pose.probability = pose.score;
   pose.evidence = std::log(pose.score / (1.0 - pose.score)); // infinite when all or nothing fits
   pose.visibleFraction = pose.score;
 }
@@ -97,8 +99,9 @@ void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const
 
 void setEvidence(Pose& pose, double logOdds)
 {
-  pose.evidence = withCertainty(logOdds, pose.certainty);
-  pose.probability = probabilityOf(pose.evidence);
+  pose.evidence = std::max(std::min(logOdds, SurePlace), withCertainty(logOdds, pose.certainty));
+  pose.placeProbability = probabilityOf(logOdds);
+  pose.probability = pose.certainty * pose.placeProbability;
 }
 
 EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& collector,

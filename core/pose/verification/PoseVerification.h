@@ -42,7 +42,7 @@ int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);
 
 /// Sets score, visible fraction and view by the evidence collected at the pose.
 void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const TrainedModel& model);
-/// Sets evidence and probability by the log odds of what was counted and the pose's certainty.
+/// Sets evidence and probabilities by the log odds that a copy is there and the pose's certainty.
 void setEvidence(Pose& pose, double logOdds);
 
 /// The rates of a scene: those that are known, or by candidates of a part, every `stride`-th point of each.

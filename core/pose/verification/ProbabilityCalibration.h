@@ -25,8 +25,8 @@ inline constexpr LogisticRegression CalibrationOfEdges{ 2.9, 0.16 };
 inline constexpr LogisticRegression CalibrationOfPresence{ -6.0, 3.0 };
 inline constexpr double LeastPresent = 0.2; ///< however badly that fits: it may be alone, with its notch out of sight
 
-/// Logarithm of the odds that a pose is right: those that it is when something else holds, and how certain that is,
-/// [0, 1]: its rotation, or that the part is in the scan.
+/// Logarithm of the odds that a copy is here: those that it is when the part is in the scan, and how certain that is,
+/// [0, 1].
 double withCertainty(double logOdds, double certainty);
 
 /// [0, 1], from the logarithm of odds.

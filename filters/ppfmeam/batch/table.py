@@ -5,20 +5,21 @@ import os
 
 from .. import scripting
 
-POSES = ("scan", "obj_id", "rank", "score", "probability", "R", "t", "failure")
+POSES = ("scan", "obj_id", "rank", "score", "place_probability", "probability", "R", "t", "failure")
 SCANS = ("scan", "poses", "read_s", "find_s", "process", "warning", "failure")
 
 
 def rows_of(poses, objects):
     """Of poses, best first, what stands in the table after the scan's name. `objects`: the numbers of the parts."""
     array = poses.GetPointData().GetArray
-    part, scores, probabilities, transforms = map(array, ("PartId", "Score", "Probability", "Transform"))
+    part, scores, places, probabilities, transforms = map(
+        array, ("PartId", "Score", "PlaceProbability", "Probability", "Transform"))
     rows = []
     for i in range(poses.GetNumberOfPoints()):
         T = transforms.GetTuple(i)
         R, t = (*T[0:3], *T[4:7], *T[8:11]), (T[3], T[7], T[11])
         rows.append((objects[part.GetValue(i)] if part else objects[0], i + 1, repr(scores.GetValue(i)),
-                     repr(probabilities.GetValue(i)), " ".join(map(repr, R)), " ".join(map(repr, t)), ""))
+                     repr(places.GetValue(i)), repr(probabilities.GetValue(i)), " ".join(map(repr, R)), " ".join(map(repr, t)), ""))
     return rows
 
 
@@ -33,7 +34,7 @@ def write(path, names, lines):
     def poses():
         for name in names:
             line = lines[name]
-            yield from ([name, *row] for row in line["rows"] or [["", "", "", "", "", "", line["failure"]]])
+            yield from ([name, *row] for row in line["rows"] or [["", "", "", "", "", "", "", line["failure"]]])
 
     def scans():
         for name in names:

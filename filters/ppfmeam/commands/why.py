@@ -26,7 +26,7 @@ def options_of_user():
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="FILE", help="image of an organized scan that carries none")
     parser.add_argument("--image-camera", metavar="FILE", help="calibration of the camera beside the sensor that took it")
-    choices.add_options(parser, "detect", "poses", "probability", "features", "image_edges", "references", "threads")
+    choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "threads")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
     return parser.parse_args()
@@ -68,8 +68,8 @@ def print_report(diagnosis):
 def main():
     options = options_of_user()
     inputs = {name: getattr(options, name) for name in (
-        "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "references", "preset",
-        "features", "image_edges", "threads")}
+        "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "rotation_counts", "references",
+        "preset", "features", "image_edges", "threads")}
     if options.at:
         print_report(api.why(options.part, options.scan, at=options.at, **inputs))
     elif options.pose:

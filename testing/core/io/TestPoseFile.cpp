@@ -152,6 +152,7 @@ TEST(PoseFile, whatIsWrittenIsReadAgain)
   row.votes = 120;
   row.viewId = 5;
   row.visibleFraction = 0.25;
+  row.placeProbability = 0.875;
   row.probability = 0.75;
   row.certainty = 0.125;
   const auto expectRow = [&](const meam::PoseRow& read)
@@ -177,6 +178,7 @@ TEST(PoseFile, whatIsWrittenIsReadAgain)
   EXPECT_EQ(poses[0].votes, 120);
   EXPECT_EQ(poses[0].viewId, 5);
   EXPECT_EQ(poses[0].visibleFraction, 0.25);
+  EXPECT_EQ(poses[0].placeProbability, 0.875);
   EXPECT_EQ(poses[0].probability, 0.75);
   EXPECT_EQ(poses[0].certainty, 0.125);
   EXPECT_TRUE(std::isnan(poses[1].probability));

@@ -112,14 +112,14 @@ TEST(Pose, InOneSentenceHowSureItIsThatPartsWereFound)
   poses.resize(1);
   poses[0].probability = 0.314;
   EXPECT_EQ(
-    meam::describe(poses), "Nothing sure was found: the likeliest of 1 pose is right with a probability of 31 %.");
+    meam::describe(poses), "Nothing sure was found: the likeliest of 1 pose is there with a probability of 31 %.");
   EXPECT_EQ(meam::doubtsOf(poses), meam::describe(poses));
   poses.resize(3);
   poses[2].probability = 0.5;
-  EXPECT_EQ(meam::describe(poses), "1 of 3 poses is more likely right than wrong.");
+  EXPECT_EQ(meam::describe(poses), "1 of 3 poses is more likely there than not.");
   EXPECT_EQ(meam::doubtsOf(poses), "");
   poses[1].score = 0.9;
-  EXPECT_EQ(meam::describe(poses), "2 of 3 poses are more likely right than wrong.") << "of a file with scores alone";
+  EXPECT_EQ(meam::describe(poses), "2 of 3 poses are more likely there than not.") << "of a file with scores alone";
 }
 
 TEST(Pose, ThoseThatMoreSpeaksForComeFirst)

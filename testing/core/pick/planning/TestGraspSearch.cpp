@@ -73,6 +73,22 @@ TEST(GraspSearch, TiltIsBetweenTheWayInAndStraightDown)
   EXPECT_NEAR(meam::tiltOf(T, up), 180.0, 1e-9);
 }
 
+TEST(GraspSearch, ARotationIsNeededWhereTheJawsDoNotTouchThePartAtEachNearSymmetry)
+{
+  const auto needsRotation = [](double degrees, const meam::PlanSettings& settings = {})
+  {
+    meam::Symmetries symmetries;
+    symmetries.near.push_back({ meam::turnAbout(Vector3d::UnitZ(), degrees * M_PI / 180.0, Vector3d::Zero()) });
+    return meam::GraspSearch(block(), symmetries, { across() }, jaws(), settings).needsRotation(0);
+  };
+  EXPECT_FALSE(needsRotation(180.0)) << "the jaws are on the other faces";
+  EXPECT_TRUE(needsRotation(90.0)) << "10 mm inside the block";
+  meam::PlanSettings counts;
+  counts.rotationCounts = true;
+  EXPECT_TRUE(needsRotation(180.0, counts));
+  EXPECT_TRUE(meam::GraspSearch(block(), {}, { across() }, jaws(), {}).needsRotation(0)) << "nothing is known";
+}
+
 TEST(GraspSearch, AFreePartIsTakenFromAbove)
 {
   const meam::Pick pick = pickFirst({ lying(0) });

@@ -64,6 +64,16 @@ TEST(RotationDecision, WhereTheFlatIsNotSeenNoTurnIsSure)
   // The scene's disc has none: of 36 turns each is as likely as the others.
   const meam::Pose found = decided(disc(20.0f), 40.0);
   EXPECT_LT(found.certainty, 0.15);
+  ASSERT_GT(found.alternatives.size(), 5u);
+  double all = found.certainty;
+  for (std::size_t k = 0; k < found.alternatives.size(); ++k)
+  {
+    all += found.alternatives[k].share;
+    EXPECT_LE(found.alternatives[k].share, k == 0 ? found.certainty : found.alternatives[k - 1].share) << k;
+    EXPECT_GT(meam::rotationError(found.alternatives[k].T_scene_model, found.T_scene_model), 4.0) << k;
+  }
+  EXPECT_LE(all, 1.0 + 1e-9);
+  EXPECT_GT(all, 0.8) << "but for those below 1 %";
   EXPECT_GT(found.certainty, 0.01);
 }
 
