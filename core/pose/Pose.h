@@ -3,6 +3,7 @@
 
 #include "base/PointCloud.h"
 #include "mesh/Symmetries.h"
+#include "pose/objective/LookalikeDecision.h"
 
 #include <string>
 #include <vector>
@@ -42,13 +43,14 @@ struct Pose
   double placeProbability = 0.0;
   double probability = 0.0; ///< [0, 1], that it is turned like this, too: placeProbability times certainty
   /// What poses of one scene are ordered by: logarithm of the odds that a copy is here, by all that was measured of it,
-  /// less what a search for it costs (EvidenceAscent); of what is surer than 99 to 1 those that it is turned like this,
+  /// less what a search for it costs (EvidenceAscent); of what is surer than 9 to 1 those that it is turned like this,
   /// too.
   double evidence = 0.0;
   /// [0, 1], where a copy is here, how sure it is that the part is not turned by one of its near-symmetries: low when
   /// what breaks them is not in sight.
   double certainty = 1.0;
   std::vector<RotationAlternative> alternatives; ///< to the rotation, the likeliest first
+  Contradictions contradictions;                 ///< what speaks for another part that looks alike
   int votes = 0;                                 ///< of the peak it came from
   int viewId = -1;                               ///< the appearance model that shows what the sensor sees of it
   double visibleFraction = 0.0; ///< [0, 1], share of the part's side towards the sensor that nothing hides

@@ -4,6 +4,7 @@
 #include "base/SoAPoints.h"
 #include "scene/Sensor.h"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -71,6 +72,21 @@ public:
     const int place = this->placeOf(point).cell;
     return place < 0 ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : this->Normals[place];
   }
+
+  /// The cell at the line of sight through a point; -1 outside of the map.
+  int cellAt(const Eigen::Vector3f& point) const { return this->placeOf(point).cell; }
+  /// Those beside a cell in its row and its column, as far as there are any: -1.
+  std::array<int, 4> neighboursOf(int cell) const
+  {
+    const int column = cell % this->Width, size = this->Width * this->Height;
+    return { column > 0 ? cell - 1 : -1, column + 1 < this->Width ? cell + 1 : -1,
+      cell >= this->Width ? cell - this->Width : -1, cell + this->Width < size ? cell + this->Width : -1 };
+  }
+  /// Whether something was measured in a cell.
+  bool isMeasured(int cell) const { return this->Cells[cell].nearest < NothingSeen && !this->Cells[cell].isGap; }
+  /// Of the nearest layer of a cell in which something was measured, as means() and normalAt() have them.
+  const Eigen::Vector3f& meanIn(int cell) const { return this->Cells[cell].mean; }
+  const Eigen::Vector3f& normalIn(int cell) const { return this->Normals[cell]; }
 
   /// The relation of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
   void relations(const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, float tolerance,

@@ -113,6 +113,8 @@ std::vector<Switch> makeSwitches()
   instances("ascent-orders", "one order of motions", [](S& s) { s.ascent.bothOrders = false; });
   instances("ascent-price", "no penalty of a moved pose", [](S& s) { s.ascent.penalizes = false; });
   instances("shared", "poses that share their surface stay", [](S& s) { s.dropsShared = false; });
+  instances("overlaps", "poses may cut into each other", [](S& s) { s.excludesOverlaps = false; });
+  instances("lookalikes", "what contradicts a pose speaks for no other part", [](S& s) { s.weighsLookalikes = false; });
   instances("absence", "no absence prior", [](S& s) { s.partIsPresent = true; });
   instances("comparison", "instances by their evidence alone", [](S& s) { s.comparesInstances = false; });
   instances("alignment", "no final alignment", [](S& s) { s.aligns = false; });
@@ -468,6 +470,9 @@ public:
     result["seconds"] = found.seconds;
     result["T"] = matricesOf(found.value);
     result["probability"] = column(found.value, probabilityOrScore);
+    result["place"] = column(found.value, placeOrScore);
+    result["continuing"] = column(found.value, [](const Pose& pose) { return pose.contradictions.continuing; });
+    result["past"] = column(found.value, [](const Pose& pose) { return pose.contradictions.past; });
     return result;
   }
 

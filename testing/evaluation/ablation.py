@@ -370,4 +370,5 @@ def main():
     print(write_tables(rows, options.out))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -33,6 +33,8 @@ struct PoseSelectionSettings
   bool decidesRotation = true;    ///< between near-symmetries
   bool ascends = true;            ///< where the scan contradicts an aligned pose
   bool dropsShared = true;        ///< poses whose surface better ones have
+  bool excludesOverlaps = true;   ///< of poses that cut into each other one is right at most
+  bool weighsLookalikes = true;   ///< what contradicts a pose speaks for another part
   bool comparesInstances = true;  ///< poses of nearly the same evidence, point by point
   bool aligns = true;             ///< robustly, at the end
   EvidenceSettings evidence;      ///< that poses are scored by once more

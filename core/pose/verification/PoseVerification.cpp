@@ -12,7 +12,7 @@ namespace meam
 {
 namespace
 {
-constexpr double SurePlace = 4.6; // log odds, 99 to 1: of surer places the rotation decides which pose comes first
+constexpr double SurePlace = 2.2; // log odds, 9 to 1: of surer places the rotation decides which pose comes first
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
 void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/objective/SurfaceContinuation.h"
+
+#include "pose/PoseTolerances.h"
+#include "pose/verification/EvidenceCounts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace meam
+{
+namespace
+{
+constexpr double Farthest = 0.12;   // of the diameter: what lies farther may be another body
+constexpr int Margin = 2;           // cells beside the part that do not count: sensors smooth across edges
+constexpr float SmoothTurn = 0.97f; // cosine between the normals of neighbours on one face: 14 degrees
+constexpr float SmoothSlope =
+  0.25f;                       // and of the distance between them so much off each other's plane: 14 degrees, too,
+constexpr float Noises = 2.0f; // and standard deviations of noise
+constexpr float Facing = 0.8f; // cosine between the part's normal and the measured one, of a surface that fits
+}
+
+SurfaceContinuation::SurfaceContinuation(const Scene& scene, const TrainedModel& model)
+  : InScene(scene)
+  , Model(model)
+  , Tolerance(static_cast<float>(std::max(FitDistance * model.diameter, Noises * scene.quality.noise)))
+  , Noise(static_cast<float>(scene.quality.noise))
+  , Reach(static_cast<int>(Farthest * model.diameter / scene.depth.cellSize()))
+{
+  const double inPatch = scene.depth.cellSize() / (PatchSize * model.diameter);
+  this->PatchesOfPoint = inPatch * inPatch;
+}
+
+bool SurfaceContinuation::isOfBin(const Eigen::Vector3f& point) const
+{
+  const std::vector<Plane>& planes = this->InScene.enclosure;
+  return std::any_of(planes.begin(), planes.end(),
+    [&](const Plane& plane) { return std::abs(plane.signedDistance(point)) < this->Tolerance; });
+}
+
+bool SurfaceContinuation::isSmooth(int from, int to) const
+{
+  const DepthMap& depth = this->InScene.depth;
+  const Eigen::Vector3f& a = depth.normalIn(from);
+  const Eigen::Vector3f& b = depth.normalIn(to);
+  const Eigen::Vector3f between = depth.meanIn(to) - depth.meanIn(from);
+  const float most = SmoothSlope * between.norm() + Noises * this->Noise;
+  return a.dot(b) > SmoothTurn && std::abs(a.dot(between)) < most && std::abs(b.dot(between)) < most;
+}
+
+Points SurfaceContinuation::beyond(const Eigen::Isometry3d& T_scene_model) const
+{
+  const TrainedModel& model = this->Model;
+  const DepthMap& depth = this->InScene.depth;
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const Eigen::Isometry3f toModel = T.inverse();
+  const auto visible = model.visibility->visible(T_scene_model, this->InScene.sensor, depth.pitch());
+  struct Reached
+  {
+    int steps; // from the part; 0: on it
+    int from;  // where the way left the part
+  };
+  std::unordered_map<int, Reached> cells;
+  std::vector<int> reached;
+  for (const int i : visible->surface)
+  {
+    const Eigen::Vector3f point = T * model.surface.points[i];
+    const int cell = depth.cellAt(point);
+    if (cell >= 0 && depth.isMeasured(cell) && this->isOn(depth.meanIn(cell), toModel) &&
+        depth.normalIn(cell).dot(T.linear() * model.surface.normals[i]) >= Facing &&
+        cells.emplace(cell, Reached{ 0, cell }).second)
+    {
+      reached.push_back(cell);
+    }
+  }
+  // Breadth first: what lies on the part, between the points that are looked at, and then what lies beside it.
+  Points beyond;
+  for (const bool isBeside : { false, true })
+  {
+    for (std::size_t next = 0; next < reached.size(); ++next)
+    {
+      const int from = reached[next];
+      const Reached before = cells[from];
+      const int steps = isBeside ? before.steps + 1 : 0;
+      for (const int to : depth.neighboursOf(from))
+      {
+        if (steps > this->Reach || to < 0 || !depth.isMeasured(to) || cells.count(to) > 0 ||
+            !this->isSmooth(from, to) || (isBeside && !this->isSmooth(before.from, to)) ||
+            this->isOn(depth.meanIn(to), toModel) == isBeside || (isBeside && this->isOfBin(depth.meanIn(to))))
+        {
+          continue;
+        }
+        cells.emplace(to, Reached{ steps, isBeside ? before.from : to });
+        reached.push_back(to);
+        if (isBeside && steps > Margin)
+        {
+          beyond.push_back(depth.meanIn(to));
+        }
+      }
+    }
+  }
+  return beyond;
+}
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/objective/BodyOverlap.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+meam::TriangleMesh block() { return parts::box({ -30, -20, 0 }, { 30, 20, 15 }); }
+
+/// With a block `shift` mm along its length, turned about its end.
+bool cuts(double shift, double degrees = 0.0)
+{
+  const meam::BodyOverlap overlap(scenes::trained<block>());
+  Eigen::Isometry3d other = Eigen::Isometry3d::Identity();
+  other.translation().x() = shift;
+  other.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitZ()));
+  const bool result = overlap.cut(Eigen::Isometry3d::Identity(), other);
+  EXPECT_EQ(overlap.cut(other, Eigen::Isometry3d::Identity()), result);
+  return result;
+}
+}
+
+TEST(BodyOverlap, BlocksThatTouchDoNotCut)
+{
+  EXPECT_FALSE(cuts(60.0));
+  EXPECT_FALSE(cuts(59.0)) << "1 mm, less than 3 % of 74 mm";
+  EXPECT_FALSE(cuts(200.0));
+}
+
+TEST(BodyOverlap, BlocksThatReachIntoEachOtherCut)
+{
+  EXPECT_TRUE(cuts(0.0, 90.0)) << "a cross";
+  EXPECT_TRUE(cuts(35.0, 45.0)) << "a corner";
+}
