@@ -166,7 +166,7 @@ try:
         found = ppfmeam.detect(model, points, grey)
     check(abs(model.diameter - 84.5) < 1, f"the diameter is {model.diameter}")
     check(found.poses.shape == (len(found), 4, 4) and found.poses.dtype == numpy.float64, f"{found.poses.shape}")
-    for column in (found.scores, found.probabilities, found.certainties, found.visible_fractions):
+    for column in (found.scores, found.place_probabilities, found.probabilities, found.certainties, found.visible_fractions):
         check(column.shape == (len(found),) and (column >= 0).all() and (column <= 1).all(), f"{column}")
     check(found.seconds > 0, "no time")
     check(0.1 < found.scan_quality["PointDistance"] < 2 and 0 < found.scan_quality["Noise"] < 1, f"{found.scan_quality}")
@@ -178,7 +178,11 @@ try:
     pose = found[0]
     check((pose.transform == found.poses[0]).all() and pose.probability == found.probabilities[0], "the first row")
     check([row.score for row in found] == list(found.scores) and found[-1].score == found.scores[-1], "rows in their order")
-    check(len(str(found).splitlines()) == 1 + len(found) and f"{100 * pose.probability:.0f} %" in str(found), str(found))
+    check(len(str(found).splitlines()) == 1 + len(found) and f"{100 * pose.place_probability:.0f} %" in str(found), str(found))
+    check(abs(pose.probability - pose.place_probability * pose.certainty) < 1e-12, "the rotation stands beside the place")
+    shares = [share for _, share in pose.alternatives]
+    check(shares == sorted(shares, reverse=True) and sum(shares) + pose.certainty < 1 + 1e-9, f"other rotations {shares}")
+    check(not any(numpy.allclose(turned, pose.transform) for turned, _ in pose.alternatives), "they are others")
     check(pose.covariance.shape == (6, 6) and (numpy.linalg.eigvalsh(pose.covariance) > 0).all(), "the covariance")
     try:
         found[len(found)]
@@ -193,7 +197,8 @@ try:
     estimation = connect(vtkMEAMPoseEstimation(), model.data)
     estimation.SetInputDataObject(1, scan)
     poses = run(estimation)
-    for name, column in (("Transform", found.poses.reshape(-1, 16)), ("Score", found.scores), ("Probability", found.probabilities),
+    for name, column in (("Transform", found.poses.reshape(-1, 16)), ("Score", found.scores),
+                         ("PlaceProbability", found.place_probabilities), ("Probability", found.probabilities),
                          ("Certainty", found.certainties), ("VisibleFraction", found.visible_fractions)):
         check((vtk_to_numpy(poses.GetPointData().GetArray(name)) == column).all(), f"{name} is another one than of the filter")
     for name in ("Quaternion", "Votes", "ViewId", "Residual", "Covariance"):
@@ -228,7 +233,10 @@ try:
                         poses=1), ppfmeam.detect(model, points.astype(numpy.float64) / 1000 * 1000, grey, poses=1))
     check(len(ppfmeam.detect("part.stl", scan, poses=2)) == 2, "a CAD in the model's place")
     check(len(ppfmeam.detect(part.GetOutput(), scan, poses=1, preset="paper")) == 1, "a mesh in the model's place")
-    check(len(ppfmeam.detect(model, scan, poses=0, probability=0.99, threads=1)) <= COPIES, "likely ones only")
+    placed, turned = (ppfmeam.detect(model, scan, poses=0, probability=0.9, rotation_counts=counts, threads=1)
+                      for counts in (False, True))
+    check(len(turned) <= len(placed) <= COPIES, "likely ones only")
+    check((placed.place_probabilities >= 0.9).all() and (turned.probabilities >= 0.9).all(), "the rotation counts where it is to")
     edges = vtk_to_numpy(run(connect(vtkMEAMSceneEdgeExtraction(), scan)).GetPoints().GetData())
     cloudy = ppfmeam.detect(model, points.reshape(-1, 3), boundary=edges, poses=1)
     check(len(cloudy) == 1, "points that are not organized, with their edges")

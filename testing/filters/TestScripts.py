@@ -22,7 +22,7 @@ def helps():
     """Each script and each of its subcommands says what it takes."""
     # No programs, and those of the ablation, which need a target of their own.
     shared = {"TestAblation.py", "ablation.py", "benchmarks.py", "chains.py", "charts.py", "page.py", "results.py", "scenes.py", "search.py",
-              "stage.py"}
+              "siblings.py", "stage.py"}
     for name in sorted({*os.listdir(EXAMPLES), *os.listdir(EVALUATION)} - shared):
         if name.endswith(".py"):
             for subcommand in ((), *((word,) for word in SUBCOMMANDS.get(name, ()))):
