@@ -35,7 +35,8 @@ struct Pick
   double tilt = 0.0;      ///< degrees between the way in and straight down
   double reach = 0.0;     ///< mm from the bin's rim, or from the highest point measured, down to the grasp
   double covered = 0.0;   ///< [0, 1] of the part, from above
-  double score = 0.0; ///< [0, 1]: probability, quality, share uncovered, share of the comfortable clearance, multiplied
+  double score = 0.0;     ///< [0, 1]: probability as it counts here, quality, share uncovered, share of the comfortable
+                          ///< clearance, multiplied
 
   bool possible() const { return this->obstruction == PickObstruction::None; }
 };

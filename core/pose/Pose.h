@@ -5,6 +5,7 @@
 #include "mesh/Symmetries.h"
 #include "pose/objective/LookalikeDecision.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,7 @@ struct Pose
   double probability = 0.0; ///< [0, 1], that it is turned like this, too: placeProbability times certainty
   /// What poses of one scene are ordered by: logarithm of the odds that a copy is here, by all that was measured of it,
   /// less what a search for it costs (EvidenceAscent); of what is surer than 9 to 1 those that it is turned like this,
-  /// too.
+  /// too, but no less than 9 to 1.
   double evidence = 0.0;
   /// [0, 1], where a copy is here, how sure it is that the part is not turned by one of its near-symmetries: low when
   /// what breaks them is not in sight.
@@ -87,8 +88,17 @@ inline double placeOrScore(const Pose& pose)
   return pose.placeProbability > 0.0 ? pose.placeProbability : probabilityOrScore(pose);
 }
 
-/// Whether `a` comes before `b` among the poses of one scene.
-inline bool isBetter(const Pose& a, const Pose& b) { return a.evidence > b.evidence; }
+/// Whether `a` comes before `b` among the poses of one scene: by the evidence, and of equal ones by the probability.
+inline bool isBetter(const Pose& a, const Pose& b)
+{
+  return a.evidence != b.evidence ? a.evidence > b.evidence : a.probability > b.probability;
+}
+
+/// What a minimum probability is compared with: that a copy is there, or, where its rotation counts, the pose.
+inline double claimOf(const Pose& pose, bool rotationCounts)
+{
+  return rotationCounts ? pose.probability : std::max(pose.placeProbability, pose.probability);
+}
 
 /// In one sentence whether parts were found, and how sure that is: what counts is there more likely than not.
 std::string describe(const Poses& poses);

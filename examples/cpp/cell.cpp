@@ -17,7 +17,7 @@ try
   settings.minimumProbability = 0.5;
   for (const meam::DetectedPose& pose : meam::detect(meam::loadModel(argv[1]), meam::loadScan(argv[2]), settings).poses)
   {
-    std::cout << "probability " << pose.probability << '\n' << pose.T_scan_part.matrix() << '\n';
+    std::cout << "probability " << pose.placeProbability << '\n' << pose.T_scan_part.matrix() << '\n';
   }
 }
 catch (const meam::Error& error)

@@ -16,7 +16,7 @@ try
   const meam::Model model = meam::loadModel(argv[3]);
   for (const meam::DetectedPose& pose : meam::detect(model, meam::loadScan(argv[2])).poses)
   {
-    std::cout << "probability " << pose.probability << '\n' << pose.T_scan_part.matrix() << '\n';
+    std::cout << "probability " << pose.placeProbability << '\n' << pose.T_scan_part.matrix() << '\n';
   }
 }
 catch (const meam::Error& error)

@@ -5,12 +5,12 @@
  *
  * Each type is looked for by itself; this filter brings the poses together. Two poses, of different parts or of one,
  * are in conflict when more than MaximumShared of the measured points that either explains are explained by the other,
- * too. The pose stays that has the larger odds of its probability times the measured points that it explains, less
+ * too. The pose stays that has the larger odds of its place times the measured points that it explains, less
  * those that it predicts and the sensor saw past or did not measure. A small part that fits on a face of a larger one
  * loses against it; one that lies on top of it stays.
  *
  * Input port 0, repeatable: vtkPolyData, the verified poses of each part (vtkMEAMPoseVerification or
- * vtkMEAMPoseEstimation): `Transform`, `Probability`, `Score`, `VisibleFraction`.
+ * vtkMEAMPoseEstimation): `Transform`, `PlaceProbability`, `Probability`, `Score`, `VisibleFraction`.
  * Input port 1, repeatable: vtkPartitionedDataSetCollection, the trained model of each part (vtkMEAMHashing), in the
  * same order.
  * Input port 2: vtkPolyData, edge points of the scene in mm with `Tangent` (vtkMEAMTangentEstimation).

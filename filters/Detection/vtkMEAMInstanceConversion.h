@@ -35,8 +35,9 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
 void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, double deviations,
   const std::function<int(std::size_t)>& rankOf, const InstanceSettings& settings, vtkPolyData* output);
 
-/// The text `Label` for each pose: its rank and, where it is known, its probability, as in "1: 98 %"; nothing for a
-/// pose that is less likely, which gets no copy.
+/// The text `Label` for each pose: its rank and, where it is known, how likely it is there, as in "1: 98 %", and where
+/// it is unsure its rotation, as in "1: 98 %, rotation 30 %"; nothing for a pose that is less likely, which gets no
+/// copy.
 void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output);
 
 /// In a sentence how many poses get no copy for their probability, which `property` of a filter limits; empty: none.

@@ -4,7 +4,7 @@
  * @brief Puts a copy of the CAD mesh at every pose, coloured by rank, to look at.
  *
  * Input port 0: poses, best first, a vtkPolyData with the point array `Transform` (16, row-major
- * T_scene_model) and, where they are there, `Score`, `Probability` and `Rank`.
+ * T_scene_model) and, where they are there, `Score`, `PlaceProbability`, `Probability` and `Rank`.
  * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; MeshPreparation gives it.
  *
  * Output port 0: a vtkPolyData with all copies, best first. Point and cell arrays:

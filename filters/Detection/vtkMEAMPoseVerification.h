@@ -11,7 +11,8 @@
  *
  * Input ports: as vtkMEAMPoseAlgorithm has them.
  * Output port 0: vtkPolyData, the poses, or the best PosesPerView of each view, best first, with `Evidence` (logarithm
- * of the odds that the pose is right), `Probability` (the same as a probability), `Score` (share of the surface that
+ * of the odds that a copy is there), `PlaceProbability` (the same as a probability), `Probability` (that times
+ * `Certainty`), `Score` (share of the surface that
  * nothing hides that is there; without a surface, of the edges) and `VisibleFraction` (without a surface 1: nothing
  * tells what hides), all in [0, 1], `ViewId`, `Rank` and the other arrays of vtkMEAMPoseDetection.
  */

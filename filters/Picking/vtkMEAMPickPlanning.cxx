@@ -123,7 +123,7 @@ int vtkMEAMPickPlanning::RequestData(
       const meam::Poses poses = toPoses(posesInput);
       const meam::Grasps grasps = toGrasps(graspsInput);
       meam::Symmetries symmetries = symmetriesOf(part);
-      if (!symmetries.exact())
+      if (!symmetries.exact() && symmetries.near.empty())
       {
         symmetries = symmetriesOf(graspsInput);
       }

@@ -8,14 +8,13 @@
  * from above and keeps, on its whole way in, a safety margin from the bin, from other copies and from what was measured
  * besides (FCL). Of the turns of a grasp the one comes out where it is possible with most clearance.
  *
- * Input port 0: poses of the part, best first, a vtkPolyData with `Transform` and, where it is known, `Probability`.
- * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; with the field data of vtkMEAMSymmetryDetection,
- * or the grasps with it, symmetric grasps are tried, too.
- * Input port 2: grasps, a vtkPolyData with `Transform` (vtkMEAMGraspDefinition).
- * Input port 3, optional: all points the sensor measured, a vtkPointSet in mm. Without it only copies and bin are in
- * the way.
- * Input port 4, optional: any gripper as it stands open, a vtkPolyData with faces in the grasp's frame, mm:
- * origin between the jaws, z the way in. It takes the place of the one by lengths.
+ * Input port 0: poses of the part, best first, a vtkPolyData with `Transform` and, where they are known,
+ * `PlaceProbability` and `Probability`. Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; with the
+ * field data of vtkMEAMSymmetryDetection, or the grasps with it, symmetric grasps are tried, too. Input port 2: grasps,
+ * a vtkPolyData with `Transform` (vtkMEAMGraspDefinition). Input port 3, optional: all points the sensor measured, a
+ * vtkPointSet in mm. Without it only copies and bin are in the way. Input port 4, optional: any gripper as it stands
+ * open, a vtkPolyData with faces in the grasp's frame, mm: origin between the jaws, z the way in. It takes the place of
+ * the one by lengths.
  *
  * Output port 0: a vtkPolyData, a vertex at each pick: possible ones first, best first, then those that come farthest
  * in the order of Obstructions. Point arrays: `Transform` (16, row-major T_scene_grasp), `Quaternion` (x y z w), `Rank`

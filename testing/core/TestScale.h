@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sanitizers make everything slow: there the heaviest tests take less data, by which the same code runs.
+// Sanitizers make everything slow: there the heaviest tests take less data, by which the same code
+// runs; all of it with testing/run.sh --long.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__)

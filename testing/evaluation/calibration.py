@@ -3,8 +3,8 @@
 """Tells how often poses of each probability are right, of all poses that come out. The scenes are those of the Tohoku dataset
 (--tohoku), with the scene's surface and by edges alone, or of datasets in the form of the BOP benchmark such as `ppfmeam
 simulate` writes (--bop), with edges of their images. The row `all` has the mean logarithmic loss of the probabilities, and that
-of the logistic regression that fits these poses best: probability = 1 / (1 + exp(-constant - a * Evidence - b * log(Certainty)));
-constant 0, a 1 and b 0 are the probabilities as they are."""
+of the logistic regression that fits these poses best: probability = 1 / (1 + exp(-constant - a * place - b * log(Certainty)));
+`place` the log odds of PlaceProbability, the column Evidence: constant 0, a 1 and b 0 are the places as they are."""
 import numpy
 
 from ppfmeam import dataset, evaluation, scripting
@@ -14,7 +14,7 @@ import results
 import scenes as sources
 
 LIMITS = (0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.99, 1)
-ARRAYS = ("Probability", "Evidence", "Certainty")
+ARRAYS = ("Probability", "PlaceProbability", "Certainty")
 
 
 def noises(text):
@@ -69,7 +69,9 @@ def fitted(right, inputs):
 
 
 def rows_of(name, poses):
-    right, probability, evidence, certainty = poses.T
+    right, probability, place, certainty = poses.T
+    place = numpy.clip(place, 1e-12, 1 - 1e-12)
+    evidence = numpy.log(place / (1 - place))
     rows = []
     for low, high in zip(LIMITS, LIMITS[1:]):
         these = (probability >= low) & ((probability < high) | (high == 1))

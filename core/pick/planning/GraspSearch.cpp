@@ -20,8 +20,9 @@ constexpr int FewestInVoxel = 2;   // a point alone is none of a surface
 constexpr double SurfaceSpacing = 0.03; // of the points on the part that tell what lies at it and on it
 constexpr double MostOutside = 0.5;     // a grasp so far from the part is one of another part, or in another unit
 constexpr double LeastLength = 1e-3;    // mm, of a spacing
-constexpr double SameSurface = 0.02;    // a gripper finds the surface where it is no farther off
-constexpr int RimPoints = 8;            // of a cup
+constexpr double SameSurface = 0.01;    // a gripper finds the surface where it is no farther off
+constexpr int RimPoints = 8;            // of a cup, and as many half way to its middle
+constexpr int RoundSteps = 36;          // about the axis of a nearly round part, as its rotation is decided
 
 /// A gripper that touches the part it holds only where it holds it, however little its pose is off: thicker by the
 /// margin but on the pads of the jaws, whose room is their clearance, and on the cup's rim, which gives way.
@@ -103,29 +104,42 @@ bool GraspSearch::tooWide(const Grasp& grasp) const
 bool GraspSearch::holdsAnyRotation(const Grasp& grasp, const Symmetries& symmetries) const
 {
   Points touched;
+  const auto touch = [&](double x, double y)
+  { touched.push_back((grasp.T_model_grasp * Eigen::Vector3d(x, y, 0.0)).cast<float>()); };
   if (grasp.kind == GraspKind::Parallel)
   {
-    for (const double side : { -0.5, 0.5 })
-    {
-      touched.push_back((grasp.T_model_grasp * Eigen::Vector3d(side * grasp.width, 0.0, 0.0)).cast<float>());
-    }
+    touch(-0.5 * grasp.width, 0.0);
+    touch(0.5 * grasp.width, 0.0);
   }
   else
   {
-    const double radius = 0.5 * this->Claw.cupDiameter;
+    touch(0.0, 0.0);
     for (int k = 0; k < RimPoints; ++k)
     {
       const double angle = 2.0 * M_PI * k / RimPoints;
-      const Eigen::Vector3d rim(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-      touched.push_back((grasp.T_model_grasp * rim).cast<float>());
+      for (const double radius : { 0.25 * this->Claw.cupDiameter, 0.5 * this->Claw.cupDiameter })
+      {
+        touch(radius * std::cos(angle), radius * std::sin(angle));
+      }
+    }
+  }
+  std::vector<Eigen::Isometry3d> turns;
+  for (const NearSymmetry& symmetry : symmetries.near)
+  {
+    turns.push_back(symmetry.T);
+  }
+  for (const ContinuousSymmetry& axis : nearlyRoundAxes(symmetries))
+  {
+    for (int k = 1; k < RoundSteps; ++k)
+    {
+      turns.push_back(turnAbout(axis.axis, 2.0 * M_PI * k / RoundSteps, axis.point));
     }
   }
   const double near = SameSurface * this->partSize();
-  // The part turned by a near-symmetry, where the gripper goes to where it would be as it is.
-  return !symmetries.near.empty() &&
-         std::all_of(symmetries.near.begin(), symmetries.near.end(),
-           [&](const NearSymmetry& symmetry)
-           { return this->Surface.pointsAt(symmetry.T, touched, near).size() == touched.size(); });
+  // The part turned so, where the gripper goes to where it would be as it is.
+  return !turns.empty() && std::all_of(turns.begin(), turns.end(),
+                             [&](const Eigen::Isometry3d& turn)
+                             { return this->Surface.pointsAt(turn, touched, near).size() == touched.size(); });
 }
 
 double GraspSearch::step() const { return std::max(this->Settings.safetyMargin, 1.0); }

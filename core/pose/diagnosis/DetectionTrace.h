@@ -54,7 +54,7 @@ public:
   const Poses& ranked() const { return this->Stages.back().poses; }
   /// The scan's rates, by all candidates; none with the paper's verification.
   const std::optional<EvidenceRates>& rates() const { return this->Report.rates; }
-  /// What would come out without a limit on the number of poses and their probability: the first of them are ranked().
+  /// What would come out without a limit on the number of poses and their probability: ranked() are of them.
   /// Found when it is asked for.
   const Poses& unlimited();
   /// What would be refined if all were that are of different instances. Found when it is asked for.

@@ -183,7 +183,7 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     diagnosis.rank = diagnosis.rankWithoutLimits = stages.back().bestRank;
     diagnosis.offset =
       offsetBetween(this->Trace.ranked()[diagnosis.rank - 1].T_scene_model, T_local_model, this->Model);
-    diagnosis.probability = placeOrScore(this->Trace.ranked()[diagnosis.rank - 1]);
+    diagnosis.probability = claimOf(this->Trace.ranked()[diagnosis.rank - 1], this->Detection.selection.rotationCounts);
     if (diagnosis.offset.angle < FoundAngle)
     {
       return LossCause::None;
@@ -259,7 +259,7 @@ LossCause PoseDiagnosis::notWanted(Diagnosis& diagnosis, int rank, const Eigen::
   diagnosis.lostIn = PoseStage::Selection;
   diagnosis.rankWithoutLimits = rank;
   diagnosis.offset = offsetBetween(pose.T_scene_model, T_local_model, this->Model);
-  diagnosis.probability = placeOrScore(pose);
+  diagnosis.probability = claimOf(pose, this->Detection.selection.rotationCounts);
   return LossCause::NotWanted;
 }
 

@@ -24,7 +24,7 @@ constexpr float Facing = 0.8f; // cosine between the part's normal and the measu
 SurfaceContinuation::SurfaceContinuation(const Scene& scene, const TrainedModel& model)
   : InScene(scene)
   , Model(model)
-  , Tolerance(static_cast<float>(std::max(FitDistance * model.diameter, Noises * scene.quality.noise)))
+  , Tolerance(static_cast<float>(FitDistance * model.diameter))
   , Noise(static_cast<float>(scene.quality.noise))
   , Reach(static_cast<int>(Farthest * model.diameter / scene.depth.cellSize()))
 {

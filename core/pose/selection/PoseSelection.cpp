@@ -262,7 +262,6 @@ void excludeOverlaps(std::vector<Finished>& found, const TrainedModel& model)
   for (int k = 0; k < count; ++k)
   {
     found[k].logOdds -= std::log1p(others[k]);
-    found[k].logOddsBefore -= std::log1p(others[k]);
     setEvidence(found[k].pose, found[k].logOdds);
   }
 }
@@ -379,13 +378,10 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
                      : selectClusters(scored, model, settings, progress);
   const bool isForRefinement = settings.method == SelectionMethod::Alternatives;
   const double leastScore = isForRefinement && !scored.empty() ? LeastScore * scored.front().score : 0.0;
-  selected.erase(std::remove_if(selected.begin(), selected.end(),
-                   [&](const Pose& pose)
-                   {
-                     const double probability =
-                       settings.rotationCounts ? pose.probability : std::max(pose.placeProbability, pose.probability);
-                     return pose.score < leastScore || probability < settings.minimumProbability;
-                   }),
+  selected.erase(
+    std::remove_if(selected.begin(), selected.end(),
+      [&](const Pose& pose)
+      { return pose.score < leastScore || claimOf(pose, settings.rotationCounts) < settings.minimumProbability; }),
     selected.end());
   std::size_t most = settings.maximumPoses > 0 ? settings.maximumPoses : selected.size();
   if (settings.maximumPoses == 0 && isForRefinement)

@@ -81,7 +81,7 @@ RefinementRestarts::RefinementRestarts(const Scene& scene, const TrainedModel& m
 Pose RefinementRestarts::best(const Pose& pose, PoseComparison::Contender& asItIs) const
 {
   Pose best = pose;
-  if (pose.probability < WorthTrying)
+  if (claimOf(pose, false) < WorthTrying)
   {
     return best;
   }
@@ -107,7 +107,7 @@ Pose RefinementRestarts::best(const Pose& pose, PoseComparison::Contender& asItI
   }
   for (const Eigen::Isometry3d& turn : this->SmallTurns)
   {
-    if (pose.probability < Sure)
+    if (claimOf(pose, false) < Sure)
     {
       tryFrom(pose.T_scene_model * turn);
     }

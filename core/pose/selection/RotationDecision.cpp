@@ -74,7 +74,7 @@ RotationDecision::RotationDecision(const Scene& scene, const TrainedModel& model
 void RotationDecision::decide(Pose& pose, PoseComparison::Contender asItIs) const
 {
   const std::size_t nearSymmetries = this->Model.symmetries.near.size();
-  const bool isLikely = pose.probability >= WorthAsking;
+  const bool isLikely = claimOf(pose, false) >= WorthAsking;
   const std::size_t turns = isLikely ? this->Turns.size() : nearSymmetries;
   for (int round = 0; round < Rounds; ++round)
   {
