@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Python module for ablation.py and siblings.py: the method with one decision switched off, on arrays. What a switch does not change is
-// computed once for all switches of a scene.
+// Python module for ablation.py and siblings.py: the method with one decision switched off, on arrays. What a switch
+// does not change is computed once for all switches of a scene.
 #include "evaluation/PoseEvaluation.h"
 #include "io/MeshFile.h"
 #include "io/PCDFile.h"
