@@ -42,7 +42,7 @@ constexpr double Sure = 0.995; // of a rotation that rounds to 100 %
 
 bool isDrawn(const meam::Pose& pose, double minimumProbability)
 {
-  const double place = pose.placeProbability > 0.0 ? pose.placeProbability : pose.probability;
+  const double place = meam::claimOf(pose, false);
   return !(place > 0.0) || place >= minimumProbability;
 }
 
@@ -206,9 +206,9 @@ void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData*
   {
     std::string label = isDrawn(poses[k], minimumProbability) ? std::to_string(k + 1) : "";
     const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
-    if (!label.empty() && meam::placeOrScore(poses[k]) > 0.0 && poses[k].probability > 0.0)
+    if (!label.empty() && meam::claimOf(poses[k], false) > 0.0)
     {
-      label += ": " + percent(meam::placeOrScore(poses[k]));
+      label += ": " + percent(meam::claimOf(poses[k], false));
       label += poses[k].certainty < Sure ? ", rotation " + percent(poses[k].certainty) : "";
     }
     labels->InsertNextValue(label);

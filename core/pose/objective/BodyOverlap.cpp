@@ -9,10 +9,9 @@ namespace meam
 {
 namespace
 {
-constexpr double Deepest = 0.1;     // of the diameter, of what is looked at: its neighbours are less deep
-constexpr double LeastShare = 0.05; // of the surface that lies inside; less may be where the part is bent
-constexpr float StraightBelow =
-  0.7f; // cosine between the way to the nearest sample and its normal: else beside an edge
+constexpr double Deepest = 0.1;       // of the diameter, of what is looked at: its neighbours are less deep
+constexpr double LeastShare = 0.05;   // of the surface that lies inside; less may be where the part is bent
+constexpr float StraightBelow = 0.7f; // cosine, way to the nearest sample against its normal: else beside an edge
 }
 
 BodyOverlap::BodyOverlap(const TrainedModel& model)

@@ -15,9 +15,9 @@ namespace
 constexpr double Farthest = 0.12;   // of the diameter: what lies farther may be another body
 constexpr int Margin = 2;           // cells beside the part that do not count: sensors smooth across edges
 constexpr float SmoothTurn = 0.97f; // cosine between the normals of neighbours on one face: 14 degrees
-constexpr float SmoothSlope =
-  0.25f;                       // and of the distance between them so much off each other's plane: 14 degrees, too,
-constexpr float Noises = 2.0f; // and standard deviations of noise
+// How far they lie off each other's plane: so much of the distance between them, 14 degrees, and standard deviations.
+constexpr float SmoothSlope = 0.25f;
+constexpr float Noises = 2.0f;
 constexpr float Facing = 0.8f; // cosine between the part's normal and the measured one, of a surface that fits
 }
 

@@ -3,11 +3,10 @@
 
 #include "base/Parallel.h"
 #include "pose/PoseTolerances.h"
-#include "pose/objective/BodyOverlap.h"
-#include "pose/objective/LookalikeDecision.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/selection/InstanceChoice.h"
+#include "pose/selection/InstanceOdds.h"
 #include "pose/selection/PoseClusters.h"
 #include "pose/selection/RotationDecision.h"
 #include "pose/verification/PoseVerification.h"
@@ -17,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace meam
 {
@@ -28,8 +26,6 @@ constexpr int LeastRefined = 60;         // so many are, and all that are likeli
 constexpr double WorthRefining = 3e-7;   // (probability, of poses that are not refined yet)
 constexpr double RotatedDistance = 0.04; // of the diameter: correspondences of another rotation, which is nearly right
 constexpr int RotatedIterations = 6;     // of it
-constexpr double WorthAsking = 0.02;     // place of a pose; of less it does not matter what contradicts it
-constexpr double Likely = 0.5;           // place of a pose that explains what it lies on
 constexpr std::size_t RateStride = 2;    // of the points that tell the scan's rates of edges one of so many
 
 double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel& model)
@@ -45,15 +41,6 @@ PoseRefinementSettings rotatedSettings(const TrainedModel& model)
   rotated.threads = 1; // poses are worked on in parallel
   return rotated;
 }
-
-struct Finished
-{
-  Pose pose;
-  Points matched;       ///< by it
-  Points beyond;        ///< measured surface that goes on beside it (SurfaceContinuation)
-  double logOdds;       ///< that a copy is there,
-  double logOddsBefore; ///< and of the pose before it was moved to where the scan speaks for it the most
-};
 
 /// Looks for the rotation of an instance, aligns it, moves it where the scan contradicts it, and scores it.
 class InstanceFinish
@@ -75,7 +62,7 @@ public:
   {
   }
 
-  Finished finish(Pose pose, InstanceChoice& choice, int index) const
+  FinishedInstance finish(Pose pose, InstanceChoice& choice, int index) const
   {
     PoseComparison::Contender asItIs = choice.contender(index);
     if (this->Settings.restartsRefinement)
@@ -116,7 +103,7 @@ public:
     setEvidence(pose, best.logOdds);
     const EvidenceCounts& counts = best.evidence.counts;
     pose.contradictions.past = counts.past + counts.farPast;
-    const bool isAsked = pose.placeProbability > WorthAsking && haveSurfaces(this->InScene, this->Model);
+    const bool isAsked = pose.placeProbability > WorthExplaining && haveSurfaces(this->InScene, this->Model);
     const Points beyond = isAsked ? this->Continuation.beyond(pose.T_scene_model) : Points();
     return { pose, best.evidence.matched(), beyond, best.logOdds, best.logOddsBefore };
   }
@@ -152,16 +139,10 @@ private:
   SurfaceContinuation Continuation;
 };
 
-void sortBest(std::vector<Finished>& found)
-{
-  std::stable_sort(
-    found.begin(), found.end(), [](const Finished& a, const Finished& b) { return isBetter(a.pose, b.pose); });
-}
-
 /// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
 /// come to the same place, and what others explain speaks for no more.
-std::vector<Finished> withoutShared(
-  const std::vector<Finished>& found, const TrainedModel& model, const PoseSelectionSettings& settings)
+std::vector<FinishedInstance> withoutShared(
+  const std::vector<FinishedInstance>& found, const TrainedModel& model, const PoseSelectionSettings& settings)
 {
   const double near = SharedDistance * model.diameter;
   const double distance = clusterDistance(settings, model);
@@ -171,8 +152,8 @@ std::vector<Finished> withoutShared(
     PointGrid matched;
   };
   std::vector<Kept> kept;
-  std::vector<Finished> distinct;
-  for (const Finished& finished : found)
+  std::vector<FinishedInstance> distinct;
+  for (const FinishedInstance& finished : found)
   {
     const Pose& pose = finished.pose;
     const Points& matched = finished.matched;
@@ -203,86 +184,6 @@ std::vector<Finished> withoutShared(
   return distinct;
 }
 
-/// Of poses, best first: no pose is likelier than that it is of the part and not of one that looks alike, which what
-/// the pose does not explain of the face that it lies on, nor another pose does, and what it lacks tell.
-void allowForLookalikes(std::vector<Finished>& found, const Scene& scene, const TrainedModel& model)
-{
-  const SurfaceContinuation continuation(scene, model);
-  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
-  std::vector<Contradictions> contradictions;
-  std::vector<double> places;
-  for (Finished& finished : found)
-  {
-    Pose& pose = finished.pose;
-    std::vector<Eigen::Isometry3f> beside;
-    for (const Finished& other : found)
-    {
-      const bool isNear = translationError(other.pose.T_scene_model, pose.T_scene_model, middle) < 1.5 * model.diameter;
-      if (&other != &finished && isNear && other.pose.placeProbability >= Likely)
-      {
-        beside.push_back(other.pose.T_scene_model.inverse().cast<float>());
-      }
-    }
-    const auto isLeft = [&](const Eigen::Vector3f& point)
-    {
-      return std::none_of(beside.begin(), beside.end(),
-        [&](const Eigen::Isometry3f& T_model_scene) { return continuation.isOn(point, T_model_scene); });
-    };
-    const auto left = std::count_if(finished.beyond.begin(), finished.beyond.end(), isLeft);
-    pose.contradictions.continuing = static_cast<double>(left) * continuation.patchesOfPoint();
-    contradictions.push_back(pose.contradictions);
-    places.push_back(pose.placeProbability >= Likely ? pose.placeProbability : 0.0); // others are nothing at all
-  }
-  const std::vector<double> shares = sharesOfPart(contradictions, places);
-  for (std::size_t k = 0; k < found.size(); ++k)
-  {
-    found[k].logOdds = withCertainty(found[k].logOdds, shares[k]);
-    setEvidence(found[k].pose, found[k].logOdds);
-  }
-}
-
-/// Of poses, best first: of two whose bodies cut into each other one is right at most.
-void excludeOverlaps(std::vector<Finished>& found, const TrainedModel& model)
-{
-  const BodyOverlap overlap(model);
-  const auto count = std::count_if(
-    found.begin(), found.end(), [](const Finished& finished) { return finished.pose.placeProbability > WorthAsking; });
-  std::vector<double> others(count, 0.0); // odds of those that cut into each
-  for (int k = 0; k < count; ++k)
-  {
-    for (int other = 0; other < k; ++other)
-    {
-      if (overlap.cut(found[k].pose.T_scene_model, found[other].pose.T_scene_model))
-      {
-        others[k] += std::exp(found[other].logOdds);
-        others[other] += std::exp(found[k].logOdds);
-      }
-    }
-  }
-  for (int k = 0; k < count; ++k)
-  {
-    found[k].logOdds -= std::log1p(others[k]);
-    setEvidence(found[k].pose, found[k].logOdds);
-  }
-}
-
-/// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
-/// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
-void allowForAbsence(std::vector<Finished>& found)
-{
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Finished& finished : found)
-  {
-    best = std::max(best, finished.logOddsBefore);
-  }
-  const double present = std::max(LeastPresent, probabilityOf(CalibrationOfPresence.logOdds(best)));
-  for (Finished& finished : found)
-  {
-    finished.logOdds = withCertainty(finished.logOdds, present);
-    setEvidence(finished.pose, finished.logOdds);
-  }
-}
-
 /// One for each instance, with its final pose; best first.
 Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings, const Progress& progress)
@@ -294,7 +195,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   const std::vector<int> selected = choice.select(subProgress(progress, 0.0, 0.3));
   const EvidenceRates rates = evidenceRatesOf(scored, collector, settings.evidence, RateStride, settings.threads);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison);
-  std::vector<Finished> finished(selected.size());
+  std::vector<FinishedInstance> finished(selected.size());
   parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),
     [&](int begin, int end, int)
     {
@@ -326,7 +227,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   }
   Poses instances;
   std::transform(finished.begin(), finished.end(), std::back_inserter(instances),
-    [](const Finished& instance) { return instance.pose; });
+    [](const FinishedInstance& instance) { return instance.pose; });
   return instances;
 }
 }

@@ -119,12 +119,13 @@ TEST(PoseSelection, NoPoseIsLikelierThanThatThePartIsThereAtAll)
   meam::PoseSelectionSettings settings;
   settings.evidence.rates.emplace();
   settings.restartsRefinement = false; // the wrong pose stays
+  settings.weighsLookalikes = false;   // which another pose beside it changes, too
   const auto last = [&](const meam::Poses& poses) { return selected(poses, settings).back(); };
   const meam::Pose alone = last({ displaced(wrong) });
   const meam::Pose besideTheTrueOne = last({ displaced(wrong), displaced(scenes::threeCopies()[0]) });
   ASSERT_TRUE(alone.T_scene_model.isApprox(besideTheTrueOne.T_scene_model, 1e-9));
   EXPECT_LT(alone.probability, 0.3 * besideTheTrueOne.probability);
-  EXPECT_GT(alone.probability, 0.19 * besideTheTrueOne.probability) << "it may be alone";
+  EXPECT_GT(alone.probability, 0.2 * besideTheTrueOne.probability) << "it may be alone";
   settings.partIsPresent = true;
   EXPECT_NEAR(
     last({ displaced(wrong) }).probability, besideTheTrueOne.probability, 0.05 * besideTheTrueOne.probability);

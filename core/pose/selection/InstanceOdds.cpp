@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/InstanceOdds.h"
+
+#include "pose/objective/BodyOverlap.h"
+#include "pose/objective/SurfaceContinuation.h"
+#include "pose/verification/PoseVerification.h"
+#include "pose/verification/ProbabilityCalibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meam
+{
+namespace
+{
+constexpr double Likely = 0.5; // place of a pose that explains what it lies on
+}
+
+void sortBest(FinishedInstances& found)
+{
+  std::stable_sort(found.begin(), found.end(),
+    [](const FinishedInstance& a, const FinishedInstance& b) { return isBetter(a.pose, b.pose); });
+}
+
+void excludeOverlaps(FinishedInstances& found, const TrainedModel& model)
+{
+  const BodyOverlap overlap(model);
+  const auto count = std::count_if(found.begin(), found.end(),
+    [](const FinishedInstance& finished) { return finished.pose.placeProbability > WorthExplaining; });
+  std::vector<double> others(count, 0.0); // odds of those that cut into each
+  for (int k = 0; k < count; ++k)
+  {
+    for (int other = 0; other < k; ++other)
+    {
+      if (overlap.cut(found[k].pose.T_scene_model, found[other].pose.T_scene_model))
+      {
+        others[k] += std::exp(found[other].logOdds);
+        others[other] += std::exp(found[k].logOdds);
+      }
+    }
+  }
+  for (int k = 0; k < count; ++k)
+  {
+    found[k].logOdds -= std::log1p(others[k]);
+    setEvidence(found[k].pose, found[k].logOdds);
+  }
+}
+
+void allowForLookalikes(FinishedInstances& found, const Scene& scene, const TrainedModel& model)
+{
+  const SurfaceContinuation continuation(scene, model);
+  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
+  std::vector<Contradictions> contradictions;
+  std::vector<double> places;
+  for (FinishedInstance& finished : found)
+  {
+    Pose& pose = finished.pose;
+    std::vector<Eigen::Isometry3f> beside;
+    for (const FinishedInstance& other : found)
+    {
+      const bool isNear = translationError(other.pose.T_scene_model, pose.T_scene_model, middle) < 1.5 * model.diameter;
+      if (&other != &finished && isNear && other.pose.placeProbability >= Likely)
+      {
+        beside.push_back(other.pose.T_scene_model.inverse().cast<float>());
+      }
+    }
+    const auto isLeft = [&](const Eigen::Vector3f& point)
+    {
+      return std::none_of(beside.begin(), beside.end(),
+        [&](const Eigen::Isometry3f& T_model_scene) { return continuation.isOn(point, T_model_scene); });
+    };
+    const auto left = std::count_if(finished.beyond.begin(), finished.beyond.end(), isLeft);
+    pose.contradictions.continuing = static_cast<double>(left) * continuation.patchesOfPoint();
+    contradictions.push_back(pose.contradictions);
+    places.push_back(pose.placeProbability >= Likely ? pose.placeProbability : 0.0); // others are nothing at all
+  }
+  const std::vector<double> shares = sharesOfPart(contradictions, places);
+  for (std::size_t k = 0; k < found.size(); ++k)
+  {
+    found[k].logOdds = withCertainty(found[k].logOdds, shares[k]);
+    setEvidence(found[k].pose, found[k].logOdds);
+  }
+}
+
+void allowForAbsence(FinishedInstances& found)
+{
+  double best = -std::numeric_limits<double>::infinity();
+  for (const FinishedInstance& finished : found)
+  {
+    best = std::max(best, finished.logOddsBefore);
+  }
+  const double present = std::max(LeastPresent, probabilityOf(CalibrationOfPresence.logOdds(best)));
+  for (FinishedInstance& finished : found)
+  {
+    finished.logOdds = withCertainty(finished.logOdds, present);
+    setEvidence(finished.pose, finished.logOdds);
+  }
+}
+}

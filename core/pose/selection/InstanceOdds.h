@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "model/TrainedModel.h"
+#include "pose/Pose.h"
+#include "scene/Scene.h"
+
+namespace meam
+{
+/// An instance with its final pose.
+struct FinishedInstance
+{
+  Pose pose;
+  Points matched;       ///< by it
+  Points beyond;        ///< measured surface that goes on beside it (SurfaceContinuation)
+  double logOdds;       ///< that a copy is there,
+  double logOddsBefore; ///< and of the pose before it was moved to where the scan speaks for it the most
+};
+
+using FinishedInstances = std::vector<FinishedInstance>;
+
+/// Place of a pose; of less it does not matter what contradicts it.
+inline constexpr double WorthExplaining = 0.02;
+
+void sortBest(FinishedInstances& found);
+
+/// Of poses, best first: of two whose bodies cut into each other one is right at most.
+void excludeOverlaps(FinishedInstances& found, const TrainedModel& model);
+
+/// Of poses, best first: no pose is likelier than that it is of the part and not of one that looks alike, which what
+/// the pose does not explain of the face that it lies on, nor another pose does, and what it lacks tell.
+void allowForLookalikes(FinishedInstances& found, const Scene& scene, const TrainedModel& model);
+
+/// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
+/// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
+void allowForAbsence(FinishedInstances& found);
+}
