@@ -18,7 +18,7 @@ from ppfmeam import scripting  # noqa: E402
 
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
-scripting.write_model(dataset("bins", 2, 160, 120, copies=2)[0], "plate.meam")
+scripting.write_model(dataset("bins", 1, 160, 120, copies=3)[0], "plate.meam")
 WITHOUT = ("AVX", "AVX2", "AVX512F", "AVX512VL", "AVX512BW", "AVX512DQ", "AVX512CD", "FMA", "FMA4", "ERMS")
 PLAIN_LIBRARY = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=" + ",".join(f"-{name},-{name}_Usable" for name in WITHOUT)}
 PLAIN_OPENCV = {"OPENCV_CPU_DISABLE": "SSE4.1,SSE4.2,AVX,FP16,AVX2,FMA3,AVX512F,AVX512-SKX"}
