@@ -59,6 +59,33 @@ std::string errorOf(Work&& work)
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+/// Reads files that have given bytes, by a function of the path.
+template <typename Read>
+struct Reader
+{
+  Read read;
+  std::string name = "file";
+
+  auto operator()(const std::string& bytes) const
+  {
+    const Folder folder;
+    return this->read(folder.write(this->name, bytes));
+  }
+
+  /// An error that names the file and has these words.
+  void fails(const std::string& bytes, const std::string& words) const
+  {
+    const Folder folder;
+    const std::string path = folder.write(this->name, bytes);
+    const std::string error = errorOf([&] { this->read(path); });
+    EXPECT_TRUE(contains(error, words) && contains(error, path)) << bytes << "\nsays: " << error;
+  }
+};
+template <typename Read>
+Reader(Read) -> Reader<Read>;
+template <typename Read>
+Reader(Read, const char*) -> Reader<Read>;
+
 template <typename T>
 std::string raw(T value)
 {

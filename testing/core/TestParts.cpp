@@ -47,6 +47,25 @@ meam::TriangleMesh prism(const std::vector<Eigen::Vector2f>& outline, float heig
   return mesh;
 }
 
+meam::TriangleMesh regularPrism(int corners, double radius, float height)
+{
+  std::vector<Eigen::Vector2f> outline;
+  for (int i = 0; i < corners; ++i)
+  {
+    const double angle = 2.0 * M_PI * i / corners;
+    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return prism(outline, height);
+}
+
+meam::TriangleMesh rectangle(float width, float height)
+{
+  meam::TriangleMesh mesh;
+  mesh.vertices = { { 0, 0, 0 }, { width, 0, 0 }, { width, height, 0 }, { 0, height, 0 } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  return mesh;
+}
+
 meam::TriangleMesh lBracket()
 {
   return prism({ { 18, 12 }, { 18, 40 }, { 0, 40 }, { 0, 0 }, { 60, 0 }, { 60, 12 } }, 15);

@@ -5,16 +5,25 @@
 #include "features/TangentEstimation.h"
 #include "mesh/TriangleMesh.h"
 
-#include <cmath>
+#include <limits>
 #include <random>
 
 namespace parts
 {
+/// A coordinate of what was not measured.
+constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
+
 /// An axis-aligned box, outward triangles.
 meam::TriangleMesh box(const Eigen::Vector3f& low, const Eigen::Vector3f& high);
 
 /// A prism over a polygon in the xy plane (counter-clockwise, star-shaped about its first corner).
 meam::TriangleMesh prism(const std::vector<Eigen::Vector2f>& outline, float height);
+
+/// Of many corners a cylinder; about z, on the plane z = 0.
+meam::TriangleMesh regularPrism(int corners, double radius, float height);
+
+/// From the origin along x and y in the plane z = 0, facing up.
+meam::TriangleMesh rectangle(float width, float height);
 
 /// An L of unequal legs, 60 x 40 x 15 mm: no rotation maps it onto itself. The first corner is the
 /// inner one, from which all others are seen.

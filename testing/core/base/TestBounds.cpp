@@ -9,18 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
-namespace
-{
-const float NaN = std::numeric_limits<float>::quiet_NaN();
-}
-
 TEST(Bounds, BoundsOfAnyNumberOfPointsSomeOfWhichAreInvalid)
 {
   EXPECT_TRUE(meam::bounds({}).isEmpty());
-  EXPECT_TRUE(meam::bounds({ { NaN, 0, 0 }, { 0, 0, INFINITY } }).isEmpty());
+  EXPECT_TRUE(meam::bounds({ { parts::NaN, 0, 0 }, { 0, 0, INFINITY } }).isEmpty());
   std::mt19937 random(5);
   std::uniform_real_distribution<float> coordinate(-9.0f, 9.0f);
   for (int count = 1; count < 40; ++count)
@@ -32,7 +24,7 @@ TEST(Bounds, BoundsOfAnyNumberOfPointsSomeOfWhichAreInvalid)
       const Eigen::Vector3f point(coordinate(random), coordinate(random), coordinate(random));
       points.push_back(point);
       expected.extend(point);
-      points.push_back({ i % 2 ? NaN : 1e9f, i % 3 ? 1e9f : INFINITY, i % 2 ? 1e9f : -INFINITY });
+      points.push_back({ i % 2 ? parts::NaN : 1e9f, i % 3 ? 1e9f : INFINITY, i % 2 ? 1e9f : -INFINITY });
     }
     const Eigen::AlignedBox3f box = meam::bounds(points);
     EXPECT_EQ(box.min(), expected.min()) << count;

@@ -9,13 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <tuple>
-
-namespace
-{
-const float NaN = std::numeric_limits<float>::quiet_NaN();
-}
 
 TEST(Frames, FrameIsRightHandedWithTheAxisFirst)
 {
@@ -47,7 +41,7 @@ TEST(Frames, ThePrincipalFrameOfPointsOnALine)
 {
   // Their mean is (3, 0, 2); along x they are skewed towards greater values.
   const Eigen::Isometry3d frame =
-    meam::principalFrame({ { 0, 0, 2 }, { NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
+    meam::principalFrame({ { 0, 0, 2 }, { parts::NaN, 0, 2 }, { 1, 0, 2 }, { 8, 0, 2 }, { 1, INFINITY, 2 } });
   EXPECT_TRUE((frame * Eigen::Vector3d(3, 0, 2)).isZero(1e-9));
   EXPECT_TRUE((frame * Eigen::Vector3d(8, 0, 2)).isApprox(Eigen::Vector3d(5, 0, 0), 1e-9));
 }

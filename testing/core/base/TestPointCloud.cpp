@@ -8,14 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
-namespace
-{
-const float NaN = std::numeric_limits<float>::quiet_NaN();
-}
-
 TEST(PointCloud, SubsetTakesEveryArrayThatIsThere)
 {
   meam::PointCloud cloud;
@@ -31,14 +23,14 @@ TEST(PointCloud, SubsetTakesEveryArrayThatIsThere)
 TEST(PointCloud, PointsAreRequired)
 {
   EXPECT_THROW(meam::requirePoints({}, "The scene"), meam::Error);
-  EXPECT_THROW(meam::requirePoints({ { NaN, 0, 0 } }, "The scene"), meam::Error);
-  EXPECT_NO_THROW(meam::requirePoints({ { NaN, 0, 0 }, { 1, 2, 3 } }, "The scene"));
+  EXPECT_THROW(meam::requirePoints({ { parts::NaN, 0, 0 } }, "The scene"), meam::Error);
+  EXPECT_NO_THROW(meam::requirePoints({ { parts::NaN, 0, 0 }, { 1, 2, 3 } }, "The scene"));
 }
 
 TEST(PointCloud, InvalidPointsAreLeftOut)
 {
   meam::PointCloud cloud;
-  cloud.points = { { 1, 2, 3 }, { 0, NaN, 0 }, { -1, 5, 3 } };
+  cloud.points = { { 1, 2, 3 }, { 0, parts::NaN, 0 }, { -1, 5, 3 } };
   cloud.pointIds = { 0, 1, 2 };
   EXPECT_EQ(meam::finitePoints(cloud).pointIds, std::vector<int>({ 0, 2 }));
   const Eigen::AlignedBox3f box = meam::bounds(cloud.points);

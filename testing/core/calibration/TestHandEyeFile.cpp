@@ -2,23 +2,12 @@
 #include "calibration/HandEyeFile.h"
 #include "TestFiles.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 const std::string Identity = "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]";
 const std::string Turned = "[0,-1,0,1.5, 1,0,0,2, 0,0,1,3, 0,0,0,1]";
 
-meam::HandEyeFile read(const std::string& text)
-{
-  const files::Folder folder;
-  return meam::readHandEye(folder.write("pairs", text));
-}
-
-std::string errorOf(const std::string& text)
-{
-  return files::errorOf([&] { read(text); });
-}
+const files::Reader readHandEye{ meam::readHandEye, "pairs" };
 
 std::string pair(const std::string& gripper, const std::string& target)
 {
@@ -28,13 +17,14 @@ std::string pair(const std::string& gripper, const std::string& target)
 
 TEST(HandEyeFile, json)
 {
-  const meam::HandEyeFile file = read("{\"pairs\": [" + pair(Identity, Turned) + "," + pair(Turned, Identity) + "]}");
+  const meam::HandEyeFile file =
+    readHandEye("{\"pairs\": [" + pair(Identity, Turned) + "," + pair(Turned, Identity) + "]}");
   ASSERT_EQ(file.pairs.size(), 2u);
   EXPECT_FALSE(file.mount);
   EXPECT_TRUE(file.pairs[0].T_base_gripper.matrix().isIdentity());
   EXPECT_EQ(file.pairs[0].T_camera_target * Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1.5, 3, 3));
   const meam::HandEyeFile metres =
-    read(R"({"units": "m", "mount": "hand", "pairs": [)" + pair(Identity, Turned) + "]}");
+    readHandEye(R"({"units": "m", "mount": "hand", "pairs": [)" + pair(Identity, Turned) + "]}");
   EXPECT_EQ(metres.pairs[0].T_camera_target.translation(), Eigen::Vector3d(1500, 2000, 3000));
   EXPECT_EQ(metres.mount, meam::CameraMount::Hand);
 }
@@ -44,7 +34,7 @@ TEST(HandEyeFile, table)
   const std::string row = "1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1,0,-1,0,1.5,1,0,0,2,0,0,1,3,0,0,0,1\n";
   for (const char* header : { "", "b00,b01 and so on\n", "# robot, camera\n" })
   {
-    const meam::HandEyeFile file = read(header + row + row);
+    const meam::HandEyeFile file = readHandEye(header + row + row);
     ASSERT_EQ(file.pairs.size(), 2u);
     EXPECT_EQ(file.pairs[1].T_camera_target.translation(), Eigen::Vector3d(1.5, 2, 3));
   }
@@ -52,14 +42,12 @@ TEST(HandEyeFile, table)
 
 TEST(HandEyeFile, errorsNameThePair)
 {
-  EXPECT_TRUE(files::contains(errorOf("{}"), "'pairs'"));
-  EXPECT_TRUE(files::contains(errorOf("{\"pairs\": [{}]}"), "'T_base_gripper' in pair 1"));
-  EXPECT_TRUE(files::contains(
-    errorOf("{\"pairs\": [" + pair(Identity, Identity) + "," + pair(Identity, "[1, 2]") + "]}"), "pair 2"));
-  EXPECT_TRUE(files::contains(
-    errorOf("{\"pairs\": [" + pair(Identity, "[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]") + "]}"), "T_camera_target"));
-  EXPECT_TRUE(files::contains(errorOf(R"({"units": "inch", "pairs": []})"), "'units'"));
-  EXPECT_TRUE(files::contains(errorOf(R"({"mount": "wall", "pairs": []})"), "'mount'"));
-  EXPECT_TRUE(files::contains(errorOf("1,2,3\n"), "32 numbers"));
+  readHandEye.fails("{}", "'pairs'");
+  readHandEye.fails("{\"pairs\": [{}]}", "'T_base_gripper' in pair 1");
+  readHandEye.fails("{\"pairs\": [" + pair(Identity, Identity) + "," + pair(Identity, "[1, 2]") + "]}", "pair 2");
+  readHandEye.fails("{\"pairs\": [" + pair(Identity, "[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]") + "]}", "T_camera_target");
+  readHandEye.fails(R"({"units": "inch", "pairs": []})", "'units'");
+  readHandEye.fails(R"({"mount": "wall", "pairs": []})", "'mount'");
+  readHandEye.fails("1,2,3\n", "32 numbers");
   EXPECT_THROW(meam::readHandEye("/no/such/file"), meam::Error);
 }

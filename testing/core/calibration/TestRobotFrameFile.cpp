@@ -2,22 +2,11 @@
 #include "calibration/RobotFrameFile.h"
 #include "TestFiles.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 namespace
 {
-Eigen::Isometry3d read(const std::string& text)
-{
-  const files::Folder folder;
-  return meam::readRobotFrame(folder.write("robot", text));
-}
-
-std::string errorOf(const std::string& text)
-{
-  return files::errorOf([&] { read(text); });
-}
+const files::Reader readRobotFrame{ meam::readRobotFrame, "robot" };
 
 /// A quarter turn about z and 100, 200, 300 mm.
 Eigen::Isometry3d quarterTurn()
@@ -28,9 +17,9 @@ Eigen::Isometry3d quarterTurn()
   return T;
 }
 
-const std::string Numbers = "0, -1, 0, 100, 1, 0, 0, 200, 0, 0, 1, 300, 0, 0, 0, 1";
-const std::string Transform = "translation:\n  x: 0.1\n  y: 0.2\n  z: 0.3\nrotation:\n  x: 0.0\n  y: 0.0\n"
-                              "  z: 0.70710678\n  w: 0.70710678\n";
+const std::string Rows = "0, -1, 0, 100, 1, 0, 0, 200, 0, 0, 1, 300, 0, 0, 0, 1";
+const std::string Fields = "translation:\n  x: 0.1\n  y: 0.2\n  z: 0.3\nrotation:\n  x: 0.0\n  y: 0.0\n"
+                           "  z: 0.70710678\n  w: 0.70710678\n";
 }
 
 TEST(RobotFrameFile, everyForm)
@@ -38,21 +27,20 @@ TEST(RobotFrameFile, everyForm)
   const std::string transform =
     R"({"translation": {"x": 0.1, "y": 0.2, "z": 0.3}, "rotation": {"x": 0, "y": 0, "z": 0.70710678, "w": 0.70710678}})";
   for (const std::string& text :
-    { "{\"T_robot_camera\": [" + Numbers + "]}", "{\"T_robot_camera\": {\"rows\": 4, \"data\": [" + Numbers + "]}}",
+    { "{\"T_robot_camera\": [" + Rows + "]}", "{\"T_robot_camera\": {\"rows\": 4, \"data\": [" + Rows + "]}}",
       std::string("{\"units\": \"m\", \"T_robot_camera\": [[0,-1,0,0.1],[1,0,0,0.2],[0,0,1,0.3],[0,0,0,1]]}"),
-      "%YAML:1.0\n---\nT_robot_camera: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [ " + Numbers +
-        " ]\n",
+      "%YAML:1.0\n---\nT_robot_camera: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [ " + Rows + " ]\n",
       std::string("<?xml version=\"1.0\"?>\n<opencv_storage>\n<T_robot_camera type_id=\"opencv-matrix\"><rows>4</rows>"
                   "<data>0 -1 0 100 1 0 0 200 0 0 1 300 0 0 0 1</data></T_robot_camera>\n</opencv_storage>\n"),
-      transform, "{\"header\": {\"frame_id\": \"base\"}, \"transform\": " + transform + "}", Transform,
+      transform, "{\"header\": {\"frame_id\": \"base\"}, \"transform\": " + transform + "}", Fields,
       std::string("transforms:\n- header:\n    stamp:\n      sec: 0\n      nanosec: 0\n    frame_id: base\n"
                   "  child_frame_id: camera\n  transform:\n    translation:\n      x: 0.1\n      y: 0.2\n      z: 0.3\n"
                   "    rotation:\n      x: 0.0\n      y: 0.0\n      z: 0.70710678\n      w: 0.70710678\n---\n"),
       std::string("parameters:\n  eye_on_hand: false\ntransformation: # of easy_handeye\n  x: 0.1\n  y: 0.2\n  z: 0.3\n"
                   "  qx: 0.0\n  qy: 0.0\n  qz: 0.70710678\n  qw: 0.70710678\n"),
-      Numbers })
+      Rows })
   {
-    EXPECT_TRUE(read(text).isApprox(quarterTurn(), 1e-7)) << text << "\n" << read(text).matrix();
+    EXPECT_TRUE(readRobotFrame(text).isApprox(quarterTurn(), 1e-7)) << text << "\n" << readRobotFrame(text).matrix();
   }
 }
 
@@ -72,18 +60,18 @@ TEST(RobotFrameFile, whatIsWrittenIsReadAgain)
 
 TEST(RobotFrameFile, bad)
 {
-  EXPECT_TRUE(files::contains(errorOf("{}"), "no T_robot_camera"));
-  EXPECT_TRUE(files::contains(errorOf("a: b\n"), "no T_robot_camera"));
-  EXPECT_TRUE(files::contains(errorOf(""), "no T_robot_camera"));
-  EXPECT_TRUE(files::contains(errorOf(Numbers + " " + Numbers), "no T_robot_camera"));
-  EXPECT_TRUE(files::contains(errorOf("{\"T_robot_camera\": [1, 2]}"), "2 numbers"));
-  EXPECT_TRUE(files::contains(errorOf("{\"T_robot_camera\": [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}"), "not a rotation"));
-  EXPECT_TRUE(files::contains(errorOf("{\"units\": \"inch\", \"T_robot_camera\": [" + Numbers + "]}"), "'units'"));
-  std::string longer = Transform;
+  readRobotFrame.fails("{}", "no T_robot_camera");
+  readRobotFrame.fails("a: b\n", "no T_robot_camera");
+  readRobotFrame.fails("", "no T_robot_camera");
+  readRobotFrame.fails(Rows + " " + Rows, "no T_robot_camera");
+  readRobotFrame.fails("{\"T_robot_camera\": [1, 2]}", "2 numbers");
+  readRobotFrame.fails("{\"T_robot_camera\": [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}", "not a rotation");
+  readRobotFrame.fails("{\"units\": \"inch\", \"T_robot_camera\": [" + Rows + "]}", "'units'");
+  std::string longer = Fields;
   longer.replace(longer.find("w: 0.7"), 6, "w: 0.9");
-  EXPECT_TRUE(files::contains(errorOf(longer), "quaternion"));
+  readRobotFrame.fails(longer, "quaternion");
   const auto item = [](const std::string& name)
   { return name + ":\n  x: 1\n  y: 2\n  z: 3\n  qx: 0\n  qy: 0\n  qz: 0\n  qw: 1\n"; };
-  EXPECT_TRUE(files::contains(errorOf(item("left") + item("right")), "several"));
+  readRobotFrame.fails(item("left") + item("right"), "several");
   EXPECT_THROW(meam::readRobotFrame("/no/such/file"), meam::Error);
 }

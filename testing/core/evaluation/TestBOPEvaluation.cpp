@@ -13,15 +13,6 @@ namespace
 constexpr int Width = 320, Height = 240;
 constexpr double Focal = 300.0, CX = 150.0, CY = 110.0;
 
-/// A square plate of 40 mm in the plane z = 0, from (0, 0) to (40, 40).
-meam::TriangleMesh plate()
-{
-  meam::TriangleMesh mesh;
-  mesh.vertices = { { 0, 0, 0 }, { 40, 0, 0 }, { 40, 40, 0 }, { 0, 40, 0 } };
-  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  return mesh;
-}
-
 /// What a camera sees of a wall across its view.
 meam::OrganizedCloud wall(double depth)
 {
@@ -46,7 +37,7 @@ meam::Pose pose(const Eigen::Isometry3d& T, double visible = 1.0)
 
 TEST(BOPEvaluation, AShiftIsTheSameOfEveryVertex)
 {
-  const meam::BOPEvaluation evaluation(plate(), {});
+  const meam::BOPEvaluation evaluation(parts::rectangle(40, 40), {});
   const meam::BOPErrors errors = evaluation.errors(at(3, 4, 500), at(0, 0, 500), wall(600));
   EXPECT_NEAR(errors.add, 5.0, 1e-9);
   EXPECT_NEAR(errors.adi, 5.0, 1e-5);
@@ -56,7 +47,7 @@ TEST(BOPEvaluation, AShiftIsTheSameOfEveryVertex)
 
 TEST(BOPEvaluation, VSDIsTheShareOfPixelsThatDiffer)
 {
-  const meam::BOPEvaluation evaluation(plate(), {}, 100.0);
+  const meam::BOPEvaluation evaluation(parts::rectangle(40, 40), {}, 100.0);
   // Half of the plate's width beside: a third of the union is in both.
   meam::BOPErrors errors = evaluation.errors(at(20, 0, 500), at(0, 0, 500), wall(600));
   for (const double cost : errors.vsd)
@@ -79,17 +70,19 @@ TEST(BOPEvaluation, SymmetriesCountForMSSDAndADIAlone)
   meam::Symmetries symmetries;
   symmetries.discrete = { half };
   const Eigen::Isometry3d T = at(5, 6, 500);
-  const meam::BOPErrors turned = meam::BOPEvaluation(plate(), symmetries).errors(T * half, T, wall(600));
+  const meam::BOPErrors turned =
+    meam::BOPEvaluation(parts::rectangle(40, 40), symmetries).errors(T * half, T, wall(600));
   EXPECT_NEAR(turned.add, 40.0 * std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(turned.adi, 0.0, 1e-4);
   EXPECT_NEAR(turned.mssd, 0.0, 1e-9);
   EXPECT_NEAR(turned.mspd, 0.0, 1e-9);
-  EXPECT_NEAR(meam::BOPEvaluation(plate(), {}).errors(T * half, T, wall(600)).mssd, 40.0 * std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(
+    meam::BOPEvaluation(parts::rectangle(40, 40), {}).errors(T * half, T, wall(600)).mssd, 40.0 * std::sqrt(2.0), 1e-6);
   // Any turn about an axis, to a step in which no vertex moves more than 1 % of the diameter.
   symmetries = {};
   symmetries.continuous = { { Eigen::Vector3d::UnitZ(), { 20, 20, 0 } } };
   const Eigen::Isometry3d some = meam::turnAbout(Eigen::Vector3d::UnitZ(), 1.234, { 20, 20, 0 });
-  EXPECT_LT(meam::BOPEvaluation(plate(), symmetries).errors(T * some, T, wall(600)).mssd, 0.01 * 57.0);
+  EXPECT_LT(meam::BOPEvaluation(parts::rectangle(40, 40), symmetries).errors(T * some, T, wall(600)).mssd, 0.01 * 57.0);
 }
 
 TEST(BOPEvaluation, ABallIsTheSameAnyWayItIsTurned)
@@ -113,7 +106,7 @@ TEST(BOPEvaluation, ABallIsTheSameAnyWayItIsTurned)
 
 TEST(BOPEvaluation, FarAlongTheRayIsNearOnTheImage)
 {
-  const meam::BOPEvaluation evaluation(plate(), {});
+  const meam::BOPEvaluation evaluation(parts::rectangle(40, 40), {});
   const meam::BOPRecall recall =
     evaluation.recall({ pose(at(-20, -20, 5120)) }, { pose(at(-20, -20, 5000)) }, wall(6000));
   EXPECT_EQ(recall.mssd[9], 0.0);
@@ -123,14 +116,14 @@ TEST(BOPEvaluation, FarAlongTheRayIsNearOnTheImage)
 
 TEST(BOPEvaluation, CopiesThatNeedNotBeFoundTakeNoPose)
 {
-  const meam::BOPEvaluation evaluation(plate(), {});
+  const meam::BOPEvaluation evaluation(parts::rectangle(40, 40), {});
   const meam::Poses truths = { pose(at(0, 0, 505), 0.05), pose(at(0, 0, 500), 0.9) };
   EXPECT_EQ(evaluation.recall({ pose(at(0, 0, 503)) }, truths, wall(600)).add[1], 1.0);
 }
 
 TEST(BOPEvaluation, RecallCountsEveryCopyOnce)
 {
-  const meam::BOPEvaluation evaluation(plate(), {}, 50.0);
+  const meam::BOPEvaluation evaluation(parts::rectangle(40, 40), {}, 50.0);
   const meam::Poses truths = { pose(at(-60, -50, 500)), pose(at(20, 20, 500)), pose(at(100, 0, 500), 0.05) };
   // One right, the same again, one 6 mm off: the third pose is one too many for two targets.
   const meam::Poses estimates = { pose(at(-60, -50, 500)), pose(at(26, 20, 500)), pose(at(20, 20, 500)) };
@@ -151,7 +144,7 @@ TEST(BOPEvaluation, RecallCountsEveryCopyOnce)
 
 TEST(BOPEvaluation, AveragePrecisionAt2To20Millimeters)
 {
-  const meam::BOPEvaluation evaluation(plate(), {});
+  const meam::BOPEvaluation evaluation(parts::rectangle(40, 40), {});
   const meam::Poses truths = { pose(at(0, 0, 500)), pose(at(100, 0, 500)), pose(at(200, 0, 500), 0.05) };
   // 3 mm off, in the wrong place, 9 mm off, and one of the copy that need not be found, which does not count.
   meam::Poses estimates = { pose(at(3, 0, 500)), pose(at(50, 0, 500)), pose(at(100, 9, 500)), pose(at(200, 0, 500)) };

@@ -3,16 +3,16 @@
 
 #include <gtest/gtest.h>
 
-using Numbers = std::vector<std::uint32_t>;
+using Entries = std::vector<std::uint32_t>;
 
 TEST(PairTable, EntriesOfAKeyAreTogetherInTheirOrder)
 {
   const meam::PairTable table =
     meam::makePairTable({ { 2, 0, 1, 0.1f, 1 }, { 0, 0, 2, 0.2f, 2 }, { 2, 1, 0, 0.3f, 3 }, { 2, 1, 2, 0.4f, 4 } }, 4);
-  EXPECT_EQ(table.offsets, (Numbers{ 0, 1, 1, 4, 4 }));
-  EXPECT_EQ(table.references, (Numbers{ 0, 0, 1, 1 }));
-  EXPECT_EQ(table.referreds, (Numbers{ 2, 1, 0, 2 }));
-  EXPECT_EQ(table.viewBits, (Numbers{ 2, 1, 3, 4 }));
+  EXPECT_EQ(table.offsets, (Entries{ 0, 1, 1, 4, 4 }));
+  EXPECT_EQ(table.references, (Entries{ 0, 0, 1, 1 }));
+  EXPECT_EQ(table.referreds, (Entries{ 2, 1, 0, 2 }));
+  EXPECT_EQ(table.viewBits, (Entries{ 2, 1, 3, 4 }));
   EXPECT_EQ(table.angles, (std::vector<float>{ 0.2f, 0.1f, 0.3f, 0.4f }));
   EXPECT_EQ(table.bytes(), 4u * (5 + 4 * 4));
 }

@@ -4,20 +4,7 @@
 
 namespace
 {
-meam::CameraFile read(const std::string& text)
-{
-  const files::Folder folder;
-  return meam::readCamera(folder.write("camera", text));
-}
-
-/// The message names the file and has the word.
-void expectError(const std::string& text, const std::string& word)
-{
-  const files::Folder folder;
-  const std::string path = folder.write("camera", text);
-  const std::string error = files::errorOf([&] { meam::readCamera(path); });
-  EXPECT_TRUE(files::contains(error, word) && files::contains(error, path)) << text << "\nsays: " << error;
-}
+const files::Reader readCamera{ meam::readCamera };
 
 const std::string yaml = R"(%YAML:1.0
 ---
@@ -69,7 +56,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 TEST(CameraFile, yamlOfOpenCV)
 {
-  const meam::CameraFile file = read(yaml);
+  const meam::CameraFile file = readCamera(yaml);
   EXPECT_EQ(file.camera.width, 1280);
   EXPECT_EQ(file.camera.height, 1024);
   EXPECT_EQ(file.camera.fx, 1200.5);
@@ -83,7 +70,7 @@ TEST(CameraFile, yamlOfOpenCV)
 
 TEST(CameraFile, xmlOfOpenCV)
 {
-  const meam::CameraFile file = read(xml);
+  const meam::CameraFile file = readCamera(xml);
   EXPECT_EQ(file.camera.width, 0) << "not known";
   EXPECT_EQ(file.camera.fy, 801.0);
   EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{ 0.1, 0.2, 0.3, 0.4, 0 }));
@@ -93,7 +80,7 @@ TEST(CameraFile, xmlOfOpenCV)
 
 TEST(CameraFile, jsonOfOpenCV)
 {
-  const meam::CameraFile file = read(json);
+  const meam::CameraFile file = readCamera(json);
   EXPECT_EQ(file.camera.width, 640);
   EXPECT_EQ(file.camera.fx, 800.0);
   EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{}));
@@ -103,10 +90,10 @@ TEST(CameraFile, jsonOfOpenCV)
 TEST(CameraFile, yamlWithoutOpenCVsTypes)
 {
   const meam::CameraFile file =
-    read("image_width: 640 # pixels\ncamera_name: left\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
-         "  data: [800, 0, 320,\n         0, 801, 240,\n         0, 0, 1]\n"
-         "rectification_matrix:\n  data: [1, 2]\nT_camera_scene: [[1, 0, 0, 5],\n"
-         "  [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]\nimage_height: 480\n");
+    readCamera("image_width: 640 # pixels\ncamera_name: left\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+               "  data: [800, 0, 320,\n         0, 801, 240,\n         0, 0, 1]\n"
+               "rectification_matrix:\n  data: [1, 2]\nT_camera_scene: [[1, 0, 0, 5],\n"
+               "  [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]\nimage_height: 480\n");
   EXPECT_EQ(file.camera.fy, 801.0);
   EXPECT_EQ(file.camera.height, 480);
   EXPECT_EQ(Eigen::Vector3d(file.camera.T_camera_scene.translation()), Eigen::Vector3d(5, 6, 7));
@@ -114,7 +101,7 @@ TEST(CameraFile, yamlWithoutOpenCVsTypes)
 
 TEST(CameraFile, cameraOfBOP)
 {
-  const meam::CameraFile file = read(bop);
+  const meam::CameraFile file = readCamera(bop);
   EXPECT_EQ(file.camera.width, 640);
   EXPECT_EQ(file.camera.height, 480);
   EXPECT_EQ(file.camera.fx, 572.41);
@@ -128,33 +115,33 @@ TEST(CameraFile, whatIsNoCalibration)
 {
   EXPECT_THROW(meam::readCamera("/no/such/camera.json"), meam::Error);
   EXPECT_THROW(meam::readCamera(testing::TempDir()), meam::Error);
-  expectError("", "empty");
-  expectError("nothing of the kind", "neither");
-  expectError("{}", "neither");
-  expectError("{ \"fx\": 1, ", "not JSON");
-  expectError(yaml.substr(0, 150), "a camera_matrix that is not made of numbers");
-  expectError(yaml.substr(0, yaml.find("511.5")), "not YAML in line 10");
-  expectError(xml.substr(0, 200), "cut off");
-  expectError(xml.substr(0, xml.find("</opencv")), "no end of <opencv_storage>");
-  expectError(replaced(xml, "</dist_coeffs>", "</lens>"), "wrong place");
-  expectError(replaced(bop, "\"fy\"", "\"fz\""), "neither");
-  expectError(replaced(bop, "573.57", "-1"), "focal lengths");
-  expectError(replaced(bop, "573.57", "\"wide\""), "a fy that is not made of numbers");
-  expectError(replaced(bop, "640", "640.5"), "width or height");
-  expectError(replaced(bop, "640", "4000000000"), "width or height");
-  expectError(replaced(bop, "0.1", "0"), "depth_scale");
-  expectError(replaced(bop, "0.1", "1e999"), "too large");
-  expectError(replaced(json, "800.0, ", ""), "camera_matrix");
-  expectError(replaced(json, "800.0", "\"a\""), "camera_matrix");
-  expectError(replaced(json, "800.0, 0.0", "800.0, 3.0"), "camera matrix that is not");
-  expectError(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0"), "dist_coeffs");
-  expectError(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0, 0, 0, 1"), "rational");
-  expectError(replaced(json, "[1, 0, 0, 5]", "[2, 0, 0, 5]"), "not a rotation");
-  expectError(replaced(yaml, "T: [ 400, 0, -100 ]\n", ""), "only one of R and T");
-  expectError(replaced(yaml, "400, 0, -100", "400, 0, .Nan"), "a T that is not made of numbers");
-  expectError(replaced(yaml, "400, 0, -100", "400, 0, x"), "a T that is not made of numbers");
-  expectError(std::string(2 << 20, ' ') + bop, "not a text");
+  readCamera.fails("", "empty");
+  readCamera.fails("nothing of the kind", "neither");
+  readCamera.fails("{}", "neither");
+  readCamera.fails("{ \"fx\": 1, ", "not JSON");
+  readCamera.fails(yaml.substr(0, 150), "a camera_matrix that is not made of numbers");
+  readCamera.fails(yaml.substr(0, yaml.find("511.5")), "not YAML in line 10");
+  readCamera.fails(xml.substr(0, 200), "cut off");
+  readCamera.fails(xml.substr(0, xml.find("</opencv")), "no end of <opencv_storage>");
+  readCamera.fails(replaced(xml, "</dist_coeffs>", "</lens>"), "wrong place");
+  readCamera.fails(replaced(bop, "\"fy\"", "\"fz\""), "neither");
+  readCamera.fails(replaced(bop, "573.57", "-1"), "focal lengths");
+  readCamera.fails(replaced(bop, "573.57", "\"wide\""), "a fy that is not made of numbers");
+  readCamera.fails(replaced(bop, "640", "640.5"), "width or height");
+  readCamera.fails(replaced(bop, "640", "4000000000"), "width or height");
+  readCamera.fails(replaced(bop, "0.1", "0"), "depth_scale");
+  readCamera.fails(replaced(bop, "0.1", "1e999"), "too large");
+  readCamera.fails(replaced(json, "800.0, ", ""), "camera_matrix");
+  readCamera.fails(replaced(json, "800.0", "\"a\""), "camera_matrix");
+  readCamera.fails(replaced(json, "800.0, 0.0", "800.0, 3.0"), "camera matrix that is not");
+  readCamera.fails(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0"), "dist_coeffs");
+  readCamera.fails(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0, 0, 0, 1"), "rational");
+  readCamera.fails(replaced(json, "[1, 0, 0, 5]", "[2, 0, 0, 5]"), "not a rotation");
+  readCamera.fails(replaced(yaml, "T: [ 400, 0, -100 ]\n", ""), "only one of R and T");
+  readCamera.fails(replaced(yaml, "400, 0, -100", "400, 0, .Nan"), "a T that is not made of numbers");
+  readCamera.fails(replaced(yaml, "400, 0, -100", "400, 0, x"), "a T that is not made of numbers");
+  readCamera.fails(std::string(2 << 20, ' ') + bop, "not a text");
 }
 
 // Each of them was once searched for a colon to the end of the file: minutes, which the test's time limit ends.
-TEST(CameraFile, readsManyLinesWithoutAName) { expectError(std::string(1000000, '\n') + "a", "neither"); }
+TEST(CameraFile, readsManyLinesWithoutAName) { readCamera.fails(std::string(1000000, '\n') + "a", "neither"); }

@@ -5,19 +5,7 @@
 
 namespace
 {
-void expectError(const std::string& bytes, const std::string& word)
-{
-  const files::Folder folder;
-  const std::string path = folder.write("image", bytes);
-  const std::string error = files::errorOf([&] { meam::readImage(path); });
-  EXPECT_TRUE(files::contains(error, word) && files::contains(error, path)) << error;
-}
-
-meam::Image read(const std::string& bytes)
-{
-  const files::Folder folder;
-  return meam::readImage(folder.write("image", bytes));
-}
+const files::Reader readImage{ meam::readImage };
 
 const cv::Mat grey = (cv::Mat_<std::uint8_t>(2, 3) << 0, 50, 100, 150, 200, 255);
 }
@@ -42,7 +30,7 @@ TEST(ImageFile, coloursAreRedGreenBlue)
   const cv::Mat colour(16, 24, CV_8UC3, cv::Scalar(10, 20, 200));
   for (const char* form : { ".png", ".bmp", ".tiff", ".jpg" })
   {
-    const meam::Image image = read(images::encoded(form, colour));
+    const meam::Image image = readImage(images::encoded(form, colour));
     ASSERT_EQ(image.channels, 3) << form;
     EXPECT_EQ(image.width, 24) << form;
     ASSERT_EQ(image.pixels.size(), 3u * 16 * 24) << form;
@@ -51,7 +39,8 @@ TEST(ImageFile, coloursAreRedGreenBlue)
     EXPECT_NEAR(image.pixels[2], 10, 2) << form;
   }
   const cv::Mat seen = cv::Mat(1, 1, CV_8UC4, cv::Scalar(1, 2, 3, 0));
-  EXPECT_EQ(read(images::encoded(".png", seen)).pixels, (std::vector<std::uint8_t>{ 3, 2, 1 })) << "alpha is dropped";
+  EXPECT_EQ(readImage(images::encoded(".png", seen)).pixels, (std::vector<std::uint8_t>{ 3, 2, 1 }))
+    << "alpha is dropped";
 }
 
 // Of a large image each scan takes milliseconds, and ten bytes of the file.
@@ -80,7 +69,7 @@ TEST(ImageFile, theSizeOfAJPEGIsThatOfTheFrameThatIsDecoded)
   bytes += std::string("\xff\xc0\x00\x11\x08\x00\x01\x00\x01\x01", 10) + std::string(20, ' ');
   const files::Folder folder;
   EXPECT_EQ(meam::readImageSize(folder.write("image.jpg", bytes)), (std::array<int, 2>{ 24, 16 }));
-  EXPECT_EQ(read(bytes).pixels.size(), 16u * 24u);
+  EXPECT_EQ(readImage(bytes).pixels.size(), 16u * 24u);
 }
 
 TEST(ImageFile, theSizeMayStandFarBehindTheStart)
@@ -102,7 +91,7 @@ TEST(ImageFile, theSizeMayStandFarBehindTheStart)
 TEST(ImageFile, sixteenBitsUseTheirWholeRange)
 {
   const cv::Mat deep = (cv::Mat_<std::uint16_t>(1, 3) << 0, 257 * 40, 65535);
-  EXPECT_EQ(read(images::encoded(".png", deep)).pixels, (std::vector<std::uint8_t>{ 0, 40, 255 }));
+  EXPECT_EQ(readImage(images::encoded(".png", deep)).pixels, (std::vector<std::uint8_t>{ 0, 40, 255 }));
   const files::Folder folder;
   EXPECT_EQ(meam::readImage16(folder.write("deep", images::encoded(".png", deep))).pixels,
     (std::vector<std::uint16_t>{ 0, 257 * 40, 65535 }));
@@ -111,19 +100,19 @@ TEST(ImageFile, sixteenBitsUseTheirWholeRange)
 TEST(ImageFile, badFiles)
 {
   EXPECT_THROW(meam::readImage("/no/such/image.png"), meam::Error);
-  expectError("", "not a PNG");
-  expectError("GIF89a", "not a PNG");
-  expectError(images::encoded(".png", cv::Mat::zeros(4, 4, CV_32FC1)).substr(0, 20), "no size");
+  readImage.fails("", "not a PNG");
+  readImage.fails("GIF89a", "not a PNG");
+  readImage.fails(images::encoded(".png", cv::Mat::zeros(4, 4, CV_32FC1)).substr(0, 20), "no size");
   for (const char* form : { ".png", ".jpg", ".tiff", ".bmp" })
   {
     const std::string bytes = images::encoded(form, cv::Mat::zeros(40, 40, CV_8UC1));
-    expectError(bytes.substr(0, 12), "no size");
+    readImage.fails(bytes.substr(0, 12), "no size");
   }
   const std::string png = images::encoded(".png", grey);
-  expectError(png.substr(0, png.size() / 2), "damaged");
+  readImage.fails(png.substr(0, png.size() / 2), "damaged");
   std::string flipped = png;
   flipped[45] ^= 1;
-  expectError(flipped, "damaged");
+  readImage.fails(flipped, "damaged");
 }
 
 TEST(ImageFile, filesThatAreCutOffSayNothingOnTheConsole)
@@ -134,7 +123,7 @@ TEST(ImageFile, filesThatAreCutOffSayNothingOnTheConsole)
     for (const std::size_t length : { whole.size() / 2, whole.size() - 1 })
     {
       testing::internal::CaptureStderr();
-      expectError(whole.substr(0, length), "cut off");
+      readImage.fails(whole.substr(0, length), "cut off");
       EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << form << " of " << length << " bytes";
     }
   }
@@ -145,9 +134,9 @@ TEST(ImageFile, absurdSizesAreRefusedBeforeMemoryIsTaken)
   const auto with = [](std::string bytes, std::size_t at, const std::string& value)
   { return bytes.replace(at, value.size(), value); };
   const std::string most = "\x7f\xff\xff\xff";
-  expectError(with(images::encoded(".png", grey), 16, most + most), "more than the file has room for");
-  expectError(with(images::encoded(".bmp", grey), 18, "\xff\xff\xff\x7f\xff\xff\xff\xff"), "more than the file");
-  expectError(with(images::encoded(".png", grey), 16, std::string("\0\0\x40\0\0\0\x40\0", 8)), "16384 x 16384");
+  readImage.fails(with(images::encoded(".png", grey), 16, most + most), "more than the file has room for");
+  readImage.fails(with(images::encoded(".bmp", grey), 18, "\xff\xff\xff\x7f\xff\xff\xff\xff"), "more than the file");
+  readImage.fails(with(images::encoded(".png", grey), 16, std::string("\0\0\x40\0\0\0\x40\0", 8)), "16384 x 16384");
 }
 
 TEST(ImageFile, ofATIFFOnlyTagsThatTakeNoUndueMemoryAreRead)
@@ -170,12 +159,13 @@ TEST(ImageFile, ofATIFFOnlyTagsThatTakeNoUndueMemoryAreRead)
   for (const std::string& rows : { tag(rowsOfStrip, 3, std::string("\xff\xff\0\0", 4)),
          tag(rowsOfStrip, 4, "\xff\xff\xff\xff"), tag(rowsOfStrip, 4, "\xff\xff\xff\x7f") })
   {
-    EXPECT_EQ(read(with(rowsOfStrip, rows)).pixels, read(file).pixels);
+    EXPECT_EQ(readImage(with(rowsOfStrip, rows)).pixels, readImage(file).pixels);
   }
-  expectError(with(compression, tag(compression, 3, std::string("\x65\x87\0\0", 4))), "is not read (34661)");
-  expectError(with(bits, tag(bits, 3, std::string("\x40\0\0\0", 4))), "8 or 16 bits");
-  expectError(with(samples, tag(samples, 3, std::string("\x05\0\0\0", 4))), "8 or 16 bits");
-  expectError(with(bits, tag(bits, 16, std::string("\x08\0\0\0", 4))), "8 or 16 bits"); // libtiff reads it elsewhere
-  expectError(with(rowsOfStrip, tag(rowsOfStrip, 1, std::string("\x02\0\0\0", 4))), "strips or tiles");
-  expectError(with(rowsOfStrip, tag(tileWidth, 4, std::string("\0\0\x10\0", 4))), "strips or tiles");
+  readImage.fails(with(compression, tag(compression, 3, std::string("\x65\x87\0\0", 4))), "is not read (34661)");
+  readImage.fails(with(bits, tag(bits, 3, std::string("\x40\0\0\0", 4))), "8 or 16 bits");
+  readImage.fails(with(samples, tag(samples, 3, std::string("\x05\0\0\0", 4))), "8 or 16 bits");
+  readImage.fails(
+    with(bits, tag(bits, 16, std::string("\x08\0\0\0", 4))), "8 or 16 bits"); // libtiff reads it elsewhere
+  readImage.fails(with(rowsOfStrip, tag(rowsOfStrip, 1, std::string("\x02\0\0\0", 4))), "strips or tiles");
+  readImage.fails(with(rowsOfStrip, tag(tileWidth, 4, std::string("\0\0\x10\0", 4))), "strips or tiles");
 }

@@ -6,21 +6,9 @@
 
 namespace
 {
-meam::MeasuredCloud read(const std::string& bytes)
-{
-  const files::Folder folder;
-  return meam::readPLYCloud(folder.write("cloud.ply", bytes));
-}
+const files::Reader readPLY{ [](const std::string& path) { return meam::readPLYCloud(path); }, "cloud.ply" };
 
-void expectError(const std::string& bytes, const std::string& word)
-{
-  const files::Folder folder;
-  const std::string path = folder.write("cloud.ply", bytes);
-  const std::string error = files::errorOf([&] { meam::readPLYCloud(path); });
-  EXPECT_TRUE(files::contains(error, word) && files::contains(error, path)) << bytes << "\nsays: " << error;
-}
-
-const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string floats = "property float x\nproperty float y\nproperty float z\n";
 
 std::string head(const std::string& format, const std::string& elements)
 {
@@ -30,8 +18,8 @@ std::string head(const std::string& format, const std::string& elements)
 
 TEST(PLYFile, asciiWithIntensities)
 {
-  const meam::MeasuredCloud data =
-    read(head("ascii", "element vertex 2\n" + xyz + "property float intensity\n") + "1 +2 -3.5 7\r\nnan nan nan 2e2\n");
+  const meam::MeasuredCloud data = readPLY(
+    head("ascii", "element vertex 2\n" + floats + "property float intensity\n") + "1 +2 -3.5 7\r\nnan nan nan 2e2\n");
   ASSERT_EQ(data.cloud.size(), 2u);
   EXPECT_EQ(data.cloud.width, 2);
   EXPECT_EQ(data.cloud.height, 1);
@@ -56,7 +44,7 @@ TEST(PLYFile, binaryOfEitherByteOrder)
                           turned(files::raw(0.5f)) + turned(files::raw(0.25f));
   for (const auto& [format, bytes] : { std::pair{ "binary_little_endian", little }, { "binary_big_endian", big } })
   {
-    const meam::MeasuredCloud data = read(head(format, elements) + bytes);
+    const meam::MeasuredCloud data = readPLY(head(format, elements) + bytes);
     EXPECT_EQ(data.cloud.points[0], Eigen::Vector3f(1.5f, -300, 3)) << format;
     EXPECT_EQ(data.normals[0], Eigen::Vector3f(0.25f, 0.5f, 1)) << format;
     EXPECT_EQ(data.colors, (std::vector<std::uint8_t>{ 10, 20, 255 })) << format;
@@ -67,21 +55,21 @@ TEST(PLYFile, otherElementsAndListsAreSkipped)
 {
   const std::string elements = "element face 2\nproperty list uchar int vertex_indices\nproperty uchar quality\n"
                                "element vertex 1\n" +
-                               xyz + "property list uchar float more\nelement edge 9\nproperty int vertex1\n";
+                               floats + "property list uchar float more\nelement edge 9\nproperty int vertex1\n";
   const std::string ascii = "3 0 1 2 9\n0 8\n4 5 6 2 0.1 0.2\n";
-  EXPECT_EQ(read(head("ascii", elements) + ascii).cloud.points[0], Eigen::Vector3f(4, 5, 6));
+  EXPECT_EQ(readPLY(head("ascii", elements) + ascii).cloud.points[0], Eigen::Vector3f(4, 5, 6));
   const std::string binary = "\x03" + std::string(12, '\1') + "\x09" + std::string(1, '\0') + "\x08" +
                              files::raw(4.0f) + files::raw(5.0f) + files::raw(6.0f) + "\x02" + std::string(8, '\1');
-  EXPECT_EQ(read(head("binary_little_endian", elements) + binary).cloud.points[0], Eigen::Vector3f(4, 5, 6));
+  EXPECT_EQ(readPLY(head("binary_little_endian", elements) + binary).cloud.points[0], Eigen::Vector3f(4, 5, 6));
 }
 
 TEST(PLYFile, coloursOfAnyRange)
 {
   const auto colorsOf = [](const std::string& type, const std::string& values)
   {
-    return read(head("ascii", "element vertex 1\n" + xyz + "property " + type + " red\nproperty " + type +
-                                " green\nproperty " + type + " blue\n") +
-                "1 2 3 " + values)
+    return readPLY(head("ascii", "element vertex 1\n" + floats + "property " + type + " red\nproperty " + type +
+                                   " green\nproperty " + type + " blue\n") +
+                   "1 2 3 " + values)
       .colors;
   };
   EXPECT_EQ(colorsOf("float", "0 0.5 7"), (std::vector<std::uint8_t>{ 0, 128, 255 }));
@@ -92,10 +80,10 @@ TEST(PLYFile, coloursOfAnyRange)
 TEST(PLYFile, cloudsAndMeshes)
 {
   const files::Folder folder;
-  EXPECT_TRUE(meam::isPLYCloud(folder.write("a", head("ascii", "element vertex 2\n" + xyz))));
+  EXPECT_TRUE(meam::isPLYCloud(folder.write("a", head("ascii", "element vertex 2\n" + floats))));
   EXPECT_FALSE(meam::isPLYCloud(
-    folder.write("b", head("ascii", "element vertex 2\n" + xyz + "element face 1\nproperty list uchar int v\n"))));
-  EXPECT_FALSE(meam::isPLYCloud(folder.write("c", head("ascii", "element vertex 0\n" + xyz))));
+    folder.write("b", head("ascii", "element vertex 2\n" + floats + "element face 1\nproperty list uchar int v\n"))));
+  EXPECT_FALSE(meam::isPLYCloud(folder.write("c", head("ascii", "element vertex 0\n" + floats))));
   EXPECT_FALSE(meam::isPLYCloud(folder.write("d", "solid part\n")));
   EXPECT_FALSE(meam::isPLYCloud(folder.path("none")));
 }
@@ -103,36 +91,36 @@ TEST(PLYFile, cloudsAndMeshes)
 TEST(PLYFile, badFiles)
 {
   EXPECT_THROW(meam::readPLYCloud("/no/such/file.ply"), meam::Error);
-  expectError("", "not a PLY file");
-  expectError("solid part\nfacet\n", "not a PLY file");
-  expectError("ply\nformat ascii 1.0\nelement vertex 1\n" + xyz, "end_header");
-  expectError("ply\nelement vertex 1\n" + xyz + "end_header\n1 2 3\n", "no line format");
-  expectError(head("zipped", "element vertex 1\n" + xyz) + "1 2 3\n", "zipped");
-  expectError(head("ascii", xyz), "before the first element");
-  expectError(head("ascii", "elephant vertex 1\n" + xyz), "elephant");
-  expectError(head("ascii", "element vertex -1\n" + xyz), "-1");
-  expectError(head("ascii", "element vertex 1\nproperty quad x\n"), "quad");
-  expectError(head("ascii", "element face 1\n" + xyz) + "1 2 3\n", "no points");
-  expectError(head("ascii", "element vertex 0\n" + xyz), "no points");
-  expectError(head("ascii", "element vertex 1\nproperty float x\nproperty float z\n") + "1 2\n", "x, y and z");
-  expectError(head("ascii", "element vertex 1\n" + xyz) + "1 2\n", "cut off");
-  expectError(head("ascii", "element vertex 1\n" + xyz) + "1 2 up\n", "up");
-  expectError(head("binary_little_endian", "element vertex 1\n" + xyz) + std::string(11, '\0'), "cut off");
-  const std::string lists = "element vertex 1\nproperty list float int v\n" + xyz;
-  expectError(head("ascii", lists) + "-1 1 2 3 4 5\n", "impossible length");
-  expectError(head("ascii", lists) + "0.5 1 2 3 4 5\n", "impossible length");
-  expectError(head("ascii", lists) + "4e9 1 2 3 4 5\n", "cut off");
+  readPLY.fails("", "not a PLY file");
+  readPLY.fails("solid part\nfacet\n", "not a PLY file");
+  readPLY.fails("ply\nformat ascii 1.0\nelement vertex 1\n" + floats, "end_header");
+  readPLY.fails("ply\nelement vertex 1\n" + floats + "end_header\n1 2 3\n", "no line format");
+  readPLY.fails(head("zipped", "element vertex 1\n" + floats) + "1 2 3\n", "zipped");
+  readPLY.fails(head("ascii", floats), "before the first element");
+  readPLY.fails(head("ascii", "elephant vertex 1\n" + floats), "elephant");
+  readPLY.fails(head("ascii", "element vertex -1\n" + floats), "-1");
+  readPLY.fails(head("ascii", "element vertex 1\nproperty quad x\n"), "quad");
+  readPLY.fails(head("ascii", "element face 1\n" + floats) + "1 2 3\n", "no points");
+  readPLY.fails(head("ascii", "element vertex 0\n" + floats), "no points");
+  readPLY.fails(head("ascii", "element vertex 1\nproperty float x\nproperty float z\n") + "1 2\n", "x, y and z");
+  readPLY.fails(head("ascii", "element vertex 1\n" + floats) + "1 2\n", "cut off");
+  readPLY.fails(head("ascii", "element vertex 1\n" + floats) + "1 2 up\n", "up");
+  readPLY.fails(head("binary_little_endian", "element vertex 1\n" + floats) + std::string(11, '\0'), "cut off");
+  const std::string lists = "element vertex 1\nproperty list float int v\n" + floats;
+  readPLY.fails(head("ascii", lists) + "-1 1 2 3 4 5\n", "impossible length");
+  readPLY.fails(head("ascii", lists) + "0.5 1 2 3 4 5\n", "impossible length");
+  readPLY.fails(head("ascii", lists) + "4e9 1 2 3 4 5\n", "cut off");
 }
 
 TEST(PLYFile, absurdSizesAreRefusedBeforeMemoryIsTaken)
 {
   for (const std::string format : { "ascii", "binary_little_endian", "binary_big_endian" })
   {
-    expectError(head(format, "element vertex 2000000000\n" + xyz) + "12345678", "cut off");
-    expectError(head(format, "element vertex 3000000000\n" + xyz) + "12345678", "impossible number");
-    expectError(head(format, "element vertex 18446744073709551616\n" + xyz), "18446744073709551616");
-    expectError(head(format, "element face 18446744073709551615\nelement vertex 1\n" + xyz), "cut off");
-    expectError(
-      head(format, "element face 18446744073709551615\nproperty char a\nelement vertex 1\n" + xyz), "cut off");
+    readPLY.fails(head(format, "element vertex 2000000000\n" + floats) + "12345678", "cut off");
+    readPLY.fails(head(format, "element vertex 3000000000\n" + floats) + "12345678", "impossible number");
+    readPLY.fails(head(format, "element vertex 18446744073709551616\n" + floats), "18446744073709551616");
+    readPLY.fails(head(format, "element face 18446744073709551615\nelement vertex 1\n" + floats), "cut off");
+    readPLY.fails(
+      head(format, "element face 18446744073709551615\nproperty char a\nelement vertex 1\n" + floats), "cut off");
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/PoseFile.h"
-#include "io/parsing/FileBytes.h"
 
-#include <gtest/gtest.h>
+#include "TestFiles.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -10,24 +10,6 @@
 
 namespace
 {
-namespace fs = std::filesystem;
-
-/// An empty folder of this test, removed at its end.
-struct Folder
-{
-  Folder()
-    : path(fs::path(testing::TempDir()) /
-           (std::string("TestPoseFile-") + testing::UnitTest::GetInstance()->current_test_info()->name()))
-  {
-    fs::remove_all(this->path);
-    fs::create_directory(this->path);
-  }
-  ~Folder() { fs::remove_all(this->path); }
-  std::string file() const { return (this->path / "poses").string(); }
-  long files() const { return std::distance(fs::directory_iterator(this->path), fs::directory_iterator()); }
-  fs::path path;
-};
-
 /// A quarter turn about z and a shift that needs all its digits.
 meam::PoseRow quarterTurn()
 {
@@ -49,39 +31,41 @@ meam::PoseRow identified()
   return row;
 }
 
-std::vector<Eigen::Isometry3d> read(const std::string& text)
+/// An empty folder and the path of a file in it.
+struct Poses : files::Folder
 {
-  const Folder folder;
-  meam::writeFile(folder.file(), text);
-  return meam::readMatrices(folder.file());
-}
+  std::string file() const { return this->path("poses"); }
+  long files() const { return std::distance(std::filesystem::directory_iterator(this->path()), {}); }
+};
+
+const files::Reader readMatrices{ meam::readMatrices };
 }
 
 TEST(PoseFile, readsBlocks)
 {
-  const auto poses = read("# ground truth\n0 -1 0 1.5\n1 0 0 +2\n0 0 1 -3e0\n0 0 0 1\n\n1 0 0 0 0 "
-                          "1 0 0 0 0 1 0 0 0 0 1# end");
+  const auto poses = readMatrices("# ground truth\n0 -1 0 1.5\n1 0 0 +2\n0 0 1 -3e0\n0 0 0 1\n\n1 0 0 0 0 "
+                                  "1 0 0 0 0 1 0 0 0 0 1# end");
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0] * Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1.5, 3, -3));
   EXPECT_TRUE(poses[1].matrix().isIdentity());
-  EXPECT_TRUE(read("# nothing found\n\n").empty());
+  EXPECT_TRUE(readMatrices("# nothing found\n\n").empty());
 }
 
 TEST(PoseFile, badMatrices)
 {
   EXPECT_THROW(meam::readMatrices("/no/such/file.txt"), meam::Error);
-  EXPECT_THROW(read("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0"), meam::Error);
-  EXPECT_THROW(read("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 5"), meam::Error);
-  EXPECT_THROW(read("1 0 0 nan 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
-  EXPECT_THROW(read("1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
-  EXPECT_THROW(read("2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);  // scale
-  EXPECT_THROW(read("-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error); // mirror
-  EXPECT_THROW(read("1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1"), meam::Error);  // column-major
+  EXPECT_THROW(readMatrices("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0"), meam::Error);
+  EXPECT_THROW(readMatrices("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 5"), meam::Error);
+  EXPECT_THROW(readMatrices("1 0 0 nan 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
+  EXPECT_THROW(readMatrices("1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
+  EXPECT_THROW(readMatrices("2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);  // scale
+  EXPECT_THROW(readMatrices("-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error); // mirror
+  EXPECT_THROW(readMatrices("1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1"), meam::Error);  // column-major
 }
 
 TEST(PoseFile, matricesKeepEveryDigit)
 {
-  const Folder folder;
+  const Poses folder;
   meam::writeMatrices(folder.file(), { quarterTurn(), {} });
   const auto poses = meam::readMatrices(folder.file());
   ASSERT_EQ(poses.size(), 2u);
@@ -91,7 +75,7 @@ TEST(PoseFile, matricesKeepEveryDigit)
 
 TEST(PoseFile, bopRows)
 {
-  const Folder folder;
+  const Poses folder;
   meam::PoseRow row = identified();
   meam::writeBOP(folder.file(), { row, {} });
   EXPECT_EQ(meam::readFile(folder.file()), "scene_id,im_id,obj_id,score,R,t,time\n"
@@ -101,7 +85,7 @@ TEST(PoseFile, bopRows)
 
 TEST(PoseFile, json)
 {
-  const Folder folder;
+  const Poses folder;
   meam::PoseRow row = quarterTurn();
   row.votes = 120;
   row.viewId = 4;
@@ -131,7 +115,7 @@ TEST(PoseFile, json)
 
 TEST(PoseFile, writersLeaveTheOldFileWhenTheyFail)
 {
-  const Folder folder;
+  const Poses folder;
   meam::writeFile(folder.file(), "old");
   meam::PoseRow broken;
   broken.T_scene_model.translation().x() = std::nan("");
@@ -141,12 +125,12 @@ TEST(PoseFile, writersLeaveTheOldFileWhenTheyFail)
   EXPECT_EQ(meam::readFile(folder.file()), "old");
   EXPECT_EQ(folder.files(), 1);
   EXPECT_THROW(meam::writeBOP("/no/such/folder/poses.csv", {}), meam::Error);
-  EXPECT_THROW(meam::writeBOP(folder.path.string(), {}), meam::Error);
+  EXPECT_THROW(meam::writeBOP(folder.path(), {}), meam::Error);
 }
 
 TEST(PoseFile, whatIsWrittenIsReadAgain)
 {
-  const Folder folder;
+  const Poses folder;
   meam::PoseRow row = identified();
   row.rank = 4;
   row.votes = 120;
@@ -193,7 +177,7 @@ TEST(PoseFile, whatIsWrittenIsReadAgain)
 
 TEST(PoseFile, jsonOfOlderVersionsIsRead)
 {
-  const Folder folder;
+  const Poses folder;
   const auto read = [&](const std::string& header)
   {
     meam::writeFile(folder.file(), "{" + header + R"("poses": [{"matrix": [1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,1]}]})");
@@ -207,7 +191,7 @@ TEST(PoseFile, jsonOfOlderVersionsIsRead)
 
 TEST(PoseFile, damagedFilesAreRefused)
 {
-  const Folder folder;
+  const Poses folder;
   const std::string header = "scene_id,im_id,obj_id,score,R,t,time\n";
   for (const std::string& text :
     { header + "0,0,1,0.5,1 0 0 0 1 0 0 0 1,0 0", header + "0,0,1,0.5,1 0 0 0 1 0 0 0,0 0 0,-1",

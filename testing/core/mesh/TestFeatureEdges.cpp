@@ -15,17 +15,6 @@ meam::PointCloud extract(const meam::TriangleMesh& mesh, double spacing, double 
   return meam::extractFeatureEdges(mesh, settings);
 }
 
-/// A cylinder about z as a prism of many corners, on the plane z = 0.
-meam::TriangleMesh cylinder(float radius, float height, int corners)
-{
-  std::vector<Eigen::Vector2f> outline;
-  for (int i = 0; i < corners; ++i)
-  {
-    const double angle = 2.0 * M_PI * i / corners;
-    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return parts::prism(outline, height);
-}
 }
 
 TEST(FeatureEdges, boxHasTwelve)
@@ -72,7 +61,7 @@ TEST(FeatureEdges, automaticSpacing)
 TEST(FeatureEdges, cylinderHasTwoCircles)
 {
   constexpr int corners = 720;
-  const meam::PointCloud cloud = extract(cylinder(10, 15, corners), 1.0);
+  const meam::PointCloud cloud = extract(parts::regularPrism(corners, 10, 15), 1.0);
   EXPECT_EQ(cloud.size(), 2u * 63); // 2 pi 10 mm
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
@@ -89,7 +78,7 @@ TEST(FeatureEdges, cylinderHasTwoCircles)
 TEST(FeatureEdges, angleDecides)
 {
   // Each corner of a hexagon turns by 60 degrees: beside two rings of 6 x 10 mm, six uprights of 15 mm.
-  const meam::TriangleMesh prism = cylinder(10, 15, 6);
+  const meam::TriangleMesh prism = parts::regularPrism(6, 10, 15);
   EXPECT_EQ(extract(prism, 1.0, 59.0).size(), 120u + 90u);
   EXPECT_EQ(extract(prism, 1.0, 61.0).size(), 120u);
   EXPECT_EQ(extract(prism, 1.0, 91.0).size(), 0u);
@@ -114,10 +103,7 @@ TEST(FeatureEdges, bracketHasInnerAndOuterEdges)
 
 TEST(FeatureEdges, borderOfASheet)
 {
-  meam::TriangleMesh sheet;
-  sheet.vertices = { { 0, 0, 0 }, { 10, 0, 0 }, { 10, 5, 0 }, { 0, 5, 0 } };
-  sheet.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  const meam::PointCloud cloud = extract(sheet, 1.0);
+  const meam::PointCloud cloud = extract(parts::rectangle(10, 5), 1.0);
   ASSERT_EQ(cloud.size(), 30u);
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {

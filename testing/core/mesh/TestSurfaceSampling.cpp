@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestParts.h"
 #include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
 
@@ -7,34 +8,9 @@
 #include <cmath>
 #include <limits>
 
-namespace
-{
-/// A rectangle in the plane z = 0, facing up.
-meam::TriangleMesh rectangle(float width, float height)
-{
-  meam::TriangleMesh mesh;
-  mesh.vertices = { { 0, 0, 0 }, { width, 0, 0 }, { width, height, 0 }, { 0, height, 0 } };
-  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  return mesh;
-}
-
-/// A box from the origin to `size`, facing outwards.
-meam::TriangleMesh box(const Eigen::Vector3f& size)
-{
-  meam::TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-  {
-    mesh.vertices.emplace_back((i & 1) * size.x(), ((i >> 1) & 1) * size.y(), ((i >> 2) & 1) * size.z());
-  }
-  mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 }, { 2, 6, 3 },
-    { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
-  return mesh;
-}
-}
-
 TEST(SurfaceSampling, keepsTheSpacingAndCoversTheSurface)
 {
-  const meam::PointCloud samples = meam::sampleSurface(rectangle(20, 10), { 0.5, 1 });
+  const meam::PointCloud samples = meam::sampleSurface(parts::rectangle(20, 10), { 0.5, 1 });
   // Random packings of discs cover 0.547 of the plane: 0.70 discs for each square of one spacing.
   EXPECT_NEAR(samples.size(), 0.68 * 200 / 0.25, 40);
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -62,7 +38,7 @@ TEST(SurfaceSampling, keepsTheSpacingAndCoversTheSurface)
 
 TEST(SurfaceSampling, sizeOfTrianglesDoesNotMatter)
 {
-  meam::TriangleMesh mesh = rectangle(10, 10);
+  meam::TriangleMesh mesh = parts::rectangle(10, 10);
   // The same square, with one triangle a thousand times smaller than the others.
   mesh.vertices.emplace_back(9.99f, 5.0f, 0.0f);
   mesh.triangles = { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } };
@@ -72,7 +48,7 @@ TEST(SurfaceSampling, sizeOfTrianglesDoesNotMatter)
 
 TEST(SurfaceSampling, bothSidesOfAThinPlateAndItsRimAreSampled)
 {
-  const meam::PointCloud samples = meam::sampleSurface(box({ 20, 20, 0.2f }), { 1.0, 1 });
+  const meam::PointCloud samples = meam::sampleSurface(parts::box({ 0, 0, 0 }, { 20, 20, 0.2f }), { 1.0, 1 });
   int top = 0;
   int bottom = 0;
   int rim = 0;
@@ -90,7 +66,7 @@ TEST(SurfaceSampling, bothSidesOfAThinPlateAndItsRimAreSampled)
 
 TEST(SurfaceSampling, normalsPointOutOfABox)
 {
-  const meam::PointCloud samples = meam::sampleSurface(box({ 4, 5, 6 }));
+  const meam::PointCloud samples = meam::sampleSurface(parts::box({ 0, 0, 0 }, { 4, 5, 6 }));
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     const Eigen::Vector3f fromMiddle =
@@ -102,30 +78,31 @@ TEST(SurfaceSampling, normalsPointOutOfABox)
 TEST(SurfaceSampling, automaticSpacingIsOnePercentOfTheDiameter)
 {
   // Diagonal 5: spacing 0.05.
-  EXPECT_EQ(meam::sampleSurface(rectangle(4, 3)).points, meam::sampleSurface(rectangle(4, 3), { 0.05, 1 }).points);
+  EXPECT_EQ(meam::sampleSurface(parts::rectangle(4, 3)).points,
+    meam::sampleSurface(parts::rectangle(4, 3), { 0.05, 1 }).points);
 }
 
 TEST(SurfaceSampling, theSeedDecides)
 {
-  const meam::PointCloud one = meam::sampleSurface(rectangle(10, 10), { 1.0, 1 });
-  EXPECT_EQ(one.points, meam::sampleSurface(rectangle(10, 10), { 1.0, 1 }).points);
-  EXPECT_NE(one.points, meam::sampleSurface(rectangle(10, 10), { 1.0, 2 }).points);
+  const meam::PointCloud one = meam::sampleSurface(parts::rectangle(10, 10), { 1.0, 1 });
+  EXPECT_EQ(one.points, meam::sampleSurface(parts::rectangle(10, 10), { 1.0, 1 }).points);
+  EXPECT_NE(one.points, meam::sampleSurface(parts::rectangle(10, 10), { 1.0, 2 }).points);
 }
 
 TEST(SurfaceSampling, stopsOnRequest)
 {
-  EXPECT_THROW(meam::sampleSurface(rectangle(10, 10), { 0.1, 1 }, [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { 0.1, 1 }, [](double) { return false; }), meam::Aborted);
 }
 
 TEST(SurfaceSampling, badInput)
 {
   EXPECT_THROW(meam::sampleSurface({}), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(rectangle(0, 10)), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(rectangle(std::nanf(""), 10)), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(rectangle(10, 10), { -1.0, 1 }), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(rectangle(10, 10), { std::nan(""), 1 }), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(rectangle(10, 10), { 1e-6, 1 }), meam::Error);
-  meam::TriangleMesh mesh = rectangle(10, 10);
+  EXPECT_THROW(meam::sampleSurface(parts::rectangle(0, 10)), meam::Error);
+  EXPECT_THROW(meam::sampleSurface(parts::rectangle(std::nanf(""), 10)), meam::Error);
+  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { -1.0, 1 }), meam::Error);
+  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { std::nan(""), 1 }), meam::Error);
+  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { 1e-6, 1 }), meam::Error);
+  meam::TriangleMesh mesh = parts::rectangle(10, 10);
   mesh.triangles.emplace_back(0, 1, 4);
   EXPECT_THROW(meam::sampleSurface(mesh), meam::Error);
 }

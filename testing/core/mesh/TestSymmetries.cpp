@@ -8,8 +8,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <numeric>
-
 namespace
 {
 const Eigen::Vector3d Centre(5, -3, 2);

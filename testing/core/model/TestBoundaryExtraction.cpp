@@ -75,16 +75,6 @@ meam::TriangleMesh plateWithHole()
   return mesh;
 }
 
-meam::TriangleMesh cylinder(float radius, float height)
-{
-  std::vector<Eigen::Vector2f> circle;
-  for (int i = 0; i < 48; ++i)
-  {
-    circle.emplace_back(radius * std::cos(i * M_PI / 24.0), radius * std::sin(i * M_PI / 24.0));
-  }
-  return parts::prism(circle, height);
-}
-
 /// The views of a part, sampled at 1 mm, against its mesh.
 std::vector<meam::AppearanceModel> viewsOf(const meam::TriangleMesh& mesh, int viewpoints)
 {
@@ -221,8 +211,8 @@ TEST(BoundaryExtraction, MeshEdgesOfABoxFromACornerAreThreeCreasesAndSixContours
 
 TEST(BoundaryExtraction, ACylinderFromTheSideHasTwoStraightContours)
 {
-  const auto views = viewsOf(cylinder(10, 30), 6);
-  const auto all = meshEdges(cylinder(10, 30), views);
+  const auto views = viewsOf(parts::regularPrism(48, 10, 30), 6);
+  const auto all = meshEdges(parts::regularPrism(48, 10, 30), views);
   const meam::PointCloud& edges = all[2].cloud;
   ASSERT_EQ(all[2].direction, Eigen::Vector3f::UnitX());
   std::map<bool, int> lines;

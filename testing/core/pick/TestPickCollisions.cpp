@@ -11,7 +11,7 @@ using Eigen::Translation3d;
 using Eigen::Vector3d;
 
 /// A gripper that is one square finger 10 mm wide, seen as a mesh or by the lengths of jaws that stand 20 mm apart.
-meam::Gripper jaws()
+meam::Gripper finger()
 {
   meam::Gripper gripper;
   gripper.opening = 40.0;
@@ -44,14 +44,14 @@ meam::Clearance clearance(const meam::PickCollisions& world, int held = 0, doubl
 
 TEST(PickCollisions, NothingAroundIsTheMost)
 {
-  const meam::PickCollisions world(cube(), jaws());
+  const meam::PickCollisions world(cube(), finger());
   EXPECT_EQ(clearance(world).obstacle, meam::Obstacle::None);
   EXPECT_DOUBLE_EQ(clearance(world).distance, 50.0);
 }
 
 TEST(PickCollisions, DistancesOfAnotherCopyAreExact)
 {
-  meam::PickCollisions world(cube(), jaws());
+  meam::PickCollisions world(cube(), finger());
   world.setInstances({ at(0, 0, 0), at(32, 0, 0) }); // from 27 on; the jaw ends at 20
   auto found = clearance(world);
   EXPECT_EQ(found.obstacle, meam::Obstacle::Instance);
@@ -68,7 +68,7 @@ TEST(PickCollisions, DistancesOfAnotherCopyAreExact)
 
 TEST(PickCollisions, TheWayInIsChecked)
 {
-  meam::PickCollisions world(cube(), jaws());
+  meam::PickCollisions world(cube(), finger());
   // Beside the jaws, behind the body: only the way in comes there.
   world.setInstances({ at(0, 0, 0), at(15, 0, -200) });
   EXPECT_EQ(clearance(world, 0, 30.0).obstacle, meam::Obstacle::Instance);
@@ -78,7 +78,7 @@ TEST(PickCollisions, TheWayInIsChecked)
 
 TEST(PickCollisions, WhatIsBetweenTheJawsIsPressed)
 {
-  meam::PickCollisions world(cube(), jaws());
+  meam::PickCollisions world(cube(), finger());
   world.setInstances({ at(0, 0, 0), at(0, 9, 0) }); // from 4 to 14 along y: the jaws are 10 wide, from -5 to 5
   EXPECT_EQ(clearance(world).distance, 0.0);
   world.setInstances({ at(0, 0, 0), at(0, 11, 0) });
@@ -87,7 +87,7 @@ TEST(PickCollisions, WhatIsBetweenTheJawsIsPressed)
 
 TEST(PickCollisions, TheBinsWallsAndFloor)
 {
-  meam::PickCollisions world(cube(), jaws());
+  meam::PickCollisions world(cube(), finger());
   meam::Bin bin;
   bin.size = Vector3d(56.0, 200.0, 300.0);
   // Up is against the way in, z; the floor is 12 mm beyond the origin, 7 from the tips. The body is 40 + 2 * 10 wide:
@@ -109,7 +109,7 @@ TEST(PickCollisions, TheBinsWallsAndFloor)
 
 TEST(PickCollisions, MeasuredPointsAreCubes)
 {
-  meam::PickCollisions world(cube(), jaws());
+  meam::PickCollisions world(cube(), finger());
   meam::Points points(3, Eigen::Vector3f(29.0f, 1.0f, 1.0f)); // in the cube from 28 to 30
   world.setMeasured(points, 2.0, 3);
   EXPECT_EQ(clearance(world).obstacle, meam::Obstacle::Measured);
@@ -134,7 +134,7 @@ TEST(PickCollisions, AMeshIsLookedAtOnItsWay)
 
 TEST(PickCollisions, TellsWhetherTheHeldPartIsTouched)
 {
-  const meam::PickCollisions world(cube(), jaws());
+  const meam::PickCollisions world(cube(), finger());
   EXPECT_FALSE(world.touchesHeld(grasp(), 30.0, 1.0));
   meam::Grasp narrow = grasp();
   narrow.width = 0.0; // jaws from 5 mm on; a little less, and they touch

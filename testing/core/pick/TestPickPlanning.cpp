@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/PickPlanning.h"
 
-#include "TestParts.h"
+#include "TestFiles.h"
+#include "TestGrippers.h"
 
 #include <gtest/gtest.h>
 
 namespace
 {
 using Eigen::Vector3d;
-
-/// 20 x 40 x 20 mm about the origin. Lying on the floor it reaches from z = 480 to 500.
-meam::TriangleMesh block() { return parts::box({ -10, -20, -10 }, { 10, 20, 10 }); }
-
-meam::Gripper jaws()
-{
-  meam::Gripper gripper;
-  gripper.opening = 40.0;
-  gripper.jawClearance = 3.0;
-  gripper.fingerWidth = 10.0;
-  gripper.fingerThickness = 8.0; // from 13 to 21 mm on either side of the block
-  gripper.fingerLength = 50.0;
-  gripper.tipLength = 6.0;
-  gripper.bodyWidth = 20.0;
-  return gripper;
-}
 
 /// From above, across the block.
 meam::Grasp fromAbove(double y = 0.0)
@@ -35,7 +20,7 @@ meam::Grasp fromAbove(double y = 0.0)
   return grasp;
 }
 
-meam::Pose at(double x, double y, double probability = 1.0)
+meam::Pose poseAt(double x, double y, double probability = 1.0)
 {
   meam::Pose pose;
   pose.T_scene_model.translation() = Vector3d(x, y, 490.0);
@@ -77,30 +62,18 @@ meam::Pick onlyPick(const meam::Poses& poses, const meam::OrganizedCloud& cloud 
   const meam::Grasp& grasp = fromAbove(), const meam::PlanSettings& settings = {},
   const std::optional<meam::Bin>& inBin = bin())
 {
-  meam::PickPlanner planner(block(), {}, { grasp }, jaws(), settings);
+  meam::PickPlanner planner(grippers::block(), {}, { grasp }, grippers::jaws(), settings);
   const meam::Picks picks = planner.plan(poses, cloud, inBin);
   EXPECT_EQ(picks.size(), poses.size());
   const auto found = std::find_if(picks.begin(), picks.end(), [](const meam::Pick& pick) { return pick.pose == 0; });
   return *found;
 }
 
-std::string messageOf(const std::function<void()>& act)
-{
-  try
-  {
-    act();
-  }
-  catch (const meam::Error& error)
-  {
-    return error.what();
-  }
-  return {};
-}
 }
 
 TEST(PickPlanning, OneBlockOnTheFloor)
 {
-  const meam::Pick pick = onlyPick({ at(0, 0) }, scan(blockOnFloor));
+  const meam::Pick pick = onlyPick({ poseAt(0, 0) }, scan(blockOnFloor));
   EXPECT_TRUE(pick.possible()) << meam::describe(pick);
   EXPECT_NEAR(pick.clearance, 4.0, 1e-3); // the tips are at 496
   EXPECT_NEAR(pick.tilt, 0.0, 1e-6);
@@ -112,18 +85,18 @@ TEST(PickPlanning, OneBlockOnTheFloor)
 
 TEST(PickPlanning, WithoutABinTheFloorIsSomethingMeasured)
 {
-  const meam::Pick pick = onlyPick({ at(0, 0) }, scan(blockOnFloor), fromAbove(), {}, std::nullopt);
+  const meam::Pick pick = onlyPick({ poseAt(0, 0) }, scan(blockOnFloor), fromAbove(), {}, std::nullopt);
   EXPECT_TRUE(pick.possible()) << meam::describe(pick);
   EXPECT_NEAR(pick.clearance, 4.0, 2.0); // to the cubes about the points, which are 4 mm wide
   EXPECT_NEAR(pick.reach, 10.0, 1e-4);
-  const meam::Pick nothing = onlyPick({ at(0, 0) }, {}, fromAbove(), {}, std::nullopt);
+  const meam::Pick nothing = onlyPick({ poseAt(0, 0) }, {}, fromAbove(), {}, std::nullopt);
   EXPECT_NEAR(nothing.clearance, 10.0, 1e-9);
 }
 
 TEST(PickPlanning, TheNeighbourThatIsInTheWayIsNamed)
 {
   // The neighbour begins at 22, 1 mm beside the jaw.
-  const meam::Poses poses{ at(0, 0), at(-60, -60), at(32, 0) };
+  const meam::Poses poses{ poseAt(0, 0), poseAt(-60, -60), poseAt(32, 0) };
   meam::Pick pick = onlyPick(poses);
   EXPECT_EQ(pick.obstruction, meam::PickObstruction::Instance);
   EXPECT_EQ(pick.obstacle, 2);
@@ -134,54 +107,54 @@ TEST(PickPlanning, TheNeighbourThatIsInTheWayIsNamed)
   narrow.safetyMargin = 0.5;
   EXPECT_TRUE(onlyPick(poses, {}, fromAbove(), narrow).possible());
   // One that is not likely is none.
-  EXPECT_TRUE(onlyPick({ at(0, 0), at(-60, -60), at(32, 0, 0.3) }).possible());
+  EXPECT_TRUE(onlyPick({ poseAt(0, 0), poseAt(-60, -60), poseAt(32, 0, 0.3) }).possible());
 }
 
 TEST(PickPlanning, SomethingMeasuredThatIsNoKnownCopy)
 {
   const auto cloud =
     scan([](float x, float y) { return x > 20.0f && x < 40.0f && std::abs(y) < 20.0f ? 480.0f : blockOnFloor(x, y); });
-  const meam::Pick pick = onlyPick({ at(0, 0) }, cloud);
+  const meam::Pick pick = onlyPick({ poseAt(0, 0) }, cloud);
   EXPECT_EQ(pick.obstruction, meam::PickObstruction::Measured) << meam::describe(pick);
-  EXPECT_TRUE(onlyPick({ at(0, 0), at(-60, 0) }, scan(blockOnFloor)).possible());
+  EXPECT_TRUE(onlyPick({ poseAt(0, 0), poseAt(-60, 0) }, scan(blockOnFloor)).possible());
 }
 
 TEST(PickPlanning, WhatIsCoveredStays)
 {
   // A plate over a third of the block.
   const auto cloud = scan([](float x, float y) { return y > 7.0f && y < 60.0f ? 470.0f : blockOnFloor(x, y); });
-  const meam::Pick pick = onlyPick({ at(0, 0) }, cloud);
+  const meam::Pick pick = onlyPick({ poseAt(0, 0) }, cloud);
   EXPECT_EQ(pick.obstruction, meam::PickObstruction::Covered);
   EXPECT_NEAR(pick.covered, 13.0 / 40.0, 0.05);
   meam::Grasp side = fromAbove();
   side.T_model_grasp = meam::graspFrame({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 });
-  meam::PickPlanner planner(block(), {}, { side, fromAbove() }, jaws());
-  const meam::Picks picks = planner.plan({ at(0, 0) }, cloud, bin());
+  meam::PickPlanner planner(grippers::block(), {}, { side, fromAbove() }, grippers::jaws());
+  const meam::Picks picks = planner.plan({ poseAt(0, 0) }, cloud, bin());
   EXPECT_EQ(picks[0].grasp, 1) << "what is shown of it is the grasp that comes from above";
   EXPECT_NEAR(picks[1].tilt, 90.0, 1e-6);
   meam::PlanSettings bold;
   bold.maximumCovered = 50.0;
-  EXPECT_NE(onlyPick({ at(0, 0) }, cloud, fromAbove(), bold).obstruction, meam::PickObstruction::Covered);
+  EXPECT_NE(onlyPick({ poseAt(0, 0) }, cloud, fromAbove(), bold).obstruction, meam::PickObstruction::Covered);
 }
 
 TEST(PickPlanning, TiltUncertaintyWidthAndKind)
 {
   meam::Grasp side = fromAbove();
   side.T_model_grasp = meam::graspFrame({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 });
-  const meam::Pick tilted = onlyPick({ at(0, 0) }, {}, side);
+  const meam::Pick tilted = onlyPick({ poseAt(0, 0) }, {}, side);
   EXPECT_EQ(tilted.obstruction, meam::PickObstruction::Tilted);
   EXPECT_EQ(meam::describe(tilted), "tilted by 90 degrees");
   EXPECT_EQ(meam::labelOf(tilted, 7), "tilted");
-  EXPECT_EQ(onlyPick({ at(0, 0, 0.2) }).obstruction, meam::PickObstruction::Uncertain);
+  EXPECT_EQ(onlyPick({ poseAt(0, 0, 0.2) }).obstruction, meam::PickObstruction::Uncertain);
   meam::Grasp wide = fromAbove();
   wide.width = 35.0; // and 3 mm on either side
-  EXPECT_EQ(onlyPick({ at(0, 0) }, {}, wide).obstruction, meam::PickObstruction::TooWide);
+  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, wide).obstruction, meam::PickObstruction::TooWide);
   meam::Grasp cup = fromAbove();
   cup.kind = meam::GraspKind::Suction;
-  EXPECT_EQ(onlyPick({ at(0, 0) }, {}, cup).obstruction, meam::PickObstruction::WrongKind);
+  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, cup).obstruction, meam::PickObstruction::WrongKind);
   meam::Grasp narrow = fromAbove();
   narrow.width = 10.0; // the jaws come down on the block
-  EXPECT_EQ(onlyPick({ at(0, 0) }, {}, narrow).obstruction, meam::PickObstruction::PartItself);
+  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, narrow).obstruction, meam::PickObstruction::PartItself);
 }
 
 TEST(PickPlanning, ACupMayLieOnThePart)
@@ -192,7 +165,7 @@ TEST(PickPlanning, ACupMayLieOnThePart)
   meam::Gripper gripper;
   gripper.kind = meam::GraspKind::Suction;
   const auto picked = [&]
-  { return meam::PickPlanner(block(), {}, { cup }, gripper).plan({ at(0, 0) }, {}, bin()).front(); };
+  { return meam::PickPlanner(grippers::block(), {}, { cup }, gripper).plan({ poseAt(0, 0) }, {}, bin()).front(); };
   EXPECT_TRUE(picked().possible()) << meam::describe(picked());
   EXPECT_EQ(meam::labelOf(picked(), 7), "pick 7");
   cup.T_model_grasp.translation().z() = 0.0; // in the middle of it
@@ -204,14 +177,15 @@ TEST(PickPlanning, TheOpenGripperDoesNotGrazeThePart)
   // The body comes down to 44 mm behind the grasp; the block is held so deep that it ends half a millimetre before it.
   meam::Grasp deep = fromAbove();
   deep.T_model_grasp.translation().z() = 33.5;
-  EXPECT_EQ(onlyPick({ at(0, 0) }, {}, deep, {}, std::nullopt).obstruction, meam::PickObstruction::PartItself);
+  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, deep, {}, std::nullopt).obstruction, meam::PickObstruction::PartItself);
   deep.T_model_grasp.translation().z() -= 1.0; // more than the margin
-  EXPECT_TRUE(onlyPick({ at(0, 0) }, {}, deep, {}, std::nullopt).possible());
+  EXPECT_TRUE(onlyPick({ poseAt(0, 0) }, {}, deep, {}, std::nullopt).possible());
 }
 
 TEST(PickPlanning, TheWallIsInTheWay)
 {
-  const meam::Pick pick = onlyPick({ at(125, 0) }); // the jaw ends at 146, the wall begins at 150; the body ends at 153
+  const meam::Pick pick =
+    onlyPick({ poseAt(125, 0) }); // the jaw ends at 146, the wall begins at 150; the body ends at 153
   EXPECT_EQ(pick.obstruction, meam::PickObstruction::Bin);
   EXPECT_EQ(meam::describe(pick), "collides with the bin");
 }
@@ -219,11 +193,11 @@ TEST(PickPlanning, TheWallIsInTheWay)
 TEST(PickPlanning, ASymmetricPartIsHeldWhereThereIsRoom)
 {
   // Something stands beside one end of the block; a turn by 180 degrees takes the grasp to the other.
-  const meam::Poses poses{ at(0, 0), at(32, 25) };
+  const meam::Poses poses{ poseAt(0, 0), poseAt(32, 25) };
   EXPECT_FALSE(onlyPick(poses, {}, fromAbove(15.0)).possible());
   meam::Symmetries half;
   half.discrete.push_back(meam::turnAbout(Vector3d::UnitZ(), M_PI, Vector3d::Zero()));
-  meam::PickPlanner planner(block(), half, { fromAbove(15.0) }, jaws());
+  meam::PickPlanner planner(grippers::block(), half, { fromAbove(15.0) }, grippers::jaws());
   const meam::Picks picks = planner.plan(poses, {}, bin());
   ASSERT_EQ(picks.size(), 2u);
   const meam::Pick& pick = picks[picks[0].pose == 0 ? 0 : 1];
@@ -233,8 +207,8 @@ TEST(PickPlanning, ASymmetricPartIsHeldWhereThereIsRoom)
 
 TEST(PickPlanning, TheBestComesFirstAndTheImpossibleLast)
 {
-  meam::PickPlanner planner(block(), {}, { fromAbove() }, jaws());
-  const meam::Picks picks = planner.plan({ at(-60, 0, 0.6), at(0, 0, 0.9), at(60, 0, 0.2) }, {}, bin());
+  meam::PickPlanner planner(grippers::block(), {}, { fromAbove() }, grippers::jaws());
+  const meam::Picks picks = planner.plan({ poseAt(-60, 0, 0.6), poseAt(0, 0, 0.9), poseAt(60, 0, 0.2) }, {}, bin());
   ASSERT_EQ(picks.size(), 3u);
   EXPECT_EQ(picks[0].pose, 1);
   EXPECT_EQ(picks[1].pose, 0);
@@ -249,8 +223,8 @@ TEST(PickPlanning, MovesWithTheScene)
   const Eigen::Isometry3d motion = Eigen::Translation3d(300, -200, 100) *
                                    Eigen::AngleAxisd(1.2, Vector3d(1, 2, 3).normalized()) *
                                    Eigen::Isometry3d::Identity();
-  meam::PickPlanner planner(block(), {}, { fromAbove() }, jaws());
-  meam::Poses poses{ at(-60, 10, 0.9), at(0, 0, 0.8), at(25, 45, 0.7) };
+  meam::PickPlanner planner(grippers::block(), {}, { fromAbove() }, grippers::jaws());
+  meam::Poses poses{ poseAt(-60, 10, 0.9), poseAt(0, 0, 0.8), poseAt(25, 45, 0.7) };
   const meam::Picks before = planner.plan(poses, {}, bin());
   meam::Bin moved = bin();
   moved.T_scene_bin = motion * moved.T_scene_bin;
@@ -273,21 +247,23 @@ TEST(PickPlanning, WrongInputIsOneSentence)
 {
   const auto plan = [](
                       const meam::Grasps& grasps, const meam::Gripper& gripper, const meam::PlanSettings& settings = {})
-  { meam::PickPlanner(block(), {}, grasps, gripper, settings).plan({ at(0, 0) }, {}, bin()); };
-  EXPECT_NE(messageOf([&] { plan({}, jaws()); }).find("no grasp"), std::string::npos);
-  EXPECT_NE(messageOf([&] { plan({ fromAbove(500.0) }, jaws()); }).find("outside the part"), std::string::npos);
-  meam::Gripper huge = jaws();
+  { meam::PickPlanner(grippers::block(), {}, grasps, gripper, settings).plan({ poseAt(0, 0) }, {}, bin()); };
+  EXPECT_NE(files::errorOf([&] { plan({}, grippers::jaws()); }).find("no grasp"), std::string::npos);
+  EXPECT_NE(
+    files::errorOf([&] { plan({ fromAbove(500.0) }, grippers::jaws()); }).find("outside the part"), std::string::npos);
+  meam::Gripper huge = grippers::jaws();
   huge.fingerWidth = 400.0;
-  EXPECT_NE(messageOf([&] { plan({ fromAbove() }, huge); }).find("does not go into the bin"), std::string::npos);
+  EXPECT_NE(files::errorOf([&] { plan({ fromAbove() }, huge); }).find("does not go into the bin"), std::string::npos);
   meam::PlanSettings settings;
   settings.maximumTilt = 200.0;
-  EXPECT_EQ(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }),
+  EXPECT_EQ(files::errorOf([&] { plan({ fromAbove() }, grippers::jaws(), settings); }),
     "The maximum tilt has to be 0 to 180 degrees, not 200.");
   settings.maximumTilt = 60.0;
   settings.wayIn = NAN;
-  EXPECT_EQ(messageOf([&] { plan({ fromAbove() }, jaws(), settings); }), "The way in has to be 0 mm or more, not nan.");
-  meam::Pose nowhere = at(0, 0);
+  EXPECT_EQ(files::errorOf([&] { plan({ fromAbove() }, grippers::jaws(), settings); }),
+    "The way in has to be 0 mm or more, not nan.");
+  meam::Pose nowhere = poseAt(0, 0);
   nowhere.T_scene_model.translation().x() = NAN;
-  meam::PickPlanner planner(block(), {}, { fromAbove() }, jaws());
+  meam::PickPlanner planner(grippers::block(), {}, { fromAbove() }, grippers::jaws());
   EXPECT_THROW(planner.plan({ nowhere }, {}, bin()), meam::Error);
 }

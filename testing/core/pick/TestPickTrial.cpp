@@ -7,9 +7,9 @@
 
 namespace
 {
-meam::TriangleMesh cube() { return parts::box({ -10, -10, -10 }, { 10, 10, 10 }); }
+meam::TriangleMesh smallCube() { return parts::box({ -10, -10, -10 }, { 10, 10, 10 }); }
 
-Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
+Eigen::Isometry3d shifted(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
 
 /// From above, along z, the jaws 23 mm apart.
 meam::PickTrial pick(const Eigen::Isometry3d& where, const std::vector<Eigen::Isometry3d>& truths)
@@ -23,26 +23,28 @@ meam::PickTrial pick(const Eigen::Isometry3d& where, const std::vector<Eigen::Is
   bin.T_scene_bin.translation().z() = 20.0;
   bin.size << 300.0, 300.0, 60.0;
   grasp.T_model_grasp = where;
-  return meam::tryPicks(cube(), gripper, { grasp }, truths, &bin).front();
+  return meam::tryPicks(smallCube(), gripper, { grasp }, truths, &bin).front();
 }
 }
 
 TEST(PickTrial, HoldsWhatIsThere)
 {
-  const auto trial = pick(at(0, 0, 0), { at(60, 0, 0), at(0, 0, 0) });
+  const auto trial = pick(shifted(0, 0, 0), { shifted(60, 0, 0), shifted(0, 0, 0) });
   EXPECT_EQ(trial.outcome, meam::TrialOutcome::Success);
   EXPECT_EQ(trial.instance, 1);
-  EXPECT_EQ(pick(at(1, 0, 0), { at(0, 0, 0) }).outcome, meam::TrialOutcome::Success); // a jaw has 1.5 mm of room
+  EXPECT_EQ(
+    pick(shifted(1, 0, 0), { shifted(0, 0, 0) }).outcome, meam::TrialOutcome::Success); // a jaw has 1.5 mm of room
 }
 
 TEST(PickTrial, FailsAsAPoseIsWrong)
 {
-  EXPECT_EQ(pick(at(2, 0, 0), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HitsPart);
-  EXPECT_EQ(pick(at(0, 0, -40), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HoldsNothing);
-  EXPECT_EQ(pick(at(0, 40, 0), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HoldsNothing);
-  EXPECT_EQ(pick(at(0, 0, 15), { at(0, 0, 0) }).outcome, meam::TrialOutcome::HitsBin); // the tips reach to 21
-  EXPECT_EQ(pick(at(0, 0, 0), { at(0, 0, 0), at(25, 0, 0) }).outcome, meam::TrialOutcome::HitsOther);
-  EXPECT_EQ(pick(at(0, 15.5, 0), { at(0, 0, 0), at(0, 31, 0) }).outcome, meam::TrialOutcome::HitsOther); // of two
+  EXPECT_EQ(pick(shifted(2, 0, 0), { shifted(0, 0, 0) }).outcome, meam::TrialOutcome::HitsPart);
+  EXPECT_EQ(pick(shifted(0, 0, -40), { shifted(0, 0, 0) }).outcome, meam::TrialOutcome::HoldsNothing);
+  EXPECT_EQ(pick(shifted(0, 40, 0), { shifted(0, 0, 0) }).outcome, meam::TrialOutcome::HoldsNothing);
+  EXPECT_EQ(pick(shifted(0, 0, 15), { shifted(0, 0, 0) }).outcome, meam::TrialOutcome::HitsBin); // the tips reach to 21
+  EXPECT_EQ(pick(shifted(0, 0, 0), { shifted(0, 0, 0), shifted(25, 0, 0) }).outcome, meam::TrialOutcome::HitsOther);
+  EXPECT_EQ(pick(shifted(0, 15.5, 0), { shifted(0, 0, 0), shifted(0, 31, 0) }).outcome,
+    meam::TrialOutcome::HitsOther); // of two
 }
 
 TEST(PickTrial, ACupGivesWay)
@@ -54,8 +56,8 @@ TEST(PickTrial, ACupGivesWay)
   grasp.kind = meam::GraspKind::Suction;
   const auto outcome = [&](double z) // the top of the cube is at -10
   {
-    grasp.T_model_grasp = at(0, 0, z);
-    return meam::tryPicks(cube(), cup, { grasp }, { at(0, 0, 0) }, nullptr).front().outcome;
+    grasp.T_model_grasp = shifted(0, 0, z);
+    return meam::tryPicks(smallCube(), cup, { grasp }, { shifted(0, 0, 0) }, nullptr).front().outcome;
   };
   EXPECT_EQ(outcome(-10.0), meam::TrialOutcome::Success);
   EXPECT_EQ(outcome(-11.0), meam::TrialOutcome::Success);

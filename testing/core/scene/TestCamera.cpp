@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestFiles.h"
 #include "base/Error.h"
 #include "scene/Camera.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -42,15 +42,7 @@ meam::Camera colorCamera()
 
 std::string errorOf(const meam::Camera& camera)
 {
-  try
-  {
-    meam::requireCamera(camera);
-  }
-  catch (const meam::Error& error)
-  {
-    return error.what();
-  }
-  return "";
+  return files::errorOf([&] { meam::requireCamera(camera); });
 }
 }
 

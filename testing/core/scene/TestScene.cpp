@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/Scene.h"
 
+#include "TestFiles.h"
 #include "TestParts.h"
 #include "base/Error.h"
 #include "base/Frames.h"
@@ -38,7 +39,7 @@ meam::Scene moved(const Eigen::Isometry3d& T, bool withSurface = true)
 }
 
 /// Edge points on a square, in the scene's coordinates.
-meam::LocalCloud square()
+meam::LocalCloud squareEdges()
 {
   meam::LocalCloud edges;
   edges.cloud.points = { { 0, 0, 5 }, { 80, 0, 5 }, { 80, 60, 5 }, { 0, 60, 5 } };
@@ -50,18 +51,10 @@ meam::LocalCloud square()
 const meam::Points Table{ { 10, 10, 0 }, { 70, 10, 0 }, { 10, 50, 0 }, { 70, 50, 0 } };
 const meam::Sensor FromAbove{ false, { 0, 0, 0 }, { 0, 0, -1 } };
 
-std::string errorOf(
+std::string sceneError(
   meam::LocalCloud edges, const meam::Points& measured = Table, const meam::Sensor& sensor = FromAbove)
 {
-  try
-  {
-    const meam::Scene scene(std::move(edges), measured, sensor, Diameter);
-    return "";
-  }
-  catch (const meam::Error& error)
-  {
-    return error.what();
-  }
+  return files::errorOf([&] { meam::Scene(std::move(edges), measured, sensor, Diameter); });
 }
 }
 
@@ -88,7 +81,7 @@ TEST(Scene, IsTheSameWhereverItLies)
 
 TEST(Scene, ItsGridsAreThoseOfItsPoints)
 {
-  meam::LocalCloud edges = square();
+  meam::LocalCloud edges = squareEdges();
   edges.T_local_scene = Eigen::Translation3d(0, 0, -5); // the points as they are given are in it
   const meam::Scene scene(
     edges, meam::moved(Table, edges.T_local_scene), { true, { 40, 30, 500 }, { 0, 0, -1 } }, Diameter);
@@ -104,7 +97,7 @@ TEST(Scene, ItsGridsAreThoseOfItsPoints)
 
 TEST(Scene, EdgePointsThatAreNotFiniteAreLeftOut)
 {
-  meam::LocalCloud edges = square();
+  meam::LocalCloud edges = squareEdges();
   edges.cloud.points[1].x() = NAN;
   edges.cloud.tangents[2].y() = NAN;
   const meam::Scene scene(edges, Table, FromAbove, Diameter);
@@ -114,29 +107,30 @@ TEST(Scene, EdgePointsThatAreNotFiniteAreLeftOut)
 
 TEST(Scene, EdgesThatCannotBeLookedUpAreAnError)
 {
-  EXPECT_EQ(errorOf(square()), "");
-  EXPECT_NE(errorOf({}), "");
-  meam::LocalCloud edges = square();
+  EXPECT_EQ(sceneError(squareEdges()), "");
+  EXPECT_NE(sceneError({}), "");
+  meam::LocalCloud edges = squareEdges();
   edges.cloud.tangents.clear();
-  EXPECT_NE(errorOf(edges).find("tangents"), std::string::npos);
-  edges = square();
+  EXPECT_NE(sceneError(edges).find("tangents"), std::string::npos);
+  edges = squareEdges();
   edges.cloud.weights.clear();
-  EXPECT_EQ(errorOf(edges), "") << "all count 1";
+  EXPECT_EQ(sceneError(edges), "") << "all count 1";
   edges.cloud.weights.assign(3, 1.0f);
-  EXPECT_NE(errorOf(edges).find("3 weights"), std::string::npos) << "one is missing";
+  EXPECT_NE(sceneError(edges).find("3 weights"), std::string::npos) << "one is missing";
   for (const float weight : { -0.1f, 1.5f, NAN })
   {
-    edges = square();
+    edges = squareEdges();
     edges.cloud.weights.back() = weight;
-    EXPECT_NE(errorOf(edges).find("from 0 to 1"), std::string::npos) << weight;
+    EXPECT_NE(sceneError(edges).find("from 0 to 1"), std::string::npos) << weight;
   }
 }
 
 TEST(Scene, ASensorThatLooksAwayIsAnError)
 {
   meam::Sensor sensor{ true, { 0, 0, 1000 }, { 0, 0, -1 } };
-  EXPECT_EQ(errorOf(square(), Table, sensor), "");
+  EXPECT_EQ(sceneError(squareEdges(), Table, sensor), "");
   sensor.direction = Eigen::Vector3d::UnitZ();
-  EXPECT_NE(errorOf(square(), Table, sensor).find("looks away"), std::string::npos) << "it sees nothing of the scene";
-  EXPECT_EQ(errorOf(square(), {}, sensor), "") << "nothing was measured";
+  EXPECT_NE(sceneError(squareEdges(), Table, sensor).find("looks away"), std::string::npos)
+    << "it sees nothing of the scene";
+  EXPECT_EQ(sceneError(squareEdges(), {}, sensor), "") << "nothing was measured";
 }

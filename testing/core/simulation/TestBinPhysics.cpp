@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestParts.h"
 #include "simulation/BinPhysics.h"
 #include "mesh/TriangleMesh.h"
 
@@ -70,18 +71,6 @@ Profile ring()
 
 /// A cup with slanted walls, 40 mm high.
 Profile cup() { return { { 1e-3, 0.0 }, { 20.0, 0.0 }, { 30.0, 40.0 }, { 28.0, 40.0 }, { 18.5, 2.0 }, { 1e-3, 2.0 } }; }
-
-meam::TriangleMesh box(double x, double y, double z)
-{
-  meam::TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-  {
-    mesh.vertices.push_back(Eigen::Vector3d((i & 1) * x, ((i >> 1) & 1) * y, (i >> 2) * z).cast<float>());
-  }
-  mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 }, { 2, 6, 3 },
-    { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
-  return mesh;
-}
 
 meam::FilledBin fill(const meam::TriangleMesh& part, double size, int copies, unsigned seed = 1)
 {
@@ -183,7 +172,7 @@ TEST(BinPhysics, cupsDoNotCross)
 
 TEST(BinPhysics, aBoxComesToLieFlat)
 {
-  const meam::TriangleMesh part = box(40, 30, 10);
+  const meam::TriangleMesh part = parts::box({ 0, 0, 0 }, { 40, 30, 10 });
   for (const unsigned seed : { 1u, 2u, 3u })
   {
     const Eigen::Isometry3d pose = fill(part, 100.0, 1, seed).poses.at(0);
@@ -194,7 +183,7 @@ TEST(BinPhysics, aBoxComesToLieFlat)
 
 TEST(BinPhysics, whatLosesItsSupportFallsAndWhatRestsStays)
 {
-  const meam::TriangleMesh part = box(40, 30, 10);
+  const meam::TriangleMesh part = parts::box({ 0, 0, 0 }, { 40, 30, 10 });
   const auto at = [](double x, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, -15.0, z)); };
   // One on the floor, and one where another has been taken from under it.
   const meam::FilledBin bin = meam::settleBin(part, { 200.0, 200.0 }, { at(-70.0, 0.1), at(20.0, 10.2) });
@@ -238,7 +227,7 @@ TEST(BinPhysics, sheetsWithoutThicknessDoNotCross)
 
 TEST(BinPhysics, theSeedDecides)
 {
-  const meam::TriangleMesh part = box(40, 30, 10);
+  const meam::TriangleMesh part = parts::box({ 0, 0, 0 }, { 40, 30, 10 });
   const auto matrixOf = [&](unsigned seed) { return fill(part, 100.0, 4, seed).poses.at(3).matrix().eval(); };
   EXPECT_EQ(matrixOf(1), matrixOf(1));
   EXPECT_NE(matrixOf(1), matrixOf(2));
@@ -246,14 +235,17 @@ TEST(BinPhysics, theSeedDecides)
 
 TEST(BinPhysics, theUnitOfTheCoordinatesDoesNotMatter)
 {
-  const auto heightOf = [](double scale)
-  { return fill(box(40 * scale, 30 * scale, 10 * scale), 100.0 * scale, 1).poses.at(0).translation().z() / scale; };
+  const auto heightOf = [](float scale)
+  {
+    const Eigen::Vector3f size = scale * Eigen::Vector3f(40, 30, 10);
+    return fill(parts::box({ 0, 0, 0 }, size), 100.0 * scale, 1).poses.at(0).translation().z() / scale;
+  };
   EXPECT_NEAR(heightOf(1.0), heightOf(0.125), 0.05);
 }
 
 TEST(BinPhysics, badInput)
 {
-  const meam::TriangleMesh part = box(40, 30, 10);
+  const meam::TriangleMesh part = parts::box({ 0, 0, 0 }, { 40, 30, 10 });
   EXPECT_THROW(fill({}, 100.0, 1), meam::Error);
   EXPECT_THROW(fill(part, 5.0, 1), meam::Error);
   meam::Random random(1);

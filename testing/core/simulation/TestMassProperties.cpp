@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestParts.h"
 #include "simulation/MassProperties.h"
 #include "mesh/TriangleMesh.h"
 
@@ -8,16 +9,14 @@
 
 namespace
 {
-/// A box of 6 x 4 x 2 whose corner of least coordinates is at (10, 20, 30), turned about z.
-meam::TriangleMesh box(const Eigen::Matrix3f& turn)
+/// A box of 6 x 4 x 2 whose corner of least coordinates is at (10, 20, 30), turned about the origin.
+meam::TriangleMesh turnedBox(const Eigen::Matrix3f& turn)
 {
-  meam::TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
+  meam::TriangleMesh mesh = parts::box({ 10, 20, 30 }, { 16, 24, 32 });
+  for (auto& vertex : mesh.vertices)
   {
-    mesh.vertices.push_back(turn * Eigen::Vector3f(10 + 6 * (i & 1), 20 + 4 * ((i >> 1) & 1), 30 + 2 * (i >> 2)));
+    vertex = turn * vertex;
   }
-  mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 }, { 2, 6, 3 },
-    { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
   return mesh;
 }
 }
@@ -25,7 +24,7 @@ meam::TriangleMesh box(const Eigen::Matrix3f& turn)
 TEST(MassProperties, ofASolidBox)
 {
   const Eigen::Matrix3f turn = Eigen::AngleAxisf(0.5f, Eigen::Vector3f(1, 2, 3).normalized()).matrix();
-  const meam::MassProperties mass = meam::massProperties(box(turn), true);
+  const meam::MassProperties mass = meam::massProperties(turnedBox(turn), true);
   const Eigen::Vector3d centre = (turn * Eigen::Vector3f(13, 22, 31)).cast<double>();
   EXPECT_LT((mass.T_model_body.translation() - centre).norm(), 1e-4);
   EXPECT_NEAR(mass.T_model_body.linear().determinant(), 1.0, 1e-9);

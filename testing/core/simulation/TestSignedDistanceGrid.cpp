@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/SignedDistanceGrid.h"
 
+#include "TestParts.h"
 #include "base/Random.h"
 #include "mesh/TriangleMesh.h"
 
@@ -14,17 +15,10 @@ namespace
 /// A box from (-3, -2, -1) to (3, 2, 1), without its lid when it is open.
 meam::TriangleMesh box(bool closed)
 {
-  meam::TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
+  meam::TriangleMesh mesh = parts::box({ -3, -2, -1 }, { 3, 2, 1 });
+  if (!closed)
   {
-    mesh.vertices.emplace_back((i & 1) ? 3 : -3, (i & 2) ? 2 : -2, (i & 4) ? 1 : -1);
-  }
-  mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 0, 1, 4 }, { 1, 5, 4 }, { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 },
-    { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
-  if (closed)
-  {
-    mesh.triangles.emplace_back(4, 5, 6);
-    mesh.triangles.emplace_back(5, 7, 6);
+    mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);
   }
   return mesh;
 }

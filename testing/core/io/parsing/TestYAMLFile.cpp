@@ -8,12 +8,7 @@ namespace
 {
 std::string parsed(const std::string& text) { return meam::parseYAML("a.yaml", text).dump(); }
 
-/// The message names the file and has the word.
-void expectError(const std::string& text, const std::string& word)
-{
-  const std::string error = files::errorOf([&] { parsed(text); });
-  EXPECT_TRUE(files::contains(error, word) && files::contains(error, "a.yaml")) << text << "\nsays: " << error;
-}
+const files::Reader parseFile{ [](const std::string& path) { return meam::parseYAML(path, meam::readFile(path)); } };
 }
 
 TEST(YAMLFile, becomesJSON)
@@ -37,15 +32,15 @@ TEST(YAMLFile, ofOpenCV)
 
 TEST(YAMLFile, damaged)
 {
-  expectError("a: 1\nb: [ 1, 2", "line");
-  expectError("a: 1\n b: 2\n", "line 2");
-  expectError("a: &x 1\nb: *x\n", "aliases");
-  expectError("? [1]\n: 2\n", "no name");
-  expectError(std::string(100, '[') + std::string(100, ']'), "lists in lists");
+  parseFile.fails("a: 1\nb: [ 1, 2", "line");
+  parseFile.fails("a: 1\n b: 2\n", "line 2");
+  parseFile.fails("a: &x 1\nb: *x\n", "aliases");
+  parseFile.fails("? [1]\n: 2\n", "no name");
+  parseFile.fails(std::string(100, '[') + std::string(100, ']'), "lists in lists");
   std::string nested;
   for (int k = 0; k < 100; ++k)
   {
     nested += "- ";
   }
-  expectError(nested, "lists in lists");
+  parseFile.fails(nested, "lists in lists");
 }

@@ -20,17 +20,6 @@ meam::PointCloud sampled(const meam::TriangleMesh& mesh, double spacing = SmallD
   return meam::sampleSurface(mesh, settings);
 }
 
-meam::TriangleMesh regularPrism(int sides, float radius, float height)
-{
-  std::vector<Eigen::Vector2f> outline;
-  for (int i = 0; i < sides; ++i)
-  {
-    const double angle = 2.0 * M_PI * i / sides;
-    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return parts::prism(outline, height);
-}
-
 bool contains(const std::vector<Eigen::Isometry3d>& turns, const Eigen::Vector3d& axis, double degrees)
 {
   Eigen::Isometry3d wanted = Eigen::Isometry3d::Identity();
@@ -56,9 +45,7 @@ TEST(SymmetryDetection, OfABoxTheThreeHalfTurns)
 
 TEST(SymmetryDetection, OfAFlatSheetTheHalfTurn)
 {
-  meam::TriangleMesh sheet;
-  sheet.vertices = { { 0, 0, 0 }, { 60, 0, 0 }, { 60, 40, 0 }, { 0, 40, 0 } };
-  sheet.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  const meam::TriangleMesh sheet = parts::rectangle(60, 40);
   const meam::Symmetries found = meam::detectSymmetries(sampled(sheet, 0.02)); // its other side is no surface
   EXPECT_TRUE(found.continuous.empty());
   ASSERT_EQ(found.discrete.size(), 1u);
@@ -76,11 +63,11 @@ TEST(SymmetryDetection, OfACubeTheWholeGroup)
 
 TEST(SymmetryDetection, OfARegularPrismItsTurnsAndFlips)
 {
-  const meam::Symmetries hexagon = meam::detectSymmetries(sampled(regularPrism(6, 10, 8)));
+  const meam::Symmetries hexagon = meam::detectSymmetries(sampled(parts::regularPrism(6, 10, 8)));
   EXPECT_EQ(hexagon.discrete.size(), 11u);
   EXPECT_TRUE(contains(hexagon.discrete, { 0, 0, 1 }, 60.0));
   EXPECT_TRUE(contains(hexagon.discrete, { 1, 0, 0 }, 180.0));
-  const meam::Symmetries triangle = meam::detectSymmetries(sampled(regularPrism(3, 10, 8)));
+  const meam::Symmetries triangle = meam::detectSymmetries(sampled(parts::regularPrism(3, 10, 8)));
   EXPECT_EQ(triangle.discrete.size(), 5u);
   EXPECT_TRUE(contains(triangle.discrete, { 0, 0, 1 }, 120.0));
   EXPECT_FALSE(contains(triangle.discrete, { 0, 0, 1 }, 180.0));
@@ -88,7 +75,7 @@ TEST(SymmetryDetection, OfARegularPrismItsTurnsAndFlips)
 
 TEST(SymmetryDetection, OfACylinderAnAxisAndAFlip)
 {
-  const meam::Symmetries found = meam::detectSymmetries(sampled(regularPrism(72, 10, 30)));
+  const meam::Symmetries found = meam::detectSymmetries(sampled(parts::regularPrism(72, 10, 30)));
   ASSERT_EQ(found.continuous.size(), 1u);
   EXPECT_GT(std::abs(found.continuous[0].axis.z()), 0.9999);
   EXPECT_LT(found.continuous[0].point.head<2>().norm(), 0.1);

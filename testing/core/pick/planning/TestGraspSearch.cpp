@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/planning/GraspSearch.h"
 
-#include "TestParts.h"
+#include "TestGrippers.h"
 #include "pick/Grasp.h"
 
 #include <gtest/gtest.h>
@@ -9,23 +9,6 @@
 namespace
 {
 using Eigen::Vector3d;
-
-/// 20 x 40 x 20 mm about the origin.
-meam::TriangleMesh block() { return parts::box({ -10, -20, -10 }, { 10, 20, 10 }); }
-
-/// Its fingers are 8 mm thick and stand 3 mm from a block 20 mm wide.
-meam::Gripper jaws(double opening = 40.0)
-{
-  meam::Gripper gripper;
-  gripper.opening = opening;
-  gripper.jawClearance = 3.0;
-  gripper.fingerWidth = 10.0;
-  gripper.fingerThickness = 8.0;
-  gripper.fingerLength = 50.0;
-  gripper.tipLength = 6.0;
-  gripper.bodyWidth = 20.0;
-  return gripper;
-}
 
 /// Along the part's z, across it.
 meam::Grasp across()
@@ -48,9 +31,9 @@ meam::Pose lying(double x, double tilt = 0.0)
 
 /// Picks the first of the poses, all of which stand in the way.
 meam::Pick pickFirst(
-  const meam::Poses& poses, const meam::Gripper& gripper = jaws(), const meam::Grasp& grasp = across())
+  const meam::Poses& poses, const meam::Gripper& gripper = grippers::jaws(), const meam::Grasp& grasp = across())
 {
-  meam::GraspSearch search(block(), {}, { grasp }, gripper, {});
+  meam::GraspSearch search(grippers::block(), {}, { grasp }, gripper, {});
   meam::PickSurroundings around;
   around.up = -Vector3d::UnitZ();
   for (int i = 0; i < static_cast<int>(poses.size()); ++i)
@@ -79,14 +62,15 @@ TEST(GraspSearch, ARotationIsNeededWhereTheJawsDoNotTouchThePartAtEachNearSymmet
   {
     meam::Symmetries symmetries;
     symmetries.near.push_back({ meam::turnAbout(Vector3d::UnitZ(), degrees * M_PI / 180.0, Vector3d::Zero()) });
-    return meam::GraspSearch(block(), symmetries, { across() }, jaws(), settings).needsRotation(0);
+    return meam::GraspSearch(grippers::block(), symmetries, { across() }, grippers::jaws(), settings).needsRotation(0);
   };
   EXPECT_FALSE(needsRotation(180.0)) << "the jaws are on the other faces";
   EXPECT_TRUE(needsRotation(90.0)) << "10 mm inside the block";
   meam::PlanSettings counts;
   counts.rotationCounts = true;
   EXPECT_TRUE(needsRotation(180.0, counts));
-  EXPECT_TRUE(meam::GraspSearch(block(), {}, { across() }, jaws(), {}).needsRotation(0)) << "nothing is known";
+  EXPECT_TRUE(meam::GraspSearch(grippers::block(), {}, { across() }, grippers::jaws(), {}).needsRotation(0))
+    << "nothing is known";
 }
 
 TEST(GraspSearch, AFreePartIsTakenFromAbove)
@@ -111,9 +95,10 @@ TEST(GraspSearch, AnotherCopyAtAFingerIsNamed)
 
 TEST(GraspSearch, WhatTheGripperCannotDo)
 {
-  EXPECT_EQ(pickFirst({ lying(0) }, jaws(25.0)).obstruction, meam::PickObstruction::TooWide); // 20 + 2 * 3 > 25
-  EXPECT_TRUE(pickFirst({ lying(0) }, jaws(26.0)).possible());
-  meam::Gripper cup = jaws();
+  EXPECT_EQ(
+    pickFirst({ lying(0) }, grippers::jaws(25.0)).obstruction, meam::PickObstruction::TooWide); // 20 + 2 * 3 > 25
+  EXPECT_TRUE(pickFirst({ lying(0) }, grippers::jaws(26.0)).possible());
+  meam::Gripper cup = grippers::jaws();
   cup.kind = meam::GraspKind::Suction;
   EXPECT_EQ(pickFirst({ lying(0) }, cup).obstruction, meam::PickObstruction::WrongKind);
   EXPECT_TRUE(pickFirst({ lying(0, 59.0) }).possible());
@@ -126,6 +111,6 @@ TEST(GraspSearch, GraspsAreCheckedBefore)
 {
   meam::Grasp far = across();
   far.T_model_grasp.translation().x() += 100.0;
-  EXPECT_THROW(meam::GraspSearch(block(), {}, { far }, jaws(), {}), meam::Error);
-  EXPECT_THROW(meam::GraspSearch(block(), {}, {}, jaws(), {}), meam::Error);
+  EXPECT_THROW(meam::GraspSearch(grippers::block(), {}, { far }, grippers::jaws(), {}), meam::Error);
+  EXPECT_THROW(meam::GraspSearch(grippers::block(), {}, {}, grippers::jaws(), {}), meam::Error);
 }

@@ -8,7 +8,7 @@
 
 namespace
 {
-meam::PartSurface block() { return { parts::box({ -20, -10, -5 }, { 20, 10, 5 }), 1.0, 3.0 }; }
+meam::PartSurface slab() { return { parts::box({ -20, -10, -5 }, { 20, 10, 5 }), 1.0, 3.0 }; }
 
 /// Points of a plate 2 mm apart at a height.
 meam::Points plate(float fromX, float toX, float z)
@@ -27,7 +27,7 @@ meam::Points plate(float fromX, float toX, float z)
 
 TEST(PartSurface, KnowsThePointsOnIt)
 {
-  const meam::PartSurface surface = block();
+  const meam::PartSurface surface = slab();
   EXPECT_NEAR(surface.radius(), std::sqrt(400.0 + 100.0 + 25.0), 1e-4);
   const Eigen::Isometry3d pose(Eigen::Translation3d(100, 0, 0));
   const meam::Points points{ { 100, 0, 6 }, { 100, 0, 9 }, { 100, 0, 0 }, { 121.5f, 3, 3 }, { 0, 0, 5 } };
@@ -37,7 +37,7 @@ TEST(PartSurface, KnowsThePointsOnIt)
 
 TEST(PartSurface, IsCoveredByWhatLiesAboveIt)
 {
-  const meam::PartSurface surface = block();
+  const meam::PartSurface surface = slab();
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   EXPECT_EQ(surface.covered(pose, up, {}, 2.0, 1.0), 0.0);

@@ -12,7 +12,7 @@
 namespace
 {
 meam::TriangleMesh plate() { return parts::box({ 0, 0, 0 }, { 60, 40, 10 }); }
-meam::TriangleMesh block() { return parts::box({ 0, 0, 0 }, { 20, 12, 10 }); }
+meam::TriangleMesh smallBlock() { return parts::box({ 0, 0, 0 }, { 20, 12, 10 }); }
 
 using scenes::trained;
 
@@ -146,21 +146,21 @@ TEST(ConflictResolution, ASmallPartThatFitsInsideALargeOneLoses)
 {
   const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) } });
   const meam::TrainedModel& large = trained<plate>();
-  const meam::TrainedModel& small = trained<block>();
+  const meam::TrainedModel& small = trained<smallBlock>();
   // Its upper face is the plate's; that it is the likelier one does not help it...
   EXPECT_EQ(typesLeft(scene, small, at(place(0, 0, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 1 });
   EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 1 });
   // ...unless the large one hardly can be there: it is not where it should be.
-  const scenes::Seen alone = seen({ { block(), place(0, 0, 0) } });
+  const scenes::Seen alone = seen({ { smallBlock(), place(0, 0, 0) } });
   EXPECT_EQ(typesLeft(alone, small, at(place(0, 0, 0), 0.95), large, at(place(0, 0, 0), 0.8)), Types{ 0 });
   EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 0), 0.99), large, at(place(0, 0, 0), 0.02)), Types{ 0 });
 }
 
 TEST(ConflictResolution, ASmallPartOnTopOfALargeOneStays)
 {
-  const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) }, { block(), place(20, 14, 10) } });
+  const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) }, { smallBlock(), place(20, 14, 10) } });
   const meam::TrainedModel& large = trained<plate>();
-  const meam::TrainedModel& small = trained<block>();
+  const meam::TrainedModel& small = trained<smallBlock>();
   EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 10), 0.6), large, at(place(0, 0, 0), 0.99)), (Types{ 0, 1 }));
 }
 

@@ -9,7 +9,7 @@
 namespace
 {
 /// Quarter turns and flips are near-symmetries.
-const meam::TrainedModel& plate() { return scenes::trained<parts::cutPlate>(); }
+const meam::TrainedModel& comparedPlate() { return scenes::trained<parts::cutPlate>(); }
 
 /// The plate lying as it was drawn, its upper side seen; with `hidden` the quarter of the cut is not.
 scenes::Seen lyingPlate(bool hidden)
@@ -20,10 +20,10 @@ scenes::Seen lyingPlate(bool hidden)
   { points.erase(std::remove_if(points.begin(), points.end(), isHidden), points.end()); };
   drop(seen.surface);
   drop(seen.edges.points);
-  return scenes::withTangents(seen, plate().diameter);
+  return scenes::withTangents(seen, comparedPlate().diameter);
 }
 
-Eigen::Isometry3d quarter(int turns)
+Eigen::Isometry3d quarterTurns(int turns)
 {
   return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2, Eigen::Vector3d::Zero());
 }
@@ -32,13 +32,13 @@ Eigen::Isometry3d quarter(int turns)
 struct Comparing
 {
   explicit Comparing(const scenes::Seen& seen, const meam::PoseComparisonSettings& settings = {})
-    : scene(scenes::prepared(seen, plate().diameter))
-    , comparison(scene, plate(), settings)
+    : scene(scenes::prepared(seen, comparedPlate().diameter))
+    , comparison(scene, comparedPlate(), settings)
   {
   }
 
   meam::PoseComparison::Contender at(int turns) const { return this->comparison.contender(this->local(turns)); }
-  Eigen::Isometry3d local(int turns) const { return this->scene.T_local_scene() * quarter(turns); }
+  Eigen::Isometry3d local(int turns) const { return this->scene.T_local_scene() * quarterTurns(turns); }
 
   meam::Scene scene;
   meam::PoseComparison comparison;
@@ -145,7 +145,7 @@ TEST(PoseComparison, EdgesThatShouldBeOutOfSightCountHalf)
   {
     seen.edges.points.push_back({ 6.0f + 24.0f * along, 30.0f - 10.0f * along, below });
   }
-  seen = scenes::withTangents(seen, plate().diameter);
+  seen = scenes::withTangents(seen, comparedPlate().diameter);
   const Comparing in(seen);
   const Eigen::Isometry3d back = in.scene.T_local_scene().inverse();
   const meam::Points& edges = in.scene.edgePoints().points;

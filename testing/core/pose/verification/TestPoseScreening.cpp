@@ -10,12 +10,12 @@
 
 namespace
 {
-meam::Pose at(const Eigen::Isometry3d& T) { return scenes::displaced(T); }
+meam::Pose poseAt(const Eigen::Isometry3d& T) { return scenes::displaced(T); }
 
 /// The share of its surface that is there.
 double surfaceShare(const meam::Scene& in, const Eigen::Isometry3d& T, const meam::PoseScreeningSettings& settings = {})
 {
-  return meam::surfaceShares({ at(in.T_local_scene() * T) }, in, scenes::bracket(), settings).front();
+  return meam::surfaceShares({ poseAt(in.T_local_scene() * T) }, in, scenes::bracket(), settings).front();
 }
 }
 
@@ -24,8 +24,8 @@ TEST(PoseScreening, CandidatesWithoutTheirSurfaceGoWhereThereAreEnough)
   meam::Poses poses;
   for (const Eigen::Isometry3d& T : scenes::threeCopies())
   {
-    poses.push_back(at(T));
-    poses.push_back(at(Eigen::Translation3d(0, 0, 40) * T)); // in front of all that was measured
+    poses.push_back(poseAt(T));
+    poses.push_back(poseAt(Eigen::Translation3d(0, 0, 40) * T)); // in front of all that was measured
   }
   meam::PoseScreeningSettings settings;
   settings.enough = 5;
@@ -68,7 +68,7 @@ TEST(PoseScreening, OfDuplicatesMoreVotesDoNotMakeUpForSurfaceThatIsNotThere)
 {
   const Eigen::Isometry3d T = scenes::threeCopies()[1];
   const double above = 0.035 * scenes::bracket().diameter; // more than fits, and less than tells two poses apart
-  meam::Poses poses{ at(Eigen::Translation3d(0, 0, above) * T), at(T) };
+  meam::Poses poses{ poseAt(Eigen::Translation3d(0, 0, above) * T), poseAt(T) };
   poses[0].votes = 120;
   poses[1].votes = 100;
   const meam::Poses kept = scenes::screen(poses, scenes::copiesScene(), scenes::bracket());
@@ -83,7 +83,7 @@ TEST(PoseScreening, OfDuplicatesWithoutASurfaceTheOneWithMostVotesStays)
   const meam::Scene edgesOnly = scenes::prepared(bare);
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
   const double apart = 0.04 * scenes::bracket().diameter;
-  meam::Poses poses{ at(T), scenes::displaced(T, 0.9 * apart), scenes::displaced(T, 1.5 * apart),
+  meam::Poses poses{ poseAt(T), scenes::displaced(T, 0.9 * apart), scenes::displaced(T, 1.5 * apart),
     scenes::displaced(T, 500.0) };
   const int votes[] = { 10, 12, 3, 1 };
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -103,15 +103,15 @@ TEST(PoseScreening, OfDistanceAndAngleBothTellCandidatesApart)
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   const auto turnedInPlace = [&](double degrees)
-  { return at(T * meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, middle)); };
+  { return poseAt(T * meam::turnAbout(Eigen::Vector3d::UnitZ(), degrees * M_PI / 180.0, middle)); };
   const auto left = [](const meam::Pose& a, const meam::Pose& b) {
     return scenes::screen({ a, b }, scenes::copiesScene(), scenes::bracket()).size();
   };
   const double apart = 0.04 * scenes::bracket().diameter;
-  EXPECT_EQ(left(at(T), scenes::displaced(T, 0.99 * apart)), 1u);
-  EXPECT_EQ(left(at(T), scenes::displaced(T, 1.01 * apart)), 2u);
-  EXPECT_EQ(left(at(T), turnedInPlace(5.9)), 1u);
-  EXPECT_EQ(left(at(T), turnedInPlace(6.1)), 2u);
+  EXPECT_EQ(left(poseAt(T), scenes::displaced(T, 0.99 * apart)), 1u);
+  EXPECT_EQ(left(poseAt(T), scenes::displaced(T, 1.01 * apart)), 2u);
+  EXPECT_EQ(left(poseAt(T), turnedInPlace(5.9)), 1u);
+  EXPECT_EQ(left(poseAt(T), turnedInPlace(6.1)), 2u);
 }
 
 TEST(PoseScreening, OfACrowdNoTwoAreDuplicatesAndWhatWentIsOneOfWhatStayed)
@@ -124,7 +124,7 @@ TEST(PoseScreening, OfACrowdNoTwoAreDuplicatesAndWhatWentIsOneOfWhatStayed)
   {
     const auto off = [&] { return 20.0 * (random.uniform() - 0.5); }; // mm, degrees
     const Eigen::Isometry3d moved = Eigen::Translation3d(off(), off(), off()) * T;
-    poses.push_back(at(moved * meam::turnAbout(Eigen::Vector3d::UnitZ(), off() * M_PI / 180.0, middle)));
+    poses.push_back(poseAt(moved * meam::turnAbout(Eigen::Vector3d::UnitZ(), off() * M_PI / 180.0, middle)));
     poses.back().votes = 1 + k % 7;
   }
   const meam::TrainedModel& model = scenes::bracket();
@@ -171,9 +171,9 @@ TEST(PoseScreening, CandidatesThatATurnMakesTheSameTakeOnePlace)
   meam::Poses candidates;
   for (const double degrees : { 0.0, 18.0, 36.0, 100.0 })
   {
-    candidates.push_back(at(scenes::gearAt(degrees)));
+    candidates.push_back(poseAt(scenes::gearAt(degrees)));
   }
-  candidates.push_back(at(scenes::gearAt(0) * Eigen::AngleAxisd(M_PI / 6.0, Eigen::Vector3d::UnitX()))); // tilted
+  candidates.push_back(poseAt(scenes::gearAt(0) * Eigen::AngleAxisd(M_PI / 6.0, Eigen::Vector3d::UnitX()))); // tilted
   const meam::Poses kept = scenes::screen(candidates, scenes::gearScene(), scenes::trained<parts::gear>());
   ASSERT_EQ(kept.size(), 2u);
   const auto tilt = [&](int k) { return std::acos(std::abs(kept[k].T_scene_model.linear()(2, 2))) * 180.0 / M_PI; };
@@ -183,7 +183,7 @@ TEST(PoseScreening, CandidatesThatATurnMakesTheSameTakeOnePlace)
 
 TEST(PoseScreening, CandidatesAreTurnedByTheLikeliestNearSymmetry)
 {
-  const meam::Pose wrong = at(scenes::gearAt(108));
+  const meam::Pose wrong = poseAt(scenes::gearAt(108));
   const meam::Poses verified = scenes::verify({ wrong }, scenes::gearScene(), scenes::trained<parts::gear>());
   ASSERT_EQ(verified.size(), 1u);
   EXPECT_TRUE(verified[0].T_scene_model.isApprox(scenes::gearAt(108), 1e-9)) << "a pose that is only scored stays";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/voting/PoseDetection.h"
 
+#include "TestFiles.h"
 #include "TestScene.h"
 #include "base/PointGrid.h"
 
@@ -319,15 +320,8 @@ TEST(PoseDetection, BadInput)
   {
     point *= 0.001f;
   }
-  try
-  {
-    scenes::detect(metres, model);
-    FAIL() << "metres taken for millimetres";
-  }
-  catch (const meam::Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("1000"), std::string::npos) << error.what();
-  }
+  const std::string error = files::errorOf([&] { scenes::detect(metres, model); });
+  EXPECT_TRUE(files::contains(error, "1000")) << "metres taken for millimetres: " << error;
   meam::PoseDetectionSettings tooMany;
   tooMany.referenceShare = 1.1;
   EXPECT_THROW(scenes::detect(modelEdges(Eigen::Isometry3d::Identity()), model, tooMany), meam::Error);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestFiles.h"
 #include "TestGrids.h"
 #include "base/Random.h"
 #include "scene/edges/SceneEdgeExtraction.h"
@@ -48,15 +49,7 @@ meam::Image step(int width, int height, int edge)
 
 std::string errorOf(const meam::OrganizedCloud& cloud, const meam::Image& image)
 {
-  try
-  {
-    meam::extractSceneEdges(cloud, image);
-  }
-  catch (const meam::Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return files::errorOf([&] { meam::extractSceneEdges(cloud, image); });
 }
 }
 

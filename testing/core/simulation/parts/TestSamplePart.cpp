@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestClosedMesh.h"
 #include "base/Bounds.h"
 #include "io/parsing/FileBytes.h"
 #include "mesh/TriangleMesh.h"
@@ -12,7 +13,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <map>
 
 namespace
 {
@@ -51,21 +51,7 @@ TEST(SamplePart, isClosedAndFacesOutward)
   EXPECT_EQ(report.duplicateTriangles, 0);
   EXPECT_EQ(report.vertices, static_cast<int>(part.vertices.size()));
   EXPECT_LT(report.triangles, 5000);
-  // Every edge has two faces, once in each direction.
-  std::map<std::pair<int, int>, int> edges;
-  for (const auto& t : part.triangles)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      ++edges[{ t[i], t[(i + 1) % 3] }];
-    }
-  }
-  for (const auto& [edge, count] : edges)
-  {
-    EXPECT_EQ(count, 1);
-    EXPECT_EQ(edges.count({ edge.second, edge.first }), 1u);
-    EXPECT_GT((part.vertices[edge.first] - part.vertices[edge.second]).norm(), 0.1f);
-  }
+  parts::expectTwoFacesAtEachEdge(part, 0.1f);
 }
 
 TEST(SamplePart, hasItsSizeAndFeatures)
