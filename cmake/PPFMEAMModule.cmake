@@ -28,8 +28,9 @@ function(ppfmeam_add_module name)
   vtk_module_add_module(${module} CLASSES ${module_CLASSES} SOURCES ${module_SOURCES})
   vtk_module_link(${module} PRIVATE ${module_CORE})
   vtk_module_compile_options(${module} PRIVATE -Wall -Wextra)
+  get_target_property(target ${module} ALIASED_TARGET)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6) # as of core
   if(NOT CMAKE_CXX_COMPILER_LAUNCHER) # ccache keeps nothing of files that are compiled with one
-    get_target_property(target ${module} ALIASED_TARGET)
     target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <string> <vector>
       <vtkDoubleArray.h> <vtkFieldData.h> <vtkInformation.h> <vtkInformationVector.h> <vtkNew.h> <vtkObjectFactory.h>
       <vtkPointData.h> <vtkPolyData.h> <vtkStructuredGrid.h>)
@@ -106,6 +107,7 @@ endif()
 add_custom_target(ppfmeamPackage ALL DEPENDS ${package_copies})
 
 list(TRANSFORM PPFMEAM_MODULES REPLACE "(.+)" "ppfmeam\\1Python" OUTPUT_VARIABLE python_modules)
+set_target_properties(${python_modules} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
 add_dependencies(runtime ${python_modules} ppfmeamBindings ppfmeamPackage)
 
 if(PPFMEAM_USE_PARAVIEW)
@@ -123,6 +125,8 @@ if(PPFMEAM_USE_PARAVIEW)
     TARGET_COMPONENT paraview
     INSTALL_HEADERS OFF)
   add_dependencies(runtime ${plugins})
+  list(TRANSFORM PPFMEAM_MODULES REPLACE "(.+)" "ppfmeam\\1CS" OUTPUT_VARIABLE client_server)
+  set_target_properties(${client_server} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
 endif()
 
 # The environment that finds all of it in the build tree, for the tests and for `source build/release/env.sh`.

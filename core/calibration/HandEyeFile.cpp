@@ -6,6 +6,7 @@
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/JSONFile.h"
 #include "io/parsing/TextLines.h"
+#include "scene/Units.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,10 +16,9 @@ namespace meam
 {
 namespace
 {
-constexpr double Metre = 1000.0; // mm
 constexpr std::string_view Separators = ",; \t";
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failHandEye(const std::string& path, const std::string& what)
 {
   throw Error("The hand-eye file '" + path + "' " + what + ".");
 }
@@ -29,7 +29,7 @@ Eigen::Isometry3d poseOf(
   Eigen::Isometry3d T = transformOf(numbers);
   if (!isRigid(T.matrix()))
   {
-    fail(path,
+    failHandEye(path,
       std::string("has a ") + name + " that is not a rotation and a translation: pair " + std::to_string(pair + 1));
   }
   T.translation() *= unit;
@@ -41,12 +41,12 @@ HandEyeFile readJSON(const std::string& path, const std::string& bytes)
   const nlohmann::json file = parseJSON(path, bytes);
   if (!file.contains("pairs") || !file["pairs"].is_array())
   {
-    fail(path, "has no list 'pairs'");
+    failHandEye(path, "has no list 'pairs'");
   }
   const nlohmann::json units = file.value("units", nlohmann::json("mm"));
   if (units != "mm" && units != "m")
   {
-    fail(path, "has 'units' other than \"mm\" and \"m\"");
+    failHandEye(path, "has 'units' other than \"mm\" and \"m\"");
   }
   const double unit = units == "m" ? Metre : 1.0;
   HandEyeFile result;
@@ -54,7 +54,7 @@ HandEyeFile readJSON(const std::string& path, const std::string& bytes)
   {
     if (file["mount"] != "beside" && file["mount"] != "hand")
     {
-      fail(path, "has a 'mount' other than \"beside\" and \"hand\"");
+      failHandEye(path, "has a 'mount' other than \"beside\" and \"hand\"");
     }
     result.mount = file["mount"] == "hand" ? CameraMount::Hand : CameraMount::Beside;
   }
@@ -67,7 +67,7 @@ HandEyeFile readJSON(const std::string& path, const std::string& bytes)
         json.is_object() && json.contains(name) ? numbersOf(json[name], path, name) : std::vector<double>();
       if (numbers.size() != 16)
       {
-        fail(path, std::string("has no 4x4 '") + name + "' in pair " + std::to_string(pair + 1));
+        failHandEye(path, std::string("has no 4x4 '") + name + "' in pair " + std::to_string(pair + 1));
       }
       return poseOf(path, numbers.data(), unit, name, pair);
     };
@@ -106,7 +106,7 @@ HandEyeFile readTable(const std::string& path, const std::string& bytes)
     const std::size_t pair = result.pairs.size();
     if (!good || numbers.size() != 32)
     {
-      fail(
+      failHandEye(
         path, "has a row that is not 32 numbers, T_base_gripper and T_camera_target: pair " + std::to_string(pair + 1));
     }
     const Eigen::Isometry3d T_base_gripper = poseOf(path, numbers.data(), 1.0, "T_base_gripper", pair);

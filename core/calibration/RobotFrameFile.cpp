@@ -6,6 +6,7 @@
 #include "io/PoseFile.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/StorageText.h"
+#include "scene/Units.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,10 +22,9 @@ namespace
 constexpr std::size_t MostBytes = 1 << 20; // a transform is a page of text
 constexpr std::size_t MostName = 256;      // characters; numbers with a longer name would fill the memory
 constexpr double Tolerance = 1e-3;         // of entries that were printed with few digits
-constexpr double Metre = 1000.0;           // mm
 constexpr const char* Entry = "T_robot_camera";
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failRobotFrame(const std::string& path, const std::string& what)
 {
   throw Error("The robot frame file '" + path + "' " + what + ".");
 }
@@ -33,12 +33,12 @@ Eigen::Isometry3d poseOf(const std::string& path, const std::vector<double>& num
 {
   if (numbers.size() != 16)
   {
-    fail(path, "has " + std::to_string(numbers.size()) + " numbers as " + Entry + " instead of 16");
+    failRobotFrame(path, "has " + std::to_string(numbers.size()) + " numbers as " + Entry + " instead of 16");
   }
   Eigen::Isometry3d T = transformOf(numbers.data());
   if (!isRigid(T.matrix()))
   {
-    fail(path, std::string("has a ") + Entry + " that is not a rotation and a translation");
+    failRobotFrame(path, std::string("has a ") + Entry + " that is not a rotation and a translation");
   }
   T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
   T.translation() *= unit;
@@ -96,14 +96,14 @@ std::optional<Eigen::Isometry3d> transformIn(
     }
     if (found)
     {
-      fail(path, "has several transforms: leave the one from the robot's base to the camera alone");
+      failRobotFrame(path, "has several transforms: leave the one from the robot's base to the camera alone");
     }
     Eigen::Quaterniond turn(values[6], values[3], values[4], values[5]);
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation() = Metre * Eigen::Vector3d(values[0], values[1], values[2]);
     if (!T.translation().allFinite() || !(std::abs(turn.norm() - 1.0) < Tolerance))
     {
-      fail(path, "has a rotation that is not a quaternion of length 1, or a number that is not finite");
+      failRobotFrame(path, "has a rotation that is not a quaternion of length 1, or a number that is not finite");
     }
     T.linear() = turn.normalized().toRotationMatrix();
     found = T;
@@ -130,7 +130,7 @@ std::optional<Eigen::Isometry3d> frameIn(const std::string& path, const nlohmann
   const nlohmann::json units = file.value("units", nlohmann::json("mm"));
   if (units != "mm" && units != "m")
   {
-    fail(path, "has 'units' other than \"mm\" and \"m\"");
+    failRobotFrame(path, "has 'units' other than \"mm\" and \"m\"");
   }
   return poseOf(path, numbersOfMatrix(file[Entry], path, Entry), units == "m" ? Metre : 1.0);
 }
@@ -141,7 +141,7 @@ Eigen::Isometry3d readRobotFrame(const std::string& path)
   const std::string bytes = readFile(path);
   if (bytes.size() > MostBytes || bytes.find('\0') != std::string::npos)
   {
-    fail(path, "is not a text with a transform");
+    failRobotFrame(path, "is not a text with a transform");
   }
   std::optional<Eigen::Isometry3d> found;
   if (bytes.find_first_of("{<:") != std::string::npos)
@@ -158,7 +158,8 @@ Eigen::Isometry3d readRobotFrame(const std::string& path)
   }
   if (!found)
   {
-    fail(path, std::string("has no ") + Entry + " (4x4), no translation and rotation, and not one matrix alone");
+    failRobotFrame(
+      path, std::string("has no ") + Entry + " (4x4), no translation and rotation, and not one matrix alone");
   }
   return *found;
 }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failBOP(const std::string& path, const std::string& what)
 {
   throw Error("The BOP file '" + path + "' " + what + ".");
 }
@@ -38,7 +38,7 @@ std::vector<double> numbersUnder(
   }
   if (numbers.size() != count)
   {
-    fail(
+    failBOP(
       path, "has " + std::to_string(numbers.size()) + " numbers as " + name + " instead of " + std::to_string(count));
   }
   return numbers;
@@ -50,7 +50,7 @@ nlohmann::json objectIn(const std::string& path)
   nlohmann::json object = parseJSON(path, readFile(path));
   if (!object.is_object())
   {
-    fail(path, "is not a JSON object of images");
+    failBOP(path, "is not a JSON object of images");
   }
   return object;
 }
@@ -68,7 +68,7 @@ nlohmann::json listOf(const BOPImage& image, const std::string& path)
   }
   if (!list.is_array())
   {
-    fail(path, "has no list of objects for image " + std::to_string(image.imageId));
+    failBOP(path, "has no list of objects for image " + std::to_string(image.imageId));
   }
   return list;
 }
@@ -123,7 +123,7 @@ void appendImages(int sceneId, const fs::path& folder, std::vector<BOPImage>& im
     image.depthScale = entry.contains("depth_scale") ? numbersUnder(entry, "depth_scale", 1, path)[0] : 1.0;
     if (!(image.camera.fx > 0.0 && image.camera.fy > 0.0 && image.depthScale > 0.0))
     {
-      fail(path, "has a focal length or a depth scale that is not positive for image " + key.substr(0, 40));
+      failBOP(path, "has a focal length or a depth scale that is not positive for image " + key.substr(0, 40));
     }
     images.push_back(image);
   }
@@ -172,7 +172,7 @@ Eigen::Isometry3d poseOf(const nlohmann::json& entry, const std::string& path)
   pose.translation() = Eigen::Map<const Eigen::Vector3d>(t.data());
   if (!isRigid(pose.matrix()))
   {
-    fail(path, "has a cam_R_m2c that is not a rotation");
+    failBOP(path, "has a cam_R_m2c that is not a rotation");
   }
   return pose;
 }
@@ -237,8 +237,8 @@ std::vector<BOPInstance> readBOPTruth(const BOPImage& image)
   const nlohmann::json infos = listOf(image, infoPath);
   if (!infos.empty() && infos.size() != entries.size())
   {
-    fail(infoPath, "has " + std::to_string(infos.size()) + " objects for image " + std::to_string(image.imageId) +
-                     ", but scene_gt.json has " + std::to_string(entries.size()));
+    failBOP(infoPath, "has " + std::to_string(infos.size()) + " objects for image " + std::to_string(image.imageId) +
+                        ", but scene_gt.json has " + std::to_string(entries.size()));
   }
   std::vector<BOPInstance> instances;
   for (std::size_t i = 0; i < entries.size(); ++i)
@@ -247,7 +247,7 @@ std::vector<BOPInstance> readBOPTruth(const BOPImage& image)
     const double id = numbersUnder(entries[i], "obj_id", 1, path)[0];
     if (!(id >= 0.0 && id <= 1e9))
     {
-      fail(path, "has an obj_id that is not the number of an object");
+      failBOP(path, "has an obj_id that is not the number of an object");
     }
     instance.objectId = static_cast<int>(id);
     instance.pose.T_scene_model = poseOf(entries[i], path);

@@ -19,7 +19,7 @@ namespace
 constexpr std::size_t MostBytes = 1 << 20;
 constexpr double MostPixels = 65535.0; // in a row or a column
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failCamera(const std::string& path, const std::string& what)
 {
   throw Error("The camera file '" + path + "' " + what + ".");
 }
@@ -37,7 +37,7 @@ std::vector<double> find(const std::string& path, const nlohmann::json& entries,
     const std::vector<double> numbers = numbersOfMatrix(entries[name], path, name);
     if (numbers.size() < fewest || numbers.size() > most)
     {
-      fail(path,
+      failCamera(path,
         "has " + std::to_string(numbers.size()) + " numbers as " + name + " instead of " + std::to_string(fewest));
     }
     return numbers;
@@ -50,7 +50,7 @@ int pixels(const std::string& path, const std::vector<double>& numbers)
   const double value = numbers.empty() ? 0.0 : numbers.front();
   if (!(value >= 0.0 && value <= MostPixels) || value != std::floor(value))
   {
-    fail(path, "has an impossible width or height of the image");
+    failCamera(path, "has an impossible width or height of the image");
   }
   return static_cast<int>(value);
 }
@@ -73,11 +73,11 @@ Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries
   }
   else if (!rotation.empty() || !translation.empty())
   {
-    fail(path, "has only one of R and T: the camera's place needs both, or T_camera_scene");
+    failCamera(path, "has only one of R and T: the camera's place needs both, or T_camera_scene");
   }
   if (!isRigid(T_camera_scene.matrix()))
   {
-    fail(path, "has a place of the camera that is not a rotation and a translation");
+    failCamera(path, "has a place of the camera that is not a rotation and a translation");
   }
   return T_camera_scene;
 }
@@ -89,7 +89,7 @@ Camera cameraOf(const std::string& path, const nlohmann::json& entries)
   {
     if (m[1] != 0.0 || m[3] != 0.0 || m[6] != 0.0 || m[7] != 0.0 || m[8] != 1.0)
     {
-      fail(path, "has a camera matrix that is not fx 0 cx, 0 fy cy, 0 0 1");
+      failCamera(path, "has a camera matrix that is not fx 0 cx, 0 fy cy, 0 0 1");
     }
     camera.fx = m[0];
     camera.cx = m[2];
@@ -105,7 +105,7 @@ Camera cameraOf(const std::string& path, const nlohmann::json& entries)
       const auto number = find(path, entries, { name }, 1, 1);
       if (number.empty())
       {
-        fail(path, "has neither a camera_matrix nor all of fx, fy, cx and cy: it is not a camera's calibration");
+        failCamera(path, "has neither a camera_matrix nor all of fx, fy, cx and cy: it is not a camera's calibration");
       }
       *value = number.front();
     }
@@ -122,7 +122,7 @@ Camera cameraOf(const std::string& path, const nlohmann::json& entries)
     }
     else if (numbers[i] != 0.0)
     {
-      fail(path, "has a lens of the rational or a still larger model: calibrate with k1 k2 p1 p2 k3 alone");
+      failCamera(path, "has a lens of the rational or a still larger model: calibrate with k1 k2 p1 p2 k3 alone");
     }
   }
   camera.T_camera_scene = placeOf(path, entries);
@@ -135,7 +135,7 @@ CameraFile readCamera(const std::string& path)
   const std::string bytes = readFile(path);
   if (bytes.size() > MostBytes || bytes.find('\0') != std::string::npos)
   {
-    fail(path, "is not a text of a camera's calibration");
+    failCamera(path, "is not a text of a camera's calibration");
   }
   const nlohmann::json entries = parseStorage(path, bytes);
   CameraFile result;
@@ -153,7 +153,7 @@ CameraFile readCamera(const std::string& path)
     result.depthScale = scale.front();
     if (!(result.depthScale > 0.0))
     {
-      fail(path, "has a depth_scale that is not positive");
+      failCamera(path, "has a depth_scale that is not positive");
     }
   }
   return result;

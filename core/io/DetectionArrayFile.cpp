@@ -2,6 +2,7 @@
 #include "io/DetectionArrayFile.h"
 
 #include "io/parsing/FileBytes.h"
+#include "scene/Units.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,7 +15,6 @@ namespace
 {
 using JSON = nlohmann::ordered_json;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-constexpr double Metre = 1000.0;           // mm
 constexpr double LastStamp = 2147483648.0; // seconds since 1970: 32 bits with a sign
 
 JSON jsonOf(const Eigen::Vector3d& vector) { return { { "x", vector.x() }, { "y", vector.y() }, { "z", vector.z() } }; }

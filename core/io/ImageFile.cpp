@@ -32,7 +32,7 @@ constexpr int MostScans = 500;
 // Where the size stands in nearly all files: a JPEG may have a preview before it, a TIFF its pixels.
 constexpr std::int64_t HeadLength = 1 << 16;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failImage(const std::string& path, const std::string& what)
 {
   throw Error("The image '" + path + "' " + what + ".");
 }
@@ -166,7 +166,7 @@ Size sizeOf(const std::string& path, const std::string& bytes)
   {
     return tiff::sizeOf(bytes);
   }
-  fail(path, "is not a PNG, JPEG, BMP or TIFF image");
+  failImage(path, "is not a PNG, JPEG, BMP or TIFF image");
 }
 
 /// The size that a file's first bytes tell, once it is sure that a file of that length can have it.
@@ -175,13 +175,13 @@ Size checkedSize(const std::string& path, const std::string& bytes, std::uint64_
   const Size size = sizeOf(path, bytes);
   if (size.width == 0 || size.height == 0)
   {
-    fail(path, "is cut off or damaged: its header has no size");
+    failImage(path, "is cut off or damaged: its header has no size");
   }
   const std::uint64_t most = mostPixels(length);
   if (size.width > most || size.height > most || size.width * size.height > most)
   {
-    fail(path, "promises " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                 " pixels, more than the file has room for: it is cut off or damaged");
+    failImage(path, "promises " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                      " pixels, more than the file has room for: it is cut off or damaged");
   }
   return size;
 }
@@ -198,20 +198,21 @@ void checkTIFF(const std::string& path, std::string& bytes, const Size& size)
   if (isDamaged(compression) ||
       (compression.at > 0 && std::find(known.begin(), known.end(), compression.value) == known.end()))
   {
-    fail(path, "is compressed in a way that is not read (" + std::to_string(compression.value) +
-                 "): save it without, with LZW or with Deflate");
+    failImage(path, "is compressed in a way that is not read (" + std::to_string(compression.value) +
+                      "): save it without, with LZW or with Deflate");
   }
   const tiff::Tag bits = tiff::tagOf(bytes, tiff::BitsPerSample), samples = tiff::tagOf(bytes, tiff::SamplesPerPixel);
   if (isDamaged(bits) || isDamaged(samples) || bits.value > mostBits || samples.value > mostSamples)
   {
-    fail(path, "is neither grey nor coloured with 8 or 16 bits");
+    failImage(path, "is neither grey nor coloured with 8 or 16 bits");
   }
   const tiff::Tag rows = tiff::tagOf(bytes, tiff::RowsPerStrip);
   const tiff::Tag tileWidth = tiff::tagOf(bytes, tiff::TileWidth), tileHeight = tiff::tagOf(bytes, tiff::TileHeight);
   if (isDamaged(rows) || isDamaged(tileWidth) || isDamaged(tileHeight) || (tileWidth.at > 0) != (tileHeight.at > 0) ||
       tileWidth.value * tileHeight.value > mostPixels(bytes.size()))
   {
-    fail(path, "is cut off or damaged: its strips or tiles have no size, or more pixels than the file has room for");
+    failImage(
+      path, "is cut off or damaged: its strips or tiles have no size, or more pixels than the file has room for");
   }
   if (rows.value > size.height)
   {
@@ -270,11 +271,11 @@ cv::Mat decode(const std::string& path)
   }
   if (!isWhole(bytes, size))
   {
-    fail(path, "is cut off or damaged");
+    failImage(path, "is cut off or damaged");
   }
   if (hasTooManyScans(bytes))
   {
-    fail(path, "is damaged: it goes through its pixels more than " + std::to_string(MostScans) + " times");
+    failImage(path, "is damaged: it goes through its pixels more than " + std::to_string(MostScans) + " times");
   }
   cv::Mat pixels;
   try
@@ -288,7 +289,7 @@ cv::Mat decode(const std::string& path)
   }
   if (pixels.cols != static_cast<int>(size.width) || pixels.rows != static_cast<int>(size.height))
   {
-    fail(path, "is cut off or damaged");
+    failImage(path, "is cut off or damaged");
   }
   return pixels;
 }
@@ -321,7 +322,7 @@ Image readImage(const std::string& path)
   }
   if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3 && pixels.channels() != 4))
   {
-    fail(path, "is neither grey nor coloured with 8 or 16 bits");
+    failImage(path, "is neither grey nor coloured with 8 or 16 bits");
   }
   if (pixels.channels() > 1)
   {
@@ -339,9 +340,9 @@ void requireRegistered(const Image& image, const OrganizedCloud& cloud, const st
 {
   if (image.width != cloud.width || image.height != cloud.height)
   {
-    fail(path, "has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                 " pixels, but the scan has " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
-                 ": it is not registered with the scan");
+    failImage(path, "has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                      " pixels, but the scan has " + std::to_string(cloud.width) + " x " +
+                      std::to_string(cloud.height) + ": it is not registered with the scan");
   }
 }
 
@@ -350,8 +351,8 @@ Image16 readImage16(const std::string& path)
   const cv::Mat pixels = decode(path);
   if (pixels.type() != CV_16UC1)
   {
-    fail(path, "has " + std::to_string(pixels.channels()) + " channels of " + std::to_string(8 * pixels.elemSize1()) +
-                 " bits: a depth image has one of 16 bits");
+    failImage(path, "has " + std::to_string(pixels.channels()) + " channels of " +
+                      std::to_string(8 * pixels.elemSize1()) + " bits: a depth image has one of 16 bits");
   }
   Image16 image;
   image.width = pixels.cols;

@@ -17,7 +17,7 @@ namespace meam
 {
 namespace
 {
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failMesh(const std::string& path, const std::string& what)
 {
   throw Error("The mesh file '" + path + "' " + what + ".");
 }
@@ -36,7 +36,7 @@ Eigen::Vector3f pointOf(const std::string& path, TextLines& lines)
   {
     if (!parseNumber(lines.word(), point[i]))
     {
-      fail(path, "has a vertex that is not three numbers: it is cut off or damaged");
+      failMesh(path, "has a vertex that is not three numbers: it is cut off or damaged");
     }
   }
   return point.cast<float>();
@@ -96,7 +96,7 @@ TriangleMesh readTextSTL(const std::string& path, const std::string& bytes, cons
   }
   if (!isWhole || vertices.size() % 3 != 0)
   {
-    fail(path, "is cut off or damaged: it does not end with endsolid after whole triangles");
+    failMesh(path, "is cut off or damaged: it does not end with endsolid after whole triangles");
   }
   return joined(vertices, subProgress(progress, 0.5, 1.0));
 }
@@ -115,7 +115,7 @@ TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes, co
   }
   if (bytes.size() < start || (bytes.size() - start) / STLTriangle < count)
   {
-    fail(path, "is cut off, or is no STL file");
+    failMesh(path, "is cut off, or is no STL file");
   }
   Points vertices(std::size_t(3) * count);
   for (std::size_t i = 0; i < count; ++i)
@@ -143,7 +143,8 @@ int cornerOf(const std::string& path, std::string_view word, int vertices)
   const int corner = number > 0 ? number - 1 : vertices + number;
   if (!isNumber || number == 0 || corner < 0 || corner >= vertices)
   {
-    fail(path, "has a face with the corner '" + std::string(word.substr(0, 40)) + "', which does not exist before it");
+    failMesh(
+      path, "has a face with the corner '" + std::string(word.substr(0, 40)) + "', which does not exist before it");
   }
   return corner;
 }
@@ -197,7 +198,7 @@ TriangleMesh readKind(const std::string& path, const Progress& progress)
   {
     return readOFF(path, progress);
   }
-  fail(path, "has an extension that is not known: give a .stl, .obj, .ply or .off");
+  failMesh(path, "has an extension that is not known: give a .stl, .obj, .ply or .off");
 }
 }
 
@@ -207,7 +208,7 @@ TriangleMesh readMesh(const std::string& path, const Progress& progress)
   TriangleMesh mesh = readKind(path, progress);
   if (mesh.triangles.empty())
   {
-    fail(path, "has no faces: it holds no surface");
+    failMesh(path, "has no faces: it holds no surface");
   }
   report(progress, 1.0);
   return mesh;

@@ -13,7 +13,7 @@ namespace meam
 namespace
 {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failModelsInfo(const std::string& path, const std::string& what)
 {
   throw Error("The file '" + path + "' " + what + ".");
 }
@@ -25,7 +25,7 @@ nlohmann::json listUnder(const nlohmann::json& entry, const char* name, const st
   nlohmann::json list = found == entry.end() ? nlohmann::json::array() : *found;
   if (!list.is_array())
   {
-    fail(path, std::string("has ") + name + " that is not a list");
+    failModelsInfo(path, std::string("has ") + name + " that is not a list");
   }
   return list;
 }
@@ -39,7 +39,7 @@ Eigen::Vector3d vectorUnder(const nlohmann::json& entry, const char* name, const
   }
   if (numbers.size() != 3)
   {
-    fail(path, std::string("has a continuous symmetry without three numbers as ") + name);
+    failModelsInfo(path, std::string("has a continuous symmetry without three numbers as ") + name);
   }
   return { numbers[0], numbers[1], numbers[2] };
 }
@@ -77,7 +77,7 @@ Symmetries readModelsInfo(const std::string& path, int objectId)
   const auto entry = objects.is_object() ? objects.find(std::to_string(objectId)) : objects.end();
   if (entry == objects.end() || !entry->is_object())
   {
-    fail(path, "knows no object " + std::to_string(objectId));
+    failModelsInfo(path, "knows no object " + std::to_string(objectId));
   }
   Symmetries symmetries;
   for (const nlohmann::json& matrix : listUnder(*entry, "symmetries_discrete", path))
@@ -85,7 +85,7 @@ Symmetries readModelsInfo(const std::string& path, int objectId)
     const std::vector<double> numbers = numbersOf(matrix, path, "discrete symmetry");
     if (numbers.size() != 16 || !isRigid(transformOf(numbers.data()).matrix()))
     {
-      fail(path, "has a discrete symmetry that is not a 4x4 matrix of a rotation and a translation");
+      failModelsInfo(path, "has a discrete symmetry that is not a 4x4 matrix of a rotation and a translation");
     }
     const Eigen::Isometry3d S = transformOf(numbers.data());
     if (!S.isApprox(Eigen::Isometry3d::Identity()))
@@ -98,7 +98,7 @@ Symmetries readModelsInfo(const std::string& path, int objectId)
     ContinuousSymmetry symmetry{ vectorUnder(turn, "axis", path), vectorUnder(turn, "offset", path) };
     if (!(symmetry.axis.norm() > 0.0))
     {
-      fail(path, "has a continuous symmetry without a direction");
+      failModelsInfo(path, "has a continuous symmetry without a direction");
     }
     symmetry.axis.normalize();
     symmetries.continuous.push_back(symmetry);

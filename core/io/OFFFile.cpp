@@ -13,7 +13,7 @@ namespace meam
 {
 namespace
 {
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failOFF(const std::string& path, const std::string& what)
 {
   throw Error("The OFF file '" + path + "' " + what + ".");
 }
@@ -45,13 +45,14 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
   const std::string_view first = lines.next() ? lines.word() : std::string_view();
   if (prefixOf(first) == std::string_view::npos)
   {
-    fail(path, "does not start with OFF, COFF, NOFF or STOFF: it is not an OFF file, or of a kind that is not known");
+    failOFF(
+      path, "does not start with OFF, COFF, NOFF or STOFF: it is not an OFF file, or of a kind that is not known");
   }
   // The counts may stand behind the first word or on the next line.
   std::string_view word = lines.word();
   if (word == "BINARY")
   {
-    fail(path, "is binary: save it as ascii");
+    failOFF(path, "is binary: save it as ascii");
   }
   if (word.empty())
   {
@@ -61,15 +62,15 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
   std::uint64_t faces = 0;
   if (!parseNumber(word, vertices) || !parseNumber(lines.word(), faces))
   {
-    fail(path, "has no numbers of vertices and faces after its first word");
+    failOFF(path, "has no numbers of vertices and faces after its first word");
   }
   // A line takes at least a character for each number and one between two of them.
   constexpr std::uint64_t most = std::numeric_limits<int>::max() / 3;
   const std::uint64_t room = lines.left();
   if (vertices > most || faces > most || vertices > room / 5 || faces > room / 3)
   {
-    fail(path, "is cut off: it promises " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
-                 " faces, more than the file has room for");
+    failOFF(path, "is cut off: it promises " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
+                    " faces, more than the file has room for");
   }
 
   TriangleMesh mesh;
@@ -79,7 +80,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
   {
     if (!lines.next())
     {
-      fail(path, "is cut off: it ends after " + std::to_string(v) + " of " + std::to_string(vertices) + " vertices");
+      failOFF(path, "is cut off: it ends after " + std::to_string(v) + " of " + std::to_string(vertices) + " vertices");
     }
     for (int k = 0; k < 3; ++k)
     {
@@ -87,7 +88,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
       double value = 0.0;
       if (!parseNumber(word, value))
       {
-        fail(path, "has a coordinate that is not a number in vertex " + std::to_string(v) + ": " + quoted(word));
+        failOFF(path, "has a coordinate that is not a number in vertex " + std::to_string(v) + ": " + quoted(word));
       }
       mesh.vertices[v][k] = static_cast<float>(value);
     }
@@ -99,13 +100,13 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
     const std::string place = "face " + std::to_string(f);
     if (!lines.next())
     {
-      fail(path, "is cut off: it ends after " + std::to_string(f) + " of " + std::to_string(faces) + " faces");
+      failOFF(path, "is cut off: it ends after " + std::to_string(f) + " of " + std::to_string(faces) + " faces");
     }
     word = lines.word();
     std::uint64_t corners = 0;
     if (!parseNumber(word, corners))
     {
-      fail(path, "has no number of corners in " + place + ": " + quoted(word));
+      failOFF(path, "has no number of corners in " + place + ": " + quoted(word));
     }
     Eigen::Vector3i triangle;
     for (std::uint64_t k = 0; k < corners; ++k)
@@ -114,7 +115,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
       std::uint64_t vertex = 0;
       if (!parseNumber(word, vertex) || vertex >= vertices)
       {
-        fail(path, "has a corner in " + place + " that is not the number of a vertex: " + quoted(word));
+        failOFF(path, "has a corner in " + place + " that is not the number of a vertex: " + quoted(word));
       }
       triangle[k == 0 ? 0 : 2] = static_cast<int>(vertex);
       if (k >= 2)

@@ -42,7 +42,7 @@ struct Header
   std::size_t dataAt = 0; ///< position in the file
 };
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failPCD(const std::string& path, const std::string& what)
 {
   throw Error("The PCD file '" + path + "' " + what + ".");
 }
@@ -53,7 +53,7 @@ Number parseOrFail(const std::string& path, const std::string& key, const std::s
   Number value{};
   if (!parseNumber(text, value))
   {
-    fail(path, "has a header line " + key + " that is not a number: '" + text.substr(0, 40) + "'");
+    failPCD(path, "has a header line " + key + " that is not a number: '" + text.substr(0, 40) + "'");
   }
   return value;
 }
@@ -71,7 +71,7 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     const std::size_t end = bytes.find('\n', header.dataAt);
     if (end == std::string::npos)
     {
-      fail(path, "has no DATA line: it is not a PCD file, or it is cut off");
+      failPCD(path, "has no DATA line: it is not a PCD file, or it is cut off");
     }
     std::istringstream line(bytes.substr(header.dataAt, end - header.dataAt));
     header.dataAt = end + 1;
@@ -88,7 +88,7 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     }
     if (values.empty())
     {
-      fail(path, "has a header line '" + key.substr(0, 40) + "' without a value: it is not a PCD file");
+      failPCD(path, "has a header line '" + key.substr(0, 40) + "' without a value: it is not a PCD file");
     }
     if (key == "FIELDS" || key == "COLUMNS")
     {
@@ -131,7 +131,7 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     }
     else if (key != "VIEWPOINT") // the sensor's pose: points are in its frame
     {
-      fail(path, "has an unknown header line '" + key.substr(0, 40) + "': it is not a PCD file");
+      failPCD(path, "has an unknown header line '" + key.substr(0, 40) + "': it is not a PCD file");
     }
   }
 
@@ -145,20 +145,20 @@ Header parseHeader(const std::string& path, const std::string& bytes)
   }
   else if (encoding != "ascii")
   {
-    fail(path,
+    failPCD(path,
       "has data of the unknown kind '" + encoding.substr(0, 40) + "'; known are ascii, binary and binary_compressed");
   }
 
   const std::size_t fields = header.fields.size();
   if (fields == 0)
   {
-    fail(path, "has no line FIELDS with the names of its values");
+    failPCD(path, "has no line FIELDS with the names of its values");
   }
   const auto checkCount = [&](const char* key, const std::vector<std::string>& values)
   {
     if (!values.empty() && values.size() != fields)
     {
-      fail(
+      failPCD(
         path, "has " + std::to_string(fields) + " FIELDS but " + std::to_string(values.size()) + " values of " + key);
     }
   };
@@ -185,14 +185,14 @@ Header parseHeader(const std::string& path, const std::string& bytes)
                          (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8);
     if ((!real && !integer) || field.count < 1 || field.count > bytes.size())
     {
-      fail(path, "has a field '" + field.name.substr(0, 40) + "' of an impossible SIZE, TYPE or COUNT");
+      failPCD(path, "has a field '" + field.name.substr(0, 40) + "' of an impossible SIZE, TYPE or COUNT");
     }
     field.offset = header.record;
     header.record += header.encoding == Encoding::Ascii ? field.count : field.count * field.size;
   }
   if (header.record > std::numeric_limits<std::uint32_t>::max())
   {
-    fail(path, "has points of an impossible size");
+    failPCD(path, "has points of an impossible size");
   }
 
   if (!hasWidth)
@@ -206,7 +206,7 @@ Header parseHeader(const std::string& path, const std::string& bytes)
   constexpr std::uint64_t most = std::numeric_limits<int>::max();
   if (header.width > most || header.height > most || header.width * header.height > most)
   {
-    fail(path, "promises an impossible number of points (WIDTH x HEIGHT)");
+    failPCD(path, "promises an impossible number of points (WIDTH x HEIGHT)");
   }
   if (!hasPoints)
   {
@@ -214,12 +214,12 @@ Header parseHeader(const std::string& path, const std::string& bytes)
   }
   if (header.points != header.width * header.height)
   {
-    fail(path, "promises " + std::to_string(header.points) + " POINTS, but WIDTH x HEIGHT is " +
-                 std::to_string(header.width) + " x " + std::to_string(header.height));
+    failPCD(path, "promises " + std::to_string(header.points) + " POINTS, but WIDTH x HEIGHT is " +
+                    std::to_string(header.width) + " x " + std::to_string(header.height));
   }
   if (header.points == 0)
   {
-    fail(path, "has no points");
+    failPCD(path, "has no points");
   }
   return header;
 }
@@ -293,8 +293,8 @@ std::string binaryOfAscii(const std::string& path, const std::string& bytes, Hea
   // A value takes at least one character and one separator.
   if (values > 0 && header.points > (bytes.size() - header.dataAt + 1) / (2 * values))
   {
-    fail(path, "is cut off: it promises " + std::to_string(header.points) + " points of " + std::to_string(values) +
-                 " values, more than the file has room for");
+    failPCD(path, "is cut off: it promises " + std::to_string(header.points) + " points of " + std::to_string(values) +
+                    " values, more than the file has room for");
   }
   header.record = 0;
   for (Field& field : header.fields)
@@ -321,7 +321,7 @@ std::string binaryOfAscii(const std::string& path, const std::string& bytes, Hea
         skipBlanks();
         if (at == bytes.size())
         {
-          fail(path,
+          failPCD(path,
             "is cut off: it ends after " + std::to_string(point) + " of " + std::to_string(header.points) + " points");
         }
         const std::size_t start = at;
@@ -331,8 +331,8 @@ std::string binaryOfAscii(const std::string& path, const std::string& bytes, Hea
         const auto [end, failure] = std::from_chars(first, bytes.data() + at, value);
         if (end != bytes.data() + at || failure != std::errc())
         {
-          fail(path, "has a value that is not a number in point " + std::to_string(point) + ": '" +
-                       bytes.substr(start, std::min<std::size_t>(at - start, 40)) + "'");
+          failPCD(path, "has a value that is not a number in point " + std::to_string(point) + ": '" +
+                          bytes.substr(start, std::min<std::size_t>(at - start, 40)) + "'");
         }
         std::memcpy(to, &value, sizeof(value));
       }
@@ -342,7 +342,7 @@ std::string binaryOfAscii(const std::string& path, const std::string& bytes, Hea
   skipBlanks();
   if (at != bytes.size())
   {
-    fail(
+    failPCD(
       path, "has more values than its " + std::to_string(header.points) + " points can have: its header does not fit");
   }
   return records;
@@ -352,25 +352,25 @@ std::string decompressed(const std::string& path, const std::string& bytes, cons
 {
   if (bytes.size() - header.dataAt < 8)
   {
-    fail(path, "is cut off: its data have no length");
+    failPCD(path, "is cut off: its data have no length");
   }
   const std::uint64_t packed = load<std::uint32_t>(bytes.data() + header.dataAt);
   const std::uint64_t unpacked = load<std::uint32_t>(bytes.data() + header.dataAt + 4);
   if (packed > bytes.size() - header.dataAt - 8)
   {
-    fail(path, "is cut off: it promises " + std::to_string(packed) + " bytes of compressed data and has " +
-                 std::to_string(bytes.size() - header.dataAt - 8));
+    failPCD(path, "is cut off: it promises " + std::to_string(packed) + " bytes of compressed data and has " +
+                    std::to_string(bytes.size() - header.dataAt - 8));
   }
   // Three bytes of LZF stand for 264 at most.
   if (unpacked != header.points * header.record || unpacked > 88 * (packed + 1))
   {
-    fail(path, "has compressed data for another number of points than its header promises");
+    failPCD(path, "has compressed data for another number of points than its header promises");
   }
   std::string data(unpacked, '\0');
   if (lzf_decompress(bytes.data() + header.dataAt + 8, static_cast<unsigned>(packed), data.data(),
         static_cast<unsigned>(unpacked)) != unpacked)
   {
-    fail(path, "has compressed data that are damaged");
+    failPCD(path, "has compressed data that are damaged");
   }
   return data;
 }
@@ -392,9 +392,9 @@ MeasuredCloud readPCD(const std::string& path, const Progress& progress)
     case Encoding::Binary:
       if (header.record > 0 && header.points > (bytes.size() - header.dataAt) / header.record)
       {
-        fail(path, "is cut off: it promises " + std::to_string(header.points) + " points of " +
-                     std::to_string(header.record) + " bytes and has " + std::to_string(bytes.size() - header.dataAt) +
-                     " bytes");
+        failPCD(path, "is cut off: it promises " + std::to_string(header.points) + " points of " +
+                        std::to_string(header.record) + " bytes and has " +
+                        std::to_string(bytes.size() - header.dataAt) + " bytes");
       }
       data = bytes.data() + header.dataAt;
       break;
@@ -449,7 +449,7 @@ MeasuredCloud readPCD(const std::string& path, const Progress& progress)
   result.cloud.points = take("x", "y", "z");
   if (result.cloud.points.empty())
   {
-    fail(path, "has no fields x, y and z");
+    failPCD(path, "has no fields x, y and z");
   }
   result.normals = take("normal_x", "normal_y", "normal_z");
   const FieldData intensity = find("intensity");

@@ -43,21 +43,21 @@ struct Element
   std::vector<Property> properties;
 };
 
-enum class Encoding
+enum class PLYEncoding
 {
   Ascii,
   LittleEndian,
   BigEndian
 };
 
-struct Header
+struct PLYHeader
 {
-  Encoding encoding = Encoding::Ascii;
+  PLYEncoding encoding = PLYEncoding::Ascii;
   std::vector<Element> elements;
   std::size_t dataAt = 0; ///< position in the file
 };
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failPLY(const std::string& path, const std::string& what)
 {
   throw Error("The PLY file '" + path + "' " + what + ".");
 }
@@ -79,7 +79,7 @@ Type typeOf(const std::string& path, const std::string& name)
       return static_cast<Type>(i);
     }
   }
-  fail(path, "has a property of the unknown type '" + name.substr(0, 40) + "'");
+  failPLY(path, "has a property of the unknown type '" + name.substr(0, 40) + "'");
 }
 
 Property propertyOf(const std::string& path, std::istringstream& words)
@@ -99,9 +99,9 @@ Property propertyOf(const std::string& path, std::istringstream& words)
   return property;
 }
 
-Header parseHeader(const std::string& path, const std::string& bytes)
+PLYHeader parsePLYHeader(const std::string& path, const std::string& bytes)
 {
-  Header header;
+  PLYHeader header;
   bool first = true;
   bool hasFormat = false;
   for (std::string key; key != "end_header"; first = false)
@@ -112,11 +112,11 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     words >> key;
     if (first && key != "ply")
     {
-      fail(path, "does not start with ply: it is not a PLY file");
+      failPLY(path, "does not start with ply: it is not a PLY file");
     }
     if (end == std::string::npos)
     {
-      fail(path, "has no line end_header: it is cut off");
+      failPLY(path, "has no line end_header: it is cut off");
     }
     header.dataAt = end + 1;
     std::string value;
@@ -124,12 +124,12 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     {
       words >> value;
       hasFormat = true;
-      header.encoding = value == "ascii"               ? Encoding::Ascii
-                        : value == "binary_big_endian" ? Encoding::BigEndian
-                                                       : Encoding::LittleEndian;
-      if (header.encoding == Encoding::LittleEndian && value != "binary_little_endian")
+      header.encoding = value == "ascii"               ? PLYEncoding::Ascii
+                        : value == "binary_big_endian" ? PLYEncoding::BigEndian
+                                                       : PLYEncoding::LittleEndian;
+      if (header.encoding == PLYEncoding::LittleEndian && value != "binary_little_endian")
       {
-        fail(path, "has the unknown format '" + value.substr(0, 40) + "'");
+        failPLY(path, "has the unknown format '" + value.substr(0, 40) + "'");
       }
     }
     else if (key == "element")
@@ -140,30 +140,30 @@ Header parseHeader(const std::string& path, const std::string& bytes)
         std::from_chars(value.data(), value.data() + value.size(), header.elements.back().count);
       if (failure != std::errc() || stop != value.data() + value.size())
       {
-        fail(path, "has an element whose number is '" + value.substr(0, 40) + "'");
+        failPLY(path, "has an element whose number is '" + value.substr(0, 40) + "'");
       }
     }
     else if (key == "property")
     {
       if (header.elements.empty())
       {
-        fail(path, "has a property before the first element");
+        failPLY(path, "has a property before the first element");
       }
       header.elements.back().properties.push_back(propertyOf(path, words));
     }
     else if (!first && key != "comment" && key != "obj_info" && key != "end_header")
     {
-      fail(path, "has an unknown header line '" + key.substr(0, 40) + "'");
+      failPLY(path, "has an unknown header line '" + key.substr(0, 40) + "'");
     }
   }
   if (!hasFormat)
   {
-    fail(path, "has no line format in its header");
+    failPLY(path, "has no line format in its header");
   }
   return header;
 }
 
-const Element* verticesOf(const Header& header)
+const Element* verticesOf(const PLYHeader& header)
 {
   const auto found = std::find_if(
     header.elements.begin(), header.elements.end(), [](const Element& element) { return element.name == "vertex"; });
@@ -174,14 +174,14 @@ const Element* verticesOf(const Header& header)
 class Values
 {
 public:
-  Values(const std::string& path, const std::string& bytes, const Header& header)
+  Values(const std::string& path, const std::string& bytes, const PLYHeader& header)
     : Path(path)
     , Rest(std::string_view(bytes).substr(header.dataAt))
     , Form(header.encoding)
   {
   }
 
-  double next(Type type) { return this->Form == Encoding::Ascii ? this->text() : this->binary(type); }
+  double next(Type type) { return this->Form == PLYEncoding::Ascii ? this->text() : this->binary(type); }
 
   /// Fails unless the rest of the file has room for so many values of one of these types each.
   void requireRoom(std::uint64_t times, const std::vector<Property>& properties)
@@ -190,9 +190,9 @@ public:
     for (const Property& property : properties)
     {
       // A value of a text takes a character and one between two of them.
-      bytes += this->Form == Encoding::Ascii ? 2 : sizeOf(property.list ? property.countType : property.type);
+      bytes += this->Form == PLYEncoding::Ascii ? 2 : sizeOf(property.list ? property.countType : property.type);
     }
-    const std::size_t rest = this->Rest.size() + (this->Form == Encoding::Ascii ? 1 : 0);
+    const std::size_t rest = this->Rest.size() + (this->Form == PLYEncoding::Ascii ? 1 : 0);
     if (bytes > 0 && times > rest / bytes)
     {
       this->cutOff();
@@ -200,7 +200,7 @@ public:
   }
 
 private:
-  [[noreturn]] void cutOff() const { fail(this->Path, "is cut off: it promises more than it has room for"); }
+  [[noreturn]] void cutOff() const { failPLY(this->Path, "is cut off: it promises more than it has room for"); }
 
   double text()
   {
@@ -221,7 +221,7 @@ private:
     const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (failure != std::errc() || end != word.data() + word.size())
     {
-      fail(this->Path, "has a value that is not a number: '" + shown + "'");
+      failPLY(this->Path, "has a value that is not a number: '" + shown + "'");
     }
     return value;
   }
@@ -236,7 +236,7 @@ private:
     char bytes[8] = {};
     std::copy_n(this->Rest.data(), size, bytes);
     this->Rest.remove_prefix(size);
-    if (this->Form == Encoding::BigEndian)
+    if (this->Form == PLYEncoding::BigEndian)
     {
       std::reverse(bytes, bytes + size);
     }
@@ -271,7 +271,7 @@ private:
 
   const std::string& Path;
   std::string_view Rest;
-  Encoding Form;
+  PLYEncoding Form;
 };
 
 /// Goes through an element; `entry` gets the place of a list among the properties and one of its values after the
@@ -297,7 +297,7 @@ void forEachRecord(
       if (!(record[k] >= 0.0 && record[k] <= std::numeric_limits<std::uint32_t>::max()) ||
           record[k] != std::floor(record[k]))
       {
-        fail(path, "has a list of an impossible length");
+        failPLY(path, "has a list of an impossible length");
       }
       for (auto left = static_cast<std::uint64_t>(record[k]); left > 0; --left)
       {
@@ -369,20 +369,20 @@ void reportRecord(const Progress& progress, std::uint64_t record, const Element&
 }
 
 /// The element of the points; fails without any, and without coordinates.
-const Element* requiredVertices(const std::string& path, const Header& header)
+const Element* requiredVertices(const std::string& path, const PLYHeader& header)
 {
   const Element* vertex = verticesOf(header);
   if (!vertex || vertex->count == 0)
   {
-    fail(path, "has no points");
+    failPLY(path, "has no points");
   }
   if (!Layout::whole(Layout(*vertex).point))
   {
-    fail(path, "has no properties x, y and z of its points");
+    failPLY(path, "has no properties x, y and z of its points");
   }
   if (vertex->count > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
   {
-    fail(path, "promises an impossible number of points");
+    failPLY(path, "promises an impossible number of points");
   }
   return vertex;
 }
@@ -408,7 +408,7 @@ void takeFaces(
   const int list = cornersOf(face);
   if (list < 0)
   {
-    fail(path, "has faces without the list vertex_indices");
+    failPLY(path, "has faces without the list vertex_indices");
   }
   std::vector<int> corners;
   const auto entry = [&](std::size_t k, double value)
@@ -417,7 +417,7 @@ void takeFaces(
     {
       if (!(value >= 0.0 && value < static_cast<double>(mesh.vertices.size())))
       {
-        fail(path, "has a face with a point that does not exist");
+        failPLY(path, "has a face with a point that does not exist");
       }
       corners.push_back(static_cast<int>(value));
     }
@@ -438,7 +438,7 @@ void takeFaces(
 TriangleMesh readPLYMesh(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
-  const Header header = parseHeader(path, bytes);
+  const PLYHeader header = parsePLYHeader(path, bytes);
   const Layout layout(*requiredVertices(path, header));
   Values values(path, bytes, header);
   const Progress ofVertices = subProgress(progress, 0.0, 0.5);
@@ -470,7 +470,7 @@ MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
   report(progress, 0.0);
-  const Header header = parseHeader(path, bytes);
+  const PLYHeader header = parsePLYHeader(path, bytes);
   const Element* vertex = requiredVertices(path, header);
   const Layout layout(*vertex);
   Values values(path, bytes, header);
@@ -508,7 +508,7 @@ bool isPLYCloud(const std::string& path)
 {
   try
   {
-    const Header header = parseHeader(path, readFile(path));
+    const PLYHeader header = parsePLYHeader(path, readFile(path));
     const Element* vertex = verticesOf(header);
     return vertex && vertex->count > 0 &&
            std::none_of(header.elements.begin(), header.elements.end(),

@@ -13,10 +13,10 @@ namespace
 {
 // With what lies behind such planes counted 9.9 of ten rings on a plate are among the ten best poses instead of 8.3.
 constexpr int MostPlanes = 5;         // a floor and four walls
-constexpr int Samples = 1500;         // measured points that are looked at, spread evenly
+constexpr int MostLookedAt = 1500;    // measured points that are looked at, spread evenly
 constexpr int Seeds = 150;            // of them, whose planes are tried
 constexpr double LeastShare = 0.05;   // of the points that lie on a plane
-constexpr double MostBehind = 0.01;   // of the points: wrong ones
+constexpr double MostWrong = 0.01;    // of the points: wrong ones
 constexpr double Behind = 2.0;        // times the tolerance from a plane: farther is behind it
 constexpr double LeastExtent = 1.5;   // of the part's diameter: a smaller plane may be a part's own
 constexpr double SeedTolerance = 2.0; // times the tolerance: the normal at one point is not exact
@@ -82,7 +82,7 @@ std::vector<Plane> enclosingPlanes(const DepthMap& depth, const Sensor& sensor, 
 {
   const Points& means = depth.means();
   Points all;
-  const std::size_t count = std::min<std::size_t>(means.size(), Samples);
+  const std::size_t count = std::min<std::size_t>(means.size(), MostLookedAt);
   for (std::size_t i = 0; i < count; ++i)
   {
     all.push_back(means[i * means.size() / count]);
@@ -105,7 +105,7 @@ std::vector<Plane> enclosingPlanes(const DepthMap& depth, const Sensor& sensor, 
     }
     const auto behind = std::count_if(all.begin(), all.end(),
       [&](const Eigen::Vector3f& point) { return fit.plane.signedDistance(point) < -Behind * tolerance; });
-    if (static_cast<double>(behind) <= MostBehind * static_cast<double>(count) &&
+    if (static_cast<double>(behind) <= MostWrong * static_cast<double>(count) &&
         fit.extent >= LeastExtent * partDiameter)
     {
       planes.push_back(fit.plane);

@@ -5,6 +5,8 @@
 
 namespace meam
 {
+constexpr double Metre = 1000.0; // mm
+
 /// Throws Error when a scene cannot be in the part's unit of length: its extent is far smaller or
 /// larger than `partDiameter` allows. The message names the likely factor.
 void requireSameUnits(const Points& scene, double partDiameter);

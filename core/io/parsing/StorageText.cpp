@@ -19,7 +19,7 @@ namespace
 constexpr const char* Blanks = " \t\r\n";
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void failStorage(const std::string& path, const std::string& what)
 {
   throw Error("The file '" + path + "' " + what + ".");
 }
@@ -50,7 +50,7 @@ nlohmann::json numbersInXML(const std::string& path, const std::string& text)
     std::size_t end = text.find(close, at);
     if (end == std::string::npos)
     {
-      fail(path, "ends within a tag: it is cut off");
+      failStorage(path, "ends within a tag: it is cut off");
     }
     std::string tag = text.substr(at + 1, end - at - 1);
     at = end + close.size();
@@ -62,7 +62,7 @@ nlohmann::json numbersInXML(const std::string& path, const std::string& text)
     {
       if (open.empty() || tag.substr(1) != open.back())
       {
-        fail(path, "has a tag '" + tag.substr(0, 40) + "' in the wrong place: it is damaged");
+        failStorage(path, "has a tag '" + tag.substr(0, 40) + "' in the wrong place: it is damaged");
       }
       open.pop_back();
       continue;
@@ -80,7 +80,7 @@ nlohmann::json numbersInXML(const std::string& path, const std::string& text)
   }
   if (!open.empty())
   {
-    fail(path, "has no end of <" + open.back().substr(0, 40) + ">: it is cut off");
+    failStorage(path, "has no end of <" + open.back().substr(0, 40) + ">: it is cut off");
   }
   return result;
 }
@@ -91,7 +91,7 @@ nlohmann::json parseStorage(const std::string& path, const std::string& text)
   const std::size_t first = text.find_first_not_of(Blanks);
   if (first == std::string::npos)
   {
-    fail(path, "is empty");
+    failStorage(path, "is empty");
   }
   return text[first] == '<'   ? numbersInXML(path, text)
          : text[first] == '{' ? parseJSON(path, text)

@@ -21,11 +21,11 @@ namespace
 {
 // Nothing promises that the collapses keep the bound: the result is measured, and they are repeated with less
 // tolerance when it does not hold.
-constexpr double LeastCosine = 0.26;   // of 75 degrees: a triangle turns by less when one of its corners moves
-constexpr int Tries = 4;               // then the mesh stays as it is
-constexpr double ToleranceShare = 0.9; // of the largest error, in the first try; then it shrinks by what was too much
-constexpr double LeastNext = 0.2;      // of the last tolerance, the next one at least,
-constexpr double MostNext = 0.8;       // and at most
+constexpr double LeastCosine = 0.26; // of 75 degrees: a triangle turns by less when one of its corners moves
+constexpr int Tries = 4;             // then the mesh stays as it is
+constexpr double FirstShare = 0.9;   // of the largest error, in the first try; then it shrinks by what was too much
+constexpr double LeastNext = 0.2;    // of the last tolerance, the next one at least,
+constexpr double MostNext = 0.8;     // and at most
 
 namespace OMD = OpenMesh::Decimater;
 
@@ -262,7 +262,7 @@ TriangleMesh simplifyMesh(const TriangleMesh& mesh, double maximumError, const P
     throw Error("The largest error of the simplified mesh must be a positive length in mm.");
   }
   const double ofTry = 1.0 / Tries; // of the progress
-  double tolerance = ToleranceShare * maximumError;
+  double tolerance = FirstShare * maximumError;
   for (int i = 0; i < Tries; ++i)
   {
     const Progress share = subProgress(progress, ofTry * i, ofTry * (i + 1));
@@ -272,7 +272,7 @@ TriangleMesh simplifyMesh(const TriangleMesh& mesh, double maximumError, const P
     {
       return result;
     }
-    tolerance *= std::clamp(ToleranceShare * maximumError / distance, LeastNext, MostNext);
+    tolerance *= std::clamp(FirstShare * maximumError / distance, LeastNext, MostNext);
   }
   return mesh;
 }

@@ -33,7 +33,7 @@ struct Circle
   }
 };
 
-Vector polar(double radius, double degrees)
+Vector corner(double radius, double degrees)
 {
   return radius * Vector(std::cos(degrees * M_PI / 180.0), std::sin(degrees * M_PI / 180.0));
 }
@@ -59,8 +59,8 @@ const Circle SpigotInside{ { 0, 0 }, 14, 40 };
 const Circle Lug{ { 38.5, 0 }, 6.5, 32 };
 const Circle LugBoss{ { 38.5, 0 }, 5.2, 28 };
 const Circle LugHole{ { 38.5, 0 }, 3, 20 };
-const std::array<Circle, 3> Holes{ Circle{ polar(24, 67.5), 4.5, 24 }, Circle{ polar(24, 112.5), 4.5, 24 },
-  Circle{ polar(24, 247.5), 4.5, 24 } };
+const std::array<Circle, 3> Holes{ Circle{ corner(24, 67.5), 4.5, 24 }, Circle{ corner(24, 112.5), 4.5, 24 },
+  Circle{ corner(24, 247.5), 4.5, 24 } };
 constexpr double LugRoot = 30.0; // x; the lug's sides start inside the rim, which has a gap as wide as the lug
 constexpr double RibStart = 10.5;
 constexpr double RibEnd = 33.5;
@@ -87,7 +87,7 @@ Column columnAt(const Vector& point)
   bool rib = false;
   for (int i = 1; i < RibPlaces; ++i)
   {
-    const Vector along = polar(1.0, 360.0 * i / RibPlaces);
+    const Vector along = corner(1.0, 360.0 * i / RibPlaces);
     const double across = along.x() * point.y() - along.y() * point.x();
     rib = rib || (std::abs(across) < HalfRib && along.dot(point) > RibStart && along.dot(point) < RibEnd);
   }
@@ -137,7 +137,7 @@ std::vector<Polyline> drawOutlines()
   }
   for (int i = 1; i < RibPlaces; ++i)
   {
-    const Vector along = polar(1.0, 360.0 * i / RibPlaces);
+    const Vector along = corner(1.0, 360.0 * i / RibPlaces);
     const Vector across(-along.y() * HalfRib, along.x() * HalfRib);
     line(RibStart * along + across, RibEnd * along + across);
     line(RibStart * along - across, RibEnd * along - across);
