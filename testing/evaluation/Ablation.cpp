@@ -473,6 +473,7 @@ public:
     result["place"] = column(found.value, placeOrScore);
     result["continuing"] = column(found.value, [](const Pose& pose) { return pose.contradictions.continuing; });
     result["past"] = column(found.value, [](const Pose& pose) { return pose.contradictions.past; });
+    result["misfit"] = column(found.value, [](const Pose& pose) { return pose.contradictions.misfit; });
     return result;
   }
 

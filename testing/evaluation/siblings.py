@@ -18,7 +18,7 @@ import ablation
 from ablation import SENSOR_PARTS, SENSORS, meam
 
 STRETCHES = [(axis, factor) for factor in (0.8, 0.9, 1.12, 1.25) for axis in (0, 1, 2)]
-COLUMNS = ("part", "sibling", "sensor", "seed", "rank", "place", "probability", "continuing", "past", "outcome")
+COLUMNS = ("part", "sibling", "sensor", "seed", "rank", "place", "probability", "continuing", "past", "misfit", "outcome")
 COPIES = 20
 SAME = 0.02  # of the diameter: a sibling whose surface is no farther off is the part itself
 
@@ -80,10 +80,9 @@ def rows_of(part, scene, truth, visible):
     search = meam.Search(part, scene)
     found = search.find("none")
     told = meam.judge(part, found["T"], truth, visible, 5.0, ablation.NO_TURNS)
-    for rank, (place, probability, continuing, past, instance, duplicate) in enumerate(zip(
-            found["place"], found["probability"], found["continuing"], found["past"], told["instance"], told["duplicate"]), 1):
-        yield rank, f"{place:.6f}", f"{probability:.6f}", f"{continuing:.3f}", f"{past:.3f}", \
-            "right" if instance >= 0 and not duplicate else "wrong"
+    numbers = zip(*(found[name] for name in COLUMNS[5:-1]))
+    for rank, (row, instance, duplicate) in enumerate(zip(numbers, told["instance"], told["duplicate"]), 1):
+        yield (rank, *(f"{number:.6g}" for number in row), "right" if instance >= 0 and not duplicate else "wrong")
 
 
 def report(path, out):
@@ -133,9 +132,9 @@ def main():
             there = what == "none"
             rows = list(rows_of(part, meam.Scan(scene["points"], scene["image"], ablation.NO_EDGES),
                                 scene["truth"] if there else ablation.NO_TURNS, scene["visible"] if there else numpy.zeros(0)))
-            writer.writerows([*key, *row] for row in rows or [[""] * 6])
+            writer.writerows([*key, *row] for row in rows or [[""] * (len(COLUMNS) - 4)])
             file.flush()
-            print(*key, "highest place", max((row[1] for row in rows), default="-"), file=sys.stderr)
+            print(*key, "highest place", max((float(row[1]) for row in rows), default="-"), file=sys.stderr)
     report(path, os.path.join(options.out, "siblings.md"))
 
 

@@ -15,7 +15,7 @@ TOLERANCE = 6.0  # mm, between the depths
 MARGIN = 150     # pixels about the image: what lies beyond it is predicted, too
 BLUE = 45        # grey values that the part's blue is over its red
 TOP, LIKELY = 5, 0.5
-RIGHT_OF_BEST, RIGHT_FIRST, LIKELY_RIGHT, LIKELY_WRONG = 26, 6, 22, 1
+RIGHT_OF_BEST, RIGHT_FIRST, LIKELY_RIGHT, LIKELY_WRONG = 26, 6, 26, 2
 
 folder = os.path.join(os.environ.get("PPFMEAM_DATA", ""), "pipes")
 if not os.path.isdir(folder):

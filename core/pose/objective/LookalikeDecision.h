@@ -6,18 +6,22 @@
 namespace meam
 {
 /// What contradicts a pose that all else speaks for: a part that looks alike, longer, shorter or mirrored, fits as well
-/// but there. In patches.
+/// but there.
 struct Contradictions
 {
-  double continuing = 0.0; ///< measured surface that goes on smoothly and is explained by no pose (SurfaceContinuation)
-  double past = 0.0;       ///< predicted surface that the sensor saw past
+  double continuing = 0.0; ///< patches of surface that go on smoothly and no pose explains (SurfaceContinuation)
+  double past = 0.0;       ///< patches of predicted surface that the sensor saw past
+  double misfit = 0.0; ///< how far the surface lies off the part, in what is expected of a right pose (SurfaceMisfit)
 
-  /// Logarithm of how much likelier they are of the part than of one that looks alike.
-  double logRatio() const;
+  /// Logarithm of how much likelier they are of the part than of one that looks alike. `excused`: [0, 1), by what the
+  /// scan itself may make of them.
+  double logRatio(double excused) const;
 };
 
-/// Of poses, how likely each is of the part and not of one that looks alike, [0, 1]. How many of the poses are, is
-/// decided by the scan, by expectation maximization: where most of what is in full sight contradicts the poses there,
-/// what is half hidden is none of the part either. `weights`: [0, 1], how likely something is there at all.
-std::vector<double> sharesOfPart(const std::vector<Contradictions>& poses, const std::vector<double>& weights);
+/// Of poses, how likely each is of the part and not of one that looks alike, [0, 1]. What a scan holds is decided for
+/// all together, for a bin is nearly always filled with one or the other: where most of what is in full sight
+/// contradicts the poses there, what is half hidden is none of the part either. `weights`: [0, 1], how likely something
+/// is there at all. `excused`: as above.
+std::vector<double> sharesOfPart(
+  const std::vector<Contradictions>& poses, const std::vector<double>& weights, double excused);
 }

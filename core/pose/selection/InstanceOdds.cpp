@@ -47,9 +47,9 @@ void excludeOverlaps(FinishedInstances& found, const TrainedModel& model)
   }
 }
 
-void allowForLookalikes(FinishedInstances& found, const Scene& scene, const TrainedModel& model)
+void allowForLookalikes(
+  FinishedInstances& found, const TrainedModel& model, const SurfaceContinuation& continuation, double excused)
 {
-  const SurfaceContinuation continuation(scene, model);
   const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
   std::vector<Contradictions> contradictions;
   std::vector<double> places;
@@ -75,7 +75,7 @@ void allowForLookalikes(FinishedInstances& found, const Scene& scene, const Trai
     contradictions.push_back(pose.contradictions);
     places.push_back(pose.placeProbability >= Likely ? pose.placeProbability : 0.0); // others are nothing at all
   }
-  const std::vector<double> shares = sharesOfPart(contradictions, places);
+  const std::vector<double> shares = sharesOfPart(contradictions, places, excused);
   for (std::size_t k = 0; k < found.size(); ++k)
   {
     found[k].logOdds = withCertainty(found[k].logOdds, shares[k]);

@@ -3,6 +3,7 @@
 
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
+#include "pose/objective/SurfaceContinuation.h"
 #include "scene/Scene.h"
 
 namespace meam
@@ -28,8 +29,10 @@ void sortBest(FinishedInstances& found);
 void excludeOverlaps(FinishedInstances& found, const TrainedModel& model);
 
 /// Of poses, best first: no pose is likelier than that it is of the part and not of one that looks alike, which what
-/// the pose does not explain of the face that it lies on, nor another pose does, and what it lacks tell.
-void allowForLookalikes(FinishedInstances& found, const Scene& scene, const TrainedModel& model);
+/// the pose does not explain of the face that it lies on, nor another pose does, what it lacks and how far the surface
+/// lies off it tell. `excused`: SurfaceMisfit.
+void allowForLookalikes(
+  FinishedInstances& found, const TrainedModel& model, const SurfaceContinuation& continuation, double excused);
 
 /// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
 /// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.

@@ -4,6 +4,7 @@
 #include "base/Parallel.h"
 #include "pose/PoseTolerances.h"
 #include "pose/objective/SurfaceContinuation.h"
+#include "pose/objective/SurfaceMisfit.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/selection/InstanceChoice.h"
 #include "pose/selection/InstanceOdds.h"
@@ -47,7 +48,8 @@ class InstanceFinish
 {
 public:
   InstanceFinish(const Scene& scene, const TrainedModel& model, const PoseSelectionSettings& settings,
-    const EvidenceCollector& collector, const EvidenceRates& rates, const PoseComparison& comparison)
+    const EvidenceCollector& collector, const EvidenceRates& rates, const PoseComparison& comparison,
+    const SurfaceContinuation& continuation, const SurfaceMisfit& misfit)
     : InScene(scene)
     , Model(model)
     , Settings(settings)
@@ -58,7 +60,8 @@ public:
     , Rotated(rotatedSettings(model))
     , Decision(scene, model, comparison, collector, Rates, Rotated)
     , Ascent(collector, rates, model, settings.ascent)
-    , Continuation(scene, model)
+    , Continuation(continuation)
+    , Misfit(misfit)
   {
   }
 
@@ -105,6 +108,15 @@ public:
     pose.contradictions.past = counts.past + counts.farPast;
     const bool isAsked = pose.placeProbability > WorthExplaining && haveSurfaces(this->InScene, this->Model);
     const Points beyond = isAsked ? this->Continuation.beyond(pose.T_scene_model) : Points();
+    if (isAsked) // a part that is turned wrongly is no other part
+    {
+      double least = this->Misfit.at(pose.T_scene_model);
+      for (const RotationAlternative& other : pose.alternatives)
+      {
+        least = std::min(least, this->Misfit.at(other.T_scene_model));
+      }
+      pose.contradictions.misfit = least / this->Misfit.expected();
+    }
     return { pose, best.evidence.matched(), beyond, best.logOdds, best.logOddsBefore };
   }
 
@@ -136,7 +148,8 @@ private:
   PoseRefinementSettings Rotated;
   RotationDecision Decision;
   EvidenceAscent Ascent;
-  SurfaceContinuation Continuation;
+  const SurfaceContinuation& Continuation;
+  const SurfaceMisfit& Misfit;
 };
 
 /// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
@@ -194,7 +207,9 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     settings.comparesInstances, settings.threads);
   const std::vector<int> selected = choice.select(subProgress(progress, 0.0, 0.3));
   const EvidenceRates rates = evidenceRatesOf(scored, collector, settings.evidence, RateStride, settings.threads);
-  const InstanceFinish instance(scene, model, settings, collector, rates, comparison);
+  const SurfaceContinuation continuation(scene, model);
+  const SurfaceMisfit misfit(scene, model);
+  const InstanceFinish instance(scene, model, settings, collector, rates, comparison, continuation, misfit);
   std::vector<FinishedInstance> finished(selected.size());
   parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),
     [&](int begin, int end, int)
@@ -217,7 +232,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     }
     if (settings.weighsLookalikes)
     {
-      allowForLookalikes(finished, scene, model);
+      allowForLookalikes(finished, model, continuation, misfit.excused());
     }
     if (!settings.partIsPresent)
     {

@@ -12,7 +12,7 @@ namespace meam
 {
 namespace
 {
-constexpr double SurePlace = 2.2; // log odds, 9 to 1: of surer places the rotation decides which pose comes first
+constexpr double OfRotation = 0.5; // of what a pose is worth: the rest that a copy is there, however it is turned
 
 /// Section 5.2 of the paper: share of the view's edge points that have a scene edge point near.
 void scoreByCoverage(Pose& pose, const Points& viewEdges, const EvidenceCollector& collector)
@@ -99,7 +99,7 @@ void setSeen(Pose& pose, const PoseEvidence& evidence, const Scene& scene, const
 
 void setEvidence(Pose& pose, double logOdds)
 {
-  pose.evidence = std::max(std::min(logOdds, SurePlace), withCertainty(logOdds, pose.certainty));
+  pose.evidence = withCertainty(logOdds, 1.0 - OfRotation + OfRotation * pose.certainty);
   pose.placeProbability = probabilityOf(logOdds);
   pose.probability = pose.certainty * pose.placeProbability;
 }
