@@ -8,6 +8,8 @@ namespace meam
 inline constexpr double FitDistance = 0.03;       ///< a model point this near to the scene fits
 inline constexpr double ExplainedDistance = 0.01; ///< a scene edge this near to an edge of the part is explained by it
 inline constexpr double UnexplainedDistance = 0.02; ///< a scene point this far from the part is not explained by it
+inline constexpr float FacingSurface =
+  0.8f; ///< cosine of the part's normal and the measured one, from which on a surface fits
 
 // Two poses that no step has refined yet are one and the same below both.
 inline constexpr double SamePoseDistance =

@@ -12,13 +12,13 @@ namespace
 {
 // By logistic regression over poses in simulated bins of the example parts and of siblings of theirs
 // (testing/evaluation/siblings.py, seed 901).
-constexpr double Nothing = 1.5;     // where nothing contradicts
-constexpr double Continuing = -3.0; // of much surface that goes on,
-constexpr double Much = 0.5;        // patches: from there on more says little more
-constexpr double Past = -2.7;       // of a patch,
-constexpr double MostPast = 1.5;    // and of no more
-constexpr double Misfitting = -2.7; // of a surface far off the part,
-constexpr double FarOff = 2.0;      // times what is expected: from there on more says little more
+constexpr double OfNothing = 1.5;      // where nothing contradicts
+constexpr double OfContinuing = -3.0;  // of much surface that goes on,
+constexpr double MuchContinuing = 0.5; // patches: from there on more says little more
+constexpr double OfPast = -2.7;        // of a patch,
+constexpr double MostPast = 1.5;       // and of no more
+constexpr double OfMisfit = -2.7;      // of a surface far off the part,
+constexpr double FarOff = 2.0;         // times what is expected: from there on more says little more
 // Patches that an uneven scan makes of a right pose where it excuses everything.
 constexpr double ExcusedContinuing = 1.0;
 constexpr double ExcusedPast = 1.0;
@@ -38,9 +38,9 @@ double saturated(double amount, double much) { return 1.0 - std::exp(-std::max(a
 
 double Contradictions::logRatio(double excused) const
 {
-  return Nothing + Continuing * saturated(this->continuing - excused * ExcusedContinuing, Much) +
-         Past * std::clamp(this->past - excused * ExcusedPast, 0.0, MostPast) +
-         Misfitting * saturated(this->misfit - 1.0, FarOff);
+  return OfNothing + OfContinuing * saturated(this->continuing - excused * ExcusedContinuing, MuchContinuing) +
+         OfPast * std::clamp(this->past - excused * ExcusedPast, 0.0, MostPast) +
+         OfMisfit * saturated(this->misfit - 1.0, FarOff);
 }
 
 std::vector<double> sharesOfPart(

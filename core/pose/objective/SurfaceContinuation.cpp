@@ -18,7 +18,6 @@ constexpr float SmoothTurn = 0.97f; // cosine between the normals of neighbours 
 // How far they lie off each other's plane: so much of the distance between them, 14 degrees, and standard deviations.
 constexpr float SmoothSlope = 0.25f;
 constexpr float Noises = 2.0f;
-constexpr float Facing = 0.8f; // cosine between the part's normal and the measured one, of a surface that fits
 }
 
 SurfaceContinuation::SurfaceContinuation(const Scene& scene, const TrainedModel& model)
@@ -68,7 +67,7 @@ Points SurfaceContinuation::beyond(const Eigen::Isometry3d& T_scene_model) const
     const Eigen::Vector3f point = T * model.surface.points[i];
     const int cell = depth.cellAt(point);
     if (cell >= 0 && depth.isMeasured(cell) && this->isOn(depth.meanIn(cell), toModel) &&
-        depth.normalIn(cell).dot(T.linear() * model.surface.normals[i]) >= Facing &&
+        depth.normalIn(cell).dot(T.linear() * model.surface.normals[i]) >= FacingSurface &&
         cells.emplace(cell, Reached{ 0, cell }).second)
     {
       reached.push_back(cell);

@@ -16,7 +16,6 @@ namespace meam
 {
 namespace
 {
-constexpr float Facing = 0.8f;       // cosine between the part's normal and the measured one, of a surface that fits
 constexpr float Steepest = 0.3f;     // cosine towards the sensor: flatter surface is measured badly
 constexpr float OfOther = 0.5f;      // of the distance, to another surface of the part: what is nearer is that one's
 constexpr int LeastCells = 3;        // of the depth map in a patch: fewer tell no average
@@ -28,11 +27,11 @@ constexpr double OfPose = 4e-4;                 // and of the diameter, for pose
 
 constexpr double Uneven = 0.01; // of the diameter: a scan that is so uneven excuses half
 
-constexpr double Block = 3.0;    // patches, the side of a block
-constexpr double Filled = 0.6;   // of the points of the fullest block, or patch: others are cut off
-constexpr double Flattest = 0.1; // of the blocks, and not the single flattest one
+constexpr double Block = 3.0;          // patches, the side of a block
+constexpr double Filled = 0.6;         // of the points of the fullest block, or patch: others are cut off
+constexpr double FlattestBlocks = 0.1; // of the blocks, and not the single flattest one
 
-double median(std::vector<float>& values)
+double middleOf(std::vector<float>& values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -106,7 +105,7 @@ double scanUnevenness(const Points& surface, const Eigen::Vector3d& towards, dou
     return 0.0;
   }
   std::sort(squares.begin(), squares.end());
-  const auto flattest = static_cast<std::size_t>(Flattest * static_cast<double>(squares.size()));
+  const auto flattest = static_cast<std::size_t>(FlattestBlocks * static_cast<double>(squares.size()));
   return std::sqrt(squares[std::min(std::max<std::size_t>(flattest, 1), squares.size() - 1)]);
 }
 
@@ -145,7 +144,7 @@ double SurfaceMisfit::at(const Eigen::Isometry3d& T_scene_model) const
     const Eigen::Vector3f normal = T.linear() * model.surface.normals[visible->surface[k]];
     const Eigen::Vector3f point = T * inModel;
     const int cell = visible->isInner[k] && normal.dot(towards) >= Steepest ? depth.cellAt(point) : -1;
-    if (cell < 0 || !depth.isMeasured(cell) || depth.normalIn(cell).dot(normal) < Facing)
+    if (cell < 0 || !depth.isMeasured(cell) || depth.normalIn(cell).dot(normal) < FacingSurface)
     {
       continue;
     }
@@ -182,10 +181,10 @@ double SurfaceMisfit::at(const Eigen::Isometry3d& T_scene_model) const
     if (cells >= LeastCells)
     {
       // Not the mean: cells at a step of the part have some of both its sides.
-      const double middle = median(inPatch);
+      const double middle = middleOf(inPatch);
       std::transform(inPatch.begin(), inPatch.end(), inPatch.begin(),
         [middle](float distance) { return std::abs(distance - static_cast<float>(middle)); });
-      const double deviation = DeviationsOfMedian * median(inPatch);
+      const double deviation = DeviationsOfMedian * middleOf(inPatch);
       squares += cells * (middle * middle - VarianceOfMedian * deviation * deviation / cells);
       all += cells;
     }

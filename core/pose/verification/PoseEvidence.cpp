@@ -13,7 +13,6 @@ namespace meam
 namespace
 {
 constexpr double Noises = 1.5;        // of the scan: the tolerance is no less
-constexpr float Facing = 0.8f;        // cosine between the part's normal and the measured one, of a surface that fits
 constexpr double FarBehind = 0.1;     // of the diameter: what the sensor saw so far behind the part is far
 constexpr double CloselyBefore = 0.1; // of the diameter: a surface that hides the part from nearer is close before it
 constexpr float Flattest = 0.3f;      // cosine: the tolerance along the line of sight grows up to surfaces so flat
@@ -141,7 +140,7 @@ double EvidenceCollector::closelyHidden(const Eigen::Isometry3d& T_scene_model) 
     const bool isClose = visible->isInner[k] && cosine > 0.0f &&
                          depth.relationToMean(point, tolerance) == DepthMap::Relation::Hidden &&
                          depth.relationToMean(point, close) == DepthMap::Relation::OnSurface &&
-                         depth.normalAt(point).dot(normal) >= Facing;
+                         depth.normalAt(point).dot(normal) >= FacingSurface;
     area += isClose ? model.verificationArea() * cosine : 0.0;
   }
   return area / (patch * patch);
@@ -246,7 +245,7 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
       case DepthMap::Relation::OnSurface:
       {
         const Eigen::Vector3f measured = depth.normalAt(point);
-        const bool isTurned = !measured.isZero() && measured.dot(normal) < Facing;
+        const bool isTurned = !measured.isZero() && measured.dot(normal) < FacingSurface;
         (isTurned ? counts.turned : measured.isZero() ? counts.unclear : counts.there) += seen;
         state = isTurned ? PointState::Turned : PointState::Matched;
         break;
