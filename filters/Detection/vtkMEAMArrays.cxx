@@ -172,11 +172,16 @@ void setFieldText(vtkDataObject* output, const char* name, const std::string& te
   output->GetFieldData()->AddArray(array);
 }
 
-void fromAnswer(const std::string& answer, const std::string& advice, vtkTable* output)
+void fromAnswer(const std::vector<std::string>& paragraphs, vtkTable* output)
 {
+  std::string lines;
+  for (const std::string& paragraph : paragraphs)
+  {
+    lines += (lines.empty() || paragraph.empty() ? "" : "\n") + inLines(paragraph, LineLength);
+  }
   vtkNew<vtkStringArray> text;
   text->SetName("Text");
-  text->InsertNextValue(inLines(answer, LineLength) + (advice.empty() ? "" : "\n") + inLines(advice, LineLength));
+  text->InsertNextValue(lines);
   output->AddColumn(text);
 }
 }

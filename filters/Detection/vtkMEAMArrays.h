@@ -13,6 +13,7 @@
 
 #include <string>
 #include <type_traits>
+#include <vector>
 
 class vtkDataObject;
 class vtkDataSet;
@@ -52,8 +53,8 @@ void setFieldValue(vtkDataObject* output, const char* name, double value);
 /// The same of a text.
 void setFieldText(vtkDataObject* output, const char* name, const std::string& text);
 
-/// An answer and what to do about it as a table with one row, `Text`: in lines, to show in a view.
-void fromAnswer(const std::string& answer, const std::string& advice, vtkTable* output);
+/// An answer, what to do about it and more as a table with one row, `Text`: in lines, to show in a view.
+void fromAnswer(const std::vector<std::string>& paragraphs, vtkTable* output);
 }
 
 #endif

@@ -204,7 +204,15 @@ int vtkMEAMPoseDiagnosis::RequestData(
       const std::string advice = meam::adviceOf(diagnosis, detection.work.settings);
       setFieldText(output, "Verdict", verdict);
       setFieldText(output, "Advice", advice);
-      fromAnswer(verdict, advice, answer);
+      std::vector<std::string> paragraphs{ verdict, advice };
+      std::string reasons;
+      for (const std::string& reason : meam::reasonsOf(diagnosis))
+      {
+        reasons += (reasons.empty() ? "" : "\n") + reason;
+        paragraphs.push_back(reason);
+      }
+      setFieldText(output, "Reasons", reasons);
+      fromAnswer(paragraphs, answer);
       setFieldText(output, "LostIn", diagnosis.lostIn ? meam::nameOf(*diagnosis.lostIn) : std::string());
       setFieldValue(output, "Rank", diagnosis.rank);
       setDiameter(output, detection.work.part->model->diameter);

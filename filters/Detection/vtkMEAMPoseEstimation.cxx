@@ -101,7 +101,7 @@ int vtkMEAMPoseEstimation::RequestData(
       fromInstances(
         work.part->shape, poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
       fromAnswer(
-        poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability"), {},
+        { poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability") },
         answer);
       setDiameter(output, model.diameter);
       setPartExtent(output, model);

@@ -64,7 +64,7 @@ int vtkMEAMPoseInstances::RequestData(
       { return ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : static_cast<int>(k) + 1; };
       vtkMEAMConversion::fromInstances(mesh, poses, rankOf, *this->Settings, progress, output);
       vtkMEAMConversion::fromAnswer(
-        vtkMEAMConversion::describeHidden(poses, this->Settings->minimumProbability, "MinimumProbability"), {}, answer);
+        { vtkMEAMConversion::describeHidden(poses, this->Settings->minimumProbability, "MinimumProbability") }, answer);
       if (this->UncertaintyScale > 0.0)
       {
         const auto extent = vtkMEAMConversion::partExtentOf(posesInput);

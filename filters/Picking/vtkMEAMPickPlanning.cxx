@@ -161,7 +161,7 @@ int vtkMEAMPickPlanning::RequestData(
       const std::string advice = meam::adviceOn(picks);
       setFieldText(output, "PickReport", report);
       setFieldText(output, "PickAdvice", advice);
-      fromAnswer(report, advice, answer);
+      fromAnswer({ report, advice }, answer);
       fromGrippers(picks, grasps, gripper, shown, grippers);
       if (!gripperInput)
       {

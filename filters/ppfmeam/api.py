@@ -115,8 +115,8 @@ def add_array(attributes, name, values):
 
 
 class Diagnosis:
-    """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `lost_in` (the stage;
-    empty: it was found), `rank` (of the pose that came out there; 0: none), `pose` (4 x 4, the place, or None), `numbers` (of
+    """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `reasons` (what
+    speaks for it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose that came out there; 0: none), `pose` (4 x 4, the place, or None), `numbers` (of
     each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should be visible)
     and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"). `data` is the VTK data object of the
     points."""
@@ -126,7 +126,7 @@ class Diagnosis:
             return data.GetFieldData().GetAbstractArray(name).GetValue(0)
 
         self.data = data
-        self.verdict, self.advice, self.lost_in = text("Verdict"), text("Advice"), text("LostIn")
+        self.verdict, self.advice, self.reasons, self.lost_in = map(text, ("Verdict", "Advice", "Reasons", "LostIn"))
         self.rank = int(scripting.field(data, "Rank"))
         place = data.GetFieldData().GetArray("Transform")
         self.pose = vtk_to_numpy(place).reshape(4, 4).copy() if place else None

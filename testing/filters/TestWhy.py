@@ -30,6 +30,8 @@ check(few.count("only the best 1 are wanted. Raise MaximumNumberOfPoses") >= fou
 model = ppfmeam.load("part.meam")
 diagnosis = ppfmeam.why(model, "scan.pcd", pose=transforms[row], poses=0)
 check(diagnosis.rank >= 1 and diagnosis.lost_in == "" and diagnosis.verdict.startswith("Found"), diagnosis.verdict)
+check(diagnosis.reasons.startswith("For it, in the logarithm of the odds: ") and "\nAgainst it: " in diagnosis.reasons,
+      diagnosis.reasons)
 check(len(diagnosis.points) == len(diagnosis.states) > 50, "points and states")
 on = diagnosis.points[diagnosis.states.index("matched")]
 report = works("why.py", "part.meam", "scan.pcd", "--at", *map(str, on), "--poses", "0").splitlines()

@@ -2,15 +2,21 @@
 #include "pose/diagnosis/DiagnosisReport.h"
 
 #include "pose/selection/InstanceChoice.h"
+#include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace meam
 {
 namespace
 {
+constexpr double LogOdds = CalibrationWithSurface.slope; // of what adds one to the sum of evidence
+constexpr double Likely = 0.9;                           // certainty of a rotation that needs no word
+constexpr double LeastTold = 0.1;                        // of log odds, or patches: less changes nothing
+
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
 
 /// With one decimal.
@@ -129,6 +135,19 @@ std::string votingVerdict(const Diagnosis& diagnosis)
 }
 }
 
+namespace
+{
+/// What to change where the pose is wrong.
+std::string adviceOnFound(const Pose& pose)
+{
+  const bool mayBeOther = pose.contradictions.logRatio(0.0) < 0.0;
+  return mayBeOther                ? "If it is wrong: where parts that look alike lie, search for all of them together."
+         : pose.certainty < Likely ? "If it is turned wrongly: light or scan the part so that what tells its rotation "
+                                     "shows; RotationCounts keeps back what is unsure."
+                                   : "";
+}
+}
+
 std::string nameOf(PoseStage stage)
 {
   switch (stage)
@@ -226,6 +245,9 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
                      " or more, or set it to 0." + (isUnlikely(diagnosis, selection) ? " " : "")
                  : "") +
              (isUnlikely(diagnosis, selection) ? "Lower MinimumProbability." : "");
+    case LossCause::None:
+    case LossCause::Inaccurate:
+      return diagnosis.found ? adviceOnFound(*diagnosis.found) : "";
     case LossCause::NotMeasured:
       return "Measure the part from another side or with another exposure.";
     case LossCause::Hidden:
@@ -248,6 +270,58 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
            (canVoteMore ? ", or let the surface vote, too (Features: Both)." : ".");
   }
   return diagnosis.cause == LossCause::Outvoted && canVoteMore ? "Let edges and surface vote (Features: Both)." : "";
+}
+
+std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
+{
+  std::vector<std::string> sentences;
+  const auto add = [&sentences](const std::string& sentence) { sentences.push_back(sentence); };
+  const auto listed = [&](bool speaksFor)
+  {
+    std::vector<EvidenceTerm> terms;
+    std::copy_if(diagnosis.terms.begin(), diagnosis.terms.end(), std::back_inserter(terms),
+      [&](const EvidenceTerm& term)
+      { return (term.adds > 0.0) == speaksFor && std::abs(LogOdds * term.adds) >= LeastTold; });
+    std::stable_sort(terms.begin(), terms.end(),
+      [](const EvidenceTerm& a, const EvidenceTerm& b) { return std::abs(a.adds) > std::abs(b.adds); });
+    std::string words;
+    for (const EvidenceTerm& term : terms)
+    {
+      words += (words.empty() ? "" : "; ") + std::string(term.what) + ", " + decimal(term.amount) + " " + term.unit +
+               " (" + (speaksFor ? "+" : "") + decimal(LogOdds * term.adds) + ")";
+    }
+    return words.empty() ? "nothing" : words;
+  };
+  if (!diagnosis.terms.empty())
+  {
+    add("For it, in the logarithm of the odds: " + listed(true) + ".");
+    add("Against it: " + listed(false) + ".");
+  }
+  if (diagnosis.found)
+  {
+    const auto& [continuing, past, misfit] = diagnosis.found->contradictions;
+    if (continuing >= LeastTold || misfit > 1.0)
+    {
+      add("It may be another part that looks alike: " +
+          (continuing >= LeastTold ? "surface goes on beside it over " + decimal(continuing) + " patches" : "") +
+          (continuing >= LeastTold && misfit > 1.0 ? ", and " : "") +
+          (misfit > 1.0 ? "surface lies off the part by " + decimal(misfit) + " times what the scan explains" : "") +
+          ".");
+    }
+    const std::vector<RotationAlternative>& others = diagnosis.found->alternatives;
+    if (!others.empty())
+    {
+      add("Its rotation is " + percent(diagnosis.found->certainty) + " sure; turned by " +
+          decimal(rotationError(others.front().T_scene_model, diagnosis.found->T_scene_model)) + " degrees it is " +
+          percent(others.front().share) + ".");
+    }
+  }
+  if (diagnosis.otherRank > 0)
+  {
+    add("The nearest other pose is rank " + std::to_string(diagnosis.otherRank) + ", " +
+        percent(diagnosis.otherProbability) + ", " + offsetWords(diagnosis.otherOffset) + " off.");
+  }
+  return sentences;
 }
 
 std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)

@@ -14,6 +14,10 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
 /// What to change: in the scan, or properties of the filter MEAM Pose Estimation; empty where nothing is known to help.
 std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detection);
 
+/// What speaks for the place and what against it, in the logarithm of odds, what may be another part that looks alike,
+/// how sure the rotation is, and the nearest other pose: a sentence each.
+std::vector<std::string> reasonsOf(const Diagnosis& diagnosis);
+
 /// A number of a step.
 struct DiagnosisNumber
 {

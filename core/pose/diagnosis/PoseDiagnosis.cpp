@@ -119,6 +119,7 @@ Diagnosis PoseDiagnosis::at(const Eigen::Isometry3d& T_local_model, const Progre
   this->score(diagnosis, T_local_model);
   this->count(diagnosis, T_local_model);
   diagnosis.cause = this->causeOf(diagnosis, T_local_model, subProgress(progress, 0.4, 1.0));
+  this->explain(diagnosis, T_local_model);
   report(progress, 1.0);
   return diagnosis;
 }
@@ -251,6 +252,37 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
          : evidence.surfaceShare(PointState::Violated) > LeastThere ? LossCause::NotThere
          : missing > LeastThere                                     ? LossCause::NotMeasured
                                                                     : cause;
+}
+
+void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model)
+{
+  const EvidenceSettings evidence = this->verification().evidence;
+  if (evidence.rates)
+  {
+    const EvidenceCollector collector(this->InScene, this->Model, evidence);
+    diagnosis.terms = termsOf(collector.collect(T_local_model).counts, *evidence.rates);
+  }
+  const Poses& all = this->Trace.unlimited();
+  if (diagnosis.rank > 0)
+  {
+    diagnosis.found = this->Trace.ranked()[diagnosis.rank - 1];
+  }
+  else if (diagnosis.rankWithoutLimits > 0)
+  {
+    diagnosis.found = all[diagnosis.rankWithoutLimits - 1];
+  }
+  double nearest = this->Model.diameter;
+  for (std::size_t k = 0; k < all.size(); ++k)
+  {
+    const PoseOffset offset = offsetBetween(all[k].T_scene_model, T_local_model, this->Model);
+    if (offset.distance < nearest && !offset.within(this->tolerance()))
+    {
+      nearest = offset.distance;
+      diagnosis.otherRank = static_cast<int>(k) + 1;
+      diagnosis.otherOffset = offset;
+      diagnosis.otherProbability = claimOf(all[k], this->Detection.selection.rotationCounts);
+    }
+  }
 }
 
 LossCause PoseDiagnosis::notWanted(Diagnosis& diagnosis, int rank, const Eigen::Isometry3d& T_local_model)

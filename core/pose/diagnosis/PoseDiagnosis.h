@@ -56,11 +56,16 @@ struct Diagnosis
   int rank = 0;                    ///< of what came out here, from 1; 0: nothing did
   PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
   double probability = 0.0;        ///< of a copy where it came out, or would without limits
-  int rankWithoutLimits = 0;       ///< the same if all poses came out
-  int takenBy = 0;                 ///< rank without limits, from 1, of the pose that has most of the place's points
-  double takenShare = 0.0;         ///< of the points that match at the place, those that match at that pose, too
-  double takenEvidence = 0.0;      ///< of that pose
-  bool isFoundByAllPoints = false; ///< lost before refinement, it comes out when all points about it vote
+  std::optional<Pose> found;       ///< what came out here, or would without limits, local frame
+  std::vector<EvidenceTerm> terms; ///< what speaks for the place and against it; empty with the paper's verification
+  int otherRank = 0;               ///< without limits, from 1, of the nearest other pose of another place; 0: none near
+  double otherProbability = 0.0;   ///< of a copy there
+  PoseOffset otherOffset{ 0.0, 0.0 }; ///< of it
+  int rankWithoutLimits = 0;          ///< the same if all poses came out
+  int takenBy = 0;                    ///< rank without limits, from 1, of the pose that has most of the place's points
+  double takenShare = 0.0;            ///< of the points that match at the place, those that match at that pose, too
+  double takenEvidence = 0.0;         ///< of that pose
+  bool isFoundByAllPoints = false;    ///< lost before refinement, it comes out when all points about it vote
 };
 
 /// Runs the detection of parts in a scene once, and then tells of places what became of a part there. Keeps references.
@@ -94,6 +99,8 @@ private:
   bool isFoundByAllPoints(const Eigen::Isometry3d& T_local_model, const Progress& progress) const;
   static LossCause causeInVoting(const Diagnosis& diagnosis);
   LossCause causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
+  /// Sets what speaks for it and against it, and which other pose is near.
+  void explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
   /// Found as this pose without limits.
   LossCause notWanted(Diagnosis& diagnosis, int rank, const Eigen::Isometry3d& T_local_model);
   /// As the refined poses were verified.

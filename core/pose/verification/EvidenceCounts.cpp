@@ -62,6 +62,26 @@ double EvidenceCounts::ofLines(const EvidenceRates& rates) const
 
 double EvidenceCounts::sum(const EvidenceRates& rates) const { return this->ofSurface() + this->ofLines(rates); }
 
+std::vector<EvidenceTerm> termsOf(const EvidenceCounts& counts, const EvidenceRates& rates)
+{
+  const double edges = counts.ofEdges(rates), outline = Outline * rates.outline.logOf(counts.ends, counts.goesOn);
+  const double lines = edges + outline;
+  const double counting = lines != 0.0 ? counts.ofLines(rates) / lines : 1.0;
+  std::vector<EvidenceTerm> terms{ { "surface where it should be", "patches", counts.there, There * counts.there },
+    { "surface too small to tell which way it faces", "patches", counts.unclear, Unclear * counts.unclear },
+    { "surface that faces elsewhere", "patches", counts.turned, Turned * counts.turned },
+    { "surface that the sensor saw just past", "patches", counts.past, Past * counts.past },
+    { "surface that the sensor saw far past", "patches", counts.farPast, FarPast * counts.farPast },
+    { "surface that is hidden", "patches", counts.hidden, Hidden * saturated(counts.hidden, ManyHidden) },
+    { "body behind the bin's floor or a wall", "patches", counts.enclosed, Enclosed * counts.enclosed },
+    { "surface that was not measured", "patches", counts.unmeasured, Unmeasured * counts.unmeasured },
+    { "edges", "points found", counts.edgesFound, counting * edges },
+    { "outline", "patches long where surface ends", counts.ends, counting * outline } };
+  terms.erase(
+    std::remove_if(terms.begin(), terms.end(), [](const EvidenceTerm& term) { return term.adds == 0.0; }), terms.end());
+  return terms;
+}
+
 EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates)
 {
   using Count = double EvidenceCounts::*;

@@ -48,6 +48,18 @@ struct EvidenceCounts
   double sum(const EvidenceRates& rates) const;
 };
 
+/// One kind of what was counted, and what it adds to EvidenceCounts::sum.
+struct EvidenceTerm
+{
+  const char* what; ///< "surface where it should be"
+  const char* unit; ///< "patches"
+  double amount;
+  double adds;
+};
+
+/// All kinds that add something; they sum up to EvidenceCounts::sum.
+std::vector<EvidenceTerm> termsOf(const EvidenceCounts& counts, const EvidenceRates& rates);
+
 /// The rates of a scan, from what was counted of its candidates, by expectation maximization: each tells how often
 /// something is found where the part is as far as it is likely to be right, from the sum of its evidence by the rates
 /// of the step before, and how often it is found anywhere as far as it is wrong.

@@ -52,7 +52,7 @@ def chosen(text):
 
 
 def print_report(diagnosis):
-    """The numbers step by step, how many points are in which state, the verdict and the advice."""
+    """The numbers step by step, how many points are in which state, the reasons, the verdict and the advice."""
     def words(number):
         return f"{number:.0f}" if number == int(number) else f"{number:.3f}"
 
@@ -60,9 +60,9 @@ def print_report(diagnosis):
         print(f"{step:26s}{quantity}: {words(value)}" + ("" if math.isnan(of) else f" / {words(of)}"))
     if diagnosis.pose is not None:
         print(f"{'place':26s}" + "  ".join(" ".join(f"{x:.4f}" for x in row) for row in diagnosis.pose[:3]))
-    print(diagnosis.verdict)
-    if diagnosis.advice:
-        print(diagnosis.advice)
+    for words in (diagnosis.reasons, diagnosis.verdict, diagnosis.advice):
+        if words:
+            print(words)
 
 
 def main():

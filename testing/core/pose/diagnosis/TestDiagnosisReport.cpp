@@ -113,6 +113,38 @@ TEST(DiagnosisReport, AdviceNamesAProperty)
   EXPECT_EQ(advice(LossCause::None), "");
 }
 
+TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
+{
+  meam::Diagnosis diagnosis = example(LossCause::None);
+  EXPECT_TRUE(meam::reasonsOf(diagnosis).empty());
+  diagnosis.terms = { { "surface where it should be", "patches", 10.0, 10.0 },
+    { "surface that the sensor saw far past", "patches", 0.5, -4.0 }, { "edges", "points found", 30.0, 2.0 },
+    { "outline", "patches long where surface ends", 8.0, 0.01 } };
+  diagnosis.found.emplace();
+  diagnosis.found->certainty = 0.7;
+  diagnosis.found->alternatives = { { Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ())), 0.25 } };
+  diagnosis.found->contradictions = { 0.5, 0.5, 3.0 };
+  diagnosis.otherRank = 9;
+  diagnosis.otherProbability = 0.12;
+  diagnosis.otherOffset = { 14.0, 90.0 };
+  const std::vector<std::string> sentences{ // 0.64 of what adds to the sum
+    "For it, in the logarithm of the odds: surface where it should be, 10.0 patches (+6.4); edges, 30.0 points found "
+    "(+1.3).",
+    "Against it: surface that the sensor saw far past, 0.5 patches (-2.6).",
+    "It may be another part that looks alike: surface goes on beside it over 0.5 patches, and surface lies off the "
+    "part "
+    "by 3.0 times what the scan explains.",
+    "Its rotation is 70 % sure; turned by 180.0 degrees it is 25 %.",
+    "The nearest other pose is rank 9, 12 %, 14.0 mm and 90.0 degrees off."
+  };
+  EXPECT_EQ(meam::reasonsOf(diagnosis), sentences);
+  const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
+  EXPECT_EQ(meam::adviceOf(diagnosis, detection),
+    "If it is wrong: where parts that look alike lie, search for all of them together.");
+  diagnosis.found->contradictions = {};
+  EXPECT_NE(meam::adviceOf(diagnosis, detection).find("RotationCounts"), std::string::npos);
+}
+
 TEST(DiagnosisReport, WhatWasTriedAndHelpedIsAdvised)
 {
   const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
