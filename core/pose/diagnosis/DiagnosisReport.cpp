@@ -15,6 +15,7 @@ namespace
 {
 constexpr double LogOdds = CalibrationWithSurface.slope; // of what adds one to the sum of evidence
 constexpr double Likely = 0.9;                           // certainty of a rotation that needs no word
+constexpr double LeastLess = 1.0;                        // log odds: more than places lose that nothing contradicts
 constexpr double LeastTold = 0.1;                        // of log odds, or patches: less changes nothing
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
@@ -295,7 +296,14 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
   if (!diagnosis.terms.empty())
   {
     add("For it, in the logarithm of the odds: " + listed(true) + ".");
-    add("Against it: " + listed(false) + ".");
+    add("Against it: " + listed(false) + ", and that little is right of what is anywhere (" +
+        decimal(CalibrationWithSurface.constant) + ").");
+  }
+  if (diagnosis.lessByOthers >= LeastLess)
+  {
+    add("With all that the scan holds it is less likely, by " + decimal(diagnosis.lessByOthers) +
+        (diagnosis.cutsInto > 0 ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
+                                : ": the part, or one of just this shape, may not be in it."));
   }
   if (diagnosis.found)
   {

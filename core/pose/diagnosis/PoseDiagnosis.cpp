@@ -3,10 +3,12 @@
 
 #include "base/PointGrid.h"
 #include "pose/PoseTolerances.h"
+#include "pose/objective/BodyOverlap.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/selection/InstanceChoice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace meam
@@ -256,12 +258,6 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
 
 void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model)
 {
-  const EvidenceSettings evidence = this->verification().evidence;
-  if (evidence.rates)
-  {
-    const EvidenceCollector collector(this->InScene, this->Model, evidence);
-    diagnosis.terms = termsOf(collector.collect(T_local_model).counts, *evidence.rates);
-  }
   const Poses& all = this->Trace.unlimited();
   if (diagnosis.rank > 0)
   {
@@ -270,6 +266,27 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
   else if (diagnosis.rankWithoutLimits > 0)
   {
     diagnosis.found = all[diagnosis.rankWithoutLimits - 1];
+  }
+  const EvidenceSettings evidence = this->verification().evidence;
+  if (evidence.rates)
+  {
+    const EvidenceCollector collector(this->InScene, this->Model, evidence);
+    const Eigen::Isometry3d& T = diagnosis.found ? diagnosis.found->T_scene_model : T_local_model;
+    const EvidenceCounts counts = collector.collect(T).counts;
+    diagnosis.terms = termsOf(counts, *evidence.rates);
+    if (diagnosis.found)
+    {
+      const double place = diagnosis.found->placeProbability;
+      diagnosis.lessByOthers = collector.logOdds(counts, *evidence.rates) - std::log(place / (1.0 - place));
+      const BodyOverlap overlap(this->Model);
+      const auto cut = std::find_if(all.begin(), all.end(),
+        [&](const Pose& other)
+        {
+          return !offsetBetween(other.T_scene_model, T, this->Model).within(this->tolerance()) &&
+                 overlap.cut(other.T_scene_model, T);
+        });
+      diagnosis.cutsInto = cut == all.end() ? 0 : static_cast<int>(cut - all.begin()) + 1;
+    }
   }
   double nearest = this->Model.diameter;
   for (std::size_t k = 0; k < all.size(); ++k)

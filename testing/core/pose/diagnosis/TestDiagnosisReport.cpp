@@ -124,13 +124,18 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   diagnosis.found->certainty = 0.7;
   diagnosis.found->alternatives = { { Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ())), 0.25 } };
   diagnosis.found->contradictions = { 0.5, 0.5, 3.0 };
+  diagnosis.lessByOthers = 4.2;
+  diagnosis.cutsInto = 5;
   diagnosis.otherRank = 9;
   diagnosis.otherProbability = 0.12;
   diagnosis.otherOffset = { 14.0, 90.0 };
   const std::vector<std::string> sentences{ // 0.64 of what adds to the sum
     "For it, in the logarithm of the odds: surface where it should be, 10.0 patches (+6.4); edges, 30.0 points found "
     "(+1.3).",
-    "Against it: surface that the sensor saw far past, 0.5 patches (-2.6).",
+    "Against it: surface that the sensor saw far past, 0.5 patches (-2.6), and that little is right of what is "
+    "anywhere "
+    "(-6.3).",
+    "With all that the scan holds it is less likely, by 4.2: its body cuts into that of rank 5.",
     "It may be another part that looks alike: surface goes on beside it over 0.5 patches, and surface lies off the "
     "part "
     "by 3.0 times what the scan explains.",

@@ -39,7 +39,7 @@ meam::Pose ranked(double value, const Eigen::Isometry3d& T)
 /// Far from each other, and from all else.
 Eigen::Isometry3d place(int k) { return Eigen::Isometry3d(Eigen::Translation3d(200.0 * k, 0, 0)); }
 
-const meam::TrainedModel& plate() { return scenes::trained<parts::cutPlate>(); }
+const meam::TrainedModel& cutPlateModel() { return scenes::trained<parts::cutPlate>(); }
 
 Eigen::Isometry3d quarter(int turns)
 {
@@ -49,7 +49,7 @@ Eigen::Isometry3d quarter(int turns)
 /// It lies as quarter(0).
 const meam::Scene& plateScene()
 {
-  static const meam::Scene scene = scenes::alone(parts::cutPlate(), plate(), quarter(0));
+  static const meam::Scene scene = scenes::alone(parts::cutPlate(), cutPlateModel(), quarter(0));
   return scene;
 }
 }
@@ -212,11 +212,11 @@ TEST(PoseSelection, AnInstanceIsTurnedWhereNoNearSymmetryLeads)
 
 TEST(PoseSelection, OfNearSymmetriesTheSceneDecides)
 {
-  ASSERT_EQ(plate().symmetries.near.size(), 7u);
-  ASSERT_FALSE(plate().symmetries.exact());
+  ASSERT_EQ(cutPlateModel().symmetries.near.size(), 7u);
+  ASSERT_FALSE(cutPlateModel().symmetries.exact());
   for (int turns = 0; turns < 4; ++turns)
   {
-    const meam::Poses found = selected({ displaced(quarter(turns)) }, {}, plateScene(), plate());
+    const meam::Poses found = selected({ displaced(quarter(turns)) }, {}, plateScene(), cutPlateModel());
     ASSERT_EQ(found.size(), 1u);
     EXPECT_LT(meam::rotationError(found[0].T_scene_model, quarter(0)), 1.0) << turns;
     EXPECT_GT(found[0].certainty, 0.99);
@@ -235,12 +235,12 @@ TEST(PoseSelection, TurnsByNearSymmetriesAreOneAlternative)
     poses.push_back(displaced(quarter(turns) * flip));
   }
   poses.push_back(displaced(tilted));
-  const meam::Poses kept = selected(poses, alternatives(), plateScene(), plate());
+  const meam::Poses kept = selected(poses, alternatives(), plateScene(), cutPlateModel());
   ASSERT_EQ(kept.size(), 2u);
   EXPECT_NEAR(meam::rotationError(kept[1].T_scene_model, tilted), 0.0, 1e-4);
   meam::PoseSelectionSettings clusters;
   clusters.method = meam::SelectionMethod::Clusters;
-  EXPECT_EQ(selected(poses, clusters, plateScene(), plate()).size(), 1u) << "of each cluster one";
+  EXPECT_EQ(selected(poses, clusters, plateScene(), cutPlateModel()).size(), 1u) << "of each cluster one";
 }
 
 TEST(PoseSelection, TurnsOfANearlyRoundPartAreOneAlternative)

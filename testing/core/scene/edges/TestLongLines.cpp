@@ -10,7 +10,7 @@
 
 namespace
 {
-constexpr double PartDiameter = 100.0, Tolerance = 3.0;
+constexpr double LongLinesDiameter = 100.0, LongLinesTolerance = 3.0;
 
 /// Points 1 mm apart from `from` along a unit direction, which is their tangent.
 void addLine(const Eigen::Vector3f& from, const Eigen::Vector3f& along, float length, meam::PointCloud& edges)
@@ -24,7 +24,8 @@ void addLine(const Eigen::Vector3f& from, const Eigen::Vector3f& along, float le
 
 int onLines(const meam::PointCloud& edges, int threads = 1)
 {
-  const auto found = meam::onLongLines(edges, meam::EdgeIndex(edges, 8.0), PartDiameter, Tolerance, threads);
+  const auto found =
+    meam::onLongLines(edges, meam::EdgeIndex(edges, 8.0), LongLinesDiameter, LongLinesTolerance, threads);
   EXPECT_EQ(found.size(), edges.size());
   return static_cast<int>(std::count(found.begin(), found.end(), 1));
 }
