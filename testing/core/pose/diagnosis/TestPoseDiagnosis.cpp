@@ -77,7 +77,7 @@ TEST(PoseDiagnosis, WhatIsFoundIsFound)
     EXPECT_LE(stage.bestRank, stage.poses);
   }
   ASSERT_TRUE(diagnosis.found);
-  EXPECT_LT(meam::translationError(diagnosis.found->T_scene_model, diagnosis.place->T_scene_model), 0.5);
+  EXPECT_EQ(diagnosis.found->placeProbability, diagnosis.probability);
   EXPECT_STREQ(diagnosis.terms.front().what, "surface where it should be");
   // The points are where the part is.
   for (const Eigen::Vector3d& point : diagnosis.surfacePoints)

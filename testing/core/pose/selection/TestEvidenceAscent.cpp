@@ -183,6 +183,7 @@ TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
 TEST(EvidenceAscent, WhereAPoseIsMovedToDoesNotTellThatThePartIsThere)
 {
   SelectionTrial trial;
+  trial.settings.weighsLookalikes = false;
   const double doubted = trial.selected(true).evidence;
   trial.settings.partIsPresent = true;
   const meam::Pose before = trial.selected(false), after = trial.selected(true);
