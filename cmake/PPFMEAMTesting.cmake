@@ -17,8 +17,8 @@ endfunction()
 
 # NAME.py under the plain interpreter and, with ParaView's VTK, under pvpython with the plugin loaded: there all of them in
 # one test, for which ParaView starts once. ONLY_PYTHON3 is for what takes longer, which also starts first: the filters are
-# the same ones. ONLY_RELEASE besides is for what no version of
-# VTK changes, the results of core and the processes of the package: it is left out where the core is another build's.
+# the same ones. ONLY_RELEASE besides is for what no version of VTK changes, the results of core and the processes of the
+# package: it is left out where the core is another build's.
 function(meam_add_filter_test name)
   if("ONLY_RELEASE" IN_LIST ARGN AND PPFMEAM_CORE_DIR)
     return()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMEAMPoseDiagnosis
- * @brief Tells why a part of a scan was missed: which step lost it, and what to change.
+ * @brief Tells why a part of a scan was missed, or what speaks for a pose and against it, and what to change.
  *
  * Detects the part as vtkMEAMPoseEstimation does with the same properties, and looks at one place: where a picked point
  * lies, at a pose, or at one of the poses on port 4. It tells what of the part the scan shows there (edges with their

@@ -15,8 +15,8 @@ public:
   /// Keeps references to both.
   SurfaceMisfit(const Scene& scene, const TrainedModel& model);
 
-  /// Root mean square over patches of how far the surface lies off the part on average in each, mm; 0 where too little
-  /// of it is seen.
+  /// Root mean square over patches of how far the surface lies off the part, its median in each, mm; 0 where too little
+  /// of it is seen. What lies on another surface of the part does not count.
   double at(const Eigen::Isometry3d& T_scene_model) const;
   /// What to expect of a right pose, mm: the scan's own unevenness, and how well a pose is found.
   double expected() const { return this->Expected; }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells why a part of a scan was missed: which step lost it, in words and numbers, and what to change."""
+"""Tells why a part of a scan was missed: which step lost it, in words and numbers, and what to change. Of a pose that came out,
+right or wrong: what speaks for it and what against."""
 import argparse
 import math
 
