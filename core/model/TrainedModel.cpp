@@ -14,7 +14,7 @@ namespace
 constexpr double VotingLeaf = 0.04; // of the edge points in a cube of this side one makes pairs, in model and scene
 constexpr double VerificationLeaf = 0.03; // of the surface points in such a cube one verifies poses
 constexpr double Reach = 0.03;            // of the distance fields: tolerances are less
-constexpr double Cell = 0.0075;           // of the distance fields
+constexpr double FieldCell = 0.0075;      // of the distance fields
 }
 
 double TrainedModel::votingLeaf() const
@@ -65,7 +65,7 @@ void TrainedModel::deriveFields()
     this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
   this->verificationPoints = thinPoints(this->surface.points, VerificationLeaf * this->diameter);
   const double reach = Reach * this->diameter;
-  const double cell = Cell * this->diameter;
+  const double cell = FieldCell * this->diameter;
   this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell);
   this->edgeDistance = DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell);
   this->visibility = std::make_shared<const PredictedVisibility>(*this);

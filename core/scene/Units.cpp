@@ -17,7 +17,7 @@ constexpr double LeastLikely = 1.5;     // the likely factor is 10 when it takes
 constexpr double MostLikely = 100.0;    // to here, else 1000
 constexpr double LeastPossible = 0.2;   // less is an error,
 constexpr double MostPossible = 1000.0; // and so is more
-constexpr double StrayShare = 0.02;     // of the points, at each end of each axis: they are left out when there is more
+constexpr double OtherThings = 0.02;    // of the points, at each end of each axis: they are left out when there is more
 
 std::string number(double value)
 {
@@ -46,7 +46,7 @@ void requireSameUnits(const Points& scene, double partDiameter)
   double extent = bounds(scene).diagonal().norm();
   if (extent > MostPossible * partDiameter)
   {
-    extent = innerBounds(scene, StrayShare).diagonal().norm(); // stray points are no other unit
+    extent = innerBounds(scene, OtherThings).diagonal().norm(); // stray points are no other unit
   }
   if (extent < LeastPossible * partDiameter)
   {

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 // Pixels: the light of surfaces within this distance is looked at, one pixel of so many in both directions.
 constexpr int Reach = 28;
-constexpr int Step = 4;
+constexpr int PixelStep = 4;
 
 /// A piece of surface that throws light on.
 struct Reflector
@@ -42,10 +42,10 @@ std::vector<double> multipathDepths(
   const View& view, const Camera& camera, const std::vector<double>& light, double share)
 {
   std::vector<Reflector> reflectors;
-  const int across = (camera.width + Step - 1) / Step;
-  for (int row = 0; row < camera.height; row += Step)
+  const int across = (camera.width + PixelStep - 1) / PixelStep;
+  for (int row = 0; row < camera.height; row += PixelStep)
   {
-    for (int column = 0; column < camera.width; column += Step)
+    for (int column = 0; column < camera.width; column += PixelStep)
     {
       const std::size_t i = static_cast<std::size_t>(row) * camera.width + column;
       const Vector3d ray = rayThrough(i, camera);
@@ -53,7 +53,8 @@ std::vector<double> multipathDepths(
       const double z = view.depths[i];
       // A pixel's share of a slanted surface; as flat a view as the sensor measures at most.
       const double cosine = std::max(-normal.dot(ray.normalized()), 0.12);
-      reflectors.push_back({ z * ray, normal, Step * Step * z * z / (camera.fx * camera.fy) / cosine, light[i] });
+      reflectors.push_back(
+        { z * ray, normal, PixelStep * PixelStep * z * z / (camera.fx * camera.fy) / cosine, light[i] });
     }
   }
   std::vector<double> depths = view.depths;
@@ -66,9 +67,10 @@ std::vector<double> multipathDepths(
     const Vector3d normal = view.normals[i].normalized() * (view.normals[i].dot(ray) > 0.0 ? -1.0 : 1.0);
     double sum = 0.0; // of light that came over a reflector
     double detour = 0.0;
-    for (int y = std::max(row - Reach, 0) / Step; y <= std::min(row + Reach, camera.height - 1) / Step; ++y)
+    for (int y = std::max(row - Reach, 0) / PixelStep; y <= std::min(row + Reach, camera.height - 1) / PixelStep; ++y)
     {
-      for (int x = std::max(column - Reach, 0) / Step; x <= std::min(column + Reach, camera.width - 1) / Step; ++x)
+      for (int x = std::max(column - Reach, 0) / PixelStep; x <= std::min(column + Reach, camera.width - 1) / PixelStep;
+           ++x)
       {
         const Reflector& from = reflectors[static_cast<std::size_t>(y) * across + x];
         const Vector3d way = from.place - place;

@@ -17,7 +17,7 @@ namespace meam
 {
 namespace
 {
-constexpr std::size_t MostLevels = 64; // the parser calls itself for each
+constexpr std::size_t MostOpen = 64; // the parser calls itself for each
 
 /// Builds JSON from what the parser comes across.
 class JSONBuilder : public YAML::EventHandler
@@ -91,9 +91,9 @@ private:
 
   void open(const YAML::Mark& mark, nlohmann::json list)
   {
-    if (this->Open.size() == MostLevels)
+    if (this->Open.size() == MostOpen)
     {
-      throw YAML::ParserException(mark, "lists in lists " + std::to_string(MostLevels) + " times over");
+      throw YAML::ParserException(mark, "lists in lists " + std::to_string(MostOpen) + " times over");
     }
     nlohmann::json& place = this->add(mark, std::move(list)); // stays there until it is closed
     this->Open.push_back({ &place, nullptr });
@@ -110,9 +110,9 @@ nlohmann::json parseYAML(const std::string& path, const std::string& text)
   for (const char letter : text)
   {
     open += letter == '[' || letter == '{' ? 1 : letter == ']' || letter == '}' ? -1 : 0;
-    if (open > static_cast<int>(MostLevels))
+    if (open > static_cast<int>(MostOpen))
     {
-      throw Error("The file '" + path + "' has lists in lists " + std::to_string(MostLevels) +
+      throw Error("The file '" + path + "' has lists in lists " + std::to_string(MostOpen) +
                   " times over: it is damaged, or no file of this kind.");
     }
   }

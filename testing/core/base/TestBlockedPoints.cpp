@@ -13,7 +13,7 @@ namespace
 {
 constexpr int Size = meam::BlockedPoints::Size;
 
-meam::Points scattered(int count)
+meam::Points spreadOut(int count)
 {
   std::mt19937 random(9);
   meam::Points points;
@@ -41,7 +41,7 @@ TEST(BlockedPoints, HaveEveryPointOnce)
 {
   for (const int count : { 1, 15, 16, 17, 500, 4097 })
   {
-    const meam::BlockedPoints blocks(scattered(count));
+    const meam::BlockedPoints blocks(spreadOut(count));
     std::vector<int> order = blocks.order();
     std::sort(order.begin(), order.end());
     std::vector<int> expected(count);
@@ -52,13 +52,13 @@ TEST(BlockedPoints, HaveEveryPointOnce)
 
 TEST(BlockedPoints, AreTheSameForAnyNumberOfThreads)
 {
-  const meam::Points points = scattered(4097);
+  const meam::Points points = spreadOut(4097);
   EXPECT_EQ(meam::BlockedPoints(points, 4).order(), meam::BlockedPoints(points).order());
 }
 
 TEST(BlockedPoints, MissNoPointWithinTheRadius)
 {
-  const meam::Points points = scattered(6000); // more blocks than are looked at together
+  const meam::Points points = spreadOut(6000); // more blocks than are looked at together
   const meam::BlockedPoints blocks(points);
   for (const double radius : { 0.0, 0.5, 6.0, 100.0 })
   {
@@ -81,7 +81,7 @@ TEST(BlockedPoints, MissNoPointWithinTheRadius)
 
 TEST(BlockedPoints, LeaveOutWhatIsFar)
 {
-  const meam::Points points = scattered(6000);
+  const meam::Points points = spreadOut(6000);
   const meam::BlockedPoints blocks(points);
   const double inside =
     std::count_if(points.begin(), points.end(), [](const auto& point) { return point.norm() <= 15.0f; });
@@ -97,7 +97,7 @@ TEST(BlockedPoints, ManyEqualPointsAreSplitToo)
 
 TEST(BlockedPoints, PointsThatAreNotFiniteAreLeftOut)
 {
-  meam::Points points = scattered(40);
+  meam::Points points = spreadOut(40);
   points[3].y() = NAN;
   points[20].z() = INFINITY;
   const meam::BlockedPoints blocks(points);

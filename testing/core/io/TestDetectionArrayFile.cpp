@@ -9,7 +9,7 @@
 namespace
 {
 /// A quarter turn about z and a shift of 100, 200 and 300 mm.
-meam::PoseRow quarterTurn()
+meam::PoseRow turnedRow()
 {
   meam::PoseRow row;
   row.objectId = 7;
@@ -47,7 +47,7 @@ TEST(DetectionArrayFile, hasTheShapeOfTheMessage)
   meam::DetectionArrayHeader header;
   header.frame = "sensor";
   header.stamp = 12.5;
-  const nlohmann::json file = written({ quarterTurn(), {} }, {}, header);
+  const nlohmann::json file = written({ turnedRow(), {} }, {}, header);
   EXPECT_EQ(file.size(), 2u);
   const nlohmann::json head{ { "stamp", { { "sec", 12 }, { "nanosec", 500000000 } } }, { "frame_id", "sensor" } };
   EXPECT_EQ(file["header"], head);
@@ -71,7 +71,7 @@ TEST(DetectionArrayFile, hasTheShapeOfTheMessage)
 
 TEST(DetectionArrayFile, theBoxTurnsWithThePart)
 {
-  const nlohmann::json file = written({ quarterTurn() }, box());
+  const nlohmann::json file = written({ turnedRow() }, box());
   const nlohmann::json& found = file["detections"][0]["bbox"];
   EXPECT_TRUE(vectorOf(found["center"]["position"]).isApprox(Eigen::Vector3d(0.08, 0.21, 0.33), 1e-12));
   EXPECT_TRUE(vectorOf(found["size"]).isApprox(Eigen::Vector3d(0.02, 0.04, 0.06), 1e-12));
@@ -82,7 +82,7 @@ TEST(DetectionArrayFile, theCovarianceIsAboutTheOrigin)
 {
   // 2 mm of the middle along the scene's x, and 0.1 radians about its z, independent of each other. From the middle to
   // the origin are 20, -10 and -30 mm, so that this turn moves it by 1 mm along x and by 2 mm along y.
-  meam::PoseRow row = quarterTurn();
+  meam::PoseRow row = turnedRow();
   row.covariance.emplace().setZero();
   (*row.covariance)(2, 2) = 0.01;
   (*row.covariance)(3, 3) = 4.0;

@@ -7,7 +7,7 @@
 
 namespace
 {
-meam::Bin bin()
+meam::Bin ownBin()
 {
   meam::Bin result;
   result.T_scene_bin.translation() = Eigen::Vector3d(10.0, 20.0, 30.0);
@@ -19,7 +19,7 @@ meam::Bin bin()
 
 TEST(Bin, IsAFloorAndFourWalls)
 {
-  const auto boxes = meam::boxesOf(bin());
+  const auto boxes = meam::boxesOf(ownBin());
   ASSERT_EQ(boxes.size(), 5u);
   double volume = 0.0;
   for (const auto& box : boxes)
@@ -33,7 +33,7 @@ TEST(Bin, IsAFloorAndFourWalls)
 TEST(Bin, TellsDistances)
 {
   const auto from = [](double x, double y, double z)
-  { return meam::distanceFrom(bin(), Eigen::Vector3d(10.0 + x, 20.0 + y, 30.0 + z)); };
+  { return meam::distanceFrom(ownBin(), Eigen::Vector3d(10.0 + x, 20.0 + y, 30.0 + z)); };
   EXPECT_NEAR(from(0, 0, 12), 12.0, 1e-9);  // over the floor
   EXPECT_NEAR(from(0, 0, -2), 0.0, 1e-9);   // in it
   EXPECT_NEAR(from(-97, 0, 25), 3.0, 1e-9); // before a wall
@@ -45,11 +45,11 @@ TEST(Bin, TellsDistances)
 
 TEST(Bin, RefusesWhatIsNone)
 {
-  meam::Bin flat = bin();
+  meam::Bin flat = ownBin();
   flat.size.z() = 0.0;
   EXPECT_THROW(meam::requireBin(flat), meam::Error);
-  meam::Bin scaled = bin();
+  meam::Bin scaled = ownBin();
   scaled.T_scene_bin.linear() *= 2.0;
   EXPECT_THROW(meam::requireBin(scaled), meam::Error);
-  EXPECT_NO_THROW(meam::requireBin(bin()));
+  EXPECT_NO_THROW(meam::requireBin(ownBin()));
 }

@@ -7,12 +7,12 @@
 
 namespace
 {
-meam::TriangleMesh block() { return parts::box({ -30, -20, 0 }, { 30, 20, 15 }); }
+meam::TriangleMesh slab() { return parts::box({ -30, -20, 0 }, { 30, 20, 15 }); }
 
 /// With a block `shift` mm along its length, turned about its end.
 bool cuts(double shift, double degrees = 0.0)
 {
-  const meam::BodyOverlap overlap(scenes::trained<block>());
+  const meam::BodyOverlap overlap(scenes::trained<slab>());
   Eigen::Isometry3d other = Eigen::Isometry3d::Identity();
   other.translation().x() = shift;
   other.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitZ()));

@@ -8,7 +8,7 @@
 namespace
 {
 /// With the middle of the part at x (mm), turned by so many degrees about it.
-meam::Pose at(double x, double degrees = 0.0)
+meam::Pose alongX(double x, double degrees = 0.0)
 {
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   meam::Pose pose;
@@ -29,15 +29,16 @@ Indices staying(const meam::Poses& poses, int posesPerInstance = 1, const meam::
 TEST(PoseClusters, OfAnInstanceTheFirstStays)
 {
   EXPECT_EQ(staying({}), Indices{});
-  EXPECT_EQ(staying({ at(0), at(9), at(11) }), (Indices{ 0, 2 }));
-  EXPECT_EQ(staying({ at(9), at(0), at(18) }), (Indices{ 0 })) << "both are near to the first";
-  EXPECT_EQ(staying({ at(0), at(9), at(18), at(27) }), (Indices{ 0, 2 })) << "the second takes no one's place";
-  EXPECT_EQ(staying({ at(0, 90), at(5) }), (Indices{ 0 })) << "however it is turned";
+  EXPECT_EQ(staying({ alongX(0), alongX(9), alongX(11) }), (Indices{ 0, 2 }));
+  EXPECT_EQ(staying({ alongX(9), alongX(0), alongX(18) }), (Indices{ 0 })) << "both are near to the first";
+  EXPECT_EQ(staying({ alongX(0), alongX(9), alongX(18), alongX(27) }), (Indices{ 0, 2 }))
+    << "the second takes no one's place";
+  EXPECT_EQ(staying({ alongX(0, 90), alongX(5) }), (Indices{ 0 })) << "however it is turned";
 }
 
 TEST(PoseClusters, AlternativesOfAnInstanceAreTurned)
 {
-  const meam::Poses poses{ at(0), at(1, 14), at(2, 16), at(3, 90), at(50), at(51, 90) };
+  const meam::Poses poses{ alongX(0), alongX(1, 14), alongX(2, 16), alongX(3, 90), alongX(50), alongX(51, 90) };
   EXPECT_EQ(staying(poses, 2), (Indices{ 0, 2, 4, 5 }));
   EXPECT_EQ(staying(poses, 3), (Indices{ 0, 2, 3, 4, 5 }));
 }
@@ -47,7 +48,7 @@ TEST(PoseClusters, WhatASymmetryMakesEqualIsNoAlternative)
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   const auto quarters = [&](int turns)
   { return meam::turnAbout(Eigen::Vector3d::UnitZ(), turns * M_PI / 2.0, middle); };
-  const meam::Poses poses{ at(0), at(1, 180), at(2, 90), at(3, 45) };
+  const meam::Poses poses{ alongX(0), alongX(1, 180), alongX(2, 90), alongX(3, 45) };
   EXPECT_EQ(staying(poses, 2), (Indices{ 0, 1 }));
   meam::Symmetries half;
   half.discrete = { quarters(2) };
