@@ -13,14 +13,15 @@
 /// gives the same result, for any number of threads.
 #pragma once
 
-#include "base/Error.h"             // Error, Aborted, Progress
-#include "features/Preset.h"        // Preset, Features
-#include "features/TrainSettings.h" // TrainSettings
-#include "pose/DetectSettings.h"    // DetectSettings
-#include "scene/Image.h"            // Image
-#include "scene/PinholeCamera.h"    // Camera
-#include "scene/ScanQuality.h"      // ScanQuality
-#include "scene/Sensor.h"           // Sensor
+#include "base/Error.h"                   // Error, Aborted, Progress
+#include "calibration/ModelCalibration.h" // JudgedPose, CalibrationReport
+#include "features/Preset.h"              // Preset, Features
+#include "features/TrainSettings.h"       // TrainSettings
+#include "pose/DetectSettings.h"          // DetectSettings
+#include "scene/Image.h"                  // Image
+#include "scene/PinholeCamera.h"          // Camera
+#include "scene/ScanQuality.h"            // ScanQuality
+#include "scene/Sensor.h"                 // Sensor
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -117,6 +118,17 @@ struct Detections
 /// Finds the copies of a part in a scan.
 MEAM_EXPORT Detections detect(
   const Model& model, const Scan& scan, const DetectSettings& settings = {}, const Progress& progress = {});
+
+/// A model and how its probabilities hold.
+struct CalibratedModel
+{
+  Model model;
+  CalibrationReport report;
+};
+
+/// Fits what a model says of its poses to poses of one's own scans of which it is known whether they are right: of a
+/// few dozen scans all that came out, or those that were looked at. Throws Error for fewer than 20 poses or 5 scans.
+MEAM_EXPORT CalibratedModel calibrate(const Model& model, const std::vector<JudgedPose>& poses);
 
 /// Reads what Model::save() wrote.
 MEAM_EXPORT Model loadModel(const std::string& path);

@@ -28,5 +28,13 @@ const TrainedModel& Model::trained() const
   return *this->Trained;
 }
 
+CalibratedModel calibrate(const Model& model, const std::vector<JudgedPose>& poses)
+{
+  TrainedModel calibrated = model.trained();
+  const CalibrationReport report = fitModelCalibration(poses, calibrated.calibration);
+  calibrated.calibration = report.calibration;
+  return { Model(std::make_shared<const TrainedModel>(std::move(calibrated))), report };
+}
+
 Model loadModel(const std::string& path) { return Model(std::make_shared<const TrainedModel>(readModel(path))); }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -49,6 +50,31 @@ void splitRotation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& t
   const double twist = std::hypot(turn.w(), along);
   judgement.axisError = 2.0 * std::atan2(swing, twist) * 180.0 / M_PI;
   judgement.rollError = 2.0 * std::atan2(std::abs(along), std::abs(turn.w())) * 180.0 / M_PI;
+}
+
+/// The symmetries with the near ones as if they were exact.
+Symmetries withNear(const Symmetries& symmetries)
+{
+  Symmetries all = asIfRound(symmetries);
+  std::transform(symmetries.near.begin(), symmetries.near.end(), std::back_inserter(all.discrete),
+    [](const NearSymmetry& near) { return near.T; });
+  return all;
+}
+
+/// The true instance that a pose is of, whichever way near-symmetries turn it; -1: none.
+int copyAt(const Pose& estimate, const Poses& truths, const PoseEvaluationSettings& settings, const Symmetries& all)
+{
+  const double reach = settings.translationTolerance / 100.0 * settings.diameter;
+  for (std::size_t i = 0; i < truths.size(); ++i)
+  {
+    const Eigen::Isometry3d equal = nearestEqual(estimate.T_scene_model, truths[i].T_scene_model, all);
+    if (translationError(equal, truths[i].T_scene_model, settings.middle) < reach &&
+        rotationError(equal, truths[i].T_scene_model) < settings.rotationTolerance)
+    {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
 }
 
 PoseJudgement judge(const Pose& estimate, const Poses& truths, const PoseEvaluationSettings& settings)
@@ -202,6 +228,8 @@ SceneEvaluation evaluatePoses(const Poses& estimates, const Poses& truths, const
     evaluation.visibleInstances += counts(i) ? 1 : 0;
   }
   std::vector<int> found(truths.size(), -1); // by which estimate
+  std::vector<char> isClaimed(truths.size(), 0);
+  const Symmetries all = withNear(settings.symmetries);
   for (const Pose& estimate : estimates)
   {
     PoseJudgement judgement = judge(estimate, truths, settings);
@@ -211,6 +239,12 @@ SceneEvaluation evaluatePoses(const Poses& estimates, const Poses& truths, const
       judgement.duplicate = found[instance] >= 0;
       judgement.outcome = judgement.duplicate ? PoseOutcome::Duplicate : PoseOutcome::Hit;
       found[instance] = judgement.duplicate ? found[instance] : static_cast<int>(evaluation.judgements.size());
+    }
+    const int copy = instance >= 0 ? instance : copyAt(estimate, truths, settings, all);
+    judgement.isThere = copy >= 0 && !isClaimed[copy];
+    if (copy >= 0)
+    {
+      isClaimed[copy] = 1;
     }
     if (instance < 0 || counts(instance))
     {

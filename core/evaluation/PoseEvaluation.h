@@ -37,9 +37,11 @@ enum class PoseOutcome
 /// without one, to the nearest; NaN when there is no true pose at all.
 struct PoseJudgement
 {
-  int instance = -1;       ///< index of the true instance it matches, or -1: a wrong pose
-  int nearest = -1;        ///< index of the true instance whose middle is nearest
-  bool duplicate = false;  ///< a better pose has matched the same instance
+  int instance = -1;      ///< index of the true instance it matches, or -1: a wrong pose
+  int nearest = -1;       ///< index of the true instance whose middle is nearest
+  bool duplicate = false; ///< a better pose has matched the same instance
+  /// A true instance is here, if need be turned by one of the part's near-symmetries, and no better pose has it.
+  bool isThere = false;
   double translationError; ///< mm
   double rotationError;    ///< degrees
   double axisError;        ///< degrees between the axes

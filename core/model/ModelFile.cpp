@@ -31,6 +31,7 @@ Eigen::Isometry3d transformAt(const Numbers& numbers, std::size_t at) { return t
 constexpr std::size_t DiscreteRow = 16;  // row-major 4 x 4
 constexpr std::size_t ContinuousRow = 6; // axis, point on it
 constexpr std::size_t NearRow = 18;      // row-major 4 x 4, overlap, deviation
+constexpr std::size_t Calibration = 5;   // constant and slope of place and rotation, poses
 
 /// Calls take(numbers, at) for each whole row of an array.
 template <typename Take>
@@ -86,6 +87,31 @@ Symmetries symmetriesOf(const NamedArrays& arrays)
       symmetries.near.push_back({ transformAt(numbers, at), numbers[at + 16], numbers[at + 17] });
     });
   return symmetries;
+}
+
+void setCalibration(NamedArrays& arrays, const ModelCalibration& calibration)
+{
+  const auto& [place, rotation, poses] = calibration;
+  if (poses > 0)
+  {
+    arrays.set("Calibration",
+      Numbers{ place.constant, place.slope, rotation.constant, rotation.slope, static_cast<double>(poses) });
+  }
+}
+
+/// None in the file of a model that was not calibrated.
+ModelCalibration calibrationOf(const NamedArrays& arrays)
+{
+  const Numbers numbers = arrays.get<double>("Calibration");
+  if (numbers.empty())
+  {
+    return {};
+  }
+  if (numbers.size() != Calibration)
+  {
+    throw Error("is damaged: its calibration has " + std::to_string(numbers.size()) + " numbers");
+  }
+  return { { numbers[0], numbers[1] }, { numbers[2], numbers[3] }, static_cast<int>(std::clamp(numbers[4], 0.0, 1e9)) };
 }
 
 /// A model's clouds have no weights.
@@ -174,6 +200,7 @@ NamedArrays arraysOf(const TrainedModel& model)
   setTable(arrays, "Table", model.table);
   setCloud(arrays, "SurfacePair", model.surfacePairPoints);
   setTable(arrays, "SurfaceTable", model.surfaceTable);
+  setCalibration(arrays, model.calibration);
   return arrays;
 }
 
@@ -213,6 +240,7 @@ TrainedModel modelOf(const NamedArrays& arrays)
   model.table = tableOf(arrays, "Table");
   model.surfacePairPoints = cloudOf(arrays, "SurfacePair");
   model.surfaceTable = tableOf(arrays, "SurfaceTable");
+  model.calibration = calibrationOf(arrays);
   return model;
 }
 }

@@ -135,6 +135,17 @@ void requireTable(const PairTable& table, std::size_t points, std::int64_t numbe
   }
 }
 
+void requireCalibration(const ModelCalibration& calibration)
+{
+  for (const LogisticRegression& line : { calibration.place, calibration.rotation })
+  {
+    if (!std::isfinite(line.constant) || !(line.slope > 0.0) || !std::isfinite(line.slope))
+    {
+      refuseModel("is damaged: its calibration is none.");
+    }
+  }
+}
+
 /// Those that make pairs.
 void requireSurfacePairs(const TrainedModel& model)
 {
@@ -224,5 +235,6 @@ void requireModel(const TrainedModel& model)
   requireSymmetries(model.symmetries);
   requireSurfacePairs(model);
   requireTables(model);
+  requireCalibration(model.calibration);
 }
 }

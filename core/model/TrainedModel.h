@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "base/PointCloud.h"
+#include "calibration/ModelCalibration.h"
 #include "features/PairTable.h"
 #include "features/Preset.h"
 #include "mesh/Symmetries.h"
@@ -77,6 +78,8 @@ struct TrainedModel
 
   PointCloud surfacePairPoints; ///< those that make pairs, with normals
   PairTable surfaceTable;       ///< of these
+
+  ModelCalibration calibration; ///< what a user's own scans have taught
 
   // What deriveFields() makes of the above.
   std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on

@@ -165,6 +165,33 @@ void bindSettings(py::module_& module)
     .def_readwrite("offset", &TrainSettings::offset)
     .def_readwrite("seed", &TrainSettings::seed);
 }
+
+void bindCalibration(py::module_& module)
+{
+  py::class_<JudgedPose>(module, "JudgedPose")
+    .def(py::init(
+      [](double place, double certainty, bool isThere, bool isTurnedRight, int scene) {
+        return JudgedPose{ place, certainty, isThere, isTurnedRight, scene };
+      }));
+  py::class_<ClaimClass>(module, "ClaimClass")
+    .def_readonly("with_rotation", &ClaimClass::withRotation)
+    .def_readonly("least", &ClaimClass::least)
+    .def_readonly("most", &ClaimClass::most)
+    .def_readonly("poses", &ClaimClass::poses)
+    .def_readonly("right", &ClaimClass::right)
+    .def_readonly("before", &ClaimClass::before)
+    .def_readonly("after", &ClaimClass::after);
+  py::class_<CalibrationReport>(module, "CalibrationReport")
+    .def_readonly("loss_before", &CalibrationReport::lossBefore)
+    .def_readonly("loss_after", &CalibrationReport::lossAfter)
+    .def_readonly("classes", &CalibrationReport::classes);
+  module.def("calibrate",
+    [](const Model& model, const std::vector<JudgedPose>& poses)
+    {
+      const CalibratedModel calibrated = calibrate(model, poses);
+      return std::make_pair(calibrated.model, calibrated.report);
+    });
+}
 }
 
 void bindDetection(py::module_& module)
@@ -229,6 +256,7 @@ void bindDetection(py::module_& module)
     .def_property_readonly("quality", [](const Detections& found) { return numbersOf(found.quality); })
     .def_readonly("seconds", &Detections::seconds)
     .def_readonly("warning", &Detections::warning);
+  bindCalibration(module);
   module.def("detect", [](const Model& model, const Scan& scan, const DetectSettings& settings)
     { return withoutLock([&](const Progress& progress) { return detect(model, scan, settings, progress); }); });
 }

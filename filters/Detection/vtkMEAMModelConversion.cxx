@@ -33,6 +33,8 @@ namespace
 using meam::Error;
 using meam::refuseModel;
 
+constexpr vtkIdType CalibrationNumbers = 5; // constant and slope of place and rotation, poses
+
 std::string nameOf(vtkPartitionedDataSetCollection* input, unsigned int index)
 {
   const char* name = input->HasMetaData(index) ? input->GetMetaData(index)->Get(vtkCompositeDataSet::NAME()) : nullptr;
@@ -184,6 +186,7 @@ public:
       this->readSurfacePairs(model);
     }
     model.symmetries = symmetriesOf(this->Input);
+    model.calibration = calibrationOf(this->Input);
     requireModel(model);
     model.deriveFields();
     return model;
@@ -449,6 +452,34 @@ void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkP
   }
 }
 
+meam::ModelCalibration calibrationOf(vtkDataObject* input)
+{
+  vtkDataArray* numbers = fieldArray(input, "Calibration", CalibrationNumbers);
+  if (!numbers)
+  {
+    return {};
+  }
+  const auto number = [&](int k) { return numbers->GetVariantValue(k).ToDouble(); }; // 5 x 1 or 1 x 5
+  return { { number(0), number(1) }, { number(2), number(3) },
+    static_cast<int>(std::clamp(number(4), 0.0, 1e9)) }; // a count, whatever a file says
+}
+
+void setCalibration(vtkDataObject* output, const meam::ModelCalibration& calibration)
+{
+  const auto& [place, rotation, poses] = calibration;
+  if (poses == 0)
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName("Calibration");
+  for (const double number : { place.constant, place.slope, rotation.constant, rotation.slope, double(poses) })
+  {
+    numbers->InsertNextValue(number);
+  }
+  output->GetFieldData()->AddArray(numbers);
+}
+
 meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input) { return ModelReader(input).read(); }
 
 void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output)
@@ -527,6 +558,7 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   setFieldInteger(output, "NumberOfSurfacePairPoints", model.surfacePairPoints.size());
   setFieldInteger(output, "NumberOfSurfacePairs", model.surfaceTable.size());
   setFieldValue(output, "TableBytes", static_cast<double>(model.table.bytes() + model.surfaceTable.bytes()));
+  setCalibration(output, model.calibration);
   setSymmetries(output, model.symmetries);
 }
 }

@@ -25,6 +25,10 @@ void fromAppearanceModels(const std::vector<meam::AppearanceModel>& models, vtkP
 meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input);
 void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetCollection* output);
 
+/// What a model was calibrated to, as the field data `Calibration`; none where there is none.
+meam::ModelCalibration calibrationOf(vtkDataObject* input);
+void setCalibration(vtkDataObject* output, const meam::ModelCalibration& calibration);
+
 /// Middle of the box around a part's samples or the surface of its trained model, mm; the origin for null and for what
 /// has no points.
 std::array<double, 3> middleOf(vtkDataObject* input);

@@ -153,8 +153,9 @@ int vtkMEAMPoseEvaluation::RequestData(
       Columns<5, 3> ofInstances(instances, { "Scene", "Instance", "HasToBeFound", "FoundBy", "NearestRank" },
         { "VisibleFraction", "TranslationError", "RotationError" });
       meam::Poses all;
-      vtkNew<vtkIntArray> sceneOf, outcomes;
+      vtkNew<vtkIntArray> sceneOf, outcomes, copies;
       sceneOf->SetName("Scene");
+      copies->SetName("CopyIsThere");
       outcomes->SetName(
         "PoseOutcome"); // vtkMEAMPickTrial has an `Outcome` of other values, and a view one color map for a name
       for (int i = 0; i < scenes; ++i)
@@ -178,6 +179,7 @@ int vtkMEAMPoseEvaluation::RequestData(
           all.push_back(estimates[k]);
           sceneOf->InsertNextValue(i);
           outcomes->InsertNextValue(outcome);
+          copies->InsertNextValue(judgement.isThere ? 1 : 0);
         }
         for (std::size_t k = 0; k < truths.size(); ++k)
         {
@@ -191,6 +193,7 @@ int vtkMEAMPoseEvaluation::RequestData(
       fromPoses(all, judged);
       judged->GetPointData()->AddArray(sceneOf);
       judged->GetPointData()->AddArray(outcomes);
+      judged->GetPointData()->AddArray(copies);
       judged->GetPointData()->SetActiveScalars("PoseOutcome");
       setDiameter(output, settings.diameter);
       setFieldValue(output, "PaperRate", figures.paperRate);

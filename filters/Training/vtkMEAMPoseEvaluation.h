@@ -34,7 +34,9 @@
  * it is visible enough), `FoundBy` (rank of the first pose that found it, 0: missed), `NearestRank` (of the pose whose
  * middle is nearest, 0: there is none), `VisibleFraction`, `TranslationError` (mm) and `RotationError` (degrees) of the
  * pose that found it, or else of the nearest. Output port 2: the estimated poses of all scenes, a vtkPolyData with the
- * arrays of every pose, `Scene` and `PoseOutcome`, the `Outcome` of the table, which a view colours them by.
+ * arrays of every pose, `Scene`, `PoseOutcome`, the `Outcome` of the table, which a view colours them by, and
+ * `CopyIsThere` (1: a copy is there, if need be turned by a near-symmetry, and no better pose has it), for
+ * vtkMEAMModelCalibration.
  */
 #ifndef vtkMEAMPoseEvaluation_h
 #define vtkMEAMPoseEvaluation_h

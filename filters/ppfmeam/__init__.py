@@ -12,7 +12,7 @@ class Error(Exception):
     """Something the user has to know and can act on: the message says what is wrong and what to do."""
 
 
-_HOMES = {"Detections": "api", "Diagnosis": "api", "Model": "api", "detect": "api", "load": "api", "train": "api", "why": "api",
+_HOMES = {"Detections": "api", "Diagnosis": "api", "Model": "api", "calibrate": "api", "detect": "api", "load": "api", "train": "api", "why": "api",
           "Grasp": "_core", "Pick": "_core", "Pose": "_core", "Grasps": "picking", "Picks": "picking", "grasps": "picking",
           "pick": "picking"}
 __all__ = ["Error", "filters", *_HOMES]

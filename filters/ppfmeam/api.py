@@ -114,6 +114,26 @@ def add_array(attributes, name, values):
     attributes.AddArray(array)
 
 
+def calibrate(model, judged):
+    """Fits what a model says of its poses to scans in which it is known which are right; returns the calibrated Model, and a
+    report with `loss_before`, `loss_after` (mean logarithmic loss of a pose, nats; `after` on scans left out of the fit) and
+    `classes` (of each `least` and `most` of what was said, `poses`, share that is `right`, mean said `before` and `after`).
+
+    judged: of each scan, 5 or better a few dozen, a pair: its Detections, and for each of them True (right), "turned" (a copy
+    is there, and the pose is turned wrongly), False (wrong, or a second pose of a copy), or None (not known)."""
+    poses = []
+    for scene, (found, verdicts) in enumerate(judged):
+        if len(found) != len(verdicts):
+            raise Error(f"scan {scene + 1} has {len(found)} poses and {len(verdicts)} verdicts: give one for each")
+        for pose, verdict in zip(found, verdicts):
+            if verdict not in (True, False, None, "turned"):
+                raise Error(f"a verdict is {verdict!r}, not True, 'turned', False or None")
+            if verdict is not None:
+                poses.append(_core.JudgedPose(pose.place_probability, pose.certainty, bool(verdict), verdict is True, scene))
+    calibrated, report = _core.calibrate(model.core, poses)
+    return Model(calibrated), report
+
+
 class Diagnosis:
     """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `reasons` (what
     speaks for it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose that came out there; 0: none), `pose` (4 x 4, the place, or None), `numbers` (of

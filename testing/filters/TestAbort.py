@@ -38,7 +38,7 @@ from ppfmeam.filters import (
 from meamtest import Errors, MovedView, Trained, bracket, check, connect, is_empty, png, poses, run
 
 # Their work takes milliseconds, whatever their input.
-QUICK = {"vtkMEAMGraspWriter", "vtkMEAMHandEyeCalibration", "vtkMEAMImageReader", "vtkMEAMModelReader", "vtkMEAMModelWriter",
+QUICK = {"vtkMEAMGraspWriter", "vtkMEAMHandEyeCalibration", "vtkMEAMImageReader", "vtkMEAMModelCalibration", "vtkMEAMModelReader", "vtkMEAMModelWriter",
          "vtkMEAMPoseEvaluation", "vtkMEAMPoseReader", "vtkMEAMPoseWriter", "vtkMEAMSamplePartSource"}
 ROWS = [[(500,)] * 8] * 200  # a depth image
 folder = tempfile.TemporaryDirectory()

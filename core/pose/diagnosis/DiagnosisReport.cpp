@@ -305,6 +305,11 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
         (diagnosis.cutsInto > 0 ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
                                 : ": the part, or one of just this shape, may not be in it."));
   }
+  if (std::abs(diagnosis.moreByCalibration) >= LeastTold)
+  {
+    add(std::string("By what judged poses have taught it is ") + (diagnosis.moreByCalibration > 0.0 ? "more" : "less") +
+        " likely, by " + decimal(std::abs(diagnosis.moreByCalibration)) + ".");
+  }
   if (diagnosis.found)
   {
     const auto& [continuing, past, misfit] = diagnosis.found->contradictions;

@@ -277,7 +277,10 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
     if (diagnosis.found)
     {
       const double place = diagnosis.found->placeProbability;
-      diagnosis.lessByOthers = collector.logOdds(counts, *evidence.rates) - std::log(place / (1.0 - place));
+      const double calibrated = std::log(place / (1.0 - place));
+      const double logOdds = this->Model.calibration.place.countedOf(calibrated);
+      diagnosis.moreByCalibration = calibrated - logOdds;
+      diagnosis.lessByOthers = collector.logOdds(counts, *evidence.rates) - logOdds;
       const BodyOverlap overlap(this->Model);
       const auto cut = std::find_if(all.begin(), all.end(),
         [&](const Pose& other)

@@ -58,6 +58,7 @@ struct Diagnosis
   double probability = 0.0;        ///< of a copy where it came out, or would without limits
   std::optional<Pose> found;       ///< what came out here, or would without limits, local frame
   std::vector<EvidenceTerm> terms; ///< what speaks for the place and against it; empty with the paper's verification
+  double moreByCalibration = 0.0;  ///< log odds by what the model's calibration has taught
   double lessByOthers = 0.0;       ///< log odds that what came out has less than by these terms, for the set it is in
   int cutsInto = 0;                ///< rank without limits of the likeliest pose whose body its own cuts into; 0: none
   int otherRank = 0;               ///< without limits, from 1, of the nearest other pose of another place; 0: none near

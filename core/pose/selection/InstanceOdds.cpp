@@ -97,4 +97,20 @@ void allowForAbsence(FinishedInstances& found)
     setEvidence(finished.pose, finished.logOdds);
   }
 }
+
+void calibrate(FinishedInstances& found, const ModelCalibration& calibration)
+{
+  for (FinishedInstance& finished : found)
+  {
+    Pose& pose = finished.pose;
+    const double certainty = calibration.certaintyOf(pose.certainty);
+    for (RotationAlternative& other : pose.alternatives) // with the pose's own they sum to 1
+    {
+      other.share *= pose.certainty < 1.0 ? (1.0 - certainty) / (1.0 - pose.certainty) : 1.0;
+    }
+    pose.certainty = certainty;
+    finished.logOdds = calibration.place.logOdds(finished.logOdds);
+    setEvidence(pose, finished.logOdds);
+  }
+}
 }

@@ -37,4 +37,7 @@ void allowForLookalikes(
 /// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
 /// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
 void allowForAbsence(FinishedInstances& found);
+
+/// What is said of places and rotations is what held in the scans that the model was calibrated on.
+void calibrate(FinishedInstances& found, const ModelCalibration& calibration);
 }

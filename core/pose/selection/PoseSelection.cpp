@@ -240,6 +240,11 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     }
     sortBest(finished);
   }
+  if (model.calibration.poses > 0)
+  {
+    calibrate(finished, model.calibration);
+    sortBest(finished);
+  }
   Poses instances;
   std::transform(finished.begin(), finished.end(), std::back_inserter(instances),
     [](const FinishedInstance& instance) { return instance.pose; });

@@ -10,6 +10,4 @@ double withCertainty(double logOdds, double certainty)
   // p = c / (1 + exp(-x)), so that p / (1 - p) = c / (1 - c + exp(-x)).
   return certainty < 1.0 ? std::log(certainty) - std::log(1.0 - certainty + std::exp(-logOdds)) : logOdds;
 }
-
-double probabilityOf(double logOdds) { return 1.0 / (1.0 + std::exp(-logOdds)); }
 }

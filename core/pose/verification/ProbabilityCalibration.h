@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "calibration/ModelCalibration.h"
+
 namespace meam
 {
-/// The logarithm of the odds that something is so, as a line over what was counted or found.
-struct LogisticRegression
-{
-  double constant;
-  double slope;
-
-  double logOdds(double counted) const { return this->constant + this->slope * counted; }
-};
-
 // What turns counts into probabilities. With the surface, and whether the part is there, were fitted on what comes out
 // of simulated bins of all parts, seen by each kind of sensor, with the part in them or not; edges alone on the Tohoku
 // dataset without its surface. testing/evaluation/calibration.py tells how they hold for other scenes.
@@ -28,7 +21,4 @@ inline constexpr double LeastPresent = 0.2; ///< however badly that fits: it may
 /// Logarithm of the odds that a copy is here: those that it is when the part is in the scan, and how certain that is,
 /// [0, 1].
 double withCertainty(double logOdds, double certainty);
-
-/// [0, 1], from the logarithm of odds.
-double probabilityOf(double logOdds);
 }

@@ -56,6 +56,11 @@ void expectSame(const meam::TrainedModel& a, const meam::TrainedModel& b)
   expectSame(a.table, b.table);
   expectSame(a.surfacePairPoints, b.surfacePairPoints);
   expectSame(a.surfaceTable, b.surfaceTable);
+  EXPECT_EQ(a.calibration.place.constant, b.calibration.place.constant);
+  EXPECT_EQ(a.calibration.place.slope, b.calibration.place.slope);
+  EXPECT_EQ(a.calibration.rotation.constant, b.calibration.rotation.constant);
+  EXPECT_EQ(a.calibration.rotation.slope, b.calibration.rotation.slope);
+  EXPECT_EQ(a.calibration.poses, b.calibration.poses);
   EXPECT_TRUE(same(a.symmetries.discrete, b.symmetries.discrete));
   ASSERT_EQ(a.symmetries.continuous.size(), b.symmetries.continuous.size());
   for (std::size_t i = 0; i < a.symmetries.continuous.size(); ++i)
@@ -72,13 +77,14 @@ void expectSame(const meam::TrainedModel& a, const meam::TrainedModel& b)
   }
 }
 
-/// The bracket as if it had symmetries of all kinds.
+/// The bracket as if it had symmetries of all kinds, and had been calibrated.
 meam::TrainedModel symmetricBracket()
 {
   meam::TrainedModel model = scenes::bracket();
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 3).normalized();
   model.symmetries.discrete = { meam::turnAbout(axis, M_PI, { 1, 2, 3 }) };
   model.symmetries.continuous = { { axis, { 4, 5, 6 } } };
+  model.calibration = { { 0.25, 0.75 }, { -0.5, 1.5 }, 40 };
   model.symmetries.near = { { meam::turnAbout(axis, 1.0, { 7, 8, 9 }), 0.9, 1.5 },
     { meam::turnAbout(axis, 2.0, { 7, 8, 9 }), 0.8, 2.5 } };
   return model;

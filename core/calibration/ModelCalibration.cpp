@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/ModelCalibration.h"
+
+#include "base/Error.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+
+namespace meam
+{
+namespace
+{
+constexpr int LeastPoses = 20;   // of fewer the line is what is known before, and little else
+constexpr int Folds = 5;         // scans that are left out in turn are one of so many, and no fewer scans will do
+constexpr double Extreme = 12.0; // log odds: what is said more surely is taken for that
+// What is known before any pose is judged: that the product's own probabilities are not far off.
+constexpr double ConstantDeviation = 2.0;
+constexpr double SlopeDeviation = 0.5;
+constexpr double LeastSlope = 0.1;  // claims stay in their order
+constexpr double LeastClaim = 1e-9; // a probability that a logarithmic loss takes for less
+constexpr double Limits[] = { 0.0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.99, 1.0 };
+
+double logOddsOf(double probability)
+{
+  return std::clamp(std::log(probability) - std::log1p(-probability), -Extreme, Extreme);
+}
+
+/// What was said, in log odds, and whether it is so.
+struct Claim
+{
+  double logOdds;
+  bool holds;
+};
+
+double probabilityBy(const LogisticRegression& line, double said) { return probabilityOf(line.logOdds(said)); }
+
+double lossOf(double probability, bool holds)
+{
+  return -std::log(std::max(holds ? probability : 1.0 - probability, LeastClaim));
+}
+
+/// Constant and slope of largest posterior probability, by Newton's method; the slope alone may be given.
+LogisticRegression newton(const std::vector<Claim>& claims, LogisticRegression line, bool fitsSlope)
+{
+  const auto objective = [&](const LogisticRegression& at)
+  {
+    double sum =
+      0.5 * std::pow(at.constant / ConstantDeviation, 2) + 0.5 * std::pow((at.slope - 1.0) / SlopeDeviation, 2);
+    for (const Claim& claim : claims)
+    {
+      const double x = at.logOdds(claim.logOdds);
+      sum += (claim.holds ? std::log1p(std::exp(-x)) : std::log1p(std::exp(x))); // |x| stays far from overflow
+    }
+    return sum;
+  };
+  for (int step = 0; step < 50; ++step) // a few do; no more, whatever rounding makes of the last digits
+  {
+    Eigen::Vector2d gradient(
+      line.constant / std::pow(ConstantDeviation, 2), (line.slope - 1.0) / std::pow(SlopeDeviation, 2));
+    Eigen::Matrix2d curvature =
+      Eigen::Vector2d(std::pow(ConstantDeviation, -2), std::pow(SlopeDeviation, -2)).asDiagonal();
+    for (const Claim& claim : claims)
+    {
+      const Eigen::Vector2d input(1.0, claim.logOdds);
+      const double p = probabilityBy(line, claim.logOdds);
+      gradient += (p - (claim.holds ? 1.0 : 0.0)) * input;
+      curvature += p * (1.0 - p) * input * input.transpose();
+    }
+    if (!fitsSlope)
+    {
+      gradient[1] = 0.0;
+      curvature(0, 1) = curvature(1, 0) = 0.0;
+    }
+    const Eigen::Vector2d move = curvature.ldlt().solve(gradient);
+    double share = 1.0;
+    const auto moved = [&] {
+      return LogisticRegression{ line.constant - share * move[0], line.slope - share * move[1] };
+    };
+    while (share > 1e-6 && objective(moved()) > objective(line))
+    {
+      share *= 0.5;
+    }
+    line = moved();
+    if (move.norm() < 1e-10)
+    {
+      break;
+    }
+  }
+  return line;
+}
+
+LogisticRegression fitted(const std::vector<Claim>& claims)
+{
+  const LogisticRegression free = newton(claims, {}, true);
+  return free.slope >= LeastSlope ? free : newton(claims, { 0.0, LeastSlope }, false);
+}
+
+/// `second` of what `first` makes of a claim.
+LogisticRegression chained(const LogisticRegression& first, const LogisticRegression& second)
+{
+  return { second.logOdds(first.constant), second.slope * first.slope };
+}
+
+bool hasRotations(const JudgedPose& pose) { return pose.certainty < 1.0; }
+
+Claim placeOf(const JudgedPose& pose) { return { logOddsOf(pose.placeProbability), pose.isThere }; }
+
+Claim rotationOf(const JudgedPose& pose) { return { logOddsOf(pose.certainty), pose.isTurnedRight }; }
+
+void check(const std::vector<JudgedPose>& poses, std::size_t scenes)
+{
+  for (const JudgedPose& pose : poses)
+  {
+    if (!(pose.placeProbability >= 0.0 && pose.placeProbability <= 1.0 && pose.certainty >= 0.0 &&
+          pose.certainty <= 1.0))
+    {
+      throw Error("A judged pose has a probability or a certainty that is not between 0 and 1: give poses as detection "
+                  "left them.");
+    }
+  }
+  if (poses.size() < LeastPoses || scenes < Folds)
+  {
+    throw Error("Probabilities are calibrated on " + std::to_string(LeastPoses) + " judged poses in " +
+                std::to_string(Folds) + " scans at least, and better on a few dozen scans; here are " +
+                std::to_string(poses.size()) + " in " + std::to_string(scenes) + ".");
+  }
+}
+
+/// Which fold each pose is in: those of a scene are in one.
+std::vector<int> foldsOf(const std::vector<JudgedPose>& poses, const std::set<int>& scenes)
+{
+  std::vector<int> folds;
+  for (const JudgedPose& pose : poses)
+  {
+    folds.push_back(static_cast<int>(std::distance(scenes.begin(), scenes.find(pose.scene))) % Folds);
+  }
+  return folds;
+}
+
+/// Lines for each fold, fitted on all others; the identity for all where that is better for the scans left out.
+std::vector<LogisticRegression> heldOut(const std::vector<Claim>& claims, const std::vector<int>& folds)
+{
+  std::vector<LogisticRegression> lines;
+  double gain = 0.0;
+  for (int fold = 0; fold < Folds; ++fold)
+  {
+    std::vector<Claim> others;
+    for (std::size_t k = 0; k < claims.size(); ++k)
+    {
+      if (folds[k] != fold)
+      {
+        others.push_back(claims[k]);
+      }
+    }
+    lines.push_back(fitted(others));
+    for (std::size_t k = 0; k < claims.size(); ++k)
+    {
+      if (folds[k] == fold)
+      {
+        gain += lossOf(probabilityOf(claims[k].logOdds), claims[k].holds) -
+                lossOf(probabilityBy(lines.back(), claims[k].logOdds), claims[k].holds);
+      }
+    }
+  }
+  return gain > 0.0 ? lines : std::vector<LogisticRegression>(Folds);
+}
+
+/// `before` followed by the line of all claims, where that of the folds was worth something.
+LogisticRegression calibrated(
+  const LogisticRegression& before, const std::vector<Claim>& claims, const std::vector<LogisticRegression>& ofFolds)
+{
+  return ofFolds.front().isIdentity() ? before : chained(before, fitted(claims));
+}
+
+/// One judged pose with what is said of it before and after.
+struct Told
+{
+  double before;
+  double after;
+  bool holds;
+};
+
+void addClasses(const std::vector<Told>& told, bool withRotation, std::vector<ClaimClass>& classes)
+{
+  for (std::size_t k = 0; k + 1 < std::size(Limits); ++k)
+  {
+    ClaimClass these{ withRotation, Limits[k], Limits[k + 1] };
+    for (const Told& one : told)
+    {
+      if (one.before >= these.least && (one.before < these.most || these.most == 1.0))
+      {
+        ++these.poses;
+        these.right += one.holds ? 1.0 : 0.0;
+        these.before += one.before;
+        these.after += one.after;
+      }
+    }
+    if (these.poses > 0)
+    {
+      for (double* sum : { &these.right, &these.before, &these.after })
+      {
+        *sum /= these.poses;
+      }
+      classes.push_back(these);
+    }
+  }
+}
+}
+
+double probabilityOf(double logOdds) { return 1.0 / (1.0 + std::exp(-logOdds)); }
+
+double ModelCalibration::certaintyOf(double certainty) const
+{
+  return certainty < 1.0 && !this->rotation.isIdentity() ? probabilityBy(this->rotation, logOddsOf(certainty))
+                                                         : certainty;
+}
+
+CalibrationReport fitModelCalibration(const std::vector<JudgedPose>& poses, const ModelCalibration& before)
+{
+  std::set<int> scenes;
+  std::transform(
+    poses.begin(), poses.end(), std::inserter(scenes, scenes.end()), [](const JudgedPose& pose) { return pose.scene; });
+  check(poses, scenes.size());
+  const std::vector<int> folds = foldsOf(poses, scenes);
+  std::vector<Claim> places, rotations;
+  std::vector<int> foldsOfRotations;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    places.push_back(placeOf(poses[k]));
+    if (poses[k].isThere && hasRotations(poses[k]))
+    {
+      rotations.push_back(rotationOf(poses[k]));
+      foldsOfRotations.push_back(folds[k]);
+    }
+  }
+  const std::vector<LogisticRegression> placeLines = heldOut(places, folds);
+  const std::vector<LogisticRegression> rotationLines =
+    heldOut(rotations, foldsOfRotations); // of few or none the identity
+
+  CalibrationReport report;
+  report.calibration = { calibrated(before.place, places, placeLines),
+    calibrated(before.rotation, rotations, rotationLines), before.poses + static_cast<int>(poses.size()) };
+  std::vector<Told> ofPlaces, ofPoses;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    const JudgedPose& pose = poses[k];
+    const double place = probabilityBy(placeLines[folds[k]], places[k].logOdds);
+    const double certainty =
+      hasRotations(pose) ? probabilityBy(rotationLines[folds[k]], logOddsOf(pose.certainty)) : pose.certainty;
+    ofPlaces.push_back({ pose.placeProbability, place, pose.isThere });
+    ofPoses.push_back(
+      { pose.placeProbability * pose.certainty, place * certainty, pose.isThere && pose.isTurnedRight });
+  }
+  addClasses(ofPlaces, false, report.classes);
+  addClasses(ofPoses, true, report.classes);
+  for (const Told& one : ofPoses)
+  {
+    report.lossBefore += lossOf(one.before, one.holds) / static_cast<double>(poses.size());
+    report.lossAfter += lossOf(one.after, one.holds) / static_cast<double>(poses.size());
+  }
+  return report;
+}
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMEAMModelCalibration.h"
+
+#include "base/Error.h"
+#include "vtkMEAMArrays.h"
+#include "vtkMEAMModelConversion.h"
+#include "vtkMEAMRun.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkMEAMModelCalibration);
+
+namespace
+{
+vtkDataArray* judgedArray(vtkPolyData* poses, const char* name)
+{
+  vtkDataArray* array = vtkMEAMConversion::pointArray(poses, name, 1);
+  if (!array && poses->GetNumberOfPoints() > 0)
+  {
+    throw meam::Error("The judged poses have no point array '" + std::string(name) +
+                      "': connect the judged poses of Pose Evaluation, its third output.");
+  }
+  return array;
+}
+
+std::vector<meam::JudgedPose> toJudgedPoses(vtkPolyData* input)
+{
+  vtkDataArray* place = judgedArray(input, "PlaceProbability");
+  vtkDataArray* certainty = judgedArray(input, "Certainty");
+  vtkDataArray* scene = judgedArray(input, "Scene");
+  vtkDataArray* isThere = judgedArray(input, "CopyIsThere");
+  vtkDataArray* outcome = judgedArray(input, "PoseOutcome");
+  std::vector<meam::JudgedPose> poses;
+  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  {
+    poses.push_back({ place->GetComponent(k, 0), certainty->GetComponent(k, 0), isThere->GetComponent(k, 0) != 0.0,
+      outcome->GetComponent(k, 0) == 0.0, static_cast<int>(scene->GetComponent(k, 0)) });
+  }
+  return poses;
+}
+
+void fromReport(const meam::CalibrationReport& report, vtkTable* output)
+{
+  vtkNew<vtkStringArray> claim;
+  claim->SetName("Claim");
+  vtkNew<vtkIntArray> poses;
+  poses->SetName("Poses");
+  vtkNew<vtkDoubleArray> least, most, right, before, after;
+  least->SetName("Least");
+  most->SetName("Most");
+  right->SetName("Right");
+  before->SetName("Before");
+  after->SetName("After");
+  for (const meam::ClaimClass& one : report.classes)
+  {
+    claim->InsertNextValue(one.withRotation ? "pose" : "place");
+    least->InsertNextValue(one.least);
+    most->InsertNextValue(one.most);
+    poses->InsertNextValue(one.poses);
+    right->InsertNextValue(one.right);
+    before->InsertNextValue(one.before);
+    after->InsertNextValue(one.after);
+  }
+  for (vtkAbstractArray* column :
+    std::initializer_list<vtkAbstractArray*>{ claim, least, most, poses, right, before, after })
+  {
+    output->AddColumn(column);
+  }
+  vtkMEAMConversion::setFieldValue(output, "LossBefore", report.lossBefore);
+  vtkMEAMConversion::setFieldValue(output, "LossAfter", report.lossAfter);
+  vtkMEAMConversion::setCalibration(output, report.calibration);
+}
+}
+
+vtkMEAMModelCalibration::vtkMEAMModelCalibration()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkMEAMModelCalibration::~vtkMEAMModelCalibration() = default;
+
+int vtkMEAMModelCalibration::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  return 1;
+}
+
+int vtkMEAMModelCalibration::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkTable");
+  return 1;
+}
+
+int vtkMEAMModelCalibration::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  auto* input = vtkPartitionedDataSetCollection::GetData(inputVector[0]);
+  auto* judged = vtkPolyData::GetData(inputVector[1]);
+  auto* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
+  auto* table = vtkTable::GetData(outputVector, 1);
+  return vtkMEAMRun(
+    this,
+    [&]
+    {
+      vtkMEAMConversion::requireInputs(this, { "Model", "Judged Poses" });
+      const meam::TrainedModel model = vtkMEAMConversion::toTrainedModel(input);
+      const meam::CalibrationReport report = meam::fitModelCalibration(toJudgedPoses(judged), model.calibration);
+      output->ShallowCopy(input);
+      vtkMEAMConversion::setCalibration(output, report.calibration);
+      fromReport(report, table);
+    },
+    output, table);
+}
