@@ -18,6 +18,10 @@ constexpr double CloselyBefore = 0.1; // of the diameter: a surface that hides t
 constexpr float Flattest = 0.3f;      // cosine: the tolerance along the line of sight grows up to surfaces so flat
 constexpr float Behind = 3.0f;        // tolerances: so far behind the bin's floor or a wall a part cannot reach
 constexpr double Shown = 0.25;        // of its whole surface a body shows, on average over directions (Cauchy)
+/// Sides of outline that a patch of surface has at most: those of a strip half a patch wide, as a thin sheet seen from
+/// its edge. Where the sensor sees past one side of a narrower one it sees past the other, and such strips are
+/// everywhere, as the rims and edges of other things.
+constexpr double OutlineOfPatch = 4.0;
 constexpr float OutlineTolerance = 1.5f; // tolerances: a surface beyond the outline that goes on
 
 int count(const std::vector<PointState>& states, PointState state)
@@ -161,7 +165,7 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
   if (haveSurfaces(this->InScene, this->Model))
   {
     this->addSurface(predicted, evidence);
-    this->addOutline(predicted, evidence.counts);
+    this->addOutline(predicted, evidence);
   }
   return evidence;
 }
@@ -270,13 +274,15 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
         break;
       }
     }
+    evidence.inSight += state == PointState::Hidden ? 0.0 : area * std::max(cosine, 0.0f);
     evidence.surface.push_back(point);
     evidence.surfaceStates.push_back(state);
   }
 }
 
-void EvidenceCollector::addOutline(const Predicted& predicted, EvidenceCounts& counts) const
+void EvidenceCollector::addOutline(const Predicted& predicted, PoseEvidence& evidence) const
 {
+  EvidenceCounts& counts = evidence.counts;
   const auto& [T_scene_model, visible, stride] = predicted;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const TrainedModel& model = this->Model;
@@ -304,6 +310,12 @@ void EvidenceCollector::addOutline(const Predicted& predicted, EvidenceCounts& c
   {
     counts.enclosed = goesOn * Shown * this->shareBehind(T_scene_model, stride) *
                       static_cast<double>(model.verificationPoints.size()) * model.verificationArea() / (patch * patch);
+  }
+  const double most = OutlineOfPatch * evidence.inSight, telling = counts.ends + counts.goesOn;
+  if (telling > most)
+  {
+    counts.ends *= most / telling;
+    counts.goesOn *= most / telling;
   }
 }
 }

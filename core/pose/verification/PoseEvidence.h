@@ -43,6 +43,7 @@ struct PoseEvidence
   Points surface;
   std::vector<PointState> surfaceStates;
   EvidenceCounts counts;
+  double inSight = 0.0; ///< patches of surface that nothing hides, those at the border included
 
   /// Of the surface that nothing hides the share that was measured where it should be; without a surface, of the edges;
   /// [0, 1].
@@ -94,7 +95,7 @@ private:
   void addEdges(const Predicted& predicted, PoseEvidence& evidence) const;
   void addSurface(const Predicted& predicted, PoseEvidence& evidence) const;
   /// Sides of the outline, and the part of the body that lies behind floor and walls.
-  void addOutline(const Predicted& predicted, EvidenceCounts& counts) const;
+  void addOutline(const Predicted& predicted, PoseEvidence& evidence) const;
 
   /// mm; less than nothing: so far behind the bin's floor or a wall.
   float behindPlane() const;

@@ -27,6 +27,8 @@ meam::TriangleMesh ribbedPlate()
 /// The plate of the ribs, without one.
 meam::TriangleMesh barePlate() { return parts::box({ -20.0f, 0.0f, 0.0f }, { 20.0f, 6.0f, 25.0f }); }
 
+meam::TriangleMesh sheet() { return parts::box({ -25.0f, -15.0f, 0.0f }, { 25.0f, 15.0f, 0.6f }); }
+
 /// Of a ribbed plate taken to be where a bare one is, its upper side up.
 meam::PoseEvidence onBarePlate(const meam::TrainedModel& ribbed)
 {
@@ -359,4 +361,21 @@ TEST(PoseEvidence, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
   EXPECT_EQ(count(without, meam::PointState::Violated), 0);
   EXPECT_EQ(count(without, meam::PointState::Unknown),
     count(with, meam::PointState::Unknown) + count(with, meam::PointState::Violated));
+}
+
+TEST(PoseEvidence, TheTwoSidesOfAThinStripAreNoTwoOutlines)
+{
+  // A sheet of 1 % of its diameter: of its face the outline counts as it is long, of its edge by the edge's area.
+  const meam::TrainedModel& model = scenes::trained<sheet>();
+  const auto seen = [&](const Eigen::Isometry3d& pose)
+  {
+    const meam::Scene scene = scenes::alone(sheet(), model, pose);
+    return meam::EvidenceCollector(scene, model).collect(scene.T_local_scene() * pose);
+  };
+  const meam::PoseEvidence flat = seen(Eigen::Isometry3d::Identity());
+  EXPECT_GT(flat.counts.ends, 20.0) << "sides of patches of 5.8 mm around 160 mm";
+  EXPECT_LT(flat.counts.ends + flat.counts.goesOn, 4.0 * flat.inSight);
+  const meam::PoseEvidence upright = seen(Eigen::Isometry3d(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX())));
+  EXPECT_LT(upright.inSight, 2.0);
+  EXPECT_NEAR(upright.counts.ends + upright.counts.goesOn, 4.0 * upright.inSight, 1e-9);
 }
