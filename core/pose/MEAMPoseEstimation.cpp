@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
+#include "pose/PoseTolerances.h"
+
 #include <algorithm>
 #include <chrono>
+#include <map>
 
 namespace meam
 {
@@ -83,66 +86,156 @@ Scene sceneOf(const TrainedModel& model, const SceneInput& input, const Detectio
   return Scene(std::move(edges), input.measured, input.sensor, model.diameter, settings.scene, input.quality);
 }
 
+namespace
+{
+// A few poses are asked for of a bin full of parts: a share of the reference points finds enough that are sure.
+constexpr double FirstShare = 0.25; // of the reference points; the others follow only where these do not do
+constexpr double Sure = 3.0;        // log odds of a refined pose,
+constexpr int Spare = 2;            // and so many more than are asked for: what follows doubts some
+
+/// The stages from raw candidates to ranked poses, of which a search may take several lots of candidates through all
+/// but the last.
+class Ranking
+{
+public:
+  Ranking(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings, DetectionReport& told,
+    const PoseObserver& observer)
+    : InScene(scene)
+    , Model(model)
+    , Settings(settings)
+    , Told(told)
+    , Observer(observer)
+  {
+  }
+
+  /// Takes candidates as far as refinement, and scores all that came so far.
+  void add(Poses poses, const Progress& progress)
+  {
+    StageTimes& spent = this->Told.times;
+    const Scene& scene = this->InScene;
+    const TrainedModel& model = this->Model;
+    const DetectionSettings& settings = this->Settings;
+    Stopwatch watch;
+    this->returned(PoseStage::Voting, poses);
+    if (settings.screening)
+    {
+      poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.0, 0.2));
+      this->returned(PoseStage::Screening, poses);
+    }
+    spent.screening += watch.lap();
+    EvidenceRates rates;
+    poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates);
+    const bool haveRates = settings.candidateVerification.method == VerificationMethod::VisibleEvidence;
+    this->Told.rates = haveRates ? std::optional(rates) : std::nullopt; // of the last lot: it is the largest
+    this->returned(PoseStage::CandidateVerification, poses);
+    spent.verification += watch.lap();
+    poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
+    this->returned(PoseStage::CandidateSelection, poses);
+    spent.selection += watch.lap();
+    poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.5, 0.9));
+    this->returned(PoseStage::Refinement, poses);
+    spent.refinement += watch.lap();
+    this->Refined.insert(this->Refined.end(), poses.begin(), poses.end());
+    PoseVerificationSettings verification = settings.verification;
+    verification.evidence.rates = this->Told.rates; // of all candidates; few are left
+    this->Verified = verifyPoses(this->Refined, scene, model, verification, subProgress(progress, 0.9, 1.0));
+    spent.verification += watch.lap();
+  }
+
+  /// Whether so many copies are as good as found.
+  bool areSure(int asked) const
+  {
+    const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
+    const double apart = SamePoseDistance * this->Model.diameter;
+    std::vector<const Pose*> sure;
+    for (const Pose& pose : this->Verified)
+    {
+      const auto isOf = [&](const Pose* other)
+      { return translationError(pose.T_scene_model, other->T_scene_model, middle) < apart; };
+      if (pose.evidence >= Sure && std::none_of(sure.begin(), sure.end(), isOf))
+      {
+        sure.push_back(&pose);
+      }
+    }
+    return static_cast<int>(sure.size()) >= asked;
+  }
+
+  /// One pose of each instance.
+  Poses select(const Progress& progress)
+  {
+    this->returned(PoseStage::Verification, this->Verified);
+    PoseSelectionSettings selection = this->Settings.selection;
+    selection.evidence.rates = this->Told.rates;
+    Stopwatch watch;
+    const Poses poses = selectPoses(this->Verified, this->InScene, this->Model, selection, progress);
+    this->returned(PoseStage::Selection, poses);
+    this->Told.times.selection += watch.lap();
+    if (this->Observer)
+    {
+      for (const auto& [stage, all] : this->Returned)
+      {
+        this->Observer(stage, all);
+      }
+    }
+    return poses;
+  }
+
+private:
+  void returned(PoseStage stage, const Poses& poses)
+  {
+    if (this->Observer)
+    {
+      Poses& all = this->Returned[stage];
+      all.insert(all.end(), poses.begin(), poses.end());
+    }
+  }
+
+  const Scene& InScene;
+  const TrainedModel& Model;
+  const DetectionSettings& Settings;
+  DetectionReport& Told;
+  const PoseObserver& Observer;
+  Poses Refined, Verified;
+  std::map<PoseStage, Poses> Returned; ///< in the order of the stages
+};
+}
+
 Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
   DetectionReport* report, const Progress& progress, const PoseObserver& observer)
 {
   DetectionReport unused;
-  DetectionReport& told = report ? *report : unused;
-  StageTimes& spent = told.times;
-  EvidenceRates rates;
-  Stopwatch watch;
-  const auto observe = [&](PoseStage stage)
-  {
-    if (observer)
-    {
-      observer(stage, poses);
-    }
-  };
-  if (settings.screening)
-  {
-    poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.0, 0.2));
-    observe(PoseStage::Screening);
-  }
-  spent.screening = watch.lap();
-  poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates);
-  told.rates =
-    settings.candidateVerification.method == VerificationMethod::VisibleEvidence ? std::optional(rates) : std::nullopt;
-  observe(PoseStage::CandidateVerification);
-  spent.verification = watch.lap();
-  poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
-  observe(PoseStage::CandidateSelection);
-  spent.selection = watch.lap();
-  poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.5, 0.8));
-  observe(PoseStage::Refinement);
-  spent.refinement = watch.lap();
-  PoseVerificationSettings verification = settings.verification;
-  PoseSelectionSettings selection = settings.selection;
-  verification.evidence.rates = selection.evidence.rates = told.rates; // of all candidates; few are left
-  poses = verifyPoses(poses, scene, model, verification, subProgress(progress, 0.8, 0.86));
-  observe(PoseStage::Verification);
-  spent.verification += watch.lap();
-  poses = selectPoses(poses, scene, model, selection, subProgress(progress, 0.86, 1.0));
-  observe(PoseStage::Selection);
-  spent.selection += watch.lap();
-  return poses;
+  Ranking ranking(scene, model, settings, report ? *report : unused, observer);
+  ranking.add(std::move(poses), subProgress(progress, 0.0, 0.86));
+  return ranking.select(subProgress(progress, 0.86, 1.0));
 }
 
 Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
   DetectionReport* report, const Progress& progress, const PoseObserver& observer)
 {
-  constexpr double votingShare = 0.45; // of the progress
+  DetectionReport unused;
+  DetectionReport& told = report ? *report : unused;
   Stopwatch watch;
-  Poses candidates = detectPoses(scene, model, settings.detection, subProgress(progress, 0.0, votingShare));
-  if (report)
+  const CandidateSearch search(scene, model, settings.detection);
+  told.times.detection += watch.lap();
+  Ranking ranking(scene, model, settings, told, observer);
+  // The order by votes, or by what fits of edges, does not tell what is sure.
+  const int asked = settings.screening ? settings.selection.maximumPoses : 0;
+  const auto vote = [&](double from, double to, double begin, double end)
   {
-    report->times.detection = watch.lap();
-  }
-  if (observer)
+    const double voted = 0.5 * (begin + end);
+    watch.lap();
+    Poses candidates = search.candidates(from, to, subProgress(progress, begin, voted));
+    told.times.detection += watch.lap();
+    ranking.add(std::move(candidates), subProgress(progress, voted, end));
+  };
+  constexpr double most = 0.9; // of the progress
+  const double first = asked > 0 ? FirstShare : 1.0;
+  vote(0.0, first, 0.0, first * most);
+  if (first < 1.0 && !ranking.areSure(asked + Spare))
   {
-    observer(PoseStage::Voting, candidates);
+    vote(first, 1.0, first * most, most);
   }
-  return rankCandidates(
-    std::move(candidates), scene, model, settings, report, subProgress(progress, votingShare, 1.0), observer);
+  return ranking.select(subProgress(progress, most, 1.0));
 }
 
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,

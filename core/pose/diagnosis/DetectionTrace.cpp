@@ -53,10 +53,14 @@ DetectionTrace::DetectionTrace(
   , Model(model)
   , Settings(settings)
 {
-  findPoses(scene, model, settings, &this->Report, progress,
+  DetectionSettings all = settings;
+  all.selection.maximumPoses = 0;
+  all.selection.minimumProbability = 0.0;
+  this->Unlimited = findPoses(scene, model, all, &this->Report, progress,
     [this](PoseStage stage, const Poses& poses) {
       this->Stages.push_back({ stage, poses });
     });
+  this->Stages.back().poses = withinLimits(this->Unlimited, settings.selection);
 }
 
 const Poses& DetectionTrace::posesOf(PoseStage stage) const
@@ -64,19 +68,6 @@ const Poses& DetectionTrace::posesOf(PoseStage stage) const
   return std::find_if(
     this->Stages.begin(), this->Stages.end(), [stage](const Stage& one) { return one.stage == stage; })
     ->poses;
-}
-
-const Poses& DetectionTrace::unlimited()
-{
-  if (!this->Unlimited)
-  {
-    PoseSelectionSettings all = this->Settings.selection;
-    all.maximumPoses = 0;
-    all.minimumProbability = 0.0;
-    all.evidence.rates = this->rates();
-    this->Unlimited = selectPoses(this->posesOf(PoseStage::Verification), this->InScene, this->Model, all);
-  }
-  return *this->Unlimited;
 }
 
 const Poses& DetectionTrace::allAlternatives()

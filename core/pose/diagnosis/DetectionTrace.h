@@ -44,19 +44,19 @@ public:
     Poses poses;
   };
 
-  /// Detects the parts of a scene. Keeps references.
+  /// Detects the parts of a scene, all of them: where a few poses are wanted, a search that ends with these would say
+  /// nothing of the others. Keeps references.
   DetectionTrace(
     const Scene& scene, const TrainedModel& model, const DetectionSettings& settings, const Progress& progress = {});
 
   const std::vector<Stage>& stages() const { return this->Stages; }
   const Poses& posesOf(PoseStage stage) const;
-  /// What came out.
+  /// What is wanted of that.
   const Poses& ranked() const { return this->Stages.back().poses; }
   /// The scan's rates, by all candidates; none with the paper's verification.
   const std::optional<EvidenceRates>& rates() const { return this->Report.rates; }
-  /// What would come out without a limit on the number of poses and their probability: ranked() are of them.
-  /// Found when it is asked for.
-  const Poses& unlimited();
+  /// What comes out without a limit on the number of poses and their probability: ranked() are of them.
+  const Poses& unlimited() const { return this->Unlimited; }
   /// What would be refined if all were that are of different instances. Found when it is asked for.
   const Poses& allAlternatives();
 
@@ -66,7 +66,7 @@ private:
   const DetectionSettings& Settings;
   std::vector<Stage> Stages;
   DetectionReport Report;
-  std::optional<Poses> Unlimited;
+  Poses Unlimited;
   std::optional<Poses> AllAlternatives;
 };
 }

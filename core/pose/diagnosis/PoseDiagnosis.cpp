@@ -88,8 +88,8 @@ Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& p
   }
   PoseDetectionSettings voting = this->Detection.detection;
   voting.peaksPerReference = std::max(voting.peaksPerReference, PeaksLookedFor);
-  const Poses candidates = detectPosesNear(
-    place, LookedFor * this->Model.diameter, this->InScene, this->Model, voting, subProgress(progress, 0.0, 0.3));
+  const Poses candidates = CandidateSearch(this->InScene, this->Model, voting)
+                             .candidatesNear(place, LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.3));
   const Poses nearby = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.3, 0.6));
   const auto best = firstOn(nearby);
@@ -318,8 +318,8 @@ LossCause PoseDiagnosis::notWanted(Diagnosis& diagnosis, int rank, const Eigen::
 bool PoseDiagnosis::isFoundByAllPoints(const Eigen::Isometry3d& T_local_model, const Progress& progress) const
 {
   const Eigen::Vector3f middle = T_local_model.cast<float>() * this->Model.visibility->middle();
-  Poses candidates = detectPosesNear(middle, LookedFor * this->Model.diameter, this->InScene, this->Model,
-    this->Detection.detection, subProgress(progress, 0.0, 0.4));
+  Poses candidates = CandidateSearch(this->InScene, this->Model, this->Detection.detection)
+                       .candidatesNear(middle, LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.4));
   const Poses& voted = this->Trace.posesOf(PoseStage::Voting);
   candidates.insert(candidates.end(), voted.begin(), voted.end());
   const Poses ranked = rankCandidates(

@@ -27,6 +27,10 @@ constexpr int LeastRefined = 60;         // so many are, and all that are likeli
 constexpr double WorthRefining = 3e-7;   // (probability, of poses that are not refined yet)
 constexpr double RotatedDistance = 0.04; // of the diameter: correspondences of another rotation, which is nearly right
 constexpr int RotatedIterations = 6;     // of it
+constexpr int Lot = 16;                  // instances that are finished before it is asked whether they do
+constexpr double SureOdds = 3.0;         // logarithm of the odds of a pose that is wanted and sure,
+constexpr int SpareInstances = 2;        // and so many more: what all poses together say may take some away
+constexpr double WorthFinishing = 0.5;   // place: what is likelier is finished in any case
 constexpr std::size_t RateStride = 2;    // of the points that tell the scan's rates of edges one of so many
 
 double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel& model)
@@ -197,6 +201,16 @@ std::vector<FinishedInstance> withoutShared(
   return distinct;
 }
 
+/// Whether those that are wanted are finished and sure, with some to spare, and the next one, of those scored best
+/// first, is unlikely: what follows will not come before them. Never where all are wanted.
+bool areEnough(const FinishedInstances& finished, const Pose& next, const PoseSelectionSettings& settings)
+{
+  const auto sure = std::count_if(
+    finished.begin(), finished.end(), [](const FinishedInstance& instance) { return instance.logOdds >= SureOdds; });
+  return settings.maximumPoses > 0 && sure >= settings.maximumPoses + SpareInstances &&
+         next.placeProbability < WorthFinishing;
+}
+
 /// One for each instance, with its final pose; best first.
 Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings, const Progress& progress)
@@ -210,15 +224,23 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   const SurfaceContinuation continuation(scene, model);
   const SurfaceMisfit misfit(scene, model);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison, continuation, misfit);
-  std::vector<FinishedInstance> finished(selected.size());
-  parallelFor(static_cast<int>(selected.size()), settings.threads, subProgress(progress, 0.3, 1.0),
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
+  const int count = static_cast<int>(selected.size());
+  std::vector<FinishedInstance> finished;
+  while (static_cast<int>(finished.size()) < count && !areEnough(finished, scored[selected[finished.size()]], settings))
+  {
+    const int done = static_cast<int>(finished.size());
+    const int lot = settings.maximumPoses > 0 ? std::min(Lot, count - done) : count;
+    finished.resize(done + lot);
+    const Progress ofLot = subProgress(progress, 0.3 + 0.7 * done / count, 0.3 + 0.7 * (done + lot) / count);
+    parallelFor(lot, settings.threads, ofLot,
+      [&](int begin, int end, int)
       {
-        finished[k] = instance.finish(scored[selected[k]], choice, selected[k]);
-      }
-    });
+        for (int k = done + begin; k < done + end; ++k)
+        {
+          finished[k] = instance.finish(scored[selected[k]], choice, selected[k]);
+        }
+      });
+  }
   sortBest(finished);
   if (settings.dropsShared)
   {
@@ -291,27 +313,39 @@ PoseSelectionSettings candidateSelectionSettings()
   return settings;
 }
 
+Poses withinLimits(Poses poses, const PoseSelectionSettings& settings)
+{
+  poses.erase(std::remove_if(poses.begin(), poses.end(),
+                [&](const Pose& pose) { return claimOf(pose, settings.rotationCounts) < settings.minimumProbability; }),
+    poses.end());
+  poses.resize(settings.maximumPoses > 0 ? std::min<std::size_t>(poses.size(), settings.maximumPoses) : poses.size());
+  return poses;
+}
+
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings, const Progress& progress)
 {
-  Poses selected = settings.method == SelectionMethod::Instances
-                     ? selectInstances(scored, scene, model, settings, progress)
-                     : selectClusters(scored, model, settings, progress);
-  const bool isForRefinement = settings.method == SelectionMethod::Alternatives;
-  const double leastScore = isForRefinement && !scored.empty() ? LeastScore * scored.front().score : 0.0;
-  selected.erase(
-    std::remove_if(selected.begin(), selected.end(),
-      [&](const Pose& pose)
-      { return pose.score < leastScore || claimOf(pose, settings.rotationCounts) < settings.minimumProbability; }),
-    selected.end());
-  std::size_t most = settings.maximumPoses > 0 ? settings.maximumPoses : selected.size();
-  if (settings.maximumPoses == 0 && isForRefinement)
+  Poses selected;
+  if (settings.method == SelectionMethod::Instances)
   {
-    const auto worth = std::count_if(
-      selected.begin(), selected.end(), [](const Pose& pose) { return pose.probability > WorthRefining; });
-    most = std::max<std::size_t>(LeastRefined, worth);
+    selected = withinLimits(selectInstances(scored, scene, model, settings, progress), settings);
   }
-  selected.resize(std::min(selected.size(), most));
+  else
+  {
+    selected = selectClusters(scored, model, settings, progress);
+    PoseSelectionSettings limits = settings;
+    if (settings.method == SelectionMethod::Alternatives)
+    {
+      const double leastScore = scored.empty() ? 0.0 : LeastScore * scored.front().score;
+      selected.erase(
+        std::remove_if(selected.begin(), selected.end(), [&](const Pose& pose) { return pose.score < leastScore; }),
+        selected.end());
+      const auto worth = static_cast<int>(std::count_if(
+        selected.begin(), selected.end(), [](const Pose& pose) { return pose.probability > WorthRefining; }));
+      limits.maximumPoses = settings.maximumPoses > 0 ? settings.maximumPoses : std::max(LeastRefined, worth);
+    }
+    selected = withinLimits(std::move(selected), limits);
+  }
   report(progress, 1.0);
   return selected;
 }

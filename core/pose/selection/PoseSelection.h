@@ -55,6 +55,9 @@ PoseSelectionSettings candidateSelectionSettings();
 Poses selectClusters(
   const Poses& scored, const TrainedModel& model, const PoseSelectionSettings& settings, const Progress& progress = {});
 
+/// Of selected poses, best first, those that are likely enough, no more than are wanted.
+Poses withinLimits(Poses poses, const PoseSelectionSettings& settings);
+
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
 ///
 /// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is

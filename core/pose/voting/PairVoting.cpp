@@ -49,27 +49,31 @@ std::uint64_t hashOf(const Eigen::Vector3f& point, double cell, unsigned seed)
   return hash;
 }
 
-/// Indices of `share` of the points, at least `least` where there are so many, ascending. Places are chosen, so the
-/// order of the points has no part in it.
-std::vector<int> chooseShare(const Points& points, double share, int least, double cell, unsigned seed)
+/// Indices of `share` of the points, at least `least` where there are so many, in the order in which they are chosen,
+/// spread over the scene. Places are chosen, so the order of the points has no part in it.
+std::vector<int> chooseInOrder(const Points& points, double share, int least, double cell, unsigned seed)
 {
   const int count = static_cast<int>(points.size());
   std::vector<int> indices(count);
   std::iota(indices.begin(), indices.end(), 0);
   const int wanted = std::min(count, std::max(least, static_cast<int>(std::ceil(share * count))));
-  if (wanted < count)
+  std::vector<std::uint64_t> hashes;
+  hashes.reserve(points.size());
+  for (const auto& point : points)
   {
-    std::vector<std::uint64_t> hashes;
-    hashes.reserve(points.size());
-    for (const auto& point : points)
-    {
-      hashes.push_back(hashOf(point, cell, seed));
-    }
-    std::nth_element(indices.begin(), indices.begin() + wanted, indices.end(),
-      [&](int a, int b) { return hashes[a] != hashes[b] ? hashes[a] < hashes[b] : a < b; });
-    indices.resize(wanted);
-    std::sort(indices.begin(), indices.end());
+    hashes.push_back(hashOf(point, cell, seed));
   }
+  std::partial_sort(indices.begin(), indices.begin() + wanted, indices.end(),
+    [&](int a, int b) { return hashes[a] != hashes[b] ? hashes[a] < hashes[b] : a < b; });
+  indices.resize(wanted);
+  return indices;
+}
+
+/// The same, ascending.
+std::vector<int> chooseShare(const Points& points, double share, int least, double cell, unsigned seed)
+{
+  std::vector<int> indices = chooseInOrder(points, share, least, cell, seed);
+  std::sort(indices.begin(), indices.end());
   return indices;
 }
 
@@ -124,7 +128,7 @@ VotingRound surfaceRound(const Scene& scene, const TrainedModel& model, const Po
   const References& usual = usualReferences(scene.edges, settings);
   const double share = settings.referenceShare > 0.0 ? settings.referenceShare : usual.ofSurface;
   std::vector<int> references =
-    chooseShare(surface.points, share, usual.leastSurface, ChoiceCell * model.diameter, settings.seed + 2);
+    chooseInOrder(surface.points, share, usual.leastSurface, ChoiceCell * model.diameter, settings.seed + 2);
   const double longest = settings.longestBucket * model.surfaceTable.votingPoints;
   const std::size_t longestBucket =
     std::isfinite(longest) ? static_cast<std::size_t>(longest) : std::numeric_limits<std::size_t>::max();
@@ -167,7 +171,7 @@ VotingRound edgeRound(const LocalCloud& sceneEdges, const TrainedModel& model, c
   const int least =
     std::max(usual.leastEdges, static_cast<int>(std::min(std::ceil(needed), static_cast<double>(edges.points.size()))));
   const double cell = ChoiceCell * model.diameter;
-  std::vector<int> references = chooseShare(edges.points, settings.referenceShare, least, cell, settings.seed);
+  std::vector<int> references = chooseInOrder(edges.points, settings.referenceShare, least, cell, settings.seed);
   referred = referred.subset(chooseShare(referred.points, settings.referredShare, 1, cell, settings.seed + 1));
   const PartPairs part{ model.edges.points, model.edges.tangents, model.table, model.quantizer(),
     model.settings.angleStep * M_PI / 180.0, model.diameter, std::numeric_limits<std::size_t>::max() };

@@ -39,7 +39,7 @@ struct VotingRound
   bool byEdges;
   PartPairs part;
   DirectedPoints points;       ///< all that can be reference points, local frame
-  std::vector<int> references; ///< those of them that are, ascending
+  std::vector<int> references; ///< those of them that are, spread over the scene: as good as any for the first
   DirectedPoints referred;
 };
 

@@ -6,6 +6,8 @@
 #include "pose/voting/VoteAccumulator.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -21,8 +23,9 @@ struct Candidate
 };
 
 /// One or more for each reference point that found pairs, in their order. `references`: of the round's points.
-std::vector<Candidate> candidatesOf(const VotingRound& round, const std::vector<int>& references,
-  const Symmetries& symmetries, const PoseDetectionSettings& settings, const Progress& progress)
+std::vector<Candidate> candidatesOf(const VotingRound& round, const PairVoting& voting,
+  const std::vector<int>& references, const Symmetries& symmetries, const PoseDetectionSettings& settings,
+  const Progress& progress)
 {
   const PartPairs& part = round.part;
   const int count = static_cast<int>(references.size());
@@ -30,7 +33,6 @@ std::vector<Candidate> candidatesOf(const VotingRound& round, const std::vector<
   {
     return {};
   }
-  const PairVoting voting(round, settings);
   const int threads = std::min(numberOfThreads(settings.threads), count);
   std::vector<VoteAccumulator> accumulators(
     threads, VoteAccumulator(part.table.votingPoints, part.angleStep, settings.smoothPeaks));
@@ -87,24 +89,14 @@ Poses surfacePoses(const std::vector<Candidate>& candidates, const Scene& scene,
   return poses;
 }
 
-/// Candidates of some of the points of each round: `referencesOf(round)`.
-template <typename References>
-Poses detectBy(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings,
-  References&& referencesOf, const Progress& progress)
+/// Those of a round between two shares of all, ascending.
+std::vector<int> referencesOf(const VotingRound& round, double from, double to)
 {
-  constexpr double edgeWork = 0.6; // of the progress of both rounds
-  const std::vector<VotingRound> rounds = votingRounds(scene, model, settings);
-  Poses poses;
-  for (const VotingRound& round : rounds)
-  {
-    const bool isLast = &round == &rounds.back();
-    const Progress ofRound = subProgress(progress, &round == &rounds.front() ? 0.0 : edgeWork, isLast ? 1.0 : edgeWork);
-    const auto candidates = candidatesOf(round, referencesOf(round), model.symmetries, settings, ofRound);
-    const Poses found = round.byEdges ? edgePoses(candidates, model) : surfacePoses(candidates, scene, model);
-    poses.insert(poses.end(), found.begin(), found.end());
-  }
-  report(progress, 1.0);
-  return poses;
+  const auto at = [&](double share)
+  { return round.references.begin() + std::lround(share * static_cast<double>(round.references.size())); };
+  std::vector<int> references(at(from), at(to));
+  std::sort(references.begin(), references.end());
+  return references;
 }
 }
 
@@ -127,24 +119,59 @@ PoseDetectionSettings originalDetectionSettings()
   return settings;
 }
 
-Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
-  const Progress& progress)
+/// Of edge points and of the surface, as far as there are both.
+struct CandidateSearch::Rounds
 {
-  const VotingRound round = edgeRound(sceneEdges, model, settings);
-  Poses poses = edgePoses(candidatesOf(round, round.references, model.symmetries, settings, progress), model);
-  report(progress, 1.0);
-  return poses;
+  std::vector<VotingRound> rounds;
+  std::vector<PairVoting> votings; ///< of each
+
+  Rounds(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings)
+    : rounds(votingRounds(scene, model, settings))
+  {
+    std::transform(this->rounds.begin(), this->rounds.end(), std::back_inserter(this->votings),
+      [&](const VotingRound& round) { return PairVoting(round, settings); });
+  }
+
+  /// Of some of the points of each round: `referencesOf(round)`.
+  template <typename References>
+  Poses candidates(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings,
+    References&& referencesOf, const Progress& progress) const
+  {
+    constexpr double edgeWork = 0.6; // of the progress of both rounds
+    Poses poses;
+    for (std::size_t k = 0; k < this->rounds.size(); ++k)
+    {
+      const VotingRound& round = this->rounds[k];
+      const bool isLast = k + 1 == this->rounds.size();
+      const Progress ofRound = subProgress(progress, k == 0 ? 0.0 : edgeWork, isLast ? 1.0 : edgeWork);
+      const auto candidates =
+        candidatesOf(round, this->votings[k], referencesOf(round), model.symmetries, settings, ofRound);
+      const Poses found = round.byEdges ? edgePoses(candidates, model) : surfacePoses(candidates, scene, model);
+      poses.insert(poses.end(), found.begin(), found.end());
+    }
+    report(progress, 1.0);
+    return poses;
+  }
+};
+
+CandidateSearch::CandidateSearch(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings)
+  : InScene(scene)
+  , Model(model)
+  , Settings(settings)
+  , Prepared(std::make_unique<Rounds>(scene, model, settings))
+{
 }
 
-Poses detectPoses(
-  const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings, const Progress& progress)
+CandidateSearch::~CandidateSearch() = default;
+
+Poses CandidateSearch::candidates(double from, double to, const Progress& progress) const
 {
-  return detectBy(
-    scene, model, settings, [](const VotingRound& round) { return round.references; }, progress);
+  return this->Prepared->candidates(
+    this->InScene, this->Model, this->Settings, [&](const VotingRound& round) { return referencesOf(round, from, to); },
+    progress);
 }
 
-Poses detectPosesNear(const Eigen::Vector3f& place, double radius, const Scene& scene, const TrainedModel& model,
-  const PoseDetectionSettings& settings, const Progress& progress)
+Poses CandidateSearch::candidatesNear(const Eigen::Vector3f& place, double radius, const Progress& progress) const
 {
   const auto near = [&](const VotingRound& round)
   {
@@ -158,6 +185,23 @@ Poses detectPosesNear(const Eigen::Vector3f& place, double radius, const Scene& 
     }
     return indices;
   };
-  return detectBy(scene, model, settings, near, progress);
+  return this->Prepared->candidates(this->InScene, this->Model, this->Settings, near, progress);
+}
+
+Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
+  const Progress& progress)
+{
+  const VotingRound round = edgeRound(sceneEdges, model, settings);
+  const PairVoting voting(round, settings);
+  Poses poses =
+    edgePoses(candidatesOf(round, voting, referencesOf(round, 0.0, 1.0), model.symmetries, settings, progress), model);
+  report(progress, 1.0);
+  return poses;
+}
+
+Poses detectPoses(
+  const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings, const Progress& progress)
+{
+  return CandidateSearch(scene, model, settings).candidates(0.0, 1.0, progress);
 }
 }

@@ -7,6 +7,8 @@
 #include "pose/Pose.h"
 #include "scene/Scene.h"
 
+#include <memory>
+
 namespace meam
 {
 struct PoseDetectionSettings
@@ -47,8 +49,25 @@ Poses detectPoses(const LocalCloud& edges, const TrainedModel& model, const Pose
 Poses detectPoses(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings = {},
   const Progress& progress = {});
 
-/// The same by all points within `radius` (mm) of a place in the local frame, whatever the shares of reference points
-/// are: what is found where one looks for it.
-Poses detectPosesNear(const Eigen::Vector3f& place, double radius, const Scene& scene, const TrainedModel& model,
-  const PoseDetectionSettings& settings = {}, const Progress& progress = {});
+/// What the same is found by, some reference points after others. Keeps references to the scene and the model.
+class CandidateSearch
+{
+public:
+  CandidateSearch(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings = {});
+  ~CandidateSearch();
+
+  /// Candidates of the reference points between two shares, [0, 1], of those of each kind: any share is spread over the
+  /// scene.
+  Poses candidates(double from, double to, const Progress& progress = {}) const;
+  /// By all points within `radius` (mm) of a place in the local frame, whatever the shares of reference points are:
+  /// what is found where one looks for it.
+  Poses candidatesNear(const Eigen::Vector3f& place, double radius, const Progress& progress = {}) const;
+
+private:
+  struct Rounds;
+  const Scene& InScene;
+  const TrainedModel& Model;
+  PoseDetectionSettings Settings;
+  std::unique_ptr<const Rounds> Prepared;
+};
 }

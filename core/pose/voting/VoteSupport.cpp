@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace meam
 {
@@ -68,6 +69,7 @@ public:
     , Equal(equalPoses(T_scene_model, model.symmetries))
     , Reach(CellReach * model.diameter)
     , Voting(round, detection)
+    , References(round.references.begin(), round.references.end())
     , ModelPoints(Points(round.part.points.begin(), round.part.points.begin() + round.part.table.votingPoints), Reach)
   {
   }
@@ -100,9 +102,8 @@ public:
     const PairFrame scene(points.points[index], points.directions[index]);
     accumulator.clear();
     this->Voting.vote(scene, accumulator);
-    const std::vector<int>& references = this->Round.references;
-    PointVotes result{ points.points[index], this->Round.byEdges,
-      std::binary_search(references.begin(), references.end(), index), this->votesForPose(scene, accumulator), 0, 0 };
+    PointVotes result{ points.points[index], this->Round.byEdges, this->References.count(index) > 0,
+      this->votesForPose(scene, accumulator), 0, 0 };
     const std::vector<VotePeak> peaks = accumulator.peaks(Ranks);
     result.most = peaks.empty() ? 0 : peaks.front().votes;
     const auto leads = [&](const VotePeak& peak)
@@ -159,6 +160,7 @@ private:
   std::vector<Eigen::Isometry3d> Equal;
   double Reach; ///< mm
   PairVoting Voting;
+  std::unordered_set<int> References;
   PointGrid ModelPoints; ///< those that make pairs
 };
 }

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace
 {
 int instancesFound(
@@ -282,7 +284,7 @@ TEST(MEAMPoseEstimation, AnObserverSeesWhatEachStageReturns)
 {
   const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket();
-  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 0);
   std::vector<std::pair<meam::PoseStage, meam::Poses>> seenStages;
   const meam::Poses ranked = meam::findPoses(scene, model, settings, nullptr, {},
     [&](meam::PoseStage stage, const meam::Poses& poses) { seenStages.emplace_back(stage, poses); });
@@ -296,4 +298,28 @@ TEST(MEAMPoseEstimation, AnObserverSeesWhatEachStageReturns)
   EXPECT_TRUE(scenes::areSame(seenStages[6].second, ranked));
   EXPECT_TRUE(scenes::areSame(ranked, meam::rankCandidates(seenStages[0].second, scene, model, settings)));
   EXPECT_TRUE(scenes::areSame(ranked, meam::findPoses(scene, model, settings)));
+}
+
+TEST(MEAMPoseEstimation, ASearchForAFewPosesEndsWithThoseThatAreSure)
+{
+  const meam::Scene& scene = scenes::copiesScene();
+  const meam::TrainedModel& model = scenes::bracket();
+  const auto votersFor = [&](int asked, meam::Poses& found)
+  {
+    std::size_t voters = 0;
+    found = meam::findPoses(scene, model, meam::detectionSettings(meam::Preset::Recommended, asked), nullptr, {},
+      [&](meam::PoseStage stage, const meam::Poses& poses)
+      { voters = stage == meam::PoseStage::Voting ? poses.size() : voters; });
+    return voters;
+  };
+  meam::Poses all, first, three;
+  const std::size_t voters = votersFor(0, all);
+  ASSERT_GE(all.size(), 3u);
+  EXPECT_LT(votersFor(1, first), voters / 3) << "three are sure";
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_TRUE(std::any_of(all.begin(), all.begin() + 3,
+    [&](const meam::Pose& pose)
+    { return meam::translationError(pose.T_scene_model, first[0].T_scene_model) < 0.01 * model.diameter; }));
+  EXPECT_EQ(votersFor(3, three), voters) << "no more than three are there, so all vote";
+  EXPECT_EQ(three.size(), 3u);
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 namespace
 {
@@ -80,7 +81,10 @@ TEST(PairVoting, ReferencesAreTheShareThatIsAskedFor)
   const meam::VotingRound half = meam::edgeRound(scene, model, withShare(0.5));
   ASSERT_GT(all, 200u); // no less than 100 vote
   EXPECT_EQ(half.references.size(), (all + 1) / 2);
-  EXPECT_TRUE(std::is_sorted(half.references.begin(), half.references.end()));
+  EXPECT_EQ(std::set<int>(half.references.begin(), half.references.end()).size(), half.references.size());
+  // The first of them are those of a smaller share.
+  const meam::VotingRound quarter = meam::edgeRound(scene, model, withShare(0.25));
+  EXPECT_TRUE(std::equal(quarter.references.begin(), quarter.references.end(), half.references.begin()));
 }
 
 TEST(PairVoting, ReferencesDoNotDependOnTheOrderOfThePoints)

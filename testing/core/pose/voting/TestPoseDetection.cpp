@@ -337,11 +337,12 @@ TEST(PoseDetection, NearAPlaceAllPointsVote)
   const Eigen::Vector3f place = (T * middle).cast<float>();
   meam::PoseDetectionSettings settings;
   settings.features = meam::Features::Edges;
-  const meam::Poses near = meam::detectPosesNear(place, 30.0, scene, scenes::bracket(), settings);
+  const meam::CandidateSearch search(scene, scenes::bracket(), settings);
+  const meam::Poses near = search.candidatesNear(place, 30.0);
   const meam::Points& points = scene.edgePoints().points;
   const auto within = std::count_if(
     points.begin(), points.end(), [&](const Eigen::Vector3f& point) { return (point - place).norm() <= 30.0f; });
   EXPECT_EQ(static_cast<std::ptrdiff_t>(near.size()), within);
   EXPECT_GT(right(near, { T }, 5.0, 8.0), 5);
-  EXPECT_TRUE(meam::detectPosesNear(place, 0.0, scene, scenes::bracket(), settings).empty());
+  EXPECT_TRUE(search.candidatesNear(place, 0.0).empty());
 }
