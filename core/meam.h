@@ -105,6 +105,7 @@ struct DetectedPose
   /// Of a small motion about Model::middle(), axes of the scan: rotation vector (radians), then translation (mm).
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<DetectedRotation> alternatives; ///< to its rotation, the likeliest first
+  int part = 0;                               ///< index of the model, where several types of part are looked for
 };
 
 struct Detections
@@ -112,7 +113,9 @@ struct Detections
   std::vector<DetectedPose> poses; ///< best first
   ScanQuality quality;             ///< how well the sensor measured, as an organized scan shows; mostly to be looked at
   double seconds = 0.0;
-  std::string warning; ///< that nothing sure was found, and what may be wrong with the scan's unit; mostly empty
+  bool isCutShort = false; ///< the time limit struck: these are the best that were found until then
+  std::string
+    warning; ///< that it struck, that nothing sure was found, and what may be wrong with the scan's unit; mostly empty
 };
 
 /// Finds the copies of a part in a scan.
@@ -125,6 +128,11 @@ struct CalibratedModel
   Model model;
   CalibrationReport report;
 };
+
+/// Finds the copies of several types of part in a scan: of poses that claim the same surface the best supported stays.
+/// Parts that look alike are told apart only when they are looked for together.
+MEAM_EXPORT Detections detect(const std::vector<Model>& models, const Scan& scan, const DetectSettings& settings = {},
+  const Progress& progress = {});
 
 /// Fits what a model says of its poses to poses of one's own scans of which it is known whether they are right: of a
 /// few dozen scans all that came out, or those that were looked at. Throws Error for fewer than 20 poses or 5 scans.

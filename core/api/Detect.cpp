@@ -4,9 +4,12 @@
 #include "meam.h"
 #include "model/TrainedModel.h"
 #include "pose/DetectionSteps.h"
+#include "pose/PartsEstimation.h"
 #include "scene/Units.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace meam
 {
@@ -19,6 +22,7 @@ void requireSettings(const DetectSettings& settings)
   requireWithin("number of poses (maximumPoses)", settings.maximumPoses, 0.0, Unbounded);
   requireWithin("probability of each pose (minimumProbability)", settings.minimumProbability, 0.0, 1.0);
   requireWithin("share of the reference points (referenceShare)", settings.referenceShare, 0.0, 1.0);
+  requireWithin("time limit (timeLimit)", settings.timeLimit, 0.0, Unbounded, " s");
 }
 
 void requireScan(const Scan& scan)
@@ -75,34 +79,59 @@ void setEdges(const Scan& scan, const DetectSettings& settings, SceneInput& inpu
 }
 }
 
-Detections detect(const Model& model, const Scan& scan, const DetectSettings& settings, const Progress& progress)
+Detections detect(
+  const std::vector<Model>& models, const Scan& scan, const DetectSettings& settings, const Progress& progress)
 {
   const auto start = std::chrono::steady_clock::now();
-  const TrainedModel& trained = model.trained();
+  if (models.empty())
+  {
+    throw Error("There is no part to look for: give one model or more.");
+  }
+  std::vector<const TrainedModel*> trained;
+  std::transform(
+    models.begin(), models.end(), std::back_inserter(trained), [](const Model& model) { return &model.trained(); });
   requireSettings(settings);
   requireScan(scan);
   SceneInput input;
   input.sensor = sensorOf(scan);
-  setEdges(scan, settings, input, subProgress(progress, 0.0, AfterSceneEdges));
-  input.measured = toLocalPoints(scan.points, input.edges.T_local_scene, settings.threads);
-  requirePoints(scan.points.size(), input.measured.size(), "The scan");
-
+  const Deadline deadline = settings.timeLimit > 0.0 ? Deadline(settings.timeLimit) : Deadline();
+  std::vector<PartPose> found;
+  DetectionReport report;
+  const auto search = [&]
+  {
+    setEdges(scan, settings, input, deadline.within(subProgress(progress, 0.0, AfterSceneEdges)));
+    input.measured = toLocalPoints(scan.points, input.edges.T_local_scene, settings.threads);
+    requirePoints(scan.points.size(), input.measured.size(), "The scan");
+    DetectionSettings steps = detectionSettings(settings);
+    steps.deadline = deadline;
+    found = estimateParts(trained, input, steps, &report, subProgress(progress, AfterSceneEdges, 1.0));
+  };
   Detections result;
+  result.isCutShort = !isDoneBy(deadline, search) || report.isCutShort;
   result.quality = input.quality;
-  const Progress ofPoses = subProgress(progress, AfterSceneEdges, 1.0);
-  const Poses poses = estimatePoses(trained, input, detectionSettings(settings), nullptr, ofPoses);
-  for (const Pose& pose : poses)
+  Poses poses;
+  for (const auto& [part, index, pose] : found)
   {
     result.poses.push_back({ pose.T_scene_model, pose.score, pose.placeProbability, pose.probability, pose.certainty,
-      pose.visibleFraction, pose.fit.residual, pose.votes, pose.viewId, pose.fit.covariance, {} });
+      pose.visibleFraction, pose.fit.residual, pose.votes, pose.viewId, pose.fit.covariance, {}, part });
     for (const RotationAlternative& other : pose.alternatives)
     {
       result.poses.back().alternatives.push_back({ other.T_scene_model, other.share });
     }
+    poses.push_back(pose);
   }
-  const std::string ofUnits = unitsWarning(input.edges.cloud.points, trained.diameter), doubts = doubtsOf(poses);
-  result.warning = ofUnits + (ofUnits.empty() || doubts.empty() ? "" : " ") + doubts;
+  const std::string ofTime = result.isCutShort ? cutShort(settings.timeLimit) : "";
+  for (const std::string& sentence :
+    { unitsWarning(input.edges.cloud.points, trained.front()->diameter), ofTime, doubtsOf(poses) })
+  {
+    result.warning += (result.warning.empty() || sentence.empty() ? "" : " ") + sentence;
+  }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
+}
+
+Detections detect(const Model& model, const Scan& scan, const DetectSettings& settings, const Progress& progress)
+{
+  return detect(std::vector<Model>{ model }, scan, settings, progress);
 }
 }

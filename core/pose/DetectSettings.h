@@ -23,7 +23,10 @@ struct DetectSettings
   bool imageEdges = true; ///< edges from the image
   bool depthEdges = true; ///< and where a surface ends in front of another one; not with the preset Paper
   bool creases = true;    ///< and where two flat pieces meet; not with the preset Paper
-  unsigned seed = 1;      ///< of all random choices
-  int threads = 0;        ///< 0: one for each processor
+  /// Seconds from the scan to the poses, after which the best that are found until then come out, in their order; 0: no
+  /// limit. What is found by then depends on the machine.
+  double timeLimit = 0.0;
+  unsigned seed = 1; ///< of all random choices
+  int threads = 0;   ///< 0: one for each processor
 };
 }

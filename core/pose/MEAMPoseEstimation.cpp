@@ -90,6 +90,8 @@ namespace
 {
 // A few poses are asked for of a bin full of parts: a share of the reference points finds enough that are sure.
 constexpr double FirstShare = 0.25; // of the reference points; the others follow only where these do not do
+constexpr double LeastShare = 0.06; // before these, where time is short
+constexpr double VotingTime = 0.6;  // of what is left of a time limit: up to refined poses; the rest finishes them
 constexpr double Sure = 3.0;        // log odds of a refined pose,
 constexpr int Spare = 2;            // and so many more than are asked for: what follows doubts some
 
@@ -166,6 +168,7 @@ public:
     this->returned(PoseStage::Verification, this->Verified);
     PoseSelectionSettings selection = this->Settings.selection;
     selection.evidence.rates = this->Told.rates;
+    selection.deadline = this->Settings.deadline;
     Stopwatch watch;
     const Poses poses = selectPoses(this->Verified, this->InScene, this->Model, selection, progress);
     this->returned(PoseStage::Selection, poses);
@@ -220,22 +223,33 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   Ranking ranking(scene, model, settings, told, observer);
   // The order by votes, or by what fits of edges, does not tell what is sure.
   const int asked = settings.screening ? settings.selection.maximumPoses : 0;
-  const auto vote = [&](double from, double to, double begin, double end)
+  const auto vote = [&](double from, double to, const Progress& ofLot)
   {
-    const double voted = 0.5 * (begin + end);
     watch.lap();
-    Poses candidates = search.candidates(from, to, subProgress(progress, begin, voted));
+    Poses candidates = search.candidates(from, to, subProgress(ofLot, 0.0, 0.5));
     told.times.detection += watch.lap();
-    ranking.add(std::move(candidates), subProgress(progress, voted, end));
+    ranking.add(std::move(candidates), subProgress(ofLot, 0.5, 1.0));
   };
   constexpr double most = 0.9; // of the progress
-  const double first = asked > 0 ? FirstShare : 1.0;
-  vote(0.0, first, 0.0, first * most);
-  if (first < 1.0 && !ranking.areSure(asked + Spare))
+  // With little time a small lot comes first: of what is cut short nothing comes out.
+  const std::vector<double> shares = settings.deadline.isSet() ? std::vector<double>{ LeastShare, FirstShare, 1.0 }
+                                     : asked > 0               ? std::vector<double>{ FirstShare, 1.0 }
+                                                               : std::vector<double>{ 1.0 };
+  const Deadline ofVotes = settings.deadline.after(VotingTime);
+  double from = 0.0;
+  for (const double to : shares)
   {
-    vote(first, 1.0, first * most, most);
+    const Progress ofLot = ofVotes.within(subProgress(progress, most * from, most * to));
+    told.isCutShort = !isDoneBy(ofVotes, [&] { vote(from, to, ofLot); });
+    if (told.isCutShort || (asked > 0 && ranking.areSure(asked + Spare)))
+    {
+      break;
+    }
+    from = to;
   }
-  return ranking.select(subProgress(progress, most, 1.0));
+  const Poses poses = ranking.select(subProgress(progress, most, 1.0));
+  told.isCutShort = told.isCutShort || settings.deadline.hasStruck();
+  return poses;
 }
 
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,

@@ -3,6 +3,7 @@
 
 #include "features/Preset.h"
 #include "features/TangentEstimation.h"
+#include "pose/Deadline.h"
 #include "pose/refinement/PoseRefinement.h"
 #include "pose/selection/PoseSelection.h"
 #include "pose/verification/PoseScreening.h"
@@ -26,6 +27,7 @@ struct DetectionSettings
   PoseRefinementSettings refinement;
   PoseVerificationSettings verification; ///< of the refined poses
   PoseSelectionSettings selection;       ///< one for each instance
+  Deadline deadline;                     ///< then the best come out that are found
 };
 
 /// `maximumPoses` is the number of poses wanted, 0 for all, and `minimumProbability` that of each; `threads` 0 for one
@@ -50,6 +52,7 @@ struct DetectionReport
 {
   StageTimes times;
   std::optional<EvidenceRates> rates; ///< of the scan, by the candidates; none with the paper's verification
+  bool isCutShort = false;            ///< by the deadline
 };
 
 /// What a sensor says of a bin.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace meam
 {
@@ -91,6 +92,14 @@ std::string describe(const Poses& poses)
 std::string doubtsOf(const Poses& poses)
 {
   return std::any_of(poses.begin(), poses.end(), isRatherThere) ? std::string() : describe(poses);
+}
+
+std::string cutShort(double timeLimit)
+{
+  std::ostringstream words;
+  words << "The time limit of " << timeLimit << " s struck: these are the best poses that were found until then. Raise "
+        << "it (TimeLimit), ask for fewer poses, or scan with fewer points.";
+  return words.str();
 }
 
 Eigen::Affine3d uncertaintyEllipsoid(const Pose& pose, const Eigen::Vector3d& middle, double deviations)

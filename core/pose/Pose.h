@@ -105,6 +105,9 @@ std::string describe(const Poses& poses);
 /// The same where nothing is likely, and nothing where something is.
 std::string doubtsOf(const Poses& poses);
 
+/// That a time limit (seconds) has struck, and what to do.
+std::string cutShort(double timeLimit);
+
 /// Where the part's middle (model frame, mm) may be: what maps the unit ball onto the ellipsoid of so many standard
 /// deviations about it, by the translations in the pose's covariance, scene coordinates.
 Eigen::Affine3d uncertaintyEllipsoid(const Pose& pose, const Eigen::Vector3d& middle, double deviations);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conversion.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace meamPython
@@ -152,6 +153,7 @@ void bindSettings(py::module_& module)
     .def_readwrite("rotationCounts", &DetectSettings::rotationCounts)
     .def_readwrite("partIsPresent", &DetectSettings::partIsPresent)
     .def_readwrite("referenceShare", &DetectSettings::referenceShare)
+    .def_readwrite("timeLimit", &DetectSettings::timeLimit)
     .def_readwrite("imageEdges", &DetectSettings::imageEdges)
     .def_readwrite("depthEdges", &DetectSettings::depthEdges)
     .def_readwrite("creases", &DetectSettings::creases)
@@ -231,6 +233,7 @@ void bindDetection(py::module_& module)
     .def_readonly("visible_fraction", &DetectedPose::visibleFraction,
       "[0, 1], share of the part's side towards the sensor that nothing hides.")
     .def_readonly("residual", &DetectedPose::residual, "mm, root mean square between the part and the scan.")
+    .def_readonly("part", &DetectedPose::part, "Index of the model, where several types of part are looked for.")
     .def_readonly("votes", &DetectedPose::votes, "Of the peak that it came from.")
     .def_readonly("view_id", &DetectedPose::viewId, "The appearance model that shows what the sensor sees of it.")
     .def_readonly("covariance", &DetectedPose::covariance,
@@ -253,11 +256,21 @@ void bindDetection(py::module_& module)
   py::class_<Detections>(module, "Detections")
     .def(py::init(&detectionsOf))
     .def_readonly("poses", &Detections::poses)
+    .def("of",
+      [](const Detections& found, int part)
+      {
+        Detections of = found;
+        of.poses.erase(std::remove_if(of.poses.begin(), of.poses.end(),
+                         [part](const DetectedPose& pose) { return pose.part != part; }),
+          of.poses.end());
+        return of;
+      })
     .def_property_readonly("quality", [](const Detections& found) { return numbersOf(found.quality); })
     .def_readonly("seconds", &Detections::seconds)
+    .def_readonly("is_cut_short", &Detections::isCutShort)
     .def_readonly("warning", &Detections::warning);
   bindCalibration(module);
-  module.def("detect", [](const Model& model, const Scan& scan, const DetectSettings& settings)
-    { return withoutLock([&](const Progress& progress) { return detect(model, scan, settings, progress); }); });
+  module.def("detect", [](const std::vector<Model>& models, const Scan& scan, const DetectSettings& settings)
+    { return withoutLock([&](const Progress& progress) { return detect(models, scan, settings, progress); }); });
 }
 }

@@ -85,6 +85,7 @@ vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MinimumProbability, doubl
 vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, RotationCounts, bool, rotationCounts);
 vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, PartIsPresent, bool, partIsPresent);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, ReferenceShare, double, referenceShare, 0.0, 1.0);
+vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, TimeLimit, double, timeLimit, 0.0, VTK_DOUBLE_MAX);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Seed, int, seed, 0, VTK_INT_MAX);
 vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, ImageEdges, bool, imageEdges);
 vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, DepthEdges, bool, depthEdges);
@@ -198,6 +199,7 @@ void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RotationCounts: " << settings.rotationCounts << "\n";
   os << indent << "PartIsPresent: " << settings.partIsPresent << "\n";
   os << indent << "ReferenceShare: " << settings.referenceShare << "\n";
+  os << indent << "TimeLimit: " << settings.timeLimit << " s\n";
   os << indent << "Seed: " << settings.seed << "\n";
   os << indent << "ImageEdges: " << settings.imageEdges << "\n";
   os << indent << "DepthEdges: " << settings.depthEdges << "\n";

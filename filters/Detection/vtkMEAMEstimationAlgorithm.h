@@ -133,6 +133,13 @@ public:
   ///@}
 
   ///@{
+  /** Seconds from the scan to the poses, without training, after which the best come out that are found until then; 0:
+   *  no limit. What is found by then depends on the machine. vtkMEAMPoseDiagnosis takes no heed of it. Default: 0. */
+  virtual void SetTimeLimit(double value);
+  virtual double GetTimeLimit();
+  ///@}
+
+  ///@{
   /** Of all random choices: the same seed gives the same result. Default: 1. */
   virtual void SetSeed(int value);
   virtual int GetSeed();

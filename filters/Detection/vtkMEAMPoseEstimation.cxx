@@ -68,15 +68,20 @@ int vtkMEAMPoseEstimation::RequestData(
     {
       requireInputs(this, { "Part", "Scan" });
       const double start = vtkTimerLog::GetUniversalTime();
-      const Work work = this->Prepare(inputVector);
+      Work work = this->Prepare(inputVector);
+      const double limit = this->GetTimeLimit();
+      if (limit > 0.0)
+      {
+        work.settings.deadline = meam::Deadline(limit - work.secondsEdges - work.secondsLoading);
+      }
       const meam::TrainedModel& model = *work.part->model;
       const meam::SceneInput& scene = work.scene;
       meam::DetectionReport report;
       const meam::Poses poses = meam::estimatePoses(
         model, scene, work.settings, &report, meam::subProgress(progressOf(this), Work::Prepared, 1.0));
       const double found = vtkTimerLog::GetUniversalTime();
-      for (const std::string& warning :
-        { meam::unitsWarning(scene.edges.cloud.points, model.diameter), meam::doubtsOf(poses) })
+      for (const std::string& warning : { meam::unitsWarning(scene.edges.cloud.points, model.diameter),
+             report.isCutShort ? meam::cutShort(limit) : std::string(), meam::doubtsOf(poses) })
       {
         if (!warning.empty())
         {
@@ -107,6 +112,7 @@ int vtkMEAMPoseEstimation::RequestData(
       setPartExtent(output, model);
       setFieldText(output, "Report", meam::describe(poses));
       setScanQuality(output, scene.quality);
+      setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
       if (report.rates)
       {
         setFieldValue(output, "EdgesFound", report.rates->edges.found);

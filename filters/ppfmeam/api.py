@@ -70,19 +70,24 @@ class Detections(Rows):
     coordinates to the scan's, mm), `scores` (the share of what should be visible that is there), `place_probabilities` (that a
     copy is there, however it is turned), `probabilities` (that it is also turned like this), `certainties` (that no
     near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without
-    training; `scan_quality`, what an organized scan shows of its sensor, by name as vtkMEAMSceneEdgeExtraction has it."""
+    training; `is_cut_short`, that the time limit struck; `scan_quality`, what an organized scan shows of its sensor, by name as vtkMEAMSceneEdgeExtraction has it."""
     COLUMNS = {"poses": ("transform", (4, 4)), "scores": ("score", ()),
                "place_probabilities": ("place_probability", ()), "probabilities": ("probability", ()),
-               "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ())}
+               "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ()), "parts": ("part", ())}
 
-    def __init__(self, found, model):
+    def __init__(self, found, models):
         super().__init__(found.poses)
-        self.core, self.model = found, model
-        self.seconds, self.scan_quality = found.seconds, found.quality
+        self.core, self.models, self.model = found, models, models[0]
+        self.seconds, self.scan_quality, self.is_cut_short = found.seconds, found.quality, found.is_cut_short
+
+    def of(self, part):
+        """Those of one of several types of part, by its place among them, as pick() takes them."""
+        return Detections(self.core.of(part), [self.models[part]])
 
     def __str__(self):
-        lines = ["rank  likely  score   rotation  visible  translation (mm)"]
-        lines += [f"{rank:4d}  {100 * pose.place_probability:4.0f} %  {pose.score:.3f}  {100 * pose.certainty:7.0f} %  "
+        several = len(self.models) > 1
+        lines = ["rank  " + "part  " * several + "likely  score   rotation  visible  translation (mm)"]
+        lines += [f"{rank:4d}  " + f"{pose.part:4d}  " * several + f"{100 * pose.place_probability:4.0f} %  {pose.score:.3f}  {100 * pose.certainty:7.0f} %  "
                   f"{100 * pose.visible_fraction:5.0f} %  {pose.transform[0, 3]:9.3f} {pose.transform[1, 3]:9.3f} "
                   f"{pose.transform[2, 3]:9.3f}" for rank, pose in enumerate(self, 1)]
         return "\n".join(lines if self.rows else lines + ["      no part found"])
@@ -92,15 +97,19 @@ class Detections(Rows):
         """VTK's data object, as the filters take it."""
         data = scripting.poses_of(self.poses)
         columns = {"Rank": range(1, len(self) + 1)}
+        if len(self.models) > 1:
+            columns["PartId"] = [pose.part for pose in self]
         for name in ("quaternion", "score", "place_probability", "probability", "certainty", "visible_fraction", "votes", "view_id", "residual"):
             columns["".join(map(str.capitalize, name.split("_")))] = [getattr(pose, name) for pose in self]
         columns["Covariance"] = [pose.covariance.ravel("F") for pose in self]  # as the filters write it
         for name, values in columns.items():
             add_array(data.GetPointData(), name, numpy.array(values).reshape(len(self), -1))
         low, high = self.model.core.bounds
-        for name, values in (("SecondsTotal", [self.seconds]), ("Diameter", [self.model.diameter]),
-                             ("PartBounds", numpy.column_stack((low, high)).ravel()), ("PartMiddle", self.model.core.middle)):
-            add_array(data.GetFieldData(), name, numpy.array(values).reshape(1, -1))
+        fields = {"SecondsTotal": [self.seconds], "Diameter": [[model.diameter] for model in self.models]}
+        if len(self.models) == 1:
+            fields.update(PartBounds=[numpy.column_stack((low, high)).ravel()], PartMiddle=[self.model.core.middle])
+        for name, values in fields.items():
+            add_array(data.GetFieldData(), name, numpy.array(values).reshape(len(values), -1))
         return data
 
     def save(self, path):
@@ -177,7 +186,9 @@ def load(path):
 def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, *, settings):
     """Finds the copies of a part in a scan; returns Detections.
 
-    part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm).
+    part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm). Or
+    a list of these, of several types of part: `part` of each pose is its place in the list, and `of(k)` has the poses of one.
+    Of poses that claim the same surface the best supported stays; parts that look alike are told apart only together.
     scan: a file (.pcd, .ply, or a depth image with its `camera`), an array H x W x 3 of points in the sensor's frame (x
     right, y down, z the way it looks; NaN: not measured), an array N x 3 with a `boundary`, or VTK's data object. Points are
     taken in single precision.
@@ -187,11 +198,11 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
     """
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera)
-    model = part_of(part, cad_scale, settings)
-    found = _core.detect(model.core, seen, settings.apply(_core.DetectSettings(), _core))
+    models = [part_of(each, cad_scale, settings) for each in (part if isinstance(part, (list, tuple)) else [part])]
+    found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
         warnings.warn(found.warning, stacklevel=3)
-    return Detections(found, model)
+    return Detections(found, models)
 
 
 def part_of(part, scale, settings):

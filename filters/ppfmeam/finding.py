@@ -16,6 +16,7 @@ class Finder:
         choices.of_options("detect", self.options).set(estimation)
         if len(self.parts) > 1:
             estimation.SetMaximumNumberOfPoses(0)  # conflicts decide which poses stay
+            estimation.SetTimeLimit(estimation.GetTimeLimit() / len(self.parts))
         return estimation
 
     def find(self, scene, boundary=None, image=None, image_camera=None):

@@ -72,6 +72,40 @@ TEST(API, FindsWhatTheCoreFinds)
   EXPECT_EQ(found.warning, "");
 }
 
+TEST(API, OfSeveralTypesOfPartOneClaimsASurface)
+{
+  // Each type by itself finds the brackets; together the one that is listed first has each place.
+  meam::DetectSettings settings;
+  settings.maximumPoses = 3;
+  const meam::Detections alone = meam::detect(bracketModel(), scanOfThree(), settings);
+  const meam::Detections twice = meam::detect({ bracketModel(), bracketModel() }, scanOfThree(), settings);
+  ASSERT_EQ(twice.poses.size(), 3u);
+  for (const meam::DetectedPose& pose : twice.poses)
+  {
+    EXPECT_EQ(pose.part, 0);
+    EXPECT_TRUE(std::any_of(alone.poses.begin(), alone.poses.end(),
+      [&](const meam::DetectedPose& other)
+      { return (other.T_scan_part.matrix() - pose.T_scan_part.matrix()).norm() < 0.5; }));
+  }
+  EXPECT_THROW(meam::detect(std::vector<meam::Model>{}, scanOfThree()), meam::Error);
+  EXPECT_THROW(meam::detect({ bracketModel(), meam::Model() }, scanOfThree()), meam::Error);
+}
+
+TEST(API, ATimeLimitIsKept)
+{
+  meam::DetectSettings settings;
+  settings.timeLimit = 1000.0;
+  EXPECT_FALSE(meam::detect(bracketModel(), scanOfThree(), settings).isCutShort);
+  settings.timeLimit = 1e-6;
+  const meam::Detections nothing = meam::detect(bracketModel(), scanOfThree(), settings);
+  EXPECT_TRUE(nothing.isCutShort);
+  EXPECT_TRUE(nothing.poses.empty());
+  EXPECT_TRUE(files::contains(nothing.warning, "time limit")) << nothing.warning;
+  settings.timeLimit = -1.0;
+  EXPECT_TRUE(
+    files::contains(files::errorOf([&] { meam::detect(bracketModel(), scanOfThree(), settings); }), "timeLimit"));
+}
+
 TEST(API, SettingsReachTheSteps)
 {
   meam::DetectSettings settings;
@@ -149,7 +183,7 @@ TEST(API, WhatIsWrongWithAScan)
   const meam::Model model = bracketModel();
   const auto errorOf = [&](const meam::Scan& scan, const meam::DetectSettings& settings = {})
   { return files::errorOf([&] { meam::detect(model, scan, settings); }); };
-  EXPECT_TRUE(files::contains(files::errorOf([] { meam::detect({}, scanOfThree()); }), "model is empty"));
+  EXPECT_TRUE(files::contains(files::errorOf([] { meam::detect(meam::Model(), scanOfThree()); }), "model is empty"));
   EXPECT_TRUE(files::contains(errorOf({}), "0 points"));
   meam::Scan scan = scanOfThree();
   scan.width -= 1;

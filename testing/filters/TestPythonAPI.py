@@ -210,7 +210,7 @@ try:
     settings = _core.DetectSettings()
     settings.threads, settings.referenceShare = 1, 1.0
     seen = inputs.scan_of(scan)
-    check_threads(lambda: _core.detect(model.core, seen, settings))
+    check_threads(lambda: _core.detect([model.core], seen, settings))
     mesh = _core.load_mesh("part.stl")
     check_threads(lambda: _core.train(mesh, _core.TrainSettings()))
 

@@ -5,12 +5,14 @@ import json
 import math
 import os
 import re
+import warnings
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
+import ppfmeam
 from ppfmeam.filters import vtkMEAMBinSceneSource
 from meamtest import box, bracket, check, connect, run, scaled, tuples
 from scripttest import EVALUATION, EXAMPLES, H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
@@ -123,6 +125,13 @@ for row, found in zip(rows, numpy.array(read("two.txt").split(), float).reshape(
     here = bins[row["obj_id"]].GetOutputDataObject(1)
     miss = min(numpy.abs(found - t).max() for t in numpy.array(tuples(here, "Transform")).reshape(-1, 4, 4))
     check(miss < 1, f"{miss} mm from a true pose of part {row['obj_id']}: {found}")
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    together = ppfmeam.detect(["part.stl", "bracket.stl"], "two.pcd", poses=4)
+told = [(int(row["obj_id"]), [float(word) for word in row["t"].split()]) for row in rows]
+check([(pose.part + 1, list(pose.transform[:3, 3])) for pose in together] == told, f"the same in Python: {together} {told}")
+check(sorted({0, 1} & set(together.parts)) == [0, 1] and sum(len(together.of(k)) for k in (0, 1)) == 4, "by part")
+check(tuples(together.data, "PartId") == [(part,) for part in together.parts], "as data")
 result = script("detect.py", "--cad", "part.stl", "--cad", "box.stl", "--model", "model.vtpc", "--scene", "two.pcd")
 check(result.returncode == 2 and "a --cad for each --model" in result.stderr, result.stderr)
 

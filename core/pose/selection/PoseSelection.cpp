@@ -201,6 +201,9 @@ std::vector<FinishedInstance> withoutShared(
   return distinct;
 }
 
+/// A scored pose that is not finished.
+FinishedInstance asItIs(const Pose& scored) { return { scored, {}, {}, scored.evidence, scored.evidence }; }
+
 /// Whether those that are wanted are finished and sure, with some to spare, and the next one, of those scored best
 /// first, is unlikely: what follows will not come before them. Never where all are wanted.
 bool areEnough(const FinishedInstances& finished, const Pose& next, const PoseSelectionSettings& settings)
@@ -219,7 +222,12 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   const PoseComparison comparison(scene, model, settings.comparison);
   InstanceChoice choice(scored, clusterDistance(settings, model), model, collector, comparison,
     settings.comparesInstances, settings.threads);
-  const std::vector<int> selected = choice.select(subProgress(progress, 0.0, 0.3));
+  std::vector<int> selected;
+  if (!isDoneBy(settings.deadline,
+        [&] { selected = choice.select(settings.deadline.within(subProgress(progress, 0.0, 0.3))); }))
+  {
+    return selectClusters(scored, model, settings, {});
+  }
   const EvidenceRates rates = evidenceRatesOf(scored, collector, settings.evidence, RateStride, settings.threads);
   const SurfaceContinuation continuation(scene, model);
   const SurfaceMisfit misfit(scene, model);
@@ -230,16 +238,27 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   {
     const int done = static_cast<int>(finished.size());
     const int lot = settings.maximumPoses > 0 ? std::min(Lot, count - done) : count;
-    finished.resize(done + lot);
+    for (int k = done; k < done + lot; ++k)
+    {
+      finished.push_back(asItIs(scored[selected[k]]));
+    }
     const Progress ofLot = subProgress(progress, 0.3 + 0.7 * done / count, 0.3 + 0.7 * (done + lot) / count);
-    parallelFor(lot, settings.threads, ofLot,
-      [&](int begin, int end, int)
+    const bool isDone = isDoneBy(settings.deadline,
+      [&]
       {
-        for (int k = done + begin; k < done + end; ++k)
-        {
-          finished[k] = instance.finish(scored[selected[k]], choice, selected[k]);
-        }
+        parallelFor(lot, settings.threads, settings.deadline.within(ofLot),
+          [&](int begin, int end, int)
+          {
+            for (int k = done + begin; k < done + end; ++k)
+            {
+              finished[k] = instance.finish(scored[selected[k]], choice, selected[k]);
+            }
+          });
       });
+    if (!isDone)
+    {
+      break;
+    }
   }
   sortBest(finished);
   if (settings.dropsShared)

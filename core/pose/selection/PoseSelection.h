@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Error.h"
+#include "pose/Deadline.h"
 #include "pose/Pose.h"
 #include "pose/selection/EvidenceAscent.h"
 #include "pose/selection/PoseComparison.h"
@@ -42,6 +43,7 @@ struct PoseSelectionSettings
   RefinementRestartsSettings restarts;
   EvidenceAscentSettings ascent; ///< of an aligned pose that the scan contradicts
   int threads = 0;               ///< 0: one for each processor
+  Deadline deadline;             ///< then those come out that are finished, and the others as they came in
 };
 
 /// The paper's settings (Section 6) in place of the recommended ones.

@@ -46,7 +46,7 @@ def options_of_user(arguments=None):
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took a list's images (default: they are "
                              "registered)")
-    choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references")
+    choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "time_limit")
     parser.add_argument("--threads", type=scripting.count, default=0,
                         help="threads of each process; 0: all cores for one process, one thread for each of several "
                              "(default)")

@@ -27,7 +27,7 @@ def options_of_user():
                         help="image of an organized scan that carries none: .png, .jpg, .bmp or .tif")
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
-    choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "threads")
+    choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "time_limit", "threads")
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
     parser.add_argument("--json", help="write the poses as JSON")

@@ -323,3 +323,49 @@ TEST(MEAMPoseEstimation, ASearchForAFewPosesEndsWithThoseThatAreSure)
   EXPECT_EQ(votersFor(3, three), voters) << "no more than three are there, so all vote";
   EXPECT_EQ(three.size(), 3u);
 }
+
+TEST(MEAMPoseEstimation, AtADeadlineWhatIsFoundComesOut)
+{
+  const meam::Scene& scene = scenes::copiesScene();
+  const meam::TrainedModel& model = scenes::bracket();
+  meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  meam::DetectionReport report;
+  settings.deadline = meam::Deadline(1000.0);
+  const meam::Poses unhurried = meam::findPoses(scene, model, settings, &report);
+  EXPECT_FALSE(report.isCutShort);
+  EXPECT_EQ(unhurried.size(), 3u);
+  settings.deadline = meam::Deadline(0.0);
+  EXPECT_TRUE(meam::findPoses(scene, model, settings, &report).empty());
+  EXPECT_TRUE(report.isCutShort);
+  // Somebody who asks to stop gets nothing, deadline or not.
+  settings.deadline = meam::Deadline(1000.0);
+  EXPECT_THROW(
+    meam::findPoses(scene, model, settings, &report, [](double share) { return share < 0.5; }), meam::Aborted);
+}
+
+TEST(MEAMPoseEstimation, InstancesThatADeadlineLeavesUnfinishedComeOutAsTheyAre)
+{
+  const meam::Scene& scene = scenes::copiesScene();
+  const meam::TrainedModel& model = scenes::bracket();
+  meam::Poses verified;
+  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 0);
+  const meam::Poses finished = meam::findPoses(scene, model, settings, nullptr, {},
+    [&](meam::PoseStage stage, const meam::Poses& poses)
+    {
+      if (stage == meam::PoseStage::Verification)
+      {
+        verified = poses;
+      }
+    });
+  meam::PoseSelectionSettings hurried = settings.selection;
+  hurried.deadline = meam::Deadline(0.0);
+  const meam::Poses selected = meam::selectPoses(verified, scene, model, hurried);
+  ASSERT_GE(selected.size(), 3u);
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_TRUE(std::any_of(finished.begin(), finished.begin() + 3,
+      [&](const meam::Pose& pose)
+      { return meam::translationError(pose.T_scene_model, selected[k].T_scene_model) < 0.05 * model.diameter; }))
+      << k;
+  }
+}
