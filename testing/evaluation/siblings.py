@@ -61,6 +61,12 @@ def kinds(k):
     return [STRETCHES[(k + 5 * i) % len(STRETCHES)] for i in range(4)] + [(0, -1.0)]
 
 
+def bin_of(folder, name, what, sensor, seed, part):
+    """A bin of a sibling as arrays, simulated once."""
+    return ablation.stored(os.path.join(folder, f"{name}_{what.replace(' ', '_')}_{sensor}_{seed}.npz"), lambda: dict(zip(
+        ("points", "image", "truth", "visible"), meam.simulate(part(), SENSORS.index(sensor), COPIES, seed))))
+
+
 def cases(parts, sensors, seed):
     for k, name in enumerate(SENSOR_PARTS):
         if name not in parts:
@@ -125,10 +131,7 @@ def main():
             key = name, what, sensor, str(seed)
             if key in done:
                 continue
-            scene = ablation.stored(
-                os.path.join(options.out, "bins", f"{name}_{what.replace(' ', '_')}_{sensor}_{seed}.npz"),
-                lambda other=other, sensor=sensor, seed=seed: dict(zip(
-                    ("points", "image", "truth", "visible"), meam.simulate(other, SENSORS.index(sensor), COPIES, seed))))
+            scene = bin_of(os.path.join(options.out, "bins"), name, what, sensor, seed, lambda other=other: other)
             there = what == "none"
             rows = list(rows_of(part, meam.Scan(scene["points"], scene["image"], ablation.NO_EDGES),
                                 scene["truth"] if there else ablation.NO_TURNS, scene["visible"] if there else numpy.zeros(0)))
