@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/MEAMPoseEstimation.h"
 
+#include "baselines/BaselineSettings.h"
 #include "pose/PoseTolerances.h"
 
 #include <algorithm>
@@ -31,34 +32,15 @@ private:
 DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
 {
   DetectionSettings settings;
-  if (preset != Preset::Recommended)
-  {
-    settings.tangents = paperTangentSettings();
-    settings.detection = paperDetectionSettings();
-    settings.candidateVerification = paperVerificationSettings();
-    settings.candidateSelection = settings.selection = paperSelectionSettings();
-    settings.refinement = paperRefinementSettings();
-    settings.verification = paperVerificationSettings();
-    if (preset == Preset::B2B)
-    {
-      settings.tangents.method = TangentMethod::LineSegments;
-    }
-    if (preset == Preset::OriginalPPF)
-    {
-      settings.detection = originalDetectionSettings();
-      settings.refinement = {}; // by the surface: its points are what poses are found by
-    }
-    if (preset == Preset::OriginalPPF || preset == Preset::B2B)
-    {
-      settings.candidateVerification = settings.verification = votesVerificationSettings();
-      settings.candidateSelection = votesSelectionSettings();
-    }
-  }
-  else
+  if (preset == Preset::Recommended)
   {
     settings.screening.emplace().threads = threads;
     settings.candidateVerification = candidateVerificationSettings();
     settings.candidateSelection = candidateSelectionSettings();
+  }
+  else
+  {
+    settings = baselineSettings(preset);
   }
   settings.selection.maximumPoses = maximumPoses;
   settings.selection.minimumProbability = minimumProbability;

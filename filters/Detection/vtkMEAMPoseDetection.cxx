@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseDetection.h"
 
+#include "baselines/BaselineSettings.h"
 #include "pose/voting/PoseDetection.h"
 #include "scene/Scene.h"
 #include "scene/Units.h"

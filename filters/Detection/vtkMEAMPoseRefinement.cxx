@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseRefinement.h"
 
+#include "baselines/BaselineSettings.h"
 #include "pose/refinement/PoseRefinement.h"
 #include "vtkMEAMPoseWork.h"
 #include "vtkMEAMSettings.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseSelection.h"
 
+#include "baselines/BaselineSettings.h"
 #include "pose/selection/PoseSelection.h"
 #include "vtkMEAMPoseWork.h"
 #include "vtkMEAMSettings.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseVerification.h"
 
+#include "baselines/BaselineSettings.h"
 #include "pose/verification/PoseVerification.h"
 #include "vtkMEAMPoseWork.h"
 #include "vtkMEAMSettings.h"

@@ -2,6 +2,7 @@
 // A scene of the Tohoku dataset with one decision of the online phase changed at a time; docs/evaluation.md has what
 // each is worth. One thread.
 #include "BenchmarkScene.h"
+#include "baselines/BaselineSettings.h"
 
 namespace
 {

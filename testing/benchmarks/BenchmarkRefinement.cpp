@@ -2,6 +2,7 @@
 // Refinement of verified poses: along lines and planes, and by PCL's point-to-point ICP, the paper's way; selection of
 // one for each instance, with its final alignment. The first argument is the number of threads, of By... what grows.
 #include "BenchmarkScene.h"
+#include "baselines/BaselineSettings.h"
 
 namespace
 {

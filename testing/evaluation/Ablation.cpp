@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Python module for ablation.py and siblings.py: the method with one decision switched off, on arrays. What a switch
 // does not change is computed once for all switches of a scene.
+#include "baselines/BaselineSettings.h"
 #include "evaluation/PoseEvaluation.h"
 #include "io/MeshFile.h"
 #include "io/PCDFile.h"
@@ -138,6 +139,14 @@ std::vector<Switch> makeSwitches()
     {
       d.refinement = paperRefinementSettings();
       d.refinement.threads = 1;
+    });
+  add(Stage::Ranking, "last-step", "refinement by some of the points to the end",
+    [](D& d) { d.refinement.fullLastStep = false; });
+  add(Stage::Ranking, "edge-stride", "all predicted edge points, not every other one",
+    [](D& d)
+    {
+      d.candidateVerification.evidence.edgeStride = d.verification.evidence.edgeStride = 1;
+      d.selection.evidence.edgeStride = 1;
     });
   // Scene
   add(Stage::Scene, "enclosure", "floor and walls not looked for", [](D& d) { d.scene.findsEnclosure = false; });

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/refinement/PoseRefinement.h"
 
-#include "features/PCLConversion.h"
 #include "base/Parallel.h"
+#include "baselines/PointToPointICP.h"
 #include "pose/refinement/PoseFitter.h"
 #include "pose/verification/PoseVerification.h"
 
-#include <pcl/registration/icp.h>
-
-#include <algorithm>
 #include <cmath>
 
 namespace meam
@@ -43,56 +40,6 @@ void refineByEdgesAndSurface(
   pose.fit = fitter.poseFit(pose, fit, fit.remaining, iterations);
 }
 
-struct CountedICP : pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ, double>
-{
-  int iterations() const { return this->nr_iterations_; }
-};
-
-/// Section 5.3: the edge appearance model of the pose's view against the scene's edges.
-void refinePointToPoint(Pose& pose, const PCLCloud::ConstPtr& view, const PCLCloud::ConstPtr& scene,
-  const pcl::search::KdTree<pcl::PointXYZ>::Ptr& tree, double distance, const PoseRefinementSettings& settings)
-{
-  // Far from the scene the pose stays as it was; PCL would say so on the console.
-  const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
-  const auto near = std::count_if(view->begin(), view->end(),
-    [&](const pcl::PointXYZ& point)
-    {
-      const Eigen::Vector3f moved = T * point.getVector3fMap();
-      pcl::Indices nearest(1);
-      std::vector<float> squared(1);
-      tree->nearestKSearch(pcl::PointXYZ(moved.x(), moved.y(), moved.z()), 1, nearest, squared);
-      return squared[0] <= distance * distance;
-    });
-  if (near < PoseFitter::FewestCorrespondences)
-  {
-    return;
-  }
-  CountedICP icp;
-  icp.setInputSource(view);
-  icp.setInputTarget(scene);
-  icp.setSearchMethodTarget(tree, true);
-  icp.setMaxCorrespondenceDistance(distance);
-  icp.setMaximumIterations(settings.iterations);
-  icp.setTransformationEpsilon(1e-12);
-  PCLCloud aligned;
-  icp.align(aligned, pose.T_scene_model.matrix());
-  const Eigen::Matrix4d result = icp.getFinalTransformation();
-  if (icp.hasConverged() && result.allFinite())
-  {
-    pose.T_scene_model.linear() =
-      Eigen::Quaterniond(Eigen::Matrix3d(result.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
-    pose.T_scene_model.translation() = result.topRightCorner<3, 1>();
-    pose.fit.iterations = icp.iterations();
-  }
-}
-}
-
-PoseRefinementSettings paperRefinementSettings()
-{
-  PoseRefinementSettings settings;
-  settings.method = RefinementMethod::PointToPoint;
-  settings.iterations = 50;
-  return settings;
 }
 
 Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
@@ -110,28 +57,18 @@ Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
   {
     pose.viewId = viewOf(pose, scene, model);
   }
-  const PoseFitter fitter(scene, model);
-  PCLCloud::Ptr target;
-  pcl::search::KdTree<pcl::PointXYZ>::Ptr tree;
-  std::vector<PCLCloud::Ptr> views;
   if (isPointToPoint)
   {
-    target = toPCL(scene.edgePoints().points);
-    tree = pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
-    tree->setInputCloud(target);
-    for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
-    {
-      views.push_back(toPCL(model.edgesOfView(static_cast<int>(v)).points));
-    }
+    refinePointToPoint(refined, scene, model, distance, settings.iterations, settings.threads, progress);
   }
-  parallelFor(static_cast<int>(refined.size()), settings.threads, progress,
+  const PoseFitter fitter(scene, model);
+  parallelFor(static_cast<int>(refined.size()), settings.threads, isPointToPoint ? Progress() : progress,
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
         if (isPointToPoint)
         {
-          refinePointToPoint(refined[i], views[refined[i].viewId], target, tree, distance, settings);
           refined[i].fit = fitter.fitAt(refined[i], distance * LastDistance);
         }
         else

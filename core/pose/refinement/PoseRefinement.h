@@ -24,9 +24,6 @@ struct PoseRefinementSettings
   int threads = 0;          ///< 0: one for each processor
 };
 
-/// The paper's settings in place of the recommended ones.
-PoseRefinementSettings paperRefinementSettings();
-
 /// Iterative closest point for each pose (paper, Section 5.3), in the order they come, in the local frame; scores stay.
 /// Without a surface only edges count. Throws Error for less than one iteration.
 Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& model,

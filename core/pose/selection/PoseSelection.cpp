@@ -311,20 +311,6 @@ Poses selectClusters(
   return selected;
 }
 
-PoseSelectionSettings paperSelectionSettings()
-{
-  PoseSelectionSettings settings;
-  settings.method = SelectionMethod::Clusters;
-  return settings;
-}
-
-PoseSelectionSettings votesSelectionSettings()
-{
-  PoseSelectionSettings settings = paperSelectionSettings();
-  settings.maximumPoses = 30; // as many as the paper's from six views
-  return settings;
-}
-
 PoseSelectionSettings candidateSelectionSettings()
 {
   PoseSelectionSettings settings;

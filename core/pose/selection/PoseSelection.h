@@ -46,11 +46,7 @@ struct PoseSelectionSettings
   Deadline deadline;             ///< then those come out that are finished, and the others as they came in
 };
 
-/// The paper's settings (Section 6) in place of the recommended ones.
-PoseSelectionSettings paperSelectionSettings();
-/// Those before refinement of the methods that rank poses by their votes.
-PoseSelectionSettings votesSelectionSettings();
-/// The recommended ones before refinement.
+/// The recommended settings before refinement.
 PoseSelectionSettings candidateSelectionSettings();
 
 /// Of scored poses, best first, those that Alternatives and Clusters choose from: some of each instance, and one.

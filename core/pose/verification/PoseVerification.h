@@ -23,11 +23,7 @@ struct PoseVerificationSettings
   int threads = 0;           ///< 0: one for each processor
 };
 
-/// The paper's settings (Section 6) in place of the recommended ones.
-PoseVerificationSettings paperVerificationSettings();
-/// Those of the methods that rank poses by their votes.
-PoseVerificationSettings votesVerificationSettings();
-/// The recommended ones before refinement.
+/// The recommended settings before refinement.
 PoseVerificationSettings candidateVerificationSettings();
 
 /// Scores every pose against the scene, or by its votes, which become those of all that agree with it, and returns them

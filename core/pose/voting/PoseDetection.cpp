@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 namespace meam
@@ -98,25 +97,6 @@ std::vector<int> referencesOf(const VotingRound& round, double from, double to)
   std::sort(references.begin(), references.end());
   return references;
 }
-}
-
-PoseDetectionSettings paperDetectionSettings()
-{
-  PoseDetectionSettings settings;
-  settings.referenceShare = 0.2; // tuned for each part there, from 5 to 20 %: the most
-  settings.referredShare = 0.2;
-  settings.features = Features::Edges;
-  return settings;
-}
-
-PoseDetectionSettings originalDetectionSettings()
-{
-  PoseDetectionSettings settings;
-  settings.features = Features::Surface;
-  settings.referenceShare = 0.2;
-  settings.longestBucket = std::numeric_limits<double>::infinity();
-  settings.smoothPeaks = false;
-  return settings;
 }
 
 /// Of edge points and of the surface, as far as there are both.

@@ -33,11 +33,6 @@ struct PoseDetectionSettings
   int threads = 0;         ///< 0: one for each processor
 };
 
-/// The paper's settings (Section 6) in place of the recommended ones.
-PoseDetectionSettings paperDetectionSettings();
-/// Those of the original pair feature (Drost et al. 2010): every fifth surface point is a reference.
-PoseDetectionSettings originalDetectionSettings();
-
 /// Raw pose candidates by voting (paper, Section 5.1): one or more for each reference point that found pairs, in the
 /// order of the reference points, in the local frame of `edges`, the scene's edge points with tangents. The same for
 /// any number of threads. Throws Error when the scene is empty, has no tangents, or is in another unit than the model.

@@ -21,7 +21,7 @@ namespace
 constexpr double PointsInTolerance = 2.0; // point distances,
 constexpr double NoiseInTolerance = 3.0;  // and standard deviations of the noise
 constexpr double MostBehind = 0.03;       // share of these points: dirt and wrong points behind a floor
-constexpr int Samples = 10000;            // points that planes are found among, spread evenly
+constexpr int PlaneSamples = 10000;       // points that planes are found among, spread evenly
 constexpr int Tries = 3;                  // planes looked at for each one that may go
 constexpr int MostTriples = 2000;         // of points whose planes RANSAC counts for, and fewer
 constexpr double Missed = 0.001;          // when the probability that none of them lies on the largest plane is this
@@ -117,7 +117,7 @@ BackgroundRemoval removeBackground(
                              : PointsInTolerance * scale.pointDistance + NoiseInTolerance * scale.noise;
   const double fewest = std::max(3.0, settings.leastShare / 100.0 * static_cast<double>(left.size()));
   // Those of a plane that stays are not looked at again.
-  std::vector<int> candidates = spread(left, static_cast<std::size_t>(Samples));
+  std::vector<int> candidates = spread(left, static_cast<std::size_t>(PlaneSamples));
   const auto on = [&](const Plane& plane) {
     return [&plane, &cloud, tolerance](int i) { return std::abs(plane.signedDistance(cloud.points[i])) <= tolerance; };
   };

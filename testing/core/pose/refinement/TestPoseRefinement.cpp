@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/refinement/PoseRefinement.h"
 
+#include "baselines/BaselineSettings.h"
 #include "TestScene.h"
 
 #include <gtest/gtest.h>
@@ -42,13 +43,6 @@ TEST(PoseRefinement, EdgesAlone)
 {
   expectNear(
     scenes::refine(scenes::disturbedCopies(1.0, 1.5), edgesAlone(scenes::seenCopies()), scenes::bracket()), 0.8, 1.5);
-}
-
-TEST(PoseRefinement, PointToPointOfThePaper)
-{
-  expectNear(scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket(),
-               meam::paperRefinementSettings()),
-    0.8, 1.5);
 }
 
 TEST(PoseRefinement, ScoresAndOrderStayAndThreadsDoNotMatter)
@@ -155,24 +149,4 @@ TEST(PoseRefinement, BadInput)
   EXPECT_THROW(scenes::refine(scenes::disturbedCopies(0, 0), scenes::copiesScene(), scenes::bracket(), {},
                  [](double) { return false; }),
     meam::Aborted);
-}
-
-TEST(PoseRefinement, APoseThatNamesNoViewTakesTheNearestToTheSensor)
-{
-  meam::Poses nameless = scenes::disturbedCopies(0.3, 0.5);
-  meam::Poses named = nameless;
-  for (std::size_t i = 0; i < named.size(); ++i)
-  {
-    nameless[i].viewId = i % 2 == 0 ? -1 : 99;
-    named[i].viewId =
-      meam::PredictedVisibility(scenes::bracket()).view(named[i].T_scene_model, scenes::seenCopies().sensor);
-  }
-  const meam::PoseRefinementSettings settings = meam::paperRefinementSettings();
-  const meam::Poses one = scenes::refine(nameless, scenes::copiesScene(), scenes::bracket(), settings);
-  const meam::Poses other = scenes::refine(named, scenes::copiesScene(), scenes::bracket(), settings);
-  for (std::size_t i = 0; i < named.size(); ++i)
-  {
-    EXPECT_EQ(one[i].viewId, named[i].viewId);
-    EXPECT_TRUE(one[i].T_scene_model.matrix() == other[i].T_scene_model.matrix());
-  }
 }

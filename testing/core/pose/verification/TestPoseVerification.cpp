@@ -145,52 +145,6 @@ TEST(PoseVerification, RightPosesAreLikelyAndWrongOnesAreNot)
   EXPECT_EQ(meam::probabilityOrScore(right), right.probability);
 }
 
-TEST(PoseVerification, CoverageFollowsThePaper)
-{
-  // The share of the view's edge points that have a scene edge point within the tolerance, exactly.
-  const meam::TrainedModel& model = scenes::bracket();
-  scenes::Seen own;
-  own.edges = model.edges;
-  meam::PoseVerificationSettings settings = meam::paperVerificationSettings();
-  EXPECT_DOUBLE_EQ(scoreOf(at(Eigen::Isometry3d::Identity()), scenes::prepared(own), settings), 1.0);
-  std::vector<int> half;
-  int inView = 0;
-  for (std::size_t i = 0; i < model.edges.size(); ++i)
-  {
-    if ((model.edgeViews[i] & 1u) != 0 && inView++ % 2 == 0)
-    {
-      half.push_back(static_cast<int>(i));
-    }
-  }
-  own.edges = model.edges.subset(half);
-  settings.evidence.tolerance = 1e-4;
-  EXPECT_DOUBLE_EQ(scoreOf(at(Eigen::Isometry3d::Identity()), scenes::prepared(own), settings),
-    static_cast<double>(half.size()) / inView);
-}
-
-/// Three poses of one place, of which one is turned by 20 degrees, and one elsewhere: 5 + 3, 3 + 5, 4 and 6 votes.
-TEST(PoseVerification, VotesOfPosesThatAgreeAddUp)
-{
-  const auto& truth = scenes::threeCopies();
-  meam::Poses poses{ scenes::displaced(truth[0], 0.0, 0.0), scenes::displaced(truth[0], 1.0, 5.0),
-    scenes::displaced(truth[0], 0.0, 20.0), scenes::displaced(truth[1], 0.0, 0.0) };
-  const int votes[] = { 5, 3, 4, 6 };
-  for (int i = 0; i < 4; ++i)
-  {
-    poses[i].votes = votes[i];
-  }
-  const meam::Poses scored =
-    scenes::verify(poses, scenes::copiesScene(), scenes::bracket(), meam::votesVerificationSettings());
-  ASSERT_EQ(scored.size(), 4u);
-  const double scores[] = { 1.0, 1.0, 6.0 / 8.0, 4.0 / 8.0 };
-  for (int i = 0; i < 4; ++i)
-  {
-    EXPECT_DOUBLE_EQ(scored[i].score, scores[i]);
-    EXPECT_EQ(scored[i].votes, static_cast<int>(std::lround(8 * scores[i])));
-    EXPECT_EQ(scored[i].probability, 0.0) << "none is known";
-  }
-}
-
 TEST(PoseVerification, BadInput)
 {
   const meam::Poses poses{ at(scenes::threeCopies()[0]) };
@@ -200,17 +154,6 @@ TEST(PoseVerification, BadInput)
   EXPECT_THROW(scenes::verify(poses, scenes::copiesScene(), scenes::bracket(), settings), meam::Error);
   EXPECT_THROW(
     scenes::verify(poses, scenes::copiesScene(), scenes::bracket(), {}, [](double) { return false; }), meam::Aborted);
-}
-
-TEST(PoseVerification, APoseThatNamesNoViewTakesTheNearestToTheSensor)
-{
-  const meam::PoseVerificationSettings paper = meam::paperVerificationSettings();
-  meam::Pose pose = at(scenes::threeCopies()[0]);
-  pose.viewId = -1;
-  const meam::Pose verified = scenes::verify({ pose }, scenes::copiesScene(), scenes::bracket(), paper).at(0);
-  EXPECT_EQ(verified.viewId,
-    meam::PredictedVisibility(scenes::bracket()).view(pose.T_scene_model, scenes::seenCopies().sensor));
-  EXPECT_GT(verified.score, 0.5);
 }
 
 TEST(PoseVerification, AModelWithoutASurfaceIsVerifiedByItsEdges)
