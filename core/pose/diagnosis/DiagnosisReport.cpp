@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/DiagnosisReport.h"
 
-#include "pose/selection/InstanceChoice.h"
+#include "pose/search/Suppression.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/PoseDiagnosis.h"
 
-#include "base/PointGrid.h"
 #include "pose/PoseTolerances.h"
 #include "pose/objective/BodyOverlap.h"
 #include "pose/refinement/FinalAlignment.h"
-#include "pose/selection/InstanceChoice.h"
+#include "pose/search/Suppression.h"
 
 #include <algorithm>
 #include <cmath>
@@ -196,7 +195,7 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
   }
   const auto last =
     std::find_if(stages.rbegin(), stages.rend(), [](const StageCount& stage) { return stage.here > 0; });
-  this->findTaker(diagnosis);
+  this->findTaker(diagnosis, T_local_model);
   // What selection turns or fits anew may come here from poses that were not here before.
   const std::vector<int> keptBack = posesAt(this->Trace.unlimited(), T_local_model, this->tolerance(), this->Model);
   if (!keptBack.empty())
@@ -366,18 +365,16 @@ bool PoseDiagnosis::isTurnedAmong(const Poses& poses, const Eigen::Isometry3d& T
     { return offsetUpToNear(pose.T_scene_model, T_local_model, this->Model).within(this->tolerance()); });
 }
 
-void PoseDiagnosis::findTaker(Diagnosis& diagnosis)
+void PoseDiagnosis::findTaker(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model)
 {
   const Poses& ranked = this->Trace.unlimited();
-  const double near = SharedDistance * this->Model.diameter;
-  const Points points = diagnosis.evidence.points.matched();
-  const EvidenceCollector collector(this->InScene, this->Model, this->Detection.selection.evidence);
+  const auto explained = [&](const Eigen::Isometry3d& T)
+  { return explainedPoints(this->InScene, this->Model, T, UnexplainedDistance * this->Model.diameter); };
+  const ExplainedPoints points = explained(T_local_model);
   for (std::size_t k = 0; k < ranked.size() && !points.empty(); ++k)
   {
-    const PointGrid others(collector.matchedPoints(ranked[k].T_scene_model), near);
-    const auto shared = std::count_if(
-      points.begin(), points.end(), [&](const Eigen::Vector3f& point) { return others.nearest(point, near) >= 0; });
-    const double share = static_cast<double>(shared) / points.size();
+    const double share = static_cast<double>(sharedPoints(points, explained(ranked[k].T_scene_model))) /
+                         static_cast<double>(points.size());
     if (share > diagnosis.takenShare)
     {
       diagnosis.takenBy = static_cast<int>(k) + 1;

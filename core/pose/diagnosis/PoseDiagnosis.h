@@ -65,10 +65,10 @@ struct Diagnosis
   double otherProbability = 0.0;   ///< of a copy there
   PoseOffset otherOffset{ 0.0, 0.0 }; ///< of it
   int rankWithoutLimits = 0;          ///< the same if all poses came out
-  int takenBy = 0;                    ///< rank without limits, from 1, of the pose that has most of the place's points
-  double takenShare = 0.0;            ///< of the points that match at the place, those that match at that pose, too
-  double takenEvidence = 0.0;         ///< of that pose
-  bool isFoundByAllPoints = false;    ///< lost before refinement, it comes out when all points about it vote
+  int takenBy = 0;            ///< rank without limits, from 1, of the pose that explains most of the place's points
+  double takenShare = 0.0;    ///< of the measured points that the place explains, those that this pose explains, too
+  double takenEvidence = 0.0; ///< of that pose
+  bool isFoundByAllPoints = false; ///< lost before refinement, it comes out when all points about it vote
 };
 
 /// Runs the detection of parts in a scene once, and then tells of places what became of a part there. Keeps references.
@@ -96,7 +96,7 @@ private:
   void score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   void count(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   /// Sets which pose has the place's points.
-  void findTaker(Diagnosis& diagnosis);
+  void findTaker(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
   LossCause causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress);
   /// Whether it comes out, without limits, when all points about it vote.
   bool isFoundByAllPoints(const Eigen::Isometry3d& T_local_model, const Progress& progress) const;

@@ -4,11 +4,11 @@
 #include "base/Parallel.h"
 #include "base/Range.h"
 #include "pose/PoseTolerances.h"
+#include "pose/search/Suppression.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <tuple>
 
 namespace meam
@@ -18,47 +18,13 @@ namespace
 constexpr double Resolved = 0.01;     // of the diameter, what the distance to a part's surface is known to
 constexpr double MostProbable = 0.99; // no pose is surer: 99 to 1
 
-/// What the sensor measured, the same for all parts: the finest of the maps of its surface, or the scene's edges.
-struct Measured
-{
-  explicit Measured(const Scene& ofSmallest)
-    : points(ofSmallest.hasSurface() ? ofSmallest.depth.means() : ofSmallest.edgePoints().points)
-    , grid(ofSmallest.hasSurface() ? ofSmallest.surface : ofSmallest.edgeGrid())
-  {
-  }
-
-  const Points& points;
-  const PointGrid& grid;
-};
-
 /// What a pose claims of the scene.
 struct Claim
 {
   PartPose pose;
-  std::vector<int> points; ///< measured points that it explains, ascending
+  ExplainedPoints points;
   double support = 0.0;
 };
-
-/// The measured points within `tolerance` (mm) of the part.
-std::vector<int> explainedPoints(
-  const Measured& measured, const PartDetections& part, const Eigen::Isometry3d& T_scene_model, double tolerance)
-{
-  const DistanceField& distance =
-    haveSurfaces(part.scene, part.model) ? part.model.surfaceDistance : part.model.edgeDistance;
-  const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const Eigen::Isometry3f toModel = T.inverse();
-  std::vector<int> explained;
-  measured.grid.forEachWithin(T * distance.middle(), distance.radius() + tolerance,
-    [&](int k, float)
-    {
-      if (distance.at(toModel * measured.points[k]) < tolerance)
-      {
-        explained.push_back(k);
-      }
-    });
-  std::sort(explained.begin(), explained.end());
-  return explained;
-}
 
 /// 1 when nothing that the pose predicts in sight is missing, 0 when as much is missing as is there. Missing is what
 /// the sensor saw past, and, since another pose may do without it, what was not measured.
@@ -70,12 +36,12 @@ double soundShare(const std::vector<PointState>& states)
   return matched > missing ? static_cast<double>(matched - missing) / matched : 0.0;
 }
 
-Claim claimOf(const PartPose& pose, const PartDetections& part, const Measured& measured, double tolerance)
+Claim claimOf(const PartPose& pose, const PartDetections& part, const Scene& measured, double tolerance)
 {
   const Eigen::Isometry3d& T = pose.pose.T_scene_model;
   const EvidenceCollector collector(part.scene, part.model);
   const PoseEvidence evidence = collector.collect(T);
-  Claim claim{ pose, explainedPoints(measured, part, T, tolerance) };
+  Claim claim{ pose, explainedPoints(measured, part.model, T, tolerance) };
   claim.pose.pose.viewId = viewOf(pose.pose, part.scene, part.model);
   const double probability = std::min(placeOrScore(pose.pose), MostProbable);
   claim.support = probability / (1.0 - probability) * claim.points.size() *
@@ -91,15 +57,6 @@ bool betterSupported(const Claim& a, const Claim& b)
     return std::make_tuple(claim.support, placeOrScore(pose), pose.score, pose.visibleFraction);
   };
   return key(a) > key(b);
-}
-
-/// The larger share of what one of the two explains that the other explains, too.
-double sharedPoints(const Claim& a, const Claim& b)
-{
-  std::vector<int> common;
-  std::set_intersection(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
-  const std::size_t fewer = std::min(a.points.size(), b.points.size());
-  return fewer > 0 ? static_cast<double>(common.size()) / fewer : 0.0;
 }
 
 /// The part with the smallest diameter, after checks.
@@ -136,7 +93,6 @@ std::vector<PartPose> resolveConflicts(
     return {};
   }
   const PartDetections& finest = smallest(parts);
-  const Measured measured(finest.scene);
   parallelFor(static_cast<int>(claims.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
@@ -144,31 +100,25 @@ std::vector<PartPose> resolveConflicts(
       {
         const PartDetections& part = parts[claims[i].pose.part];
         const double tolerance = std::max(UnexplainedDistance * finest.model.diameter, Resolved * part.model.diameter);
-        claims[i] = claimOf(claims[i].pose, part, measured, tolerance);
+        claims[i] = claimOf(claims[i].pose, part, finest.scene, tolerance);
       }
     });
   std::stable_sort(claims.begin(), claims.end(), betterSupported);
-  std::vector<const Claim*> kept;
-  for (const Claim& claim : claims)
+  const auto areInConflict = [&](int a, int b)
   {
-    const bool taken = std::any_of(
-      kept.begin(), kept.end(), [&](const Claim* other) { return sharedPoints(claim, *other) > settings.shared; });
-    if (!taken)
-    {
-      kept.push_back(&claim);
-    }
+    const ExplainedPoints &ofA = claims[a].points, &ofB = claims[b].points;
+    return sharedPoints(ofA, ofB) > settings.shared * std::min(ofA.size(), ofB.size());
+  };
+  std::vector<PartPose> stay;
+  for (const int k : suppress(static_cast<int>(claims.size()), areInConflict, [](int, int) { return false; }))
+  {
+    stay.push_back(claims[k].pose);
   }
   std::stable_sort(
-    kept.begin(), kept.end(), [](const Claim* a, const Claim* b) { return isBetter(a->pose.pose, b->pose.pose); });
-  if (settings.maximumPoses > 0 && kept.size() > static_cast<std::size_t>(settings.maximumPoses))
+    stay.begin(), stay.end(), [](const PartPose& a, const PartPose& b) { return isBetter(a.pose, b.pose); });
+  if (settings.maximumPoses > 0 && stay.size() > static_cast<std::size_t>(settings.maximumPoses))
   {
-    kept.resize(settings.maximumPoses);
-  }
-  std::vector<PartPose> stay;
-  stay.reserve(kept.size());
-  for (const Claim* claim : kept)
-  {
-    stay.push_back(claim->pose);
+    stay.resize(settings.maximumPoses);
   }
   report(progress, 1.0);
   return stay;

@@ -12,7 +12,6 @@ namespace meam
 struct FinishedInstance
 {
   Pose pose;
-  Points matched;       ///< by it
   Points beyond;        ///< measured surface that goes on beside it (SurfaceContinuation)
   double logOdds;       ///< that a copy is there,
   double logOddsBefore; ///< and of the pose before it was moved to where the scan speaks for it the most

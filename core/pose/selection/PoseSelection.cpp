@@ -6,7 +6,7 @@
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/objective/SurfaceMisfit.h"
 #include "pose/refinement/FinalAlignment.h"
-#include "pose/selection/InstanceChoice.h"
+#include "pose/search/InstanceSuppression.h"
 #include "pose/selection/InstanceOdds.h"
 #include "pose/selection/PoseClusters.h"
 #include "pose/selection/RotationDecision.h"
@@ -69,9 +69,9 @@ public:
   {
   }
 
-  FinishedInstance finish(Pose pose, InstanceChoice& choice, int index) const
+  FinishedInstance finish(Pose pose) const
   {
-    PoseComparison::Contender asItIs = choice.contender(index);
+    PoseComparison::Contender asItIs = this->Comparison.contender(pose.T_scene_model);
     if (this->Settings.restartsRefinement)
     {
       pose = this->Restarts.best(pose, asItIs);
@@ -121,7 +121,7 @@ public:
       }
       pose.contradictions.misfit = least / this->Misfit.expected();
     }
-    return { pose, best.evidence.matched(), beyond, best.logOdds, best.logOddsBefore };
+    return { pose, beyond, best.logOdds, best.logOddsBefore };
   }
 
 private:
@@ -156,53 +156,25 @@ private:
   const SurfaceMisfit& Misfit;
 };
 
-/// Of poses, best first, those that do not have most of their surface where better ones have it: aligned they may have
-/// come to the same place, and what others explain speaks for no more.
-std::vector<FinishedInstance> withoutShared(
-  const std::vector<FinishedInstance>& found, const TrainedModel& model, const PoseSelectionSettings& settings)
+/// Of poses, best first, those that better ones leave: aligned they may have come to the same place.
+FinishedInstances withoutShared(const FinishedInstances& found, const InstanceClaims& claims)
 {
-  const double near = SharedDistance * model.diameter;
-  const double distance = clusterDistance(settings, model);
-  struct Kept
+  std::vector<InstanceClaims::Claim> ofFound;
+  std::transform(found.begin(), found.end(), std::back_inserter(ofFound),
+    [&](const FinishedInstance& finished) { return claims.of(finished.pose.T_scene_model); });
+  FinishedInstances distinct;
+  for (const int k :
+    suppress(
+      static_cast<int>(found.size()), [&](int one, int other) { return claims.areOne(ofFound[one], ofFound[other]); },
+      [](int, int) { return false; }))
   {
-    Eigen::Vector3d middle;
-    PointGrid matched;
-  };
-  std::vector<Kept> kept;
-  std::vector<FinishedInstance> distinct;
-  for (const FinishedInstance& finished : found)
-  {
-    const Pose& pose = finished.pose;
-    const Points& matched = finished.matched;
-    const Eigen::Vector3d middle = pose.T_scene_model * model.visibility->middle().cast<double>();
-    bool isTaken = false;
-    std::vector<const PointGrid*> beside;
-    for (const Kept& other : kept)
-    {
-      const double apart = (middle - other.middle).norm();
-      isTaken |= apart < distance;
-      if (apart < model.diameter)
-      {
-        beside.push_back(&other.matched);
-      }
-    }
-    const auto isClaimed = [&](const Eigen::Vector3f& point)
-    {
-      return std::any_of(
-        beside.begin(), beside.end(), [&](const PointGrid* claimed) { return claimed->nearest(point, near) >= 0; });
-    };
-    if (!isTaken &&
-        std::count_if(matched.begin(), matched.end(), isClaimed) <= SharedByOne * static_cast<double>(matched.size()))
-    {
-      kept.push_back({ middle, PointGrid(matched, near) });
-      distinct.push_back(finished);
-    }
+    distinct.push_back(found[k]);
   }
   return distinct;
 }
 
 /// A scored pose that is not finished.
-FinishedInstance asItIs(const Pose& scored) { return { scored, {}, {}, scored.evidence, scored.evidence }; }
+FinishedInstance asItIs(const Pose& scored) { return { scored, {}, scored.evidence, scored.evidence }; }
 
 /// Whether those that are wanted are finished and sure, with some to spare, and the next one, of those scored best
 /// first, is unlikely: what follows will not come before them. Never where all are wanted.
@@ -220,11 +192,14 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
 {
   const EvidenceCollector collector(scene, model, settings.evidence);
   const PoseComparison comparison(scene, model, settings.comparison);
-  InstanceChoice choice(scored, clusterDistance(settings, model), model, collector, comparison,
-    settings.comparesInstances, settings.threads);
+  const InstanceClaims claims(scene, model, clusterDistance(settings, model));
   std::vector<int> selected;
   if (!isDoneBy(settings.deadline,
-        [&] { selected = choice.select(settings.deadline.within(subProgress(progress, 0.0, 0.3))); }))
+        [&]
+        {
+          selected = bestOfInstances(scored, claims, comparison, settings.comparesInstances, settings.threads,
+            settings.deadline.within(subProgress(progress, 0.0, 0.3)));
+        }))
   {
     return selectClusters(scored, model, settings, {});
   }
@@ -233,7 +208,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   const SurfaceMisfit misfit(scene, model);
   const InstanceFinish instance(scene, model, settings, collector, rates, comparison, continuation, misfit);
   const int count = static_cast<int>(selected.size());
-  std::vector<FinishedInstance> finished;
+  FinishedInstances finished;
   while (static_cast<int>(finished.size()) < count && !areEnough(finished, scored[selected[finished.size()]], settings))
   {
     const int done = static_cast<int>(finished.size());
@@ -251,7 +226,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
           {
             for (int k = done + begin; k < done + end; ++k)
             {
-              finished[k] = instance.finish(scored[selected[k]], choice, selected[k]);
+              finished[k] = instance.finish(scored[selected[k]]);
             }
           });
       });
@@ -263,7 +238,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   sortBest(finished);
   if (settings.dropsShared)
   {
-    finished = withoutShared(finished, model, settings);
+    finished = withoutShared(finished, claims);
   }
   if (haveSurfaces(scene, model))
   {

@@ -43,22 +43,6 @@ double PoseEvidence::visibleFraction() const
   return states.empty() ? 0.0 : 1.0 - static_cast<double>(count(states, PointState::Hidden)) / states.size();
 }
 
-Points PoseEvidence::matched() const
-{
-  const bool bySurface = !this->surface.empty();
-  const Points& points = bySurface ? this->surface : this->edges;
-  const std::vector<PointState>& states = bySurface ? this->surfaceStates : this->edgeStates;
-  Points result;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (states[i] == PointState::Matched)
-    {
-      result.push_back(points[i]);
-    }
-  }
-  return result;
-}
-
 EvidenceCollector::EvidenceCollector(const Scene& scene, const TrainedModel& model, const EvidenceSettings& settings)
   : InScene(scene)
   , Model(model)
@@ -168,21 +152,6 @@ PoseEvidence EvidenceCollector::collect(const Eigen::Isometry3d& T_scene_model, 
     this->addOutline(predicted, evidence);
   }
   return evidence;
-}
-
-Points EvidenceCollector::matchedPoints(const Eigen::Isometry3d& T_scene_model) const
-{
-  const Predicted predicted = this->predicted(T_scene_model, 1);
-  PoseEvidence evidence;
-  if (haveSurfaces(this->InScene, this->Model))
-  {
-    this->addSurface(predicted, evidence);
-  }
-  if (evidence.surface.empty())
-  {
-    this->addEdges(predicted, evidence);
-  }
-  return evidence.matched();
 }
 
 void EvidenceCollector::addEdges(const Predicted& predicted, PoseEvidence& evidence) const

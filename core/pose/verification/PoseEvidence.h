@@ -50,8 +50,6 @@ struct PoseEvidence
   double score() const;
   /// Share of the predicted points that nothing hides, [0, 1].
   double visibleFraction() const;
-  /// The points that are there: of the surface, without one of the edges.
-  Points matched() const;
 };
 
 /// Whether the scene and the model have surfaces, so that poses are verified by them; otherwise by edges alone.
@@ -67,8 +65,6 @@ public:
   EvidenceCollector(const Scene& scene, const TrainedModel& model, const EvidenceSettings& settings = {});
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
-  /// The same as collect(T).matched(); edges are looked at only where no surface is predicted, the outline never.
-  Points matchedPoints(const Eigen::Isometry3d& T_scene_model) const;
   /// Logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
   /// The same of what is counted at a pose.

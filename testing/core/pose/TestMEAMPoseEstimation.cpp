@@ -227,7 +227,11 @@ TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
   {
     many.sensor.perspective = perspective;
     many.sensor.position = { 40.0, 40.0, 2000.0 };
-    EXPECT_EQ(instancesFound(found(many), 0.5, 0.6), 3) << perspective;
+    // Seen in parallel the cells of the depth map are too large for any surface: edges alone tell, and not which is
+    // best.
+    const meam::Poses poses = scenes::estimatePoses(
+      scenes::bracket(), many, meam::detectionSettings(meam::Preset::Recommended, perspective ? 3 : 5));
+    EXPECT_EQ(instancesFound(poses, 0.5, 0.6), 3) << perspective;
   }
 }
 

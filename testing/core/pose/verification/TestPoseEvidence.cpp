@@ -309,38 +309,16 @@ TEST(PoseEvidence, WhereASensorLosesARibIsNotSeenPast)
   EXPECT_GT(wide.counts.past, 5.0) << "a ridge that is not there";
 }
 
-TEST(PoseEvidence, MatchedAreThoseOfTheSurfaceAndWithoutOneOfTheEdges)
+TEST(PoseEvidence, TheVisibleFractionIsThatOfTheSurfaceAndWithoutOneOfTheEdges)
 {
   using meam::PointState;
   meam::PoseEvidence evidence;
   evidence.edges = { { 1, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 } };
   evidence.edgeStates = { PointState::Matched, PointState::Hidden, PointState::Matched };
-  EXPECT_EQ(evidence.matched(), (meam::Points{ { 1, 0, 0 }, { 3, 0, 0 } }));
   EXPECT_DOUBLE_EQ(evidence.visibleFraction(), 2.0 / 3.0);
   evidence.surface = { { 0, 1, 0 }, { 0, 2, 0 }, { 0, 3, 0 }, { 0, 4, 0 } };
   evidence.surfaceStates = { PointState::Violated, PointState::Matched, PointState::Unknown, PointState::Hidden };
-  EXPECT_EQ(evidence.matched(), (meam::Points{ { 0, 2, 0 } }));
   EXPECT_DOUBLE_EQ(evidence.visibleFraction(), 0.75);
-}
-
-TEST(PoseEvidence, MatchedAreTheSameWithoutALookAtTheRest)
-{
-  for (const bool hasSurface : { true, false })
-  {
-    scenes::Seen seen = scenes::seenCopies();
-    if (!hasSurface)
-    {
-      seen.surface.clear();
-    }
-    const meam::Scene scene = scenes::prepared(seen);
-    const meam::EvidenceCollector collector(scene, scenes::bracket());
-    for (const Eigen::Isometry3d& copy : scenes::threeCopies())
-    {
-      const Eigen::Isometry3d T = scene.T_local_scene() * copy;
-      EXPECT_EQ(collector.matchedPoints(T), collector.collect(T).matched());
-      EXPECT_FALSE(collector.matchedPoints(T).empty());
-    }
-  }
 }
 
 TEST(PoseEvidence, WithoutFreeSpaceWhatTheSensorLookedPastSaysNothing)
