@@ -28,21 +28,34 @@ void excludeOverlaps(FinishedInstances& found, const TrainedModel& model)
   const BodyOverlap overlap(model);
   const auto count = std::count_if(found.begin(), found.end(),
     [](const FinishedInstance& finished) { return finished.pose.placeProbability > WorthExplaining; });
-  std::vector<double> others(count, 0.0); // odds of those that cut into each
+  std::vector<std::vector<char>> cuts(count, std::vector<char>(count, 0));
+  std::vector<double> odds;
   for (int k = 0; k < count; ++k)
   {
+    odds.push_back(std::exp(found[k].logOdds));
     for (int other = 0; other < k; ++other)
     {
-      if (overlap.cut(found[k].pose.T_scene_model, found[other].pose.T_scene_model))
-      {
-        others[k] += std::exp(found[other].logOdds);
-        others[other] += std::exp(found[k].logOdds);
-      }
+      cuts[k][other] = cuts[other][k] = overlap.cut(found[k].pose.T_scene_model, found[other].pose.T_scene_model);
     }
   }
+  // The odds of a pose beside another one are less where others exclude it that may be right together with that one.
+  const auto oddsBeside = [&](int one, int beside)
+  {
+    double excluding = 0.0;
+    for (int third = 0; third < count; ++third)
+    {
+      excluding += third != beside && cuts[one][third] && !cuts[beside][third] ? odds[third] : 0.0;
+    }
+    return odds[one] / (1.0 + excluding);
+  };
   for (int k = 0; k < count; ++k)
   {
-    found[k].logOdds -= std::log1p(others[k]);
+    double others = 0.0;
+    for (int other = 0; other < count; ++other)
+    {
+      others += cuts[k][other] ? oddsBeside(other, k) : 0.0;
+    }
+    found[k].logOdds -= std::log1p(others);
     setEvidence(found[k].pose, found[k].logOdds);
   }
 }

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/InstanceOdds.h"
+
+#include "TestScene.h"
+#include "pose/verification/PoseVerification.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+meam::TriangleMesh rod() { return parts::box({ -30, -5, -5 }, { 30, 5, 5 }); }
+
+/// What is left of the log odds of rods of 60 mm along x, whose middles are at these places and a little beside each
+/// other.
+std::vector<double> withoutOverlaps(const std::vector<std::pair<double, double>>& placesAndOdds)
+{
+  meam::FinishedInstances found;
+  for (const auto& [x, logOdds] : placesAndOdds)
+  {
+    meam::FinishedInstance& one = found.emplace_back();
+    one.pose.T_scene_model.translation() << x, 2.5 * found.size(), 2.5 * found.size();
+    one.logOdds = logOdds;
+    meam::setEvidence(one.pose, logOdds);
+  }
+  meam::excludeOverlaps(found, scenes::trained<rod>());
+  std::vector<double> after;
+  for (const meam::FinishedInstance& one : found)
+  {
+    after.push_back(one.logOdds);
+  }
+  return after;
+}
+}
+
+TEST(InstanceOdds, OfBodiesThatCutIntoEachOtherOneIsRightAtMost)
+{
+  EXPECT_EQ(withoutOverlaps({ { 0.0, 4.0 }, { 61.0, 2.0 } }), (std::vector<double>{ 4.0, 2.0 })) << "beside";
+  const std::vector<double> two = withoutOverlaps({ { 0.0, 4.0 }, { 45.0, 2.0 } });
+  EXPECT_NEAR(two[0], 4.0 - std::log1p(std::exp(2.0)), 1e-9);
+  EXPECT_NEAR(two[1], 2.0 - std::log1p(std::exp(4.0)), 1e-9);
+  for (const double logOdds : withoutOverlaps({ { 0.0, 3.0 }, { 10.0, 3.0 }, { -10.0, 3.0 } }))
+  {
+    EXPECT_NEAR(logOdds, 3.0 - std::log1p(2.0 * std::exp(3.0)), 1e-9) << "all exclude each other";
+  }
+}
+
+TEST(InstanceOdds, WhatABetterPoseExcludesHardlyExcludes)
+{
+  const std::vector<double> row = withoutOverlaps({ { 0.0, 8.0 }, { 45.0, 4.0 }, { 90.0, 3.0 } });
+  EXPECT_NEAR(row[0], 8.0 - std::log1p(std::exp(4.0) / (1.0 + std::exp(3.0))), 1e-9);
+  EXPECT_LT(row[1], -3.0);
+  EXPECT_NEAR(row[2], 3.0 - std::log1p(std::exp(4.0) / (1.0 + std::exp(8.0))), 1e-9);
+}
