@@ -100,11 +100,12 @@ std::vector<Switch> makeSwitches()
   const auto instances = [&](const char* name, const char* what, std::function<void(PoseSelectionSettings&)> change)
   { add(Stage::Selection, name, what, [change = std::move(change)](D& d) { change(d.selection); }); };
   using S = PoseSelectionSettings;
-  instances("restarts", "no restarts of the refinement", [](S& s) { s.restartsRefinement = false; });
-  instances("half-turns", "no restarts at half turns", [](S& s) { s.restarts.halfTurns = false; });
-  instances("small-turns", "no restarts at 10 degrees", [](S& s) { s.restarts.smallTurns = false; });
-  instances("rotation-search", "no search about a round axis", [](S& s) { s.searchesRotation = false; });
-  instances("rotation-decision", "no decision between near-symmetries", [](S& s) { s.decidesRotation = false; });
+  instances(
+    "restarts", "no restarts of the refinement", [](S& s) { s.search.halfTurns = s.search.smallTurns = false; });
+  instances("half-turns", "no restarts at half turns", [](S& s) { s.search.halfTurns = false; });
+  instances("small-turns", "no restarts at 10 degrees", [](S& s) { s.search.smallTurns = false; });
+  instances("rotation-search", "no search about a round axis", [](S& s) { s.search.aboutAxis = false; });
+  instances("rotation-decision", "no decision between near-symmetries", [](S& s) { s.search.nearSymmetries = false; });
   instances("ascent", "no maximization of the log odds", [](S& s) { s.ascends = false; });
   instances("ascent-past", "the same where the sensor saw past", [](S& s) { s.ascent.ifPast = false; });
   instances("ascent-close", "the same where something close hides", [](S& s) { s.ascent.ifClose = false; });

@@ -9,10 +9,8 @@
 #include "pose/search/InstanceSuppression.h"
 #include "pose/selection/InstanceOdds.h"
 #include "pose/selection/PoseClusters.h"
-#include "pose/selection/RotationDecision.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
-#include "pose/verification/RotationSearch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,29 +20,18 @@ namespace meam
 {
 namespace
 {
-constexpr double LeastScore = 0.05;      // times that of the best: an alternative with less is not worth refining,
-constexpr int LeastRefined = 60;         // so many are, and all that are likelier than this where these are more
-constexpr double WorthRefining = 3e-7;   // (probability, of poses that are not refined yet)
-constexpr double RotatedDistance = 0.04; // of the diameter: correspondences of another rotation, which is nearly right
-constexpr int RotatedIterations = 6;     // of it
-constexpr int Lot = 16;                  // instances that are finished before it is asked whether they do
-constexpr double SureOdds = 3.0;         // logarithm of the odds of a pose that is wanted and sure,
-constexpr int SpareInstances = 2;        // and so many more: what all poses together say may take some away
-constexpr double WorthFinishing = 0.5;   // place: what is likelier is finished in any case
-constexpr std::size_t RateStride = 2;    // of the points that tell the scan's rates of edges one of so many
+constexpr double LeastScore = 0.05;    // times that of the best: an alternative with less is not worth refining,
+constexpr int LeastRefined = 60;       // so many are, and all that are likelier than this where these are more
+constexpr double WorthRefining = 3e-7; // (probability, of poses that are not refined yet)
+constexpr int Lot = 16;                // instances that are finished before it is asked whether they do
+constexpr double SureOdds = 3.0;       // logarithm of the odds of a pose that is wanted and sure,
+constexpr int SpareInstances = 2;      // and so many more: what all poses together say may take some away
+constexpr double WorthFinishing = 0.5; // place: what is likelier is finished in any case
+constexpr std::size_t RateStride = 2;  // of the points that tell the scan's rates of edges one of so many
 
 double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel& model)
 {
   return settings.clusterDistance > 0.0 ? settings.clusterDistance : SamePoseDistance * model.diameter;
-}
-
-PoseRefinementSettings rotatedSettings(const TrainedModel& model)
-{
-  PoseRefinementSettings rotated;
-  rotated.iterations = RotatedIterations;
-  rotated.maximumDistance = RotatedDistance * model.diameter;
-  rotated.threads = 1; // poses are worked on in parallel
-  return rotated;
 }
 
 /// Looks for the rotation of an instance, aligns it, moves it where the scan contradicts it, and scores it.
@@ -57,12 +44,7 @@ public:
     : InScene(scene)
     , Model(model)
     , Settings(settings)
-    , Rates(rates)
-    , Comparison(comparison)
-    , Restarts(scene, model, comparison, settings.restarts)
-    , Search(scene, model)
-    , Rotated(rotatedSettings(model))
-    , Decision(scene, model, comparison, collector, Rates, Rotated)
+    , Search(scene, model, comparison, collector, rates, settings.search)
     , Ascent(collector, rates, model, settings.ascent)
     , Continuation(continuation)
     , Misfit(misfit)
@@ -71,20 +53,7 @@ public:
 
   FinishedInstance finish(Pose pose) const
   {
-    PoseComparison::Contender asItIs = this->Comparison.contender(pose.T_scene_model);
-    if (this->Settings.restartsRefinement)
-    {
-      pose = this->Restarts.best(pose, asItIs);
-    }
-    const bool hasNear = !this->Model.symmetries.near.empty();
-    if (hasNear && this->Settings.searchesRotation)
-    {
-      this->rotate(pose, asItIs);
-    }
-    if (hasNear && this->Settings.decidesRotation)
-    {
-      this->Decision.decide(pose, asItIs);
-    }
+    pose = this->Search.best(pose);
     const Eigen::Isometry3d T_decided = pose.T_scene_model;
     if (this->Settings.aligns)
     {
@@ -125,32 +94,10 @@ public:
   }
 
 private:
-  /// Turns the pose about the axis of a nearly round part where another rotation fits better. `asItIs` is the pose as a
-  /// contender, and follows it.
-  void rotate(Pose& pose, PoseComparison::Contender& asItIs) const
-  {
-    for (const Eigen::Isometry3d& T : this->Search.better(pose.T_scene_model))
-    {
-      Pose rotated = pose;
-      rotated.T_scene_model = T;
-      rotated = refinePoses({ rotated }, this->InScene, this->Model, this->Rotated)[0];
-      if (this->Comparison.advantage(rotated.T_scene_model, asItIs, 0.0) > 0.0)
-      {
-        pose = rotated;
-        asItIs = this->Comparison.contender(pose.T_scene_model);
-      }
-    }
-  }
-
   const Scene& InScene;
   const TrainedModel& Model;
   const PoseSelectionSettings& Settings;
-  EvidenceRates Rates;
-  const PoseComparison& Comparison;
-  RefinementRestarts Restarts;
-  RotationSearch Search;
-  PoseRefinementSettings Rotated;
-  RotationDecision Decision;
+  LocalSearch Search;
   EvidenceAscent Ascent;
   const SurfaceContinuation& Continuation;
   const SurfaceMisfit& Misfit;

@@ -4,9 +4,9 @@
 #include "base/Error.h"
 #include "pose/Deadline.h"
 #include "pose/Pose.h"
+#include "pose/search/LocalSearch.h"
 #include "pose/selection/EvidenceAscent.h"
 #include "pose/selection/PoseComparison.h"
-#include "pose/selection/RefinementRestarts.h"
 #include "pose/verification/PoseEvidence.h"
 
 namespace meam
@@ -28,19 +28,16 @@ struct PoseSelectionSettings
   double minimumProbability = 0.0; ///< of what comes out, poses are dropped where a copy is less likely,
   bool rotationCounts = false;     ///< or, counting its rotation, the pose is
   // Instances
-  bool partIsPresent = false;     ///< no pose is less likely because the part may be missing
-  bool restartsRefinement = true; ///< from rotations about the pose
-  bool searchesRotation = true;   ///< about the axis of a nearly round part
-  bool decidesRotation = true;    ///< between near-symmetries
-  bool ascends = true;            ///< where the scan contradicts an aligned pose
-  bool dropsShared = true;        ///< poses whose surface better ones have
-  bool excludesOverlaps = true;   ///< of poses that cut into each other one is right at most
-  bool weighsLookalikes = true;   ///< what contradicts a pose speaks for another part
-  bool comparesInstances = true;  ///< poses of nearly the same evidence, point by point
-  bool aligns = true;             ///< robustly, at the end
-  EvidenceSettings evidence;      ///< that poses are scored by once more
+  bool partIsPresent = false;    ///< no pose is less likely because the part may be missing
+  bool ascends = true;           ///< where the scan contradicts an aligned pose
+  bool dropsShared = true;       ///< poses whose surface better ones have
+  bool excludesOverlaps = true;  ///< of poses that cut into each other one is right at most
+  bool weighsLookalikes = true;  ///< what contradicts a pose speaks for another part
+  bool comparesInstances = true; ///< poses of nearly the same evidence, point by point
+  bool aligns = true;            ///< robustly, at the end
+  EvidenceSettings evidence;     ///< that poses are scored by once more
   PoseComparisonSettings comparison;
-  RefinementRestartsSettings restarts;
+  LocalSearchSettings search;
   EvidenceAscentSettings ascent; ///< of an aligned pose that the scan contradicts
   int threads = 0;               ///< 0: one for each processor
   Deadline deadline;             ///< then those come out that are finished, and the others as they came in
@@ -59,9 +56,9 @@ Poses withinLimits(Poses poses, const PoseSelectionSettings& settings);
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
 ///
 /// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is
-/// decided on the points that tell them apart. Then the pose is refined from others about it (RefinementRestarts) and
-/// turned about the axis of a nearly round part, or by an approximate symmetry, where the scene speaks for it, which
-/// sets its certainty; it is aligned (alignRobustly), moved where the scan contradicts it (EvidenceAscent), and scored.
+/// decided on the points that tell them apart. Then the pose is refined from others about it and turned by an
+/// approximate symmetry, where the scene speaks for it, which sets its certainty (LocalSearch); it is aligned
+/// (alignRobustly), moved where the scan contradicts it (EvidenceAscent), and scored.
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings = {}, const Progress& progress = {});
 }

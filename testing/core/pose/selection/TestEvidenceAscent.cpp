@@ -89,7 +89,7 @@ struct SelectionTrial
   SelectionTrial()
   {
     this->settings.evidence.rates = meam::EvidenceRates();
-    this->settings.restartsRefinement = false;
+    this->settings.search.halfTurns = this->settings.search.smallTurns = false;
   }
   meam::Pose selected(bool ascends)
   {

@@ -118,8 +118,8 @@ TEST(PoseSelection, NoPoseIsLikelierThanThatThePartIsThereAtAll)
   const Eigen::Isometry3d wrong = scenes::displaced(scenes::threeCopies()[1], 9.0, 20.0).T_scene_model;
   meam::PoseSelectionSettings settings;
   settings.evidence.rates.emplace();
-  settings.restartsRefinement = false; // the wrong pose stays
-  settings.weighsLookalikes = false;   // which another pose beside it changes, too
+  settings.search.halfTurns = settings.search.smallTurns = false; // the wrong pose stays
+  settings.weighsLookalikes = false;                              // which another pose beside it changes, too
   const auto last = [&](const meam::Poses& poses) { return selected(poses, settings).back(); };
   const meam::Pose alone = last({ displaced(wrong) });
   const meam::Pose besideTheTrueOne = last({ displaced(wrong), displaced(scenes::threeCopies()[0]) });

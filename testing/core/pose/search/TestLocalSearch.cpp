@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose/selection/RotationDecision.h"
+#include "pose/search/LocalSearch.h"
 
 #include "TestScale.h"
 #include "TestScene.h"
@@ -8,6 +8,42 @@
 
 #include <algorithm>
 #include <vector>
+
+namespace
+{
+/// How many degrees a pose is off that was turned from the truth and is refined from its restarts.
+double leftOf(const Eigen::AngleAxisd& turn, double probability = 0.5)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const meam::Scene& scene = scenes::copiesScene();
+  const Eigen::Isometry3d truth = scene.T_local_scene() * scenes::threeCopies()[0];
+  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
+  meam::Pose pose;
+  pose.T_scene_model = truth * meam::turnAbout(turn.axis(), turn.angle(), middle);
+  pose.probability = probability;
+  const meam::PoseComparison comparison(scene, model);
+  const meam::EvidenceCollector collector(scene, model);
+  return meam::rotationError(
+    meam::LocalSearch(scene, model, comparison, collector, {}).best(pose).T_scene_model, truth);
+}
+
+const Eigen::Vector3d Up = Eigen::Vector3d::UnitZ();
+}
+
+TEST(LocalSearch, ATurnTooLargeForRefinementIsUndone)
+{
+  for (const double degrees : { -14.0, 14.0 })
+  {
+    EXPECT_LT(leftOf(Eigen::AngleAxisd(degrees * M_PI / 180.0, Up)), 1.0) << degrees;
+  }
+}
+
+TEST(LocalSearch, ThePoseStaysWhereTheSceneSpeaksForNoOther) { EXPECT_LT(leftOf(Eigen::AngleAxisd(0.0, Up)), 0.3); }
+
+TEST(LocalSearch, AnUnlikelyPoseIsNotWorthIt)
+{
+  EXPECT_NEAR(leftOf(Eigen::AngleAxisd(0.2, Up), 1e-4), 0.2 * 180.0 / M_PI, 1e-9);
+}
 
 namespace
 {
@@ -25,7 +61,7 @@ meam::TriangleMesh disc(float flat)
 
 meam::TriangleMesh cutDisc() { return disc(17.0f); }
 
-const meam::TrainedModel& model() { return scenes::trained<cutDisc>(); }
+const meam::TrainedModel& cutDiscModel() { return scenes::trained<cutDisc>(); }
 
 Eigen::Isometry3d turned(double degrees)
 {
@@ -35,21 +71,18 @@ Eigen::Isometry3d turned(double degrees)
 /// The pose after the decision in a scene in which a part lies as turned(0).
 meam::Pose decided(const meam::TriangleMesh& part, double degrees, double probability = 0.9)
 {
-  const meam::Scene scene = scenes::alone(part, model(), Eigen::Isometry3d::Identity());
-  const meam::PoseComparison comparison(scene, model());
-  meam::PoseRefinementSettings rotated;
-  rotated.maximumDistance = 0.04 * model().diameter;
-  const meam::EvidenceCollector collector(scene, model());
-  const meam::RotationDecision decision(scene, model(), comparison, collector, {}, rotated);
+  const meam::Scene scene = scenes::alone(part, cutDiscModel(), Eigen::Isometry3d::Identity());
+  const meam::PoseComparison comparison(scene, cutDiscModel());
+  const meam::EvidenceCollector collector(scene, cutDiscModel());
   meam::Pose pose = scenes::displaced(scene.T_local_scene() * turned(degrees));
   pose.probability = probability;
-  decision.decide(pose, comparison.contender(pose.T_scene_model));
+  pose = meam::LocalSearch(scene, cutDiscModel(), comparison, collector, {}, { false, false, false, true }).best(pose);
   pose.T_scene_model = scene.T_local_scene().inverse() * pose.T_scene_model;
   return pose;
 }
 }
 
-TEST(RotationDecision, ANearlyRoundPartIsTurnedToWhereItsFlatIs)
+TEST(LocalSearch, ANearlyRoundPartIsTurnedToWhereItsFlatIs)
 {
   for (const double degrees : SmallData ? std::vector{ 40.0 } : std::vector{ 0.0, 10.0, 40.0, 170.0 })
   {
@@ -59,7 +92,7 @@ TEST(RotationDecision, ANearlyRoundPartIsTurnedToWhereItsFlatIs)
   }
 }
 
-TEST(RotationDecision, WhereTheFlatIsNotSeenNoTurnIsSure)
+TEST(LocalSearch, WhereTheFlatIsNotSeenNoTurnIsSure)
 {
   // The scene's disc has none: of 36 turns each is as likely as the others.
   const meam::Pose found = decided(disc(20.0f), 40.0);
@@ -77,7 +110,7 @@ TEST(RotationDecision, WhereTheFlatIsNotSeenNoTurnIsSure)
   EXPECT_GT(found.certainty, 0.01);
 }
 
-TEST(RotationDecision, OfUnlikelyPosesNearSymmetriesAloneAreAskedAbout)
+TEST(LocalSearch, OfUnlikelyPosesNearSymmetriesAloneAreAskedAbout)
 {
   EXPECT_GT(decided(disc(20.0f), 40.0, 0.001).certainty, decided(disc(20.0f), 40.0).certainty);
 }

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/search/LocalSearch.h"
+
+#include "pose/PoseTolerances.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+constexpr int Iterations = 6;         // of refinement: what stays is aligned afterwards
+constexpr double SmallTurn = 10.0;    // degrees
+constexpr double WorthTrying = 1e-3;  // probability of a pose before: less, and it is not refined again;
+constexpr double Sure = 0.9;          // more, and it is from half turns alone
+constexpr double StepOfRound = 10.0;  // degrees, between the rotations of a nearly round part
+constexpr double LeastOverlap = 0.8;  // of its surface, that comes to lie on the surface when it is nearly round at one
+constexpr double TurnDistance = 0.04; // of the diameter: correspondences of another rotation, which is nearly right
+constexpr double SureAdvantage = 13.0; // points that make a rotation e times likelier than another in simulated bins
+constexpr double Hopeless = -6.0 * SureAdvantage; // a rotation so unlikely is one in four hundred
+constexpr double WorthAsking = 0.02; // probability of a pose before: less, and only its near-symmetries are compared
+constexpr int Rounds = 3;            // of rotations that the scene speaks for more
+constexpr double LeastShare = 0.01;  // of a rotation that is told of
+
+PoseRefinementSettings restartSettings()
+{
+  PoseRefinementSettings settings;
+  settings.iterations = Iterations;
+  settings.fullLastStep = false; // some points tell which start is best; the final alignment takes all
+  settings.threads = 1;          // poses are worked on in parallel
+  return settings;
+}
+
+PoseRefinementSettings settingsAfterTurn(const TrainedModel& model)
+{
+  PoseRefinementSettings settings;
+  settings.iterations = Iterations;
+  settings.maximumDistance = TurnDistance * model.diameter;
+  settings.threads = 1; // the same
+  return settings;
+}
+
+/// As columns.
+Eigen::Matrix3d principalAxes(const Points& points, const Eigen::Vector3d& middle)
+{
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3f& point : points)
+  {
+    const Eigen::Vector3d d = point.cast<double>() - middle;
+    scatter += d * d.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors();
+}
+
+/// Share of the part's surface that a turn takes to its surface.
+double overlapAfter(const Eigen::Isometry3d& turn, const SoAPoints& surface, const DistanceField& distance, double near)
+{
+  std::vector<float> distances(surface.size());
+  distance.at(turn.cast<float>(), surface, 0, static_cast<int>(surface.size()), distances.data());
+  const auto fitting = std::count_if(
+    distances.begin(), distances.end(), [&](float distance) { return distance < static_cast<float>(near); });
+  return static_cast<double>(fitting) / static_cast<double>(surface.size());
+}
+
+/// Rotations of a nearly round part by a step about its axis that are none of its near-symmetries.
+std::vector<Eigen::Isometry3d> stepsAboutAxes(const TrainedModel& model)
+{
+  constexpr double step = StepOfRound * M_PI / 180.0;
+  const std::vector<ContinuousSymmetry> axes = nearlyRoundAxes(model.symmetries);
+  SoAPoints surface;
+  for (std::size_t k = 0; k < (axes.empty() ? 0 : model.surface.size()); ++k)
+  {
+    surface.add(model.surface.points[k]);
+  }
+  std::vector<Eigen::Isometry3d> steps;
+  for (const ContinuousSymmetry& axis : axes)
+  {
+    for (int k = 1; k < std::lround(2.0 * M_PI / step) && surface.size() > 0; ++k)
+    {
+      const Eigen::Isometry3d turn = turnAbout(axis.axis, k * step, axis.point);
+      const auto isSame = [&](const NearSymmetry& near)
+      {
+        const Eigen::Matrix3d between = near.T.linear().transpose() * turn.linear();
+        return Eigen::AngleAxisd(between).angle() < 0.5 * step;
+      };
+      const auto& near = model.symmetries.near;
+      if (std::none_of(near.begin(), near.end(), isSame) &&
+          overlapAfter(turn, surface, model.surfaceDistance, ExplainedDistance * model.diameter) >= LeastOverlap)
+      {
+        steps.push_back(turn);
+      }
+    }
+  }
+  return steps;
+}
+}
+
+LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
+  const EvidenceCollector& collector, const EvidenceRates& rates, const LocalSearchSettings& settings)
+  : InScene(scene)
+  , Model(model)
+  , Comparison(comparison)
+  , Collector(collector)
+  , Rates(rates)
+  , AboutAxis(settings.aboutAxis)
+  , Search(scene, model)
+  , AfterTurn(settingsAfterTurn(model))
+{
+  if (settings.nearSymmetries && !model.symmetries.near.empty())
+  {
+    for (const NearSymmetry& symmetry : model.symmetries.near)
+    {
+      this->Rotations.push_back(symmetry.T);
+    }
+    this->NearSymmetries = this->Rotations.size();
+    const std::vector<Eigen::Isometry3d> steps = stepsAboutAxes(model);
+    this->Rotations.insert(this->Rotations.end(), steps.begin(), steps.end());
+  }
+  if (model.surface.empty())
+  {
+    return;
+  }
+  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
+  const Eigen::Matrix3d axes = principalAxes(model.surface.points, middle);
+  const Symmetries same = asIfRound(model.symmetries);
+  std::vector<Eigen::Isometry3d> known{ Eigen::Isometry3d::Identity() };
+  const auto add = [&](int axis, double degrees, std::vector<Eigen::Isometry3d>& starts)
+  {
+    const Eigen::Isometry3d turn = turnAbout(axes.col(axis), degrees * M_PI / 180.0, middle);
+    const auto isKnown = [&](const Eigen::Isometry3d& other)
+    { return rotationError(nearestEqual(turn, other, same), other) < 0.5 * SmallTurn; };
+    if (std::none_of(known.begin(), known.end(), isKnown))
+    {
+      known.push_back(turn);
+      starts.push_back(turn);
+    }
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (settings.halfTurns)
+    {
+      add(axis, 180.0, this->HalfTurns);
+    }
+    if (settings.smallTurns)
+    {
+      add(axis, -SmallTurn, this->SmallTurns);
+      add(axis, SmallTurn, this->SmallTurns);
+    }
+  }
+}
+
+Pose LocalSearch::best(Pose pose) const
+{
+  Contender current = this->Comparison.contender(pose.T_scene_model);
+  this->restart(pose, current);
+  if (this->AboutAxis)
+  {
+    this->turnAboutAxis(pose, current);
+  }
+  if (!this->Rotations.empty())
+  {
+    this->decide(pose, current);
+  }
+  return pose;
+}
+
+void LocalSearch::restart(Pose& pose, Contender& current) const
+{
+  const double probability = claimOf(pose, false);
+  if (probability < WorthTrying)
+  {
+    return;
+  }
+  const Pose start = pose;
+  const auto tryFrom = [&](const Eigen::Isometry3d& T_scene_model)
+  {
+    Pose other = start;
+    other.T_scene_model = T_scene_model;
+    other = refinePoses({ other }, this->InScene, this->Model, restartSettings())[0];
+    if (this->Comparison.advantage(other.T_scene_model, current, 0.0) > 0.0)
+    {
+      pose = other;
+      current = this->Comparison.contender(pose.T_scene_model);
+    }
+  };
+  const double hopeless = -current.explained;
+  for (const Eigen::Isometry3d& turn : this->HalfTurns)
+  {
+    const Eigen::Isometry3d turned = start.T_scene_model * turn;
+    if (this->Comparison.advantage(turned, current, hopeless) > hopeless)
+    {
+      tryFrom(turned);
+    }
+  }
+  for (const Eigen::Isometry3d& turn : this->SmallTurns)
+  {
+    if (probability < Sure)
+    {
+      tryFrom(start.T_scene_model * turn);
+    }
+  }
+}
+
+void LocalSearch::turnAboutAxis(Pose& pose, Contender& current) const
+{
+  for (const Eigen::Isometry3d& T_scene_model : this->Search.better(pose.T_scene_model))
+  {
+    Pose turned = pose;
+    turned.T_scene_model = T_scene_model;
+    turned = refinePoses({ turned }, this->InScene, this->Model, this->AfterTurn)[0];
+    if (this->Comparison.advantage(turned.T_scene_model, current, 0.0) > 0.0)
+    {
+      pose = turned;
+      current = this->Comparison.contender(pose.T_scene_model);
+    }
+  }
+}
+
+void LocalSearch::decide(Pose& pose, Contender current) const
+{
+  const bool isLikely = claimOf(pose, false) >= WorthAsking;
+  const std::size_t count = isLikely ? this->Rotations.size() : this->NearSymmetries;
+  for (int round = 0; round < Rounds; ++round)
+  {
+    const double logOdds = isLikely ? this->Collector.logOdds(pose.T_scene_model, this->Rates) : 0.0;
+    std::vector<RotationAlternative> rotations{ { pose.T_scene_model, 0.0 } }; // their advantages, and then shares
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const Eigen::Isometry3d rotated = pose.T_scene_model * this->Rotations[k];
+      double advantage = this->Comparison.advantage(rotated, current, Hopeless);
+      if (isLikely && advantage > Hopeless)
+      {
+        advantage += SureAdvantage * (this->Collector.logOdds(rotated, this->Rates) - logOdds);
+      }
+      rotations.push_back({ rotated, advantage });
+    }
+    const auto hasLess = [](const RotationAlternative& a, const RotationAlternative& b) { return a.share < b.share; };
+    const std::size_t best = std::max_element(rotations.begin(), rotations.end(), hasLess) - rotations.begin();
+    const double most = rotations[best].share;
+    double odds = 0.0; // of all rotations against the best
+    for (RotationAlternative& rotation : rotations)
+    {
+      rotation.share = std::exp((rotation.share - most) / SureAdvantage);
+      odds += rotation.share;
+    }
+    pose.certainty = 1.0 / odds;
+    pose.alternatives.clear();
+    for (std::size_t k = 0; k < rotations.size(); ++k)
+    {
+      rotations[k].share /= odds;
+      if (k != best && rotations[k].share >= LeastShare)
+      {
+        pose.alternatives.push_back(rotations[k]);
+      }
+    }
+    std::stable_sort(pose.alternatives.begin(), pose.alternatives.end(),
+      [&](const RotationAlternative& a, const RotationAlternative& b) { return hasLess(b, a); });
+    if (best == 0)
+    {
+      return;
+    }
+    pose.T_scene_model = rotations[best].T_scene_model;
+    if (best > this->NearSymmetries)
+    {
+      pose = refinePoses({ pose }, this->InScene, this->Model, this->AfterTurn)[0];
+    }
+    current = this->Comparison.contender(pose.T_scene_model);
+  }
+}
+}

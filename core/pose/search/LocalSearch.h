@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose/Pose.h"
+#include "pose/refinement/PoseRefinement.h"
+#include "pose/selection/PoseComparison.h"
+#include "pose/verification/PoseEvidence.h"
+#include "pose/verification/RotationSearch.h"
+
+namespace meam
+{
+struct LocalSearchSettings
+{
+  bool halfTurns = true; ///< refines from half turns about the principal axes, for thin parts fit nearly as well upside
+                         ///< down
+  bool smallTurns = true; ///< refines from 10 degrees to both sides, for a flat part's refinement may end beside the
+                          ///< truth
+  bool aboutAxis = true;  ///< turns a nearly round part about its axis to where the scene's edges fit its own
+  bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis
+};
+
+/// Looks for a better pose of an instance among its rotations: multi-start ICP about the part's principal axes, and
+/// near-symmetry disambiguation, for the surface fits as well there where the notch that tells them apart is out of
+/// sight. Calls may run in parallel.
+class LocalSearch
+{
+public:
+  /// Keeps references to scene, model, comparison and collector.
+  LocalSearch(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
+    const EvidenceCollector& collector, const EvidenceRates& rates, const LocalSearchSettings& settings = {});
+
+  /// The pose, or the one that the scene speaks for most, with its certainty, how likely its rotation is among all, and
+  /// the alternatives to it.
+  Pose best(Pose pose) const;
+
+private:
+  using Contender = PoseComparison::Contender;
+  /// Takes the best of the poses refined from half turns and small ones; `current` is the pose as a contender.
+  void restart(Pose& pose, Contender& current) const;
+  /// Takes the better of the rotations about the axis of a nearly round part, refined.
+  void turnAboutAxis(Pose& pose, Contender& current) const;
+  /// Takes the likeliest rotation, by the comparison and, of a pose that is likely, by the evidence.
+  void decide(Pose& pose, Contender current) const;
+
+  const Scene& InScene;
+  const TrainedModel& Model;
+  const PoseComparison& Comparison;
+  const EvidenceCollector& Collector;
+  EvidenceRates Rates;
+  bool AboutAxis;
+  RotationSearch Search;
+  PoseRefinementSettings AfterTurn; ///< refinement of a pose that is nearly right
+  // In the part's frame, without the identity
+  std::vector<Eigen::Isometry3d> HalfTurns, SmallTurns;
+  std::vector<Eigen::Isometry3d> Rotations; ///< that hardly move the surface: near-symmetries first, then steps
+  std::size_t NearSymmetries = 0;           ///< of these
+};
+}
