@@ -2,6 +2,7 @@
 #include "pose/search/LocalSearch.h"
 
 #include "pose/PoseTolerances.h"
+#include "pose/refinement/FinalAlignment.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -105,9 +106,10 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
   , Comparison(comparison)
   , Collector(collector)
   , Rates(rates)
-  , AboutAxis(settings.aboutAxis)
+  , Settings(settings)
   , Search(scene, model)
   , AfterTurn(settingsAfterTurn(model))
+  , Ascent(collector, rates, model, settings.ascent)
 {
   if (settings.nearSymmetries && !model.symmetries.near.empty())
   {
@@ -152,11 +154,11 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
   }
 }
 
-Pose LocalSearch::best(Pose pose) const
+LocalSearch::Result LocalSearch::best(Pose pose) const
 {
   Contender current = this->Comparison.contender(pose.T_scene_model);
   this->restart(pose, current);
-  if (this->AboutAxis)
+  if (this->Settings.aboutAxis)
   {
     this->turnAboutAxis(pose, current);
   }
@@ -164,7 +166,28 @@ Pose LocalSearch::best(Pose pose) const
   {
     this->decide(pose, current);
   }
-  return pose;
+  const Eigen::Isometry3d T_decided = pose.T_scene_model;
+  if (this->Settings.aligns)
+  {
+    pose = alignRobustly(pose, this->InScene, this->Model);
+  }
+  else
+  {
+    pose.fit = fitInPlace(pose, pose.T_scene_model, this->InScene, this->Model);
+  }
+  const Eigen::Isometry3d T_aligned = pose.T_scene_model;
+  const EvidenceAscent::Result moved =
+    this->Settings.ascends ? this->Ascent.best(T_aligned) : this->Ascent.at(T_aligned);
+  pose.T_scene_model = moved.T_scene_model;
+  if (moved.isMoved)
+  {
+    pose.fit = fitInPlace(pose, T_aligned, this->InScene, this->Model);
+  }
+  for (RotationAlternative& other : pose.alternatives) // turned as before against where the pose is now
+  {
+    other.T_scene_model = pose.T_scene_model * T_decided.inverse() * other.T_scene_model;
+  }
+  return { pose, moved.evidence, moved.logOdds, moved.logOddsBefore };
 }
 
 void LocalSearch::restart(Pose& pose, Contender& current) const

@@ -3,6 +3,7 @@
 
 #include "pose/Pose.h"
 #include "pose/refinement/PoseRefinement.h"
+#include "pose/selection/EvidenceAscent.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
@@ -17,11 +18,15 @@ struct LocalSearchSettings
                           ///< truth
   bool aboutAxis = true;  ///< turns a nearly round part about its axis to where the scene's edges fit its own
   bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis
+  bool aligns = true;         ///< robustly, at the end
+  bool ascends = true;        ///< moves an aligned pose that the scan contradicts
+  EvidenceAscentSettings ascent;
 };
 
-/// Looks for a better pose of an instance among its rotations: multi-start ICP about the part's principal axes, and
-/// near-symmetry disambiguation, for the surface fits as well there where the notch that tells them apart is out of
-/// sight. Calls may run in parallel.
+/// Looks for the best pose of an instance: multi-start ICP about the part's principal axes, near-symmetry
+/// disambiguation, for the surface fits as well there where the notch that tells them apart is out of sight, final
+/// alignment (alignRobustly), and where the scan contradicts that, maximization of the log odds (EvidenceAscent). Calls
+/// may run in parallel.
 class LocalSearch
 {
 public:
@@ -29,9 +34,15 @@ public:
   LocalSearch(const Scene& scene, const TrainedModel& model, const PoseComparison& comparison,
     const EvidenceCollector& collector, const EvidenceRates& rates, const LocalSearchSettings& settings = {});
 
-  /// The pose, or the one that the scene speaks for most, with its certainty, how likely its rotation is among all, and
-  /// the alternatives to it.
-  Pose best(Pose pose) const;
+  struct Result
+  {
+    Pose pose; ///< with its certainty, how likely its rotation is among all, the alternatives to it, and its fit
+    PoseEvidence evidence; ///< at it
+    double logOdds;        ///< that a copy is there,
+    double logOddsBefore;  ///< and of the pose before it was moved to where the scan speaks for it the most
+  };
+  /// The pose, or the one that the scene speaks for most.
+  Result best(Pose pose) const;
 
 private:
   using Contender = PoseComparison::Contender;
@@ -47,12 +58,13 @@ private:
   const PoseComparison& Comparison;
   const EvidenceCollector& Collector;
   EvidenceRates Rates;
-  bool AboutAxis;
+  LocalSearchSettings Settings;
   RotationSearch Search;
   PoseRefinementSettings AfterTurn; ///< refinement of a pose that is nearly right
   // In the part's frame, without the identity
   std::vector<Eigen::Isometry3d> HalfTurns, SmallTurns;
   std::vector<Eigen::Isometry3d> Rotations; ///< that hardly move the surface: near-symmetries first, then steps
   std::size_t NearSymmetries = 0;           ///< of these
+  EvidenceAscent Ascent;
 };
 }

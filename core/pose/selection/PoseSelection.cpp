@@ -5,7 +5,6 @@
 #include "pose/PoseTolerances.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/objective/SurfaceMisfit.h"
-#include "pose/refinement/FinalAlignment.h"
 #include "pose/search/InstanceSuppression.h"
 #include "pose/selection/InstanceOdds.h"
 #include "pose/selection/PoseClusters.h"
@@ -34,74 +33,26 @@ double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel
   return settings.clusterDistance > 0.0 ? settings.clusterDistance : SamePoseDistance * model.diameter;
 }
 
-/// Looks for the rotation of an instance, aligns it, moves it where the scan contradicts it, and scores it.
-class InstanceFinish
+/// Scores what the local search found, and what contradicts it.
+FinishedInstance finish(const LocalSearch::Result& best, const Scene& scene, const TrainedModel& model,
+  const SurfaceContinuation& continuation, const SurfaceMisfit& misfit)
 {
-public:
-  InstanceFinish(const Scene& scene, const TrainedModel& model, const PoseSelectionSettings& settings,
-    const EvidenceCollector& collector, const EvidenceRates& rates, const PoseComparison& comparison,
-    const SurfaceContinuation& continuation, const SurfaceMisfit& misfit)
-    : InScene(scene)
-    , Model(model)
-    , Settings(settings)
-    , Search(scene, model, comparison, collector, rates, settings.search)
-    , Ascent(collector, rates, model, settings.ascent)
-    , Continuation(continuation)
-    , Misfit(misfit)
+  Pose pose = best.pose;
+  setSeen(pose, best.evidence, scene, model);
+  setEvidence(pose, best.logOdds);
+  pose.contradictions.past = best.evidence.counts.past + best.evidence.counts.farPast;
+  if (pose.placeProbability <= WorthExplaining || !haveSurfaces(scene, model))
   {
+    return { pose, {}, best.logOdds, best.logOddsBefore };
   }
-
-  FinishedInstance finish(Pose pose) const
+  double least = misfit.at(pose.T_scene_model); // a part that is turned wrongly is no other part
+  for (const RotationAlternative& other : pose.alternatives)
   {
-    pose = this->Search.best(pose);
-    const Eigen::Isometry3d T_decided = pose.T_scene_model;
-    if (this->Settings.aligns)
-    {
-      pose = alignRobustly(pose, this->InScene, this->Model);
-    }
-    else
-    {
-      pose.fit = fitInPlace(pose, pose.T_scene_model, this->InScene, this->Model);
-    }
-    const EvidenceAscent::Result best =
-      this->Settings.ascends ? this->Ascent.best(pose.T_scene_model) : this->Ascent.at(pose.T_scene_model);
-    const Eigen::Isometry3d T_aligned = pose.T_scene_model;
-    pose.T_scene_model = best.T_scene_model;
-    if (best.isMoved)
-    {
-      pose.fit = fitInPlace(pose, T_aligned, this->InScene, this->Model);
-    }
-    for (RotationAlternative& other : pose.alternatives) // turned as before against where the pose is now
-    {
-      other.T_scene_model = pose.T_scene_model * T_decided.inverse() * other.T_scene_model;
-    }
-    setSeen(pose, best.evidence, this->InScene, this->Model);
-    setEvidence(pose, best.logOdds);
-    const EvidenceCounts& counts = best.evidence.counts;
-    pose.contradictions.past = counts.past + counts.farPast;
-    const bool isAsked = pose.placeProbability > WorthExplaining && haveSurfaces(this->InScene, this->Model);
-    const Points beyond = isAsked ? this->Continuation.beyond(pose.T_scene_model) : Points();
-    if (isAsked) // a part that is turned wrongly is no other part
-    {
-      double least = this->Misfit.at(pose.T_scene_model);
-      for (const RotationAlternative& other : pose.alternatives)
-      {
-        least = std::min(least, this->Misfit.at(other.T_scene_model));
-      }
-      pose.contradictions.misfit = least / this->Misfit.expected();
-    }
-    return { pose, beyond, best.logOdds, best.logOddsBefore };
+    least = std::min(least, misfit.at(other.T_scene_model));
   }
-
-private:
-  const Scene& InScene;
-  const TrainedModel& Model;
-  const PoseSelectionSettings& Settings;
-  LocalSearch Search;
-  EvidenceAscent Ascent;
-  const SurfaceContinuation& Continuation;
-  const SurfaceMisfit& Misfit;
-};
+  pose.contradictions.misfit = least / misfit.expected();
+  return { pose, continuation.beyond(pose.T_scene_model), best.logOdds, best.logOddsBefore };
+}
 
 /// Of poses, best first, those that better ones leave: aligned they may have come to the same place.
 FinishedInstances withoutShared(const FinishedInstances& found, const InstanceClaims& claims)
@@ -153,7 +104,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   const EvidenceRates rates = evidenceRatesOf(scored, collector, settings.evidence, RateStride, settings.threads);
   const SurfaceContinuation continuation(scene, model);
   const SurfaceMisfit misfit(scene, model);
-  const InstanceFinish instance(scene, model, settings, collector, rates, comparison, continuation, misfit);
+  const LocalSearch search(scene, model, comparison, collector, rates, settings.search);
   const int count = static_cast<int>(selected.size());
   FinishedInstances finished;
   while (static_cast<int>(finished.size()) < count && !areEnough(finished, scored[selected[finished.size()]], settings))
@@ -173,7 +124,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
           {
             for (int k = done + begin; k < done + end; ++k)
             {
-              finished[k] = instance.finish(scored[selected[k]]);
+              finished[k] = finish(search.best(scored[selected[k]]), scene, model, continuation, misfit);
             }
           });
       });

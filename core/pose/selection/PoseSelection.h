@@ -5,7 +5,6 @@
 #include "pose/Deadline.h"
 #include "pose/Pose.h"
 #include "pose/search/LocalSearch.h"
-#include "pose/selection/EvidenceAscent.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/verification/PoseEvidence.h"
 
@@ -29,18 +28,15 @@ struct PoseSelectionSettings
   bool rotationCounts = false;     ///< or, counting its rotation, the pose is
   // Instances
   bool partIsPresent = false;    ///< no pose is less likely because the part may be missing
-  bool ascends = true;           ///< where the scan contradicts an aligned pose
   bool dropsShared = true;       ///< poses whose surface better ones have
   bool excludesOverlaps = true;  ///< of poses that cut into each other one is right at most
   bool weighsLookalikes = true;  ///< what contradicts a pose speaks for another part
   bool comparesInstances = true; ///< poses of nearly the same evidence, point by point
-  bool aligns = true;            ///< robustly, at the end
   EvidenceSettings evidence;     ///< that poses are scored by once more
   PoseComparisonSettings comparison;
   LocalSearchSettings search;
-  EvidenceAscentSettings ascent; ///< of an aligned pose that the scan contradicts
-  int threads = 0;               ///< 0: one for each processor
-  Deadline deadline;             ///< then those come out that are finished, and the others as they came in
+  int threads = 0;   ///< 0: one for each processor
+  Deadline deadline; ///< then those come out that are finished, and the others as they came in
 };
 
 /// The recommended settings before refinement.
@@ -56,9 +52,8 @@ Poses withinLimits(Poses poses, const PoseSelectionSettings& settings);
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.
 ///
 /// Instances: poses that share most of what they match, or whose middles are near, are of one instance; which stays is
-/// decided on the points that tell them apart. Then the pose is refined from others about it and turned by an
-/// approximate symmetry, where the scene speaks for it, which sets its certainty (LocalSearch); it is aligned
-/// (alignRobustly), moved where the scan contradicts it (EvidenceAscent), and scored.
+/// decided on the points that tell them apart. Its best rotation and place are looked for (LocalSearch), and what
+/// contradicts it, other poses, and that the part may be missing, lower its odds (InstanceOdds).
 Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& model,
   const PoseSelectionSettings& settings = {}, const Progress& progress = {});
 }

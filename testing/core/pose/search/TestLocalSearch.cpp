@@ -23,8 +23,10 @@ double leftOf(const Eigen::AngleAxisd& turn, double probability = 0.5)
   pose.probability = probability;
   const meam::PoseComparison comparison(scene, model);
   const meam::EvidenceCollector collector(scene, model);
+  meam::LocalSearchSettings settings;
+  settings.aligns = settings.ascends = false;
   return meam::rotationError(
-    meam::LocalSearch(scene, model, comparison, collector, {}).best(pose).T_scene_model, truth);
+    meam::LocalSearch(scene, model, comparison, collector, {}, settings).best(pose).pose.T_scene_model, truth);
 }
 
 const Eigen::Vector3d Up = Eigen::Vector3d::UnitZ();
@@ -76,7 +78,8 @@ meam::Pose decided(const meam::TriangleMesh& part, double degrees, double probab
   const meam::EvidenceCollector collector(scene, cutDiscModel());
   meam::Pose pose = scenes::displaced(scene.T_local_scene() * turned(degrees));
   pose.probability = probability;
-  pose = meam::LocalSearch(scene, cutDiscModel(), comparison, collector, {}, { false, false, false, true }).best(pose);
+  const meam::LocalSearchSettings settings{ false, false, false, true, false, false, {} };
+  pose = meam::LocalSearch(scene, cutDiscModel(), comparison, collector, {}, settings).best(pose).pose;
   pose.T_scene_model = scene.T_local_scene().inverse() * pose.T_scene_model;
   return pose;
 }

@@ -93,7 +93,7 @@ struct SelectionTrial
   }
   meam::Pose selected(bool ascends)
   {
-    this->settings.ascends = ascends;
+    this->settings.search.ascends = ascends;
     const meam::Poses scored = meam::verifyPoses({ this->aligned }, this->trial.scene, this->trial.model);
     return meam::selectPoses(scored, this->trial.scene, this->trial.model, this->settings).at(0);
   }
