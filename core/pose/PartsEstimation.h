@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pose/MEAMPoseEstimation.h"
-#include "pose/selection/ConflictResolution.h"
+#include "pose/search/ConflictResolution.h"
 
 #include <vector>
 

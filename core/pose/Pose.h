@@ -44,8 +44,8 @@ struct Pose
   double placeProbability = 0.0;
   double probability = 0.0; ///< [0, 1], that it is turned like this, too: placeProbability times certainty
   /// What poses of one scene are ordered by: logarithm of the odds that a copy is here, by all that was measured of it,
-  /// less what a search for it costs (EvidenceAscent), and less where its rotation is unsure: half that a copy is here
-  /// and half that it is turned like this.
+  /// less the penalty of a search for it (PatternSearch), and less where its rotation is unsure: half that a copy is
+  /// here and half that it is turned like this.
   double evidence = 0.0;
   /// [0, 1], where a copy is here, how sure it is that the part is not turned by one of its near-symmetries: low when
   /// what breaks them is not in sight.

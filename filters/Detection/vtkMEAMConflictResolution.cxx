@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMConflictResolution.h"
 
-#include "pose/selection/ConflictResolution.h"
+#include "pose/search/ConflictResolution.h"
 #include "scene/Units.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"

@@ -106,14 +106,14 @@ std::vector<Switch> makeSwitches()
   instances("small-turns", "no restarts at 10 degrees", [](S& s) { s.search.smallTurns = false; });
   instances("rotation-search", "no search about a round axis", [](S& s) { s.search.aboutAxis = false; });
   instances("rotation-decision", "no decision between near-symmetries", [](S& s) { s.search.nearSymmetries = false; });
-  instances("ascent", "no maximization of the log odds", [](S& s) { s.search.ascends = false; });
-  instances("ascent-past", "the same where the sensor saw past", [](S& s) { s.search.ascent.ifPast = false; });
-  instances("ascent-close", "the same where something close hides", [](S& s) { s.search.ascent.ifClose = false; });
+  instances("ascent", "no maximization of the log odds", [](S& s) { s.search.maximizes = false; });
+  instances("ascent-past", "the same where the sensor saw past", [](S& s) { s.search.pattern.ifPast = false; });
+  instances("ascent-close", "the same where something close hides", [](S& s) { s.search.pattern.ifClose = false; });
   instances("ascent-covered", "likely poses move that something close hides",
-    [](S& s) { s.search.ascent.leavesLikely = false; });
-  instances("ascent-sure", "sure poses move, too", [](S& s) { s.search.ascent.leavesSure = false; });
-  instances("ascent-orders", "one order of motions", [](S& s) { s.search.ascent.bothOrders = false; });
-  instances("ascent-price", "no penalty of a moved pose", [](S& s) { s.search.ascent.penalizes = false; });
+    [](S& s) { s.search.pattern.leavesLikely = false; });
+  instances("ascent-sure", "sure poses move, too", [](S& s) { s.search.pattern.leavesSure = false; });
+  instances("ascent-orders", "one order of motions", [](S& s) { s.search.pattern.bothOrders = false; });
+  instances("ascent-price", "no penalty of a moved pose", [](S& s) { s.search.pattern.penalizes = false; });
   instances("shared", "poses that share their surface stay", [](S& s) { s.dropsShared = false; });
   instances("overlaps", "poses may cut into each other", [](S& s) { s.excludesOverlaps = false; });
   instances("lookalikes", "what contradicts a pose speaks for no other part", [](S& s) { s.weighsLookalikes = false; });

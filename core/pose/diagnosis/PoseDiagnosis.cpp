@@ -133,9 +133,9 @@ Eigen::Isometry3d PoseDiagnosis::fitted(const Eigen::Isometry3d& T_local_model) 
   if (verification.evidence.rates) // else poses are not judged by their evidence
   {
     const EvidenceCollector collector(this->InScene, this->Model, verification.evidence);
-    const EvidenceAscent ascent(
-      collector, *verification.evidence.rates, this->Model, this->Detection.selection.search.ascent);
-    pose.T_scene_model = ascent.best(pose.T_scene_model).T_scene_model;
+    const PatternSearch search(
+      collector, *verification.evidence.rates, this->Model, this->Detection.selection.search.pattern);
+    pose.T_scene_model = search.best(pose.T_scene_model).T_scene_model;
   }
   if (!offsetBetween(pose.T_scene_model, T_local_model, this->Model).within(this->tolerance()))
   {

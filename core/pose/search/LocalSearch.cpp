@@ -109,7 +109,7 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
   , Settings(settings)
   , Search(scene, model)
   , AfterTurn(settingsAfterTurn(model))
-  , Ascent(collector, rates, model, settings.ascent)
+  , Pattern(collector, rates, model, settings.pattern)
 {
   if (settings.nearSymmetries && !model.symmetries.near.empty())
   {
@@ -176,8 +176,8 @@ LocalSearch::Result LocalSearch::best(Pose pose) const
     pose.fit = fitInPlace(pose, pose.T_scene_model, this->InScene, this->Model);
   }
   const Eigen::Isometry3d T_aligned = pose.T_scene_model;
-  const EvidenceAscent::Result moved =
-    this->Settings.ascends ? this->Ascent.best(T_aligned) : this->Ascent.at(T_aligned);
+  const PatternSearch::Result moved =
+    this->Settings.maximizes ? this->Pattern.best(T_aligned) : this->Pattern.at(T_aligned);
   pose.T_scene_model = moved.T_scene_model;
   if (moved.isMoved)
   {

@@ -3,7 +3,7 @@
 
 #include "pose/Pose.h"
 #include "pose/refinement/PoseRefinement.h"
-#include "pose/selection/EvidenceAscent.h"
+#include "pose/search/PatternSearch.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
@@ -19,13 +19,13 @@ struct LocalSearchSettings
   bool aboutAxis = true;  ///< turns a nearly round part about its axis to where the scene's edges fit its own
   bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis
   bool aligns = true;         ///< robustly, at the end
-  bool ascends = true;        ///< moves an aligned pose that the scan contradicts
-  EvidenceAscentSettings ascent;
+  bool maximizes = true;      ///< moves an aligned pose that the scan contradicts
+  PatternSearchSettings pattern;
 };
 
 /// Looks for the best pose of an instance: multi-start ICP about the part's principal axes, near-symmetry
 /// disambiguation, for the surface fits as well there where the notch that tells them apart is out of sight, final
-/// alignment (alignRobustly), and where the scan contradicts that, maximization of the log odds (EvidenceAscent). Calls
+/// alignment (alignRobustly), and where the scan contradicts that, maximization of the log odds (PatternSearch). Calls
 /// may run in parallel.
 class LocalSearch
 {
@@ -65,6 +65,6 @@ private:
   std::vector<Eigen::Isometry3d> HalfTurns, SmallTurns;
   std::vector<Eigen::Isometry3d> Rotations; ///< that hardly move the surface: near-symmetries first, then steps
   std::size_t NearSymmetries = 0;           ///< of these
-  EvidenceAscent Ascent;
+  PatternSearch Pattern;
 };
 }

@@ -7,7 +7,7 @@
 #include "pose/objective/SurfaceMisfit.h"
 #include "pose/search/InstanceSuppression.h"
 #include "pose/selection/InstanceOdds.h"
-#include "pose/selection/PoseClusters.h"
+#include "pose/search/PoseClusters.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
 

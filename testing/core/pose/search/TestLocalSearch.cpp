@@ -24,7 +24,7 @@ double leftOf(const Eigen::AngleAxisd& turn, double probability = 0.5)
   const meam::PoseComparison comparison(scene, model);
   const meam::EvidenceCollector collector(scene, model);
   meam::LocalSearchSettings settings;
-  settings.aligns = settings.ascends = false;
+  settings.aligns = settings.maximizes = false;
   return meam::rotationError(
     meam::LocalSearch(scene, model, comparison, collector, {}, settings).best(pose).pose.T_scene_model, truth);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose/selection/EvidenceAscent.h"
+#include "pose/search/PatternSearch.h"
 
 #include "mesh/Symmetries.h"
 #include "pose/Pose.h"
@@ -22,11 +22,11 @@ constexpr double Farthest = 0.1;    // of the diameter, from where the pose was,
 constexpr double MostTurned = 15.0; // and degrees
 constexpr int Rounds = 16;          // over all axes, at most
 constexpr int PointStride = 2;      // of the predicted points one of so many is looked at on the way
-constexpr double Price = 1.0;       // off the log odds of a moved pose: the best of so many has as much by chance
+constexpr double Penalty = 1.0;     // off the log odds of a moved pose: the best of so many has as much by chance
 }
 
-EvidenceAscent::EvidenceAscent(const EvidenceCollector& collector, const EvidenceRates& rates,
-  const TrainedModel& model, const EvidenceAscentSettings& settings)
+PatternSearch::PatternSearch(const EvidenceCollector& collector, const EvidenceRates& rates, const TrainedModel& model,
+  const PatternSearchSettings& settings)
   : Collector(collector)
   , Rates(rates)
   , Model(model)
@@ -54,22 +54,22 @@ EvidenceAscent::EvidenceAscent(const EvidenceCollector& collector, const Evidenc
   }
 }
 
-EvidenceAscent::Result EvidenceAscent::at(const Eigen::Isometry3d& T_scene_model) const
+PatternSearch::Result PatternSearch::at(const Eigen::Isometry3d& T_scene_model) const
 {
   Result result{ T_scene_model, this->Collector.collect(T_scene_model), 0.0, 0.0, false };
   result.logOdds = result.logOddsBefore = this->Collector.logOdds(result.evidence.counts, this->Rates);
   return result;
 }
 
-EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_model) const
+PatternSearch::Result PatternSearch::best(const Eigen::Isometry3d& T_scene_model) const
 {
   Result best = this->at(T_scene_model);
   if (this->isContradicted(best))
   {
     for (const std::vector<Motion>& motions : this->Orders)
     {
-      Result moved = this->at(this->climb(T_scene_model, motions));
-      moved.logOdds -= this->Settings.penalizes ? Price : 0.0;
+      Result moved = this->at(this->maximum(T_scene_model, motions));
+      moved.logOdds -= this->Settings.penalizes ? Penalty : 0.0;
       moved.logOddsBefore = best.logOddsBefore;
       moved.isMoved = true;
       if (moved.logOdds > best.logOdds)
@@ -81,7 +81,7 @@ EvidenceAscent::Result EvidenceAscent::best(const Eigen::Isometry3d& T_scene_mod
   return best;
 }
 
-bool EvidenceAscent::isContradicted(const Result& pose) const
+bool PatternSearch::isContradicted(const Result& pose) const
 {
   const double probability = probabilityOf(pose.logOdds);
   if (probability < WorthTrying || (this->Settings.leavesSure && probability >= Sure))
@@ -94,44 +94,44 @@ bool EvidenceAscent::isContradicted(const Result& pose) const
            this->Collector.closelyHidden(pose.T_scene_model) >= LeastClose);
 }
 
-Eigen::Isometry3d EvidenceAscent::moved(const Eigen::Isometry3d& T, const Motion& motion, double step) const
+Eigen::Isometry3d PatternSearch::moved(const Eigen::Isometry3d& T, const Motion& motion, double step) const
 {
   const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
   return motion.isTurn ? T * turnAbout(motion.axis, step / (0.5 * this->Model.diameter), middle)
                        : T * Eigen::Translation3d(step * motion.axis);
 }
 
-bool EvidenceAscent::isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
+bool PatternSearch::isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
 {
   const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
   return translationError(a, b, middle) <= Farthest * this->Model.diameter && rotationError(a, b) <= MostTurned;
 }
 
-Eigen::Isometry3d EvidenceAscent::climb(
+Eigen::Isometry3d PatternSearch::maximum(
   const Eigen::Isometry3d& T_scene_model, const std::vector<Motion>& motions) const
 {
   const auto logOdds = [&](const Eigen::Isometry3d& T) { return this->Collector.logOdds(T, this->Rates, PointStride); };
   Eigen::Isometry3d best = T_scene_model;
   double most = logOdds(best);
-  const auto climbs = [&](const Motion& motion, double step)
+  const auto improves = [&](const Motion& motion, double step)
   {
     const Eigen::Isometry3d next = this->moved(best, motion, step);
     const double odds = this->isNear(next, T_scene_model) ? logOdds(next) : most;
-    const bool isHigher = odds > most;
-    best = isHigher ? next : best;
-    most = isHigher ? odds : most;
-    return isHigher;
+    const bool isMore = odds > most;
+    best = isMore ? next : best;
+    most = isMore ? odds : most;
+    return isMore;
   };
   double step = FirstStep * this->Model.diameter;
   const double lastStep = LastStep * this->Model.diameter;
   for (int round = 0; round < Rounds && step >= lastStep; ++round)
   {
-    bool hasClimbed = false;
+    bool hasImproved = false;
     for (const Motion& motion : motions)
     {
-      hasClimbed |= climbs(motion, step) || climbs(motion, -step);
+      hasImproved |= improves(motion, step) || improves(motion, -step);
     }
-    step *= hasClimbed ? 1.0 : 0.5;
+    step *= hasImproved ? 1.0 : 0.5;
   }
   return best;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose/selection/ConflictResolution.h"
+#include "pose/search/ConflictResolution.h"
 
 #include "TestScale.h"
 #include "TestScene.h"

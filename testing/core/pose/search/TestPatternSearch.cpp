@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose/selection/EvidenceAscent.h"
+#include "pose/search/PatternSearch.h"
 
 #include "TestScene.h"
 #include "pose/refinement/FinalAlignment.h"
@@ -59,9 +59,9 @@ struct Trial
     return pose;
   }
 
-  meam::EvidenceAscent::Result best(const meam::Pose& pose, const meam::EvidenceAscentSettings& settings = {}) const
+  meam::PatternSearch::Result best(const meam::Pose& pose, const meam::PatternSearchSettings& settings = {}) const
   {
-    return meam::EvidenceAscent(this->collector, meam::EvidenceRates(), this->model, settings).best(pose.T_scene_model);
+    return meam::PatternSearch(this->collector, meam::EvidenceRates(), this->model, settings).best(pose.T_scene_model);
   }
 
   /// Of the bar at a pose from where it lies, mm and degrees.
@@ -91,9 +91,9 @@ struct SelectionTrial
     this->settings.evidence.rates = meam::EvidenceRates();
     this->settings.search.halfTurns = this->settings.search.smallTurns = false;
   }
-  meam::Pose selected(bool ascends)
+  meam::Pose selected(bool maximizes)
   {
-    this->settings.search.ascends = ascends;
+    this->settings.search.maximizes = maximizes;
     const meam::Poses scored = meam::verifyPoses({ this->aligned }, this->trial.scene, this->trial.model);
     return meam::selectPoses(scored, this->trial.scene, this->trial.model, this->settings).at(0);
   }
@@ -102,7 +102,7 @@ struct SelectionTrial
 double past(const meam::PoseEvidence& evidence) { return evidence.counts.past + evidence.counts.farPast; }
 }
 
-TEST(EvidenceAscent, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAir)
+TEST(PatternSearch, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAir)
 {
   const Trial& trial = trialOf<54>();
   // One end fits, where least squares leave it; the other hangs 12 mm over the table.
@@ -110,43 +110,43 @@ TEST(EvidenceAscent, APartThatIsShorterThanItsCADFileGivesWayWhereItHangsInTheAi
   EXPECT_NEAR(trial.offset(pose.T_scene_model), 6.0, 0.5);
   const double before = past(trial.collector.collect(pose.T_scene_model));
   EXPECT_GT(before, 1.0);
-  const meam::EvidenceAscent::Result best = trial.best(pose);
+  const meam::PatternSearch::Result best = trial.best(pose);
   EXPECT_TRUE(best.isMoved);
   EXPECT_LT(trial.offset(best.T_scene_model), 5.0);
   EXPECT_LT(past(best.evidence), 0.8 * before);
 }
 
-TEST(EvidenceAscent, APoseBelowASurfaceThatMayBeThePartsOwnIsRaised)
+TEST(PatternSearch, APoseBelowASurfaceThatMayBeThePartsOwnIsRaised)
 {
   const Trial& trial = trialOf<CADLength>();
   const meam::Pose pose = trial.sunken(3.0, -6.0);
-  const meam::EvidenceAscent::Result best = trial.best(pose);
+  const meam::PatternSearch::Result best = trial.best(pose);
   EXPECT_TRUE(best.isMoved);
   EXPECT_LT(trial.offset(best.T_scene_model), 0.03 * trial.model.diameter) << "the tolerance";
   EXPECT_LT(trial.turn(best.T_scene_model), 2.0);
   EXPECT_LT(trial.collector.closelyHidden(best.T_scene_model), 0.1);
-  meam::EvidenceAscentSettings settings;
+  meam::PatternSearchSettings settings;
   settings.ifClose = false;
   EXPECT_FALSE(trial.best(pose, settings).isMoved);
 }
 
-TEST(EvidenceAscent, TurnsBeforeShiftsEndHigherThanTheOtherWayRound)
+TEST(PatternSearch, TurnsBeforeShiftsEndHigherThanTheOtherWayRound)
 {
   const Trial& trial = trialOf<CADLength>();
-  const meam::EvidenceAscent::Result best = trial.best(trial.sunken(0.0, -8.0));
+  const meam::PatternSearch::Result best = trial.best(trial.sunken(0.0, -8.0));
   EXPECT_LT(trial.turn(best.T_scene_model), 5.0);
-  meam::EvidenceAscentSettings settings;
+  meam::PatternSearchSettings settings;
   settings.bothOrders = false;
   EXPECT_GT(best.logOdds, trial.best(trial.sunken(0.0, -8.0), settings).logOdds + 1.0);
 }
 
-TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
+TEST(PatternSearch, APoseStaysThatNothingContradictsOrThatIsUnlikely)
 {
   const Trial& trial = trialOf<CADLength>();
-  meam::EvidenceAscentSettings settings;
+  meam::PatternSearchSettings settings;
   const auto stays = [&](const meam::Pose& pose)
   {
-    const meam::EvidenceAscent::Result best = trial.best(pose, settings);
+    const meam::PatternSearch::Result best = trial.best(pose, settings);
     return !best.isMoved && best.T_scene_model.matrix() == pose.T_scene_model.matrix();
   };
   EXPECT_TRUE(stays(trial.displaced(0.3)));
@@ -156,10 +156,10 @@ TEST(EvidenceAscent, APoseStaysThatNothingContradictsOrThatIsUnlikely)
   EXPECT_TRUE(stays(trial.displaced(12.0)));
 }
 
-TEST(EvidenceAscent, APoseIsMovedNoFartherThanATenthOfTheDiameterAndPaysForIt)
+TEST(PatternSearch, APoseIsMovedNoFartherThanATenthOfTheDiameterAndPaysForIt)
 {
   const Trial& trial = trialOf<CADLength>();
-  const meam::EvidenceAscent::Result best = trial.best(trial.displaced(12.0, 5.0));
+  const meam::PatternSearch::Result best = trial.best(trial.displaced(12.0, 5.0));
   EXPECT_TRUE(best.isMoved);
   EXPECT_LT(trial.offset(best.T_scene_model), 12.0 - 0.08 * trial.model.diameter);
   EXPECT_LT(trial.turn(best.T_scene_model), 2.5);
@@ -168,7 +168,7 @@ TEST(EvidenceAscent, APoseIsMovedNoFartherThanATenthOfTheDiameterAndPaysForIt)
   EXPECT_DOUBLE_EQ(best.logOdds, trial.collector.logOdds(counts, meam::EvidenceRates()) - 1.0);
 }
 
-TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
+TEST(PatternSearch, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
 {
   SelectionTrial trial;
   const meam::Pose before = trial.selected(false), after = trial.selected(true);
@@ -180,7 +180,7 @@ TEST(EvidenceAscent, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
   EXPECT_GT(after.evidence, before.evidence);
 }
 
-TEST(EvidenceAscent, WhereAPoseIsMovedToDoesNotTellThatThePartIsThere)
+TEST(PatternSearch, WhereAPoseIsMovedToDoesNotTellThatThePartIsThere)
 {
   SelectionTrial trial;
   trial.settings.weighsLookalikes = false;

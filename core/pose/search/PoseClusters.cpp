@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose/selection/PoseClusters.h"
+#include "pose/search/PoseClusters.h"
 
 #include "pose/PoseTolerances.h"
 

@@ -8,7 +8,7 @@
 
 namespace meam
 {
-struct EvidenceAscentSettings
+struct PatternSearchSettings
 {
   bool ifPast = true;       ///< poses move that the sensor saw past,
   bool ifClose = true;      ///< and those that a surface close before them hides
@@ -18,32 +18,32 @@ struct EvidenceAscentSettings
   bool penalizes = true;    ///< a moved pose, for the best of so many has some evidence by chance
 };
 
-/// Moves a pose to where the scan speaks for it the most, by compass searches along and about the axes of the part (the
-/// exploratory moves of Hooke and Jeeves, "Direct search" solution of numerical and statistical problems, J. ACM 1961):
-/// one shifts it before it turns it, one turns it first, for each may end at a lower summit.
+/// Local maximization of the log odds of a pose: pattern searches along and about the axes of the part (the exploratory
+/// moves of Hooke and Jeeves, "Direct search" solution of numerical and statistical problems, J. ACM 1961). One shifts
+/// before it turns, one turns first: they may reach different local maxima.
 ///
 /// Least squares know only of what corresponds: of a part that is not quite as in its CAD file, or that a sensor has
 /// smoothed, they fit one end and leave the other in the air, or below the surface, where nothing speaks against it. A
 /// pose that nothing contradicts stays, for least squares are more exact; so do all in scenes without a surface. Calls
 /// may run in parallel.
-class EvidenceAscent
+class PatternSearch
 {
 public:
   /// Keeps references to the collector and the model.
-  EvidenceAscent(const EvidenceCollector& collector, const EvidenceRates& rates, const TrainedModel& model,
-    const EvidenceAscentSettings& settings = {});
+  PatternSearch(const EvidenceCollector& collector, const EvidenceRates& rates, const TrainedModel& model,
+    const PatternSearchSettings& settings = {});
 
   struct Result
   {
     Eigen::Isometry3d T_scene_model;
     PoseEvidence evidence; ///< at it
-    double logOdds;        ///< less the price, where it was moved
+    double logOdds;        ///< less the penalty, where it was moved
     double logOddsBefore;  ///< of the pose as it was
     bool isMoved;
   };
   /// What the scan says of a pose, in the local frame.
   Result at(const Eigen::Isometry3d& T_scene_model) const;
-  /// The same, or of one near by that is worth its price.
+  /// The same, or of one near by that is worth its penalty.
   Result best(const Eigen::Isometry3d& T_scene_model) const;
 
 private:
@@ -56,13 +56,13 @@ private:
   bool isContradicted(const Result& pose) const;
   Eigen::Isometry3d moved(const Eigen::Isometry3d& T_scene_model, const Motion& motion, double step) const;
   bool isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
-  /// A summit near a pose, by motions that are tried in this order.
-  Eigen::Isometry3d climb(const Eigen::Isometry3d& T_scene_model, const std::vector<Motion>& motions) const;
+  /// A local maximum near a pose, by motions that are tried in this order.
+  Eigen::Isometry3d maximum(const Eigen::Isometry3d& T_scene_model, const std::vector<Motion>& motions) const;
 
   const EvidenceCollector& Collector;
   EvidenceRates Rates;
   const TrainedModel& Model;
-  EvidenceAscentSettings Settings;
+  PatternSearchSettings Settings;
   /// Shifts and then turns, but about the axis of a round part, and of a nearly round one (RotationDecision); and the
   /// same in the other order.
   std::vector<std::vector<Motion>> Orders;
