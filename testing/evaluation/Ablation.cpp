@@ -428,37 +428,41 @@ Timed<Poses> find(Part& part, const Scan& scan, const Switch& change, Shared& sh
   {
     own.candidates = timed(own.scene.seconds, [&] { return detectPoses(scene, model, settings.detection); });
   }
-  Poses poses;
-  double seconds = 0.0;
-  if (keep || change.from <= Stage::Ranking)
-  {
-    const double start = processorTime() - own.candidates.seconds;
-    DetectionReport told;
-    poses = rankCandidates(own.candidates.value, scene, model, settings, &told, {},
-      [&](PoseStage stage, const Poses& returned)
-      {
-        if (stage == PoseStage::Verification)
-        {
-          own.ranked = { { returned, told.rates }, processorTime() - start };
-        }
-      });
-    seconds = processorTime() - start;
-  }
-  else
+  Timed<Poses> found;
+  const auto select = [&](double before)
   {
     PoseSelectionSettings selection = settings.selection;
     selection.evidence.rates = own.ranked.value.rates;
-    const Timed<Poses> selected =
-      timed(own.ranked.seconds, [&] { return selectPoses(own.ranked.value.verified, scene, model, selection); });
-    poses = selected.value;
-    seconds = selected.seconds;
+    return timed(before, [&] { return selectPoses(own.ranked.value.verified, scene, model, selection); });
+  };
+  if (keep || change.from <= Stage::Ranking)
+  {
+    DetectionReport told;
+    found = timed(own.candidates.seconds,
+      [&]
+      {
+        return rankCandidates(own.candidates.value, scene, model, settings, &told, {},
+          [&](PoseStage stage, const Poses& returned)
+          {
+            if (stage == PoseStage::Verification)
+            {
+              own.ranked.value.verified = returned;
+            }
+          });
+      });
+    own.ranked.value.rates = told.rates;
+    own.ranked.seconds = keep ? found.seconds - select(0.0).seconds : 0.0;
   }
-  poses = toSceneFrame(poses, scene.T_local_scene(), model.symmetries);
+  else
+  {
+    found = select(own.ranked.seconds);
+  }
+  found.value = toSceneFrame(found.value, scene.T_local_scene(), model.symmetries);
   if (keep)
   {
     shared = own;
   }
-  return { poses, seconds };
+  return found;
 }
 
 /// The poses in a scan by one switch after the other. Keeps references to both.
