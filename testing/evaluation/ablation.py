@@ -48,6 +48,7 @@ SIBLINGS_SEED = 903  # nothing was fitted on it
 PIPES_FOCAL = 422.25  # pixels
 LEAST = 1e-4  # probability that a log loss takes for less, and for more than one less it
 COLUMNS = ("world", "part", "scene", "switch", "copies", "found", "seconds", "poses")  # poses: probability:outcome ...
+FIGURES = ("found", "found at 99 %", "log loss", "right above 50 %", "wrong above 50 %", "ms")
 WRONG, FOUND, RIGHT, UNKNOWN = "wfr?"  # RIGHT: a copy that need not be found
 NO_IMAGE, NO_EDGES, NO_TURNS = numpy.zeros(0, numpy.uint8), numpy.zeros((0, 3), numpy.float32), numpy.zeros((0, 4, 4))
 PARTS = {}  # by what they are made of
@@ -299,6 +300,11 @@ class Figures:
             losses = [-math.log(min(max(p if outcome != WRONG else 1 - p, LEAST), 1 - LEAST)) for p, outcome in poses]
             self.loss = sum(losses)
 
+    def columns(self):
+        """As FIGURES names them."""
+        return (self.found, "" if self.sure is None else self.sure, "" if self.loss is None else f"{self.loss:.3f}", self.right,
+                self.wrong, f"{self.ms:.0f}")
+
 
 def summary(rows):
     """Of each world and switch its figures and those of `none` in the same scenes."""
@@ -321,8 +327,8 @@ def write_tables(rows, folder):
     lines = ["| changed | " + " | ".join(worlds) + " |", "|---" * (len(worlds) + 1) + "|"]
     with open(os.path.join(folder, "ablation.csv"), "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("date", "commit", "world", "switch", "changed", "scenes", "copies", "found", "found at 99 %", "log loss",
-                         "right above 50 %", "wrong above 50 %", "ms"))
+        writer.writerow(("date", "commit", "world", "switch", "changed", "scenes", "copies", *FIGURES,
+                         *(f"{name}, nothing changed" for name in FIGURES)))
         for switch, words in told.items():
             cells = []
             for world in worlds:
@@ -331,8 +337,7 @@ def write_tables(rows, folder):
                     continue
                 here, plain = figures[world, switch]
                 writer.writerow((datetime.date.today(), git.stdout.strip(), world, switch, words, here.scenes, here.copies or "",
-                                 here.found, "" if here.sure is None else here.sure,
-                                 "" if here.loss is None else f"{here.loss:.3f}", here.right, here.wrong, f"{here.ms:.0f}"))
+                                 *here.columns(), *plain.columns()))
                 cells.append(cell(here, plain if switch != "none" else None))
             if any(cells):
                 lines.append(f"| `{switch}`: {words} | " + " | ".join(cells) + " |")

@@ -204,7 +204,7 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
         TOHOKU, scenes=20, only=("preset", "mesh-visibility", "mesh-edges", "mesh-both", "views-14")), False),
     "models-paper": ("Which model to train, with the paper's parameters", lambda: models.measure(
         TOHOKU, preset="paper", only=("preset", "mesh-edges", "separate", "whole")), False),
-    "ablation": ("Each decision switched off", ablation, False),
+    "ablation": ("Each decision switched off, in several worlds", ablation, False),
     "voting": ("Speed of voting", lambda: benchmarks.medians(
         "ReadEntries|Increments|IncrementsInFirstCache|CastVotes|Voting|VotingByHashMap|Peaks|PairKeys|PairKeysOneByOne", 9),
                False),
@@ -213,7 +213,7 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
         "ImageEdges|ImageEdgesTangentsOfPoints|ImageOfAnotherCamera|DepthEdgesAndCreases|BackgroundRemoval"), False),
     "slopes": ("How the time grows", benchmarks.slopes, False),
 }
-OF_OTHERS = {"ablation": "Each decision switched off",
+OF_OTHERS = {"ablation-clean": "Decisions switched off, without noise",
              "ablation-noise": "Decisions switched off, with noise"}  # tables that are not made here
 
 
