@@ -70,15 +70,15 @@ Scene sceneOf(const TrainedModel& model, const SceneInput& input, const Detectio
 
 namespace
 {
-// A few poses are asked for of a bin full of parts: a share of the reference points finds enough that are sure.
-constexpr double FirstShare = 0.25; // of the reference points; the others follow only where these do not do
-constexpr double LeastShare = 0.06; // before these, where time is short
-constexpr double VotingTime = 0.6;  // of what is left of a time limit: up to refined poses; the rest finishes them
-constexpr double Sure = 3.0;        // log odds of a refined pose,
-constexpr int Spare = 2;            // and so many more than are asked for: what follows doubts some
+// A few poses are asked for of a bin full of parts: some of the reference points find enough that are sure. Of all of
+// them so many vote first; the others follow only where these do not do.
+constexpr double Shares[] = { 0.06, 0.2, 1.0 };
+constexpr double VotingTime = 0.6; // of what is left of a time limit: up to refined poses; the rest finishes them
+constexpr double Sure = 3.0;       // log odds of a refined pose,
+constexpr int Spare = 2;           // and so many more than are asked for: what follows doubts some
 
-/// The stages from raw candidates to ranked poses, of which a search may take several lots of candidates through all
-/// but the last.
+/// The stages from raw candidates to ranked poses, of which a search may go through all but the last several times,
+/// each time with more candidates.
 class Ranking
 {
 public:
@@ -92,8 +92,8 @@ public:
   {
   }
 
-  /// Takes candidates as far as refinement, and scores all that came so far.
-  void add(Poses poses, const Progress& progress)
+  /// Takes candidates as far as refined poses with their scores, in place of those before.
+  void rank(Poses poses, const Progress& progress)
   {
     StageTimes& spent = this->Told.times;
     const Scene& scene = this->InScene;
@@ -110,7 +110,7 @@ public:
     EvidenceRates rates;
     poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates);
     const bool haveRates = settings.candidateVerification.method == VerificationMethod::VisibleEvidence;
-    this->Told.rates = haveRates ? std::optional(rates) : std::nullopt; // of the last lot: it is the largest
+    const std::optional<EvidenceRates> ofScan = haveRates ? std::optional(rates) : std::nullopt;
     this->returned(PoseStage::CandidateVerification, poses);
     spent.verification += watch.lap();
     poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
@@ -119,10 +119,10 @@ public:
     poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.5, 0.9));
     this->returned(PoseStage::Refinement, poses);
     spent.refinement += watch.lap();
-    this->Refined.insert(this->Refined.end(), poses.begin(), poses.end());
     PoseVerificationSettings verification = settings.verification;
-    verification.evidence.rates = this->Told.rates; // of all candidates; few are left
-    this->Verified = verifyPoses(this->Refined, scene, model, verification, subProgress(progress, 0.9, 1.0));
+    verification.evidence.rates = ofScan; // of all candidates; few are left
+    this->Verified = verifyPoses(poses, scene, model, verification, subProgress(progress, 0.9, 1.0));
+    this->Told.rates = ofScan;
     spent.verification += watch.lap();
   }
 
@@ -170,8 +170,7 @@ private:
   {
     if (this->Observer)
     {
-      Poses& all = this->Returned[stage];
-      all.insert(all.end(), poses.begin(), poses.end());
+      this->Returned[stage] = poses;
     }
   }
 
@@ -180,7 +179,7 @@ private:
   const DetectionSettings& Settings;
   DetectionReport& Told;
   const PoseObserver& Observer;
-  Poses Refined, Verified;
+  Poses Verified;
   std::map<PoseStage, Poses> Returned; ///< in the order of the stages
 };
 }
@@ -190,7 +189,7 @@ Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model,
 {
   DetectionReport unused;
   Ranking ranking(scene, model, settings, report ? *report : unused, observer);
-  ranking.add(std::move(poses), subProgress(progress, 0.0, 0.86));
+  ranking.rank(std::move(poses), subProgress(progress, 0.0, 0.86));
   return ranking.select(subProgress(progress, 0.86, 1.0));
 }
 
@@ -200,29 +199,29 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   DetectionReport unused;
   DetectionReport& told = report ? *report : unused;
   Stopwatch watch;
-  const CandidateSearch search(scene, model, settings.detection);
+  CandidateSearch search(scene, model, settings.detection);
   told.times.detection += watch.lap();
   Ranking ranking(scene, model, settings, told, observer);
   // The order by votes, or by what fits of edges, does not tell what is sure.
   const int asked = settings.screening ? settings.selection.maximumPoses : 0;
-  const auto vote = [&](double from, double to, const Progress& ofLot)
+  const auto vote = [&](double share, const Progress& ofLot)
   {
     watch.lap();
-    Poses candidates = search.candidates(from, to, subProgress(ofLot, 0.0, 0.5));
+    Poses candidates = search.upTo(share, subProgress(ofLot, 0.0, 0.5));
     told.times.detection += watch.lap();
-    ranking.add(std::move(candidates), subProgress(ofLot, 0.5, 1.0));
+    ranking.rank(std::move(candidates), subProgress(ofLot, 0.5, 1.0));
   };
   constexpr double most = 0.9; // of the progress
-  // With little time a small lot comes first: of what is cut short nothing comes out.
-  const std::vector<double> shares = settings.deadline.isSet() ? std::vector<double>{ LeastShare, FirstShare, 1.0 }
-                                     : asked > 0               ? std::vector<double>{ FirstShare, 1.0 }
-                                                               : std::vector<double>{ 1.0 };
   const Deadline ofVotes = settings.deadline.after(VotingTime);
   double from = 0.0;
-  for (const double to : shares)
+  for (const double to : Shares)
   {
+    if (to < 1.0 && asked == 0 && !settings.deadline.isSet())
+    {
+      continue;
+    }
     const Progress ofLot = ofVotes.within(subProgress(progress, most * from, most * to));
-    told.isCutShort = !isDoneBy(ofVotes, [&] { vote(from, to, ofLot); });
+    told.isCutShort = !isDoneBy(ofVotes, [&] { vote(to, ofLot); });
     if (told.isCutShort || (asked > 0 && ranking.areSure(asked + Spare)))
     {
       break;

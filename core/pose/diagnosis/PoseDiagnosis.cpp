@@ -88,7 +88,7 @@ Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& p
   PoseDetectionSettings voting = this->Detection.detection;
   voting.peaksPerReference = std::max(voting.peaksPerReference, PeaksLookedFor);
   const Poses candidates = CandidateSearch(this->InScene, this->Model, voting)
-                             .candidatesNear(place, LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.3));
+                             .near(place, LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.3));
   const Poses nearby = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.3, 0.6));
   const auto best = firstOn(nearby);
@@ -319,7 +319,7 @@ bool PoseDiagnosis::isFoundByAllPoints(const Eigen::Isometry3d& T_local_model, c
 {
   const Eigen::Vector3f middle = T_local_model.cast<float>() * this->Model.visibility->middle();
   Poses candidates = CandidateSearch(this->InScene, this->Model, this->Detection.detection)
-                       .candidatesNear(middle, LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.4));
+                       .near(middle, LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.4));
   const Poses& voted = this->Trace.posesOf(PoseStage::Voting);
   candidates.insert(candidates.end(), voted.begin(), voted.end());
   const Poses ranked = rankCandidates(

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
+#include <map>
 
 namespace meam
 {
@@ -21,21 +21,23 @@ struct Candidate
   int modelPoint = -1;
 };
 
-/// One or more for each reference point that found pairs, in their order. `references`: of the round's points.
-std::vector<Candidate> candidatesOf(const VotingRound& round, const PairVoting& voting,
+using Candidates = std::vector<Candidate>;
+
+/// Those of each reference point, one or more where it found pairs. `references`: of the round's points.
+std::vector<Candidates> candidatesOf(const VotingRound& round, const PairVoting& voting,
   const std::vector<int>& references, const Symmetries& symmetries, const PoseDetectionSettings& settings,
   const Progress& progress)
 {
   const PartPairs& part = round.part;
   const int count = static_cast<int>(references.size());
+  std::vector<Candidates> found(count);
   if (count == 0 || part.table.votingPoints == 0)
   {
-    return {};
+    return found;
   }
   const int threads = std::min(numberOfThreads(settings.threads), count);
   std::vector<VoteAccumulator> accumulators(
     threads, VoteAccumulator(part.table.votingPoints, part.angleStep, settings.smoothPeaks));
-  std::vector<std::vector<Candidate>> found(count);
   parallelFor(count, threads, progress,
     [&](int begin, int end, int thread)
     {
@@ -56,46 +58,23 @@ std::vector<Candidate> candidatesOf(const VotingRound& round, const PairVoting& 
         }
       }
     });
-  std::vector<Candidate> all;
-  for (const std::vector<Candidate>& ofOne : found)
-  {
-    all.insert(all.end(), ofOne.begin(), ofOne.end());
-  }
-  return all;
+  return found;
 }
 
-/// Their poses, with the appearance model of the edge point that each was taken for.
-Poses edgePoses(const std::vector<Candidate>& candidates, const TrainedModel& model)
+/// The pose with the appearance model of the edge point that it was taken for.
+Pose edgePose(const Candidate& candidate, const TrainedModel& model)
 {
-  Poses poses;
-  for (const Candidate& candidate : candidates)
-  {
-    poses.push_back(candidate.pose);
-    poses.back().viewId = __builtin_ctz(model.edgeViews[candidate.modelPoint]);
-  }
-  return poses;
+  Pose pose = candidate.pose;
+  pose.viewId = __builtin_ctz(model.edgeViews[candidate.modelPoint]);
+  return pose;
 }
 
-/// Their poses, with the appearance model that shows what the sensor sees.
-Poses surfacePoses(const std::vector<Candidate>& candidates, const Scene& scene, const TrainedModel& model)
+/// The pose with the appearance model that shows what the sensor sees.
+Pose surfacePose(const Candidate& candidate, const Scene& scene, const TrainedModel& model)
 {
-  Poses poses;
-  for (const Candidate& candidate : candidates)
-  {
-    poses.push_back(candidate.pose);
-    poses.back().viewId = model.visibility->view(candidate.pose.T_scene_model, scene.sensor);
-  }
-  return poses;
-}
-
-/// Those of a round between two shares of all, ascending.
-std::vector<int> referencesOf(const VotingRound& round, double from, double to)
-{
-  const auto at = [&](double share)
-  { return round.references.begin() + std::lround(share * static_cast<double>(round.references.size())); };
-  std::vector<int> references(at(from), at(to));
-  std::sort(references.begin(), references.end());
-  return references;
+  Pose pose = candidate.pose;
+  pose.viewId = model.visibility->view(pose.T_scene_model, scene.sensor);
+  return pose;
 }
 }
 
@@ -103,34 +82,29 @@ std::vector<int> referencesOf(const VotingRound& round, double from, double to)
 struct CandidateSearch::Rounds
 {
   std::vector<VotingRound> rounds;
-  std::vector<PairVoting> votings; ///< of each
+  std::vector<PairVoting> votings;              ///< of each
+  std::vector<std::map<int, Candidates>> found; ///< of each, by the reference points that have voted
 
   Rounds(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings)
     : rounds(votingRounds(scene, model, settings))
+    , found(rounds.size())
   {
     std::transform(this->rounds.begin(), this->rounds.end(), std::back_inserter(this->votings),
       [&](const VotingRound& round) { return PairVoting(round, settings); });
   }
 
-  /// Of some of the points of each round: `referencesOf(round)`.
-  template <typename References>
-  Poses candidates(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings,
-    References&& referencesOf, const Progress& progress) const
+  Progress ofRound(std::size_t k, const Progress& progress) const
   {
     constexpr double edgeWork = 0.6; // of the progress of both rounds
-    Poses poses;
-    for (std::size_t k = 0; k < this->rounds.size(); ++k)
+    return subProgress(progress, k == 0 ? 0.0 : edgeWork, k + 1 == this->rounds.size() ? 1.0 : edgeWork);
+  }
+
+  void add(std::size_t k, const Candidates& candidates, const Scene& scene, const TrainedModel& model, Poses& to) const
+  {
+    for (const Candidate& candidate : candidates)
     {
-      const VotingRound& round = this->rounds[k];
-      const bool isLast = k + 1 == this->rounds.size();
-      const Progress ofRound = subProgress(progress, k == 0 ? 0.0 : edgeWork, isLast ? 1.0 : edgeWork);
-      const auto candidates =
-        candidatesOf(round, this->votings[k], referencesOf(round), model.symmetries, settings, ofRound);
-      const Poses found = round.byEdges ? edgePoses(candidates, model) : surfacePoses(candidates, scene, model);
-      poses.insert(poses.end(), found.begin(), found.end());
+      to.push_back(this->rounds[k].byEdges ? edgePose(candidate, model) : surfacePose(candidate, scene, model));
     }
-    report(progress, 1.0);
-    return poses;
   }
 };
 
@@ -144,28 +118,55 @@ CandidateSearch::CandidateSearch(const Scene& scene, const TrainedModel& model, 
 
 CandidateSearch::~CandidateSearch() = default;
 
-Poses CandidateSearch::candidates(double from, double to, const Progress& progress) const
+Poses CandidateSearch::upTo(double share, const Progress& progress)
 {
-  return this->Prepared->candidates(
-    this->InScene, this->Model, this->Settings, [&](const VotingRound& round) { return referencesOf(round, from, to); },
-    progress);
+  Rounds& prepared = *this->Prepared;
+  Poses poses;
+  for (std::size_t k = 0; k < prepared.rounds.size(); ++k)
+  {
+    const VotingRound& round = prepared.rounds[k];
+    std::map<int, Candidates>& found = prepared.found[k];
+    const auto last = round.references.begin() + std::lround(share * static_cast<double>(round.references.size()));
+    const std::vector<int> references(
+      round.references.begin() + std::min<std::ptrdiff_t>(found.size(), last - round.references.begin()), last);
+    const std::vector<Candidates> more = candidatesOf(
+      round, prepared.votings[k], references, this->Model.symmetries, this->Settings, prepared.ofRound(k, progress));
+    for (std::size_t i = 0; i < references.size(); ++i)
+    {
+      found[references[i]] = more[i];
+    }
+    for (const auto& [reference, candidates] : found)
+    {
+      prepared.add(k, candidates, this->InScene, this->Model, poses);
+    }
+  }
+  report(progress, 1.0);
+  return poses;
 }
 
-Poses CandidateSearch::candidatesNear(const Eigen::Vector3f& place, double radius, const Progress& progress) const
+Poses CandidateSearch::near(const Eigen::Vector3f& place, double radius, const Progress& progress) const
 {
-  const auto near = [&](const VotingRound& round)
+  const Rounds& prepared = *this->Prepared;
+  Poses poses;
+  for (std::size_t k = 0; k < prepared.rounds.size(); ++k)
   {
-    std::vector<int> indices;
-    for (std::size_t i = 0; i < round.points.points.size(); ++i)
+    const Points& points = prepared.rounds[k].points.points;
+    std::vector<int> within;
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-      if ((round.points.points[i] - place).norm() <= radius)
+      if ((points[i] - place).norm() <= radius)
       {
-        indices.push_back(static_cast<int>(i));
+        within.push_back(static_cast<int>(i));
       }
     }
-    return indices;
-  };
-  return this->Prepared->candidates(this->InScene, this->Model, this->Settings, near, progress);
+    for (const Candidates& candidates : candidatesOf(prepared.rounds[k], prepared.votings[k], within,
+           this->Model.symmetries, this->Settings, prepared.ofRound(k, progress)))
+    {
+      prepared.add(k, candidates, this->InScene, this->Model, poses);
+    }
+  }
+  report(progress, 1.0);
+  return poses;
 }
 
 Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const PoseDetectionSettings& settings,
@@ -173,8 +174,14 @@ Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const
 {
   const VotingRound round = edgeRound(sceneEdges, model, settings);
   const PairVoting voting(round, settings);
-  Poses poses =
-    edgePoses(candidatesOf(round, voting, referencesOf(round, 0.0, 1.0), model.symmetries, settings, progress), model);
+  std::vector<int> references = round.references;
+  std::sort(references.begin(), references.end());
+  Poses poses;
+  for (const Candidates& candidates : candidatesOf(round, voting, references, model.symmetries, settings, progress))
+  {
+    std::transform(candidates.begin(), candidates.end(), std::back_inserter(poses),
+      [&](const Candidate& candidate) { return edgePose(candidate, model); });
+  }
   report(progress, 1.0);
   return poses;
 }
@@ -182,6 +189,6 @@ Poses detectPoses(const LocalCloud& sceneEdges, const TrainedModel& model, const
 Poses detectPoses(
   const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings, const Progress& progress)
 {
-  return CandidateSearch(scene, model, settings).candidates(0.0, 1.0, progress);
+  return CandidateSearch(scene, model, settings).upTo(1.0, progress);
 }
 }

@@ -51,18 +51,18 @@ public:
   CandidateSearch(const Scene& scene, const TrainedModel& model, const PoseDetectionSettings& settings = {});
   ~CandidateSearch();
 
-  /// Candidates of the reference points between two shares, [0, 1], of those of each kind: any share is spread over the
-  /// scene.
-  Poses candidates(double from, double to, const Progress& progress = {}) const;
+  /// Candidates of the first reference points of each kind, up to a share of them, [0, 1], that is spread over the
+  /// scene; those that have voted before do not vote again.
+  Poses upTo(double share, const Progress& progress = {});
   /// By all points within `radius` (mm) of a place in the local frame, whatever the shares of reference points are:
   /// what is found where one looks for it.
-  Poses candidatesNear(const Eigen::Vector3f& place, double radius, const Progress& progress = {}) const;
+  Poses near(const Eigen::Vector3f& place, double radius, const Progress& progress = {}) const;
 
 private:
   struct Rounds;
   const Scene& InScene;
   const TrainedModel& Model;
   PoseDetectionSettings Settings;
-  std::unique_ptr<const Rounds> Prepared;
+  std::unique_ptr<Rounds> Prepared;
 };
 }

@@ -311,7 +311,9 @@ TEST(MEAMPoseEstimation, ASearchForAFewPosesEndsWithThoseThatAreSure)
   const auto votersFor = [&](int asked, meam::Poses& found)
   {
     std::size_t voters = 0;
-    found = meam::findPoses(scene, model, meam::detectionSettings(meam::Preset::Recommended, asked), nullptr, {},
+    meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, asked);
+    settings.detection.referenceShare = 1.0;
+    found = meam::findPoses(scene, model, settings, nullptr, {},
       [&](meam::PoseStage stage, const meam::Poses& poses)
       { voters = stage == meam::PoseStage::Voting ? poses.size() : voters; });
     return voters;

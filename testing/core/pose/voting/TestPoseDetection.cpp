@@ -337,12 +337,26 @@ TEST(PoseDetection, NearAPlaceAllPointsVote)
   const Eigen::Vector3f place = (T * middle).cast<float>();
   meam::PoseDetectionSettings settings;
   settings.features = meam::Features::Edges;
-  const meam::CandidateSearch search(scene, scenes::bracket(), settings);
-  const meam::Poses near = search.candidatesNear(place, 30.0);
+  meam::CandidateSearch search(scene, scenes::bracket(), settings);
+  const meam::Poses near = search.near(place, 30.0);
   const meam::Points& points = scene.edgePoints().points;
   const auto within = std::count_if(
     points.begin(), points.end(), [&](const Eigen::Vector3f& point) { return (point - place).norm() <= 30.0f; });
   EXPECT_EQ(static_cast<std::ptrdiff_t>(near.size()), within);
   EXPECT_GT(right(near, { T }, 5.0, 8.0), 5);
-  EXPECT_TRUE(search.candidatesNear(place, 0.0).empty());
+  EXPECT_TRUE(search.near(place, 0.0).empty());
+}
+
+TEST(PoseDetection, SomeVotersAfterOthersFindWhatAllAtOnceDo)
+{
+  const meam::Scene& scene = scenes::copiesScene();
+  meam::CandidateSearch search(scene, scenes::bracket());
+  const std::size_t few = search.upTo(0.1).size();
+  const meam::Poses half = search.upTo(0.5);
+  const meam::Poses all = search.upTo(1.0);
+  EXPECT_GT(few, 0u);
+  EXPECT_LT(few, half.size() / 3);
+  EXPECT_TRUE(scenes::areSame(search.upTo(0.5), all)) << "nobody's vote is taken back";
+  EXPECT_TRUE(scenes::areSame(all, meam::detectPoses(scene, scenes::bracket())));
+  EXPECT_TRUE(scenes::areSame(half, meam::CandidateSearch(scene, scenes::bracket()).upTo(0.5)));
 }
