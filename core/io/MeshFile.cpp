@@ -5,6 +5,7 @@
 #include "io/PLYFile.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/TextLines.h"
+#include "mesh/PolygonTriangulation.h"
 
 #include <algorithm>
 #include <array>
@@ -23,9 +24,9 @@ namespace
 }
 
 /// Reports what share of a text is read, now and then.
-void reportLine(const Progress& progress, std::size_t line, const TextLines& lines, const std::string& bytes)
+void reportLine(const Progress& progress, std::size_t line, const TextLines& lines, std::size_t bytes)
 {
-  reportStep(progress, line, 1.0 - static_cast<double>(lines.left()) / static_cast<double>(bytes.size() + 1));
+  reportStep(progress, line, 1.0 - static_cast<double>(lines.left()) / static_cast<double>(bytes + 1));
 }
 
 /// The next three words of a line as a point.
@@ -34,9 +35,13 @@ Eigen::Vector3f pointOf(const std::string& path, TextLines& lines)
   Eigen::Vector3d point; // what is next to 0 has no place in single precision
   for (int i = 0; i < 3; ++i)
   {
-    if (!parseNumber(lines.word(), point[i]))
+    const std::string_view word = lines.word();
+    if (!parseNumber(word, point[i]))
     {
-      failMesh(path, "has a vertex that is not three numbers: it is cut off or damaged");
+      failMesh(path, word.find(',') != std::string_view::npos
+                       ? "has the coordinate '" + std::string(word.substr(0, 40)) +
+                           "' with a decimal comma: export it with decimal points"
+                       : "has a vertex that is not three numbers: it is cut off or damaged");
     }
   }
   return point.cast<float>();
@@ -77,22 +82,41 @@ TriangleMesh joined(const Points& corners, const Progress& progress)
   return mesh;
 }
 
-TriangleMesh readTextSTL(const std::string& path, const std::string& bytes, const Progress& progress)
+std::string lowered(std::string_view word)
+{
+  std::string lower(word);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  return lower;
+}
+
+/// The text without what programs put about it: a byte order mark and blanks before, Ctrl-Z behind.
+std::string_view bareText(std::string_view bytes)
+{
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  bytes.remove_prefix(bytes.substr(0, mark.size()) == mark ? mark.size() : 0);
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  while (!bytes.empty() && std::string_view(" \t\r\n\x1a").find(bytes.back()) != std::string_view::npos)
+  {
+    bytes.remove_suffix(1);
+  }
+  return bytes;
+}
+
+TriangleMesh readTextSTL(const std::string& path, std::string_view text, const Progress& progress)
 {
   Points vertices;
   bool isWhole = false;
   const Progress parsing = subProgress(progress, 0.0, 0.5);
-  TextLines lines(bytes);
+  TextLines lines(text);
   for (std::size_t line = 0; lines.next(); ++line)
   {
-    reportLine(parsing, line, lines, bytes);
-    std::string word(lines.word());
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char letter) { return std::tolower(letter); });
+    reportLine(parsing, line, lines, text.size());
+    const std::string word = lowered(lines.word());
     if (word == "vertex")
     {
       vertices.push_back(pointOf(path, lines));
     }
-    isWhole = word == "endsolid";
+    isWhole = word == "endsolid" || (word == "end" && lowered(lines.word()) == "solid");
   }
   if (!isWhole || vertices.size() % 3 != 0)
   {
@@ -117,6 +141,11 @@ TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes, co
   {
     failMesh(path, "is cut off, or is no STL file");
   }
+  if (const std::size_t room = (bytes.size() - start) / STLTriangle; room > count)
+  {
+    failMesh(path,
+      "promises " + std::to_string(count) + " triangles and has room for " + std::to_string(room) + ": it is damaged");
+  }
   Points vertices(std::size_t(3) * count);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -130,9 +159,9 @@ TriangleMesh readSTL(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
   // Some programs begin binary files with the word, too.
-  const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-  const bool isText = bytes.compare(start, 5, "solid") == 0 && bytes.find('\0') == std::string::npos;
-  return isText ? readTextSTL(path, bytes, progress) : readBinarySTL(path, bytes, progress);
+  const std::string_view text = bareText(bytes);
+  const bool isText = lowered(text.substr(0, 5)) == "solid" && text.find('\0') == std::string_view::npos;
+  return isText ? readTextSTL(path, text, progress) : readBinarySTL(path, bytes, progress);
 }
 
 /// The vertex that a corner names: "7", "7/1/2", or "-1" for the last one.
@@ -149,15 +178,29 @@ int cornerOf(const std::string& path, std::string_view word, int vertices)
   return corner;
 }
 
+/// A backslash at the end of a line continues it on the next one.
+void joinContinuedLines(std::string& text)
+{
+  for (std::size_t at = 0; (at = text.find('\\', at)) != std::string::npos; ++at)
+  {
+    std::size_t end = at + 1;
+    end += end < text.size() && text[end] == '\r' ? 1 : 0;
+    end += end < text.size() && text[end] == '\n' ? 1 : 0;
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(end > at + 1 ? at : end),
+      text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+  }
+}
+
 TriangleMesh readOBJ(const std::string& path, const Progress& progress)
 {
-  const std::string bytes = readFile(path);
+  std::string bytes = readFile(path);
+  joinContinuedLines(bytes);
   TriangleMesh mesh;
   std::vector<int> corners;
   TextLines lines(bytes);
   for (std::size_t line = 0; lines.next(); ++line)
   {
-    reportLine(progress, line, lines, bytes);
+    reportLine(progress, line, lines, bytes.size());
     const std::string_view word = lines.word();
     if (word == "v")
     {
@@ -170,10 +213,7 @@ TriangleMesh readOBJ(const std::string& path, const Progress& progress)
       {
         corners.push_back(cornerOf(path, corner, static_cast<int>(mesh.vertices.size())));
       }
-      for (std::size_t k = 2; k < corners.size(); ++k)
-      {
-        mesh.triangles.emplace_back(corners[0], corners[k - 1], corners[k]);
-      }
+      addPolygon(corners, mesh);
     }
   }
   return mesh;

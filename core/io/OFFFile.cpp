@@ -3,6 +3,7 @@
 
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/TextLines.h"
+#include "mesh/PolygonTriangulation.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -95,6 +96,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
     reportStep(progress, v, static_cast<double>(v) / static_cast<double>(all));
   }
   mesh.triangles.reserve(faces);
+  std::vector<int> polygon;
   for (std::uint64_t f = 0; f < faces; ++f)
   {
     const std::string place = "face " + std::to_string(f);
@@ -108,7 +110,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
     {
       failOFF(path, "has no number of corners in " + place + ": " + quoted(word));
     }
-    Eigen::Vector3i triangle;
+    polygon.clear();
     for (std::uint64_t k = 0; k < corners; ++k)
     {
       word = lines.word();
@@ -117,17 +119,14 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
       {
         failOFF(path, "has a corner in " + place + " that is not the number of a vertex: " + quoted(word));
       }
-      triangle[k == 0 ? 0 : 2] = static_cast<int>(vertex);
-      if (k >= 2)
-      {
-        mesh.triangles.push_back(triangle);
-      }
-      if (k > 0)
-      {
-        triangle[1] = triangle[2];
-      }
+      polygon.push_back(static_cast<int>(vertex));
     }
+    addPolygon(polygon, mesh);
     reportStep(progress, f, static_cast<double>(vertices + f) / static_cast<double>(all));
+  }
+  if (lines.next())
+  {
+    failOFF(path, "goes on after the " + std::to_string(faces) + " faces that it promises: it is damaged");
   }
   report(progress, 1.0);
   return mesh;

@@ -452,7 +452,11 @@ MeasuredCloud readPCD(const std::string& path, const Progress& progress)
     failPCD(path, "has no fields x, y and z");
   }
   result.normals = take("normal_x", "normal_y", "normal_z");
-  const FieldData intensity = find("intensity");
+  FieldData intensity;
+  for (const char* name : { "intensity", "gray", "grey", "i", "scalar_intensity" })
+  {
+    intensity = intensity.field ? intensity : find(name);
+  }
   if (intensity.field)
   {
     result.intensities.resize(header.points);
@@ -461,8 +465,7 @@ MeasuredCloud readPCD(const std::string& path, const Progress& progress)
       result.intensities[i] = static_cast<float>(intensity.number(i));
     }
   }
-  const FieldData color = find("rgb").field ? find("rgb") : find("rgba");
-  if (color.field)
+  if (const FieldData color = find("rgb").field ? find("rgb") : find("rgba"); color.field)
   {
     result.colors.reserve(3 * header.points);
     for (std::uint64_t i = 0; i < header.points; ++i)
@@ -471,6 +474,26 @@ MeasuredCloud readPCD(const std::string& path, const Progress& progress)
       for (const int shift : { 16, 8, 0 })
       {
         result.colors.push_back(static_cast<std::uint8_t>(packed >> shift));
+      }
+    }
+  }
+  else
+  {
+    for (const auto& names : { std::array{ "red", "green", "blue" }, std::array{ "r", "g", "b" } })
+    {
+      const FieldData channels[3] = { find(names[0]), find(names[1]), find(names[2]) };
+      if (result.colors.empty() && channels[0].field && channels[1].field && channels[2].field)
+      {
+        std::vector<float> values;
+        values.reserve(3 * header.points);
+        for (std::uint64_t i = 0; i < header.points; ++i)
+        {
+          for (const FieldData& channel : channels)
+          {
+            values.push_back(static_cast<float>(channel.number(i)));
+          }
+        }
+        result.colors = colorValues(values, channels[0].field->type == 'F');
       }
     }
   }

@@ -2,6 +2,7 @@
 #include "io/PLYFile.h"
 
 #include "io/parsing/FileBytes.h"
+#include "mesh/PolygonTriangulation.h"
 
 #include <algorithm>
 #include <charconv>
@@ -102,11 +103,16 @@ Property propertyOf(const std::string& path, std::istringstream& words)
 PLYHeader parsePLYHeader(const std::string& path, const std::string& bytes)
 {
   PLYHeader header;
+  // Lines end as the first one does: data may begin with the byte of another end.
+  const std::size_t firstEnd = bytes.find_first_of("\r\n");
+  const bool endsWithReturn =
+    firstEnd != std::string::npos && bytes[firstEnd] == '\r' && bytes.compare(firstEnd, 2, "\r\n") != 0;
+  const char lineEnd = endsWithReturn ? '\r' : '\n';
   bool first = true;
   bool hasFormat = false;
   for (std::string key; key != "end_header"; first = false)
   {
-    const std::size_t end = bytes.find('\n', header.dataAt);
+    const std::size_t end = bytes.find(lineEnd, header.dataAt);
     std::istringstream words(bytes.substr(header.dataAt, end == std::string::npos ? end : end - header.dataAt));
     key.clear();
     words >> key;
@@ -196,6 +202,15 @@ public:
     if (bytes > 0 && times > rest / bytes)
     {
       this->cutOff();
+    }
+  }
+
+  /// Fails for a text that goes on.
+  void requireEnd() const
+  {
+    if (this->Form == PLYEncoding::Ascii && this->Rest.find_first_not_of(" \t\r\n\x1a") != std::string_view::npos)
+    {
+      failPLY(this->Path, "goes on after what its header promises: it is damaged");
     }
   }
 
@@ -343,16 +358,17 @@ struct Layout
   int normal[3];
   int color[3];
   int intensity;
-  double colorScale; ///< to 0..255
+  bool isColorReal;
 
   explicit Layout(const Element& vertex)
     : point{ find(vertex, { "x" }), find(vertex, { "y" }), find(vertex, { "z" }) }
     , normal{ find(vertex, { "nx" }), find(vertex, { "ny" }), find(vertex, { "nz" }) }
-    , color{ find(vertex, { "red" }), find(vertex, { "green" }), find(vertex, { "blue" }) }
-    , intensity(find(vertex, { "intensity", "gray", "scalar_intensity", "scalar_Intensity" }))
+    , color{ find(vertex, { "red", "r", "diffuse_red" }), find(vertex, { "green", "g", "diffuse_green" }),
+      find(vertex, { "blue", "b", "diffuse_blue" }) }
+    , intensity(find(vertex, { "intensity", "Intensity", "gray", "grey", "i", "scalar_intensity", "scalar_Intensity" }))
   {
     const Type type = this->color[0] < 0 ? Type::UInt8 : vertex.properties[this->color[0]].type;
-    this->colorScale = type == Type::Float || type == Type::Double ? 255.0 : type == Type::UInt16 ? 1.0 / 257.0 : 1.0;
+    this->isColorReal = type == Type::Float || type == Type::Double;
   }
 
   static bool whole(const int places[3]) { return places[0] >= 0 && places[1] >= 0 && places[2] >= 0; }
@@ -401,7 +417,7 @@ int cornersOf(const Element& face)
   return -1;
 }
 
-/// The faces of an element, cut into triangles about their first corner.
+/// The faces of an element, cut into triangles.
 void takeFaces(
   const std::string& path, Values& values, const Element& face, const Progress& progress, TriangleMesh& mesh)
 {
@@ -425,10 +441,7 @@ void takeFaces(
   const auto take = [&](std::uint64_t i, const std::vector<double>&)
   {
     reportRecord(progress, i, face);
-    for (std::size_t k = 2; k < corners.size(); ++k)
-    {
-      mesh.triangles.emplace_back(corners[0], corners[k - 1], corners[k]);
-    }
+    addPolygon(corners, mesh);
     corners.clear();
   };
   forEachRecord(path, values, face, take, entry);
@@ -463,6 +476,7 @@ TriangleMesh readPLYMesh(const std::string& path, const Progress& progress)
       skip(path, values, element);
     }
   }
+  values.requireEnd();
   return mesh;
 }
 
@@ -479,6 +493,7 @@ MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
     skip(path, values, *before);
   }
   MeasuredCloud result;
+  std::vector<float> colors;
   const auto take = [&](std::uint64_t i, const std::vector<double>& record)
   {
     result.cloud.points.push_back(vectorOf(record, layout.point));
@@ -492,12 +507,12 @@ MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress)
     }
     for (int k = 0; k < 3 && Layout::whole(layout.color); ++k)
     {
-      const double value = std::round(layout.colorScale * record[layout.color[k]]);
-      result.colors.push_back(value > 0.0 ? static_cast<std::uint8_t>(std::min(value, 255.0)) : 0); // NaN is black
+      colors.push_back(static_cast<float>(record[layout.color[k]]));
     }
     reportRecord(progress, i, *vertex);
   };
   forEachRecord(path, values, *vertex, take);
+  result.colors = colorValues(colors, layout.isColorReal);
   result.cloud.width = static_cast<int>(result.cloud.size());
   result.cloud.height = 1;
   report(progress, 1.0);

@@ -18,4 +18,8 @@ struct MeasuredCloud
 /// Grey values of 8 bits: those that are whole numbers up to 255 already as they are, others times what makes the
 /// largest 255; below 0 and NaN is black.
 std::vector<std::uint8_t> greyValues(const std::vector<float>& intensities);
+
+/// Colours of 8 bits from red, green, blue of each point: those of real numbers up to 1 times 255, those beyond 510,
+/// which are of 16 bits, divided by 257, others as they are; below 0 and NaN is black.
+std::vector<std::uint8_t> colorValues(const std::vector<float>& channels, bool areReal);
 }

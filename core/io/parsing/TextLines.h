@@ -12,7 +12,7 @@ namespace meam
 class TextLines
 {
 public:
-  explicit TextLines(const std::string& bytes)
+  explicit TextLines(std::string_view bytes)
     : Rest(bytes)
   {
   }

@@ -231,3 +231,72 @@ TEST(MeshFile, WhatIsWrongWithAFile)
   EXPECT_NE(files::errorOf([&] { meam::readMesh(folder.path("missing.obj")); }), "");
   EXPECT_NE(files::errorOf([&] { meam::readMesh(folder.path("missing.stl")); }), "");
 }
+
+TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
+{
+  const meam::TriangleMesh part = parts::lBracket();
+  const std::string text = asciiSTL(part);
+  const auto replaced = [&](const std::string& from, const std::string& to)
+  {
+    std::string other = text;
+    for (std::size_t at = 0; (at = other.find(from, at)) != std::string::npos; at += to.size())
+    {
+      other.replace(at, from.size(), to);
+    }
+    return other;
+  };
+  std::string upper = text, returns = replaced("\n", "\r");
+  std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char letter) { return std::toupper(letter); });
+  const files::Folder folder;
+  for (const std::string& form : { upper, replaced("solid", "Solid"), replaced("endsolid", "end solid"), returns,
+         "\xef\xbb\xbf" + text, text + "\x1a", "\r\n " + text })
+  {
+    EXPECT_EQ(corners(meam::readMesh(folder.write("a.stl", form))), corners(part)) << form.substr(0, 20);
+  }
+  const auto error = [&](const std::string& form)
+  { return files::errorOf([&] { meam::readMesh(folder.write("a.stl", form)); }); };
+  EXPECT_TRUE(files::contains(error("solid\nfacet normal 0 0 0\nouter loop\nvertex 1,5 0 0\n"), "decimal comma"));
+}
+
+TEST(MeshFile, AHeaderThatContradictsTheFileIsAnError)
+{
+  const files::Folder folder;
+  const auto error = [&](const std::string& name, const std::string& bytes)
+  { return files::errorOf([&] { meam::readMesh(folder.write(name, bytes)); }); };
+  std::string stl = binarySTL(parts::lBracket());
+  stl[80] = 3;
+  EXPECT_TRUE(files::contains(error("a.stl", stl), "promises 3 triangles and has room for"));
+  EXPECT_TRUE(files::contains(error("a.off", off(parts::lBracket()) + "3 0 1 2\n"), "goes on after"));
+  EXPECT_TRUE(files::contains(error("a.ply", asciiPLY(parts::lBracket()) + "3 0 1 2\n"), "goes on after"));
+}
+
+TEST(MeshFile, FacesOfManyCornersAreCutInside)
+{
+  // An L, which begins at the corner that sees least of it.
+  const std::string vertices[] = { "3 0 0", "3 1 0", "1 1 0", "1 3 0", "0 3 0", "0 0 0" };
+  std::string obj,
+    ply = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float "
+          "z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n",
+    off = "OFF\n6 1 0\n";
+  for (const std::string& vertex : vertices)
+  {
+    obj += "v " + vertex + "\n";
+    ply += vertex + "\n";
+    off += vertex + "\n";
+  }
+  const files::Folder folder;
+  for (const auto& [name, bytes] : { std::pair<std::string, std::string>{ "a.obj", obj + "f 1 2 3 \\\n 4 5 6\n" },
+         { "b.obj", obj + "f 1/1 2/2 3/3 \\\r\n4/4 5/5 6/6\r\n" }, { "a.ply", ply + "6 0 1 2 3 4 5\n" },
+         { "a.off", off + "6 0 1 2 3 4 5\n" } })
+  {
+    const meam::TriangleMesh mesh = meam::readMesh(folder.write(name, bytes));
+    EXPECT_EQ(mesh.triangles.size(), 4u) << name;
+    double area = 0.0;
+    for (const Eigen::Vector3i& t : mesh.triangles)
+    {
+      const Eigen::Vector3f a = mesh.vertices[t[0]];
+      area += 0.5 * std::abs((mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).z());
+    }
+    EXPECT_NEAR(area, 5.0, 1e-6) << name;
+  }
+}

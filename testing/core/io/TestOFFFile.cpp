@@ -22,8 +22,8 @@ TEST(OFFFile, trianglesAndPolygons)
   EXPECT_EQ(mesh.vertices[3], Eigen::Vector3f(0, 1, -2.5f));
   ASSERT_EQ(mesh.triangles.size(), 3u);
   EXPECT_EQ(mesh.triangles[0], Eigen::Vector3i(0, 1, 2));
-  EXPECT_EQ(mesh.triangles[1], Eigen::Vector3i(0, 2, 3));
-  EXPECT_EQ(mesh.triangles[2], Eigen::Vector3i(0, 3, 4));
+  EXPECT_EQ(mesh.triangles[1], Eigen::Vector3i(4, 0, 2)); // seen along its normal it is concave
+  EXPECT_EQ(mesh.triangles[2], Eigen::Vector3i(2, 3, 4));
 }
 
 TEST(OFFFile, commentsBlankLinesAndOtherLineEnds)

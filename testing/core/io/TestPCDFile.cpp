@@ -15,6 +15,21 @@ const files::Reader readPCD{ [](const std::string& path) { return meam::readPCD(
 const std::string xyz = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
 }
 
+TEST(PCDFile, coloursUnderTheNamesInUse)
+{
+  const auto dataOf = [](const std::string& names, const std::string& type, const std::string& values)
+  {
+    return readPCD("FIELDS x y z " + names + "\nSIZE 4 4 4 4 4 4\nTYPE F F F " + type + " " + type + " " + type +
+                   "\nCOUNT 1 1 1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 " + values + "\n");
+  };
+  EXPECT_EQ(dataOf("red green blue", "U", "10 20 30").colors, (std::vector<std::uint8_t>{ 10, 20, 30 }));
+  EXPECT_EQ(dataOf("R G B", "F", "0 0.5 1").colors, (std::vector<std::uint8_t>{ 0, 128, 255 }));
+  EXPECT_EQ(dataOf("r g b", "F", "0 100 255").colors, (std::vector<std::uint8_t>{ 0, 100, 255 }));
+  EXPECT_EQ(dataOf("Red Green Blue", "U", "0 257 65535").colors, (std::vector<std::uint8_t>{ 0, 1, 255 }));
+  EXPECT_EQ(dataOf("gray a b", "F", "40 1 1").intensities, (std::vector<float>{ 40 }));
+  EXPECT_EQ(dataOf("i j k", "F", "40 1 1").intensities, (std::vector<float>{ 40 }));
+}
+
 TEST(PCDFile, asciiOrganized)
 {
   const meam::MeasuredCloud data = readPCD("# .PCD v0.7\r\n" + xyz +

@@ -72,9 +72,42 @@ TEST(PLYFile, coloursOfAnyRange)
                    "1 2 3 " + values)
       .colors;
   };
-  EXPECT_EQ(colorsOf("float", "0 0.5 7"), (std::vector<std::uint8_t>{ 0, 128, 255 }));
+  EXPECT_EQ(colorsOf("float", "0 0.5 1"), (std::vector<std::uint8_t>{ 0, 128, 255 }));
+  EXPECT_EQ(colorsOf("float", "0 0.5 7"), (std::vector<std::uint8_t>{ 0, 1, 7 }));
+  EXPECT_EQ(colorsOf("double", "12 254.6 255"), (std::vector<std::uint8_t>{ 12, 255, 255 }));
+  EXPECT_EQ(colorsOf("ushort", "0 12 255"), (std::vector<std::uint8_t>{ 0, 12, 255 }));
   EXPECT_EQ(colorsOf("ushort", "0 257 65535"), (std::vector<std::uint8_t>{ 0, 1, 255 }));
   EXPECT_EQ(colorsOf("int", "-1 300 nan"), (std::vector<std::uint8_t>{ 0, 255, 0 }));
+  const meam::MeasuredCloud short_ =
+    readPLY(head("ascii", "element vertex 1\n" + floats + "property uchar r\nproperty uchar g\nproperty uchar b\n") +
+            "1 2 3 4 5 6");
+  EXPECT_EQ(short_.colors, (std::vector<std::uint8_t>{ 4, 5, 6 }));
+  const meam::MeasuredCloud grey =
+    readPLY(head("ascii", "element vertex 1\n" + floats + "property float i\n") + "1 2 3 40");
+  EXPECT_EQ(grey.intensities, (std::vector<float>{ 40 }));
+}
+
+TEST(PLYFile, linesOfAnyEnd)
+{
+  const std::string text = head("ascii", "element vertex 2\n" + floats) + "1 2 3\n4 5 6\n";
+  for (const std::string end : { "\r", "\r\n" })
+  {
+    std::string other;
+    for (const char letter : text)
+    {
+      other += letter == '\n' ? end : std::string(1, letter);
+    }
+    EXPECT_EQ(readPLY(other).cloud.points, readPLY(text).cloud.points);
+  }
+  // A binary file's data may begin with the byte of a line's end.
+  const std::string binary = head("binary_little_endian", "element vertex 1\n" + floats);
+  std::string other;
+  for (const char letter : binary)
+  {
+    other += letter == '\n' ? '\r' : letter;
+  }
+  const std::string data = files::raw(std::uint32_t(0x4000000a)) + files::raw(5.0f) + files::raw(6.0f);
+  EXPECT_EQ(readPLY(other + data).cloud.points[0].y(), 5.0f);
 }
 
 TEST(PLYFile, cloudsAndMeshes)
