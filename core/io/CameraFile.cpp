@@ -8,8 +8,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
+#include <tuple>
 
 namespace meam
 {
@@ -59,7 +64,10 @@ int pixels(const std::string& path, const std::vector<double>& numbers)
 Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries)
 {
   const std::vector<double> whole = find(path, entries, { "T_camera_scene" }, 16, 16);
-  const std::vector<double> rotation = find(path, entries, { "R" }, 9, 9);
+  // ROS has an R of its own, which rectifies the image.
+  const bool isOfROS = entries.is_object() && (entries.contains("K") || entries.contains("distortion_model"));
+  const bool isRectification = isOfROS && !entries.contains("T");
+  const std::vector<double> rotation = isRectification ? std::vector<double>() : find(path, entries, { "R" }, 9, 9);
   const std::vector<double> translation = find(path, entries, { "T" }, 3, 3);
   Eigen::Isometry3d T_camera_scene = Eigen::Isometry3d::Identity();
   if (!whole.empty())
@@ -82,49 +90,150 @@ Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries
   return T_camera_scene;
 }
 
-Camera cameraOf(const std::string& path, const nlohmann::json& entries)
+/// Focal lengths and principal point.
+struct Intrinsics
 {
-  Camera camera;
-  if (const auto m = find(path, entries, { "camera_matrix", "cameraMatrix" }, 9, 9); !m.empty())
+  double fx, fy, cx, cy;
+};
+
+std::optional<Intrinsics> intrinsicsOf(const std::string& path, const nlohmann::json& entries)
+{
+  auto m = find(path, entries, { "camera_matrix", "cameraMatrix", "K", "k" }, 9, 9);
+  if (m.empty())
+  {
+    m = find(path, entries, { "intrinsic_matrix" }, 9, 9); // Open3D's, column by column
+    m = m.empty() ? m : std::vector{ m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8] };
+  }
+  if (!m.empty())
   {
     if (m[1] != 0.0 || m[3] != 0.0 || m[6] != 0.0 || m[7] != 0.0 || m[8] != 1.0)
     {
       failCamera(path, "has a camera matrix that is not fx 0 cx, 0 fy cy, 0 0 1");
     }
-    camera.fx = m[0];
-    camera.cx = m[2];
-    camera.fy = m[4];
-    camera.cy = m[5];
+    return Intrinsics{ m[0], m[4], m[2], m[5] };
   }
-  else
+  if (const auto row = find(path, entries, { "intrinsics" }, 4, 4); !row.empty()) // Kalibr's
   {
-    const std::pair<const char*, double*> values[] = { { "fx", &camera.fx }, { "fy", &camera.fy }, { "cx", &camera.cx },
-      { "cy", &camera.cy } };
-    for (const auto& [name, value] : values)
-    {
-      const auto number = find(path, entries, { name }, 1, 1);
-      if (number.empty())
-      {
-        failCamera(path, "has neither a camera_matrix nor all of fx, fy, cx and cy: it is not a camera's calibration");
-      }
-      *value = number.front();
-    }
+    return Intrinsics{ row[0], row[1], row[2], row[3] };
   }
-  camera.width = pixels(path, find(path, entries, { "image_width", "width" }, 1, 1));
-  camera.height = pixels(path, find(path, entries, { "image_height", "height" }, 1, 1));
-  // OpenCV also knows models of up to 14 numbers; the first five are Brown's.
-  const auto numbers = find(path, entries, { "distortion_coefficients", "dist_coeffs" }, 4, 14);
+  Intrinsics result{};
+  const std::tuple<double*, const char*, const char*> values[] = { { &result.fx, "fx", "fx" },
+    { &result.fy, "fy", "fy" }, { &result.cx, "cx", "ppx" }, { &result.cy, "cy", "ppy" } }; // ppx: RealSense's
+  for (const auto& [value, name, other] : values)
+  {
+    const auto number = find(path, entries, { name, other }, 1, 1);
+    if (number.empty())
+    {
+      return std::nullopt;
+    }
+    *value = number.front();
+  }
+  return result;
+}
+
+/// The name that a file gives its lens model, in lower case, blanks and underscores left out; empty without.
+std::string lensModelOf(const nlohmann::json& entries)
+{
+  for (const char* name : { "distortion_model", "model" })
+  {
+    if (!entries.is_object() || !entries.contains(name) || !entries[name].is_string())
+    {
+      continue;
+    }
+    std::string model;
+    for (const char letter : entries[name].get<std::string>())
+    {
+      if (std::isalnum(static_cast<unsigned char>(letter)))
+      {
+        model += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      }
+    }
+    return model;
+  }
+  return {};
+}
+
+/// k1 k2 p1 p2 k3 k4 k5 k6.
+std::array<double, 8> distortionOf(const std::string& path, const nlohmann::json& entries)
+{
+  std::array<double, 8> result{};
+  const auto numbers =
+    find(path, entries, { "distortion_coefficients", "dist_coeffs", "distortion_coeffs", "coeffs", "D", "d" }, 0, 14);
+  if (std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0.0; }))
+  {
+    return result; // of any model
+  }
+  // By their number of coefficients, where they are named; a name that is not known may be of any lens.
+  const std::string model = lensModelOf(entries);
+  const bool isBrown = model.empty() || model == "plumbbob" || model == "radtan" || model == "browndistortion" ||
+                       model.rfind("browncon", 0) == 0 || model == "distortionbrownconrady" || model == "pinhole";
+  const bool isRational = model == "rationalpolynomial" || model == "rational";
+  if (!isBrown && !isRational)
+  {
+    failCamera(path, "has a lens of the model '" + model +
+                       "', which is not read: calibrate it as plumb_bob or rational_polynomial, or undistort the "
+                       "images and leave the coefficients away");
+  }
+  if (numbers.size() < 4 || (isRational && numbers.size() < 8))
+  {
+    failCamera(path, "has " + std::to_string(numbers.size()) + " numbers of its lens's distortion instead of " +
+                       (isRational ? "8: k1 k2 p1 p2 k3 k4 k5 k6" : "4 or 5: k1 k2 p1 p2 k3"));
+  }
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    if (i < camera.distortion.size())
+    if (i < result.size())
     {
-      camera.distortion[i] = numbers[i];
+      result[i] = numbers[i];
     }
     else if (numbers[i] != 0.0)
     {
-      failCamera(path, "has a lens of the rational or a still larger model: calibrate with k1 k2 p1 p2 k3 alone");
+      failCamera(path, "has a lens with a thin prism or a tilted sensor: calibrate with k1 k2 p1 p2 k3 k4 k5 k6 alone");
     }
   }
+  return result;
+}
+
+/// Where the one camera stands among a file's entries, as Open3D and Kalibr have it a level deeper.
+const nlohmann::json& entriesOfCamera(const std::string& path, const nlohmann::json& file)
+{
+  const nlohmann::json* found = &file;
+  int cameras = 0;
+  for (const auto& [name, entry] : file.items()) // of a list the names are numbers
+  {
+    if (entry.is_object() && (name == "intrinsic" || name == "intrinsics" || name.rfind("cam", 0) == 0) &&
+        (entry.contains("intrinsics") || entry.contains("intrinsic_matrix") || entry.contains("fx")))
+    {
+      found = &entry;
+      ++cameras;
+    }
+  }
+  if (cameras > 1)
+  {
+    failCamera(path, "has " + std::to_string(cameras) + " cameras: leave the one that is meant");
+  }
+  return *found;
+}
+
+Camera cameraOf(const std::string& path, const nlohmann::json& entries)
+{
+  const std::optional<Intrinsics> intrinsics = intrinsicsOf(path, entries);
+  if (!intrinsics)
+  {
+    failCamera(path, "has neither a camera_matrix nor all of fx, fy, cx and cy: it is not a camera's calibration");
+  }
+  Camera camera;
+  camera.fx = intrinsics->fx;
+  camera.fy = intrinsics->fy;
+  camera.cx = intrinsics->cx;
+  camera.cy = intrinsics->cy;
+  camera.width = pixels(path, find(path, entries, { "image_width", "width" }, 1, 1));
+  camera.height = pixels(path, find(path, entries, { "image_height", "height" }, 1, 1));
+  if (const auto size = find(path, entries, { "resolution" }, 2, 2); !size.empty())
+  {
+    camera.width = pixels(path, { size[0] });
+    camera.height = pixels(path, { size[1] });
+  }
+  camera.distortion = distortionOf(path, entries);
   camera.T_camera_scene = placeOf(path, entries);
   return camera;
 }
@@ -137,7 +246,8 @@ CameraFile readCamera(const std::string& path)
   {
     failCamera(path, "is not a text of a camera's calibration");
   }
-  const nlohmann::json entries = parseStorage(path, bytes);
+  const nlohmann::json file = parseStorage(path, bytes);
+  const nlohmann::json& entries = entriesOfCamera(path, file);
   CameraFile result;
   result.camera = cameraOf(path, entries);
   try

@@ -16,7 +16,7 @@ OrganizedCloud readDepthImage(
     throw Error("The depth scale, mm for a value of 1 in the depth image, must be a positive number.");
   }
   report(progress, 0.0);
-  const Image16 depths = readImage16(path);
+  const DepthPixels depths = readDepthPixels(path);
   report(progress, 0.5);
   if ((camera.width > 0 && camera.width != depths.width) || (camera.height > 0 && camera.height != depths.height))
   {
@@ -35,7 +35,7 @@ OrganizedCloud readDepthImage(
   {
     for (int column = 0; column < depths.width; ++column, ++i)
     {
-      if (depths.pixels[i] > 0)
+      if (std::isfinite(depths.pixels[i]))
       {
         cloud.points[i] = unproject(sensor, Eigen::Vector2d(column, row), depthScale * depths.pixels[i]).cast<float>();
       }

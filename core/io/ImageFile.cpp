@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace meam
 {
@@ -25,6 +26,10 @@ std::uint64_t mostPixels(std::uint64_t length)
 {
   return std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * length);
 }
+
+// Of a value: of an image, and of real numbers of a depth image.
+constexpr std::uint64_t MostImageBits = 16;
+constexpr std::uint64_t MostDepthBits = 64;
 
 // A progressive JPEG has about ten; each goes through all pixels, however few bytes it has.
 constexpr int MostScans = 500;
@@ -188,11 +193,11 @@ Size checkedSize(const std::string& path, const std::string& bytes, std::uint64_
 
 /// What makes a decoder take memory that neither the size nor the length of a TIFF file justifies is refused; strips
 /// that are higher than the image are made as high as it.
-void checkTIFF(const std::string& path, std::string& bytes, const Size& size)
+void checkTIFF(const std::string& path, std::string& bytes, const Size& size, std::uint64_t mostBits)
 {
   // Without JBIG and LZMA, which take as much memory as their own headers say.
   constexpr std::array<std::uint64_t, 9> known{ 1, 2, 3, 4, 5, 7, 8, 32773, 32946 };
-  constexpr std::uint64_t mostBits = 16, mostSamples = 4; // what images are read of
+  constexpr std::uint64_t mostSamples = 4; // what images are read of
   const auto isDamaged = [](const tiff::Tag& tag) { return tag.at > 0 && !tag.isNumber(); };
   const tiff::Tag compression = tiff::tagOf(bytes, tiff::Compression);
   if (isDamaged(compression) ||
@@ -261,13 +266,13 @@ bool isWhole(const std::string& bytes, const Size& size)
 }
 
 /// What OpenCV makes of the file, channels and depth as they are.
-cv::Mat decode(const std::string& path)
+cv::Mat decode(const std::string& path, std::uint64_t mostBits = MostImageBits)
 {
   std::string bytes = readFile(path);
   const Size size = checkedSize(path, bytes, bytes.size());
   if (bytes[0] == 'I' || bytes[0] == 'M')
   {
-    checkTIFF(path, bytes, size);
+    checkTIFF(path, bytes, size, mostBits);
   }
   if (!isWhole(bytes, size))
   {
@@ -346,18 +351,26 @@ void requireRegistered(const Image& image, const OrganizedCloud& cloud, const st
   }
 }
 
-Image16 readImage16(const std::string& path)
+DepthPixels readDepthPixels(const std::string& path)
 {
-  const cv::Mat pixels = decode(path);
-  if (pixels.type() != CV_16UC1)
+  cv::Mat pixels = decode(path, MostDepthBits);
+  const int depth = pixels.depth();
+  if (pixels.channels() != 1 || (depth != CV_16U && depth != CV_32F && depth != CV_64F))
   {
     failImage(path, "has " + std::to_string(pixels.channels()) + " channels of " +
-                      std::to_string(8 * pixels.elemSize1()) + " bits: a depth image has one of 16 bits");
+                      std::to_string(8 * pixels.elemSize1()) +
+                      " bits: a depth image has one of whole numbers of 16 "
+                      "bits, or of real ones");
   }
-  Image16 image;
-  image.width = pixels.cols;
-  image.height = pixels.rows;
-  image.pixels.assign(pixels.begin<std::uint16_t>(), pixels.end<std::uint16_t>());
+  const float saturated =
+    depth == CV_16U ? std::numeric_limits<std::uint16_t>::max() : std::numeric_limits<float>::infinity();
+  pixels.convertTo(pixels, CV_32F);
+  DepthPixels image{ pixels.cols, pixels.rows, {} };
+  image.pixels.assign(pixels.begin<float>(), pixels.end<float>());
+  for (float& value : image.pixels)
+  {
+    value = value > 0.0f && value < saturated ? value : std::numeric_limits<float>::quiet_NaN();
+  }
   return image;
 }
 }

@@ -20,14 +20,15 @@ Image readImage(const std::string& path);
 /// Throws Error, naming the image's file, unless it has a pixel for each point of the cloud.
 void requireRegistered(const Image& image, const OrganizedCloud& cloud, const std::string& path);
 
-/// The values of an image of one channel, row by row, 16 bits each.
-struct Image16
+/// The values of an image of one channel, row by row.
+struct DepthPixels
 {
   int width = 0;
   int height = 0;
-  std::vector<std::uint16_t> pixels;
+  std::vector<float> pixels; ///< NaN where there is no depth: 0 and less, the largest value of 16 bits, NaN
 };
 
-/// Reads an image of one channel and 16 bits (PNG or TIFF), as depth images are. Throws Error as readImage().
-Image16 readImage16(const std::string& path);
+/// Reads an image of one channel (PNG or TIFF), as depth images are: whole numbers of 16 bits, or real ones of 32
+/// or 64. Throws Error as readImage().
+DepthPixels readDepthPixels(const std::string& path);
 }

@@ -18,15 +18,19 @@ struct Distorted
   Eigen::Matrix2d derivative;
 };
 
-/// Brown's model: a radial factor and the tangential terms of a decentred lens.
-Distorted distort(const std::array<double, 5>& distortion, const Eigen::Vector2d& ray)
+/// Brown's model: a radial factor and the tangential terms of a decentred lens. In the rational one the factor is a
+/// quotient.
+Distorted distort(const std::array<double, 8>& distortion, const Eigen::Vector2d& ray)
 {
-  const auto [k1, k2, p1, p2, k3] = distortion;
+  const auto [k1, k2, p1, p2, k3, k4, k5, k6] = distortion;
   const double x = ray.x();
   const double y = ray.y();
   const double r2 = ray.squaredNorm();
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double slope = k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3); // of the radial factor over r2
+  const double above = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double below = 1.0 + r2 * (k4 + r2 * (k5 + r2 * k6));
+  const double radial = above / below;
+  // Of the radial factor over r2.
+  const double slope = (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3) - radial * (k4 + r2 * (2.0 * k5 + r2 * 3.0 * k6))) / below;
   Distorted result;
   result.ray = { x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
     y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y };
@@ -37,7 +41,7 @@ Distorted distort(const std::array<double, 5>& distortion, const Eigen::Vector2d
 }
 
 /// The ray that the lens turns into `seen`, by Newton's method; NaN when there is none near it.
-Eigen::Vector2d undistort(const std::array<double, 5>& distortion, const Eigen::Vector2d& seen)
+Eigen::Vector2d undistort(const std::array<double, 8>& distortion, const Eigen::Vector2d& seen)
 {
   constexpr int mostSteps = 30;    // it takes a few
   constexpr double enough = 1e-12; // of a focal length, what rounding leaves

@@ -23,7 +23,7 @@ def reader(**properties):
     return result
 
 
-depth = png(file("depth.png"), [[(0,), (5000,), (65535,)], [(1,), (2,), (3,)]], VTK_UNSIGNED_SHORT)
+depth = png(file("depth.png"), [[(0,), (5000,), (65534,)], [(1,), (2,), (3,)]], VTK_UNSIGNED_SHORT)
 grey = png(file("grey.png"), [[(0,), (50,), (100,)], [(150,), (200,), (255,)]])
 colour = png(file("colour.png"), [[(1, 2, 3)] * 3] * 2)
 camera = file("camera.json")

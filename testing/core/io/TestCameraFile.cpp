@@ -63,7 +63,7 @@ TEST(CameraFile, yamlOfOpenCV)
   EXPECT_EQ(file.camera.fy, 1190.0);
   EXPECT_EQ(file.camera.cx, 640.25);
   EXPECT_EQ(file.camera.cy, 511.5);
-  EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{ -0.21, 0.13, 0.0011, -0.0007, -0.035 }));
+  EXPECT_EQ(file.camera.distortion, (std::array<double, 8>{ -0.21, 0.13, 0.0011, -0.0007, -0.035 }));
   EXPECT_EQ(file.camera.T_camera_scene * Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(397, 2, -99));
   EXPECT_EQ(file.depthScale, 1.0);
 }
@@ -73,7 +73,7 @@ TEST(CameraFile, xmlOfOpenCV)
   const meam::CameraFile file = readCamera(xml);
   EXPECT_EQ(file.camera.width, 0) << "not known";
   EXPECT_EQ(file.camera.fy, 801.0);
-  EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{ 0.1, 0.2, 0.3, 0.4, 0 }));
+  EXPECT_EQ(file.camera.distortion, (std::array<double, 8>{ 0.1, 0.2, 0.3, 0.4, 0 }));
   EXPECT_TRUE(file.camera.T_camera_scene.isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_EQ(file.depthScale, 0.1);
 }
@@ -83,7 +83,7 @@ TEST(CameraFile, jsonOfOpenCV)
   const meam::CameraFile file = readCamera(json);
   EXPECT_EQ(file.camera.width, 640);
   EXPECT_EQ(file.camera.fx, 800.0);
-  EXPECT_EQ(file.camera.distortion, (std::array<double, 5>{}));
+  EXPECT_EQ(file.camera.distortion, (std::array<double, 8>{}));
   EXPECT_EQ(Eigen::Vector3d(file.camera.T_camera_scene.translation()), Eigen::Vector3d(5, 6, 7));
 }
 
@@ -111,6 +111,72 @@ TEST(CameraFile, cameraOfBOP)
   EXPECT_EQ(file.depthScale, 0.1);
 }
 
+TEST(CameraFile, yamlOfAnyForm)
+{
+  const std::string text =
+    "image_width: 640\nimage_height: 480\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data:\n  - 800\n"
+    "  - 0.0\n  - 320\n  - 0\n  - 801.0\n  - 240\n  - 0\n  - 0\n  - 1\ndistortion_coefficients:\n"
+    "  data:\n    - -0.3\n    - 1.0e-1\n    - 0\n    - +0.002\n    - 0\n";
+  const meam::Camera camera = readCamera(text).camera;
+  EXPECT_EQ(camera.fy, 801.0);
+  EXPECT_EQ(camera.distortion, (std::array<double, 8>{ -0.3, 0.1, 0, 0.002, 0 }));
+}
+
+TEST(CameraFile, lensesOfROS)
+{
+  const auto text = [](const std::string& model, const std::string& numbers)
+  {
+    return "image_width: 640\nimage_height: 480\ncamera_name: left\ncamera_matrix:\n  data: [800, 0, 320, 0, 801, 240, "
+           "0, 0, "
+           "1]\ndistortion_model: " +
+           model + "\ndistortion_coefficients:\n  data: [" + numbers + "]\n";
+  };
+  EXPECT_EQ(readCamera(text("plumb_bob", "1, 2, 3, 4, 5")).camera.distortion, (std::array<double, 8>{ 1, 2, 3, 4, 5 }));
+  EXPECT_EQ(readCamera(text("rational_polynomial", "1, 2, 3, 4, 5, 6, 7, 8")).camera.distortion,
+    (std::array<double, 8>{ 1, 2, 3, 4, 5, 6, 7, 8 }));
+  EXPECT_EQ(readCamera(text("equidistant", "0, 0, 0, 0")).camera.distortion, (std::array<double, 8>{}));
+  readCamera.fails(text("equidistant", "0.1, 0, 0, 0"), "a lens of the model 'equidistant', which is not read");
+  readCamera.fails(text("rational_polynomial", "1, 2, 3, 4, 5"), "5 numbers of its lens's distortion instead of 8");
+  readCamera.fails(text("plumb_bob", "1, 2"), "2 numbers");
+  // camera_info, with a rectification R and no T.
+  const meam::Camera info =
+    readCamera("height: 480\nwidth: 640\ndistortion_model: plumb_bob\nD: [0.1, 0, 0, 0, 0]\nK: "
+               "[800.0, 0.0, 320.0, 0.0, 801.0, 240.0, 0.0, 0.0, 1.0]\nR: [0.9, 0.1, 0, 0, 1, 0, "
+               "0, 0, 1]\nP: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]\n")
+      .camera;
+  EXPECT_EQ(info.width, 640);
+  EXPECT_EQ(info.cy, 240.0);
+  EXPECT_EQ(info.distortion[0], 0.1);
+}
+
+TEST(CameraFile, otherPrograms)
+{
+  const auto isCamera = [](const meam::Camera& camera)
+  {
+    return camera.width == 640 && camera.height == 480 && camera.fx == 800.0 && camera.fy == 801.0 &&
+           camera.cx == 320.0 && camera.cy == 240.0;
+  };
+  const std::string open3d = R"({ "width": 640, "height": 480,
+    "intrinsic_matrix": [ 800.0, 0.0, 0.0, 0.0, 801.0, 0.0, 320.0, 240.0, 1.0 ] })";
+  EXPECT_TRUE(isCamera(readCamera(open3d).camera));
+  EXPECT_TRUE(isCamera(
+    readCamera(R"({ "class_name": "PinholeCameraParameters", "extrinsic": [1, 0], "intrinsic": )" + open3d + "}")
+      .camera));
+  const std::string realSense = R"({ "width": 640, "height": 480, "fx": 800.0, "fy": 801.0, "ppx": 320.0, "ppy": 240.0,
+    "model": "distortion.inverse_brown_conrady", "coeffs": [ 0.0, 0.0, 0.0, 0.0, 0.0 ] })";
+  EXPECT_TRUE(isCamera(readCamera(realSense).camera));
+  readCamera.fails(replaced(realSense, "0.0, 0.0", "0.1, 0.0"), "'distortioninversebrownconrady'");
+  const std::string other = replaced(realSense, "inverse_brown", "brown");
+  EXPECT_EQ(readCamera(replaced(other, "0.0, 0.0", "0.1, 0.0")).camera.distortion[0], 0.1);
+  const std::string kalibr =
+    "cam0:\n  camera_model: pinhole\n  distortion_coeffs: [0.1, 0.2, 0.3, 0.4]\n  distortion_model: "
+    "radtan\n  intrinsics: [800, 801, 320, 240]\n  resolution: [640, 480]\n";
+  EXPECT_TRUE(isCamera(readCamera(kalibr).camera));
+  EXPECT_EQ(readCamera(kalibr).camera.distortion[3], 0.4);
+  readCamera.fails(replaced(kalibr, "radtan", "equidistant"), "equidistant");
+  readCamera.fails(kalibr + replaced(kalibr, "cam0", "cam1"), "has 2 cameras");
+}
+
 TEST(CameraFile, whatIsNoCalibration)
 {
   EXPECT_THROW(meam::readCamera("/no/such/camera.json"), meam::Error);
@@ -134,8 +200,8 @@ TEST(CameraFile, whatIsNoCalibration)
   readCamera.fails(replaced(json, "800.0, ", ""), "camera_matrix");
   readCamera.fails(replaced(json, "800.0", "\"a\""), "camera_matrix");
   readCamera.fails(replaced(json, "800.0, 0.0", "800.0, 3.0"), "camera matrix that is not");
-  readCamera.fails(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0"), "dist_coeffs");
-  readCamera.fails(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0, 0, 0, 1"), "rational");
+  readCamera.fails(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 1, 0"), "3 numbers of its lens");
+  readCamera.fails(replaced(json, "0, 0, 0, 0, 0, 0, 0, 0", "0, 0, 0, 0, 0, 0, 0, 0, 1"), "thin prism");
   readCamera.fails(replaced(json, "[1, 0, 0, 5]", "[2, 0, 0, 5]"), "not a rotation");
   readCamera.fails(replaced(yaml, "T: [ 400, 0, -100 ]\n", ""), "only one of R and T");
   readCamera.fails(replaced(yaml, "400, 0, -100", "400, 0, .Nan"), "a T that is not made of numbers");

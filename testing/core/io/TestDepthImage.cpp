@@ -8,7 +8,7 @@
 
 namespace
 {
-const cv::Mat depths = (cv::Mat_<std::uint16_t>(2, 3) << 0, 5000, 65535, 1, 2, 3);
+const cv::Mat depths = (cv::Mat_<std::uint16_t>(2, 3) << 0, 5000, 65534, 1, 2, 3);
 
 meam::Camera camera()
 {
@@ -35,9 +35,31 @@ TEST(DepthImage, aPointForEachPixel)
     ASSERT_EQ(cloud.size(), 6u);
     EXPECT_TRUE(std::isnan(cloud.points[0].z()));
     EXPECT_TRUE(cloud.points[1].isApprox(Eigen::Vector3f(0, -0.5f / 200 * 500, 500)));
-    EXPECT_TRUE(cloud.points[2].isApprox(Eigen::Vector3f(65.535f, -0.5f / 200 * 6553.5f, 6553.5f)));
+    EXPECT_TRUE(cloud.points[2].isApprox(Eigen::Vector3f(65.534f, -0.5f / 200 * 6553.4f, 6553.4f)));
     EXPECT_TRUE(cloud.points[5].isApprox(Eigen::Vector3f(0.003f, 0.5f / 200 * 0.3f, 0.3f)));
   }
+}
+
+TEST(DepthImage, realNumbers)
+{
+  const files::Folder folder;
+  const cv::Mat metres = (cv::Mat_<float>(2, 3) << 0, 0.5f, NAN, -1, INFINITY, 0.25f);
+  cv::Mat precise;
+  metres.convertTo(precise, CV_64F);
+  for (const cv::Mat& pixels : { metres, precise })
+  {
+    const meam::OrganizedCloud cloud =
+      meam::readDepthImage(folder.write("depth.tiff", images::encoded(".tiff", pixels)), camera(), 1000.0);
+    EXPECT_EQ(cloud.points[1].z(), 500.0f);
+    EXPECT_EQ(cloud.points[5].z(), 250.0f);
+    for (const int none : { 0, 2, 3, 4 })
+    {
+      EXPECT_TRUE(std::isnan(cloud.points[none].z())) << none;
+    }
+  }
+  const cv::Mat saturated = (cv::Mat_<std::uint16_t>(1, 2) << 65535, 500);
+  EXPECT_TRUE(std::isnan(
+    meam::readDepthImage(folder.write("depth.png", images::encoded(".png", saturated)), camera()).points[0].z()));
 }
 
 TEST(DepthImage, theLensIsUndone)

@@ -93,8 +93,9 @@ TEST(ImageFile, sixteenBitsUseTheirWholeRange)
   const cv::Mat deep = (cv::Mat_<std::uint16_t>(1, 3) << 0, 257 * 40, 65535);
   EXPECT_EQ(readImage(images::encoded(".png", deep)).pixels, (std::vector<std::uint8_t>{ 0, 40, 255 }));
   const files::Folder folder;
-  EXPECT_EQ(meam::readImage16(folder.write("deep", images::encoded(".png", deep))).pixels,
-    (std::vector<std::uint16_t>{ 0, 257 * 40, 65535 }));
+  const std::vector<float> depths = meam::readDepthPixels(folder.write("deep", images::encoded(".png", deep))).pixels;
+  EXPECT_EQ(depths[1], 257 * 40);
+  EXPECT_TRUE(std::isnan(depths[0]) && std::isnan(depths[2]));
 }
 
 TEST(ImageFile, badFiles)

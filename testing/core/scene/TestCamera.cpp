@@ -75,6 +75,9 @@ TEST(Camera, distortionByHand)
   EXPECT_TRUE(meam::project(camera, point).isApprox(Eigen::Vector2d(50, 20) * 1.029));
   camera.distortion = { 0, 0.1, 0, 0, 0.2 };
   EXPECT_TRUE(meam::project(camera, point).isApprox(Eigen::Vector2d(50, 20) * (1 + 0.00841 + 0.0048778)));
+  camera.distortion = { 0.1, 0, 0, 0, 0, 0.2, 0, 0 }; // (1 + 0.1 r2) / (1 + 0.2 r2)
+  EXPECT_TRUE(
+    meam::project(camera, { 1, 0, 1 }).isApprox(Eigen::Vector2d(camera.cx + camera.fx * 1.1 / 1.2, camera.cy)));
   camera.distortion = { 0, 0, 0.01, 0, 0 }; // p1: 2 x y, r2 + 2 y2
   EXPECT_TRUE(meam::project(camera, point).isApprox(Eigen::Vector2d(50 + 0.2, 20 + 0.37)));
   camera.distortion = { 0, 0, 0, 0.01, 0 }; // p2: r2 + 2 x2, 2 x y
