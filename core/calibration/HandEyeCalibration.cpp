@@ -3,12 +3,14 @@
 
 #include "base/Error.h"
 #include "base/Frames.h"
+#include "scene/Units.h"
 
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <optional>
 
 namespace meam
@@ -17,12 +19,19 @@ namespace
 {
 constexpr double LeastTurn = 5.0; // degrees that some motions have to turn, about axes that are not parallel
 
+// A fit beyond these is no calibration: poses of a poor camera and robot stay within 10 mm and 2 degrees.
+constexpr double MostShift = 20.0;    // mm, root mean square
+constexpr double MostTurn = 5.0;      // degrees
+constexpr double MostOutliers = 0.25; // share of the pairs that may stand out
+
 constexpr std::size_t FewestPairs = 3;
 constexpr double Degrees = 180.0 / M_PI;
 
 const std::pair<cv::HandEyeCalibrationMethod, const char*> Methods[] = { { cv::CALIB_HAND_EYE_PARK, "Park" },
   { cv::CALIB_HAND_EYE_HORAUD, "Horaud" }, { cv::CALIB_HAND_EYE_DANIILIDIS, "Daniilidis" },
   { cv::CALIB_HAND_EYE_TSAI, "Tsai" } };
+
+using HandEyePairs = std::vector<HandEyePair>;
 
 Eigen::Isometry3d requireRigid(const Eigen::Isometry3d& T, const char* name, std::size_t pair)
 {
@@ -174,6 +183,169 @@ std::optional<Eigen::Isometry3d> solved(
   T.linear() = meanOf({ T }).linear(); // a rotation to the last digit
   return T;
 }
+
+/// By the method under which the target moves least; none when none finds anything.
+std::optional<HandEyeCalibration> bestOf(const HandEyePairs& pairs, CameraMount mount)
+{
+  std::optional<HandEyeCalibration> best;
+  for (const auto& [method, name] : Methods)
+  {
+    if (const auto found = solved(pairs, mount, method))
+    {
+      HandEyeCalibration calibration = judged(*found, pairs, mount);
+      calibration.method = name;
+      if (std::isfinite(calibration.shift) && (!best || calibration.shift < best->shift))
+      {
+        best = calibration;
+      }
+    }
+  }
+  return best;
+}
+
+bool isSane(const std::optional<HandEyeCalibration>& calibration)
+{
+  return calibration && calibration->shift <= MostShift && calibration->turn <= MostTurn;
+}
+
+/// All pairs after a change of each.
+template <typename Change>
+HandEyePairs changed(HandEyePairs pairs, const Change& change)
+{
+  std::for_each(pairs.begin(), pairs.end(), change);
+  return pairs;
+}
+
+/// Each gripper with the target of `lag` pairs later, or earlier.
+HandEyePairs shifted(const HandEyePairs& pairs, int lag)
+{
+  HandEyePairs result;
+  for (int k = 0; k < static_cast<int>(pairs.size()); ++k)
+  {
+    if (k + lag >= 0 && k + lag < static_cast<int>(pairs.size()))
+    {
+      result.push_back({ pairs[k].T_base_gripper, pairs[k + lag].T_camera_target });
+    }
+  }
+  return result;
+}
+
+struct Mistake
+{
+  const char* what;
+  void (*undo)(HandEyePair& pair);
+};
+const Mistake Mistakes[] = {
+  { "one of its poses is inverse", [](HandEyePair& pair) { pair.T_camera_target = pair.T_camera_target.inverse(); } },
+  { "both poses of a pair are inverse",
+    [](HandEyePair& pair) {
+      pair = { pair.T_base_gripper.inverse(), pair.T_camera_target.inverse() };
+    } },
+  { "the grippers' poses are in metres, the targets' in mm",
+    [](HandEyePair& pair) { pair.T_base_gripper.translation() *= Metre; } },
+  { "the targets' poses are in metres, the grippers' in mm",
+    [](HandEyePair& pair) { pair.T_camera_target.translation() *= Metre; } },
+};
+
+/// The pairs that stand out: those without which all others fit, the worst first; none when they are more than a share.
+std::vector<std::size_t> outliersOf(const HandEyePairs& pairs, CameraMount mount)
+{
+  std::vector<std::size_t> left(pairs.size()), out;
+  std::iota(left.begin(), left.end(), 0);
+  const std::size_t most = std::max<std::size_t>(1, static_cast<std::size_t>(MostOutliers * pairs.size()));
+  while (out.size() < most && left.size() > FewestPairs + 1)
+  {
+    std::optional<HandEyeCalibration> best;
+    std::size_t worst = 0;
+    for (std::size_t leaving = 0; leaving < left.size(); ++leaving)
+    {
+      HandEyePairs others;
+      for (std::size_t k = 0; k < left.size(); ++k)
+      {
+        if (k != leaving)
+        {
+          others.push_back(pairs[left[k]]);
+        }
+      }
+      const std::optional<HandEyeCalibration> found = bestOf(others, mount);
+      if (found && (!best || found->shift < best->shift))
+      {
+        best = found;
+        worst = leaving;
+      }
+    }
+    if (!best)
+    {
+      return {};
+    }
+    out.push_back(left[worst]);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(worst));
+    if (isSane(best))
+    {
+      return out;
+    }
+  }
+  return {};
+}
+
+/// What the pairs look like under which a camera would fit: in a sentence or two.
+std::string suspicionOf(const HandEyePairs& pairs, CameraMount mount, const HandEyeCalibration& found)
+{
+  const CameraMount other = mount == CameraMount::Hand ? CameraMount::Beside : CameraMount::Hand;
+  const char* const otherName = other == CameraMount::Hand ? "on the hand" : "beside the robot";
+  if (isSane(bestOf(pairs, other)))
+  {
+    return std::string("They fit a camera ") + otherName +
+           ": set the mount; or the poses of all targets (T_target_camera), or of all grippers, are inverse.";
+  }
+  for (const Mistake& mistake : Mistakes)
+  {
+    if (isSane(bestOf(changed(pairs, mistake.undo), mount)))
+    {
+      return std::string("They fit if ") + mistake.what + ": change that.";
+    }
+  }
+  for (const int lag : { 1, -1, 2, -2 })
+  {
+    if (const HandEyePairs others = shifted(pairs, lag); others.size() > FewestPairs && isSane(bestOf(others, mount)))
+    {
+      return "They fit if each gripper belongs to the target of the pair " + std::to_string(std::abs(lag)) +
+             (lag > 0 ? " later" : " earlier") + ": the lists are shifted against each other.";
+    }
+  }
+  if (const std::vector<std::size_t> out = outliersOf(pairs, mount); !out.empty())
+  {
+    std::string which;
+    for (const std::size_t pair : out)
+    {
+      which += (which.empty() ? "" : ", ") + std::to_string(pair + 1);
+    }
+    for (const Mistake& mistake : Mistakes)
+    {
+      HandEyePairs mended = pairs;
+      for (const std::size_t pair : out)
+      {
+        mistake.undo(mended[pair]);
+      }
+      if (isSane(bestOf(mended, mount)))
+      {
+        return "Without pair " + which + " the others fit, and with it if in it " + mistake.what + ".";
+      }
+    }
+    return "Without pair " + which + " the others fit: leave it out.";
+  }
+  for (const Mistake& mistake : Mistakes)
+  {
+    if (isSane(bestOf(changed(pairs, mistake.undo), other)))
+    {
+      return std::string("They fit a camera ") + otherName + " if " + mistake.what + ": change that.";
+    }
+  }
+  const auto worst = std::max_element(found.shifts.begin(), found.shifts.end()) - found.shifts.begin();
+  return "Pair " + std::to_string(worst + 1) +
+         " is the farthest off; check that each pair has the gripper and the target of the same moment, and that the "
+         "target is where the mount says.";
+}
 }
 
 HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, CameraMount mount)
@@ -194,23 +366,16 @@ HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, Camer
   }
   requireTurns(grippers, "gripper", LeastTurn);
   requireTurns(targets, "target", LeastTurn);
-  std::optional<HandEyeCalibration> best;
-  for (const auto& [method, name] : Methods)
-  {
-    if (const auto found = solved(exact, mount, method))
-    {
-      HandEyeCalibration calibration = judged(*found, exact, mount);
-      calibration.method = name;
-      if (std::isfinite(calibration.shift) && (!best || calibration.shift < best->shift))
-      {
-        best = calibration;
-      }
-    }
-  }
+  const std::optional<HandEyeCalibration> best = bestOf(exact, mount);
   if (!best)
   {
     throw Error("No place of the camera fits the pairs of poses: check that each has the gripper and the target of the "
                 "same moment.");
+  }
+  if (!isSane(best))
+  {
+    throw Error(
+      "No place of the camera fits the pairs of poses. " + describe(*best) + " " + suspicionOf(exact, mount, *best));
   }
   return *best;
 }

@@ -38,7 +38,8 @@ struct HandEyeCalibration
 /// The camera's place from pairs of poses: solves A X = X B by cv::calibrateHandEye with the methods of Park and Martin
 /// (1994), Horaud and Dornaika (1995), Daniilidis (1999) and Tsai and Lenz (1989), and takes that under which the
 /// target moves least. Throws Error for fewer than three pairs, poses that are not rigid, and motions that turn too
-/// little or about parallel axes alone, which leave the camera's place open.
+/// little or about parallel axes alone, which leave the camera's place open; and for a residual of more than 20 mm or 5
+/// degrees, with what the pairs look like: inverse, in other units, of another mount, shifted, or which stand out.
 HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, CameraMount mount = CameraMount::Beside);
 
 /// In a sentence, the residual.

@@ -99,3 +99,40 @@ TEST(HandEyeCalibration, tooLittleIsSaid)
   scaled[2].T_base_gripper.linear() *= 2.0;
   EXPECT_TRUE(files::contains(error(scaled), "T_base_gripper of pair 3"));
 }
+
+TEST(HandEyeCalibration, anAbsurdFitIsRefusedWithWhatItLooksLike)
+{
+  const std::vector<HandEyePair> good = pairsOf(CameraMount::Beside, 20, 0.2);
+  const auto error = [](const std::vector<HandEyePair>& pairs, CameraMount mount = CameraMount::Beside)
+  { return files::errorOf([&] { meam::calibrateHandEye(pairs, mount); }); };
+  const auto changed = [&](const auto& change)
+  {
+    std::vector<HandEyePair> pairs = good;
+    std::for_each(pairs.begin(), pairs.end(), change);
+    return pairs;
+  };
+  EXPECT_TRUE(files::contains(error(good, CameraMount::Hand), "fit a camera beside the robot: set the mount"));
+  const std::string inverse =
+    error(changed([](HandEyePair& pair) { pair.T_camera_target = pair.T_camera_target.inverse(); }));
+  EXPECT_TRUE(files::contains(inverse, "T_target_camera")) << inverse;
+  const std::string metres = error(changed([](HandEyePair& pair) { pair.T_base_gripper.translation() *= 1e-3; }));
+  EXPECT_TRUE(files::contains(metres, "grippers' poses are in metres")) << metres;
+  const std::string targets = error(changed([](HandEyePair& pair) { pair.T_camera_target.translation() *= 1e-3; }));
+  EXPECT_TRUE(files::contains(targets, "targets' poses are in metres")) << targets;
+  std::vector<HandEyePair> late = good;
+  for (std::size_t k = 0; k + 1 < good.size(); ++k)
+  {
+    late[k].T_camera_target = good[k + 1].T_camera_target;
+  }
+  late.pop_back();
+  const std::string shifted = error(late);
+  EXPECT_TRUE(files::contains(shifted, "1 earlier: the lists are shifted")) << shifted;
+  std::vector<HandEyePair> outliers = good;
+  std::swap(outliers[4].T_camera_target, outliers[11].T_camera_target);
+  const std::string out = error(outliers);
+  EXPECT_TRUE(files::contains(out, "Without pair") && files::contains(out, "5") && files::contains(out, "12")) << out;
+  outliers = good;
+  outliers[6].T_base_gripper.translation() *= 1e-3;
+  const std::string one = error(outliers);
+  EXPECT_TRUE(files::contains(one, "Without pair 7") && files::contains(one, "in metres")) << one;
+}

@@ -74,4 +74,8 @@ TEST(RobotFrameFile, bad)
   { return name + ":\n  x: 1\n  y: 2\n  z: 3\n  qx: 0\n  qy: 0\n  qz: 0\n  qw: 1\n"; };
   readRobotFrame.fails(item("left") + item("right"), "several");
   EXPECT_THROW(meam::readRobotFrame("/no/such/file"), meam::Error);
+  // Metres among mm, and mm among metres.
+  readRobotFrame.fails("1 0 0 0.4  0 1 0 0.2  0 0 1 0.9  0 0 0 1", "likely in metres, where they are taken as mm");
+  readRobotFrame.fails(
+    "x: 400\ny: 200\nz: 900\nqx: 0\nqy: 0\nqz: 0\nqw: 1\n", "likely in mm, where they are taken as metres");
 }
