@@ -67,19 +67,21 @@ private:
 // ---------------------------------------------------------------------------------------------------------- detection
 // Library meam::detect.
 
-/// What a sensor saw, in its own frame (x right, y down, z the way it looks). The edges of the parts have to come from
-/// somewhere: an image, the cloud itself (DetectSettings), or `edges`.
+/// What a sensor saw, best in its own frame (x right, y down, z the way it looks). The edges of the parts come from an
+/// image, from the cloud itself (DetectSettings), or are given as `edges`. Points alone are brought onto a grid.
 struct Scan
 {
   int width = 0;                       ///< of the grid of points
-  int height = 1;                      ///< 1: the points are not organized, and `edges` have to be given
+  int height = 1;                      ///< 1: the points are not organized
   std::vector<Eigen::Vector3f> points; ///< mm, row by row from the top left; NaN where nothing was measured
 
-  Image image;                       ///< grey values or colours; a pixel for each point, or of `imageCamera`
+  /// Grey values or colours; a pixel for each point, or of `imageCamera`. None: edges are those of the cloud alone.
+  Image image;
   std::optional<Camera> imageCamera; ///< a camera beside the sensor that took the image
 
   std::vector<Eigen::Vector3f> edges; ///< mm, edge points, where they are known already
-  /// Where it was seen from. None: from the origin, along +z, when it is organized, otherwise from far above, along -z.
+  /// Where it was seen from. None: as the points tell, from the origin when they are organized; with `edges` along +z
+  /// then, otherwise from far above, along -z.
   std::optional<Sensor> sensor;
 };
 
@@ -114,6 +116,7 @@ struct Detections
   ScanQuality quality;             ///< how well the sensor measured, as an organized scan shows; mostly to be looked at
   double seconds = 0.0;
   bool isCutShort = false; ///< the time limit struck: these are the best that were found until then
+  std::string report; ///< what was assumed of the scan, and what of it was left out; empty when there was nothing to
   std::string
     warning; ///< that it struck, that nothing sure was found, and what may be wrong with the scan's unit; mostly empty
 };
@@ -141,8 +144,8 @@ MEAM_EXPORT CalibratedModel calibrate(const Model& model, const std::vector<Judg
 /// Reads what Model::save() wrote.
 MEAM_EXPORT Model loadModel(const std::string& path);
 
-/// Reads a scan: a .pcd, or a .ply, which is organized only with the calibration of its camera. Colours or grey values
-/// become the image. `scale` brings lengths to mm: 1000 for metres.
+/// Reads a scan: a .pcd or a .ply; one that is not organized comes back onto its camera's pixels when that is given.
+/// Colours or grey values become the image. `scale` brings lengths to mm: 1000 for metres.
 MEAM_EXPORT Scan loadScan(const std::string& path, const std::string& cameraFile = {}, double scale = 1.0);
 
 /// A part's surface. Corners of a triangle go counter-clockwise seen from outside.
@@ -165,9 +168,9 @@ MEAM_EXPORT Camera loadCamera(const std::string& path);
 /// Reads a PNG, JPEG, BMP or TIFF image, for Scan::image.
 MEAM_EXPORT Image loadImage(const std::string& path);
 
-/// Reads a depth image of 16 bits, PNG or TIFF, with the calibration of its camera, whose `depth_scale` brings it to
-/// mm.
-MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& cameraFile);
+/// Reads a depth image of 16 bits, PNG or TIFF, or of real numbers, TIFF, with the calibration of its camera, whose
+/// `depth_scale` brings it to mm; `scale` is a factor beside it.
+MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& cameraFile, double scale = 1.0);
 
 // ----------------------------------------------------------------------------------------------------------- training
 // Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.

@@ -5,7 +5,6 @@
 #include "model/TrainedModel.h"
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
-#include "scene/Units.h"
 
 #include <algorithm>
 #include <chrono>
@@ -25,57 +24,63 @@ void requireSettings(const DetectSettings& settings)
   requireWithin("time limit (timeLimit)", settings.timeLimit, 0.0, Unbounded, " s");
 }
 
-void requireScan(const Scan& scan)
+/// None when it is not given.
+std::optional<Sensor> givenSensor(const Scan& scan)
 {
-  requireGrid(scan);
-  if (scan.height == 1 && scan.edges.empty())
+  std::optional<Sensor> sensor = scan.sensor;
+  if (sensor)
   {
-    throw Error(
-      "The scan is not organized, so that its edges cannot be taken from an image: give its edge points, or an "
-      "organized scan (a grid of width x height points).");
-  }
-}
-
-Sensor sensorOf(const Scan& scan)
-{
-  Sensor sensor;
-  if (scan.sensor)
-  {
-    sensor = *scan.sensor;
-    if (!sensor.direction.allFinite() || !(sensor.direction.norm() > 0.0))
+    if (!sensor->direction.allFinite() || !(sensor->direction.norm() > 0.0))
     {
       throw Error("The sensor's direction is zero: give the way it looks, in the scan's coordinates.");
     }
-    sensor.direction.normalize();
-  }
-  else if (scan.height == 1)
-  {
-    sensor.perspective = false;
-    sensor.direction = -Eigen::Vector3d::UnitZ();
+    sensor->direction.normalize();
   }
   return sensor;
 }
 
-/// Sets the scan's edge points as given, or as extracted, with what the scan shows of the sensor.
-void setEdges(const Scan& scan, const DetectSettings& settings, SceneInput& input, const Progress& progress)
+/// That of a scan whose edge points are given.
+Sensor sensorOf(const Scan& scan)
 {
+  const Sensor fromAbove{ false, Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ() };
+  return givenSensor(scan).value_or(scan.height == 1 ? fromAbove : Sensor());
+}
+
+/// A scene, with what was assumed of its scan.
+struct ScanScene
+{
+  SceneInput input;
+  std::string report;
+};
+
+ScanScene sceneOfScan(const Scan& scan, const DetectSettings& settings, const Progress& progress)
+{
+  ScanScene scene;
   if (!scan.edges.empty())
   {
     requirePoints(scan.edges, "The scan's edge cloud");
     PointCloud edges;
     edges.points = scan.edges;
-    input.edges = toLocalCloud(edges, settings.threads);
-    return;
+    scene.input.edges = toLocalCloud(edges, settings.threads);
+    scene.input.sensor = sensorOf(scan);
   }
-  SceneEdgeExtractionSettings extraction = sceneEdgeSettings(settings);
-  extraction.camera = scan.imageCamera;
-  if (extraction.imageEdges && scan.image.pixels.empty())
+  else
   {
-    throw Error("The scan has no image: give one, registered or with its camera, or turn imageEdges off to "
-                "look for depthEdges and creases alone.");
+    PreparedScan prepared = prepareScan(
+      { scan.width, scan.height, scan.points }, settings.imageEdges ? scan.image : Image(), givenSensor(scan));
+    const SceneEdges found = findEdges(prepared, settings, scan.imageCamera, progress);
+    setFoundEdges(found, settings.threads, scene.input);
+    scene.input.sensor = prepared.sensor;
+    scene.report = prepared.report;
+    if (!prepared.isAsGiven)
+    {
+      scene.input.measured = toLocalPoints(prepared.measured(), scene.input.edges.T_local_scene, settings.threads);
+      return scene;
+    }
   }
-  setFoundEdges(extractSceneEdges({ scan.width, scan.height, scan.points }, scan.image, extraction, progress),
-    settings.threads, input);
+  scene.input.measured = toLocalPoints(scan.points, scene.input.edges.T_local_scene, settings.threads);
+  requirePoints(scan.points.size(), scene.input.measured.size(), "The scan");
+  return scene;
 }
 }
 
@@ -91,24 +96,22 @@ Detections detect(
   std::transform(
     models.begin(), models.end(), std::back_inserter(trained), [](const Model& model) { return &model.trained(); });
   requireSettings(settings);
-  requireScan(scan);
-  SceneInput input;
-  input.sensor = sensorOf(scan);
+  requireGrid(scan);
   const Deadline deadline = settings.timeLimit > 0.0 ? Deadline(settings.timeLimit) : Deadline();
+  ScanScene scene;
   std::vector<PartPose> found;
   DetectionReport report;
   const auto search = [&]
   {
-    setEdges(scan, settings, input, deadline.within(subProgress(progress, 0.0, AfterSceneEdges)));
-    input.measured = toLocalPoints(scan.points, input.edges.T_local_scene, settings.threads);
-    requirePoints(scan.points.size(), input.measured.size(), "The scan");
+    scene = sceneOfScan(scan, settings, deadline.within(subProgress(progress, 0.0, AfterSceneEdges)));
     DetectionSettings steps = detectionSettings(settings);
     steps.deadline = deadline;
-    found = estimateParts(trained, input, steps, &report, subProgress(progress, AfterSceneEdges, 1.0));
+    found = estimateParts(trained, scene.input, steps, &report, subProgress(progress, AfterSceneEdges, 1.0));
   };
   Detections result;
   result.isCutShort = !isDoneBy(deadline, search) || report.isCutShort;
-  result.quality = input.quality;
+  result.quality = scene.input.quality;
+  result.report = scene.report;
   Poses poses;
   for (const auto& [part, index, pose] : found)
   {
@@ -121,8 +124,7 @@ Detections detect(
     poses.push_back(pose);
   }
   const std::string ofTime = result.isCutShort ? cutShort(settings.timeLimit) : "";
-  for (const std::string& sentence :
-    { unitsWarning(input.edges.cloud.points, trained.front()->diameter), ofTime, doubtsOf(poses) })
+  for (const std::string& sentence : { ofTime, doubtsOf(poses, scene.input, trained.front()->diameter) })
   {
     result.warning += (result.warning.empty() || sentence.empty() ? "" : " ") + sentence;
   }

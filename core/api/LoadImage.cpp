@@ -8,10 +8,10 @@ namespace meam
 {
 Image loadImage(const std::string& path) { return readImage(path); }
 
-Scan loadDepthImage(const std::string& path, const std::string& cameraFile)
+Scan loadDepthImage(const std::string& path, const std::string& cameraFile, double scale)
 {
   const CameraFile calibration = readCamera(cameraFile);
-  OrganizedCloud cloud = readDepthImage(path, calibration.camera, calibration.depthScale);
+  OrganizedCloud cloud = readDepthImage(path, calibration.camera, scale * calibration.depthScale);
   Scan scan;
   scan.width = cloud.width;
   scan.height = cloud.height;

@@ -43,25 +43,15 @@ void scalePoints(Points& points, double scale, const std::string& path)
 Scan loadScan(const std::string& path, const std::string& cameraFile, double scale)
 {
   const std::string extension = extensionOf(path);
-  if (extension == ".pcd")
+  if (extension != ".pcd" && extension != ".ply")
   {
-    MeasuredCloud measured = readPCD(path);
-    scalePoints(measured.cloud.points, scale, path);
-    return scanOf(std::move(measured));
+    throw Error("The scan '" + path +
+                "' has an extension that is not known: give a .pcd or a .ply; depth images are "
+                "read by loadDepthImage().");
   }
-  if (extension == ".ply")
-  {
-    MeasuredCloud measured = readPLYCloud(path);
-    scalePoints(measured.cloud.points, scale, path);
-    if (!cameraFile.empty())
-    {
-      measured = organizeCloud(measured, readCamera(cameraFile).camera);
-    }
-    return scanOf(std::move(measured));
-  }
-  throw Error("The scan '" + path +
-              "' has an extension that is not known: give a .pcd or a .ply; depth images are "
-              "read by loadDepthImage().");
+  MeasuredCloud measured = extension == ".pcd" ? readPCD(path) : readPLYCloud(path);
+  scalePoints(measured.cloud.points, scale, path);
+  return scanOf(cameraFile.empty() ? std::move(measured) : organizeCloud(measured, readCamera(cameraFile).camera));
 }
 
 Camera loadCamera(const std::string& path) { return readCamera(path).camera; }

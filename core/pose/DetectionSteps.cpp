@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/DetectionSteps.h"
 
+#include "scene/Units.h"
+
 namespace meam
 {
+namespace
+{
+void tell(PreparedScan& scan, const std::string& sentence)
+{
+  scan.report += (scan.report.empty() ? "" : " ") + sentence;
+}
+}
+
 DetectionSettings detectionSettings(const DetectSettings& chosen)
 {
   DetectionSettings settings =
@@ -31,10 +41,49 @@ SceneEdgeExtractionSettings sceneEdgeSettings(const DetectSettings& chosen)
   return settings;
 }
 
+SceneEdges findEdges(
+  PreparedScan& scan, const DetectSettings& chosen, const std::optional<Camera>& imageCamera, const Progress& progress)
+{
+  SceneEdgeExtractionSettings settings = sceneEdgeSettings(chosen);
+  settings.imageEdges &= !scan.image.pixels.empty();
+  if (settings.imageEdges)
+  {
+    settings.camera = imageCamera;
+  }
+  else if (chosen.imageEdges && !settings.depthEdges && !settings.creases)
+  {
+    throw Error("The scan has no image: give one, registered or with its camera, or look for DepthEdges and Creases.");
+  }
+  else if (chosen.imageEdges)
+  {
+    tell(scan, "The scan has no image: its edges are those of the cloud alone.");
+  }
+  SceneEdges found = extractSceneEdges(scan, settings, progress);
+  if (found.quality.isCutOut())
+  {
+    tell(scan,
+      "Little was measured: if what lies around the parts was cut out, leave it in, for it tells where they end.");
+  }
+  return found;
+}
+
 void setFoundEdges(const SceneEdges& found, int threads, SceneInput& scene)
 {
   scene.edges = toLocalCloud(found.cloud, threads);
   scene.edges.fromScan = true;
   scene.quality = found.quality;
+}
+
+std::string doubtsOf(const Poses& poses, const SceneInput& scene, double partDiameter)
+{
+  const std::string doubts = doubtsOf(poses);
+  const bool hasEdges = !spansTooLittle(scene.edges.cloud.points, partDiameter);
+  if (!hasEdges && scene.measured.empty()) // a time limit struck before it was looked at
+  {
+    return doubts;
+  }
+  const std::string ofUnits = unitsWarning(hasEdges ? scene.edges.cloud.points : scene.measured, partDiameter,
+    doubts.empty() ? 0.0 : scene.quality.pointDistance);
+  return ofUnits + (ofUnits.empty() || doubts.empty() ? "" : " ") + doubts;
 }
 }

@@ -3,6 +3,7 @@
 
 #include "baselines/BaselineSettings.h"
 #include "pose/PoseTolerances.h"
+#include "scene/Units.h"
 
 #include <algorithm>
 #include <chrono>
@@ -233,6 +234,16 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   return poses;
 }
 
+bool showsNothing(const SceneInput& input, double partDiameter)
+{
+  if (!input.edges.fromScan)
+  {
+    return false;
+  }
+  requireSameUnits(input.measured, partDiameter);
+  return spansTooLittle(input.edges.cloud.points, partDiameter);
+}
+
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
   DetectionReport* report, const Progress& progress)
 {
@@ -240,6 +251,10 @@ Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const De
   DetectionReport& told = report ? *report : unused;
   StageTimes& spent = told.times;
   Stopwatch watch;
+  if (showsNothing(input, model.diameter))
+  {
+    return {};
+  }
   const Scene scene = sceneOf(model, input, settings, &spent, subProgress(progress, 0.0, 0.1));
   spent.scene = watch.lap() - spent.tangents;
   const Poses poses = findPoses(scene, model, settings, &told, subProgress(progress, 0.1, 1.0));

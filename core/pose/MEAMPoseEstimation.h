@@ -91,7 +91,12 @@ Poses rankCandidates(Poses candidates, const Scene& scene, const TrainedModel& m
 Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
   DetectionReport* report = nullptr, const Progress& progress = {}, const PoseObserver& observer = {});
 
-/// The online phase: ranked poses in the scene's own coordinates (mm). Everything happens in the frame of the edges.
+/// Whether a scan has no edges, or a few by chance, as a floor with nothing on it. Throws Error when its unit is
+/// another one than the part's.
+bool showsNothing(const SceneInput& input, double partDiameter);
+
+/// The online phase: ranked poses in the scene's own coordinates (mm); none in a scan that shows no edges. Everything
+/// happens in the frame of the edges.
 /// `report` may be null.
 Poses estimatePoses(const TrainedModel& model, const SceneInput& input, const DetectionSettings& settings,
   DetectionReport* report = nullptr, const Progress& progress = {});

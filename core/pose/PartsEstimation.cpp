@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PartsEstimation.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace meam
@@ -16,6 +17,11 @@ std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& mode
     {
       result.push_back({ 0, static_cast<int>(result.size()), pose });
     }
+    return result;
+  }
+  if (std::all_of(
+        models.begin(), models.end(), [&](const TrainedModel* model) { return showsNothing(input, model->diameter); }))
+  {
     return result;
   }
   constexpr double searches = 0.95; // of the progress

@@ -268,6 +268,7 @@ void bindDetection(py::module_& module)
     .def_property_readonly("quality", [](const Detections& found) { return numbersOf(found.quality); })
     .def_readonly("seconds", &Detections::seconds)
     .def_readonly("is_cut_short", &Detections::isCutShort)
+    .def_readonly("report", &Detections::report)
     .def_readonly("warning", &Detections::warning);
   bindCalibration(module);
   module.def("detect", [](const std::vector<Model>& models, const Scan& scan, const DetectSettings& settings)

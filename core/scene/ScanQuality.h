@@ -19,6 +19,9 @@ struct ScanQuality
   double coverage = 0.0;      ///< [0, 1], share of the grid that has depth
 
   bool isKnown() const { return this->pointDistance > 0.0; }
+  /// Little was measured: likely a mask left no more than the parts. A bin fills more of the grid, also of a scan with
+  /// many holes.
+  bool isCutOut() const { return this->isKnown() && this->coverage < 0.3; }
 };
 
 // By how much the depths of neighbours differ at least that are of two surfaces, for all that slopes and noise do.

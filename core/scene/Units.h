@@ -11,7 +11,12 @@ constexpr double Metre = 1000.0; // mm
 /// larger than `partDiameter` allows. The message names the likely factor.
 void requireSameUnits(const Points& scene, double partDiameter);
 
+/// Whether points span less than a part that is partly in sight can: no part's edges are all so near to each other.
+bool spansTooLittle(const Points& points, double partDiameter);
+
 /// What to tell a user when a scene's extent is possible but unlikely for a part in the same unit, as with centimetres:
-/// it names the likely factor. Empty when there is nothing to tell.
-std::string unitsWarning(const Points& scene, double partDiameter);
+/// it names the likely factor. Empty when there is nothing to tell. `pointDistance` of the scan, when nothing sure was
+/// found in it: then a factor of 10 is told of, too, when it takes both the extent and how many points the part spans
+/// to what is usual; 0 otherwise.
+std::string unitsWarning(const Points& scene, double partDiameter, double pointDistance = 0.0);
 }

@@ -22,6 +22,8 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace
@@ -126,7 +128,6 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   using namespace vtkMEAMConversion;
   vtkDataObject* part = vtkDataObject::GetData(inputVector[0]);
   auto* sceneInput = vtkPointSet::GetData(inputVector[1]);
-  auto* organized = vtkStructuredGrid::SafeDownCast(sceneInput);
   auto* boundary = vtkPolyData::GetData(inputVector[2]);
   auto* image = vtkImageData::GetData(inputVector[3]);
   const meam::Progress progress = progressOf(this);
@@ -143,40 +144,40 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
 
   // What is wrong with the scene is told before any time goes into training.
   meam::requirePoints(sceneInput->GetNumberOfPoints(), sceneInput->GetNumberOfPoints(), "The scene");
-  int size[3] = { 0, 0, 0 };
-  if (organized)
-  {
-    organized->GetDimensions(size);
-  }
-  if (!boundary && size[1] <= 1)
-  {
-    throw meam::Error("The scene is not organized, so that its edges cannot be taken from an image: give its edge "
-                      "points, the boundary, to Boundary, or an organized scan (a grid of width x height points) to "
-                      "Scene.");
-  }
   meam::SceneInput& scene = work.scene;
-  scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+  bool isAsGiven = true;
   if (boundary)
   {
+    scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
     scene.edges = toLocalCloud(boundary, this->NumberOfThreads);
     meam::requirePoints(scene.edges.cloud.points, "The scene's boundary cloud");
   }
   else
   {
-    const meam::OrganizedCloud cloud = toOrganizedCloud(organized, this->NumberOfThreads);
-    meam::requirePoints(cloud.points, "The scene");
-    meam::SceneEdgeExtractionSettings extraction = meam::sceneEdgeSettings(settings);
+    meam::OrganizedCloud cloud = toScanCloud(sceneInput, this->NumberOfThreads);
+    const std::optional<meam::Camera> camera = cameraOf(this->CameraFile, image, cloud);
     meam::Image pixels;
     if (settings.imageEdges)
     {
-      pixels = image ? toImage(image) : imageOfCloud(organized);
-      extraction.camera = cameraOf(this->CameraFile, image, cloud);
+      pixels = image ? toImage(image) : imageOfCloud(sceneInput);
     }
-    work.found = meam::extractSceneEdges(cloud, pixels, extraction, meam::subProgress(progress, 0.0, AfterSceneEdges));
+    meam::PreparedScan prepared = meam::prepareScan(std::move(cloud), std::move(pixels),
+      givenSensor(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput));
+    work.found = meam::findEdges(prepared, settings, camera, meam::subProgress(progress, 0.0, AfterSceneEdges));
     meam::setFoundEdges(work.found, this->NumberOfThreads, scene);
+    scene.sensor = prepared.sensor;
+    isAsGiven = prepared.isAsGiven;
+    work.scanReport = prepared.report;
+    if (!isAsGiven)
+    {
+      scene.measured = meam::toLocalPoints(prepared.measured(), scene.edges.T_local_scene, this->NumberOfThreads);
+    }
   }
   work.secondsEdges = watch();
-  scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
+  if (isAsGiven)
+  {
+    scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
+  }
   work.secondsLoading = watch();
 
   work.part = this->Trained->partOf(part,

@@ -10,9 +10,9 @@
  * Input port 0: the part, a vtkPolyData with the CAD's faces, or the trained model that vtkMEAMHashing
  * returns, a vtkPartitionedDataSetCollection.
  * Input port 1: the scene in mm, a vtkStructuredGrid of W x H x 1 points in the sensor's frame, or a
- * vtkPolyData with the points of the measured surface.
- * Input port 2 (optional): the scene's edge points, a vtkPolyData. Without it the scene has to be
- * organized and, for edges of the image, to have one: port 3, or the point array `Intensity` (1) or `RGB` (3).
+ * vtkPolyData with the points of the measured surface, which are brought onto a grid (meam::prepareScan).
+ * Input port 2 (optional): the scene's edge points, a vtkPolyData. Without it they are found in the scan: in its image,
+ * which is port 3 or the point array `Intensity` (1) or `RGB` (3), and by its depth.
  * Input port 3 (optional): the image, a vtkImageData with 1, 3 or 4 components; of W x H, or of any size when the
  * camera that took it is known as vtkMEAMSceneEdgeExtraction has it.
  */

@@ -17,6 +17,7 @@ struct vtkMEAMEstimationAlgorithm::Work
   std::shared_ptr<const vtkMEAMConversion::TrainedPart> part;
   meam::SceneInput scene;
   meam::SceneEdges found; ///< of a scan, when no boundary came in
+  std::string scanReport; ///< what was assumed of it
   meam::DetectionSettings settings;
   double secondsEdges = 0.0;
   double secondsLoading = 0.0; ///< of the points measured

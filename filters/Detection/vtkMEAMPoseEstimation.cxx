@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseEstimation.h"
 
+#include "pose/DetectionSteps.h"
 #include "pose/verification/EdgeExplanation.h"
-#include "scene/Units.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMEstimationWork.h"
 #include "vtkMEAMInstanceConversion.h"
@@ -80,13 +80,10 @@ int vtkMEAMPoseEstimation::RequestData(
       const meam::Poses poses = meam::estimatePoses(
         model, scene, work.settings, &report, meam::subProgress(progressOf(this), Work::Prepared, 1.0));
       const double found = vtkTimerLog::GetUniversalTime();
-      for (const std::string& warning : { meam::unitsWarning(scene.edges.cloud.points, model.diameter),
-             report.isCutShort ? meam::cutShort(limit) : std::string(), meam::doubtsOf(poses) })
+      for (const std::string& warning :
+        { report.isCutShort ? meam::cutShort(limit) : std::string(), meam::doubtsOf(poses, scene, model.diameter) })
       {
-        if (!warning.empty())
-        {
-          vtkWarningMacro(<< warning);
-        }
+        vtkWarningMacro(<< doubts);
       }
 
       if (boundary)
@@ -111,7 +108,7 @@ int vtkMEAMPoseEstimation::RequestData(
       setDiameter(output, model.diameter);
       setPartExtent(output, model);
       setFieldText(output, "Report", meam::describe(poses));
-      setScanQuality(output, scene.quality);
+      setScanQuality(output, scene.quality, work.scanReport);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
       if (report.rates)
       {

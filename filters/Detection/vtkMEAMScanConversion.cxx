@@ -195,11 +195,30 @@ void fromOrganizedCloud(const meam::OrganizedCloud& cloud, vtkStructuredGrid* ou
   }
 }
 
-meam::Image imageOfCloud(vtkStructuredGrid* input)
+meam::OrganizedCloud toScanCloud(vtkPointSet* input, int threads)
+{
+  if (auto* grid = vtkStructuredGrid::SafeDownCast(input))
+  {
+    return toOrganizedCloud(grid, threads);
+  }
+  meam::OrganizedCloud cloud;
+  for (const Eigen::Vector3d& point : toVectors<double>(input->GetPoints()->GetData()))
+  {
+    cloud.points.push_back(point.cast<float>());
+  }
+  cloud.width = static_cast<int>(cloud.size());
+  cloud.height = 1;
+  return cloud;
+}
+
+meam::Image imageOfCloud(vtkPointSet* input)
 {
   meam::Image image;
-  int size[3];
-  input->GetDimensions(size);
+  int size[3] = { static_cast<int>(input->GetNumberOfPoints()), 1, 1 };
+  if (auto* grid = vtkStructuredGrid::SafeDownCast(input))
+  {
+    grid->GetDimensions(size);
+  }
   image.width = size[0];
   image.height = size[1];
   vtkDataArray* pixels = pointArray(input, "Intensity", 1);
@@ -210,9 +229,7 @@ meam::Image imageOfCloud(vtkStructuredGrid* input)
   }
   if (!pixels)
   {
-    throw Error("The scene has no image: it needs the point array 'Intensity' or 'RGB', or connect the sensor's as "
-                "Image, or turn "
-                "ImageEdges off.");
+    return {};
   }
   image.pixels = toPixels(pixels, image.channels);
   return image;

@@ -24,8 +24,10 @@ void requireLayer(vtkStructuredGrid* grid);
 meam::OrganizedCloud toOrganizedCloud(vtkStructuredGrid* input, int threads = 1);
 /// NaN points are blanked.
 void fromOrganizedCloud(const meam::OrganizedCloud& cloud, vtkStructuredGrid* output);
-/// From the point array `Intensity` (1 component) or `RGB` (3) of an organized cloud. Throws without.
-meam::Image imageOfCloud(vtkStructuredGrid* input);
+/// The same, or N x 1 points that are not organized.
+meam::OrganizedCloud toScanCloud(vtkPointSet* input, int threads = 1);
+/// From the point array `Intensity` (1 component) or `RGB` (3) of such a cloud. Empty without.
+meam::Image imageOfCloud(vtkPointSet* input);
 /// From image scalars of 1, 3 or 4 components; VTK's images start at the lower left, ours at the upper left.
 meam::Image toImage(vtkImageData* input);
 void fromImage(const meam::Image& image, vtkImageData* output);

@@ -46,6 +46,16 @@ meam::Sensor sensorOf(
   return sensor;
 }
 
+std::optional<meam::Sensor> givenSensor(
+  int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface)
+{
+  const bool isFromAbove = viewDirection[0] == 0.0 && viewDirection[1] == 0.0 && viewDirection[2] < 0.0;
+  const bool isDefault = isFromAbove || vtkStructuredGrid::SafeDownCast(surface);
+  return projection == AutomaticProjection && isDefault
+           ? std::nullopt
+           : std::optional(sensorOf(projection, viewDirection, sensorPosition, surface));
+}
+
 meam::LocalCloud edgesOf(vtkPointSet* input, int threads)
 {
   meam::LocalCloud edges = toLocalCloud(input, threads);

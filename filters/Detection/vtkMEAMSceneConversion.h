@@ -8,6 +8,8 @@
 #include "base/LocalCloud.h"
 #include "scene/Sensor.h"
 
+#include <optional>
+
 class vtkDataSet;
 class vtkPointSet;
 
@@ -16,13 +18,17 @@ namespace vtkMEAMConversion
 /// The property `Projection` of the filters that need to know where the scene is seen from.
 enum Projection
 {
-  AutomaticProjection,    ///< perspective from the origin along +z for an organized cloud, otherwise orthographic
+  AutomaticProjection, ///< as the points tell; with given edges perspective from the origin along +z for an organized
+                       ///< cloud, otherwise orthographic
   OrthographicProjection, ///< along the view direction
   PerspectiveProjection   ///< from the sensor position, looking along the view direction
 };
 
 /// Where the scene is seen from; `surface` may be null. Throws Error for a view direction of zero.
 meam::Sensor sensorOf(
+  int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
+/// The same where the filter's properties say it; none where the scan itself has to tell.
+std::optional<meam::Sensor> givenSensor(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
 /// A scene's edge points with `Tangent`, and `Weight` where it is there, in their local frame. Throws Error without
 /// points or tangents.

@@ -101,10 +101,14 @@ void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
   setScanQuality(output, edges.quality);
 }
 
-void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality)
+void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality, const std::string& assumed)
 {
   if (!quality.isKnown())
   {
+    if (!assumed.empty())
+    {
+      setFieldText(output, "ScanReport", assumed);
+    }
     return;
   }
   vtkNew<vtkDoubleArray> numbers;
@@ -117,7 +121,7 @@ void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality)
     numbers->SetComponent(0, i, quality.*QualityFields[i].value);
   }
   output->GetFieldData()->AddArray(numbers);
-  setFieldText(output, "ScanReport", meam::describe(quality));
+  setFieldText(output, "ScanReport", assumed + (assumed.empty() ? "" : " ") + meam::describe(quality));
 }
 
 meam::ScanQuality scanQualityOf(vtkDataObject* input)

@@ -9,6 +9,7 @@
 #include "scene/OrganizedCloud.h"
 
 #include <optional>
+#include <string>
 
 namespace meam
 {
@@ -32,8 +33,8 @@ void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output);
 /// Their point array `EdgeSource`; null for edge points that were not found in a scan.
 vtkDataArray* edgeSourcesOf(vtkPointSet* edges);
 /// How well the sensor measured a scan, as the field data `ScanQuality`, whose components have names, and
-/// `ScanReport`, the same in a sentence; nothing where it is not known.
-void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality);
+/// `ScanReport`, the same in a sentence after what was assumed of the scan; nothing where nothing is known.
+void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality, const std::string& assumed = {});
 /// Not known where they are not there.
 meam::ScanQuality scanQualityOf(vtkDataObject* input);
 }

@@ -110,6 +110,11 @@ int vtkMEAMSceneEdgeExtraction::RequestData(
       if (this->GetImageEdges())
       {
         image = imageInput ? vtkMEAMConversion::toImage(imageInput) : vtkMEAMConversion::imageOfCloud(scene);
+        if (image.pixels.empty())
+        {
+          throw meam::Error("The scene has no image: it needs the point array 'Intensity' or 'RGB', or connect the "
+                            "sensor's as Image, or turn ImageEdges off.");
+        }
         settings.camera = vtkMEAMConversion::cameraOf(this->CameraFile, imageInput, cloud);
       }
       const meam::SceneEdges found =

@@ -28,9 +28,9 @@ public:
   ///@{
   /**
    * How the sensor looks at the scene. Automatic (0): perspective from the origin along +z when the scene's
-   * surface is an organized cloud (vtkStructuredGrid), otherwise orthographic along ViewDirection.
-   * Orthographic (1): along ViewDirection. Perspective (2): from SensorPosition, looking along ViewDirection.
-   * Default: Automatic.
+   * surface is an organized cloud (vtkStructuredGrid), otherwise orthographic along ViewDirection. Where edges are
+   * found in a scan, its points tell, unless ViewDirection is given. Orthographic (1): along ViewDirection. Perspective
+   * (2): from SensorPosition, looking along ViewDirection. Default: Automatic.
    */
   vtkSetClampMacro(Projection, int, Automatic, Perspective);
   vtkGetMacro(Projection, int);

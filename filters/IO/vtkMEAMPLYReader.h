@@ -13,35 +13,21 @@
  *
  * Point arrays, where the file has the properties:
  * - `Normals` (3) from nx, ny, nz;
- * - `Intensity` (unsigned char) from intensity, gray or scalar_intensity. Whole numbers from 0 to 255 are kept,
+ * - `Intensity` (unsigned char) from intensity, gray, i or scalar_intensity. Whole numbers from 0 to 255 are kept,
  *   other values are spread so that the largest becomes 255;
- * - `RGB` (3, unsigned char) from red, green, blue.
+ * - `RGB` (3, unsigned char) from red, green, blue or r, g, b, of 8 or 16 bits, or real numbers up to 1 or 255.
  */
 #ifndef vtkMEAMPLYReader_h
 #define vtkMEAMPLYReader_h
 
 #include "ppfmeamIOModule.h"
-#include "vtkMEAMCameraReader.h"
+#include "vtkMEAMCloudReader.h"
 
-class PPFMEAMIO_EXPORT vtkMEAMPLYReader : public vtkMEAMCameraReader
+class PPFMEAMIO_EXPORT vtkMEAMPLYReader : public vtkMEAMCloudReader
 {
 public:
   static vtkMEAMPLYReader* New();
-  vtkTypeMacro(vtkMEAMPLYReader, vtkMEAMCameraReader);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /** Factor on the coordinates, to bring them to mm: 1000 for a file in metres. Default: 1. */
-  vtkSetClampMacro(Scale, double, 1e-9, 1e9);
-  vtkGetMacro(Scale, double);
-  ///@}
-
-  ///@{
-  /** Pixels of the camera, width and height; 0: those of the CameraFile. Default: 0, 0. */
-  vtkSetVector2Macro(ImageSize, int);
-  vtkGetVector2Macro(ImageSize, int);
-  ///@}
-
+  vtkTypeMacro(vtkMEAMPLYReader, vtkMEAMCloudReader);
   /** 1 when the file is a PLY file with points and no faces. */
   int CanReadFile(const char* fileName);
 
@@ -49,20 +35,12 @@ protected:
   vtkMEAMPLYReader() = default;
   ~vtkMEAMPLYReader() override = default;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  meam::MeasuredCloud Read(const std::function<bool(double)>& progress) override;
+  std::array<int, 2> GridSize() override { return { 0, 0 }; }
 
 private:
   vtkMEAMPLYReader(const vtkMEAMPLYReader&) = delete;
   void operator=(const vtkMEAMPLYReader&) = delete;
-
-  /** A camera is given. */
-  bool IsOrganized() const;
-
-  double Scale = 1.0;
-  int ImageSize[2] = { 0, 0 };
 };
 
 #endif

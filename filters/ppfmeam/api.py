@@ -70,7 +70,8 @@ class Detections(Rows):
     coordinates to the scan's, mm), `scores` (the share of what should be visible that is there), `place_probabilities` (that a
     copy is there, however it is turned), `probabilities` (that it is also turned like this), `certainties` (that no
     near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without
-    training; `is_cut_short`, that the time limit struck; `scan_quality`, what an organized scan shows of its sensor, by name as vtkMEAMSceneEdgeExtraction has it."""
+    training; `is_cut_short`, that the time limit struck; `scan_quality`, what an organized scan shows of its sensor, by name as
+    vtkMEAMSceneEdgeExtraction has it; `report`, what was assumed of the scan."""
     COLUMNS = {"poses": ("transform", (4, 4)), "scores": ("score", ()),
                "place_probabilities": ("place_probability", ()), "probabilities": ("probability", ()),
                "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ()), "parts": ("part", ())}
@@ -79,6 +80,7 @@ class Detections(Rows):
         super().__init__(found.poses)
         self.core, self.models, self.model = found, models, models[0]
         self.seconds, self.scan_quality, self.is_cut_short = found.seconds, found.quality, found.is_cut_short
+        self.report = found.report
 
     def of(self, part):
         """Those of one of several types of part, by its place among them, as pick() takes them."""

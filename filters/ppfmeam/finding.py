@@ -21,10 +21,6 @@ class Finder:
 
     def find(self, scene, boundary=None, image=None, image_camera=None):
         """The poses in a scan, best first; of several parts `PartId` tells which. They are good until the next scan."""
-        has_edges = boundary or image or scripting.has_image(scene) or not self.options.image_edges
-        if not has_edges and scene.IsA("vtkStructuredGrid"):
-            raise scripting.Failure("the scan has no image: give it with --image, or in a list after a tab, or take the edges "
-                                    "of the depth alone, --no-image")
         for estimation in self.estimations:
             estimation.SetInputDataObject(1, scene)
             estimation.SetInputDataObject(2, boundary)

@@ -65,6 +65,8 @@ def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camer
         seen.edges = cloud_of(boundary, None, scale).points.reshape(-1, 3)
     if image is not None:
         set_image(seen, image, image_camera)
+    elif image_camera is not None:
+        raise Error("image_camera is the camera of image: give that, too")
     return seen
 
 
@@ -72,6 +74,8 @@ def cloud_of(scan, camera, scale):
     """The points, with the image of an organized scan that carries one."""
     if not 0 < scale < float("inf"):
         raise Error(f"scale has to be a positive number, not {scale!r}")
+    if camera is not None and isinstance(scan, (vtkDataObject, numpy.ndarray)):
+        raise Error("camera brings the points of a file onto its pixels: give a file, or the points as a grid without camera")
     if isinstance(scan, vtkDataObject):
         return from_dataset(scan, scale)
     if isinstance(scan, numpy.ndarray):
@@ -80,11 +84,11 @@ def cloud_of(scan, camera, scale):
     extension = os.path.splitext(path)[1].lower()
     if extension in DEPTH_IMAGES and camera is None:
         raise Error(f"{path}: a depth image needs the calibration of its camera")
-    if camera is not None and extension not in (".ply", *DEPTH_IMAGES):
-        raise Error(f"{path}: only a .ply cloud is organized with the camera of the sensor")
+    if camera is not None and extension not in (".pcd", ".ply", *DEPTH_IMAGES):
+        raise Error(f"{path}: only a .pcd or .ply cloud is organized with the camera of the sensor")
     path_of(path)
     if extension in DEPTH_IMAGES:
-        return _core.load_depth_image(path, path_of(camera))
+        return _core.load_depth_image(path, path_of(camera), scale)
     if extension in (".pcd", ".ply"):
         return _core.load_scan(path, "" if camera is None else path_of(camera), scale)
     return _core.Scan(scaled(_core.load_mesh(mesh_file(path)).vertices, scale, "scan"))
@@ -101,7 +105,7 @@ def from_dataset(data, scale):
     """The points of a vtkStructuredGrid, a grid, or of another vtkPointSet."""
     points = vtk_to_numpy(data.GetPoints().GetData()) if data.GetNumberOfPoints() else numpy.zeros((0, 3), numpy.float32)
     if not data.IsA("vtkStructuredGrid"):
-        return _core.Scan(scaled(points, scale, "scan"))
+        return with_pixels(_core.Scan(scaled(points, scale, "scan")), data, 1, len(points))
     width, height, layers = data.GetDimensions()
     if layers != 1:
         raise Error(f"the scan is a grid of {width} x {height} x {layers} points: an organized cloud is width x height x 1")
@@ -109,6 +113,11 @@ def from_dataset(data, scale):
     scan = _core.Scan(scaled(points.reshape(height, width, 3), scale, "scan"))
     if ghosts:
         scan.blank(vtk_to_numpy(ghosts) & HIDDEN)
+    return with_pixels(scan, data, height, width)
+
+
+def with_pixels(scan, data, height, width):
+    """The scan with the image that the points' arrays hold, if they do."""
     values = data.GetPointData()
     pixels = values.GetArray("Intensity") or values.GetArray("RGB")
     if pixels:

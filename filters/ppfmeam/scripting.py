@@ -331,16 +331,16 @@ def read_image(path):
 
 
 def read_scan(path, scale=1.0, camera=None):
-    """The cloud in a .pcd or .ply file, or the points of a mesh, in mm; with its camera's calibration (a file) a .ply
-    comes back onto the camera's pixels."""
+    """The cloud in a .pcd or .ply file, or the points of a mesh, in mm; with its camera's calibration (a file) points that
+    are not organized come back onto the camera's pixels."""
     extension = os.path.splitext(path)[1].lower()
-    if camera and extension != ".ply":
-        raise Failure(f"{path}: only a .ply cloud is organized with the camera of the sensor")
-    if extension != ".ply":
+    if camera and extension not in (".pcd", ".ply"):
+        raise Failure(f"{path}: only a .pcd or .ply cloud is organized with the camera of the sensor")
+    if extension not in (".pcd", ".ply"):
         return read(path, scale)
     if not 0 < scale < float("inf"):
         raise Failure(f"{path}: the scale has to be a positive number, not {scale}")
-    reader = filters.vtkMEAMPLYReader()
+    reader = filters.vtkMEAMPLYReader() if extension == ".ply" else filters.vtkMEAMPCDReader()
     reader.SetScale(scale)
     reader.SetCameraFile(camera)
     return read_with(reader, path)

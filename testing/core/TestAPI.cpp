@@ -189,12 +189,11 @@ TEST(API, WhatIsWrongWithAScan)
   scan.width -= 1;
   EXPECT_TRUE(files::contains(errorOf(scan), "a point for each"));
   scan = scanOfThree();
-  scan.edges.clear();
-  EXPECT_TRUE(files::contains(errorOf(scan), "not organized"));
-  scan = scanOfThree();
   scan.sensor = meam::Sensor{ false, { 0, 0, 0 }, { 0, 0, 0 } };
   EXPECT_TRUE(files::contains(errorOf(scan), "direction is zero"));
-  EXPECT_TRUE(files::contains(errorOf(step()), "no image"));
+  meam::DetectSettings paper;
+  paper.preset = meam::Preset::Paper;
+  EXPECT_TRUE(files::contains(errorOf(step(), paper), "no image"));
   scan = step();
   scan.image = { 3, 2, 1, std::vector<std::uint8_t>(6) };
   EXPECT_TRUE(files::contains(errorOf(scan), "3 x 2"));
@@ -233,6 +232,42 @@ TEST(API, EdgesOfTheCloudAlone)
   settings.imageEdges = false;
   settings.depthEdges = true;
   EXPECT_NO_THROW(meam::detect(bracketModel(), step(), settings)); // no image is asked for
+}
+
+TEST(API, FindsPartsInPointsAlone)
+{
+  meam::Scan scan = scanOfThree();
+  const meam::Detections known = meam::detect(bracketModel(), scan);
+  scan.edges.clear();
+  const meam::Detections found = meam::detect(bracketModel(), scan);
+  EXPECT_TRUE(files::contains(found.report, "not organized") && files::contains(found.report, "along -z"))
+    << found.report;
+  ASSERT_GE(found.poses.size(), 3u);
+  int same = 0; // the points lie at random, which leaves pixels of 2 mm
+  for (int k = 0; k < 3; ++k)
+  {
+    const Eigen::Isometry3d& pose = found.poses[k].T_scan_part;
+    same += std::any_of(known.poses.begin(), known.poses.begin() + 3,
+      [&](const meam::DetectedPose& other)
+      {
+        return (other.T_scan_part * bracketModel().middle() - pose * bracketModel().middle()).norm() < 3.0 &&
+               Eigen::AngleAxisd(other.T_scan_part.linear().transpose() * pose.linear()).angle() < 0.1;
+      });
+  }
+  EXPECT_GE(same, 2);
+}
+
+TEST(API, AScanWithNothingInItHasNothing)
+{
+  meam::Scan floor = step(200, 150);
+  for (auto& point : floor.points)
+  {
+    point.z() = 500.0f + 0.1f * point.x();
+  }
+  const meam::Detections found = meam::detect(bracketModel(), floor);
+  EXPECT_TRUE(found.poses.empty());
+  EXPECT_TRUE(files::contains(found.warning, "No part was found")) << found.warning;
+  EXPECT_TRUE(files::contains(found.report, "no image")) << found.report;
 }
 
 TEST(API, ReadsScans)

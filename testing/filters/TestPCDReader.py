@@ -65,6 +65,17 @@ check(vtkMEAMPCDReader().CanReadFile(organized) == 1, "a PCD file can be read")
 check(vtkMEAMPCDReader().CanReadFile(__file__) == 0, "a Python file cannot")
 check(vtkMEAMPCDReader().CanReadFile("/no/such/file.pcd") == 0, "a missing file cannot")
 
+# With its camera a cloud that is not organized comes back onto its pixels; one that is organized needs none.
+flat = pcd([(0, 0, 500), (0, 0, 600), (10, -5, 500)], 3, 1)
+with_camera = reader(flat)
+with_camera.SetFocalLength(100, 100)
+with_camera.SetPrincipalPoint(1, 1)
+with_camera.SetImageSize(4, 3)
+grid = run(with_camera)
+check(grid.IsA("vtkStructuredGrid") and [i for i in range(12) if grid.IsPointVisible(i)] == [3, 5], "the pixels that see points")
+with_camera.SetFileName(organized)
+fails(with_camera, "leave the camera away")
+
 fails(vtkMEAMPCDReader(), "no file")
 fails(reader("/no/such/file.pcd"), "/no/such/file.pcd")
 fails(reader(__file__), "not a PCD file")

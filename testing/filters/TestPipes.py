@@ -5,7 +5,9 @@ most of what was measured at it is at its depth, on pixels of the part's colour;
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam import filters, scripting
 from meamtest import check, skip
@@ -16,6 +18,7 @@ MARGIN = 150     # pixels about the image: what lies beyond it is predicted, too
 BLUE = 45        # grey values that the part's blue is over its red
 TOP, LIKELY = 5, 0.5
 RIGHT_OF_BEST, RIGHT_FIRST, LIKELY_RIGHT, LIKELY_WRONG = 26, 6, 26, 2
+RIGHT_OF_BARE = 24  # of the best of the points alone, without grid and image
 
 folder = os.path.join(os.environ.get("PPFMEAM_DATA", ""), "pipes")
 if not os.path.isdir(folder):
@@ -87,7 +90,7 @@ def judged(scan, part, poses):
 
 mesh = scripting.read_mesh(os.path.join(folder, "elbow.stl"))
 part, model = surface_points(mesh), scripting.train(mesh)
-of_best = first = likely_right = likely_wrong = 0
+of_best = of_bare = first = likely_right = likely_wrong = 0
 for name in sorted(name for name in os.listdir(folder) if name.endswith(".pcd")):
     grid = scripting.read_scan(os.path.join(folder, name))
     estimation = filters.vtkMEAMPoseEstimation()
@@ -103,6 +106,15 @@ for name in sorted(name for name in os.listdir(folder) if name.endswith(".pcd"))
     first += right[0]
     likely_right += sum(right[:likely.sum()])
     likely_wrong += likely.sum() - sum(right[:likely.sum()])
+    bare = vtkPolyData()
+    bare.SetPoints(vtkPoints())
+    bare.GetPoints().SetData(numpy_to_vtk(vtk_to_numpy(grid.GetPoints().GetData())[::-1], deep=True))
+    estimation.SetInputDataObject(1, bare)
+    found = scripting.update(estimation).GetOutput()
+    check("grid of a pinhole camera" in found.GetFieldData().GetAbstractArray("ScanReport").GetValue(0), f"{name}: the pixels of the points alone")
+    of_bare += sum(judged(Scan(grid), part, scripting.column(found, "Transform", 4, 4)[:TOP]))
 print(f"{of_best} right of the best {TOP}, {first} first; likelier than not {likely_right} right, {likely_wrong} wrong")
+print(f"points alone: {of_bare} right of the best {TOP}")
+check(of_bare >= RIGHT_OF_BARE, f"points alone: {of_bare} of the best {TOP} are right")
 check(of_best >= RIGHT_OF_BEST and first >= RIGHT_FIRST, f"{of_best} of the best {TOP} are right, {first} first")
 check(likely_right >= LIKELY_RIGHT and likely_wrong <= LIKELY_WRONG, f"likelier than not {likely_right} right, {likely_wrong} wrong")

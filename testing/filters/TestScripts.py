@@ -179,7 +179,7 @@ for scaled in numpy.array(read("metres.txt").split(), float).reshape(-1, 4, 4):
 os.remove("metres.txt")
 larger = script("detect.py", "--cad", "part.stl", "--cad-scale", "12", "--scene", "scan.pcd")
 check(larger.returncode == 0 and larger.stderr.startswith("warning: ") and "likely factor is 10" in larger.stderr, larger.stderr)
-refuses("no image", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", *out)
+check("no image" in script("detect.py", "--model", "model.vtpc", "--scene", "plain.pcd").stdout, "a scan without an image")
 refuses("30 x 20", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "small.png", *out)
 refuses("not a PNG", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "junk.png", *out)
 refuses("boundary", "detect.py", "--model", "model.vtpc", "--scene", "points.ply", *out)

@@ -169,10 +169,14 @@ void EvidenceCollector::addEdges(const Predicted& predicted, PoseEvidence& evide
     const Eigen::Vector3f tangent = T.linear() * visible->edges.directions[k];
     const int edge = this->InScene.edgeIndex.nearest(point, tangent, tolerance).edge;
     const bool matched = edge >= 0;
-    // Also where no surface was measured: beside parts on no ground nothing else speaks against a pose.
-    const PointState state = matched                                                          ? PointState::Matched
-                             : depth.relation(point, tolerance) == DepthMap::Relation::Hidden ? PointState::Hidden
-                                                                                              : PointState::Violated;
+    // Violated also where no surface was measured: beside parts on no ground nothing else speaks against a pose. But
+    // what was cut out of a scan may have hidden the part.
+    const DepthMap::Relation relation = matched ? DepthMap::Relation::OnSurface : depth.relation(point, tolerance);
+    const bool isCutOut = relation == DepthMap::Relation::NoSurface && this->InScene.quality.isCutOut();
+    const PointState state = matched                                  ? PointState::Matched
+                             : relation == DepthMap::Relation::Hidden ? PointState::Hidden
+                             : isCutOut                               ? PointState::Unknown
+                                                                      : PointState::Violated;
     const bool isOfBin = matched && this->InScene.isOnLongLine[edge];
     evidence.counts.edgesFound += matched && !isOfBin ? stride : 0.0;
     evidence.counts.edgesOfBin += isOfBin ? stride : 0.0;

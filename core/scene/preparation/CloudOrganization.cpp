@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/CloudOrganization.h"
 
+#include "scene/preparation/PointRaster.h"
+
 #include <cmath>
 
 namespace meam
@@ -38,42 +40,17 @@ std::vector<int> seenPoints(const Points& points, const Camera& camera, const Pr
   }
   return seen;
 }
-
-/// For each pixel the point of the nearest pixel that has one, counted in steps to the four neighbours.
-std::vector<int> nearestPoints(std::vector<int> seen, int width)
-{
-  const int height = static_cast<int>(seen.size()) / width;
-  std::vector<int> front;
-  for (int pixel = 0; pixel < static_cast<int>(seen.size()); ++pixel)
-  {
-    if (seen[pixel] >= 0)
-    {
-      front.push_back(pixel);
-    }
-  }
-  for (std::size_t i = 0; i < front.size(); ++i)
-  {
-    const int pixel = front[i];
-    const int column = pixel % width;
-    const int row = pixel / width;
-    const std::pair<bool, int> neighbours[] = { { column > 0, pixel - 1 }, { column + 1 < width, pixel + 1 },
-      { row > 0, pixel - width }, { row + 1 < height, pixel + width } };
-    for (const auto& [inside, neighbour] : neighbours)
-    {
-      if (inside && seen[neighbour] < 0)
-      {
-        seen[neighbour] = seen[pixel];
-        front.push_back(neighbour);
-      }
-    }
-  }
-  return seen;
-}
 }
 
 MeasuredCloud organizeCloud(const MeasuredCloud& points, const Camera& camera, const Progress& progress)
 {
   requireCamera(camera);
+  if (points.cloud.height > 1)
+  {
+    throw Error("The scan is a grid of " + std::to_string(points.cloud.width) + " x " +
+                std::to_string(points.cloud.height) +
+                " points already: leave the camera away, which brings points that are not organized onto its pixels.");
+  }
   if (camera.width < 1 || camera.height < 1 || static_cast<std::int64_t>(camera.width) * camera.height > MostPixels)
   {
     throw Error("The camera's width and height in pixels have to be given to organize a cloud: no more than 67 million "

@@ -30,10 +30,10 @@ class Files:
         """A row of list()."""
         options = self.options
         if os.path.splitext(path)[1].lower() not in DEPTH_IMAGES:
-            camera = options.camera if path.lower().endswith(".ply") else None
-            scene = scripting.read_scan(path, options.scene_scale, camera)
+            scene = scripting.read_scan(path, options.scene_scale, options.camera)
         elif options.camera:
-            scene = scripting.read_depth(path, options.camera, options.depth_scale)
+            scene = scripting.scaled(
+                scripting.read_depth(path, options.camera, options.depth_scale), options.scene_scale, path)
         else:
             raise scripting.Failure(f"{path}: a depth image needs the calibration of its camera, --camera")
         return Scan(scene, scripting.read_image(image) if image else None, options.image_camera)

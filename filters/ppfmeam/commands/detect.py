@@ -14,14 +14,16 @@ def options_of_user():
                         help="trained model of `train`, instead of training, once for each type of part; --cad is then for "
                              "the picture")
     scan = parser.add_mutually_exclusive_group(required=True)
-    scan.add_argument("--scene", metavar="CLOUD", help="scan: .pcd, .ply, .stl or .obj, in mm")
-    scan.add_argument("--depth", metavar="PNG", help="scan: a depth image of 16 bits, with --camera")
+    scan.add_argument("--scene", metavar="CLOUD",
+                      help="scan: .pcd or .ply, organized or points alone, in mm; or the points of a .stl or .obj")
+    scan.add_argument("--depth", metavar="PNG", help="scan: a depth image of 16 bits, or of real numbers (TIFF), with --camera")
     parser.add_argument("--camera", metavar="FILE",
-                        help="calibration of the sensor (OpenCV's YAML, XML or JSON, or a BOP camera.json): of the depth "
-                             "image, or of a .ply scan, which it brings back onto its pixels")
+                        help="calibration of the sensor (docs/inputs.md): of the depth image, or of a scan whose points are not "
+                             "organized, which it brings back onto its pixels")
     parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
                         help="mm that 1 in the depth image stands for (default: depth_scale of the calibration, or 1)")
-    parser.add_argument("--scene-scale", type=float, default=1, metavar="F", help="factor to mm, also of the boundary")
+    parser.add_argument("--scene-scale", type=float, default=1, metavar="F",
+                        help="factor to mm, also of the boundary, and of the depth image beside its own scale")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="FILE",
                         help="image of an organized scan that carries none: .png, .jpg, .bmp or .tif")
@@ -40,6 +42,10 @@ def options_of_user():
         parser.error("give a --cad for each --model, in the same order, or none")
     if options.depth and not options.camera:
         parser.error("a depth image needs its --camera")
+    if options.depth_scale and not options.depth:
+        parser.error("--depth-scale is of a depth image: use --scene-scale")
+    if options.image_camera and not options.image:
+        parser.error("--image-camera is of an --image")
     return options
 
 
@@ -52,6 +58,7 @@ def main():
     parts = [scripting.read_model(path) for path in options.model] or meshes
     if options.depth:
         scene = scripting.read_depth(options.depth, options.camera, options.depth_scale)
+        scene = scripting.scaled(scene, options.scene_scale, options.depth)
     else:
         scene = scripting.read_scan(options.scene, options.scene_scale, options.camera)
 

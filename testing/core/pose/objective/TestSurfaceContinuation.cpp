@@ -9,7 +9,7 @@ namespace
 {
 meam::TriangleMesh blockOf(float length) { return parts::box({ -30, -20, 0 }, { length - 30, 20, 15 }); }
 
-meam::TriangleMesh block() { return blockOf(60); }
+meam::TriangleMesh lowBlock() { return blockOf(60); }
 
 /// Patches beside the block where it is looked for as it lies, in the scene of other bodies.
 double besideTheBlock(const std::vector<scenes::Copy>& copies)
@@ -29,7 +29,7 @@ double besideTheBlock(const std::vector<scenes::Copy>& copies)
 
 TEST(SurfaceContinuation, NothingGoesOnBesideTheBlockItself)
 {
-  EXPECT_EQ(besideTheBlock({ { block(), Eigen::Isometry3d::Identity() } }), 0.0);
+  EXPECT_EQ(besideTheBlock({ { lowBlock(), Eigen::Isometry3d::Identity() } }), 0.0);
 }
 
 TEST(SurfaceContinuation, ALongerBlockGoesOn)
@@ -44,5 +44,5 @@ TEST(SurfaceContinuation, AHigherBodyBesideItDoesNotGoOn)
 {
   Eigen::Isometry3d beside = Eigen::Isometry3d::Identity();
   beside.translation() = Eigen::Vector3d(60.0, 0.0, 8.0);
-  EXPECT_LT(besideTheBlock({ { block(), Eigen::Isometry3d::Identity() }, { block(), beside } }), 0.1);
+  EXPECT_LT(besideTheBlock({ { lowBlock(), Eigen::Isometry3d::Identity() }, { lowBlock(), beside } }), 0.1);
 }

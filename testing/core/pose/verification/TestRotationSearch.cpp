@@ -10,13 +10,13 @@ namespace
 using scenes::gearAt;
 using scenes::gearScene;
 
-const meam::TrainedModel& model() { return scenes::trained<parts::gear>(); }
+const meam::TrainedModel& gearModel() { return scenes::trained<parts::gear>(); }
 
 /// In the scene's coordinates.
 std::vector<Eigen::Isometry3d> better(const Eigen::Isometry3d& T)
 {
   std::vector<Eigen::Isometry3d> found =
-    meam::RotationSearch(gearScene(), model()).better(gearScene().T_local_scene() * T);
+    meam::RotationSearch(gearScene(), gearModel()).better(gearScene().T_local_scene() * T);
   for (Eigen::Isometry3d& rotated : found)
   {
     rotated = gearScene().T_local_scene().inverse() * rotated;
@@ -27,13 +27,13 @@ std::vector<Eigen::Isometry3d> better(const Eigen::Isometry3d& T)
 Eigen::Isometry3d likeliest(const Eigen::Isometry3d& T)
 {
   const Eigen::Isometry3d& local = gearScene().T_local_scene();
-  return local.inverse() * meam::RotationSearch(gearScene(), model()).likeliest(local * T);
+  return local.inverse() * meam::RotationSearch(gearScene(), gearModel()).likeliest(local * T);
 }
 }
 
 TEST(RotationSearch, FindsTheTurnThatEdgesExplain)
 {
-  ASSERT_FALSE(model().symmetries.near.empty());
+  ASSERT_FALSE(gearModel().symmetries.near.empty());
   for (const double degrees : { 11.0, 36.0, 90.0, 144.0, 200.0 })
   {
     const std::vector<Eigen::Isometry3d> found = better(gearAt(degrees));

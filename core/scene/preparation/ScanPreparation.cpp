@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/preparation/ScanPreparation.h"
+
+#include "scene/preparation/GridRecovery.h"
+#include "scene/preparation/ScanViewpoint.h"
+#include "scene/preparation/UnmeasuredPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+namespace meam
+{
+namespace
+{
+constexpr double Sparse = 0.5; // of the neighbours of a grid's points: fewer that are there leave no surface to see
+constexpr double Filled = 0.6; // and so many are enough of a coarser one
+constexpr int MostSteps = 16;  // that a grid is made coarser by; more leave nothing of its parts
+constexpr double Finer = 0.5;  // of the pixels that points would fill if they lay evenly: where the search begins
+constexpr double PixelGrowth = 1.15; // from one size of pixels to the next
+constexpr int MostSizes = 40;        // 1.15^40 is 270 times as large
+
+std::string textOfNumber(const char* form, double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, form, value);
+  return text;
+}
+
+void appendSentence(std::string& report, const std::string& sentence)
+{
+  report += (report.empty() || sentence.empty() ? "" : " ") + sentence;
+}
+
+Image imageOn(const std::vector<int>& points, int width, const Image& image)
+{
+  Image result{ width, static_cast<int>(points.size()) / width, image.channels, {} };
+  result.pixels.reserve(points.size() * static_cast<std::size_t>(image.channels));
+  for (const int point : nearestPoints(points, width))
+  {
+    const auto pixel = image.pixels.begin() + static_cast<std::ptrdiff_t>(point) * image.channels;
+    result.pixels.insert(result.pixels.end(), pixel, pixel + image.channels);
+  }
+  return result;
+}
+
+/// Pixels of a size that the points fill, for a camera there.
+RasterView viewThatPointsFill(const Points& points, bool perspective)
+{
+  RasterView view;
+  view.perspective = perspective;
+  const Eigen::Vector2d reach = reachOf(points, view).sizes();
+  const double longest = std::max(reach.maxCoeff(), 1e-9);                  // all at one place
+  const double area = longest * std::max(reach.minCoeff(), 1e-3 * longest); // all in a row
+  double size = Finer * std::sqrt(area / static_cast<double>(points.size()));
+  for (int k = 0; k < MostSizes; ++k, size *= PixelGrowth)
+  {
+    view.pixels.setConstant(1.0 / size);
+    if (fillOf(rasterize(points, view)) >= Filled)
+    {
+      break;
+    }
+  }
+  return view;
+}
+
+/// The view of the sensor that points which are not organized were seen by, with where it is.
+struct FoundView
+{
+  ScanViewpoint viewpoint;
+  RasterView view;
+};
+
+FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std::string& report)
+{
+  // A lattice tells for sure where the sensor is; of the frames in use the most usual ones.
+  FoundView found{ sensor ? viewpointOf(*sensor) : likelyViewpoint(scan), {} };
+  const Points points = moved(scan, found.viewpoint.T_sensor_scan);
+  const std::string from = sensor ? "the given viewpoint" : "one that is " + found.viewpoint.report;
+  std::optional<RasterView> grid = recoverGrid(points, found.viewpoint.perspective);
+  if (grid)
+  {
+    found.view = *grid;
+    appendSentence(
+      report, "The points are not organized, but lie on the grid of " +
+                std::string(found.viewpoint.perspective ? "a pinhole camera (" : "an orthographic camera (") +
+                textOfNumber(found.viewpoint.perspective ? "%.1f" : "%.3g", grid->pixels.x()) +
+                (found.viewpoint.perspective ? " pixels of focal length" : " pixels a mm") + "), " +
+                (sensor ? "at " : "") + (sensor ? from : found.viewpoint.report) + ": it was found again.");
+    return found;
+  }
+  found.view = viewThatPointsFill(points, found.viewpoint.perspective);
+  appendSentence(
+    report, "The points are not organized, and lie on no grid: they are looked at by a virtual camera, at " + from +
+              ", with pixels that they fill.");
+  return found;
+}
+
+/// A grid that is filled, and its step in those of the sparse one; the same grid when no coarser one is.
+std::pair<PointRaster, int> filled(const PointRaster& raster, const Points& points)
+{
+  for (int step = 2; step <= MostSteps; ++step)
+  {
+    PointRaster other = coarser(raster, points, step);
+    if (fillOf(other) >= Filled)
+    {
+      return { std::move(other), step };
+    }
+  }
+  return { raster, 1 };
+}
+
+double shareOf(const PointRaster& raster)
+{
+  const auto isSeen = [](int point) { return point >= 0; };
+  return static_cast<double>(std::count_if(raster.points.begin(), raster.points.end(), isSeen)) /
+         static_cast<double>(raster.points.size());
+}
+
+/// The scan's own grid.
+PointRaster rasterOf(const OrganizedCloud& scan)
+{
+  PointRaster raster{ scan.width, scan.height, std::vector<int>(scan.size(), -1) };
+  for (std::size_t i = 0; i < scan.size(); ++i)
+  {
+    raster.points[i] = scan.points[i].allFinite() ? static_cast<int>(i) : -1;
+  }
+  return raster;
+}
+}
+
+Points PreparedScan::measured() const
+{
+  const Eigen::Isometry3d T_scan_sensor = this->T_sensor_scan.inverse();
+  Points points;
+  for (const Eigen::Vector3f& point : this->cloud.points)
+  {
+    if (point.allFinite())
+    {
+      points.push_back((T_scan_sensor * point.cast<double>()).cast<float>());
+    }
+  }
+  return points;
+}
+
+PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<Sensor>& sensor)
+{
+  requirePoints(scan.points, "The scan");
+  const bool isOrganized = scan.width > 1 && scan.height > 1;
+  PreparedScan result;
+  result.report = removeUnmeasured(scan.points, isOrganized && !sensor);
+  result.isAsGiven = result.report.empty();
+  requirePoints(scan.points, "The scan");
+  const bool isRegistered = image.width == scan.width && image.height == scan.height && !image.pixels.empty();
+  ScanViewpoint viewpoint;
+  PointRaster raster;
+  if (isOrganized)
+  {
+    viewpoint = sensor ? viewpointOf(*sensor) : viewpointOfGrid(scan);
+    appendSentence(result.report, viewpoint.report);
+    raster = rasterOf(scan);
+  }
+  else
+  {
+    const FoundView found = findView(scan.points, sensor, result.report);
+    viewpoint = found.viewpoint;
+    scan.points = moved(scan.points, viewpoint.T_sensor_scan);
+    raster = rasterize(scan.points, found.view);
+    if (raster.points.empty())
+    {
+      throw Error("The scan's points lie on no surface that a sensor could see: they are strays, or the sensor's place "
+                  "is another one.");
+    }
+  }
+  result.T_sensor_scan = viewpoint.T_sensor_scan;
+  const bool isTurned = !viewpoint.T_sensor_scan.matrix().isIdentity(0.0);
+  if (isOrganized && isTurned)
+  {
+    scan.points = moved(scan.points, viewpoint.T_sensor_scan);
+  }
+  result.isAsGiven &= isOrganized && !isTurned;
+  int step = 1;
+  if (fillOf(raster) < Sparse)
+  {
+    const double share = shareOf(raster);
+    std::tie(raster, step) = filled(raster, scan.points);
+    if (step > 1)
+    {
+      appendSentence(result.report, "The points fill only " + textOfNumber("%.0f", 100.0 * share) +
+                                      " % of the grid: one that is " + std::to_string(step) +
+                                      " times as coarse is used.");
+    }
+  }
+  result.isAsGiven &= step == 1;
+  const Eigen::Isometry3d T_scan_sensor = viewpoint.T_sensor_scan.inverse();
+  result.sensor.perspective = viewpoint.perspective;
+  result.sensor.position = viewpoint.perspective ? T_scan_sensor.translation().eval() : Eigen::Vector3d::Zero().eval();
+  result.sensor.direction = T_scan_sensor.linear().col(2);
+  if (isOrganized && step == 1)
+  {
+    result.cloud = std::move(scan);
+    result.image = std::move(image);
+    return result;
+  }
+  if (isRegistered)
+  {
+    result.image = imageOn(raster.points, raster.width, image);
+  }
+  else
+  {
+    result.image = std::move(image); // of another camera
+  }
+  result.cloud = cloudOf(raster, scan.points);
+  result.pointIds = std::move(raster.points);
+  return result;
+}
+
+SceneEdges extractSceneEdges(
+  const PreparedScan& scan, const SceneEdgeExtractionSettings& chosen, const Progress& progress)
+{
+  SceneEdgeExtractionSettings settings = chosen;
+  if (settings.camera)
+  {
+    settings.camera->T_camera_scene = settings.camera->T_camera_scene * scan.T_sensor_scan.inverse();
+  }
+  SceneEdges edges = extractSceneEdges(scan.cloud, scan.image, settings, progress);
+  if (!scan.T_sensor_scan.matrix().isIdentity(0.0))
+  {
+    const Eigen::Isometry3d T_scan_sensor = scan.T_sensor_scan.inverse();
+    edges.cloud.points = moved(edges.cloud.points, T_scan_sensor);
+    for (Eigen::Vector3f& tangent : edges.cloud.tangents)
+    {
+      tangent = (T_scan_sensor.linear() * tangent.cast<double>()).cast<float>();
+    }
+  }
+  if (!scan.pointIds.empty())
+  {
+    for (int& id : edges.cloud.pointIds)
+    {
+      id = scan.pointIds[static_cast<std::size_t>(id)];
+    }
+  }
+  return edges;
+}
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene/OrganizedCloud.h"
+#include "scene/Sensor.h"
+
+#include <optional>
+#include <string>
+
+namespace meam
+{
+/// Where a scan is seen from.
+struct ScanViewpoint
+{
+  Eigen::Isometry3d T_sensor_scan = Eigen::Isometry3d::Identity(); ///< mm, to the frame that looks along +z
+  bool perspective = true;                                         ///< from that frame's origin
+  std::string report; ///< in sentences, what was assumed of the axes; empty for x right, y down and z forward
+};
+
+/// What a given sensor is.
+ScanViewpoint viewpointOf(const Sensor& sensor);
+
+/// Of an organized cloud, by its own points: its sensor is at the origin and looks along the axis that they are about,
+/// with columns going right. Where that is not +z and rays from there do not follow the grid, as in a robot's frame, it
+/// is where the points lie on the grid that tells.
+ScanViewpoint viewpointOfGrid(const OrganizedCloud& cloud);
+
+/// That a cloud without a grid is likely seen from: the origin, along +z or -z, when all lies ahead of it within 60
+/// degrees, otherwise from far above, along -z.
+ScanViewpoint likelyViewpoint(const Points& points);
+}

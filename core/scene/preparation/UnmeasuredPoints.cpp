@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/preparation/UnmeasuredPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace meam
+{
+namespace
+{
+constexpr std::size_t DepthSamples = 10000; // spread evenly, among which the constant depth is looked for
+constexpr double FewestOfConstant = 0.02;   // share of the scan that has it: fewer are strays
+constexpr double FewestOfOthers = 0.01;     // share that has not: a floor without noise may be all of one depth,
+constexpr double MostBeside = 0.01;         // and its parts are near it: share of the others that may be
+constexpr float FarBeyond = 10.0f;          // times how far half of the coordinates across it are from the axis
+constexpr float Beside = 2.0f;              // times nearer or farther
+constexpr std::size_t FewestAtOrigin = 2;   // a single one may be a point of a robot's frame
+
+std::string depthText(const char* form, double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, form, value);
+  return text;
+}
+
+std::string shareText(std::size_t count, std::size_t all)
+{
+  const double percent = 100.0 * static_cast<double>(count) / static_cast<double>(all);
+  return depthText(percent < 1.0 ? "%.2g" : "%.0f", percent) + " % of the points";
+}
+
+/// Blanks what the predicate takes, and counts it.
+template <typename Takes>
+std::size_t blank(Points& points, const Takes& takes)
+{
+  std::size_t count = 0;
+  for (Eigen::Vector3f& point : points)
+  {
+    if (point.allFinite() && takes(point))
+    {
+      point.setConstant(std::numeric_limits<float>::quiet_NaN());
+      ++count;
+    }
+  }
+  return count;
+}
+
+/// The depth that stands for none, if there is one. In another frame than the sensor's, where depths may be around 0,
+/// it has to be far beyond what the points span.
+std::optional<float> constantDepth(const Points& points, bool isInSensorFrame)
+{
+  std::vector<float> depths, sides;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / DepthSamples);
+  for (std::size_t i = 0; i < points.size(); i += stride)
+  {
+    if (points[i].allFinite())
+    {
+      depths.push_back(points[i].z());
+      sides.push_back(std::abs(points[i].x()));
+      sides.push_back(std::abs(points[i].y()));
+    }
+  }
+  if (depths.empty())
+  {
+    return std::nullopt;
+  }
+  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+  std::nth_element(sides.begin(), middle, sides.end());
+  const float far = isInSensorFrame ? 0.0f : FarBeyond * *middle;
+  std::sort(depths.begin(), depths.end());
+  const double all = static_cast<double>(depths.size());
+  for (auto first = depths.begin(); first != depths.end();)
+  {
+    const float depth = *first;
+    const auto last = std::upper_bound(first, depths.end(), depth);
+    const double same = static_cast<double>(last - first);
+    first = last;
+    if (std::abs(depth) < far || same < FewestOfConstant * all || all - same < FewestOfOthers * all)
+    {
+      continue;
+    }
+    const float low = std::min(depth / Beside, depth * Beside), high = std::max(depth / Beside, depth * Beside);
+    const auto near =
+      std::upper_bound(depths.begin(), depths.end(), high) - std::lower_bound(depths.begin(), depths.end(), low);
+    if (static_cast<double>(near) - same <= MostBeside * (all - same))
+    {
+      return depth;
+    }
+  }
+  return std::nullopt;
+}
+}
+
+std::string removeUnmeasured(Points& points, bool isInSensorFrame)
+{
+  std::size_t atOrigin = 0, inFront = 0, behind = 0;
+  for (const Eigen::Vector3f& point : points)
+  {
+    atOrigin += point.isZero(0.0f) ? 1 : 0;
+    inFront += point.z() > 0.0f ? 1 : 0;
+    behind += point.z() < 0.0f ? 1 : 0;
+  }
+  std::string report;
+  const auto tell = [&](std::size_t count, const std::string& which)
+  {
+    if (count > 0)
+    {
+      report += (report.empty() ? "" : " ") + shareText(count, points.size()) + " " + which +
+                ": they are taken as not measured.";
+    }
+  };
+  if (atOrigin >= FewestAtOrigin)
+  {
+    tell(blank(points, [](const Eigen::Vector3f& point) { return point.isZero(0.0f); }), "are (0, 0, 0)");
+  }
+  if (const std::optional<float> depth = constantDepth(points, isInSensorFrame))
+  {
+    tell(blank(points, [&](const Eigen::Vector3f& point) { return point.z() == *depth; }),
+      "have the depth " + depthText("%.6g", *depth) + ", which no other comes near");
+  }
+  if (isInSensorFrame && behind > 0 && inFront > behind)
+  {
+    tell(blank(points, [](const Eigen::Vector3f& point) { return point.z() <= 0.0f; }), "have a depth of 0 or less");
+  }
+  return report;
+}
+}

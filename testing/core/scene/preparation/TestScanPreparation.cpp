@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/preparation/ScanPreparation.h"
+
+#include "TestFiles.h"
+#include "base/Random.h"
+#include "scene/Camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+constexpr int GridWidth = 120, GridHeight = 90;
+constexpr float Nothing = std::numeric_limits<float>::quiet_NaN();
+
+meam::Camera boxCamera()
+{
+  meam::Camera result;
+  result.width = GridWidth;
+  result.height = GridHeight;
+  result.fx = result.fy = 300.0;
+  result.cx = 61.3;
+  result.cy = 44.2;
+  return result;
+}
+
+/// A box of 60 x 40 mm, 30 mm high, on a floor 600 mm from the sensor.
+meam::OrganizedCloud boxOnFloor()
+{
+  meam::OrganizedCloud cloud{ GridWidth, GridHeight, {} };
+  for (int row = 0; row < GridHeight; ++row)
+  {
+    for (int column = 0; column < GridWidth; ++column)
+    {
+      const Eigen::Vector3d top = meam::unproject(boxCamera(), Eigen::Vector2d(column, row), 570.0);
+      const bool onBox = std::abs(top.x()) < 30.0 && std::abs(top.y()) < 20.0;
+      cloud.points.push_back(
+        meam::unproject(boxCamera(), Eigen::Vector2d(column, row), onBox ? 570.0 : 600.0 + 0.02 * column)
+          .cast<float>());
+    }
+  }
+  return cloud;
+}
+
+/// The same points without their grid, in another order.
+meam::OrganizedCloud shuffled(meam::OrganizedCloud cloud)
+{
+  meam::Random random(5);
+  meam::Points points;
+  for (const Eigen::Vector3f& point : cloud.points)
+  {
+    if (point.allFinite())
+    {
+      points.push_back(point);
+    }
+  }
+  for (std::size_t i = points.size(); i > 1; --i)
+  {
+    std::swap(points[i - 1], points[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  }
+  return { static_cast<int>(points.size()), 1, points };
+}
+
+meam::PreparedScan prepared(const meam::OrganizedCloud& cloud) { return meam::prepareScan(cloud, {}, std::nullopt); }
+
+bool says(const meam::PreparedScan& scan, const std::string& words) { return files::contains(scan.report, words); }
+
+std::size_t measuredCount(const meam::OrganizedCloud& cloud)
+{
+  return static_cast<std::size_t>(std::count_if(
+    cloud.points.begin(), cloud.points.end(), [](const Eigen::Vector3f& point) { return point.allFinite(); }));
+}
+
+meam::SceneEdges edgesOf(const meam::PreparedScan& scan)
+{
+  meam::SceneEdgeExtractionSettings settings;
+  settings.imageEdges = false;
+  settings.depthEdges = true;
+  return meam::extractSceneEdges(scan, settings);
+}
+
+/// mm, how far the edge points are from those of the box, at most.
+double offOutline(const meam::Points& edges, const Eigen::Isometry3d& T_sensor_scan)
+{
+  double worst = 0.0;
+  for (const Eigen::Vector3f& edge : edges)
+  {
+    const Eigen::Vector3d point = T_sensor_scan * edge.cast<double>();
+    const double x = 30.0 - std::abs(point.x()), y = 20.0 - std::abs(point.y());
+    worst = std::max({ worst, std::abs(point.z() - 570.0), std::min(std::abs(x), std::abs(y)) });
+  }
+  return worst;
+}
+}
+
+TEST(ScanPreparation, aUsualScanStaysAsItIs)
+{
+  const meam::PreparedScan scan = prepared(boxOnFloor());
+  EXPECT_TRUE(scan.isAsGiven);
+  EXPECT_EQ(scan.report, "");
+  EXPECT_EQ(scan.cloud.points, boxOnFloor().points);
+  EXPECT_TRUE(scan.pointIds.empty());
+}
+
+TEST(ScanPreparation, whatWasNotMeasuredIsLeftOutAndSaid)
+{
+  const std::pair<Eigen::Vector3f, const char*> values[] = { { { 0, 0, 0 }, "(0, 0, 0)" },
+    { { 12, 4, 65535 }, "the depth 65535" }, { { 1, 1, -10000 }, "the depth -10000" }, { { 0, 0, 5 }, "the depth 5" } };
+  for (const auto& [value, words] : values)
+  {
+    meam::OrganizedCloud cloud = boxOnFloor();
+    for (std::size_t i = 0; i < cloud.size(); i += 8)
+    {
+      cloud.points[i] = value;
+    }
+    const meam::PreparedScan scan = prepared(cloud);
+    EXPECT_FALSE(scan.isAsGiven);
+    EXPECT_TRUE(says(scan, words) && says(scan, "12 % of the points") && says(scan, "not measured")) << scan.report;
+    EXPECT_EQ(scan.measured().size(), cloud.size() - cloud.size() / 8);
+    EXPECT_EQ(measuredCount(scan.cloud), scan.measured().size());
+  }
+}
+
+TEST(ScanPreparation, aFloorOfOneDepthIsMeasured)
+{
+  meam::OrganizedCloud cloud = boxOnFloor();
+  for (Eigen::Vector3f& point : cloud.points)
+  {
+    point.z() = 600.0f;
+  }
+  EXPECT_TRUE(prepared(cloud).isAsGiven);
+  cloud.points[3 * GridWidth + 7].z() = 580.0f;
+  EXPECT_TRUE(prepared(cloud).isAsGiven);
+}
+
+TEST(ScanPreparation, axesAreTurnedAndEdgesComeBackInTheScansOwn)
+{
+  const struct
+  {
+    Eigen::Matrix3d R_scan_sensor;
+    const char* words;
+  } axes[] = { { Eigen::Vector3d(1, -1, -1).asDiagonal(), "OpenGL" },
+    { (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(), "lies along +x of its axes, with +z up" } };
+  for (const auto& [R, words] : axes)
+  {
+    meam::OrganizedCloud cloud = boxOnFloor();
+    for (Eigen::Vector3f& point : cloud.points)
+    {
+      point = R.cast<float>() * point;
+    }
+    const meam::PreparedScan scan = prepared(cloud);
+    EXPECT_TRUE(says(scan, words)) << scan.report;
+    EXPECT_TRUE(scan.T_sensor_scan.linear().isApprox(R.transpose(), 1e-12)) << scan.T_sensor_scan.matrix();
+    EXPECT_EQ(scan.sensor.direction, R.col(2));
+    EXPECT_EQ(scan.measured(), cloud.points);
+    const meam::SceneEdges edges = edgesOf(scan);
+    EXPECT_GT(edges.cloud.size(), 60u);
+    EXPECT_LT(offOutline(edges.cloud.points, scan.T_sensor_scan), 2.5);
+  }
+}
+
+TEST(ScanPreparation, theSensorOfAGridInARobotsFrameIsFound)
+{
+  Eigen::Isometry3d T_robot_sensor = Eigen::Isometry3d::Identity();
+  T_robot_sensor.translation() << 700, -150, 620;
+  T_robot_sensor.rotate(Eigen::AngleAxisd(0.9 * M_PI, Eigen::Vector3d(1, 0.2, 0.1).normalized()));
+  meam::OrganizedCloud cloud = boxOnFloor();
+  cloud.points = meam::moved(cloud.points, T_robot_sensor);
+  const meam::PreparedScan scan = prepared(cloud);
+  EXPECT_TRUE(says(scan, "sensor is at (700, -150, 620)")) << scan.report;
+  EXPECT_TRUE(scan.T_sensor_scan.isApprox(T_robot_sensor.inverse(), 1e-3)) << scan.T_sensor_scan.matrix();
+  EXPECT_LT(offOutline(edgesOf(scan).cloud.points, T_robot_sensor.inverse()), 2.5);
+}
+
+TEST(ScanPreparation, leftHandedAxesAreNamed)
+{
+  meam::OrganizedCloud cloud = boxOnFloor();
+  for (Eigen::Vector3f& point : cloud.points)
+  {
+    point.y() = -point.y();
+  }
+  const meam::PreparedScan scan = prepared(cloud);
+  EXPECT_TRUE(scan.isAsGiven);
+  EXPECT_TRUE(says(scan, "left-handed")) << scan.report;
+}
+
+TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgain)
+{
+  const meam::OrganizedCloud points = shuffled(boxOnFloor());
+  const meam::PreparedScan scan = prepared(points);
+  EXPECT_TRUE(says(scan, "the grid of a pinhole camera (300.0 pixels")) << scan.report;
+  EXPECT_EQ(measuredCount(scan.cloud), static_cast<std::size_t>(GridWidth) * GridHeight);
+  EXPECT_TRUE(scan.sensor.perspective);
+  const meam::SceneEdges edges = edgesOf(scan), same = edgesOf(prepared(boxOnFloor()));
+  EXPECT_EQ(edges.cloud.points, same.cloud.points);
+  for (std::size_t i = 0; i < edges.cloud.size(); ++i)
+  {
+    EXPECT_EQ(points.points[edges.cloud.pointIds[i]], edges.cloud.points[i]);
+  }
+}
+
+TEST(ScanPreparation, anOrthographicGridIsSeenFromAbove)
+{
+  meam::OrganizedCloud cloud{ GridWidth * GridHeight, 1, {} };
+  for (int i = 0; i < GridWidth * GridHeight; ++i)
+  {
+    const double x = 0.7 * (i % GridWidth) - 40.0, y = 0.9 * (i / GridWidth) - 35.0;
+    cloud.points.push_back(Eigen::Vector3d(x, y, std::hypot(x, y) < 20.0 ? 25.0 : 0.01 * x).cast<float>());
+  }
+  const meam::PreparedScan scan = prepared(cloud);
+  EXPECT_TRUE(says(scan, "orthographic camera") && says(scan, "along -z")) << scan.report;
+  EXPECT_FALSE(scan.sensor.perspective);
+  EXPECT_EQ(scan.sensor.direction, -Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(measuredCount(scan.cloud), cloud.size());
+  EXPECT_GT(edgesOf(scan).cloud.size(), 60u);
+}
+
+TEST(ScanPreparation, pointsOnNoGridAreLookedAtWithPixelsThatTheyFill)
+{
+  meam::OrganizedCloud points = shuffled(boxOnFloor());
+  meam::Random random(7);
+  for (Eigen::Vector3f& point : points.points)
+  {
+    point += Eigen::Vector3f(random.normal(), random.normal(), 0.0f) * 0.8f; // a pixel is 2 mm
+  }
+  const meam::PreparedScan scan = prepared(points);
+  EXPECT_TRUE(says(scan, "virtual camera") && says(scan, "from the origin along +z")) << scan.report;
+  EXPECT_GT(measuredCount(scan.cloud), points.size() / 3);
+  const meam::SceneEdges edges = edgesOf(scan);
+  EXPECT_GT(edges.cloud.size(), 40u);
+  EXPECT_LT(offOutline(edges.cloud.points, scan.T_sensor_scan), 7.0);
+}
+
+TEST(ScanPreparation, aGivenViewpointIsTaken)
+{
+  // The sensor stands at (100, 0, 900) and looks down; z goes up.
+  meam::Sensor sensor;
+  sensor.position = { 100, 0, 900 };
+  sensor.direction = -Eigen::Vector3d::UnitZ();
+  Eigen::Isometry3d T_scan_sensor = Eigen::Isometry3d::Identity();
+  T_scan_sensor.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  T_scan_sensor.translation() = sensor.position;
+  meam::OrganizedCloud points = shuffled(boxOnFloor());
+  points.points = meam::moved(points.points, T_scan_sensor);
+  const meam::PreparedScan scan = meam::prepareScan(points, {}, sensor);
+  EXPECT_TRUE(says(scan, "300.0 pixels of focal length), at the given viewpoint")) << scan.report;
+  EXPECT_EQ(scan.sensor.position, sensor.position);
+  EXPECT_LT(offOutline(edgesOf(scan).cloud.points, T_scan_sensor.inverse()), 2.5);
+}
+
+TEST(ScanPreparation, aGridWithFewPointsBecomesCoarser)
+{
+  meam::OrganizedCloud cloud = boxOnFloor();
+  meam::Image image{ GridWidth, GridHeight, 1, {} };
+  for (int i = 0; i < GridWidth * GridHeight; ++i)
+  {
+    if (i % GridWidth % 3 || i / GridWidth % 3)
+    {
+      cloud.points[i].setConstant(Nothing);
+    }
+    image.pixels.push_back(static_cast<std::uint8_t>(i % 251));
+  }
+  const meam::PreparedScan scan = meam::prepareScan(cloud, image, std::nullopt);
+  EXPECT_TRUE(says(scan, "11 % of the grid") && says(scan, "3 times as coarse")) << scan.report;
+  EXPECT_EQ(scan.cloud.width, GridWidth / 3);
+  EXPECT_EQ(scan.cloud.height, GridHeight / 3);
+  EXPECT_EQ(measuredCount(scan.cloud), scan.cloud.size());
+  EXPECT_EQ(scan.image.pixels[GridWidth / 3 + 1], image.pixels[3 * GridWidth + 3]);
+  EXPECT_EQ(scan.pointIds[GridWidth / 3 + 1], 3 * GridWidth + 3);
+}
+
+TEST(ScanPreparation, withoutPointsItIsAnError)
+{
+  EXPECT_THROW(prepared({}), meam::Error);
+  EXPECT_THROW(prepared({ 2, 1, { { NAN, 0, 0 }, { 0, 0, NAN } } }), meam::Error);
+  EXPECT_THROW(prepared({ 3, 1, meam::Points(3, Eigen::Vector3f::Zero()) }), meam::Error);
+}
+
+TEST(ScanPreparation, strayPointsDoNotSpoilTheGrid)
+{
+  meam::OrganizedCloud points = shuffled(boxOnFloor());
+  for (int k = 1; k < 8; ++k)
+  {
+    points.points[100 * k] = Eigen::Vector3f(1e3f * k, -1e4f, 1e2f * k);
+  }
+  const meam::PreparedScan scan = prepared(points);
+  EXPECT_TRUE(says(scan, "the grid of a pinhole camera (300.0 pixels")) << scan.report;
+  EXPECT_LT(scan.cloud.size(), 1.3 * GridWidth * GridHeight);
+}
+
+TEST(ScanPreparation, pointsOfNoSurfaceEndInAGridOrAnError)
+{
+  meam::Random random(11);
+  for (const float size : { 1e-6f, 1.0f, 1e4f, 1e30f })
+  {
+    for (const int count : { 1, 2, 30, 3000 })
+    {
+      meam::OrganizedCloud cloud{ count, 1, {} };
+      for (int k = 0; k < count; ++k)
+      {
+        cloud.points.emplace_back(size * random.normal(), size * random.normal(), size * random.normal());
+      }
+      try
+      {
+        EXPECT_LT(prepared(cloud).cloud.size(), 1000000u);
+      }
+      catch (const meam::Error&)
+      {
+      }
+    }
+  }
+}
