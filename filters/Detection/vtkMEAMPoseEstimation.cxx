@@ -83,7 +83,10 @@ int vtkMEAMPoseEstimation::RequestData(
       for (const std::string& warning :
         { report.isCutShort ? meam::cutShort(limit) : std::string(), meam::doubtsOf(poses, scene, model.diameter) })
       {
-        vtkWarningMacro(<< doubts);
+        if (!warning.empty())
+        {
+          vtkWarningMacro(<< warning);
+        }
       }
 
       if (boundary)
