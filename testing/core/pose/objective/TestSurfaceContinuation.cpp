@@ -14,7 +14,7 @@ meam::TriangleMesh lowBlock() { return blockOf(60); }
 /// Patches beside the block where it is looked for as it lies, in the scene of other bodies.
 double besideTheBlock(const std::vector<scenes::Copy>& copies)
 {
-  const meam::TrainedModel& model = scenes::trained<block>();
+  const meam::TrainedModel& model = scenes::trained<lowBlock>();
   const meam::Scene scene =
     scenes::prepared(scenes::withTangents(scenes::seenFromAbove(copies), model.diameter), model.diameter);
   const meam::SurfaceContinuation continuation(scene, model);
