@@ -63,6 +63,9 @@ with open(path("camera.json"), "w") as file:
 with open(path("cloud.ply"), "w") as file:
     file.write("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
                "0 0 100\n10 0 100\n")
+with open(path("cloud.pcd"), "w") as file:
+    file.write("VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"
+               "0 0 100\n10 0 100\n")
 depth = vtkImageData()
 depth.SetDimensions(4, 3, 1)
 depth.AllocateScalars(VTK_UNSIGNED_SHORT, 1)
@@ -71,7 +74,7 @@ writer = vtkPNGWriter()
 writer.SetFileName(path("depth.png"))
 writer.SetInputData(depth)
 writer.Write()
-FILES = {"PLYCloudReader": "cloud.ply", "DepthImageReader": "depth.png"}
+FILES = {"PLYCloudReader": "cloud.ply", "PCDReader": "cloud.pcd", "DepthImageReader": "depth.png"}
 
 
 def readers_of_several_files():
