@@ -29,9 +29,9 @@ def build_and_show():
     alternatives = simple.PoseSelection(Input=verified, Method="Alternatives", **scene)
     refined = simple.PoseRefinement(Input=alternatives, **scene)
     scored = simple.PoseVerification(Input=refined, **scene)
-    ranked = simple.PoseSelection(Input=scored, MaximumNumberOfPoses=5, **scene)
-    chain = simple.PoseInstances(Input=ranked, Mesh=mesh)
-    box = simple.MEAMPoseEstimation(Input=mesh, Scene=scan)
+    ranked = simple.PoseSelection(Input=scored, MaximumNumberOfPoses=0, **scene)
+    chain = simple.PoseInstances(Input=ranked, Mesh=mesh, MaximumNumberOfInstances=5)
+    box = simple.MEAMPoseEstimation(Input=mesh, Scene=scan, MaximumNumberOfPoses=0)  # of a few it need not look for all
 
     view = simple.GetActiveViewOrCreate("RenderView")
     exact = simple.BoundaryExtraction(Input=views, Mesh=mesh, Method="Mesh Edges")
@@ -51,7 +51,7 @@ def build_and_show():
     of_chain = ranked.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Transform")
     box.UpdatePipeline()
     of_box = box.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Transform")
-    assert of_chain.GetNumberOfTuples() == 5, f"{of_chain.GetNumberOfTuples()} poses"
+    assert of_chain.GetNumberOfTuples() == of_box.GetNumberOfTuples() >= 5, f"{of_chain.GetNumberOfTuples()} poses"
     for pose in range(5):
         assert of_chain.GetTuple(pose) == of_box.GetTuple(pose), f"pose {pose + 1} of the chain is not that of the box"
     return picture
