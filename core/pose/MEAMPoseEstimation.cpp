@@ -75,8 +75,6 @@ namespace
 // them so many vote first; the others follow only where these do not do.
 constexpr double Shares[] = { 0.06, 0.2, 1.0 };
 constexpr double VotingTime = 0.6; // of what is left of a time limit: up to refined poses; the rest finishes them
-constexpr double Sure = 3.0;       // log odds of a refined pose,
-constexpr int Spare = 2;           // and so many more than are asked for: what follows doubts some
 
 /// The stages from raw candidates to ranked poses, of which a search may go through all but the last several times,
 /// each time with more candidates.
@@ -137,7 +135,7 @@ public:
     {
       const auto isOf = [&](const Pose* other)
       { return translationError(pose.T_scene_model, other->T_scene_model, middle) < apart; };
-      if (pose.evidence >= Sure && std::none_of(sure.begin(), sure.end(), isOf))
+      if (pose.evidence >= SureLogOdds && std::none_of(sure.begin(), sure.end(), isOf))
       {
         sure.push_back(&pose);
       }
@@ -223,7 +221,7 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
     }
     const Progress ofLot = ofVotes.within(subProgress(progress, most * from, most * to));
     told.isCutShort = !isDoneBy(ofVotes, [&] { vote(to, ofLot); });
-    if (told.isCutShort || (asked > 0 && ranking.areSure(asked + Spare)))
+    if (told.isCutShort || (asked > 0 && ranking.areSure(asked + SpareCopies)))
     {
       break;
     }

@@ -15,4 +15,9 @@ inline constexpr float FacingSurface =
 inline constexpr double SamePoseDistance =
   0.1;                                        ///< of the diameter, between the part's middles: no two copies are nearer
 inline constexpr double SamePoseAngle = 15.0; ///< degrees: two steps of the voted rotation
+
+// Where a few copies are asked for, a search ends when so many more are sure: what all poses together say takes some
+// away.
+inline constexpr double SureLogOdds = 3.0; ///< that a copy is there
+inline constexpr int SpareCopies = 2;
 }

@@ -358,6 +358,8 @@ def read_model(path):
     """The trained model that write_model wrote."""
     if path.lower().endswith(".meam"):
         return read_with(filters.vtkMEAMModelReader(), path)
+    if not path.lower().endswith(".vtpc"):
+        raise Failure(f"{path}: the name of a trained model ends in .meam, or .vtpc; `train` makes one of a CAD file")
     return read_with(vtkXMLPartitionedDataSetCollectionReader(), path)
 
 

@@ -80,6 +80,7 @@ refuses("no column right", "calibrate.py", "none.csv", "--model", "part.meam", "
 refuses("'perhaps'", "calibrate.py", "word.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("not a number", "calibrate.py", "number.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("20 judged poses in 5 scans", "calibrate.py", "few.csv", "--model", "part.meam", "--out", "no.meam")
+refuses("ends in .meam", "calibrate.py", "judged.csv", "--model", "part.stl", "--out", "no.meam")
 refuses("nowhere.csv", "calibrate.py", "nowhere.csv", "--model", "part.meam", "--out", "no.meam")
 
 # From true poses: six bins of a dataset.

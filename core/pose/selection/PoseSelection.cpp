@@ -23,8 +23,6 @@ constexpr double LeastScore = 0.05;    // times that of the best: an alternative
 constexpr int LeastRefined = 60;       // so many are, and all that are likelier than this where these are more
 constexpr double WorthRefining = 3e-7; // (probability, of poses that are not refined yet)
 constexpr int Lot = 16;                // instances that are finished before it is asked whether they do
-constexpr double SureOdds = 3.0;       // logarithm of the odds of a pose that is wanted and sure,
-constexpr int SpareInstances = 2;      // and so many more: what all poses together say may take some away
 constexpr double WorthFinishing = 0.5; // place: what is likelier is finished in any case
 constexpr std::size_t RateStride = 2;  // of the points that tell the scan's rates of edges one of so many
 
@@ -79,8 +77,8 @@ FinishedInstance asItIs(const Pose& scored) { return { scored, {}, scored.eviden
 bool areEnough(const FinishedInstances& finished, const Pose& next, const PoseSelectionSettings& settings)
 {
   const auto sure = std::count_if(
-    finished.begin(), finished.end(), [](const FinishedInstance& instance) { return instance.logOdds >= SureOdds; });
-  return settings.maximumPoses > 0 && sure >= settings.maximumPoses + SpareInstances &&
+    finished.begin(), finished.end(), [](const FinishedInstance& instance) { return instance.logOdds >= SureLogOdds; });
+  return settings.maximumPoses > 0 && sure >= settings.maximumPoses + SpareCopies &&
          next.placeProbability < WorthFinishing;
 }
 
