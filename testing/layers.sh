@@ -2,6 +2,7 @@
 # The order of the house; prints what breaks it and fails:
 # - dependencies point one way: examples -> plugin, xml -> filters -> core
 # - a folder of core/ holds a dozen units, and testing/core/ has the same folders
+# - a type has a name of its own
 # - a number has a reason, a field of settings is set somewhere
 cd "$1" || exit 2
 status=0
@@ -26,6 +27,10 @@ most_units=12
 while read -r units folder; do
   [ "$units" -le $most_units ] || { echo "$folder holds $units units, more than $most_units: split it"; status=1; }
 done < <(printf '%s\n' "${core[@]%.*}" | sort -u | xargs -n1 dirname | uniq -c)
+
+# Two types of one name share their inline functions at link time, whichever header a file includes.
+twice=$(grep -hE '^(struct|class) [A-Za-z0-9_]+( final)?( :.*)?$' core/**/*.h testing/core/**/*.h | awk '{ print $2 }' | sort | uniq -d)
+[ -z "$twice" ] || { echo "two headers of core define $twice"; status=1; }
 
 # testing/core/ROOM/TestStem.cpp tests core/ROOM/Stem.h. Those of testing/core itself are about several rooms.
 for test in testing/core/*/**/Test*.cpp; do

@@ -428,7 +428,7 @@ MEAMHashingSettings paperHashingSettings()
   return settings;
 }
 
-TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PartSurface& part,
+TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PartGeometry& part,
   const MEAMHashingSettings& settings, const Progress& progress)
 {
   const PointCloud& surface = part.samples;

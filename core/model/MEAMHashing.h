@@ -7,7 +7,7 @@
 namespace meam
 {
 /// What is known of a part beside its edges.
-struct PartSurface
+struct PartGeometry
 {
   PointCloud samples;    ///< of the whole part with normals, mm: for verification, and for what is seen together
   double diameter = 0.0; ///< d_max of the mesh, mm; 0: of the samples
@@ -20,6 +20,6 @@ struct PartSurface
 /// `edgeModels`: edge appearance models with tangents; where they carry point ids, these index the part's
 /// surface. Of points that the part's exact symmetries map onto each other one is a reference, the others are
 /// referred points only. Throws Error without edges, without tangents, or with more than 32 views.
-TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PartSurface& part,
+TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const PartGeometry& part,
   const MEAMHashingSettings& settings = {}, const Progress& progress = {});
 }

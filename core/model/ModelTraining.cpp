@@ -52,7 +52,7 @@ TrainedModel trainModel(const TriangleMesh& mesh, const TrainingSettings& settin
     extractVisibility(surface, settings.visibility, &mesh, subProgress(progress, 0.1, 0.3));
   models = extractBoundary(models, settings.boundary, &mesh, subProgress(progress, 0.3, 0.4));
   models = estimateTangents(std::move(models), partDiameter, settings.tangents);
-  PartSurface part{ surface, partDiameter, {} };
+  PartGeometry part{ surface, partDiameter, {} };
   if (settings.findSymmetries)
   {
     part.symmetries = detectSymmetries(surface, {}, subProgress(progress, 0.4, 0.7));

@@ -83,7 +83,7 @@ int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVec
         throw meam::Error("The part's surface has no point array 'Normals': use the output of SurfaceSampling.");
       }
     }
-    const meam::PartSurface part{ surface, diameterOf(input), symmetriesOf(samples) };
+    const meam::PartGeometry part{ surface, diameterOf(input), symmetriesOf(samples) };
     const auto model = std::make_shared<const meam::TrainedModel>(
       meam::hashModels(toAppearanceModels(input), part, *this->Settings, progressOf(this)));
     fromTrainedModel(*model, output);
