@@ -22,6 +22,7 @@
 #include "scene/PinholeCamera.h"          // Camera
 #include "scene/ScanQuality.h"            // ScanQuality
 #include "scene/Sensor.h"                 // Sensor
+#include "scene/preparation/Region.h"     // Region
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -83,6 +84,9 @@ struct Scan
   /// Where it was seen from. None: as the points tell, from the origin when they are organized; with `edges` along +z
   /// then, otherwise from far above, along -z.
   std::optional<Sensor> sensor;
+
+  /// Parts whose middle lies elsewhere are not looked for, and what is far from it is not looked at. None: everywhere.
+  Region region;
 };
 
 /// Another rotation of a pose that hardly moves the part's surface, as about the axis of a nearly round part.

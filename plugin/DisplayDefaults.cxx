@@ -159,17 +159,20 @@ void showAnswer(vtkSMRenderViewProxy* view, const ShownData& shown)
   }
 }
 
-/// Hides the part that was searched, which lies where the sensor is, when its poses are shown.
+/// Hides the parts that were searched, which lie where the sensor is, when their poses are shown.
 void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
 {
   for (const char* name : { "Input", "Mesh" })
   {
     auto* input = vtkSMInputProperty::SafeDownCast(source->GetProperty(name));
-    auto* part = input && input->GetNumberOfProxies() == 1 ? vtkSMSourceProxy::SafeDownCast(input->GetProxy(0)) : nullptr;
-    const unsigned int port = part ? input->GetOutputPortForConnection(0) : 0;
-    if (part && !isInScene(part->GetDataInformation(port)))
+    for (unsigned int k = 0; input && k < input->GetNumberOfProxies(); ++k)
     {
-      hide(view, part, port);
+      auto* part = vtkSMSourceProxy::SafeDownCast(input->GetProxy(k));
+      const unsigned int port = input->GetOutputPortForConnection(k);
+      if (part && !isInScene(part->GetDataInformation(port)))
+      {
+        hide(view, part, port);
+      }
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "pqApplicationCore.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
+#include "pqProxySelection.h"
 #include "pqServerManagerModel.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMSourceProxy.h"
@@ -62,7 +63,21 @@ pqOutputPort* choose(bool (*isKind)(pqOutputPort*))
 }
 }
 
-pqOutputPort* openPart() { return choose(isPart); }
+QList<pqOutputPort*> openParts()
+{
+  QList<pqOutputPort*> parts;
+  for (pqServerManagerModelItem* item : pqActiveObjects::instance().selection())
+  {
+    auto* source = qobject_cast<pqPipelineSource*>(item);
+    pqOutputPort* port = source ? source->getOutputPort(0) : qobject_cast<pqOutputPort*>(item);
+    if (port && isPart(port))
+    {
+      parts.append(port);
+    }
+  }
+  pqOutputPort* last = choose(isPart);
+  return parts.empty() && last ? QList<pqOutputPort*>{ last } : parts;
+}
 
 pqOutputPort* openScan() { return choose(isScan); }
 

@@ -37,22 +37,23 @@
 namespace
 {
 constexpr int UntilNextLook = 100; // ms
+constexpr int AllParts = -1;
 
 using Inputs = QMap<QString, QList<pqOutputPort*>>;
 
-/// The part and the scan that are open. None: they are not, which is said.
-Inputs openInputs(const char* label)
+/// The parts, or with `most` 1 the first of them, and the scan that are open. None: they are not, which is said.
+Inputs openInputs(const char* label, int most)
 {
-  pqOutputPort* part = openPart();
+  const QList<pqOutputPort*> parts = openParts().mid(0, most);
   pqOutputPort* scan = openScan();
-  if (!part || !scan)
+  if (parts.empty() || !scan)
   {
     QMessageBox::information(pqCoreUtilities::mainWidget(), label,
       QString("There is no %1: open one first.")
-        .arg(!part ? "part, a CAD file or a trained model" : "scan, an organized cloud"));
+        .arg(parts.empty() ? "part, a CAD file or a trained model" : "scan, an organized cloud"));
     return {};
   }
-  return { { "Input", { part } }, { "Scene", { scan } } };
+  return { { "Input", parts }, { "Scene", { scan } } };
 }
 
 pqPipelineSource* addFilter(const char* name, const char* label, const Inputs& inputs)
@@ -76,22 +77,26 @@ void estimatePoses()
 {
   constexpr const char* Label = "MEAM Pose Estimation";
   applyAll();
-  const Inputs inputs = openInputs(Label);
+  const Inputs inputs = openInputs(Label, AllParts);
   if (!inputs.empty())
   {
     addFilter("MEAMPoseEstimation", Label, inputs);
   }
 }
 
-/// Of the part, in the scan, with the properties that it was searched with, if it was.
+/// Of the part, of several the one that is selected, in the scan, with the properties that it was searched with, if it was.
 void askWhy()
 {
   constexpr const char* Label = "Pose Diagnosis";
   applyAll();
   pqPipelineSource* estimation = openEstimation();
   auto* searched = qobject_cast<pqPipelineFilter*>(estimation);
-  const Inputs inputs = searched ? searched->getNamedInputs() : openInputs(Label);
-  pqPipelineSource* diagnosis = inputs.empty() ? nullptr : addFilter("PoseDiagnosis", Label, inputs);
+  Inputs inputs = searched ? searched->getNamedInputs() : openInputs(Label, 1);
+  QList<pqOutputPort*>& parts = inputs["Input"];
+  const QList<pqOutputPort*> asked = openParts();
+  const bool isSelected = !asked.empty() && parts.contains(asked.front());
+  parts = isSelected ? asked.mid(0, 1) : parts.mid(0, 1);
+  pqPipelineSource* diagnosis = parts.empty() ? nullptr : addFilter("PoseDiagnosis", Label, inputs);
   if (diagnosis)
   {
     // Ctrl, because the cells of a scan are often smaller than the pixels of the picture: P alone may miss them.

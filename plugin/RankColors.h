@@ -2,7 +2,7 @@
 #pragma once
 
 /// ParaView's color maps of our arrays, in ParaView's own form of settings. `Rank`: red, green, blue, yellow and pink for
-/// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `State`, of vtkMEAMPoseDiagnosis: green
+/// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `PartId`: the types of part, in colors that are those of no rank. `State`, of vtkMEAMPoseDiagnosis: green
 /// where a point matches, yellow where the surface faces elsewhere, violet where it is hidden, blue where nothing was
 /// measured, red where the sensor saw past it or found no edge. `Possible` and `Obstruction`, of vtkMEAMPickPlanning: green
 /// where a pick is possible, red where it is not. `PoseOutcome`, of vtkMEAMPoseEvaluation: green where a pose is right, yellow where a
@@ -14,6 +14,14 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "Annotations": [ "1", "1", "2", "2", "3", "3", "4", "4", "5", "5" ],
   "IndexedColors": [ 0.863, 0.118, 0.118,  0.157, 0.667, 0.196,  0.157, 0.353, 0.863,  0.961, 0.804, 0.118,
                      0.941, 0.471, 0.745 ],
+  "NanColor": [ 0.588, 0.588, 0.588 ]
+} }, "PartId": { "PVLookupTable": {
+  "IndexedLookup": 1,
+  "AutomaticRescaleRangeMode": -1,
+  "AnnotationsInitialized": 1,
+  "Annotations": [ "0", "part 1", "1", "part 2", "2", "part 3", "3", "part 4", "4", "part 5" ],
+  "IndexedColors": [ 0.302, 0.686, 0.780,  0.902, 0.494, 0.133,  0.549, 0.337, 0.647,  0.604, 0.757, 0.239,
+                     0.655, 0.424, 0.286 ],
   "NanColor": [ 0.588, 0.588, 0.588 ]
 } }, "State": { "PVLookupTable": {
   "IndexedLookup": 1,

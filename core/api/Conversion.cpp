@@ -30,6 +30,11 @@ void requireGrid(const Scan& scan)
                 std::to_string(scan.width) + " x " + std::to_string(scan.height) +
                 ": give a point for each of its places.");
   }
+  if (!scan.region.mask.empty() && scan.region.mask.size() != scan.points.size())
+  {
+    throw Error("The mask of the region has " + std::to_string(scan.region.mask.size()) + " pixels and the scan " +
+                std::to_string(scan.points.size()) + " points: give one of the scan's size.");
+  }
 }
 
 TriangleMesh partOf(const Model& model, const Mesh& part)

@@ -5,10 +5,12 @@
 #include "model/TrainedModel.h"
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
+#include "scene/preparation/SearchRegion.h"
 
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <memory>
 
 namespace meam
 {
@@ -50,10 +52,11 @@ Sensor sensorOf(const Scan& scan)
 struct ScanScene
 {
   SceneInput input;
+  std::shared_ptr<const SearchRegion> region;
   std::string report;
 };
 
-ScanScene sceneOfScan(const Scan& scan, const DetectSettings& settings, const Progress& progress)
+ScanScene sceneOfScan(const Scan& scan, double partDiameter, const DetectSettings& settings, const Progress& progress)
 {
   ScanScene scene;
   if (!scan.edges.empty())
@@ -63,11 +66,17 @@ ScanScene sceneOfScan(const Scan& scan, const DetectSettings& settings, const Pr
     edges.points = scan.edges;
     scene.input.edges = toLocalCloud(edges, settings.threads);
     scene.input.sensor = sensorOf(scan);
+    scene.region = scan.region.isEverywhere() ? nullptr : std::make_shared<SearchRegion>(scan.region);
   }
   else
   {
     PreparedScan prepared = prepareScan(
       { scan.width, scan.height, scan.points }, settings.imageEdges ? scan.image : Image(), givenSensor(scan));
+    if (!scan.region.isEverywhere())
+    {
+      scene.region = std::make_shared<SearchRegion>(scan.region, prepared);
+      scene.region->crop(prepared, partDiameter);
+    }
     const SceneEdges found = findEdges(prepared, settings, scan.imageCamera, progress);
     setFoundEdges(found, settings.threads, scene.input);
     scene.input.sensor = prepared.sensor;
@@ -80,6 +89,10 @@ ScanScene sceneOfScan(const Scan& scan, const DetectSettings& settings, const Pr
   }
   scene.input.measured = toLocalPoints(scan.points, scene.input.edges.T_local_scene, settings.threads);
   requirePoints(scan.points.size(), scene.input.measured.size(), "The scan");
+  if (scene.region)
+  {
+    scene.region->crop(scene.input.edges, scene.input.measured, partDiameter);
+  }
   return scene;
 }
 }
@@ -95,6 +108,9 @@ Detections detect(
   std::vector<const TrainedModel*> trained;
   std::transform(
     models.begin(), models.end(), std::back_inserter(trained), [](const Model& model) { return &model.trained(); });
+  const double largest = (*std::max_element(trained.begin(), trained.end(),
+                            [](const TrainedModel* a, const TrainedModel* b) { return a->diameter < b->diameter; }))
+                           ->diameter;
   requireSettings(settings);
   requireGrid(scan);
   const Deadline deadline = settings.timeLimit > 0.0 ? Deadline(settings.timeLimit) : Deadline();
@@ -103,9 +119,10 @@ Detections detect(
   DetectionReport report;
   const auto search = [&]
   {
-    scene = sceneOfScan(scan, settings, deadline.within(subProgress(progress, 0.0, AfterSceneEdges)));
+    scene = sceneOfScan(scan, largest, settings, deadline.within(subProgress(progress, 0.0, AfterSceneEdges)));
     DetectionSettings steps = detectionSettings(settings);
     steps.deadline = deadline;
+    steps.region = scene.region;
     found = estimateParts(trained, scene.input, steps, &report, subProgress(progress, AfterSceneEdges, 1.0));
   };
   Detections result;

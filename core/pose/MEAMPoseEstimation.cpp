@@ -3,31 +3,23 @@
 
 #include "baselines/BaselineSettings.h"
 #include "pose/PoseTolerances.h"
+#include "pose/Stopwatch.h"
 #include "scene/Units.h"
+#include "scene/preparation/SearchRegion.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 namespace meam
 {
-namespace
+StageTimes& StageTimes::operator+=(const StageTimes& other)
 {
-/// Seconds since the last call.
-class Stopwatch
-{
-public:
-  double lap()
+  for (double StageTimes::*stage : { &StageTimes::tangents, &StageTimes::scene, &StageTimes::detection,
+         &StageTimes::screening, &StageTimes::verification, &StageTimes::refinement, &StageTimes::selection })
   {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-    return seconds;
+    this->*stage += other.*stage;
   }
-
-private:
-  std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
-};
+  return *this;
 }
 
 DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
@@ -203,10 +195,15 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   Ranking ranking(scene, model, settings, told, observer);
   // The order by votes, or by what fits of edges, does not tell what is sure.
   const int asked = settings.screening ? settings.selection.maximumPoses : 0;
+  const Eigen::Isometry3d T_scene_local = scene.T_local_scene().inverse();
+  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
+  const auto isOutside = [&](const Pose& pose)
+  { return settings.region && !settings.region->contains(T_scene_local * pose.T_scene_model * middle); };
   const auto vote = [&](double share, const Progress& ofLot)
   {
     watch.lap();
     Poses candidates = search.upTo(share, subProgress(ofLot, 0.0, 0.5));
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isOutside), candidates.end());
     told.times.detection += watch.lap();
     ranking.rank(std::move(candidates), subProgress(ofLot, 0.5, 1.0));
   };

@@ -12,10 +12,13 @@
 #include "scene/Scene.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace meam
 {
+class SearchRegion;
+
 struct DetectionSettings
 {
   TangentEstimationSettings tangents;
@@ -25,9 +28,10 @@ struct DetectionSettings
   PoseVerificationSettings candidateVerification;
   PoseSelectionSettings candidateSelection; ///< of those to be refined
   PoseRefinementSettings refinement;
-  PoseVerificationSettings verification; ///< of the refined poses
-  PoseSelectionSettings selection;       ///< one for each instance
-  Deadline deadline;                     ///< then the best come out that are found
+  PoseVerificationSettings verification;      ///< of the refined poses
+  PoseSelectionSettings selection;            ///< one for each instance
+  Deadline deadline;                          ///< then the best come out that are found
+  std::shared_ptr<const SearchRegion> region; ///< where middles of parts may be; null: everywhere
 };
 
 /// `maximumPoses` is the number of poses wanted, 0 for all, and `minimumProbability` that of each; `threads` 0 for one
@@ -45,6 +49,8 @@ struct StageTimes
   double verification = 0.0;
   double refinement = 0.0;
   double selection = 0.0; ///< with the final alignment and what follows
+
+  StageTimes& operator+=(const StageTimes& other);
 };
 
 /// What detection tells besides poses.

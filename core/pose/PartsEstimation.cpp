@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PartsEstimation.h"
 
+#include "pose/Stopwatch.h"
+
 #include <algorithm>
 #include <memory>
 
@@ -30,22 +32,24 @@ std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& mode
   std::vector<std::unique_ptr<const Scene>> scenes;
   std::vector<Poses> found(models.size());
   std::vector<PartDetections> detections;
-  bool isCutShort = false;
+  DetectionReport ofAll;
   for (int part = 0; part < count; ++part)
   {
     const double begin = searches * part / count, end = searches * (part + 1) / count;
     DetectionReport told;
+    StageTimes prepared;
+    Stopwatch watch;
     all.deadline = settings.deadline.after(1.0 / (count - part));
-    scenes.emplace_back(new Scene(sceneOf(*models[part], input, all, nullptr, subProgress(progress, begin, begin))));
+    scenes.emplace_back(new Scene(sceneOf(*models[part], input, all, &prepared, subProgress(progress, begin, begin))));
+    prepared.scene = watch.lap() - prepared.tangents;
     found[part] = findPoses(*scenes.back(), *models[part], all, &told, subProgress(progress, begin, end));
     detections.push_back({ *scenes.back(), *models[part], found[part] });
-    isCutShort = isCutShort || told.isCutShort;
-    if (report)
-    {
-      *report = told;
-      report->isCutShort = isCutShort;
-    }
+    told.isCutShort = told.isCutShort || ofAll.isCutShort;
+    told.times += prepared;
+    told.times += ofAll.times;
+    ofAll = told;
   }
+  Stopwatch watch;
   ConflictResolutionSettings conflicts;
   conflicts.maximumPoses = settings.selection.maximumPoses;
   conflicts.threads = settings.selection.threads;
@@ -54,6 +58,11 @@ std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& mode
   {
     const Scene& scene = *scenes[one.part];
     one.pose = toSceneFrame({ one.pose }, scene.T_local_scene(), models[one.part]->symmetries).front();
+  }
+  ofAll.times.selection += watch.lap();
+  if (report)
+  {
+    *report = ofAll;
   }
   return result;
 }

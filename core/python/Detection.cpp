@@ -2,6 +2,7 @@
 #include "Conversion.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace meamPython
@@ -124,7 +125,16 @@ void bindData(py::module_& module)
     .def_property(
       "edges", [](const Scan& scan) { return arrayOf(scan.edges); },
       [](Scan& scan, const Triples<float>& edges) { scan.edges = vectorsOf(edges); })
-    .def_readwrite("image_camera", &Scan::imageCamera);
+    .def_readwrite("image_camera", &Scan::imageCamera)
+    .def_property("region_box", nullptr,
+      [](Scan& scan, const std::array<double, 6>& ends) {
+        scan.region.box = { Eigen::Vector3d(ends[0], ends[2], ends[4]), Eigen::Vector3d(ends[1], ends[3], ends[5]) };
+      })
+    .def_property(
+      "region_mask",
+      [](const Scan& scan)
+      { return Pixels(static_cast<py::ssize_t>(scan.region.mask.size()), scan.region.mask.data()); },
+      [](Scan& scan, const Pixels& mask) { scan.region.mask.assign(mask.data(), mask.data() + mask.size()); });
   module.def("load_mesh", &loadMesh, Unlocked());
   module.def("load_scan", &loadScan, Unlocked());
   module.def("load_depth_image", &loadDepthImage, Unlocked());

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <sstream>
 
@@ -170,6 +171,11 @@ void setFieldText(vtkDataObject* output, const char* name, const std::string& te
   array->SetName(name);
   array->InsertNextValue(text);
   output->GetFieldData()->AddArray(array);
+}
+
+void setNameOf(const std::string& file, vtkDataObject* output)
+{
+  setFieldText(output, "Name", std::filesystem::path(file).stem().string());
 }
 
 void fromAnswer(const std::vector<std::string>& paragraphs, vtkTable* output)

@@ -53,6 +53,9 @@ void setFieldValue(vtkDataObject* output, const char* name, double value);
 /// The same of a text.
 void setFieldText(vtkDataObject* output, const char* name, const std::string& text);
 
+/// A part is called by its file, NAME.stl, as the field data `Name`.
+void setNameOf(const std::string& file, vtkDataObject* output);
+
 /// An answer, what to do about it and more as a table with one row, `Text`: in lines, to show in a view.
 void fromAnswer(const std::vector<std::string>& paragraphs, vtkTable* output);
 }

@@ -10,17 +10,15 @@
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSharedData.h"
 
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,30 +35,6 @@ struct Part
   std::shared_ptr<const meam::LocalPoses> found;
   meam::Poses input; ///< the same in the scene's coordinates
 };
-
-void addPartIds(const std::vector<meam::PartPose>& poses, vtkPolyData* output)
-{
-  vtkNew<vtkIntArray> ids;
-  ids->SetName("PartId");
-  for (const meam::PartPose& pose : poses)
-  {
-    ids->InsertNextValue(pose.part);
-  }
-  output->GetPointData()->AddArray(ids);
-}
-
-/// In place of what came along from the first part.
-void setDiameters(const std::vector<Part>& parts, vtkPolyData* output)
-{
-  vtkNew<vtkDoubleArray> diameters;
-  diameters->SetName("Diameter");
-  for (const Part& part : parts)
-  {
-    diameters->InsertNextValue(part.model->diameter);
-  }
-  output->GetFieldData()->Initialize();
-  output->GetFieldData()->AddArray(diameters);
-}
 }
 
 vtkMEAMConflictResolution::vtkMEAMConflictResolution()
@@ -139,8 +113,11 @@ int vtkMEAMConflictResolution::RequestData(
         poses.back().viewId = pose.pose.viewId;
       }
       fromPoses(poses, output);
-      addPartIds(stay, output);
-      setDiameters(parts, output);
+      std::vector<const meam::TrainedModel*> trained;
+      std::transform(
+        parts.begin(), parts.end(), std::back_inserter(trained), [](const Part& part) { return part.model.get(); });
+      output->GetFieldData()->Initialize(); // of what came along from the first part
+      setParts(stay, trained, output);
     },
     output);
 }

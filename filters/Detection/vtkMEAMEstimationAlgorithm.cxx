@@ -3,6 +3,8 @@
 
 #include "features/TrainSettings.h"
 #include "pose/DetectionSteps.h"
+#include "scene/preparation/SearchRegion.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMEstimationWork.h"
 #include "vtkMEAMPartTrainer.h"
@@ -13,6 +15,7 @@
 #include "vtkMEAMSceneRequests.h"
 #include "vtkMEAMSettings.h"
 
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -22,6 +25,8 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,46 +34,78 @@
 namespace
 {
 constexpr double AfterSceneEdges = 0.1; // of the work, for the progress
+
+/// As the property and the point array `Region` of the scan say it.
+meam::Region regionOf(const double ends[6], vtkPointSet* scan)
+{
+  meam::Region region;
+  if (std::any_of(ends, ends + 6, [](double end) { return end != 0.0; }))
+  {
+    region.box =
+      Eigen::AlignedBox3d(Eigen::Vector3d(ends[0], ends[2], ends[4]), Eigen::Vector3d(ends[1], ends[3], ends[5]));
+  }
+  if (vtkDataArray* mask = vtkMEAMConversion::pointArray(scan, "Region", 1))
+  {
+    for (vtkIdType i = 0; i < mask->GetNumberOfTuples(); ++i)
+    {
+      region.mask.push_back(mask->GetComponent(i, 0) != 0.0 ? 1 : 0);
+    }
+  }
+  return region;
+}
 }
 
-/// The trained model and what it was made of.
+/// The trained models, in the order of their parts, and what they were made of.
 class vtkMEAMEstimationAlgorithm::Training
 {
 public:
-  std::shared_ptr<const vtkMEAMConversion::TrainedPart> partOf(
-    vtkDataObject* input, const meam::TrainSettings& settings, const meam::Progress& progress)
+  using Parts = std::vector<std::shared_ptr<const vtkMEAMConversion::TrainedPart>>;
+
+  const Parts& partsOf(
+    vtkInformationVector* inputs, const meam::TrainSettings& settings, const meam::Progress& progress)
+  {
+    const int count = inputs->GetNumberOfInformationObjects();
+    this->Known.resize(count);
+    for (int i = 0; i < count; ++i)
+    {
+      this->update(vtkDataObject::GetData(inputs, i), settings,
+        meam::subProgress(progress, static_cast<double>(i) / count, (i + 1.0) / count), this->Known[i]);
+    }
+    return this->Known;
+  }
+
+private:
+  static void update(vtkDataObject* input, const meam::TrainSettings& settings, const meam::Progress& progress,
+    std::shared_ptr<const vtkMEAMConversion::TrainedPart>& known)
   {
     using namespace vtkMEAMConversion;
     if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
     {
       const auto model = sharedModel(collection);
-      if (!this->Part || this->Part->model != model)
+      if (!known || known->model != model)
       {
         auto part = std::make_shared<TrainedPart>();
         part->model = model;
         fromCloud(model->surface, part->shape);
-        this->Part = part;
+        known = part;
       }
-      return this->Part;
+      return;
     }
     auto* mesh = vtkPolyData::SafeDownCast(input);
     const std::vector<double> numbers{ static_cast<double>(settings.preset), static_cast<double>(settings.features),
       static_cast<double>(settings.seed), settings.scale, settings.offset[0], settings.offset[1], settings.offset[2] };
-    const auto known = sharedTraining(mesh, numbers);
-    if (!known)
+    if (const auto shared = sharedTraining(mesh, numbers))
     {
-      this->Part = nullptr; // until the new one is there
-      const auto trained = vtkMEAMPartTrainer::Create()->Train(mesh, settings, progress);
-      shareTraining(mesh, numbers, trained);
-      this->Part = trained;
-      return this->Part;
+      known = shared;
+      return;
     }
-    this->Part = known;
-    return this->Part;
+    known = nullptr; // until the new one is there
+    const auto trained = vtkMEAMPartTrainer::Create()->Train(mesh, settings, progress);
+    shareTraining(mesh, numbers, trained);
+    known = trained;
   }
 
-private:
-  std::shared_ptr<const vtkMEAMConversion::TrainedPart> Part; ///< what other filters find as long as this one holds it
+  Parts Known; ///< what other filters find as long as this one holds it
 };
 
 vtkMEAMEstimationAlgorithm::vtkMEAMEstimationAlgorithm()
@@ -126,7 +163,6 @@ int vtkMEAMEstimationAlgorithm::RequestUpdateExtent(
 vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformationVector** inputVector)
 {
   using namespace vtkMEAMConversion;
-  vtkDataObject* part = vtkDataObject::GetData(inputVector[0]);
   auto* sceneInput = vtkPointSet::GetData(inputVector[1]);
   auto* boundary = vtkPolyData::GetData(inputVector[2]);
   auto* image = vtkImageData::GetData(inputVector[3]);
@@ -134,6 +170,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   meam::DetectSettings& settings = *this->Settings;
   settings.threads = this->NumberOfThreads;
   Work work;
+  std::shared_ptr<meam::SearchRegion> region;
   double last = vtkTimerLog::GetUniversalTime();
   const auto watch = [&last]
   {
@@ -141,6 +178,24 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
     last = vtkTimerLog::GetUniversalTime();
     return last - before;
   };
+
+  const auto train = [&]
+  {
+    if (work.parts.empty())
+    {
+      work.parts = this->Trained->partsOf(inputVector[0],
+        { settings.preset, settings.features, this->CADScale, Eigen::Vector3d(this->CADOffset), settings.seed },
+        meam::subProgress(progress, AfterSceneEdges, Work::Prepared));
+    }
+    double largest = 0.0;
+    for (const auto& part : work.parts)
+    {
+      largest = std::max(largest, part->model->diameter);
+    }
+    work.secondsTraining += watch();
+    return largest;
+  };
+  const meam::Region chosen = regionOf(this->Region, sceneInput);
 
   // What is wrong with the scene is told before any time goes into training.
   meam::requirePoints(sceneInput->GetNumberOfPoints(), sceneInput->GetNumberOfPoints(), "The scene");
@@ -151,6 +206,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
     scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
     scene.edges = toLocalCloud(boundary, this->NumberOfThreads);
     meam::requirePoints(scene.edges.cloud.points, "The scene's boundary cloud");
+    region = chosen.isEverywhere() ? nullptr : std::make_shared<meam::SearchRegion>(chosen);
   }
   else
   {
@@ -163,6 +219,12 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
     }
     meam::PreparedScan prepared = meam::prepareScan(std::move(cloud), std::move(pixels),
       givenSensor(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput));
+    if (!chosen.isEverywhere())
+    {
+      region = std::make_shared<meam::SearchRegion>(chosen, prepared);
+      work.secondsEdges = watch();
+      region->crop(prepared, train());
+    }
     work.found = meam::findEdges(prepared, settings, camera, meam::subProgress(progress, 0.0, AfterSceneEdges));
     meam::setFoundEdges(work.found, this->NumberOfThreads, scene);
     scene.sensor = prepared.sensor;
@@ -173,19 +235,19 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
       scene.measured = meam::toLocalPoints(prepared.measured(), scene.edges.T_local_scene, this->NumberOfThreads);
     }
   }
-  work.secondsEdges = watch();
+  work.secondsEdges += watch();
   if (isAsGiven)
   {
     scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
   }
   work.secondsLoading = watch();
-
-  work.part = this->Trained->partOf(part,
-    { settings.preset, settings.features, this->CADScale, Eigen::Vector3d(this->CADOffset), settings.seed },
-    meam::subProgress(progress, AfterSceneEdges, Work::Prepared));
-  work.secondsTraining = watch();
-
+  const double largest = train();
+  if (isAsGiven && region)
+  {
+    region->crop(scene.edges, scene.measured, largest);
+  }
   work.settings = meam::detectionSettings(settings);
+  work.settings.region = region;
   return work;
 }
 
@@ -207,5 +269,11 @@ void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Creases: " << settings.creases << "\n";
   os << indent << "CameraFile: " << (this->CameraFile ? this->CameraFile : "(none)") << "\n";
   os << indent << "CADScale: " << this->CADScale << "\n";
+  os << indent << "Region:";
+  for (const double end : this->Region)
+  {
+    os << " " << end;
+  }
+  os << "\n";
   os << indent << "CADOffset: " << this->CADOffset[0] << " " << this->CADOffset[1] << " " << this->CADOffset[2] << "\n";
 }

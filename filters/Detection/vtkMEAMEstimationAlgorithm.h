@@ -160,6 +160,16 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Where parts are looked for, mm: from and to along the x, y and z axes of the scan; parts whose middle lies
+   * elsewhere are not looked for, and what is far from it is not looked at. All 0: everywhere. The scan may have a mask
+   * besides, the point array `Region`, 0 for points that are left out. Default: 0.
+   */
+  vtkSetVector6Macro(Region, double);
+  vtkGetVector6Macro(Region, double);
+  ///@}
+
+  ///@{
   /** The calibration of a camera beside the sensor that took the image. Default: none. */
   vtkSetFilePathMacro(CameraFile);
   vtkGetFilePathMacro(CameraFile);
@@ -201,6 +211,7 @@ private:
   char* CameraFile = nullptr;
   double CADScale = 1.0;
   double CADOffset[3] = { 0.0, 0.0, 0.0 };
+  double Region[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 };
 
 #endif

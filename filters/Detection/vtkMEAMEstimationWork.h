@@ -10,11 +10,15 @@
 #include "vtkMEAMEstimationAlgorithm.h"
 #include "vtkMEAMSharedData.h"
 
+#include <memory>
+#include <string>
+#include <vector>
+
 struct vtkMEAMEstimationAlgorithm::Work
 {
   static constexpr double Prepared = 0.5; ///< of the work, for the progress: the share that is done
 
-  std::shared_ptr<const vtkMEAMConversion::TrainedPart> part;
+  std::vector<std::shared_ptr<const vtkMEAMConversion::TrainedPart>> parts; ///< one of each connection to port 0
   meam::SceneInput scene;
   meam::SceneEdges found; ///< of a scan, when no boundary came in
   std::string scanReport; ///< what was assumed of it

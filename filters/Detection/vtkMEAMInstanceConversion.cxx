@@ -4,6 +4,7 @@
 #include "pose/Pose.h"
 #include "vtkMEAMCloudConversion.h"
 
+#include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
@@ -182,6 +183,49 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
     [](const meam::Pose& pose) { return Eigen::Affine3f(pose.T_scene_model.cast<float>()); }, output);
 }
 
+void fromInstances(const std::vector<vtkPolyData*>& parts, const std::vector<meam::PartPose>& poses,
+  const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output)
+{
+  vtkNew<vtkAppendPolyData> all;
+  for (std::size_t part = 0; part < parts.size(); ++part)
+  {
+    meam::Poses ofPart;
+    std::vector<int> ranks;
+    for (std::size_t k = 0; k < poses.size(); ++k)
+    {
+      if (poses[k].part == static_cast<int>(part))
+      {
+        ofPart.push_back(poses[k].pose);
+        ranks.push_back(static_cast<int>(k) + 1);
+      }
+    }
+    vtkNew<vtkPolyData> copies;
+    fromInstances(
+      parts[part], ofPart, [&](std::size_t k) { return ranks[k]; }, settings, progress, copies);
+    const auto addPart = [&](vtkDataSetAttributes* attributes, vtkIdType size)
+    {
+      vtkNew<vtkIntArray> ids;
+      ids->SetName("PartId");
+      ids->SetNumberOfTuples(size);
+      ids->FillValue(static_cast<int>(part));
+      attributes->AddArray(ids);
+      attributes->SetActiveScalars("PartId"); // the types are told apart first
+    };
+    if (copies->GetNumberOfPoints() == 0)
+    {
+      continue;
+    }
+    addPart(copies->GetPointData(), copies->GetNumberOfPoints());
+    addPart(copies->GetCellData(), copies->GetNumberOfCells());
+    all->AddInputData(copies);
+  }
+  if (all->GetNumberOfInputConnections(0) > 0)
+  {
+    all->Update();
+    output->ShallowCopy(all->GetOutput());
+  }
+}
+
 void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, double deviations,
   const std::function<int(std::size_t)>& rankOf, const InstanceSettings& settings, vtkPolyData* output)
 {
@@ -198,13 +242,15 @@ void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, d
     output);
 }
 
-void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output)
+void addLabels(
+  const meam::Poses& poses, const std::vector<std::string>& names, double minimumProbability, vtkPolyData* output)
 {
   vtkNew<vtkStringArray> labels;
   labels->SetName("Label");
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     std::string label = isDrawn(poses[k], minimumProbability) ? std::to_string(k + 1) : "";
+    label = label.empty() || names.empty() ? label : names[k] + " " + label;
     const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
     if (!label.empty() && meam::claimOf(poses[k], false) > 0.0)
     {

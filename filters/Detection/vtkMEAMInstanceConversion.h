@@ -8,10 +8,12 @@
 #include "base/Error.h"
 #include "io/DetectionArrayFile.h"
 #include "pose/Pose.h"
+#include "pose/search/ConflictResolution.h"
 
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -30,6 +32,10 @@ struct InstanceSettings
 void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::function<int(std::size_t)>& rankOf,
   const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output);
 
+/// The same of several types of part, one type after the other, with the array `PartId`.
+void fromInstances(const std::vector<vtkPolyData*>& parts, const std::vector<meam::PartPose>& poses,
+  const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output);
+
 /// For the same poses the ellipsoid of so many standard deviations about the part's middle, with the
 /// same arrays.
 void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, double deviations,
@@ -37,8 +43,9 @@ void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, d
 
 /// The text `Label` for each pose: its rank and, where it is known, how likely it is there, as in "1: 98 %", and where
 /// it is unsure its rotation, as in "1: 98 %, rotation 30 %"; nothing for a pose that is less likely, which gets no
-/// copy.
-void addLabels(const meam::Poses& poses, double minimumProbability, vtkPolyData* output);
+/// copy. `names`, of the part at each pose, stand before it, as in "flap 1: 98 %"; empty: all are of one type.
+void addLabels(
+  const meam::Poses& poses, const std::vector<std::string>& names, double minimumProbability, vtkPolyData* output);
 
 /// In a sentence how many poses get no copy for their probability, which `property` of a filter limits; empty: none.
 std::string describeHidden(const meam::Poses& poses, double minimumProbability, const std::string& property);

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace vtkMEAMConversion
 {
@@ -237,6 +238,25 @@ void setEvidenceRates(vtkDataObject* output, const std::optional<meam::EvidenceR
     array->InsertNextTuple(values);
     output->GetFieldData()->AddArray(array);
   }
+}
+
+void setParts(
+  const std::vector<meam::PartPose>& poses, const std::vector<const meam::TrainedModel*>& models, vtkPolyData* output)
+{
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("PartId");
+  for (const meam::PartPose& pose : poses)
+  {
+    ids->InsertNextValue(pose.part);
+  }
+  output->GetPointData()->AddArray(ids);
+  vtkNew<vtkDoubleArray> diameters;
+  diameters->SetName("Diameter");
+  for (const meam::TrainedModel* model : models)
+  {
+    diameters->InsertNextValue(model->diameter);
+  }
+  output->GetFieldData()->AddArray(diameters);
 }
 
 meam::Pose placedAt(const double position[3], const double rotation[3])

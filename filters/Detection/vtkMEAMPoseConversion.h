@@ -8,9 +8,11 @@
 #include "io/DetectionArrayFile.h"
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
+#include "pose/search/ConflictResolution.h"
 #include "pose/verification/EvidenceCounts.h"
 
 #include <optional>
+#include <vector>
 
 class vtkDataObject;
 class vtkPolyData;
@@ -23,6 +25,10 @@ namespace vtkMEAMConversion
 /// `ConstrainedAxes` (6).
 meam::Poses toPoses(vtkPolyData* input);
 void fromPoses(const meam::Poses& poses, vtkPolyData* output);
+
+/// Of several types of part in a scene: the array `PartId`, and the field data `Diameter` with a value for each type.
+void setParts(
+  const std::vector<meam::PartPose>& poses, const std::vector<const meam::TrainedModel*>& models, vtkPolyData* output);
 
 /// The pose at a position with the turns of a vtkProp3D: degrees about x, y and z, first about y, then x, then z.
 meam::Pose placedAt(const double position[3], const double rotation[3]);

@@ -107,8 +107,8 @@ struct vtkMEAMPoseDiagnosis::Detection
   Detection(Work&& from, std::vector<double> madeOf, bool fit, const meam::Progress& progress)
     : made(std::move(madeOf))
     , work(std::move(from))
-    , scene(meam::sceneOf(*work.part->model, work.scene, work.settings))
-    , diagnosis(scene, *work.part->model, work.settings, fit, progress)
+    , scene(meam::sceneOf(*work.parts.front()->model, work.scene, work.settings))
+    , diagnosis(scene, *work.parts.front()->model, work.settings, fit, progress)
   {
   }
 
@@ -152,6 +152,7 @@ vtkMEAMPoseDiagnosis::Detection& vtkMEAMPoseDiagnosis::Detect(vtkInformationVect
     static_cast<double>(this->GetSeed()), this->GetImageEdges() ? 1.0 : 0.0, this->GetDepthEdges() ? 1.0 : 0.0,
     this->GetCreases() ? 1.0 : 0.0, this->GetCADScale(), static_cast<double>(this->Projection), this->Fit ? 1.0 : 0.0,
     static_cast<double>(std::hash<std::string>()(camera ? camera : "")) };
+  made.insert(made.end(), this->GetRegion(), this->GetRegion() + 6);
   for (const double* vector : { this->GetCADOffset(), this->ViewDirection, this->SensorPosition })
   {
     made.insert(made.end(), vector, vector + 3);
@@ -215,7 +216,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
       fromAnswer(paragraphs, answer);
       setFieldText(output, "LostIn", diagnosis.lostIn ? meam::nameOf(*diagnosis.lostIn) : std::string());
       setFieldValue(output, "Rank", diagnosis.rank);
-      setDiameter(output, detection.work.part->model->diameter);
+      setDiameter(output, detection.work.parts.front()->model->diameter);
       if (diagnosis.place)
       {
         meam::Pose place = *diagnosis.place;
@@ -229,7 +230,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
         InstanceSettings drawn;
         drawn.minimumProbability = 0.0;
         fromInstances(
-          detection.work.part->shape, { place }, [&](std::size_t) { return diagnosis.rank; }, drawn, {}, part);
+          detection.work.parts.front()->shape, { place }, [&](std::size_t) { return diagnosis.rank; }, drawn, {}, part);
       }
     },
     output, numbers, part, answer);

@@ -2,6 +2,7 @@
 #include "vtkMEAMPoseEstimation.h"
 
 #include "pose/DetectionSteps.h"
+#include "pose/PartsEstimation.h"
 #include "pose/verification/EdgeExplanation.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMEstimationWork.h"
@@ -11,18 +12,21 @@
 #include "vtkMEAMSceneEdgeConversion.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,19 +35,101 @@ vtkStandardNewMacro(vtkMEAMPoseEstimation);
 
 namespace
 {
-/// The rank of the pose that explains each of the edge points; 0: none does.
-void addRanks(const std::vector<int>& explained, vtkPolyData* edges)
+/// The rank of the first pose that explains each of the edge points; 0: none does.
+std::vector<int> ranksOfEdges(const meam::SceneInput& scene, const std::vector<meam::PartPose>& poses,
+  const std::vector<const meam::TrainedModel*>& models, int threads)
+{
+  std::vector<int> ranks(scene.edges.cloud.size(), 0);
+  for (std::size_t part = 0; part < models.size(); ++part)
+  {
+    meam::Poses ofPart;
+    std::vector<int> rankOf;
+    for (std::size_t k = 0; k < poses.size(); ++k)
+    {
+      if (poses[k].part == static_cast<int>(part))
+      {
+        ofPart.push_back(poses[k].pose);
+        rankOf.push_back(static_cast<int>(k) + 1);
+      }
+    }
+    const std::vector<int> explained =
+      meam::explainEdges(scene.edges, ofPart, *models[part], scene.quality.noise, threads);
+    for (std::size_t i = 0; i < explained.size(); ++i)
+    {
+      if (explained[i] >= 0 && (ranks[i] == 0 || rankOf[explained[i]] < ranks[i]))
+      {
+        ranks[i] = rankOf[explained[i]];
+      }
+    }
+  }
+  return ranks;
+}
+
+/// Where the labels of poses stand: amid the edge points that are theirs, which are in sight, or else at the middle of
+/// the part.
+void placeLabels(const meam::LocalCloud& edges, const std::vector<int>& rankOf,
+  const std::vector<meam::PartPose>& poses, const std::vector<const meam::TrainedModel*>& models, vtkPolyData* output)
+{
+  constexpr int fewest = 8; // edge points: fewer may be those of a corner
+  std::vector<Eigen::Vector3d> sums(poses.size(), Eigen::Vector3d::Zero());
+  std::vector<int> counts(poses.size(), 0);
+  for (std::size_t i = 0; i < rankOf.size(); ++i)
+  {
+    if (rankOf[i] > 0)
+    {
+      sums[rankOf[i] - 1] += edges.cloud.points[i].cast<double>();
+      ++counts[rankOf[i] - 1];
+    }
+  }
+  const Eigen::Isometry3d T_scene_local = edges.T_local_scene.inverse();
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    const Eigen::Vector3d middle = models[poses[k].part]->visibility->middle().cast<double>();
+    const Eigen::Vector3d place =
+      counts[k] < fewest ? poses[k].pose.T_scene_model * middle : T_scene_local * (sums[k] / counts[k]);
+    output->GetPoints()->SetPoint(static_cast<vtkIdType>(k), place.data());
+  }
+}
+
+void addRanks(const std::vector<int>& rankOf, vtkPolyData* edges)
 {
   vtkNew<vtkIntArray> ranks;
   ranks->SetName("Rank");
-  ranks->SetNumberOfTuples(static_cast<vtkIdType>(explained.size()));
-  std::transform(explained.begin(), explained.end(), ranks->GetPointer(0), [](int pose) { return pose + 1; });
+  ranks->SetNumberOfTuples(static_cast<vtkIdType>(rankOf.size()));
+  std::copy(rankOf.begin(), rankOf.end(), ranks->GetPointer(0));
   edges->GetPointData()->AddArray(ranks);
   edges->GetPointData()->SetActiveScalars("Rank");
+}
+
+void addNames(const std::vector<std::string>& names, vtkPolyData* output)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName("PartName");
+  for (const std::string& name : names)
+  {
+    array->InsertNextValue(name);
+  }
+  output->GetFieldData()->AddArray(array);
+}
+
+/// What the part that comes in is called: by its file, or by its place among several.
+std::string nameOf(vtkDataObject* part, int index)
+{
+  auto* name = vtkStringArray::SafeDownCast(part->GetFieldData()->GetAbstractArray("Name"));
+  return name && name->GetNumberOfValues() > 0 ? std::string(name->GetValue(0)) : "part " + std::to_string(index + 1);
 }
 }
 
 vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(6); }
+
+int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
 
 int vtkMEAMPoseEstimation::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -74,14 +160,31 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         work.settings.deadline = meam::Deadline(limit - work.secondsEdges - work.secondsLoading);
       }
-      const meam::TrainedModel& model = *work.part->model;
+      std::vector<const meam::TrainedModel*> models;
+      std::vector<vtkPolyData*> shapes;
+      std::vector<std::string> names;
+      for (const auto& part : work.parts)
+      {
+        models.push_back(part->model.get());
+        shapes.push_back(part->shape);
+        const int index = static_cast<int>(names.size());
+        names.push_back(nameOf(vtkDataObject::GetData(inputVector[0], index), index));
+      }
       const meam::SceneInput& scene = work.scene;
       meam::DetectionReport report;
-      const meam::Poses poses = meam::estimatePoses(
-        model, scene, work.settings, &report, meam::subProgress(progressOf(this), Work::Prepared, 1.0));
+      const std::vector<meam::PartPose> partPoses = meam::estimateParts(
+        models, scene, work.settings, &report, meam::subProgress(progressOf(this), Work::Prepared, 1.0));
+      meam::Poses poses;
+      std::vector<std::string> nameOfEach;
+      for (const meam::PartPose& one : partPoses)
+      {
+        poses.push_back(one.pose);
+        nameOfEach.push_back(names[one.part]);
+      }
+      const bool isOne = models.size() == 1;
       const double found = vtkTimerLog::GetUniversalTime();
-      for (const std::string& warning :
-        { report.isCutShort ? meam::cutShort(limit) : std::string(), meam::doubtsOf(poses, scene, model.diameter) })
+      for (const std::string& warning : { report.isCutShort ? meam::cutShort(limit) : std::string(),
+             meam::doubtsOf(poses, scene, models.front()->diameter) })
       {
         if (!warning.empty())
         {
@@ -97,19 +200,30 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         fromSceneEdges(work.found, edges);
       }
-      addRanks(meam::explainEdges(scene.edges, poses, model, scene.quality.noise, this->GetNumberOfThreads()), edges);
+      const std::vector<int> rankOfEdges = ranksOfEdges(scene, partPoses, models, this->GetNumberOfThreads());
+      addRanks(rankOfEdges, edges);
       fromPoses(poses, output);
+      placeLabels(scene.edges, rankOfEdges, partPoses, models, output);
       output->GetPointData()->SetActiveScalars("Rank");
       InstanceSettings drawn;
       drawn.minimumProbability = this->ShownProbability;
-      addLabels(poses, drawn.minimumProbability, output);
-      fromInstances(
-        work.part->shape, poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
+      addLabels(poses, isOne ? std::vector<std::string>() : nameOfEach, drawn.minimumProbability, output);
       fromAnswer(
         { poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability") },
         answer);
-      setDiameter(output, model.diameter);
-      setPartExtent(output, model);
+      if (isOne)
+      {
+        fromInstances(
+          shapes.front(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
+        setDiameter(output, models.front()->diameter);
+        setPartExtent(output, *models.front());
+      }
+      else
+      {
+        fromInstances(shapes, partPoses, drawn, {}, parts);
+        setParts(partPoses, models, output);
+        addNames(names, output);
+      }
       setFieldText(output, "Report", meam::describe(poses));
       setScanQuality(output, scene.quality, work.scanReport);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
@@ -125,17 +239,17 @@ int vtkMEAMPoseEstimation::RequestData(
         { "Tangents", times.tangents }, { "Detection", times.detection }, { "Screening", times.screening },
         { "Verification", times.verification }, { "Refinement", times.refinement }, { "Selection", times.selection },
         { "Output", filled - found } };
-      vtkNew<vtkStringArray> names;
-      names->SetName("Stage");
+      vtkNew<vtkStringArray> stageNames;
+      stageNames->SetName("Stage");
       vtkNew<vtkDoubleArray> durations;
       durations->SetName("Seconds");
       for (const auto& [name, duration] : seconds)
       {
         setFieldValue(output, (std::string("Seconds") + name).c_str(), duration);
-        names->InsertNextValue(name);
+        stageNames->InsertNextValue(name);
         durations->InsertNextValue(duration);
       }
-      stages->AddColumn(names);
+      stages->AddColumn(stageNames);
       stages->AddColumn(durations);
       vtkNew<vtkIntArray> ranks;
       ranks->SetName("Pose");
@@ -150,7 +264,9 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       setFieldValue(output, "ScenePoints", static_cast<double>(scene.measured.size()));
       setFieldValue(output, "SceneEdgePoints", static_cast<double>(scene.edges.cloud.size()));
-      setFieldValue(output, "ModelEdgePoints", static_cast<double>(model.edges.size()));
+      setFieldValue(output, "ModelEdgePoints",
+        std::accumulate(models.begin(), models.end(), 0.0,
+          [](double sum, const meam::TrainedModel* model) { return sum + static_cast<double>(model->edges.size()); }));
       setFieldValue(output, "SecondsTotal", filled - start);
     },
     output, edges, parts, scores, stages, answer);

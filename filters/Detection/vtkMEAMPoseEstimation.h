@@ -12,9 +12,11 @@
  * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the
  * poses and changes nothing else.
  *
- * Input ports: as vtkMEAMEstimationAlgorithm has them.
+ * Input ports: as vtkMEAMEstimationAlgorithm has them. Port 0 is repeatable, for several types of part in one scan: of
+ * poses that claim the same surface the best supported stays (vtkMEAMConflictResolution).
  *
- * Output port 0: the poses, best first, a vtkPolyData with one vertex each and the point arrays
+ * Output port 0: the poses, best first, a vtkPolyData with one vertex each, amid what is visible of the part, and the
+ * point arrays
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `PlaceProbability`, `Probability`,
  * `Certainty` and `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on
  * port 2), and those that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether
@@ -23,15 +25,17 @@
  * points of a part that a scene edge lies on, where the part is and anywhere: how far this scan's edges can be
  * trusted), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`,
  * `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, `SecondsOutput` (to fill the
- * outputs), which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`.
- * Output port 1: the scene's edge points as extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended
- * `Tangent`, unless they came in, and `Rank` (active scalars): of the first pose that has an edge of the part there, 0
- * of edge points that no pose explains. Output port 2: the part at each pose that is likely enough to be shown
- * (ShownProbability), as vtkMEAMPoseInstances has it; of a trained model points of its surface. Output port 3: a
- * vtkTable with a row for each pose, to plot: `Pose` (its rank), `PlaceProbability`, `Probability`, `Score`,
- * `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for each stage: `Stage`, `Seconds`. Output port
- * 5: a vtkTable with one row, `Text`: that no part was found, or how many poses are not shown, to show in a view; empty
- * when all are.
+ * outputs), which add up to `SecondsTotal`, and the counts `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`. Of
+ * several types of part the point array `PartId` (index of the connection), the field data `PartName` and `Diameter`
+ * with a value for each, labels with the name of the part (its field data `Name`, which readers set), no `PartBounds`,
+ * and port 2 with the array `PartId` (active scalars). Output port 1: the scene's edge points as extracted, a
+ * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in, and `Rank` (active
+ * scalars): of the first pose that has an edge of the part there, 0 of edge points that no pose explains. Output port
+ * 2: the part at each pose that is likely enough to be shown (ShownProbability), as vtkMEAMPoseInstances has it; of a
+ * trained model points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank),
+ * `PlaceProbability`, `Probability`, `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for
+ * each stage: `Stage`, `Seconds`. Output port 5: a vtkTable with one row, `Text`: that no part was found, or how many
+ * poses are not shown, to show in a view; empty when all are.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h
@@ -59,6 +63,7 @@ protected:
   vtkMEAMPoseEstimation();
   ~vtkMEAMPoseEstimation() override = default;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

@@ -3,6 +3,7 @@
 
 #include "io/MeshFile.h"
 #include "mesh/TriangleMesh.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMRun.h"
 
@@ -26,6 +27,7 @@ int vtkMEAMMeshReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
       throw meam::Error("No file is given: set FileName to the name of a .stl, .obj, .ply or .off file.");
     }
     vtkMEAMConversion::fromMesh(meam::readMesh(this->FileName, vtkMEAMConversion::progressOf(this)), output);
+    vtkMEAMConversion::setNameOf(this->FileName, output);
   };
   return vtkMEAMRun(this, work, output);
 }

@@ -2,6 +2,7 @@
 #include "vtkMEAMModelReader.h"
 
 #include "model/ModelFile.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
 
@@ -27,6 +28,7 @@ int vtkMEAMModelReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
       throw meam::Error("No file is given: set FileName to the name of a trained model's file.");
     }
     vtkMEAMConversion::fromTrainedModel(meam::readModel(this->FileName), output);
+    vtkMEAMConversion::setNameOf(this->FileName, output);
   };
   return vtkMEAMRun(this, work, output);
 }

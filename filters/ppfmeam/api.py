@@ -9,7 +9,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPartitionedDataSetCollection, vtkPolyData
 
-from . import Error, _core, filters, inputs, scripting
+from . import Error, _core, filters, inputs, regions, scripting
 from .choices import takes
 
 MODELS = (".meam", ".vtpc")
@@ -185,7 +185,8 @@ def load(path):
 
 
 @takes(settings="detect")
-def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, *, settings):
+def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, region=None, *,
+           settings):
     """Finds the copies of a part in a scan; returns Detections.
 
     part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm). Or
@@ -198,8 +199,10 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     pixel for each point, unless `image_camera`, a calibration file, says which other camera took it.
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
     camera: the calibration file of the sensor; brings a .ply back onto its pixels. scale: brings lengths to mm.
+    region: where parts are looked for: six numbers, from and to along x, y and z of the scan, mm; or a mask, an array H x W of
+    flags or an image file of the scan's size that is not black there. Parts whose middle lies elsewhere are not looked for.
     """
-    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera)
+    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region)
     models = [part_of(each, cad_scale, settings) for each in (part if isinstance(part, (list, tuple)) else [part])]
     found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
@@ -220,20 +223,21 @@ def part_of(part, scale, settings):
 
 @takes(settings="detect")
 def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, camera=None, image_camera=None, scale=1.0,
-        cad_scale=1.0, *, settings):
+        cad_scale=1.0, region=None, *, settings):
     """Tells why a part of a scan was missed: which step lost it, and what to change.
 
-    part, scan, image, boundary, cameras and scales: as detect() takes them. at: a point of the scan on the part, three
+    part, scan, image, boundary, cameras, scales and region: as detect() takes them. at: a point of the scan on the part, three
     numbers, mm; or pose: where the part lies, 4 x 4, or several, N x 4 x 4. fit: poses that are nearly right, laid by hand,
     are first fitted to the scan. Returns a Diagnosis; of several poses a list, which takes one detection.
     """
     if (at is None) == (pose is None):
         raise Error("give either at, a point on the part, or pose, where the part lies")
-    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera)
+    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
     diagnosis.SetInputDataObject(part_of(part, cad_scale, settings).data)
     for port, data in enumerate(inputs.to_vtk(seen), 1):
         diagnosis.SetInputDataObject(port, data)
+    diagnosis.SetRegion(*(regions.of(region)[0] or regions.EVERYWHERE))
     if isinstance(image, vtkDataObject):
         diagnosis.SetInputDataObject(3, image)
     if image_camera is not None:

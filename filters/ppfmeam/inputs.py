@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
-from . import Error, _core, scripting
+from . import Error, _core, regions, scripting
 
 DEPTH_IMAGES = (".png", ".tif", ".tiff")
 HIDDEN = vtkDataSetAttributes.HIDDENPOINT
@@ -58,8 +58,8 @@ def model_to_vtk(model):
         return scripting.read_model(path)
 
 
-def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camera=None):
-    """A scan with its image and its edge points, where they are given."""
+def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camera=None, region=None):
+    """A scan with its image, its edge points and its region, where they are given."""
     seen = cloud_of(scan, camera, scale)
     if boundary is not None:
         seen.edges = cloud_of(boundary, None, scale).points.reshape(-1, 3)
@@ -67,6 +67,11 @@ def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camer
         set_image(seen, image, image_camera)
     elif image_camera is not None:
         raise Error("image_camera is the camera of image: give that, too")
+    box, mask = regions.of(region)
+    if box is not None:
+        seen.region_box = box
+    if mask is not None:
+        seen.region_mask = mask
     return seen
 
 
@@ -163,6 +168,8 @@ def to_vtk(scan):
     if points.ndim == 3:
         data.SetDimensions(points.shape[1], points.shape[0], 1)
     data.SetPoints(vtk_points(points))
+    if scan.region_mask.size:
+        data = regions.masked(data, scan.region_mask.reshape(points.shape[:-1]))
     edges = image = None
     if len(scan.edges):
         edges = vtkPolyData()

@@ -407,26 +407,6 @@ def train(mesh, preset="recommended", features="both"):
     return Training(mesh, preset, features).model()
 
 
-def resolve_conflicts(found, models, scene, edges, preset="recommended", poses=0, threads=0):
-    """Of the poses of several parts, found in the same scan, those that stay, best first; `PartId` is the part's place.
-    `edges` are the scan's edge points; as many poses as wanted, 0 for all."""
-    tangents = filters.vtkMEAMTangentEstimation()
-    set_choice(tangents, "Parameters", "recommended" if preset == "recommended" else "paper")
-    if preset == "b2b":
-        tangents.SetMethodToLineSegments()
-    tangents.SetInputDataObject(edges)
-    tangents.SetInputDataObject(1, models[0])
-    resolution = filters.vtkMEAMConflictResolution()
-    for port, inputs in enumerate((found, models)):
-        for data in inputs:
-            resolution.AddInputDataObject(port, data)
-    resolution.SetInputConnection(2, tangents.GetOutputPort())
-    resolution.SetInputDataObject(3, scene)
-    resolution.SetMaximumNumberOfPoses(poses)
-    resolution.SetNumberOfThreads(threads)
-    return update(resolution).GetOutput()
-
-
 def require_room(folder, data, path):
     """Raises a Failure unless a folder takes a data object, whatever its form, for those of VTK's writers that bytes_of() does
     not know."""

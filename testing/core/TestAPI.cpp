@@ -106,6 +106,34 @@ TEST(API, ATimeLimitIsKept)
     files::contains(files::errorOf([&] { meam::detect(bracketModel(), scanOfThree(), settings); }), "timeLimit"));
 }
 
+TEST(API, OfARegionThePartsThatLieInIt)
+{
+  meam::DetectSettings settings;
+  settings.maximumPoses = 0;
+  meam::Scan scan = scanOfThree();
+  const auto sure = [&]
+  {
+    std::vector<Eigen::Vector3d> middles;
+    for (const meam::DetectedPose& pose : meam::detect(bracketModel(), scan, settings).poses)
+    {
+      if (pose.placeProbability > 0.5)
+      {
+        middles.push_back(pose.T_scan_part * bracketModel().middle());
+      }
+    }
+    return middles;
+  };
+  const std::vector<Eigen::Vector3d> all = sure();
+  ASSERT_EQ(all.size(), 3u);
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(20.0);
+  scan.region.box = { all[1] - half, all[1] + half };
+  const std::vector<Eigen::Vector3d> one = sure();
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_LT((one[0] - all[1]).norm(), 0.5);
+  scan.region = { {}, { 1, 0 } };
+  EXPECT_TRUE(files::contains(files::errorOf([&] { sure(); }), "2 pixels"));
+}
+
 TEST(API, SettingsReachTheSteps)
 {
   meam::DetectSettings settings;

@@ -5,6 +5,7 @@ import math
 import os
 import tempfile
 
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 
 from ppfmeam.filters import (
@@ -18,8 +19,8 @@ from ppfmeam.filters import (
     vtkMEAMSceneEdgeExtraction,
     vtkMEAMTangentEstimation,
 )
-from meamtest import (Errors, Trained, Warnings, check, cloud, collection, connect, fails, field, image, is_empty,
-                      points, prints, run, scaled, tuples)
+from meamtest import (Errors, Trained, Warnings, bracket, check, cloud, collection, connect, distance, fails, field, image, is_empty,
+                      points, pose_error, prints, run, scaled, tuples)
 
 STAGES = ["Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total"]
@@ -202,6 +203,45 @@ for features in (0, 1):
 edges_alone = Trained(part).model
 edges_alone.SetFeaturesToEdges()
 fails(estimation(run(edges_alone), scan, Features=1), "edge points alone", "Features")
+
+# In a region, a box or a mask of the scan, only the part whose middle lies there.
+middle = [sum(expected[1][4 * row + k] * x for k, x in enumerate((*field(poses, "PartMiddle")[0], 1))) for row in range(3)]
+of_box = estimation(model, scan, MaximumNumberOfPoses=0, Region=[x + d for x in middle for d in (-15, 15)])
+sure = [t for t, (p,) in zip(found(of_box), tuples(of_box.GetOutput(), "PlaceProbability")) if p > 0.5]
+check(len(sure) == 1 and distance(sure[0][3::4], expected[1][3::4]) < 0.5, f"in the box: {sure}")
+check(field(of_box.GetOutput(), "ScenePoints")[0][0] < 0.9 * field(poses, "ScenePoints")[0][0], "the scan is cropped")
+masked = scan.NewInstance()
+masked.ShallowCopy(scan)
+mask = vtkUnsignedCharArray()
+mask.SetName("Region")
+for x, y, z in points(scan):
+    mask.InsertNextValue(int(abs(x - middle[0]) < 15 and abs(y - middle[1]) < 15))
+masked.GetPointData().AddArray(mask)
+of_mask = estimation(model, masked, MaximumNumberOfPoses=0)
+sure = [t for t, (p,) in zip(found(of_mask), tuples(of_mask.GetOutput(), "PlaceProbability")) if p > 0.5]
+check(len(sure) == 1 and distance(sure[0][3::4], expected[1][3::4]) < 0.5, f"in the mask: {sure}")
+fails(estimation(model, scan, Region=(0, 1, 0, 1, -5, -4)), "region")
+
+# Two types of part, of which one is there: names and numbers tell them apart.
+both = estimation(bracket(), scan, MaximumNumberOfPoses=2)
+named = vtkPolyData()
+named.ShallowCopy(part)
+name = vtkStringArray()
+name.SetName("Name")
+name.InsertNextValue("plate")
+named.GetFieldData().AddArray(name)
+both.AddInputDataObject(0, named)
+together = run(both)
+errors = [pose_error(a, b) for a, b in zip(tuples(together, "Transform"), expected)]
+check(tuples(together, "PartId") == [(1,)] * 2 and all(d < 0.2 and turn < 0.3 for d, turn in errors), f"of two types {errors}")
+labels = together.GetPointData().GetAbstractArray("Label")
+check(labels.GetValue(0).startswith("plate 1: "), labels.GetValue(0))
+names = together.GetFieldData().GetAbstractArray("PartName")
+check([names.GetValue(k) for k in range(2)] == ["part 1", "plate"] and len(field(together, "Diameter")) == 2, "names and diameters")
+copies = both.GetOutputDataObject(2)
+check(set(tuples(copies, "PartId")) == {(1,)} and set(tuples(copies, "Rank")) == {(1,), (2,)}, "their copies")
+both.RemoveInputConnection(0, 0)
+check(not run(both).GetPointData().HasArray("PartId") and found(both) == expected, "of one type again")
 
 # Asked to stop, it stops without an error and works again.
 filter = estimation(model, scan, MaximumNumberOfPoses=2)

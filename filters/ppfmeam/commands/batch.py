@@ -11,7 +11,7 @@ with the reason."""
 import argparse
 import traceback
 
-from .. import choices, evaluation, scripting
+from .. import choices, evaluation, regions, scripting
 from ..batch import run, watch
 from ..batch.ranks import ranks
 
@@ -46,6 +46,7 @@ def options_of_user(arguments=None):
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took a list's images (default: they are "
                              "registered)")
+    regions.add_option(parser)
     choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "time_limit")
     parser.add_argument("--threads", type=scripting.count, default=0,
                         help="threads of each process; 0: all cores for one process, one thread for each of several "

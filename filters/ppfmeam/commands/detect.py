@@ -2,7 +2,7 @@
 """Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
 import argparse
 
-from .. import choices, finding, picture, scripting
+from .. import choices, finding, picture, regions, scripting
 
 
 def options_of_user():
@@ -29,6 +29,7 @@ def options_of_user():
                         help="image of an organized scan that carries none: .png, .jpg, .bmp or .tif")
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
+    regions.add_option(parser)
     choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "time_limit", "threads")
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
@@ -62,21 +63,14 @@ def main():
     else:
         scene = scripting.read_scan(options.scene, options.scene_scale, options.camera)
 
-    if len(parts) > 1 and not options.model:
-        parts = [scripting.train(mesh, options.preset, options.features) for mesh in meshes]
     boundary = scripting.read(options.boundary, options.scene_scale) if options.boundary else None
     image = scripting.read_image(options.image) if options.image else None
-    finder = finding.Finder(parts, options)
-    poses = finder.find(scene, boundary, image, options.image_camera)
-    found = finder.found()
+    poses = finding.Finder(parts, options).find(scene, boundary, image, options.image_camera)
     scripting.print_poses(poses)
-    scripting.print_scan_quality(found[0])
-    for number, of_part in enumerate(found, 1):
-        print(f"part {number} " if len(parts) > 1 else "", end="")
-        scripting.print_times(of_part)
-    seconds = sum(scripting.field(of_part, "SecondsTotal") for of_part in found)
+    scripting.print_scan_quality(poses)
+    scripting.print_times(poses)
     for path, form in ((options.out, "BOPCSV"), (options.json, "JSON"), (options.matrices, "Matrices")):
         if path:
-            scripting.write_poses(poses, path, form, Time=seconds)
+            scripting.write_poses(poses, path, form, Time=scripting.field(poses, "SecondsTotal"))
     if options.picture:
         picture.save(options.picture, scene, poses, *(meshes or parts))

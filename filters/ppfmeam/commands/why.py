@@ -7,7 +7,7 @@ import math
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from .. import api, choices, filters, scripting
+from .. import api, choices, filters, regions, scripting
 
 
 def options_of_user():
@@ -27,6 +27,7 @@ def options_of_user():
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="FILE", help="image of an organized scan that carries none")
     parser.add_argument("--image-camera", metavar="FILE", help="calibration of the camera beside the sensor that took it")
+    regions.add_option(parser)
     choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "threads")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
@@ -71,6 +72,7 @@ def main():
     inputs = {name: getattr(options, name) for name in (
         "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "rotation_counts", "references",
         "preset", "features", "image_edges", "threads")}
+    inputs["region"] = options.roi
     if options.at:
         print_report(api.why(options.part, options.scan, at=options.at, **inputs))
     elif options.pose:
