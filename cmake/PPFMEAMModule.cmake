@@ -84,6 +84,7 @@ set(package_files __init__.py __main__.py api.py bop.py cell.py cellpicture.py c
 set(command_files __init__.py batch.py calibrate.py cell.py detect.py evaluate.py hand_eye.py pick.py simulate.py train.py why.py)
 set(batch_files __init__.py __main__.py apart.py journal.py parts.py progress.py ranks.py run.py scans.py table.py
   watch.py)
+set(report_files __init__.py content.py markup.py notebook.py outlines.py page.html page.js page.py projection.py told.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
 set(package_copies)
 function(ppfmeam_copy folder) # files of filters/ppfmeam/FOLDER, to the build tree and to the installed one
@@ -99,6 +100,7 @@ endfunction()
 ppfmeam_copy("" ${package_files})
 ppfmeam_copy(/commands ${command_files})
 ppfmeam_copy(/batch ${batch_files})
+ppfmeam_copy(/report ${report_files})
 configure_file("${PROJECT_SOURCE_DIR}/filters/ppfmeam/version.py.in" "${package_destination}/version.py" @ONLY)
 install(FILES "${package_destination}/version.py" DESTINATION ${PPFMEAM_PYTHON_DIR}/ppfmeam COMPONENT python)
 if(NOT SKBUILD) # pip makes it

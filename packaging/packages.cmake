@@ -51,7 +51,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${package_detect} ${same}, ${package_pick}
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "${package_python} ${same}, paraview-dev, cmake")
 set(CPACK_DEBIAN_PICK_PACKAGE_DEPENDS "${package_detect} ${same}")
 set(CPACK_DEBIAN_TRAIN_PACKAGE_DEPENDS "${package_detect} ${same}")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python_depends}, ${paraview_depends}, python3-numpy, ${package_detect} ${same}, ${package_pick} ${same}, ${package_train} ${same}")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python_depends}, ${paraview_depends}, python3-numpy, libjs-three, ${package_detect} ${same}, ${package_pick} ${same}, ${package_train} ${same}")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "${package_paraview}, python3-mpi4py, xvfb")
 set(CPACK_DEBIAN_PARAVIEW_PACKAGE_DEPENDS "${package_python} ${same}")
 set(CPACK_DEBIAN_DETECT_PACKAGE_SECTION libs)
@@ -88,7 +88,9 @@ set(note_pick "Everything in this package is under the BSD 3-Clause licence; it 
 set(note_train "${gpl}")
 set(note_dev "The headers are under the BSD 3-Clause licence. What is linked with meam::train, with meam::images (Debian's GDAL
  and Poppler), PPFMEAM::IOImage or PPFMEAM::Training can be passed on under the GPL 3 only (/usr/share/common-licenses/GPL-3).")
-set(note_python "${gpl}")
+set(note_python "${gpl}
+ .
+ Pages that detect --report writes hold three.js of libjs-three, which is under the MIT licence; its text stands in each page.")
 set(note_paraview "${gpl}")
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE "${generated}/changelog.Debian" "ppfmeam (${debian_version}) unstable; urgency=medium

@@ -81,6 +81,16 @@ Camera cameraOf(int width, int height, const Eigen::Matrix3d& matrix, const Eige
   return camera;
 }
 
+Eigen::Matrix3d matrixOf(const Camera& camera)
+{
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  matrix(0, 0) = camera.fx;
+  matrix(1, 1) = camera.fy;
+  matrix(0, 2) = camera.cx;
+  matrix(1, 2) = camera.cy;
+  return matrix;
+}
+
 /// Empty when it is not known.
 py::dict numbersOf(const ScanQuality& quality)
 {
@@ -114,7 +124,11 @@ void bindData(py::module_& module)
       }))
     .def_property_readonly("vertices", [](const Mesh& mesh) { return arrayOf(mesh.vertices); })
     .def_property_readonly("triangles", [](const Mesh& mesh) { return arrayOf(mesh.triangles); });
-  py::class_<Camera>(module, "Camera").def(py::init(&cameraOf));
+  py::class_<Camera>(module, "Camera")
+    .def(py::init(&cameraOf))
+    .def_property_readonly("matrix", &matrixOf)
+    .def_property_readonly("pose", [](const Camera& camera) { return camera.T_camera_scene.matrix(); })
+    .def_readonly("distortion", &Camera::distortion);
   py::class_<Scan>(module, "Scan")
     .def(py::init(&scanOf))
     .def("blank", &blank)

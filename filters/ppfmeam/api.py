@@ -13,6 +13,7 @@ from . import Error, _core, filters, inputs, regions, scripting
 from .choices import takes
 
 MODELS = (".meam", ".vtpc")
+WIDTHS = {"Quaternion": 4, "Covariance": 36}  # of arrays that have several values of a pose, also of none
 
 
 class Rows(collections.abc.Sequence):
@@ -37,13 +38,27 @@ class Rows(collections.abc.Sequence):
 
 
 class Model:
-    """What training makes of a part and detection needs to know of it."""
+    """What training makes of a part and detection needs to know of it. `file`: where the part came from, if from a file; `shape`:
+    its mesh, or the points of its surface, a vtkPolyData."""
 
-    def __init__(self, model):
+    def __init__(self, model, file=None, mesh=None):
         self.core = inputs.model_from_vtk(model) if isinstance(model, vtkDataObject) else model
+        self.file, self.mesh = file, mesh
 
     def __repr__(self):
-        return f"<ppfmeam.Model of a part of {self.diameter:.1f} mm>"
+        data = self.data
+        views = sum(data.GetMetaData(k).Get(data.NAME()).startswith("View") for k in range(data.GetNumberOfPartitionedDataSets()))
+        pairs = sum(scripting.field(data, name) for name in ("NumberOfPairs", "NumberOfSurfacePairs"))
+        return (f"<ppfmeam.Model of {self.name}, {self.diameter:.1f} mm; symmetry: {'; '.join(scripting.symmetry_words(data))}; "
+                f"{views} views, {pairs:.0f} pairs>")
+
+    @property
+    def name(self):
+        return os.path.basename(self.file) if self.file else "a part"
+
+    @property
+    def shape(self):
+        return self.mesh or scripting.shape_of(self.data)
 
     @property
     def diameter(self):
@@ -76,15 +91,16 @@ class Detections(Rows):
                "place_probabilities": ("place_probability", ()), "probabilities": ("probability", ()),
                "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ()), "parts": ("part", ())}
 
-    def __init__(self, found, models):
+    def __init__(self, found, models, scan, inputs, settings):
         super().__init__(found.poses)
+        self.scan, self.inputs, self.settings = scan, inputs, settings
         self.core, self.models, self.model = found, models, models[0]
         self.seconds, self.scan_quality, self.is_cut_short = found.seconds, found.quality, found.is_cut_short
         self.report = found.report
 
     def of(self, part):
         """Those of one of several types of part, by its place among them, as pick() takes them."""
-        return Detections(self.core.of(part), [self.models[part]])
+        return Detections(self.core.of(part), [self.models[part]], self.scan, self.inputs, self.settings)
 
     def __str__(self):
         several = len(self.models) > 1
@@ -105,7 +121,8 @@ class Detections(Rows):
             columns["".join(map(str.capitalize, name.split("_")))] = [getattr(pose, name) for pose in self]
         columns["Covariance"] = [pose.covariance.ravel("F") for pose in self]  # as the filters write it
         for name, values in columns.items():
-            add_array(data.GetPointData(), name, numpy.array(values).reshape(len(self), -1))
+            width = numpy.size(values) // len(self) if len(self) else WIDTHS.get(name, 1)
+            add_array(data.GetPointData(), name, numpy.array(values).reshape(len(self), width))
         low, high = self.model.core.bounds
         fields = {"SecondsTotal": [self.seconds], "Diameter": [[model.diameter] for model in self.models]}
         if len(self.models) == 1:
@@ -115,8 +132,24 @@ class Detections(Rows):
         return data
 
     def save(self, path):
-        """Writes .csv (BOP results), .json, .detections.json (ROS 2), or .txt (4x4 matrices)."""
+        """Writes .csv (BOP results), .json, .detections.json (ROS 2), .txt (4x4 matrices), or .html, the page of show()."""
+        if os.fspath(path).lower().endswith((".html", ".htm")):
+            return self.notebook().save(self, path)
         scripting.write_with(filters.vtkMEAMPoseWriter(), self.data, path)
+
+    def show(self):
+        """Opens a page in the browser, or in a notebook below the cell: the scan and the parts in 3D, the image with their outlines,
+        and of each pose what speaks for it and against it, which takes another detection. Returns the name of its file, or
+        what the notebook shows."""
+        return self.notebook().show(self)
+
+    def _repr_html_(self):
+        return self.notebook().cell(self)
+
+    @staticmethod
+    def notebook():
+        from .report import notebook  # only now: it needs api.py
+        return notebook
 
 
 def add_array(attributes, name, values):
@@ -142,7 +175,7 @@ def calibrate(model, judged):
             if verdict is not None:
                 poses.append(_core.JudgedPose(pose.place_probability, pose.certainty, bool(verdict), verdict is True, scene))
     calibrated, report = _core.calibrate(model.core, poses)
-    return Model(calibrated), report
+    return Model(calibrated, model.file, model.mesh), report
 
 
 class Diagnosis:
@@ -175,13 +208,16 @@ class Diagnosis:
 def train(cad, *, settings):
     """Learns how a part looks from all sides; takes seconds. `cad`: a .stl, .obj, .ply or .off file, or a vtkPolyData with
     faces. Returns a Model."""
-    return Model(_core.train(inputs.mesh_of(cad), settings.apply(_core.TrainSettings(), _core)))
+    mesh = inputs.mesh_of(cad)
+    corners = mesh.vertices * settings.scale + numpy.array(settings.offset)
+    return Model(_core.train(mesh, settings.apply(_core.TrainSettings(), _core)), None if isinstance(cad, vtkDataObject) else os.fspath(cad),
+                 inputs.vtk_mesh(corners, mesh.triangles))
 
 
 def load(path):
     """The model in a file that Model.save, or C++, wrote."""
     path = inputs.path_of(path)
-    return Model(_core.load_model(path) if path.lower().endswith(".meam") else scripting.read_model(path))
+    return Model(_core.load_model(path) if path.lower().endswith(".meam") else scripting.read_model(path), path)
 
 
 @takes(settings="detect")
@@ -202,12 +238,14 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     region: where parts are looked for: six numbers, from and to along x, y and z of the scan, mm; or a mask, an array H x W of
     flags or an image file of the scan's size that is not black there. Parts whose middle lies elsewhere are not looked for.
     """
+    given = {"scan": scan, "image": image, "boundary": boundary, "camera": camera, "image_camera": image_camera, "scale": scale,
+             "cad_scale": cad_scale, "region": region}
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region)
     models = [part_of(each, cad_scale, settings) for each in (part if isinstance(part, (list, tuple)) else [part])]
     found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
         warnings.warn(found.warning, stacklevel=3)
-    return Detections(found, models)
+    return Detections(found, models, seen, given, settings)
 
 
 def part_of(part, scale, settings):

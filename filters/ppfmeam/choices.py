@@ -74,6 +74,11 @@ class Chosen:
     def __getattr__(self, name):
         return self.values[name]
 
+    def differing(self):
+        """Those that are not the defaults, by name."""
+        return {name: value for name, value in self.values.items()
+                if value != converted(TABLE[self.group][name], TABLE[self.group][name]["default"])}
+
     def apply(self, settings, core):
         """Sets the fields of a C++ struct."""
         for name, choice in TABLE[self.group].items():

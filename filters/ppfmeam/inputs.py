@@ -4,9 +4,9 @@ import os
 import tempfile
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData, vtkStructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from . import Error, _core, regions, scripting
@@ -179,6 +179,14 @@ def to_vtk(scan):
         image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
         image.GetPointData().SetScalars(vtk_array(pixels.reshape(pixels.shape[0] * pixels.shape[1], -1)))
     return data, edges, image
+
+
+def vtk_mesh(corners, triangles):
+    data, cells = vtkPolyData(), vtkCellArray()
+    cells.SetData(3, numpy_to_vtkIdTypeArray(numpy.ascontiguousarray(triangles, numpy.int64).ravel(), deep=True))
+    data.SetPoints(vtk_points(corners))
+    data.SetPolys(cells)
+    return data
 
 
 def vtk_points(points):

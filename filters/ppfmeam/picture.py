@@ -15,7 +15,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401  the legend's letters
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
 from .filters import vtkMEAMPoseInstances
-from .scripting import Failure, bytes_of, update, with_value, written
+from .scripting import Failure, bytes_of, shape_of, update, with_value, written
 
 WIDTH = 1600  # pixels
 JPEG_QUALITIES = range(85, 40, -5)
@@ -199,16 +199,6 @@ def flat(data):
     actor.SetMapper(mapper)
     actor.GetProperty().LightingOff()
     return actor
-
-
-def shape_of(part):
-    """What stands for the part: its mesh, or the surface points of a trained model."""
-    if part.IsA("vtkPolyData"):
-        return part
-    names = [part.GetMetaData(i).Get(part.NAME()) for i in range(part.GetNumberOfPartitionedDataSets())]
-    if "Surface" not in names:
-        raise Failure("the model has no surface to draw: give the CAD file, too")
-    return part.GetPartition(names.index("Surface"), 0)
 
 
 def scan(scene, points, valid, looks, greys=(0.3, 0.8)):

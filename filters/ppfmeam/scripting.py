@@ -517,6 +517,16 @@ def with_value(data, name, value, cells=False):
     return update(geometry).GetOutput()
 
 
+def shape_of(part):
+    """What stands for the part: its mesh, or the surface points of a trained model."""
+    if part.IsA("vtkPolyData"):
+        return part
+    names = [part.GetMetaData(i).Get(part.NAME()) for i in range(part.GetNumberOfPartitionedDataSets())]
+    if "Surface" not in names:
+        raise Failure("the model has no surface to draw: give the CAD file, too")
+    return part.GetPartition(names.index("Surface"), 0)
+
+
 def symmetry_words(samples):
     """The symmetries that vtkMEAMSymmetryDetection found, as lines of text."""
     def turn(transform):

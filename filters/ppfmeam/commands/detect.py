@@ -2,7 +2,10 @@
 """Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
 import argparse
 
-from .. import choices, finding, picture, regions, scripting
+from .. import choices, finding, inputs, picture, regions, scripting
+from ..report import page
+from ..report.content import Part
+from ..report.told import Told
 
 
 def options_of_user():
@@ -36,6 +39,8 @@ def options_of_user():
     parser.add_argument("--json", help="write the poses as JSON")
     parser.add_argument("--matrices", metavar="TXT", help="write the poses as 4x4 matrices")
     parser.add_argument("--picture", metavar="PNG", help="write a picture of the scan with the part at each pose")
+    parser.add_argument("--report", metavar="HTML",
+                        help="write a page for any browser, in one file: scan and parts in 3D, the image with their outlines, the poses and why")
     options = parser.parse_args()
     if not options.cad and not options.model:
         parser.error("give the part: --cad, or --model of `train`")
@@ -52,9 +57,11 @@ def options_of_user():
 
 def main():
     options = options_of_user()
-    scripting.require_folder_of(options.out, options.json, options.matrices, options.picture)
+    scripting.require_folder_of(options.out, options.json, options.matrices, options.picture, options.report)
     if options.picture:
         picture.require_display()
+    if options.report:
+        page.require_three()
     meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale) for path in options.cad]
     parts = [scripting.read_model(path) for path in options.model] or meshes
     if options.depth:
@@ -74,3 +81,7 @@ def main():
             scripting.write_poses(poses, path, form, Time=scripting.field(poses, "SecondsTotal"))
     if options.picture:
         picture.save(options.picture, scene, poses, *(meshes or parts))
+    if options.report:
+        told = Told.of_command(options, poses, parts, (scene, boundary, image))
+        shown = [Part(name, scripting.shape_of(part)) for name, part in zip(told.names, meshes or parts)]
+        page.write(options.report, page.html(inputs.scan_of(scene, image=image, image_camera=options.image_camera), poses, shown, told))

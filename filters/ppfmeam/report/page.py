@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One file that shows in any browser, without a network, what was found: the scan and the parts in 3D, the image with their
+outlines, and the table of poses."""
+import datetime
+import json
+import os
+import re
+from html import escape
+
+from vtkmodules.vtkCommonCore import vtkVersion
+
+from .. import scripting
+from ..version import VERSION
+from . import content, markup
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+THREE = "/usr/share/javascript/three"  # of Debian's package libjs-three; its licence stands in page.html
+LIBRARIES = ("three.min.js", "examples/js/controls/OrbitControls.js")
+
+
+def require_three():
+    """Raises a Failure when pages cannot be made here."""
+    if not all(os.path.exists(os.path.join(THREE, name)) for name in LIBRARIES):
+        raise scripting.Failure("a page in 3D needs three.js: install the Debian package libjs-three")
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def html(scan, poses, parts, told):
+    """The page of a scan, as the C++ library has it, poses, VTK's data object, and the parts (content.Part) that they are of."""
+    require_three()
+    seen = content.Seen(scan)
+    rows = content.pose_rows(seen, parts, poses, told.reasons)
+    data = {"scan": seen.content(), "parts": [part.content() for part in parts], "poses": rows, "why": told.why, "likely": markup.LIKELY}
+    libraries = "\n".join(text_of(os.path.join(THREE, name)) for name in LIBRARIES)
+    slots = {"TITLE": escape(told.title), "SUMMARY": escape(summary(rows)), "PICTURE": markup.picture(seen.picture_content(), rows),
+             "CAPTION": CAPTIONS[seen.what], "TABLE": markup.table(rows, [part.name for part in parts]), "RUN": run(told, seen),
+             "DATA": json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
+             "THREE": libraries, "SCRIPT": text_of(os.path.join(HERE, "page.js"))}
+    return re.sub("@([A-Z]+)@", lambda found: slots[found[1]], text_of(os.path.join(HERE, "page.html")))
+
+
+def write(path, text):
+    """Writes a page, whole or not at all."""
+    with scripting.written(path) as file:
+        file.write(text)
+
+
+CAPTIONS = {"image": "The image and the outlines of the parts.",
+            "surface": "The scan as its sensor sees it, lit from there, and the outlines of the parts: it has no image.",
+            "map": "The scan from above, the higher the brighter, and the outlines of the parts: its points are not organized."}
+
+
+def summary(rows):
+    """What was found, in a sentence or two."""
+    if not rows:
+        return "No part was found."
+    likely = [row for row in rows if row["place"] >= markup.LIKELY]
+    words = f"{len(likely)} of {len(rows)} poses {'is' if len(likely) == 1 else 'are'} more likely right than not"
+    unsure = [str(row["rank"]) for row in likely if row["certainty"] < markup.LIKELY]
+    if unsure:
+        words += f"; how the part is turned is unsure at rank {', '.join(unsure)}"
+    return words + "."
+
+
+def run(told, seen):
+    """How it was found: the scan, times, settings, versions and the command."""
+    facts = "".join(f"<li>{escape(fact)}</li>" for fact in [*told.facts, f"{len(seen.points)} of {seen.total} measured points are shown"])
+    longest = max(told.seconds.values(), default=0) or 1
+    times = "".join(f'<tr><td class="text">{escape(stage)}</td><td>{seconds:.3f} s</td>'
+                    f'<td><i style="width:{140 * seconds / longest:.0f}px"></i></td></tr>' for stage, seconds in told.seconds.items())
+    settings = "".join(f'<tr><td class="text">{escape(name)}</td><td class="text">{escape(str(value))}</td></tr>'
+                       for name, value in told.settings.items())
+    versions = f"ppfmeam {VERSION}, VTK {vtkVersion.GetVTKVersion()}, made {datetime.datetime.now():%Y-%m-%d %H:%M}"
+    return (f"<div><h3>Scan</h3><ul>{facts}</ul></div><div><h3>Time</h3><table class=\"times\">{times}</table></div>"
+            f"<div><h3>Settings that differ from the defaults</h3><table>{settings or '<tr><td class=text>none</td></tr>'}</table></div>"
+            f"<div><h3>Find it again</h3><pre>{escape(told.command)}</pre><p class=\"quiet\">{escape(versions)}</p></div>")

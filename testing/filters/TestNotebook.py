@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""examples/detect.ipynb: no output is stored, and its cells run one after the other and show what they say."""
+import ast
+import json
+import os
+import tempfile
+import webbrowser
+
+from meamtest import check, skip
+from ppfmeam.report import page
+
+try:
+    page.require_three()
+except page.scripting.Failure as failure:
+    skip(str(failure))
+
+os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples"))
+with open("detect.ipynb", encoding="utf-8") as file:
+    cells = [cell for cell in json.load(file)["cells"] if cell["cell_type"] == "code"]
+check(all(not cell["outputs"] and cell["execution_count"] is None for cell in cells), "no output is stored")
+opened = []
+webbrowser.open = opened.append
+shown, names = [], {}
+with tempfile.TemporaryDirectory() as tempfile.tempdir:
+    for cell in cells:
+        body = ast.parse("".join(cell["source"])).body
+        last = body.pop() if isinstance(body[-1], ast.Expr) else None
+        exec(compile(ast.Module(body, []), "detect.ipynb", "exec"), names)
+        value = eval(compile(ast.Expression(last.value), "detect.ipynb", "eval"), names) if last else None
+        shown.append(value._repr_html_() if hasattr(value, "_repr_html_") else repr(value))
+    check(shown[0].startswith("<ppfmeam.Model of handle.stl, "), shown[0])
+    count = len(names["found"])
+    check(count > 5 and shown[2].count("<path data-rank") == shown[2].count("<tr data-rank") == count, f"{count} outlines and rows")
+    check(len(opened) == 1 and os.path.getsize(opened[0][len("file://"):]) > 1e6, f"a page is opened: {opened}")
+check(shown[4].startswith("array([["), shown[4])
+check(names["why"].lost_in == "" and "For it, " in names["why"].reasons, names["why"].reasons)

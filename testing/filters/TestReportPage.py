@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page of what was found, `ppfmeam detect --report` and Detections.save(): one file, its numbers are those of the poses and of the
+scan; how results show themselves in a notebook."""
+import base64
+import html
+import json
+import os
+import re
+import warnings
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import ppfmeam
+from ppfmeam.report import content, notebook, page, projection
+from meamtest import box, check, skip
+from scripttest import H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
+
+try:
+    page.require_three()
+except ppfmeam.Error as error:
+    check("libjs-three" in str(error), f"the message names the package: {error}")
+    skip(str(error))
+
+MOST_BYTES = 10e6  # of a scan of 1.3 megapixels
+RED, GREEN = "#dc1e1e", "#28aa32"
+
+
+def data_of(text):
+    return json.loads(re.search('<script type="application/json" id="data">(.*?)</script>', text, re.S)[1])
+
+
+def points_of(cloud):
+    shares = numpy.frombuffer(base64.b64decode(cloud["positions"]), "<u2").reshape(-1, 3)
+    return numpy.array(cloud["low"]) + shares * numpy.array(cloud["step"])
+
+
+def outline_of(pose):
+    return numpy.array(re.findall(r"[-\d.]+", pose["outline"]), float).reshape(-1, 2)
+
+
+def is_alone(text):
+    """Whether a page asks for nothing of others."""
+    return not re.search(r'<link|<script[^>]* src=|@import|(src|href)="(?!data:)', text[:text.index("<!-- three.js")])
+
+
+scan, truth, mesh = scan_of_bin()
+points, grey = vtk_to_numpy(scan.GetPoints().GetData()), vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
+write_stl("plate.stl", mesh)
+write_stl("box.stl", box(30, 20, 10))
+write_pcd("scan.pcd", numpy.column_stack((points, grey)), W, H, "x y z intensity")
+
+# The command.
+works("detect.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--poses", "0", "--report", "found.html", "--matrices", "found.txt")
+text = read("found.html")
+data = data_of(text)
+poses = numpy.loadtxt("found.txt").reshape(-1, 16)
+check(len(poses) >= 2 and is_alone(text), f"{len(poses)} poses, and nothing from elsewhere")
+check(len(text) < MOST_BYTES / 2, f"{len(text)} bytes of a third of a megapixel")
+check(numpy.allclose([pose["transform"] for pose in data["poses"]], poses, atol=1e-4), "the poses of the file")
+check([pose["color"] for pose in data["poses"][:2]] == [RED, GREEN], "the colors of the ranks")
+shown, measured = points_of(data["scan"]), points[numpy.isfinite(points).all(axis=1)]
+distances = numpy.abs(shown[::5000, None] - measured[None]).max(axis=2).min(axis=1)
+check(len(shown) > 100000 and distances.max() < 0.05, f"{len(shown)} points of the scan, {distances.max()} mm off")
+check(numpy.allclose(data["parts"][0]["size"], 2 * numpy.abs(points_of(data["parts"][0])).max(axis=0), rtol=1), "the part")
+check(len(re.findall('<tr data-rank', text)) == len(re.findall('<path data-rank', text)) == len(poses), "a row and an outline for each")
+for word in ("plate.stl in scan.pcd", "ppfmeam detect --cad plate.stl", "detection", "poses</td>"):
+    check(word in text, f"the page has {word}")
+check(data["why"] == "ppfmeam why plate.stl scan.pcd --at {x} {y} {z}", data["why"])
+check(all("For it, in" in pose["why"] and "\nAgainst it: " in pose["why"] for pose in data["poses"]), data["poses"][0]["why"])
+
+# An outline is where the part is: around the pixels of its surface's points, no farther than they.
+rows, columns = numpy.nonzero(numpy.isfinite(points.reshape(H, W, 3)).all(axis=2))
+fitted = projection.Fitted(points.reshape(H, W, 3))
+pixels, _ = fitted(points.reshape(H, W, 3)[rows, columns].astype(float))
+check(numpy.abs(pixels - numpy.stack((columns, rows), axis=1)).max() < 0.1, "the camera of the scan")
+part, best = content.Part("plate", mesh), data["poses"][0]
+corners, _ = part.copy(numpy.array(best["transform"]).reshape(4, 4))
+pixels, drawn = fitted(corners)[0], outline_of(best)
+check(numpy.abs(pixels.min(axis=0) - drawn.min(axis=0)).max() < 3 and numpy.abs(pixels.max(axis=0) - drawn.max(axis=0)).max() < 3,
+      f"the outline ends where the part does: {pixels.min(axis=0)}, {drawn.min(axis=0)}, {pixels.max(axis=0)}, {drawn.max(axis=0)}")
+
+# Two types of part; a trained model without its mesh; a scan without an image; points alone.
+works("train.py", "--cad", "plate.stl", "--out", "plate.meam")
+works("detect.py", "--model", "plate.meam", "--scene", "scan.pcd", "--report", "model.html")
+model_data = data_of(read("model.html"))
+check("triangles" not in model_data["parts"][0] and all(pose["outline"] for pose in model_data["poses"]), "points of a model, outlined")
+write_pcd("bare.pcd", points, W, H, "x y z")
+check(script("detect.py", "--cad", "plate.stl", "--cad", "box.stl", "--scene", "bare.pcd", "--report", "two.html").returncode == 0, "two")
+text = read("two.html")
+check([part["name"] for part in data_of(text)["parts"]] == ["plate.stl", "box.stl"] and '<th class="text">part</th>' in text, "two parts")
+check("it has no image" in text, "the surface in place of an image")
+few = measured[::3]
+write_pcd("few.pcd", few, len(few), 1, "x y z")
+works("detect.py", "--cad", "plate.stl", "--scene", "few.pcd", "--report", "few.html")
+refuses("no such folder", "detect.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--report", "nowhere/found.html")
+
+# In Python and in a notebook.
+model = ppfmeam.train("plate.stl")
+check(re.fullmatch(r"<ppfmeam.Model of plate.stl, [\d.]+ mm; symmetry: .*; [1-9]\d* views, [1-9]\d* pairs>", repr(model)), repr(model))
+found = ppfmeam.detect(model, "scan.pcd", poses=2)
+cell = found._repr_html_()
+check(cell.count("<path data-rank") == cell.count("<tr data-rank") == len(found) and len(cell) < 4e5, f"a cell of {len(cell)} bytes")
+found.save("python.html")
+data = data_of(read("python.html"))
+check(numpy.allclose([pose["transform"] for pose in data["poses"]], found.poses.reshape(-1, 16)), "the poses")
+check(data["why"] == "print(ppfmeam.why('plate.stl', 'scan.pcd', at=({x}, {y}, {z})))", data["why"])
+check("ppfmeam.detect(&#x27;plate.stl&#x27;, &#x27;scan.pcd&#x27;, poses=2)" in read("python.html"), "the call")
+check(data_of(html.unescape(notebook.Frame(read("python.html"))._repr_html_())) == data, "a frame holds the page")
+with warnings.catch_warnings(record=True):
+    nothing = ppfmeam.detect(ppfmeam.train("box.stl"), "scan.pcd", probability=1.0)
+nothing.save("nothing.html")
+check("no part found" in nothing._repr_html_() and "No part was found." in read("nothing.html"), "nothing found")
+
+# Large data become small.
+large = numpy.zeros((1000, 1300, 3), numpy.float32)
+large[..., 0], large[..., 1] = numpy.meshgrid(numpy.arange(1300) * 0.2, numpy.arange(1000) * 0.2)
+large[..., 2] = 600 + numpy.random.default_rng(1).normal(0, 1, (1000, 1300))
+seen = ppfmeam._core.Scan(large)
+seen.image = numpy.random.default_rng(2).integers(0, 255, (1000, 1300, 3), numpy.uint8)  # the hardest to compress
+text = page.html(seen, found.data, notebook.parts_of(found), notebook.Told.of_python(found))
+check(len(text) < MOST_BYTES, f"{len(text)} bytes of 1.3 megapixels")
+
+# Without three.js a sentence names its package.
+page.THREE = "/nowhere"
+try:
+    found.save("none.html")
+    check(False, "no page without three.js")
+except ppfmeam.Error as error:
+    check("install the Debian package libjs-three" in str(error) and not os.path.exists("none.html"), str(error))
