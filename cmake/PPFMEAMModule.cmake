@@ -82,7 +82,7 @@ install(TARGETS ppfmeamBindings LIBRARY DESTINATION "${PPFMEAM_PYTHON_DIR}/ppfme
 set(package_files __init__.py __main__.py api.py bop.py cell.py cellpicture.py choices.json choices.py dataset.py evaluation.py
   filters.py finding.py inputs.py instances.py lines.py picking.py picture.py regions.py scripting.py simulation.py)
 set(command_files __init__.py batch.py calibrate.py cell.py detect.py evaluate.py hand_eye.py pick.py simulate.py train.py why.py)
-set(batch_files __init__.py __main__.py apart.py journal.py parts.py progress.py ranks.py run.py scans.py table.py
+set(batch_files __init__.py __main__.py apart.py journal.py pages.py parts.py progress.py ranks.py run.py scans.py table.py
   watch.py)
 set(report_files __init__.py content.py markup.py notebook.py outlines.py page.html page.js page.py projection.py told.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")

@@ -40,8 +40,9 @@ plate=/usr/share/doc/python3-ppfmeam/examples/parts/hole_plate.stl
 ppfmeam simulate --cad "$plate" --copies 4 --seed 5 --out bins
 ppfmeam train --cad "$plate" --out plate.meam
 ppfmeam detect --model plate.meam --depth bins/test/000000/depth/000000.png --camera bins/camera.json \
-  --image bins/test/000000/gray/000000.png --poses 2 --matrices found.txt
+  --image bins/test/000000/gray/000000.png --poses 2 --matrices found.txt --report found.html
 [ "$(wc -w <found.txt)" = 32 ] || failed "detect finds less than two poses"
+grep -q THREE.OrbitControls found.html || failed "the page has no 3D"
 ppfmeam evaluate bop bins --poses 2 --out results.csv | grep -q strict || failed "evaluate"
 
 echo "== the plugin in ParaView's list"

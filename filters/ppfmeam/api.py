@@ -49,8 +49,8 @@ class Model:
         data = self.data
         views = sum(data.GetMetaData(k).Get(data.NAME()).startswith("View") for k in range(data.GetNumberOfPartitionedDataSets()))
         pairs = sum(scripting.field(data, name) for name in ("NumberOfPairs", "NumberOfSurfacePairs"))
-        return (f"<ppfmeam.Model of {self.name}, {self.diameter:.1f} mm; symmetry: {'; '.join(scripting.symmetry_words(data))}; "
-                f"{views} views, {pairs:.0f} pairs>")
+        return (f"<ppfmeam.Model of {self.name}, {self.diameter:.1f} mm, {views} views, {pairs:.0f} pairs. "
+                f"{scripting.symmetry_conclusion(data)}>")
 
     @property
     def name(self):

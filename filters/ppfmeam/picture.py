@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A picture of a scan with the part at every pose, in the colours of the ranks; and pictures of single steps."""
+import atexit
 import os
+import shutil
+import subprocess
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -26,9 +29,22 @@ BACKGROUND = (0.11, 0.12, 0.14)
 
 
 def require_display():
-    """Raises a Failure when pictures cannot be made here."""
-    if not os.environ.get("DISPLAY"):
-        raise Failure("a picture needs a display: use examples/run.sh, which starts a virtual one, or xvfb-run -a")
+    """Starts a virtual display, for this process alone, where there is none; raises a Failure when that cannot be done."""
+    if os.environ.get("DISPLAY"):
+        return
+    program = shutil.which("Xvfb")
+    if not program:
+        raise Failure("a picture needs a display: install the Debian package xvfb, which has a virtual one")
+    told, tells = os.pipe()
+    server = subprocess.Popen([program, "-displayfd", str(tells), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"], pass_fds=[tells],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)  # not to get Ctrl-C
+    os.close(tells)
+    atexit.register(server.terminate)
+    with os.fdopen(told) as file:
+        number = file.readline().strip()
+    if not number:
+        raise Failure("a picture needs a display, and Xvfb gives none: start the command with xvfb-run -a")
+    os.environ["DISPLAY"] = ":" + number
 
 
 def save(path, scene, poses, *parts, looks=None):

@@ -26,6 +26,7 @@ from . import Error as Failure
 from . import choices, filters
 
 EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj")
+AS_GOOD = 0.02  # share of the surface that near-symmetries may differ by and count as equally near
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total")
 
@@ -269,6 +270,21 @@ def read_json(path):
             return json.load(file)
     except ValueError as error:
         raise Failure(f"{path} is not JSON: {error}") from None
+
+
+def write_json(path, value):
+    """Writes a value with NumPy's arrays and numbers; what is not a number becomes null."""
+    def plain(value):
+        if isinstance(value, dict):
+            return {name: plain(each) for name, each in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [plain(each) for each in value]
+        if isinstance(value, (numpy.ndarray, numpy.generic)):
+            return plain(value.tolist())
+        return None if isinstance(value, float) and not math.isfinite(value) else value
+    with written(path) as file:
+        json.dump(plain(value), file, indent=1)
+        file.write("\n")
 
 
 def read_with(reader, path):
@@ -527,23 +543,48 @@ def shape_of(part):
     return part.GetPartition(names.index("Surface"), 0)
 
 
+def angle_of(transform):
+    """Degrees of a rotation, 16 components."""
+    return math.degrees(math.acos(max(-1.0, min(1.0, (transform[0] + transform[5] + transform[10] - 1) / 2))))
+
+
+def near_symmetries(samples):
+    """Of each near-symmetry, best first, its angle in degrees, the share of the surface that fits, and how far the rest is off."""
+    most = 0.0799 * field(samples, "Diameter")  # farther is not measured
+    rows = zip(*(tuples(samples, name) for name in ("NearSymmetries", "NearSymmetryOverlap", "NearSymmetryDeviation")))
+    return [(angle_of(row), overlap, f"{'more than' if deviation > most else 'up to'} {deviation:.2f} mm off")
+            for row, (overlap,), (deviation,) in rows]
+
+
 def symmetry_words(samples):
     """The symmetries that vtkMEAMSymmetryDetection found, as lines of text."""
-    def turn(transform):
-        cosine = (transform[0] + transform[5] + transform[10] - 1) / 2
-        return f"{math.degrees(math.acos(max(-1.0, min(1.0, cosine)))):.0f}"
-
     axes = tuples(samples, "SymmetriesContinuous")
     lines = ["any turn about any axis"] if len(axes) > 1 else [
         "any turn about the axis ({:.3f}, {:.3f}, {:.3f})".format(*axis) for axis in axes]
-    turns = [turn(row) for row in tuples(samples, "SymmetriesDiscrete")]
+    turns = [f"{angle_of(row):.0f}" for row in tuples(samples, "SymmetriesDiscrete")]
     if turns:
         lines.append(f"{len(turns)} exact turn{'s' * (len(turns) > 1)}: {', '.join(turns)} degrees")
-    near = zip(*(tuples(samples, name) for name in ("NearSymmetries", "NearSymmetryOverlap", "NearSymmetryDeviation")))
-    most = 0.0799 * field(samples, "Diameter")  # farther is not measured
-    lines += [f"nearly {turn(row)} degrees: {100 * overlap:.1f} % of the surface, the rest "
-              f"{'more than' if deviation > most else 'up to'} {deviation:.2f} mm off" for row, (overlap,), (deviation,) in near]
+    lines += [f"nearly {angle:.0f} degrees: {100 * overlap:.1f} % of the surface, the rest {off}"
+              for angle, overlap, off in near_symmetries(samples)]
     return lines or ["none"]
+
+
+def symmetry_conclusion(samples):
+    """What the symmetries mean for the poses that will be found, in a sentence or two."""
+    axes, exact, near = tuples(samples, "SymmetriesContinuous"), tuples(samples, "SymmetriesDiscrete"), near_symmetries(samples)
+    if len(axes) > 1:
+        return "A ball: any rotation is as good as another."
+    said = ["Round: any rotation about its axis is as good as another."] if axes else [
+        f"The same after {len(exact)} rotation{'s' * (len(exact) > 1)}: one of these poses stands for all."] if exact else []
+    if near:
+        _, overlap, off = near[0]
+        alike = [round(angle) for angle, share, _ in near if share > overlap - AS_GOOD]
+        step = min(alike)
+        regular = 360 % step == 0 and all(angle % step == 0 for angle in alike)
+        often = "after half a turn" if step == 180 else f"every {step} degrees"
+        said.append(f"{f'Nearly the same {often}' if regular else 'Nearly round'}: its rotation is told by {100 * (1 - overlap):.0f} % "
+                    f"of its surface, {off}; where that is hidden it is unsure.")
+    return " ".join(said) or "No rotation looks like another."
 
 
 def print_poses(poses):

@@ -62,7 +62,7 @@ check([pose["color"] for pose in data["poses"][:2]] == [RED, GREEN], "the colors
 shown, measured = points_of(data["scan"]), points[numpy.isfinite(points).all(axis=1)]
 distances = numpy.abs(shown[::5000, None] - measured[None]).max(axis=2).min(axis=1)
 check(len(shown) > 100000 and distances.max() < 0.05, f"{len(shown)} points of the scan, {distances.max()} mm off")
-check(numpy.allclose(data["parts"][0]["size"], 2 * numpy.abs(points_of(data["parts"][0])).max(axis=0), rtol=1), "the part")
+check(numpy.allclose(data["parts"][0]["size"], numpy.ptp(points_of(data["parts"][0]), axis=0), atol=0.01), "the part")
 check(len(re.findall('<tr data-rank', text)) == len(re.findall('<path data-rank', text)) == len(poses), "a row and an outline for each")
 for word in ("plate.stl in scan.pcd", "ppfmeam detect --cad plate.stl", "detection", "poses</td>"):
     check(word in text, f"the page has {word}")
@@ -80,10 +80,27 @@ pixels, drawn = fitted(corners)[0], outline_of(best)
 check(numpy.abs(pixels.min(axis=0) - drawn.min(axis=0)).max() < 3 and numpy.abs(pixels.max(axis=0) - drawn.max(axis=0)).max() < 3,
       f"the outline ends where the part does: {pixels.min(axis=0)}, {drawn.min(axis=0)}, {pixels.max(axis=0)}, {drawn.max(axis=0)}")
 
+# The camera of an image beside the sensor, with a lens: as the calibration has it.
+x, y, z = points_of(data["scan"])[::5000].T
+lens = {"fx": 800, "fy": 790, "cx": 300, "cy": 250, "width": 640, "height": 480, "coeffs": [-0.3, 0.1, 0.001, -0.002, 0.02]}
+with open("lens.json", "w", encoding="utf-8") as file:
+    json.dump(lens, file)
+seen = ppfmeam._core.Scan(points.reshape(H, W, 3))
+seen.image, seen.image_camera = numpy.zeros((480, 640), numpy.uint8), ppfmeam._core.load_camera("lens.json")
+pixels, depth = content.Seen(seen).projection(numpy.stack((x, y, z), axis=1))
+x, y, (k1, k2, p1, p2, k3) = x / z, y / z, lens["coeffs"]
+r = x * x + y * y
+radial = 1 + k1 * r + k2 * r ** 2 + k3 * r ** 3
+wanted = numpy.stack((800 * (x * radial + 2 * p1 * x * y + p2 * (r + 2 * x * x)) + 300,
+                      790 * (y * radial + p1 * (r + 2 * y * y) + 2 * p2 * x * y) + 250), axis=1)
+check(numpy.allclose(pixels, wanted, atol=1e-6) and numpy.allclose(depth, z), f"{numpy.abs(pixels - wanted).max()} pixels off")
+
 # Two types of part; a trained model without its mesh; a scan without an image; points alone.
 works("train.py", "--cad", "plate.stl", "--out", "plate.meam")
-works("detect.py", "--model", "plate.meam", "--scene", "scan.pcd", "--report", "model.html")
+region = ("--roi", "-1000", "1000", "-1000", "1000", "0", "3000")
+works("detect.py", "--model", "plate.meam", "--scene", "scan.pcd", *region, "--report", "model.html")
 model_data = data_of(read("model.html"))
+check(model_data["why"] == f"ppfmeam why plate.meam scan.pcd {' '.join(region)} --at {{x}} {{y}} {{z}}", model_data["why"])
 check("triangles" not in model_data["parts"][0] and all(pose["outline"] for pose in model_data["poses"]), "points of a model, outlined")
 write_pcd("bare.pcd", points, W, H, "x y z")
 check(script("detect.py", "--cad", "plate.stl", "--cad", "box.stl", "--scene", "bare.pcd", "--report", "two.html").returncode == 0, "two")
@@ -95,9 +112,32 @@ write_pcd("few.pcd", few, len(few), 1, "x y z")
 works("detect.py", "--cad", "plate.stl", "--scene", "few.pcd", "--report", "few.html")
 refuses("no such folder", "detect.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--report", "nowhere/found.html")
 
+# Why: the part's points by what the scan shows there; a place without a part.
+works("why.py", "plate.meam", "scan.pcd", "--pose", "found.txt:1", "--poses", "0", "--report", "why.html")
+data = data_of(read("why.html"))
+states = numpy.frombuffer(base64.b64decode(data["marks"]["states"]), numpy.uint8)
+check(data["marks"]["names"][0] == "matched" and data["marks"]["colors"][0] == GREEN and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
+      len(points_of(data["marks"])) == len(states) > 50, f"the points and their states: {data['marks']['names']}")
+check("Found as rank 1" in read("why.html") and "Numbers of the steps" in read("why.html"), "the answer and the numbers")
+works("why.py", "plate.meam", "scan.pcd", "--at", "0", "0", "5", "--report", "nowhere.html")
+check(data_of(read("nowhere.html"))["poses"] == [] and "No part there" in read("nowhere.html"), "no part at the place")
+
+# A page for each scan of a batch, and their list.
+os.mkdir("scans")
+os.link("scan.pcd", "scans/a b.pcd")
+with open("scans/bad.pcd", "w", encoding="utf-8") as file:
+    file.write("no cloud")
+works("batch.py", "scans", "--cad", "plate.stl", "--poses", "0", "--out", "all.csv", "--report", "pages")
+check(sorted(os.listdir("pages")) == ["a b.pcd.html", "index.html"], f"{os.listdir('pages')}")
+data = data_of(read("pages/a b.pcd.html"))
+check(numpy.allclose([pose["transform"] for pose in data["poses"]], poses, atol=1e-4), "the same poses")
+text = read("pages/index.html")
+check('<a href="a%20b.pcd.html">a b.pcd</a>' in text and "<tr class=failed><td>bad.pcd</td>" in text, text)
+
 # In Python and in a notebook.
 model = ppfmeam.train("plate.stl")
-check(re.fullmatch(r"<ppfmeam.Model of plate.stl, [\d.]+ mm; symmetry: .*; [1-9]\d* views, [1-9]\d* pairs>", repr(model)), repr(model))
+check(re.fullmatch(r"<ppfmeam.Model of plate.stl, [\d.]+ mm, [1-9]\d* views, [1-9]\d* pairs. Nearly the same after half a turn: .*>", repr(model)),
+      repr(model))
 found = ppfmeam.detect(model, "scan.pcd", poses=2)
 cell = found._repr_html_()
 check(cell.count("<path data-rank") == cell.count("<tr data-rank") == len(found) and len(cell) < 4e5, f"a cell of {len(cell)} bytes")

@@ -11,7 +11,7 @@ from vtkmodules.vtkIOImage import vtkBMPWriter, vtkPNGWriter, vtkTIFFWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 
 from meamtest import check, connect, pose_error, tuples
-from scripttest import H, W, scan_of_bin, script, works
+from scripttest import H, W, read, scan_of_bin, script, works
 
 def refuses(word, name, *arguments, status=1):
     result = script(name, *arguments)
@@ -143,7 +143,9 @@ os.makedirs("set/models")
 for number in (3, 8):
     os.link("part.ply", f"set/models/obj_{number:06d}.ply")
 write_json("set/models/models_info.json", {"3": {"diameter": 1}})
-text = works("evaluate.py", "bop", "set", "--objects", "3", "--poses", "2", "--out", "results.csv")
+text = works("evaluate.py", "bop", "set", "--objects", "3", "--poses", "2", "--out", "results.csv", "--json", "rates.json")
+rates = json.loads(read("rates.json"))
+check(rates["failed"] == 0 and [row["part"] for row in rates["objects"]] == [3] and 0 <= rates["objects"][0]["strict"] <= 100, f"{rates}")
 table = [line.split() for line in text.splitlines()]
 check(table[0][0] == "obj." and table[1][:3] == ["3", "1", "2"], f"an object in one image: {text}")
 check(float(table[1][4]) == 100 and float(table[1][5]) == 100, f"strict and top1: {text}")

@@ -13,6 +13,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
 import ppfmeam
+from ppfmeam import picture
 from ppfmeam.filters import vtkMEAMBinSceneSource
 from meamtest import box, bracket, check, connect, run, scaled, tuples
 from scripttest import EVALUATION, EXAMPLES, H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
@@ -61,7 +62,9 @@ true = numpy.array(tuples(truth, "Transform")).reshape(-1, 4, 4)
 for found in transforms:
     check(min(numpy.abs(found - t).max() for t in true) < 1, f"not a true pose: {found}")
 # pick.py: a sentence, and each possible pick with its matrix.
-text = works("pick.py", "part.stl", "scan.pcd", "--cup", "8")
+text = works("pick.py", "part.stl", "scan.pcd", "--cup", "8", "--json", "picks.json")
+picks = json.loads(read("picks.json"))
+check(text.startswith(picks["report"]) and sum(pick["possible"] for pick in picks["picks"]) == text.count("clearance"), text)
 told = re.match(r"(\d+) of (\d+) copies can be picked, by (\d+) of \d+ picks", text)
 check(told and 0 < int(told[1]) <= int(told[2]) and (int(told[1]) < int(told[2])) == ("Copies " in text), text)
 check(len(re.findall(r"^part \d+ by suction \d+, clearance \d+\.\d mm\n\[\[", text, re.MULTILINE)) == int(told[3]), text)
@@ -70,9 +73,12 @@ check(without and int(without[1]) >= int(told[1]), "no fewer copies can be picke
 refuses("no such file", "pick.py", "part.stl", "missing.pcd")
 refuses("opening", "pick.py", "part.stl", "scan.pcd", "--opening", "-5")
 # The trained model, and the image as a file, give the same poses.
-text = works("train.py", "--cad", "part.stl", "--out", "model.vtpc")
+text = works("train.py", "--cad", "part.stl", "--out", "model.vtpc", "--json", "train.json")
 check("model.vtpc" in text and os.path.isdir("model"), "the model is written")
 check(re.search(r"pairs in \d+\.\d MB, .* trained in \d", text) and "\nsymmetry: " in text, f"train.py says {text}")
+trained = json.loads(read("train.json"))
+check(text.endswith(f"\n{trained['conclusion']}\n") and trained["conclusion"].startswith("Nearly the same after half a turn: ") and
+      0 < trained["pairs"] < 1e7, f"a conclusion ends it: {text}")
 works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "2", "--matrices", "c.txt")
 check(read("c.txt") == read("a.txt"), "with the trained model the poses differ")
 works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "0", "--json", "all.json")
@@ -185,10 +191,17 @@ refuses("not a PNG", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd
 refuses("not organized", "detect.py", "--model", "model.vtpc", "--scene", "points.ply", *out)
 refuses("junk.vtpc", "detect.py", "--model", "junk.vtpc", "--scene", "scan.pcd", *out)
 refuses("cannot write", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--out", "no/such/folder.csv")
-refuses("display", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--picture", "o.png", *out)
+path, os.environ["PATH"], display = os.environ["PATH"], "", os.environ.pop("DISPLAY", None)
+try:
+    picture.require_display()
+    check(False, "no picture without a display and without xvfb")
+except ppfmeam.Error as error:
+    check("install the Debian package xvfb" in str(error), str(error))
+os.environ["PATH"] = path
+if display:
+    os.environ["DISPLAY"] = display
 refuses("no faces", "train.py", "--cad", "points.ply", "--out", "o.vtpc")
 refuses(".vtpc", "train.py", "--cad", "bracket.stl", "--out", "o.model")
 refuses("cannot write", "train.py", "--cad", "part.stl", "--out", "o.vtpc", "--models-info", "no/such/folder.json")
-refuses("display", "simulated_bin.py", "--picture", "o.png")
 os.remove("model/model_0_0.vtp")
 refuses("model", "detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", *out)

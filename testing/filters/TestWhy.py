@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`ppfmeam why` and ppfmeam.why(): of a true pose, of all, of a picked point; bad input."""
+import json
+
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import ppfmeam
 from meamtest import check, tuples
-from scripttest import H, W, refuses, scan_of_bin, works, write_pcd, write_stl
+from scripttest import H, W, read, refuses, scan_of_bin, works, write_pcd, write_stl
 
 scan, truth, mesh = scan_of_bin()
 write_stl("part.stl", mesh)
@@ -21,8 +23,13 @@ stages = [line[6:32].strip() for line in lines[:-1]]
 found = stages.count("found")
 check(found >= 2 and lines[-1].startswith(f"{found} of"), f"{lines}")
 row = stages.index("found")
-report = works("why.py", "part.meam", "scan.pcd", "--pose", f"truth.txt:{row + 1}", "--poses", "0").splitlines()
-check(report[-1].startswith("Found as rank ") and any(line.startswith("voting ") for line in report), f"{report}")
+arguments = ("why.py", "part.meam", "scan.pcd", "--pose", f"truth.txt:{row + 1}", "--poses", "0")
+brief, report = works(*arguments, "--json", "why.json"), works(*arguments, "--more").splitlines()
+check(brief.startswith("Found as rank ") and brief.count("\n") == 1 and report[0] + "\n" == brief, f"the answer comes first: {brief}")
+check(report[1].startswith("For it, ") and any(line.startswith("voting ") for line in report), f"{report}")
+written = json.loads(read("why.json"))
+check(f"{written['verdict']} {written['advice']}".strip() + "\n" == brief and len(written["numbers"]) > 10 and written["lost_in"] == "",
+      f"{written}")
 few = works("why.py", "part.meam", "scan.pcd", "--truth", "truth.txt", "--poses", "1")
 check(few.count("only the best 1 are wanted. Raise MaximumNumberOfPoses") >= found - 1, few)
 
@@ -35,7 +42,7 @@ check(diagnosis.reasons.startswith("For it, in the logarithm of the odds: ") and
 check(len(diagnosis.points) == len(diagnosis.states) > 50, "points and states")
 on = diagnosis.points[diagnosis.states.index("matched")]
 report = works("why.py", "part.meam", "scan.pcd", "--at", *map(str, on), "--poses", "0").splitlines()
-check(report[-1].startswith(f"Found as rank {diagnosis.rank},"), f"{report}")
+check(report[0].startswith(f"Found as rank {diagnosis.rank},"), f"{report}")
 nothing = works("why.py", "part.meam", "scan.pcd", "--at", "0", "0", "5")
 check(nothing.startswith("No part there") and nothing.endswith("Take a point of the scan that lies on the part.\n"), nothing)
 for arguments in ({}, {"at": (0, 0, 1), "pose": transforms[0]}, {"at": (1, 2)}, {"pose": numpy.eye(3)}):

@@ -6,12 +6,12 @@ import warnings
 
 from .. import finding, scripting
 from ..version import VERSION
-from . import parts, progress, scans, table
+from . import pages, parts, progress, scans, table
 from .apart import Ended, apart
 from .journal import Journal
 from .ranks import SERVICE_PAUSE, together
 
-ELSEWHERE = ("out", "threads", "watch", "form")  # options that change no pose
+ELSEWHERE = ("out", "threads", "watch", "form", "report")  # options that change no pose
 
 
 class Plan:
@@ -19,6 +19,7 @@ class Plan:
 
     def __init__(self, options, journal):
         scripting.require_folder_of(options.out, table.path_of_scans(options.out))
+        pages.require(options.report)
         self.scans = scans.source(options).list()
         wanted = parts.parts_of(options)
         journal.open({"version": VERSION, "parts": [part.digest() for part in wanted],
@@ -31,6 +32,7 @@ class Plan:
         self.suspects = len(suspects)
         self.objects = [part.number for part in wanted]
         self.models = parts.trained(wanted, journal.folder)
+        self.shapes = [(part.files[0], part.train is not None) for part in wanted]
 
     def names(self):
         return [scan[0] for scan in self.scans]
@@ -46,22 +48,26 @@ class Search:
     def __init__(self, options, plan):
         self.source, self.objects = scans.source(options), plan.objects
         self.finder = finding.Finder([scripting.read_model(path) for path in plan.models], options)
+        self.pages = pages.Pages(options, plan.shapes)
 
     def line(self, scan, rank=0):
         """All that becomes known of a scan; what fails is a reason."""
         start = time.monotonic()
-        rows, read, failure = [], start, ""
+        rows, read, found, failure = [], start, None, ""
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", UserWarning)
             try:
                 data = self.source.read(*scan)
                 read = time.monotonic()
-                rows = table.rows_of(self.finder.find(data.scene, None, data.image, data.image_camera), self.objects)
+                poses = self.finder.find(data.scene, None, data.image, data.image_camera)
+                found = time.monotonic()
+                rows = table.rows_of(poses, self.objects)
+                self.pages.write(scan[0], data, poses)
             except scripting.Failure as error:
                 failure = str(error)
             except Exception as error:  # whatever is wrong with a scan, the others are not to wait for it
                 failure = f"{type(error).__name__}: {error}"
-        return self.told(scan, rank, read - start, time.monotonic() - read, failure, rows, heard)
+        return self.told(scan, rank, read - start, (found or time.monotonic()) - read, failure, rows, heard)
 
     def line_apart(self, scan, rank=0):
         """The same of a scan that may end the process which searches it."""
@@ -112,6 +118,8 @@ def finish(options, plan, journal):
     table.write(options.out, plan.names(), lines)
     journal.remove()
     lines = [lines[name] for name in plan.names()]
+    if options.report:
+        pages.write_index(options.report, lines)
     failed, poses = sum(line["failure"] != "" for line in lines), sum(len(line["rows"]) for line in lines)
     return f"{options.out}: {len(lines)} scans, {failed} failed, {poses} poses"
 

@@ -54,9 +54,13 @@ def options_of_user(arguments=None):
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV",
                         help="table to write; OUT.run beside it keeps what is done")
+    parser.add_argument("--report", metavar="FOLDER",
+                        help="write a page for any browser of each scan to a folder, and index.html, which lists them")
     options = parser.parse_args(arguments)
     if bool(options.watch) == bool(options.scans) or bool(options.watch) == bool(options.out):
         parser.error("give SCANS and --out, or --watch")
+    if options.watch and options.report:
+        parser.error("--report is of SCANS, not of --watch")
     if options.watch and not options.model and not options.cad:
         parser.error("give the part: --cad, or --model of `train`")
     return options

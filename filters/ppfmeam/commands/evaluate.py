@@ -97,8 +97,7 @@ def judge(image, found, runs, benchmark, camera, lost, failed):
 
 def bop(options):
     """Image by image, all objects in each; returns how many of these failed."""
-    if options.out:
-        scripting.require_folder_of(options.out)
+    scripting.require_folder_of(options.out, options.json)
     lost = instances_of(options)
     data = dataset.Dataset(options.folder, options.split)
     objects = options.objects or data.objects()
@@ -134,6 +133,9 @@ def bop(options):
         for row in rows:
             print(f"{row['part']:4d}            " + "  ".join(f"{r:6.1f}" for r in benchmark[row["part"]].recalls().values()))
         print_stages(rows)
+    if options.json:
+        objects = [{**row, **benchmark[row["part"]].recalls()} for row in rows]
+        scripting.write_json(options.json, {"objects": objects, "failed": len(failed)})
     if lost:
         lost.write(options.why)
     return len(failed)
@@ -153,6 +155,7 @@ def main():
     one.add_argument("--scenes", type=evaluation.numbers, help="such as 0-4,7 (default: all)")
     one.add_argument("--poses", type=scripting.count, default=5,
                      help="poses wanted of each object in an image; 0: all (default: %(default)s)")
+    one.add_argument("--json", metavar="FILE", help="write the rates as JSON")
     result = one.add_mutually_exclusive_group(required=True)
     result.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
     result.add_argument("--found", metavar="PATH",

@@ -5,6 +5,7 @@ import argparse
 import numpy
 
 import ppfmeam
+from ppfmeam import scripting
 
 
 def length(words):
@@ -35,7 +36,9 @@ def main():
     parser.add_argument("scan", help="an organized cloud of the bin, from above")
     add_gripper_options(parser)
     parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")
+    parser.add_argument("--json", metavar="FILE", help="write all picks as JSON, with what is against those that are not possible")
     options = parser.parse_args()
+    scripting.require_folder_of(options.json)
     gripper, lengths = gripper_of(options)
     model = ppfmeam.train(options.part)
     grasps = ppfmeam.grasps(options.part, propose="suction" if gripper == "cup" else "parallel", symmetries=model, **lengths)
@@ -45,3 +48,7 @@ def main():
     for k in numpy.flatnonzero(picks.possible):
         print(f"part {picks.instances[k] + 1} by {picks.names[k]}, clearance {picks.clearances[k]:.1f} mm")
         print(picks.transforms[k])
+    if options.json:
+        columns = {name: getattr(picks, name) for name in picks.COLUMNS}
+        rows = [dict(zip(columns, row)) for row in zip(*columns.values())]
+        scripting.write_json(options.json, {"report": picks.report, "advice": picks.advice, "picks": rows})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trains the model of a part from its CAD file, for `detect --model`; says what symmetries the part has."""
+"""Trains the model of a part from its CAD file, for `detect --model`; says what symmetries the part has and what they mean."""
 import argparse
 import json
 import time
@@ -16,21 +16,28 @@ def main():
     parser.add_argument("--out", required=True, help="the trained model to write: NAME.meam, or NAME.vtpc with a folder NAME beside")
     parser.add_argument("--models-info", metavar="FILE",
                         help="write diameter, bounds and symmetries as a BOP models_info.json; the part is object 1")
+    parser.add_argument("--json", metavar="FILE", help="write what is printed as JSON")
     options = parser.parse_args()
 
-    scripting.require_folder_of(options.out, options.models_info)
+    scripting.require_folder_of(options.out, options.models_info, options.json)
     training = scripting.Training(
         scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale), options.preset, options.features)
     start = time.time()
     model = training.model()
     seconds = time.time() - start
     scripting.write_model(model, options.out)
-    print(f"{options.out}: {scripting.field(model, 'NumberOfEdgePoints'):.0f} edge points, "
-          f"{scripting.field(model, 'NumberOfPairs') + scripting.field(model, 'NumberOfSurfacePairs'):.0f} pairs in {scripting.field(model, 'TableBytes') / 1e6:.1f} MB, "
-          f"part of {scripting.field(model, 'Diameter'):.1f} mm, trained in {seconds:.1f} s")
     samples = training.symmetric_samples()
-    for line in scripting.symmetry_words(samples):
+    told = {"model": options.out, "edge_points": scripting.field(model, "NumberOfEdgePoints"),
+            "pairs": scripting.field(model, "NumberOfPairs") + scripting.field(model, "NumberOfSurfacePairs"),
+            "table_bytes": scripting.field(model, "TableBytes"), "diameter": scripting.field(model, "Diameter"), "seconds": seconds,
+            "symmetries": scripting.symmetry_words(samples), "conclusion": scripting.symmetry_conclusion(samples)}
+    print("{model}: {edge_points:.0f} edge points, {pairs:.0f} pairs in {megabytes:.1f} MB, part of {diameter:.1f} mm, trained in "
+          "{seconds:.1f} s".format(megabytes=told["table_bytes"] / 1e6, **told))
+    for line in told["symmetries"]:
         print(f"symmetry: {line}")
+    print(told["conclusion"])
+    if options.json:
+        scripting.write_json(options.json, told)
     if options.models_info:
         entry = json.loads(samples.GetFieldData().GetAbstractArray("ModelsInfo").GetValue(0))
         with scripting.written(options.models_info) as file:

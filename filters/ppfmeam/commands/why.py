@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells why a part of a scan was missed: which step lost it, in words and numbers, and what to change. Of a pose that came out,
-right or wrong: what speaks for it and what against."""
+"""Tells why a part of a scan was missed: which step lost it, and what to change; with --more in numbers, too, and what speaks for a
+pose that came out, right or wrong, and what against."""
 import argparse
 import math
 
@@ -8,6 +8,10 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .. import api, choices, filters, regions, scripting
+from .. import inputs as scans
+from ..report import page
+from ..report.content import Part
+from ..report.told import Told
 
 
 def options_of_user():
@@ -31,7 +35,15 @@ def options_of_user():
     choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "threads")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
-    return parser.parse_args()
+    parser.add_argument("--more", action="store_true",
+                        help="also what speaks for the place and against it, and the numbers of all steps")
+    parser.add_argument("--json", metavar="FILE", help="write all of it as JSON")
+    parser.add_argument("--report", metavar="HTML",
+                        help="write a page for any browser, in one file: the scan in 3D, the part at the place, and what of it is there")
+    options = parser.parse_args()
+    if options.report and options.truth:
+        parser.error("--report is of one place: give --pose, FILE:ROW")
+    return options
 
 
 def transforms_of(path):
@@ -53,33 +65,59 @@ def chosen(text):
     return transforms[int(row) - 1]
 
 
-def print_report(diagnosis):
-    """The numbers step by step, how many points are in which state, the reasons, the verdict and the advice."""
+def print_numbers(diagnosis):
+    """The reasons, the place, and the numbers step by step."""
     def words(number):
         return f"{number:.0f}" if number == int(number) else f"{number:.3f}"
 
-    for step, quantity, value, of in diagnosis.numbers:
-        print(f"{step:26s}{quantity}: {words(value)}" + ("" if math.isnan(of) else f" / {words(of)}"))
+    if diagnosis.reasons:
+        print(diagnosis.reasons)
     if diagnosis.pose is not None:
         print(f"{'place':26s}" + "  ".join(" ".join(f"{x:.4f}" for x in row) for row in diagnosis.pose[:3]))
-    for words in (diagnosis.reasons, diagnosis.verdict, diagnosis.advice):
-        if words:
-            print(words)
+    for step, quantity, value, of in diagnosis.numbers:
+        print(f"{step:26s}{quantity}: {words(value)}" + ("" if math.isnan(of) else f" / {words(of)}"))
+
+
+def content(diagnosis):
+    """All of it, for JSON."""
+    told = {name: getattr(diagnosis, name) for name in ("verdict", "advice", "reasons", "lost_in", "rank", "pose")}
+    return {**told, "numbers": [dict(zip(("step", "quantity", "value", "of"), row)) for row in diagnosis.numbers]}
+
+
+def write_page(options, inputs, diagnosis):
+    if options.part.lower().endswith(api.MODELS):
+        shape = scripting.shape_of(scripting.read_model(options.part))
+    else:
+        shape = scripting.read_mesh(options.part, scale=options.cad_scale)
+    seen = scans.scan_of(options.scan, options.camera, options.scale, options.image, image_camera=options.image_camera)
+    place = numpy.zeros((0, 4, 4)) if diagnosis.pose is None else diagnosis.pose[None]
+    told = Told.of_why(options, inputs, diagnosis)
+    page.write(options.report, page.html(seen, scripting.poses_of(place), [Part(told.names[0], shape)], told))
 
 
 def main():
     options = options_of_user()
+    scripting.require_folder_of(options.json, options.report)
+    if options.report:
+        page.require_three()
     inputs = {name: getattr(options, name) for name in (
         "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "rotation_counts", "references",
         "preset", "features", "image_edges", "threads")}
     inputs["region"] = options.roi
-    if options.at:
-        print_report(api.why(options.part, options.scan, at=options.at, **inputs))
-    elif options.pose:
-        print_report(api.why(options.part, options.scan, pose=chosen(options.pose), fit=True, **inputs))
-    else:
+    if options.truth:
         found = api.why(options.part, options.scan, pose=transforms_of(options.truth), **inputs)
         for row, diagnosis in enumerate(found, 1):
-            print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{diagnosis.verdict} {diagnosis.advice}".rstrip())
-        lost = numpy.array([bool(diagnosis.lost_in) for diagnosis in found])
-        print(f"{(~lost).sum()} of {len(lost)} were found")
+            print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{diagnosis}")
+        print(f"{sum(not diagnosis.lost_in for diagnosis in found)} of {len(found)} were found")
+        told = [content(diagnosis) for diagnosis in found]
+    else:
+        place = {"at": options.at} if options.at else {"pose": chosen(options.pose), "fit": True}
+        diagnosis = api.why(options.part, options.scan, **place, **inputs)
+        print(diagnosis)
+        if options.more:
+            print_numbers(diagnosis)
+        told = content(diagnosis)
+        if options.report:
+            write_page(options, inputs, diagnosis)
+    if options.json:
+        scripting.write_json(options.json, told)

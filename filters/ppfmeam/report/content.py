@@ -18,6 +18,8 @@ MOST_TRIANGLES = 20000  # of a part: 1 MB, and a graphics card of a laptop turns
 MOST_PIXELS = 1600  # along the picture's longer side
 QUALITY = 85  # of its JPEG
 CREASE = 30  # degrees between faces that are shaded as one
+STATES = {"matched": "#28aa32", "turned": "#f5cd1e", "hidden": "#963cbe", "not measured": "#285adc",
+          "violated": "#dc1e1e"}  # as in ParaView
 STRAY = 0.2, 99.8  # percentiles
 FLOOR = 0.1  # share of the depths that the farthest surface has
 FARTHEST = 1.0  # what lies farther outside of the scan's bulk than this share of it is left out: it would make the rest small
@@ -143,7 +145,8 @@ class Seen:
     def content(self):
         grey = self.shades.ndim == 1 or self.shades.shape[1] == 1
         low, high = self.bulk()
-        return {**quantized(self.points), "low_of_bulk": low.tolist(), "high_of_bulk": high.tolist(), "shades": base64_of(self.shades if grey else self.shades[:, :3], "<u1"),
+        return {**quantized(self.points), "low_of_bulk": low.tolist(), "high_of_bulk": high.tolist(),
+                "shades": base64_of(self.shades if grey else self.shades[:, :3], "<u1"),
                 "channels": 1 if grey else 3, "spacing": self.spacing, "looks": self.looks.tolist()}
 
     def picture_content(self, most=MOST_PIXELS):
@@ -182,6 +185,14 @@ def jpeg(pixels, most):
     return base64.b64encode(scripting.bytes_of(writer)).decode()
 
 
+def marks(diagnosis):
+    """The points of the part at the place of a Diagnosis, by what the scan shows there."""
+    names = sorted(set(diagnosis.states), key=list(STATES).index)
+    states = [names.index(state) for state in diagnosis.states]
+    return {**quantized(diagnosis.points), "states": base64_of(states, "<u1"), "names": names,
+            "colors": [STATES[name] for name in names]}
+
+
 def rank_colors(poses):
     """The colour of each pose, #rrggbb, as ParaView has it."""
     if not poses.GetNumberOfPoints():
@@ -216,10 +227,10 @@ def pose_rows(seen, parts, poses, reasons=None):
     """Of each pose its numbers, its colour, its outline, and what speaks for it."""
     columns = {name: scripting.column(poses, array) for name, array in NUMBERS.items()}
     columns = {name: values.ravel().tolist() for name, values in columns.items() if values is not None}
+    shown = zip(scripting.column(poses, "Transform", 16), parts_of(poses), rank_colors(poses), drawn(seen.projection, parts, poses))
     rows = []
-    for k, (transform, part, color, path) in enumerate(zip(scripting.column(poses, "Transform", 16), parts_of(poses), rank_colors(poses),
-                                                           drawn(seen.projection, parts, poses))):
+    for k, (transform, part, color, path) in enumerate(shown):
         rows.append({"rank": k + 1, "part": part, "color": color, "outline": path, "transform": transform.tolist(),
-                     "quaternion": scripting.column(poses, "Quaternion", 4)[k].tolist(), "why": reasons[k] if reasons else "",
+                     "why": reasons[k] if reasons else "",
                      **{name: values[k] for name, values in columns.items()}})
     return rows

@@ -19,10 +19,11 @@ def picture(content, rows):
     """The picture, and over it a path for each pose, the best one on top."""
     width, height = content["width"], content["height"]
     paths = "".join(
-        f'<path data-rank="{row["rank"]}" class="outline{faint(row)}" d="{row["outline"]}" fill="{row["color"]}" stroke="{row["color"]}" '
-        f'fill-opacity=".12" stroke-width="2" vector-effect="non-scaling-stroke"><title>{row["rank"]}: {row["place"]:.0%}</title></path>'
+        f'<path data-rank="{row["rank"]}" class="outline{faint(row)}" d="{row["outline"]}" '
+        f'fill="{row["color"]}" stroke="{row["color"]}" fill-opacity=".12" stroke-width="2" vector-effect="non-scaling-stroke"><title>{row["rank"]}</title></path>'
         for row in reversed(rows) if row["outline"])
-    return (f'<svg class="picture" viewBox="-0.5 -0.5 {width} {height}" role="img" aria-label="the scan with the outlines of the parts">'
+    return (f'<svg class="picture" viewBox="-0.5 -0.5 {width} {height}" role="img" '
+            'aria-label="the scan with the outlines of the parts">'
             f'<image x="-0.5" y="-0.5" width="{width}" height="{height}" preserveAspectRatio="none" '
             f'href="data:image/jpeg;base64,{content["jpeg"]}"/>{paths}</svg>')
 
@@ -35,8 +36,9 @@ def table(rows, names):
     part = '<th class="text">part</th>' if len(names) > 1 else ""
     head = "".join(f'<th title="{escape(meaning)}">{escape(name)}{" (mm)" * (name in "xyz")}</th>' for name, meaning, _ in known)
     body = "".join(
-        f'<tr data-rank="{row["rank"]}" class="pose{faint(row)}" tabindex="0"><td><b class="rank" style="background:{row["color"]};'
-        f'color:{ink(row["color"])}">{row["rank"]}</b></td>' + (f'<td class="text">{escape(names[row["part"]])}</td>' if part else "") +
+        f'<tr data-rank="{row["rank"]}" class="pose{faint(row)}" tabindex="0"><td><b class="rank" '
+        f'style="background:{row["color"]};color:{ink(row["color"])}">{row["rank"]}</b></td>' +
+        (f'<td class="text">{escape(names[row["part"]])}</td>' if part else "") +
         "".join(f"<td>{text(row)}</td>" for _, _, text in known) + "</tr>" for row in rows)
     return f'<table class="poses"><thead><tr><th>rank</th>{part}{head}</tr></thead><tbody>{body}</tbody></table>'
 
@@ -50,7 +52,7 @@ def can(column, row):
 
 
 def faint(row):
-    return " unlikely" if row["place"] < LIKELY else ""
+    return " unlikely" if row.get("place", 1) < LIKELY else ""
 
 
 def ink(color):

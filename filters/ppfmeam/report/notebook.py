@@ -10,8 +10,13 @@ from .told import Told
 
 PIXELS = 800  # along the picture's longer side
 HEIGHT = 1000  # pixels of a page in a notebook
-STYLE = """<style>.ppfmeam svg { display: block; max-width: 640px; background: #1c1f24; } .ppfmeam .outline.unlikely { display: none; }
-.ppfmeam tr.unlikely { opacity: .6; } .ppfmeam th, .ppfmeam td { text-align: right; padding: 2px 8px; } .ppfmeam .rank { padding: 0 7px; border-radius: 9px; }</style>"""
+STYLE = """<style>
+.ppfmeam svg { display: block; max-width: 640px; background: #1c1f24; }
+.ppfmeam .outline.unlikely { display: none; }
+.ppfmeam tr.unlikely { opacity: .6; }
+.ppfmeam th, .ppfmeam td { text-align: right; padding: 2px 8px; }
+.ppfmeam .rank { padding: 0 7px; border-radius: 9px; }
+</style>"""
 
 
 def parts_of(found):

@@ -8,7 +8,9 @@ from vtkmodules.vtkFiltersCore import vtkFlyingEdges2D, vtkStripper
 from .. import scripting
 
 MOST_CELLS = 800  # of the buffer along its longer side: an outline is drawn finer than a screen's pixel
-CLOSED = 3  # cells that the gaps between the points of a part without faces are wide at most
+CLOSED = 4  # cells, half the width of the largest gaps between the points of a part without faces
+AROUND = range(-CLOSED, CLOSED + 1)
+DISK = numpy.array([(x, y) for x in AROUND for y in AROUND if x * x + y * y <= CLOSED * CLOSED])
 
 
 class Buffer:
@@ -28,17 +30,18 @@ class Buffer:
         samples = seen if triangles is None else samples_of(seen[triangles], self.shape)
         samples = samples[numpy.isfinite(samples).all(axis=1)]
         if triangles is None:
-            around = numpy.arange(-CLOSED, CLOSED + 1)
-            disk = [(x, y, 0) for x in around for y in around if x * x + y * y <= CLOSED * CLOSED]
-            samples = (samples[:, None] + numpy.array(disk, float)).reshape(-1, 3)
+            samples = (samples[:, None] + numpy.column_stack((DISK, numpy.zeros(len(DISK))))).reshape(-1, 3)
         columns, rows = numpy.floor(samples[:, :2]).astype(int).T
         inside = (columns >= 0) & (columns < self.shape[1]) & (rows >= 0) & (rows < self.shape[0])
         cells, depth = rows[inside] * self.shape[1] + columns[inside], samples[inside, 2]
         farthest_first = numpy.argsort(-depth, kind="stable")
         own = numpy.full(self.depth.size, numpy.inf)
         own[cells[farthest_first]] = depth[farthest_first]
-        nearer = own.reshape(self.shape) < self.depth
-        self.depth[nearer] = own.reshape(self.shape)[nearer]
+        own = own.reshape(self.shape)
+        if triangles is None:
+            own[~eroded(numpy.isfinite(own))] = numpy.inf
+        nearer = own < self.depth
+        self.depth[nearer] = own[nearer]
         self.pose[nearer] = number
 
     def paths(self, number):
@@ -62,8 +65,18 @@ class Buffer:
         if not drawn.GetNumberOfLines():
             return []
         points = (vtk_to_numpy(drawn.GetPoints().GetData())[:, :2] + low + 0.5) / self.scale - 0.5
-        order, starts = (vtk_to_numpy(array) for array in (drawn.GetLines().GetConnectivityArray(), drawn.GetLines().GetOffsetsArray()))
+        order = vtk_to_numpy(drawn.GetLines().GetConnectivityArray())
+        starts = vtk_to_numpy(drawn.GetLines().GetOffsetsArray())
         return [points[order[a:b]] for a, b in zip(starts, starts[1:])]
+
+
+def eroded(mask):
+    """What stays when as much is taken from the border as DISK adds to it."""
+    height, width = mask.shape
+    wide, left = numpy.pad(mask, CLOSED), mask.copy()
+    for x, y in DISK + CLOSED:
+        left &= wide[y:y + height, x:x + width]
+    return left
 
 
 def smooth(mask):
@@ -75,8 +88,8 @@ def smooth(mask):
 def samples_of(triangles, shape):
     """The centres of the cells that triangles, N x 3 x 3 in cells, cover, with the depth there: row by row, from edge to edge."""
     triangles = triangles[numpy.isfinite(triangles).all(axis=(1, 2))]
-    low, high = (numpy.clip(numpy.ceil(limit(triangles[:, :, 1], axis=1) - 0.5), 0, shape[0]).astype(int) for limit in (numpy.min, numpy.max))
-    of, rows = spans(low, high)
+    heights = triangles[:, :, 1]
+    of, rows = spans(heights.min(axis=1), heights.max(axis=1), shape[0])
     y = rows + 0.5
     corners, following = triangles[of], numpy.roll(triangles, -1, axis=1)[of]
     rise = following[:, :, 1] - corners[:, :, 1]
@@ -85,8 +98,7 @@ def samples_of(triangles, shape):
         x = corners[:, :, 0] + share * (following[:, :, 0] - corners[:, :, 0])
     crossed = (share >= 0) & (share <= 1)
     left, right = numpy.where(crossed, x, numpy.inf).min(axis=1), numpy.where(crossed, x, -numpy.inf).max(axis=1)
-    low, high = (numpy.clip(numpy.ceil(numpy.nan_to_num(limit) - 0.5), 0, shape[1]).astype(int) for limit in (left, right))
-    span, columns = spans(low, high)
+    span, columns = spans(numpy.nan_to_num(left), numpy.nan_to_num(right), shape[1])
     normals = numpy.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     of, x, y = of[span], columns + 0.5, y[span]
     normal, origin = normals[of], triangles[of, 0]
@@ -95,8 +107,9 @@ def samples_of(triangles, shape):
     return numpy.stack((x, y, depth), axis=1)
 
 
-def spans(low, high):
-    """Of ranges [low, high): which one, and each of its numbers."""
+def spans(low, high, size):
+    """Of each range the cells, of so many, whose centres lie in it: which range, and which cell."""
+    low, high = (numpy.clip(numpy.ceil(limit - 0.5), 0, size).astype(int) for limit in (low, high))
     lengths = numpy.maximum(high - low, 0)
     of = numpy.repeat(numpy.arange(len(low)), lengths)
     return of, numpy.arange(len(of)) - numpy.repeat(numpy.cumsum(lengths) - lengths, lengths) + low[of]

@@ -5,12 +5,12 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   const element = id => document.getElementById(id);
   const all = (selector, work) => document.querySelectorAll(selector).forEach(work);
-  const state = { chosen: 0, least: data.likely, place: null, byPart: false };
-  const shown = pose => pose.place >= state.least || pose.rank === state.chosen;
+  const state = { chosen: data.chosen, least: data.likely, place: null, byPart: data.parts.length > 1 };
+  const shown = pose => pose.place === undefined || pose.place >= state.least || pose.rank === state.chosen;
   const inkOf = color => [1, 3, 5].reduce((sum, k, i) => sum + parseInt(color.slice(k, k + 2), 16) * [0.3, 0.59, 0.11][i], 0) < 140 ? "#fff" : "#111";
   const fixed = (values, digits) => values.map(value => value.toFixed(digits));
-  const palette = ["#dc1e1e", "#28aa32", "#285adc", "#f5cd1e", "#f078be"]; // of parts: the first five ranks' colors
-  const colorOf = pose => state.byPart ? palette[pose.part % palette.length] : pose.color;
+  const palette = ["#4dafc7", "#e67e22", "#8c56a5", "#9ac13d", "#a76c49"]; // of types of part, as ParaView has them
+  const colorOf = pose => state.byPart ? palette[pose.part] || "#969696" : pose.color;
   let space = null; // the 3D view; null without WebGL
 
   function bytes(text) {
@@ -57,7 +57,7 @@
     const copies = data.poses.map(pose => {
       const { geometry, edges: lines } = geometries[pose.part], matrix = new THREE.Matrix4().fromArray(pose.transform).transpose();
       const body = lines
-        ? new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ specular: 0x222222, shininess: 20, side: THREE.DoubleSide }))
+        ? new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ specular: 0x222222, shininess: 20, side: THREE.DoubleSide, transparent: Boolean(data.marks), opacity: data.marks ? 0.35 : 1 }))
         : new THREE.Points(geometry, new THREE.PointsMaterial({ sizeAttenuation: false, size: 3 }));
       const outline = lines ? new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x0, transparent: true, opacity: 0.55 })) : null;
       for (const object of [body, outline].filter(Boolean)) {
@@ -69,10 +69,11 @@
       if (outline) edges.add(outline);
       const label = document.createElement("div");
       label.className = "label";
-      label.textContent = pose.rank + " · " + Math.round(100 * pose.place) + " %";
+      label.textContent = pose.place === undefined ? "place" : pose.rank + " · " + Math.round(100 * pose.place) + " %";
       labels.appendChild(label);
       return { pose, body, outline, label, middle: new THREE.Vector3().fromArray(data.parts[pose.part].middle).applyMatrix4(matrix) };
     });
+    if (data.marks) addMarks(scene, holder);
     const mark = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), new THREE.MeshBasicMaterial({ color: 0xffffff, depthTest: false }));
     mark.visible = false;
     scene.add(mark);
@@ -204,7 +205,7 @@
         state.byPart = !state.byPart;
         made.setAttribute("aria-pressed", state.byPart);
         update();
-      }).setAttribute("aria-pressed", false);
+      }).setAttribute("aria-pressed", state.byPart);
     }
 
     let pressed = null; // where, for a drag is no click
@@ -231,6 +232,20 @@
         draw();
       }
     };
+  }
+
+  // Of a place that is asked about: the part's points by what the scan shows there, before all else, and what their colors mean.
+  function addMarks(scene, holder) {
+    const { names, colors } = data.marks, states = new Uint8Array(bytes(data.marks.states)), cloud = new THREE.BufferGeometry();
+    const rgb = colors.map(color => new THREE.Color(color)), values = new Float32Array(3 * states.length);
+    states.forEach((state, i) => rgb[state].toArray(values, 3 * i));
+    cloud.setAttribute("position", new THREE.BufferAttribute(positions(data.marks), 3));
+    cloud.setAttribute("color", new THREE.BufferAttribute(values, 3));
+    const points = new THREE.Points(cloud, new THREE.PointsMaterial({ vertexColors: THREE.VertexColors, sizeAttenuation: false, size: 6, depthTest: false }));
+    points.renderOrder = 1;
+    scene.add(points);
+    const legend = holder.appendChild(Object.assign(document.createElement("div"), { id: "legend" }));
+    legend.innerHTML = names.map((name, k) => `<div><i style="background:${colors[k]}"></i>${name}: ${states.filter(state => state === k).length}</div>`).join("");
   }
 
   // ---- what is chosen
@@ -285,12 +300,13 @@
       add("p", data.why ? "Does a part lie here that was missed? This tells which step lost it, and what to change:" : "A point of the scan.");
       if (data.why) code(data.why.replace("{x}", at[0]).replace("{y}", at[1]).replace("{z}", at[2]));
     } else if (pose) {
-      add("h2", `Rank ${pose.rank}` + (data.parts.length > 1 ? `, ${data.parts[pose.part].name}` : ""));
+      add("h2", data.marks ? "What the scan shows at the place" : `Rank ${pose.rank}` + (data.parts.length > 1 ? `, ${data.parts[pose.part].name}` : ""));
       if (pose.why) add("p", pose.why);
       if (pose.certainty < data.likely) add("p", "How it is turned is unsure: what tells its rotations apart is hardly visible. A scan from another side shows it.");
       add("p", "Takes the part's coordinates to the scan's, mm:", "quiet");
       code([0, 4, 8, 12].map(k => fixed(pose.transform.slice(k, k + 4), 5).map(text => text.padStart(11)).join("")).join("\n"));
-      add("p", "Quaternion (x y z w): " + fixed(pose.quaternion, 5).join(" "), "quiet");
+      const turn = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().fromArray(pose.transform).transpose());
+      add("p", "Quaternion (x y z w): " + fixed(turn.toArray(), 5).join(" "), "quiet");
     } else {
       add("h2", "What next");
       const least = Math.round(100 * state.least);
@@ -317,6 +333,10 @@
       if (next && each.matches("tr")) { event.preventDefault(); next.focus(); choose(Number(next.dataset.rank), false); }
     });
   });
+  if (data.marks) {
+    document.querySelector(".head h2").textContent = "The place";
+    document.querySelector(".head label").hidden = true;
+  }
   const least = element("least");
   least.value = 100 * state.least;
   least.addEventListener("input", () => { state.least = least.value / 100; update(); });

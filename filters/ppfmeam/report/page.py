@@ -3,6 +3,7 @@
 outlines, and the table of poses."""
 import datetime
 import json
+import math
 import os
 import re
 from html import escape
@@ -15,6 +16,8 @@ from . import content, markup
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 THREE = "/usr/share/javascript/three"  # of Debian's package libjs-three; its licence stands in page.html
+PLACE = "#969696"  # of the part at a place that is asked about: colours are those of its points
+BAR = 140  # pixels that stand for the longest time
 LIBRARIES = ("three.min.js", "examples/js/controls/OrbitControls.js")
 
 
@@ -34,9 +37,13 @@ def html(scan, poses, parts, told):
     require_three()
     seen = content.Seen(scan)
     rows = content.pose_rows(seen, parts, poses, told.reasons)
-    data = {"scan": seen.content(), "parts": [part.content() for part in parts], "poses": rows, "why": told.why, "likely": markup.LIKELY}
+    for row in rows if told.diagnosis else ():
+        row["color"] = PLACE
+    data = {"scan": seen.content(), "parts": [part.content() for part in parts], "poses": rows, "why": told.why,
+            "likely": markup.LIKELY, "chosen": told.chosen, "marks": content.marks(told.diagnosis) if told.diagnosis else None}
     libraries = "\n".join(text_of(os.path.join(THREE, name)) for name in LIBRARIES)
-    slots = {"TITLE": escape(told.title), "SUMMARY": escape(summary(rows)), "PICTURE": markup.picture(seen.picture_content(), rows),
+    slots = {"TITLE": escape(told.title), "SUMMARY": escape(str(told.diagnosis) if told.diagnosis else summary(rows)),
+             "PICTURE": markup.picture(seen.picture_content(), rows),
              "CAPTION": CAPTIONS[seen.what], "TABLE": markup.table(rows, [part.name for part in parts]), "RUN": run(told, seen),
              "DATA": json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
              "THREE": libraries, "SCRIPT": text_of(os.path.join(HERE, "page.js"))}
@@ -67,14 +74,28 @@ def summary(rows):
 
 
 def run(told, seen):
-    """How it was found: the scan, times, settings, versions and the command."""
-    facts = "".join(f"<li>{escape(fact)}</li>" for fact in [*told.facts, f"{len(seen.points)} of {seen.total} measured points are shown"])
-    longest = max(told.seconds.values(), default=0) or 1
-    times = "".join(f'<tr><td class="text">{escape(stage)}</td><td>{seconds:.3f} s</td>'
-                    f'<td><i style="width:{140 * seconds / longest:.0f}px"></i></td></tr>' for stage, seconds in told.seconds.items())
-    settings = "".join(f'<tr><td class="text">{escape(name)}</td><td class="text">{escape(str(value))}</td></tr>'
-                       for name, value in told.settings.items())
+    """How it was found: the scan, times or numbers of the steps, settings, versions and the command."""
+    facts = "".join(f"<li>{escape(fact)}</li>" for fact in [
+        *told.facts, f"{len(seen.points)} of {seen.total} measured points are shown"])
+    settings = rows_of((escape(name), escape(str(value))) for name, value in told.settings.items())
     versions = f"ppfmeam {VERSION}, VTK {vtkVersion.GetVTKVersion()}, made {datetime.datetime.now():%Y-%m-%d %H:%M}"
-    return (f"<div><h3>Scan</h3><ul>{facts}</ul></div><div><h3>Time</h3><table class=\"times\">{times}</table></div>"
-            f"<div><h3>Settings that differ from the defaults</h3><table>{settings or '<tr><td class=text>none</td></tr>'}</table></div>"
-            f"<div><h3>Find it again</h3><pre>{escape(told.command)}</pre><p class=\"quiet\">{escape(versions)}</p></div>")
+    return (f"<div><h3>Scan</h3><ul>{facts}</ul></div><div>{steps(told)}</div>"
+            f"<div><h3>Settings that differ from the defaults</h3><table>{settings or 'none'}</table></div>"
+            f'<div><h3>Find it again</h3><pre>{escape(told.command)}</pre><p class="quiet">{escape(versions)}</p></div>')
+
+
+def steps(told):
+    """A table of the steps' times, each with a bar, or of their numbers."""
+    if told.diagnosis:
+        numbers = rows_of((escape(step), escape(quantity), f"{value:.4g}" + ("" if math.isnan(of) else f" / {of:.4g}"))
+                          for step, quantity, value, of in told.diagnosis.numbers)
+        return f"<h3>Numbers of the steps</h3><table>{numbers}</table>"
+    longest = max(told.seconds.values(), default=0) or 1
+    times = rows_of((escape(stage), f"{seconds:.3f} s", f'<i style="width:{BAR * seconds / longest:.0f}px"></i>')
+                    for stage, seconds in told.seconds.items())
+    return f'<h3>Time</h3><table class="times">{times}</table>'
+
+
+def rows_of(rows):
+    """The rows of a table of texts."""
+    return "".join("<tr>" + "".join(f'<td class="text">{cell}</td>' for cell in row) + "</tr>" for row in rows)

@@ -14,12 +14,14 @@ from .content import parts_of
 class Told:
     """`names` of the parts, and of the scan; `facts`, sentences of the scan; `seconds`, of each stage or "total"; `settings` that are
     not the defaults, by name; `command`, which finds the same again; `why`, a command with {x} {y} {z} for the place that was
-    clicked; `reasons`, of each pose what speaks for it and against it."""
+    clicked; `reasons`, of each pose what speaks for it and against it; `diagnosis`, of a page that tells why a part was missed;
+    `chosen`, the rank that is selected at first, 0 for none."""
 
-    def __init__(self, names, scan, facts, seconds, settings, command, why, reasons):
+    def __init__(self, names, scan, facts, seconds, settings, command, why, reasons, diagnosis=None):
         self.names, self.facts, self.seconds, self.settings = names, facts, seconds, settings
         self.command, self.why, self.reasons = command, why, reasons
         self.title = " and ".join(dict.fromkeys(names)) + f" in {scan}"
+        self.diagnosis, self.chosen = diagnosis, int(diagnosis is not None and diagnosis.pose is not None)
 
     @classmethod
     def of_command(cls, options, poses, parts, data):
@@ -29,14 +31,28 @@ class Told:
                   for text in ("--" + name.replace("_", "-"), getattr(options, name))]
         beside += [text for name, scale in (("--scale", options.scene_scale), ("--cad-scale", options.cad_scale)) if scale != 1
                    for text in (name, str(scale))]
+        beside += ["--roi", *options.roi] if options.roi else []
         why = shlex.join(["ppfmeam", "why", (options.model or options.cad)[0], scan, *beside]) + " --at {x} {y} {z}"
-        if options.roi:
-            beside += ["--roi", *options.roi]
         chosen = choices.of_options("detect", options)
         settings = {**chosen.differing(), **({"roi": " ".join(options.roi)} if options.roi else {})}
         return cls([os.path.basename(file) for file in files], os.path.basename(scan), facts(poses), stages(poses), settings,
                    shlex.join(["ppfmeam", "detect", *sys.argv[1:]]), why,
                    reasons(poses, parts, data, chosen, options))
+
+    @classmethod
+    def of_batch(cls, options, names, scan, poses):
+        """Of the options of `batch`, the names of the parts and of a scan, and the poses."""
+        chosen = choices.of_options("detect", options).differing()
+        command = shlex.join(["ppfmeam", "batch", *sys.argv[1:]])
+        return cls(names, scan, facts(poses), stages(poses), chosen, command, "", None)
+
+    @classmethod
+    def of_why(cls, options, inputs, diagnosis):
+        """Of the options of `why`, the arguments of api.why() and what it returned."""
+        given = choices.Chosen("detect", {name: value for name, value in inputs.items() if name in choices.TABLE["detect"]})
+        command = shlex.join(["ppfmeam", "why", *sys.argv[1:]])
+        return cls([os.path.basename(options.part)], os.path.basename(options.scan), [], {}, given.differing(), command, "",
+                   [sentences(diagnosis)] * (diagnosis.pose is not None), diagnosis)
 
     @classmethod
     def of_python(cls, found):
@@ -45,24 +61,30 @@ class Told:
         chosen = found.settings.differing()
         parts = [repr(model.file) if model.file else "model" for model in found.models]
         part = parts[0] if len(parts) == 1 else f"[{', '.join(parts)}]"
-        scan = repr(str(found.inputs["scan"])) if is_file(found.inputs["scan"]) else "scan"
-        words = "".join(f", {name}={str(value) if is_file(value) else value!r}" if is_file(value) or isinstance(value, (int, float, str))
-                        else f", {name}={name}" for name, value in call.items())
+        scan = found.inputs["scan"]
+        name, scan = os.path.basename(scan) if is_file(scan) else "a scan", written(scan) or "scan"
+        words = "".join(f", {name}={written(value) or name}" for name, value in call.items())
         said, of = [""] * len(found), numpy.array(parts_of(found.data))
         for number, model in enumerate(found.models):
             places = numpy.flatnonzero(of == number)
             if len(places):
                 for k, why in zip(places, api.why(model, pose=found.poses[places], **found.inputs, **found.settings.values)):
                     said[k] = sentences(why)
-        return cls([model.name for model in found.models], os.path.basename(found.inputs["scan"]) if is_file(found.inputs["scan"]) else "a scan",
-                   found.report.splitlines(), {"total": found.seconds}, chosen,
-                   f"ppfmeam.detect({part}, {scan}{words}{''.join(f', {name}={value!r}' for name, value in chosen.items())})",
-                   f"print(ppfmeam.why({parts[0]}, {scan}{words}, at=({{x}}, {{y}}, {{z}})))", said)
+        choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
+        return cls([model.name for model in found.models], name, found.report.splitlines(), {"total": found.seconds}, chosen,
+                   f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({parts[0]}, {scan}{words}, at=({{x}}, {{y}}, {{z}})))", said)
 
 
 def sentences(why):
     """Of a Diagnosis; that a pose of the table was found goes without saying."""
     return "\n".join(filter(None, (why.verdict if why.lost_in else "", why.reasons, why.advice)))
+
+
+def written(value):
+    """An argument as Python's source has it; empty for what cannot be written, such as an array."""
+    if is_file(value):
+        return repr(os.fspath(value))
+    return repr(value) if isinstance(value, (int, float, tuple, list)) else ""
 
 
 def is_file(value):
