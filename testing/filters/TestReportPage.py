@@ -12,7 +12,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import ppfmeam
-from ppfmeam.report import content, notebook, page, projection
+from ppfmeam.report import content, notebook, outlines, page, projection
 from meamtest import box, check, skip
 from scripttest import H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
@@ -80,6 +80,15 @@ pixels, drawn = fitted(corners)[0], outline_of(best)
 check(numpy.abs(pixels.min(axis=0) - drawn.min(axis=0)).max() < 3 and numpy.abs(pixels.max(axis=0) - drawn.max(axis=0)).max() < 3,
       f"the outline ends where the part does: {pixels.min(axis=0)}, {drawn.min(axis=0)}, {pixels.max(axis=0)}, {drawn.max(axis=0)}")
 
+# What is hidden at first hides no outline, and has one.
+copies = [part.copy(numpy.array(pose["transform"]).reshape(4, 4)) for pose in data["poses"]]
+is_likely = [pose["place"] >= 0.5 for pose in data["poses"]]
+check(0 < sum(is_likely) < len(copies) and all(pose["outline"] for pose in data["poses"]), f"likely and unlikely ones: {is_likely}")
+some = [copy for copy, likely in zip(copies, is_likely) if likely]
+of_all = [paths for paths, likely in zip(outlines.outlines(fitted, copies, is_likely), is_likely) if likely]
+for one, other in zip(of_all, outlines.outlines(fitted, some, [True] * len(some))):
+    check(len(one) == len(other) and all((a == b).all() for a, b in zip(one, other)), "an unlikely pose cuts an outline")
+
 # The camera of an image beside the sensor, with a lens: as the calibration has it.
 x, y, z = points_of(data["scan"])[::5000].T
 lens = {"fx": 800, "fy": 790, "cx": 300, "cy": 250, "width": 640, "height": 480, "coeffs": [-0.3, 0.1, 0.001, -0.002, 0.02]}
@@ -110,6 +119,9 @@ check("it has no image" in text, "the surface in place of an image")
 few = measured[::3]
 write_pcd("few.pcd", few, len(few), 1, "x y z")
 works("detect.py", "--cad", "plate.stl", "--scene", "few.pcd", "--report", "few.html")
+check(data_of(read("few.html"))["scan"]["looks"] == [0, 0, 1], "points alone in their sensor's frame")
+floor = measured * (1, 1, -1) + (0, 0, measured[:, 2].max())
+check((content.Seen(ppfmeam._core.Scan(floor.astype(numpy.float32))).looks == (0, 0, -1)).all(), "points above a floor")
 refuses("no such folder", "detect.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--report", "nowhere/found.html")
 
 # Why: the part's points by what the scan shows there; a place without a part.

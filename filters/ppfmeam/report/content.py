@@ -10,6 +10,7 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataNormals, vtkQuadricDecimation, 
 from vtkmodules.vtkIOImage import vtkJPEGWriter
 
 from .. import filters, scripting
+from .markup import LIKELY
 from .outlines import outlines
 from .projection import Fitted, FromAbove, Pinhole
 
@@ -22,6 +23,7 @@ STATES = {"matched": "#28aa32", "turned": "#f5cd1e", "hidden": "#963cbe", "not m
           "violated": "#dc1e1e"}  # as in ParaView
 STRAY = 0.2, 99.8  # percentiles
 FLOOR = 0.1  # share of the depths that the farthest surface has
+AWAY = 0.3  # share of the largest distance that nothing is nearer than to a sensor; above a floor there are points at 0
 FARTHEST = 1.0  # what lies farther outside of the scan's bulk than this share of it is left out: it would make the rest small
 
 
@@ -89,10 +91,10 @@ class Seen:
     def __init__(self, scan):
         points, image, camera = scan.points, scan.image, scan.image_camera
         self.is_grid = points.ndim == 3
-        self.looks = numpy.array((0, 0, 1 if self.is_grid else -1), float)
         measured = numpy.isfinite(points).all(axis=-1)
         if not measured.any():
             raise scripting.Failure("the scan has no measured point to show")
+        self.looks = numpy.array((0, 0, 1 if self.is_grid or is_before_sensor(points[measured]) else -1), float)
         if image is not None and image.shape[:2] != points.shape[:2] and camera is None:
             image = None
         shades = image if image is not None and camera is None else shaded(points, measured) if self.is_grid else None
@@ -154,6 +156,13 @@ class Seen:
         return {"jpeg": jpeg(self.picture, most), "width": width, "height": height, "what": self.what}
 
 
+def is_before_sensor(points):
+    """Whether points that are not organized are as their sensor has them, which is the origin and looks along +z, and not above a
+    floor: they are all far from the origin."""
+    near, far = numpy.percentile(points[:, 2], STRAY)
+    return near > AWAY * far > 0
+
+
 def heights(points, looks):
     """The nearer to the sensor the brighter, 40 to 230."""
     near = -points @ looks
@@ -209,7 +218,9 @@ def rank_colors(poses):
 def drawn(projection, parts, poses):
     """The outline of each pose in the picture, as the path of an SVG."""
     transforms, of = scripting.column(poses, "Transform", 4, 4), parts_of(poses)
-    paths = outlines(projection, [parts[part].copy(transform) for part, transform in zip(of, transforms)])
+    places = scripting.column(poses, "PlaceProbability")
+    is_likely = numpy.ones(len(of), bool) if places is None else places.ravel() >= LIKELY
+    paths = outlines(projection, [parts[part].copy(transform) for part, transform in zip(of, transforms)], is_likely)
     return ["".join("M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in line) for line in lines) for lines in paths]
 
 

@@ -115,9 +115,13 @@ def spans(low, high, size):
     return of, numpy.arange(len(of)) - numpy.repeat(numpy.cumsum(lengths) - lengths, lengths) + low[of]
 
 
-def outlines(projection, copies):
-    """For each copy, (corners in the scan's frame, triangles or None), its polylines in the image."""
-    buffer = Buffer(projection)
-    for number, (corners, triangles) in enumerate(copies):
-        buffer.draw(number, corners, triangles)
-    return [buffer.paths(number) for number in range(len(copies))]
+def outlines(projection, copies, is_likely):
+    """For each copy, (corners in the scan's frame, triangles or None), its polylines in the image. Likely ones hide each other, of the
+    others each is whole."""
+    together, paths = Buffer(projection), {}
+    for number, copy in enumerate(copies):
+        buffer = together if is_likely[number] else Buffer(projection)
+        buffer.draw(number, *copy)
+        if buffer is not together:
+            paths[number] = buffer.paths(number)
+    return [paths[number] if number in paths else together.paths(number) for number in range(len(copies))]

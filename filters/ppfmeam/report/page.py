@@ -17,6 +17,7 @@ from . import content, markup
 HERE = os.path.dirname(os.path.abspath(__file__))
 THREE = "/usr/share/javascript/three"  # of Debian's package libjs-three; its licence stands in page.html
 PLACE = "#969696"  # of the part at a place that is asked about: colours are those of its points
+FEW = 5  # ranks that a sentence names
 BAR = 140  # pixels that stand for the longest time
 LIBRARIES = ("three.min.js", "examples/js/controls/OrbitControls.js")
 
@@ -58,7 +59,7 @@ def write(path, text):
 
 CAPTIONS = {"image": "The image and the outlines of the parts.",
             "surface": "The scan as its sensor sees it, lit from there, and the outlines of the parts: it has no image.",
-            "map": "The scan from above, the higher the brighter, and the outlines of the parts: its points are not organized."}
+            "map": "The scan from where it was seen, the nearer the brighter, and the outlines of the parts: its points are not organized."}
 
 
 def summary(rows):
@@ -69,7 +70,8 @@ def summary(rows):
     words = f"{len(likely)} of {len(rows)} poses {'is' if len(likely) == 1 else 'are'} more likely right than not"
     unsure = [str(row["rank"]) for row in likely if row["certainty"] < markup.LIKELY]
     if unsure:
-        words += f"; how the part is turned is unsure at rank {', '.join(unsure)}"
+        of = f"at rank {', '.join(unsure)}" if len(unsure) <= FEW else f"for {len(unsure)} of them"
+        words += f"; how the part is turned is unsure {of}"
     return words + "."
 
 

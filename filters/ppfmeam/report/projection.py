@@ -56,7 +56,7 @@ class Pinhole:
 
 
 class FromAbove:
-    """A map of points that are not organized, seen along z from the side that the sensor is on."""
+    """A map of points that are not organized, along z from the side that the sensor is on."""
     WIDTH = 800  # pixels
     MOST = 1600  # pixels along the longer side
 
