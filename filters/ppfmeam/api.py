@@ -91,16 +91,24 @@ class Detections(Rows):
                "place_probabilities": ("place_probability", ()), "probabilities": ("probability", ()),
                "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ()), "parts": ("part", ())}
 
-    def __init__(self, found, models, scan, inputs, settings):
+    def __init__(self, found, models, given, settings):
         super().__init__(found.poses)
-        self.scan, self.inputs, self.settings = scan, inputs, settings
+        self.inputs, self.settings, self.age = given, settings, inputs.age_of(given["scan"])
         self.core, self.models, self.model = found, models, models[0]
         self.seconds, self.scan_quality, self.is_cut_short = found.seconds, found.quality, found.is_cut_short
         self.report = found.report
 
     def of(self, part):
         """Those of one of several types of part, by its place among them, as pick() takes them."""
-        return Detections(self.core.of(part), [self.models[part]], self.scan, self.inputs, self.settings)
+        found = Detections(self.core.of(part), [self.models[part]], self.inputs, self.settings)
+        found.age = self.age
+        return found
+
+    def scan(self):
+        """The scan, from its file again: results do not hold it."""
+        if inputs.age_of(self.inputs["scan"]) != self.age:
+            raise Error(f"{self.inputs['scan']} was written anew since the parts were found in it: detect() again to see them")
+        return inputs.scan_of(**{name: value for name, value in self.inputs.items() if name != "cad_scale"})
 
     def __str__(self):
         several = len(self.models) > 1
@@ -245,7 +253,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
         warnings.warn(found.warning, stacklevel=3)
-    return Detections(found, models, seen, given, settings)
+    return Detections(found, models, given, settings)
 
 
 def part_of(part, scale, settings):

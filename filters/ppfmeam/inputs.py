@@ -22,6 +22,11 @@ def path_of(file):
     return path
 
 
+def age_of(scan):
+    """When the file of a scan was written, in ns; None of what is no file."""
+    return os.stat(scan).st_mtime_ns if isinstance(scan, (str, os.PathLike)) and os.path.exists(scan) else None
+
+
 def mesh_of(cad):
     """The mesh of a file or a vtkPolyData, as it came."""
     if not isinstance(cad, vtkDataObject):

@@ -164,6 +164,13 @@ with warnings.catch_warnings(record=True):
 nothing.save("nothing.html")
 check("no part found" in nothing._repr_html_() and "No part was found." in read("nothing.html"), "nothing found")
 
+os.utime("scan.pcd", (0, 0))
+try:
+    found.save("other.html")
+    check(False, "another scan is not shown with these poses")
+except ppfmeam.Error as error:
+    check("scan.pcd was written anew" in str(error), str(error))
+
 # Large data become small.
 large = numpy.zeros((1000, 1300, 3), numpy.float32)
 large[..., 0], large[..., 1] = numpy.meshgrid(numpy.arange(1300) * 0.2, numpy.arange(1000) * 0.2)

@@ -25,7 +25,7 @@ def parts_of(found):
 
 def cell(found):
     """The picture of the outlines and the table."""
-    seen, parts, poses = content.Seen(found.scan), parts_of(found), found.data
+    seen, parts, poses = content.Seen(found.scan()), parts_of(found), found.data
     rows = content.pose_rows(seen, parts, poses)
     return (f'<div class="ppfmeam">{STYLE}{markup.picture(seen.picture_content(PIXELS), rows)}'
             f'{markup.table(rows, [part.name for part in parts])}</div>')
@@ -33,7 +33,7 @@ def cell(found):
 
 def page_of(found):
     """The page as text."""
-    return page.html(found.scan, found.data, parts_of(found), Told.of_python(found))
+    return page.html(found.scan(), found.data, parts_of(found), Told.of_python(found))
 
 
 def save(found, path):
