@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// PPF-MEAM: 6D poses of the copies of a part in a scan.
 ///
-///     meam::Model model = meam::train(meam::loadMesh("part.stl"));   // once for each part; meam::train
+///     meam::Model model = meam::train(meam::loadCAD("part.step"));   // once for each part; meam::train
 ///     model.save("part.meam");
 ///
 ///     meam::Model model = meam::loadModel("part.meam");              // in the cell; meam::detect, no GPL in it
@@ -157,9 +157,10 @@ struct Mesh
 {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3i> triangles;
+  std::string report{}; ///< what was assumed of its file; mostly empty
 };
 
-/// Reads a mesh: .stl, .obj, .ply or .off, in the file's own unit.
+/// Reads a mesh: .stl, .obj, .ply or .off, in the file's own unit. loadCAD() reads STEP and IGES, too.
 MEAM_EXPORT Mesh loadMesh(const std::string& path);
 
 /// Reads a calibration of OpenCV (YAML, XML, JSON) or BOP (camera.json), for Scan::imageCamera.
@@ -178,6 +179,10 @@ MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& came
 
 // ----------------------------------------------------------------------------------------------------------- training
 // Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.
+
+/// Reads a part: .step, .stp, .iges or .igs, in mm, or a mesh as loadMesh() does. All solids of a file are one part;
+/// which way the faces of an IGES file look is what prepareMesh() and train() find out.
+MEAM_EXPORT Mesh loadCAD(const std::string& path, const Progress& progress = {});
 
 /// The mesh as training takes it: in mm, mended, and facing outwards.
 MEAM_EXPORT Mesh prepareMesh(

@@ -21,7 +21,8 @@ set(CPACK_COMPONENT_PICK_DESCRIPTION "6D poses of industrial parts in a bin, pic
 Plans where a gripper can take which of the parts that were found: meam::pick,
 which holds nothing under the GPL.")
 set(CPACK_COMPONENT_TRAIN_DESCRIPTION "6D poses of industrial parts in a bin, training in C++
-Trains the model of a part from its CAD file and proposes grasps of it
+Trains the model of a part from its CAD file (STEP, IGES or a mesh) and proposes
+grasps of it
 (meam::train), and reads images in files (meam::images). Under the GPL: CGAL
 is in the one, and Debian's image readers, which the other links, need Poppler.")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "6D poses of industrial parts in a bin, C++ headers
@@ -80,7 +81,8 @@ string(REGEX REPLACE "\n\n" "\n.\n" LICENSE_TEXT "${LICENSE_TEXT}")
 string(REGEX REPLACE "\n" "\n " LICENSE_TEXT " ${LICENSE_TEXT}")
 set(gpl "Our sources are under the BSD 3-Clause licence. This package is built with parts of CGAL (https://www.cgal.org) that are
  under the GNU General Public License, version 3 or later, so it can be passed on under the GPL 3 only, without any warranty;
- /usr/share/common-licenses/GPL-3 is its text.")
+ /usr/share/common-licenses/GPL-3 is its text. STEP and IGES files are read by Open CASCADE (https://www.opencascade.com), which is
+ linked under the GNU Lesser General Public License 2.1 with its exception for headers; /usr/share/common-licenses/LGPL-2.1.")
 set(note_detect "Everything in this package is under the BSD 3-Clause licence; it is built with headers of PCL, FLANN, Boost, Eigen,
  nlohmann's JSON and yaml-cpp, and holds nothing under the GPL.")
 set(note_pick "Everything in this package is under the BSD 3-Clause licence; it is built with headers of FCL, OctoMap, Eigen and

@@ -20,7 +20,7 @@ stepHeaders=(core/{features,mesh,model,pose,scene}/**/*.h)
 forbid "core/ does not include VTK" '#include *["<]vtk' "${core[@]}"
 forbid "core/ does not print" 'std::(cout|cerr|clog)|(^|[^a-zA-Z_])printf *\(' "${core[@]}"
 forbid "filters/ knows nothing of ParaView" '[Pp]ara[Vv]iew|PARAVIEW|vtkPV|vtkSM[A-Z]' "${sources[@]}"
-forbid "no third-party type in a filter's header" '(pcl|cv|Eigen|CGAL|OpenMesh)::|#include *[<"](pcl|opencv2|Eigen|CGAL|OpenMesh)/|#include *[<"](bullet|btBullet)' "${headers[@]}"
+forbid "no third-party type in a filter's header" '(pcl|cv|Eigen|CGAL|OpenMesh)::|#include *[<"](pcl|opencv2|Eigen|CGAL|OpenMesh)/|#include *[<"](bullet|btBullet)|#include *<[A-Z][A-Za-z]+(_[A-Za-z0-9]+)?\.hxx>' "${headers[@]}"
 
 # A unit is a stem: its header, its source, or both.
 most_units=12

@@ -20,10 +20,10 @@ apt-get update -q >"$work/apt.log"
 
 echo "== libppfmeam-detect and libppfmeam-pick alone: what a cell gets"
 get "$folder"/libppfmeam-{detect,pick}_*.deb binutils
-if dpkg-query -W -f '${db:Status-Status} ${Package}\n' | grep -E '^installed .*(cgal|mpfr|poppler|gdal|paraview|vtk|openmesh|bullet)'; then failed "detection installs what it does not need"; fi
+if dpkg-query -W -f '${db:Status-Status} ${Package}\n' | grep -E '^installed .*(cgal|mpfr|poppler|gdal|paraview|vtk|openmesh|bullet|occt)'; then failed "detection installs what it does not need"; fi
 for library in Detect Pick; do
   [ -e /usr/lib/libmeam$library.so."$soversion" ] || failed "there is no libmeam$library.so.$soversion"
-  readelf -d /usr/lib/libmeam$library.so."$soversion" | grep -E "(gmp|mpfr|OpenMesh|Bullet|imgcodecs|vtk)" && failed "libmeam$library.so links what only training needs"
+  readelf -d /usr/lib/libmeam$library.so."$soversion" | grep -E "(gmp|mpfr|OpenMesh|Bullet|libTK|imgcodecs|vtk)" && failed "libmeam$library.so links what only training needs"
 done
 
 echo "== the command and the Python package"

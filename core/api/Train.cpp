@@ -11,7 +11,7 @@ Mesh prepareMesh(const Mesh& mesh, double scale, const Eigen::Vector3d& offset)
   settings.scale = scale;
   settings.offset = offset;
   PreparedMesh prepared = prepareMesh(TriangleMesh{ mesh.vertices, mesh.triangles }, settings);
-  return { std::move(prepared.mesh.vertices), std::move(prepared.mesh.triangles) };
+  return { std::move(prepared.mesh.vertices), std::move(prepared.mesh.triangles), mesh.report };
 }
 
 Model train(const Mesh& mesh, const TrainSettings& settings, const Progress& progress)

@@ -238,8 +238,16 @@ TriangleMesh readKind(const std::string& path, const Progress& progress)
   {
     return readOFF(path, progress);
   }
-  failMesh(path, "has an extension that is not known: give a .stl, .obj, .ply or .off");
+  failMesh(path, isBRepFile(path)
+                   ? "is a STEP or IGES file, which training reads (meam::loadCAD): give a mesh of it here"
+                   : "has an extension that is not known: give a .stl, .obj, .ply or .off");
 }
+}
+
+bool isBRepFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".step" || extension == ".stp" || extension == ".iges" || extension == ".igs";
 }
 
 TriangleMesh readMesh(const std::string& path, const Progress& progress)

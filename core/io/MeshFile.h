@@ -8,6 +8,9 @@
 
 namespace meam
 {
+/// Whether it is a STEP (.step, .stp) or IGES (.iges, .igs) file, by its extension. io/cad reads these.
+bool isBRepFile(const std::string& path);
+
 /// Reads a mesh, in the file's own unit, by the file's extension: .stl (ascii or binary), .obj, .ply or .off. Polygons
 /// are cut into triangles; all but the shape is skipped. The triangles of an STL file share the vertices that lie at
 /// exactly the same place, in the order in which these come first. Throws Error, naming the file and what is wrong with

@@ -123,7 +123,8 @@ void bindData(py::module_& module)
         return Mesh{ vectorsOf(vertices), vectorsOf(triangles) };
       }))
     .def_property_readonly("vertices", [](const Mesh& mesh) { return arrayOf(mesh.vertices); })
-    .def_property_readonly("triangles", [](const Mesh& mesh) { return arrayOf(mesh.triangles); });
+    .def_property_readonly("triangles", [](const Mesh& mesh) { return arrayOf(mesh.triangles); })
+    .def_readonly("report", &Mesh::report);
   py::class_<Camera>(module, "Camera")
     .def(py::init(&cameraOf))
     .def_property_readonly("matrix", &matrixOf)
@@ -149,7 +150,8 @@ void bindData(py::module_& module)
       [](const Scan& scan)
       { return Pixels(static_cast<py::ssize_t>(scan.region.mask.size()), scan.region.mask.data()); },
       [](Scan& scan, const Pixels& mask) { scan.region.mask.assign(mask.data(), mask.data() + mask.size()); });
-  module.def("load_mesh", &loadMesh, Unlocked());
+  module.def("load_cad", [](const std::string& path)
+    { return withoutLock([&](const Progress& progress) { return loadCAD(path, progress); }); });
   module.def("load_scan", &loadScan, Unlocked());
   module.def("load_depth_image", &loadDepthImage, Unlocked());
   module.def("load_image", [](const std::string& path) { return pixelsOf(loadImage(path)); });

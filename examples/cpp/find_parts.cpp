@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the copies of a part in a scan: find_parts part.stl scan.pcd part.meam
+// Finds the copies of a part in a scan: find_parts part.step scan.pcd part.meam
 #include <meam/meam.h>
 
 #include <iostream>
@@ -12,7 +12,7 @@ try
     std::cerr << "usage: find_parts CAD SCAN MODEL\n";
     return 2;
   }
-  meam::train(meam::loadMesh(argv[1])).save(argv[3]); // once for each part
+  meam::train(meam::loadCAD(argv[1])).save(argv[3]); // once for each part
   const meam::Model model = meam::loadModel(argv[3]);
   for (const meam::DetectedPose& pose : meam::detect(model, meam::loadScan(argv[2])).poses)
   {

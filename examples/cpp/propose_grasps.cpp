@@ -18,7 +18,7 @@ try
   gripper.fingerThickness = 5.0;
   meam::ProposeSettings settings;
   settings.maximumGrasps = 100; // among other parts few can be reached
-  const meam::Grasps grasps = meam::proposeGrasps(meam::loadModel(argv[1]), meam::loadMesh(argv[2]), gripper, settings);
+  const meam::Grasps grasps = meam::proposeGrasps(meam::loadModel(argv[1]), meam::loadCAD(argv[2]), gripper, settings);
   meam::saveGrasps(argv[3], grasps);
   std::cout << grasps.size() << " grasps\n";
 }

@@ -2,6 +2,7 @@
 """What users have, files, NumPy arrays or VTK's data objects, as the C++ library takes it, and back to VTK's for the filters."""
 import os
 import tempfile
+import warnings
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -30,7 +31,10 @@ def age_of(scan):
 def mesh_of(cad):
     """The mesh of a file or a vtkPolyData, as it came."""
     if not isinstance(cad, vtkDataObject):
-        return _core.load_mesh(mesh_file(cad))
+        mesh = _core.load_cad(mesh_file(cad))
+        if mesh.report:
+            warnings.warn(mesh.report, stacklevel=4)
+        return mesh
     triangles = vtkTriangleFilter()
     triangles.SetInputDataObject(cad)
     triangles.PassLinesOff()
@@ -101,7 +105,7 @@ def cloud_of(scan, camera, scale):
         return _core.load_depth_image(path, path_of(camera), scale)
     if extension in (".pcd", ".ply"):
         return _core.load_scan(path, "" if camera is None else path_of(camera), scale)
-    return _core.Scan(scaled(_core.load_mesh(mesh_file(path)).vertices, scale, "scan"))
+    return _core.Scan(scaled(_core.load_cad(mesh_file(path)).vertices, scale, "scan"))
 
 
 def scaled(points, scale, what):

@@ -339,5 +339,6 @@ TEST(API, ReadsScans)
   EXPECT_THROW(meam::loadScan("missing.pcd"), meam::Error);
   EXPECT_THROW(meam::loadModel("missing.meam"), meam::Error);
   EXPECT_THROW(meam::loadMesh("missing.stl"), meam::Error);
+  EXPECT_THROW(meam::loadCAD("missing.step"), meam::Error);
   EXPECT_THROW(meam::loadImage("missing.png"), meam::Error);
 }

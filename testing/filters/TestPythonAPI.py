@@ -211,7 +211,7 @@ try:
     settings.threads, settings.referenceShare = 1, 1.0
     seen = inputs.scan_of(scan)
     check_threads(lambda: _core.detect([model.core], seen, settings))
-    mesh = _core.load_mesh("part.stl")
+    mesh = _core.load_cad("part.stl")
     check_threads(lambda: _core.train(mesh, _core.TrainSettings()))
 
     # The model comes back from both kinds of file as it was.

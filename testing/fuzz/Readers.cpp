@@ -13,6 +13,7 @@
 #include "io/PCDFile.h"
 #include "io/PLYFile.h"
 #include "io/PoseFile.h"
+#include "io/cad/CADFile.h"
 #include "model/ModelFile.h"
 #include "pick/io/GraspFile.h"
 #include "scene/preparation/CloudOrganization.h"
@@ -48,7 +49,7 @@ meam::Camera smallCamera()
 
 void readMesh(const std::string& path)
 {
-  const meam::TriangleMesh mesh = meam::readMesh(path);
+  const meam::TriangleMesh mesh = meam::readCAD(path).mesh;
   require(!mesh.triangles.empty(), "a mesh without triangles");
   const int most = static_cast<int>(mesh.vertices.size());
   for (const Eigen::Vector3i& triangle : mesh.triangles)
@@ -140,6 +141,9 @@ constexpr std::size_t Unpacked = 500, Pixels = 4096 * 24;
 constexpr std::size_t JSON = 40;
 // MB of the distance fields of a trained model, however short its file is.
 constexpr std::size_t Fields = 64;
+// MB of Open CASCADE, which knows hundreds of kinds of entities, in a process of its own that each file gets.
+constexpr std::size_t OpenCascade = 512;
+constexpr int Processes = 20;
 constexpr std::size_t Usual = Reader{}.timesLength, UsualMB = Reader{}.megabytes;
 }
 
@@ -150,6 +154,8 @@ const std::vector<Reader>& readers()
     { "obj", "a.obj", readMesh },
     { "ply-mesh", "a.ply", readMesh },
     { "off", "a.off", readMesh },
+    { "step", "a.step", readMesh, Usual, OpenCascade, nullptr, Processes },
+    { "iges", "a.igs", readMesh, Usual, OpenCascade, nullptr, Processes },
     { "pcd", "a.pcd", readPCD, Unpacked },
     { "ply-cloud", "a.ply", readPLYCloud },
     { "camera", "camera.yaml", readCamera, JSON },

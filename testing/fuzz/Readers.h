@@ -19,6 +19,7 @@ struct Reader
   std::size_t megabytes = 16;
   /// Gives check sums that hide all other damage their right value again; null without such.
   std::string (*mend)(std::string bytes) = nullptr;
+  int oneOf = 1; ///< of so many damaged files it gets one, for it takes as much longer
 };
 
 /// How a test that fails shows it.

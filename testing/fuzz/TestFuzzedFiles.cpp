@@ -102,7 +102,8 @@ private:
 std::vector<std::string> filesOf(const fuzz::Reader& reader, const char* folder)
 {
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(fs::path(MEAM_FUZZ) / folder / reader.name))
+  std::error_code none; // libFuzzer reaches nothing where another process reads
+  for (const auto& entry : fs::directory_iterator(fs::path(MEAM_FUZZ) / folder / reader.name, none))
   {
     paths.push_back(entry.path());
   }
@@ -136,7 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(FuzzedFiles, areReadOrRefused)
 {
-  const auto& [reader, cases] = GetParam();
+  const auto& [reader, usual] = GetParam();
+  const int cases = usual / reader.oneOf;
   const std::vector<std::string> kept = filesOf(reader, "corpus");
   ASSERT_FALSE(kept.empty());
   const fuzz::Trial trial(reader);

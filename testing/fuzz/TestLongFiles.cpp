@@ -34,6 +34,8 @@ std::vector<LongFile> longFiles()
     { "obj", "v 0 0 0\nf", " 1" },
     { "off", "OFF\n1 1 0\n0 0 0\n500000", " 0" },
     { "off", "OFF\n1 300000 0\n0 0 0\n", "0\n" },
+    { "step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n", "#1=CARTESIAN_POINT('',(0.,0.,0.));\n" },
+    { "iges", std::string(72, ' ') + "S      1\n", std::string(72, ' ') + "P      1\n" },
     { "ply-mesh", ply + vertex + "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n500000",
       " 0" },
     { "ply-mesh", ply, "element a 0\n" },

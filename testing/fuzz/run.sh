@@ -16,7 +16,7 @@ if [[ ${1:-} =~ ^[0-9]+$ ]]; then seconds=$1; shift; fi
 [ -n "${MEAM_FUZZ_BUILT:-}" ] || "$root/cmake/build.sh" fuzz meamFuzz || exit 1
 [ -x "$build/bin/meamFuzz" ] || { echo "skipped: there is no build/fuzz; testing/fuzz/run.sh makes it"; exit 77; }
 readers=("$@")
-[ ${#readers[@]} -gt 0 ] || mapfile -t readers < <(cd "$here/corpus" && ls)
+[ ${#readers[@]} -gt 0 ] || mapfile -t readers < <(cd "$here/corpus" && ls | grep -vxE 'step|iges') # another process reads these
 
 fuzz() { # READER
   local reader=$1 log=$build/$1.log

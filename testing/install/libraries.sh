@@ -7,7 +7,7 @@ fail() { echo "$1"; status=1; }
 detect=$1 images=$2 pick=$3 train=$4
 shift 4
 # GDAL and Poppler come with OpenCV's imgcodecs.
-training='CGAL|gmp|mpfr|OpenMesh|Bullet|LinearMath|imgcodecs|gdal|poppler|meamTrain|ppfmeam(Training|IOImage)'
+training='CGAL|gmp|mpfr|OpenMesh|Bullet|LinearMath|libTK|imgcodecs|gdal|poppler|meamTrain|ppfmeam(Training|IOImage)'
 for library in "$detect" "$images" "$pick" "$train"; do
   [ -f "$library" ] || { echo "missing: $library"; exit 1; }
   if ldd "$library" | grep 'not found'; then fail "^ $library does not load"; fi
@@ -40,7 +40,7 @@ done
 for name in 'meam::Picker::plan(' 'meam::detectBin(' 'meam::graspAt(' 'meam::loadGrasps(' 'meam::saveGrasps(' 'meam::loadRobotFrame('; do
   nm -DC --defined-only "$pick" | grep -qF " $name" || fail "$pick does not export $name"
 done
-for name in 'meam::train(' 'meam::prepareMesh(' 'meam::proposeGrasps('; do
+for name in 'meam::train(' 'meam::loadCAD(' 'meam::prepareMesh(' 'meam::proposeGrasps('; do
   nm -DC --defined-only "$train" | grep -qF " $name" || fail "$train does not export $name"
 done
 exit $status

@@ -40,7 +40,7 @@ export PYTHONPATH=$prefix/$python_dir${PYTHONPATH:+:$PYTHONPATH}
 if "$folder/module-build/find_trained_parts" "$folder/part.stl" "$folder/scan.pcd" 2>"$folder/errors.txt"; then echo "trained without Training"; exit 1; fi
 grep -qF 'PPFMEAM::Training' "$folder/errors.txt" || { cat "$folder/errors.txt"; exit 1; }
 for program in cell pick; do
-  ldd "$folder/cpp-build/$program" | grep -E 'meamTrain|gmp|mpfr|OpenMesh|vtk|poppler' && { echo "^ $program links what only training needs"; exit 1; }
+  ldd "$folder/cpp-build/$program" | grep -E 'meamTrain|gmp|mpfr|OpenMesh|libTK|vtk|poppler' && { echo "^ $program links what only training needs"; exit 1; }
 done
 for wrong in missing.pcd part.stl; do
   if "$folder/cpp-build/cell" "$folder/part.meam" "$folder/$wrong" 2>"$folder/errors.txt"; then echo "no error: $wrong"; exit 1; fi

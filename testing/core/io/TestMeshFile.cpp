@@ -221,7 +221,8 @@ TEST(MeshFile, WhatIsWrongWithAFile)
     EXPECT_TRUE(files::contains(error, path)) << name << ": " << error;
     return error;
   };
-  EXPECT_TRUE(files::contains(errorOf("a.step", "ISO-10303-21;"), ".stl, .obj, .ply or .off"));
+  EXPECT_TRUE(files::contains(errorOf("a.vrml", "#VRML"), ".stl, .obj, .ply or .off"));
+  EXPECT_TRUE(files::contains(errorOf("a.STEP", "ISO-10303-21;"), "loadCAD"));
   EXPECT_TRUE(files::contains(errorOf("a.stl", ""), "cut off"));
   EXPECT_TRUE(files::contains(errorOf("a.stl", binarySTL(part).substr(0, 500)), "cut off"));
   EXPECT_TRUE(files::contains(errorOf("a.stl", "solid part\nfacet\nendsolid part\n"), "no faces"));

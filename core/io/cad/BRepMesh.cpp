@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/cad/BRepMesh.h"
+
+#include "base/Error.h"
+#include "io/parsing/FileBytes.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <StepShape_TopologicalRepresentationItem.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include <cmath>
+#include <vector>
+
+namespace meam
+{
+namespace
+{
+// Of the diagonal of the part's bounds: how far triangles are from the surface, below what sensors measure.
+constexpr double Deflection = 2e-4;
+// Between neighbouring triangles and chords of what is too small for the deflection to count. A quarter of the angle
+// that makes an edge sharp, so that no triangles of a smooth face meet at one, and sizes of parts come out to 0.01 mm.
+constexpr double Angle = 8.0 * M_PI / 180.0;
+// Of the diagonal: how far apart edges may lie of faces that come without their neighbours and are sewn.
+constexpr double SewingTolerance = 1e-4;
+
+constexpr std::size_t IGESSection = 72; // where in a line the letter is that tells its section
+
+[[noreturn]] void failBRep(const std::string& path, const std::string& what)
+{
+  throw Error("The CAD file '" + path + "' " + what + ".");
+}
+
+double diagonalOf(const TopoDS_Shape& shape)
+{
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
+}
+
+void load(const std::string& path, XSControl_Reader& reader)
+{
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+  {
+    failBRep(path, "is cut off or damaged, or is of another kind than its name says");
+  }
+}
+
+/// Open CASCADE goes on without what it cannot make sense of, and leaves out faces or crashes. What is no surface may
+/// be of a kind that it does not know, as annotations.
+void requireSurfaces(const std::string& path, const XSControl_Reader& reader)
+{
+  Interface_CheckIterator checks = reader.WS()->ModelCheckList(false);
+  for (checks.Start(); checks.More(); checks.Next())
+  {
+    const Handle(Interface_Check) check = checks.Value();
+    const Handle(Standard_Transient) entity = check->Entity();
+    if (!check->HasFailed() || entity.IsNull())
+    {
+      continue;
+    }
+    const std::string type = entity->DynamicType()->Name();
+    if (type.rfind("StepGeom_", 0) == 0 || entity->IsKind(STANDARD_TYPE(StepShape_TopologicalRepresentationItem)))
+    {
+      failBRep(path, "is damaged, in an entity " + type + " of it: " + check->CFail(1));
+    }
+  }
+}
+
+TopoDS_Shape readSTEP(const std::string& path)
+{
+  STEPControl_Reader reader;
+  load(path, reader);
+  requireSurfaces(path, reader);
+  reader.TransferRoots();
+  return reader.OneShape();
+}
+
+/// The first line is of the start section, the last of the terminate section.
+void requireSections(const std::string& path)
+{
+  const std::string text = readFile(path);
+  const auto isOf = [&](char section, std::size_t line)
+  { return text.size() > line + IGESSection && text[line + IGESSection] == section; };
+  if (!isOf('S', 0))
+  {
+    failBRep(path, "is no IGES file of text in lines of 80 letters");
+  }
+  const std::size_t end = text.find_last_not_of(" \t\r\n\x1a");
+  if (!isOf('T', text.rfind('\n', end) + 1))
+  {
+    failBRep(path, "is cut off: its last line is not that of the terminate section");
+  }
+}
+
+/// The shape with its faces of no shell, as IGES mostly has them, sewn to shells.
+TopoDS_Shape sewn(const TopoDS_Shape& shape)
+{
+  TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SHELL);
+  if (!face.More())
+  {
+    return shape;
+  }
+  BRepBuilderAPI_Sewing sewing(SewingTolerance * diagonalOf(shape));
+  for (; face.More(); face.Next())
+  {
+    sewing.Add(face.Current());
+  }
+  sewing.Perform();
+  TopoDS_Compound result;
+  BRep_Builder builder;
+  builder.MakeCompound(result);
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next())
+  {
+    builder.Add(result, shell.Current());
+  }
+  builder.Add(result, sewing.SewedShape());
+  return result;
+}
+
+TopoDS_Shape readIGES(const std::string& path)
+{
+  requireSections(path);
+  IGESControl_Reader reader;
+  load(path, reader);
+  reader.TransferRoots();
+  return reader.OneShape();
+}
+
+/// Puts the triangles of faces together; nodes on the edge that faces share become one vertex.
+class FaceJoining
+{
+public:
+  void add(const TopoDS_Face& face)
+  {
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, location);
+    if (triangles.IsNull())
+    {
+      return;
+    }
+    const gp_Trsf& toPart = location.Transformation();
+    const int first = static_cast<int>(this->Places.size());
+    for (int i = 1; i <= triangles->NbNodes(); ++i)
+    {
+      const gp_Pnt place = triangles->Node(i).Transformed(toPart);
+      this->Places.emplace_back(place.X(), place.Y(), place.Z());
+      this->Same.push_back(first + i - 1);
+    }
+    const bool isInwards = face.Orientation() == TopAbs_REVERSED;
+    for (int i = 1; i <= triangles->NbTriangles(); ++i)
+    {
+      int a, b, c;
+      triangles->Triangle(i).Get(a, b, c);
+      this->Triangles.emplace_back(first + a - 1, first + (isInwards ? c : b) - 1, first + (isInwards ? b : c) - 1);
+    }
+    for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
+    {
+      this->join(TopoDS::Edge(edge.Current()), triangles, location, first);
+    }
+  }
+
+  TriangleMesh mesh()
+  {
+    TriangleMesh mesh;
+    std::vector<int> vertexOf(this->Places.size(), -1);
+    for (const Eigen::Vector3i& triangle : this->Triangles)
+    {
+      const Eigen::Vector3i corners = triangle.unaryExpr([&](int node) { return this->find(node); });
+      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+      {
+        continue; // at the tip of a cone
+      }
+      mesh.triangles.push_back(corners.unaryExpr(
+        [&](int place)
+        {
+          if (vertexOf[place] < 0)
+          {
+            vertexOf[place] = static_cast<int>(mesh.vertices.size());
+            mesh.vertices.push_back(this->Places[place].cast<float>());
+          }
+          return vertexOf[place];
+        }));
+    }
+    return mesh;
+  }
+
+private:
+  int find(int node)
+  {
+    while (this->Same[node] != node)
+    {
+      node = this->Same[node] = this->Same[this->Same[node]];
+    }
+    return node;
+  }
+
+  void unite(int a, int b) { this->Same[this->find(b)] = this->find(a); }
+
+  /// The nodes of an edge, which are as many in each of its faces.
+  void join(
+    const TopoDS_Edge& edge, const Handle(Poly_Triangulation) & triangles, const TopLoc_Location& location, int first)
+  {
+    const Handle(Poly_PolygonOnTriangulation) line = BRep_Tool::PolygonOnTriangulation(edge, triangles, location);
+    if (line.IsNull())
+    {
+      return;
+    }
+    std::vector<int> nodes;
+    for (int i = 1; i <= line->NbNodes(); ++i)
+    {
+      nodes.push_back(first + line->Node(i) - 1);
+    }
+    const std::size_t number = static_cast<std::size_t>(this->Edges.Add(edge));
+    if (number > this->NodesOf.size())
+    {
+      this->NodesOf.push_back(nodes);
+    }
+    const std::vector<int>& known = this->NodesOf[number - 1];
+    for (std::size_t i = 0; i < nodes.size() && nodes.size() == known.size(); ++i)
+    {
+      this->unite(known[i], nodes[i]);
+      if (BRep_Tool::Degenerated(edge)) // a point
+      {
+        this->unite(known[0], nodes[i]);
+      }
+    }
+  }
+
+  std::vector<Eigen::Vector3d> Places; // of the nodes of all faces
+  std::vector<int> Same;               // another node at the place of each, or itself
+  std::vector<Eigen::Vector3i> Triangles;
+  TopTools_IndexedMapOfShape Edges;      // counted from 1
+  std::vector<std::vector<int>> NodesOf; // each edge in the first of its faces
+};
+
+TriangleMesh meshOf(const TopoDS_Shape& shape)
+{
+  const double diagonal = diagonalOf(shape);
+  if (!(diagonal > 0.0))
+  {
+    return {};
+  }
+  IMeshTools_Parameters fineness;
+  fineness.Deflection = fineness.DeflectionInterior = Deflection * diagonal;
+  fineness.Angle = fineness.AngleInterior = Angle;
+  BRepMesh_IncrementalMesh(shape, fineness);
+  FaceJoining joining;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
+  {
+    joining.add(TopoDS::Face(face.Current()));
+  }
+  return joining.mesh();
+}
+
+int solidsIn(const TopoDS_Shape& shape)
+{
+  int solids = 0;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
+  {
+    ++solids;
+  }
+  return solids;
+}
+}
+
+BRepMesh meshOfBRep(const std::string& path)
+{
+  try
+  {
+    const std::string extension = extensionOf(path);
+    const bool isIGES = extension == ".iges" || extension == ".igs";
+    const TopoDS_Shape shape = isIGES ? readIGES(path) : readSTEP(path);
+    return { meshOf(sewn(shape)), solidsIn(shape) };
+  }
+  catch (const Standard_Failure& failure)
+  {
+    failBRep(path, std::string("is damaged: ") + failure.GetMessageString());
+  }
+}
+}

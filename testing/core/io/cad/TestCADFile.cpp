@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/cad/CADFile.h"
+
+#include "TestClosedMesh.h"
+#include "TestFiles.h"
+#include "io/cad/ChildProcess.h"
+#include "mesh/FeatureEdges.h"
+#include "mesh/preparation/MeshPreparation.h"
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <gp_Trsf.hxx>
+
+#include <cmath>
+
+namespace
+{
+constexpr double Inch = 25.4; // mm
+
+TopoDS_Shape box(double x, double y, double z) { return BRepPrimAPI_MakeBox(x, y, z).Shape(); }
+
+/// Writes a file in another process: Open CASCADE prints and leaves memory behind. Returns its path.
+template <typename Write>
+std::string written(const std::string& path, const Write& write)
+{
+  const auto work = [&]
+  {
+    write(path.c_str());
+    return path;
+  };
+  return meam::runInChildProcess(work, {}).value_or("Open CASCADE crashed");
+}
+
+/// A file of a shape whose lengths are mm; the lengths in the file are of the unit.
+std::string stepOf(const files::Folder& folder, const TopoDS_Shape& shape, const char* unit = "MM",
+  const char* name = "part.step", STEPControl_StepModelType type = STEPControl_AsIs)
+{
+  return written(folder.path(name),
+    [&](const char* path)
+    {
+      STEPControl_Controller::Init();
+      Interface_Static::SetCVal("write.step.unit", unit);
+      STEPControl_Writer writer;
+      writer.Transfer(shape, type);
+      writer.Write(path);
+    });
+}
+
+std::string igesOf(const files::Folder& folder, const TopoDS_Shape& shape, const char* unit)
+{
+  return written(folder.path("part.IGS"),
+    [&](const char* path)
+    {
+      IGESControl_Controller::Init();
+      IGESControl_Writer writer(unit, 0); // faces without their neighbours
+      writer.AddShape(shape);
+      writer.ComputeModel();
+      writer.Write(path);
+    });
+}
+
+Eigen::Vector3f sizes(const meam::TriangleMesh& mesh)
+{
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+  {
+    bounds.extend(vertex);
+  }
+  return bounds.sizes();
+}
+
+/// Of a closed mesh that looks outwards.
+double volume(const meam::TriangleMesh& mesh)
+{
+  double six = 0.0;
+  for (const Eigen::Vector3i& t : mesh.triangles)
+  {
+    six += mesh.vertices[t[0]].cast<double>().dot(
+      mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>()));
+  }
+  return six / 6.0;
+}
+
+void expectSizes(const meam::TriangleMesh& mesh, double x, double y, double z)
+{
+  constexpr float close = 0.01f; // mm
+  EXPECT_TRUE(sizes(mesh).isApprox(Eigen::Vector3d(x, y, z).cast<float>(), close / static_cast<float>(x)))
+    << sizes(mesh).transpose();
+}
+
+std::string errorOfCAD(const std::string& path)
+{
+  const std::string error = files::errorOf([&] { meam::readCAD(path); });
+  EXPECT_TRUE(files::contains(error, path)) << error;
+  return error;
+}
+}
+
+TEST(CADFile, lengthsComeInMmWhateverTheUnitOfTheFileIs)
+{
+  const files::Folder folder;
+  const TopoDS_Shape shape = box(10 * Inch, 20 * Inch, 30 * Inch);
+  for (const char* unit : { "MM", "INCH", "M" })
+  {
+    const meam::CADPart part = meam::readCAD(stepOf(folder, shape, unit, "part.STP"));
+    expectSizes(part.mesh, 254, 508, 762);
+    EXPECT_NEAR(volume(part.mesh), 254.0 * 508 * 762, 1e3);
+    EXPECT_EQ(part.mesh.vertices.size(), 8u);
+    EXPECT_EQ(part.mesh.triangles.size(), 12u);
+    EXPECT_EQ(part.report, "");
+  }
+}
+
+TEST(CADFile, curvedFacesAreClosedAndLookOutwards)
+{
+  const files::Folder folder;
+  const double ball = 4.0 / 3.0 * M_PI * 1e3, rod = M_PI * 1e2 * 30, tip = rod / 3.0;
+  for (const auto& [shape, expected] : { std::pair(BRepPrimAPI_MakeCylinder(10, 30).Shape(), rod),
+         std::pair(BRepPrimAPI_MakeSphere(10).Shape(), ball), std::pair(BRepPrimAPI_MakeCone(10, 0, 30).Shape(), tip) })
+  {
+    const meam::TriangleMesh mesh = meam::readCAD(stepOf(folder, shape)).mesh;
+    parts::expectTwoFacesAtEachEdge(mesh, 0.0f);
+    EXPECT_NEAR(volume(mesh) / expected, 1.0, 0.01);
+  }
+}
+
+TEST(CADFile, sharpEdgesOfTheMeshAreThoseOfTheSurfaces)
+{
+  const files::Folder folder;
+  const auto lengthOf = [&](const TopoDS_Shape& shape)
+  {
+    meam::FeatureEdgesSettings settings;
+    settings.spacing = 0.1;
+    const meam::TriangleMesh mesh = meam::readCAD(stepOf(folder, shape)).mesh;
+    return settings.spacing * static_cast<double>(meam::extractFeatureEdges(mesh, settings).points.size());
+  };
+  EXPECT_NEAR(lengthOf(BRepPrimAPI_MakeCylinder(10, 30).Shape()), 2 * 2 * M_PI * 10, 0.5); // not its seam
+  EXPECT_EQ(lengthOf(BRepPrimAPI_MakeSphere(10).Shape()), 0.0);
+}
+
+TEST(CADFile, allSolidsAreOnePartWhereTheyArePlaced)
+{
+  const files::Folder folder;
+  gp_Trsf place;
+  place.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), M_PI / 2.0);
+  place.SetTranslationPart(gp_Vec(100, 0, 0));
+  const TopoDS_Shape shape = box(10, 20, 30);
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, shape);
+  builder.Add(both, shape.Moved(place)); // the same shape again, as in an assembly
+  const meam::CADPart part = meam::readCAD(stepOf(folder, both));
+  expectSizes(part.mesh, 100, 20, 30);
+  parts::expectTwoFacesAtEachEdge(part.mesh, 0.0f);
+  EXPECT_NEAR(volume(part.mesh), 2 * 6000.0, 0.1);
+  EXPECT_TRUE(files::contains(part.report, "2 solids")) << part.report;
+}
+
+TEST(CADFile, openShellsAreRead)
+{
+  const files::Folder folder;
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  TopExp_Explorer face(box(10, 20, 30), TopAbs_FACE);
+  for (face.Next(); face.More(); face.Next()) // all but one
+  {
+    builder.Add(shell, face.Current());
+  }
+  const meam::CADPart part =
+    meam::readCAD(stepOf(folder, shell, "MM", "part.step", STEPControl_ShellBasedSurfaceModel));
+  expectSizes(part.mesh, 10, 20, 30);
+  EXPECT_EQ(part.mesh.triangles.size(), 10u);
+  EXPECT_EQ(part.mesh.vertices.size(), 8u);
+}
+
+TEST(CADFile, facesOfIGESAreSewn)
+{
+  const files::Folder folder;
+  for (const char* unit : { "MM", "INCH" })
+  {
+    const meam::TriangleMesh mesh = meam::readCAD(igesOf(folder, box(10, 20, 30), unit)).mesh;
+    expectSizes(mesh, 10, 20, 30);
+    EXPECT_EQ(mesh.vertices.size(), 8u);
+  }
+  const meam::PreparedMesh rod =
+    meam::prepareMesh(meam::readCAD(igesOf(folder, BRepPrimAPI_MakeCylinder(10, 30).Shape(), "MM")).mesh);
+  EXPECT_EQ(rod.report.nearVertices + rod.report.mergedVertices, 0);
+  EXPECT_TRUE(rod.report.closed);
+  EXPECT_NEAR(rod.report.volume / (M_PI * 1e2 * 30), 1.0, 0.01);
+}
+
+TEST(CADFile, whatIsDamagedIsASentence)
+{
+  const files::Folder folder;
+  const std::string whole = meam::readFile(stepOf(folder, box(10, 20, 30)));
+  for (const char* name : { "empty.step", "empty.igs" })
+  {
+    EXPECT_NE(errorOfCAD(folder.write(name, "")), "");
+    EXPECT_NE(errorOfCAD(folder.write(name, "solid part\n")), "");
+    EXPECT_NE(errorOfCAD(folder.path("no.step")), "");
+  }
+  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("cut.step", whole.substr(0, whole.size() / 2))), "cut off"));
+  const std::string iges = meam::readFile(igesOf(folder, box(10, 20, 30), "MM"));
+  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("cut.igs", iges.substr(0, iges.size() * 9 / 10))), "cut off"));
+
+  // A face whose surface is no surface.
+  std::string other = whole;
+  const std::size_t face = other.find("ADVANCED_FACE");
+  const std::size_t surface = other.find(",#", face) + 2;
+  other.replace(surface, other.find(',', surface) - surface, "1");
+  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("other.step", other)), "damaged"));
+  const TopoDS_Shape line = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Shape();
+  EXPECT_TRUE(files::contains(errorOfCAD(stepOf(folder, line)), "no surface"));
+}
+
+TEST(CADFile, otherFilesAreReadAsMeshes)
+{
+  const files::Folder folder;
+  const std::string path = folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(meam::readCAD(path).mesh.triangles.size(), 1u);
+}
