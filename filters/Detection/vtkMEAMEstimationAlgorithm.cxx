@@ -100,7 +100,8 @@ private:
       return;
     }
     known = nullptr; // until the new one is there
-    const auto trained = vtkMEAMPartTrainer::Create()->Train(mesh, settings, progress);
+    const auto trained = vtkMEAMPartTrainer::Create("To train the part's CAD mesh", "give a trained model to Part")
+                           ->Train(mesh, settings, progress);
     shareTraining(mesh, numbers, trained);
     known = trained;
   }

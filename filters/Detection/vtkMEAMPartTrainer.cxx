@@ -3,15 +3,14 @@
 
 #include "vtkObjectFactory.h"
 
-vtkSmartPointer<vtkMEAMPartTrainer> vtkMEAMPartTrainer::Create()
+vtkSmartPointer<vtkMEAMPartTrainer> vtkMEAMPartTrainer::Create(const std::string& task, const std::string& instead)
 {
   const auto made = vtk::TakeSmartPointer(vtkObjectFactory::CreateInstance("vtkMEAMPartTrainer"));
   auto* trainer = vtkMEAMPartTrainer::SafeDownCast(made);
   if (!trainer)
   {
-    throw meam::Error(
-      "The part is a CAD mesh, and the module PPFMEAM::Training, which trains its model, is not loaded: "
-      "give a trained model to Part, or load the module (in Python: import ppfmeam.filters).");
+    throw meam::Error(task + ", the module PPFMEAM::Training is needed, which is not loaded: " + instead +
+                      ", or load the module (in Python: import ppfmeam.filters).");
   }
   return trainer;
 }

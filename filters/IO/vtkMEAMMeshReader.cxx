@@ -5,6 +5,7 @@
 #include "mesh/TriangleMesh.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
+#include "vtkMEAMPartTrainer.h"
 #include "vtkMEAMRun.h"
 
 #include "vtkInformation.h"
@@ -24,9 +25,18 @@ int vtkMEAMMeshReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
   {
     if (!this->FileName || !*this->FileName)
     {
-      throw meam::Error("No file is given: set FileName to the name of a .stl, .obj, .ply or .off file.");
+      throw meam::Error("No file is given: set FileName to the name of a .step, .iges, .stl, .obj, .ply or .off file.");
     }
-    vtkMEAMConversion::fromMesh(meam::readMesh(this->FileName, vtkMEAMConversion::progressOf(this)), output);
+    const meam::Progress progress = vtkMEAMConversion::progressOf(this);
+    if (meam::isBRepFile(this->FileName))
+    {
+      vtkMEAMPartTrainer::Create("To read " + std::string(this->FileName), "give a mesh of it")
+        ->ReadCAD(this->FileName, output, progress);
+    }
+    else
+    {
+      vtkMEAMConversion::fromMesh(meam::readMesh(this->FileName, progress), output);
+    }
     vtkMEAMConversion::setNameOf(this->FileName, output);
   };
   return vtkMEAMRun(this, work, output);

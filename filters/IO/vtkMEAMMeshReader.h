@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMEAMMeshReader
- * @brief Reads the mesh of a part: STL, OBJ, PLY or OFF, by the file's extension.
+ * @brief Reads the mesh of a part: STEP, IGES, STL, OBJ, PLY or OFF, by the file's extension.
  *
  * What is damaged or cut off is an error. Polygons are cut into triangles; all but the shape is skipped. The triangles
  * of an STL file share the vertices that lie at exactly the same place. OFF is ascii, also COFF, NOFF, STOFF and their
- * combinations.
+ * combinations. STEP and IGES files (.step, .stp, .iges, .igs) need the module PPFMEAM::Training; the faces of all
+ * their solids and shells are triangulated.
  *
- * Output port 0: vtkPolyData, the triangles, in the file's unit; vtkMEAMMeshPreparation brings them to mm.
+ * Output port 0: vtkPolyData, the triangles, of STEP and IGES files in mm, of others in the file's unit;
+ * vtkMEAMMeshPreparation brings them to mm. Field data: CADReport, what was assumed of a STEP or IGES file, if
+ * anything.
  */
 #ifndef vtkMEAMMeshReader_h
 #define vtkMEAMMeshReader_h

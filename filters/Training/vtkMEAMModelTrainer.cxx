@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMModelTrainer.h"
 
+#include "io/cad/CADFile.h"
 #include "model/ModelTraining.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
 
 #include "vtkObjectFactory.h"
@@ -16,4 +18,14 @@ std::shared_ptr<const vtkMEAMConversion::TrainedPart> vtkMEAMModelTrainer::Train
   vtkMEAMConversion::fromMesh(trained.mesh, part->shape);
   part->model = std::make_shared<const meam::TrainedModel>(std::move(trained.model));
   return part;
+}
+
+void vtkMEAMModelTrainer::ReadCAD(const std::string& path, vtkPolyData* mesh, const meam::Progress& progress)
+{
+  const meam::CADPart part = meam::readCAD(path, progress);
+  vtkMEAMConversion::fromMesh(part.mesh, mesh);
+  if (!part.report.empty())
+  {
+    vtkMEAMConversion::setFieldText(mesh, "CADReport", part.report);
+  }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMEAMModelTrainer
- * @brief Prepares a part's mesh and trains its model (paper, Section 4). Made by the object factory; not wrapped.
+ * @brief Reads a part's CAD file, prepares its mesh and trains its model (paper, Section 4). Made by the object
+ * factory; not wrapped.
  */
 #ifndef vtkMEAMModelTrainer_h
 #define vtkMEAMModelTrainer_h
@@ -17,6 +18,7 @@ public:
 
   std::shared_ptr<const vtkMEAMConversion::TrainedPart> Train(
     vtkPolyData* mesh, const meam::TrainSettings& settings, const meam::Progress& progress) override;
+  void ReadCAD(const std::string& path, vtkPolyData* mesh, const meam::Progress& progress) override;
 
 protected:
   vtkMEAMModelTrainer() = default;

@@ -214,8 +214,8 @@ class Diagnosis:
 
 @takes(settings="train")
 def train(cad, *, settings):
-    """Learns how a part looks from all sides; takes seconds. `cad`: a .stl, .obj, .ply or .off file, or a vtkPolyData with
-    faces. Returns a Model."""
+    """Learns how a part looks from all sides; takes seconds. `cad`: a .step, .iges, .stl, .obj, .ply or .off file, or a
+    vtkPolyData with faces. Returns a Model."""
     mesh = inputs.mesh_of(cad)
     corners = mesh.vertices * settings.scale + numpy.array(settings.offset)
     return Model(_core.train(mesh, settings.apply(_core.TrainSettings(), _core)), None if isinstance(cad, vtkDataObject) else os.fspath(cad),

@@ -25,7 +25,7 @@ from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 from . import Error as Failure
 from . import choices, filters
 
-EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj")
+EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj", ".step", ".stp", ".iges", ".igs")
 AS_GOOD = 0.02  # share of the surface that near-symmetries may differ by and count as equally near
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total")
@@ -231,7 +231,7 @@ def set_preset(estimation, preset):
 
 def add_bin_arguments(parser, scenes):
     """What a script that simulates bins asks for: the part, and how many bins of how many copies; `scenes` by default."""
-    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
+    parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
     choices.add_options(parser, "train", "scale")
     parser.add_argument("--copies", type=count, default=20, help="copies in a bin (default: %(default)s)")
     parser.add_argument("--scenes", type=count, default=scenes, help="bins to fill (default: %(default)s)")
@@ -298,7 +298,7 @@ def read_with(reader, path):
 
 
 def read(path, scale=1.0):
-    """The mesh or the cloud in a .pcd, .off, .ply, .stl or .obj file, its coordinates times a factor."""
+    """The mesh or the cloud in a file of EXTENSIONS, its coordinates times a factor."""
     extension = os.path.splitext(path)[1].lower()
     if extension not in EXTENSIONS:
         raise Failure(f"{path}: unknown kind of file; known are {', '.join(EXTENSIONS)}")
@@ -328,7 +328,10 @@ def read_mesh(path, offset=(0, 0, 0), scale=1.0):
     """The clean mesh of a CAD file, scaled to mm and moved by an offset in mm."""
     data = read(path)
     if not data.IsA("vtkPolyData"):
-        raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.stl, .obj, .ply or .off)")
+        raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.step, .iges, .stl, .obj, .ply or .off)")
+    report = data.GetFieldData().GetAbstractArray("CADReport")
+    if report:
+        print("cad: " + report.GetValue(0))
     return prepare_mesh(data, offset, scale)
 
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes of every kind: the triangles of VTK's readers, of OFF those of a box, also through the scripts; and files that are
-damaged or cut off."""
+"""Meshes of every kind: the triangles of VTK's readers, of OFF those of a box, of STEP those of a rod, also through the
+scripts; and files that are damaged or cut off."""
 import os
+import shutil
 import tempfile
 
 import numpy
@@ -10,6 +11,7 @@ from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOBJWriter, vtkSTLReader, vtkSTLWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
 
+import ppfmeam
 from ppfmeam import scripting
 from ppfmeam.filters import vtkMEAMMeshPreparation, vtkMEAMMeshReader
 from meamtest import bracket, check, cloud, connect, fails, field, mesh, points, prints, run
@@ -103,6 +105,23 @@ except scripting.Failure as failure:
     check("cut off" in str(failure), failure)
 fails(reader(file("text.off", b"ply\n")), "not an OFF file")
 fails(reader(file("point.off", b"OFF\n1 0 0\n0 0 0\n")), "no faces")
+
+# A rod of 20 x 20 x 5 mm, whose file is in inches.
+rod = os.path.join(os.path.dirname(__file__), "..", "fuzz", "corpus", "step", "rod.step")
+for path in (rod, shutil.copy(rod, file("ROD.STP"))):
+    found = run(reader(path))
+    sizes = [b - a for a, b in zip(found.GetBounds()[::2], found.GetBounds()[1::2])]
+    check(numpy.allclose(sizes, (20, 20, 5), atol=0.01), f"{path}: {sizes}")
+    clean = run(connect(vtkMEAMMeshPreparation(), found))
+    check(field(clean, "Closed") == [(1,)] and field(clean, "MergedVertices") == [(0,)], "faces share their vertices")
+    check(numpy.allclose(field(clean, "Volume"), 500 * numpy.pi, rtol=0.01), f"{path}: {field(clean, 'Volume')}")
+    check(field(scripting.read_mesh(path, scale=2.0), "Volume")[0][0] > 7.9 * 490 * numpy.pi, "scripts read STEP files")
+check(abs(ppfmeam.train(rod).diameter - 425 ** 0.5) < 0.05, "a STEP file is trained")
+with open(rod, "rb") as whole:
+    content = whole.read()
+fails(reader(file("cut.step", content[:3000])), "cut.step", "cut off")
+fails(reader(file("empty.igs", b"")), "empty.igs", "no IGES file")
+fails(reader(file("no.step")), "no.step")
 
 fails(vtkMEAMMeshReader(), "no file")
 fails(reader("/no/such/part.stl"), "/no/such/part.stl")

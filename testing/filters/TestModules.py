@@ -16,7 +16,7 @@ from vtkmodules.vtkIOXML import vtkXMLStructuredGridReader
 from ppfmeam.ppfmeamDetection import vtkMEAMPoseEstimation
 from ppfmeam.ppfmeamIO import vtkMEAMMeshReader, vtkMEAMModelReader
 
-GPL = re.compile("CGAL|libgmp|libmpfr|OpenMesh|Bullet|gdal|poppler|imgcodecs")
+GPL = re.compile("CGAL|libgmp|libmpfr|OpenMesh|Bullet|libTK|gdal|poppler|imgcodecs")
 MAKE = """
 import ppfmeam
 from ppfmeam.filters import vtkMEAMBinSceneSource
@@ -83,6 +83,11 @@ with tempfile.TemporaryDirectory() as name:
     check(not loaded(), f"detection alone loads {loaded()}")
     none, told = found(mesh)
     check(not none and len(told) == 1 and "PPFMEAM::Training" in told[0], f"a mesh without Training: {len(none)} poses, {told}")
+    step = reader(vtkMEAMMeshReader, "part.step")
+    step.AddObserver("ErrorEvent", tell)
+    errors.clear()
+    step.Update()
+    check(len(errors) == 1 and "PPFMEAM::Training" in errors[0], f"a STEP file without Training: {errors}")
 
     import ppfmeam.ppfmeamPicking  # noqa: F401
     import ppfmeam.ppfmeamTraining  # noqa: F401

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Poses saved and opened, clouds and OFF meshes opened, as the application does it: by the file's extension, with our writer
+"""Poses saved and opened, clouds, OFF and STEP files opened, as the application does it: by the file's extension, with our writer
 and our readers."""
 import os
+import shutil
 import tempfile
 
 from paraview import make_name_valid, servermanager, simple
@@ -45,6 +46,11 @@ with open(path("part.off"), "w") as file:
 part = simple.OpenDataFile(path("part.off"))
 part.UpdatePipeline()
 check(part.GetXMLName() == "MEAMMeshReader" and part.GetDataInformation().GetNumberOfCells() == 2, "an OFF file")
+rod = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "step", "rod.step")
+for name in ("part.step", "PART.STEP", "part.stp"):
+    part = simple.OpenDataFile(shutil.copy(rod, path(name)))
+    part.UpdatePipeline()
+    check(part.GetXMLName() == "MEAMMeshReader" and part.GetDataInformation().GetNumberOfCells() > 100, name)
 
 # Results of others are opened, too; tables of others are left to ParaView.
 os.rename(path("saved.bop"), path("results.csv"))

@@ -11,7 +11,7 @@ from ..report.told import Told
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cad", action="append", default=[], metavar="PART",
-                        help="CAD file of the part: .stl, .obj, .ply or .off, in mm; once for each type of part")
+                        help="CAD file of the part: .step or .iges, or .stl, .obj, .ply or .off in mm; once for each type of part")
     choices.add_options(parser, "train", "offset", "scale")
     parser.add_argument("--model", action="append", default=[],
                         help="trained model of `train`, instead of training, once for each type of part; --cad is then for "

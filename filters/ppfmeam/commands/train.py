@@ -9,7 +9,7 @@ from .. import choices, scripting
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cad", required=True, help="CAD file: .stl, .obj, .ply or .off, in mm")
+    parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
     choices.add_options(parser, "train", "offset", "scale")
     scripting.add_method_options(parser)
     choices.add_options(parser, "train", "features")

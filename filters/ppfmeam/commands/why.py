@@ -16,7 +16,7 @@ from ..report.told import Told
 
 def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("part", help="CAD file of the part (.stl, .obj, .ply or .off, in mm), or trained model of `train`")
+    parser.add_argument("part", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`")
     parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm")
     place = parser.add_mutually_exclusive_group(required=True)
     place.add_argument("--at", nargs=3, type=float, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
