@@ -21,6 +21,7 @@ from ppfmeam import dataset, evaluation, scripting
 import benchmarks
 import calibration
 import cells
+import good_scans
 import models
 import page
 import paper
@@ -165,6 +166,10 @@ def robust():
             for row in robustness.measure(BIN_PARTS[name][0])]  # those of our own
 
 
+def of_scans():
+    return [{"part": name, **row} for name in ("ridged_disc", "hole_plate") for row in good_scans.measure(BIN_PARTS[name][0])]
+
+
 def rings():
     return [real_scans.rings(DATA, edges, 20)
             for edges in (("image",), ("image", "depth"), ("image", "depth", "creases"), ("depth", "creases"))]
@@ -188,6 +193,7 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
     "rings": ("A real scan: rings", rings, False),
     "known": ("Real scans of other sensors", lambda: real_scans.known(DATA), True),
     "robustness": ("Noise and image quality in simulated bins", robust, False),
+    "good-scans": ("Scans that shine, are exposed wrongly or have holes", of_scans, False),
     "resolution": ("How many pixels a part needs", lambda: resolution.measure(os.path.join(DATA, "scanner", "V2D63xModel.ply")),
                    False),
     "paper": ("The paper's own experiments", of_paper, False),
