@@ -111,11 +111,13 @@ foreach(component IN LISTS components)
   set(CPACK_DEBIAN_${name}_PACKAGE_NAME ${package_${component}})
 endforeach()
 
-# Something to begin with: parts, and the C++ examples.
+# Something to begin with: parts, the C++ examples, and a cell.
 file(GLOB parts "${PROJECT_SOURCE_DIR}/examples/parts/*.stl")
 install(FILES ${parts} DESTINATION share/doc/${package_python}/examples/parts COMPONENT python EXCLUDE_FROM_ALL)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/cpp" DESTINATION share/doc/${package_dev}/examples
-  COMPONENT dev EXCLUDE_FROM_ALL)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/cpp" "${PROJECT_SOURCE_DIR}/examples/cell"
+  DESTINATION share/doc/${package_dev}/examples COMPONENT dev EXCLUDE_FROM_ALL)
+install(FILES "${PROJECT_SOURCE_DIR}/examples/cell/cell.py"
+  DESTINATION share/doc/${package_python}/examples/cell COMPONENT python EXCLUDE_FROM_ALL)
 # ParaView lists the plugins that the first paraview.conf names. Debian's 5.13 comes with one, which names a folder for
 # those of others; 5.11 comes without one, and finds it beside its program.
 set(installed "/usr/lib/${PARAVIEW_PLUGIN_SUBDIR}")

@@ -71,10 +71,12 @@ cmake -S /usr/share/doc/libppfmeam-dev/examples/cpp -B cpp -DCMAKE_BUILD_TYPE=Re
   { cat cpp.log; failed "the examples do not compile"; }
 python3 "$here/install/scan.py" make "$work"
 cpp/find_parts part.stl scan.pcd part.meam >found.txt
-cpp/cell part.meam scan.pcd >cell.txt
 cpp/propose_grasps part.meam part.stl part.grasps.json
 cpp/pick part.meam part.stl part.grasps.json scan.pcd robot.json >picks.txt
 python3 "$here/install/scan.py" check "$work"
+cmake -S /usr/share/doc/libppfmeam-dev/examples/cell -B cell -DCMAKE_BUILD_TYPE=Release >cell.log 2>&1 && cmake --build cell >>cell.log 2>&1 ||
+  { cat cell.log; failed "the cell does not compile"; }
+python3 "$here/install/robot.py" "$work" /usr/share/doc/libppfmeam-dev/examples/cell/cell.py "$work/cell/cell"
 
 echo "== the VTK modules in C++"
 get paraview-dev

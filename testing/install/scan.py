@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """make FOLDER: a part (part.stl), a simulated scan of a bin of them (scan.pcd), the true poses (truth.txt) and the camera in a
 robot's frame (robot.json).
-check FOLDER: what the C++ programs found (found.txt, cell.txt, picks.txt) is true, and the same that Python finds with the model that
+check FOLDER: what the C++ programs found (found.txt, picks.txt) is true, and the same that Python finds with the model that
 C++ trained (part.meam)."""
 import json
 import os
@@ -54,16 +54,15 @@ def printed(name):
 def check():
     truth = numpy.loadtxt("truth.txt").reshape(-1, 4, 4)
     model = ppfmeam.load("part.meam")
-    for name, options in (("found.txt", {}), ("cell.txt", {"poses": 0, "probability": 0.5})):
-        told, poses = printed(name)
-        probabilities = [float(line.split()[1]) for line in told]
-        assert len(poses) >= 2, f"{name}: {len(poses)} poses"
-        nearest = [min(numpy.linalg.norm(pose[:3, 3] - T[:3, 3]) for T in truth) for pose in poses]
-        print(f"{name}: {len(poses)} poses, {sum(d < MILLIMETRES for d in nearest)} of them true")
-        assert nearest[0] < MILLIMETRES and probabilities[0] > 0.5, f"{name}: {nearest}, {probabilities}"
-        found = ppfmeam.detect(model, "scan.pcd", **options)
-        assert len(found) == len(poses), f"{name}: Python finds {len(found)} poses"
-        assert numpy.allclose(found.poses, poses, rtol=1e-5, atol=1e-3), f"{name}: Python finds others"  # as printed
+    told, poses = printed("found.txt")
+    probabilities = [float(line.split()[1]) for line in told]
+    assert len(poses) >= 2, f"{len(poses)} poses"
+    nearest = [min(numpy.linalg.norm(pose[:3, 3] - T[:3, 3]) for T in truth) for pose in poses]
+    print(f"found.txt: {len(poses)} poses, {sum(d < MILLIMETRES for d in nearest)} of them true")
+    assert nearest[0] < MILLIMETRES and probabilities[0] > 0.5, f"{nearest}, {probabilities}"
+    found = ppfmeam.detect(model, "scan.pcd")
+    assert len(found) == len(poses), f"Python finds {len(found)} poses"
+    assert numpy.allclose(found.poses, poses, rtol=1e-5, atol=1e-3), "Python finds others"  # as printed
 
     told, frames = printed("picks.txt")
     grasps = ppfmeam.grasps("part.stl", file="part.grasps.json", symmetries=model, opening=60, finger_width=8, finger_thickness=5)
