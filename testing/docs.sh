@@ -22,6 +22,15 @@ done
 if grep -nwiE 'settles?|settled|glances?|own frame|in sight|looked past|judged points' "${documents[@]}"; then
   missing docs "the glossary has the field's words for these"
 fi
+# Every reason that a diagnosis can give has a row of docs/troubleshooting.md.
+causes=$(sed -n '/^enum class LossCause/,/^};/s/^  \([A-Z][A-Za-z]*\).*/\1/p' core/pose/diagnosis/PoseDiagnosis.h)
+[ "$(wc -w <<<"$causes")" -gt 10 ] || missing docs/troubleshooting.md "the reasons of core/pose/diagnosis/PoseDiagnosis.h are not found"
+for cause in $causes; do
+  grep -q "^|.*(\`$cause\`) |" docs/troubleshooting.md || missing docs/troubleshooting.md "no row for the reason $cause"
+done
+# The picture of all frames is that of its script.
+/usr/bin/python3 testing/evaluation/frames.py /dev/stdout | cmp -s - docs/images/frames.svg ||
+  missing docs/robot.md "docs/images/frames.svg is not what testing/evaluation/frames.py draws"
 # The settings of docs/parameters.md: all fields of each struct that it names, with their defaults as the headers of core/
 # have them ("STRUCT FIELD DEFAULT"), but for threads and structs within; and its properties are those of xml/.
 parameters=docs/parameters.md
