@@ -138,11 +138,25 @@ std::string votingVerdict(const Diagnosis& diagnosis)
 
 namespace
 {
-/// What to change where the pose is wrong.
-std::string adviceOnFound(const Pose& pose)
+/// Whether the decision for the whole scan found that a look-alike may be there.
+bool mayBeOther(const Diagnosis& diagnosis) { return diagnosis.lessByOthers >= LeastLess && diagnosis.cutsInto == 0; }
+
+/// What of a pose contradicts that it is the part.
+std::string contradictionWords(const Contradictions& contradictions)
 {
-  const bool mayBeOther = pose.contradictions.logRatio(0.0) < 0.0;
-  return mayBeOther                ? "If it is wrong: where parts that look alike lie, search for all of them together."
+  const auto& [continuing, past, misfit] = contradictions;
+  const std::string beside =
+    continuing >= LeastTold ? "surface goes on beside it over " + decimal(continuing) + " patches" : "";
+  const std::string off =
+    misfit > 1.0 ? "surface lies off the part by " + decimal(misfit) + " times what the scan explains" : "";
+  return beside + (beside.empty() || off.empty() ? "" : ", and ") + off;
+}
+
+/// What to change where the pose is wrong.
+std::string adviceOnFound(const Diagnosis& diagnosis)
+{
+  const Pose& pose = *diagnosis.found;
+  return mayBeOther(diagnosis)     ? "If it is wrong: where parts that look alike lie, search for all of them together."
          : pose.certainty < Likely ? "If it is turned wrongly: light or scan the part so that what tells its rotation "
                                      "shows; RotationCounts keeps back what is unsure."
                                    : "";
@@ -186,6 +200,8 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
       return found + "but " + off + ".";
     case LossCause::NotWanted:
       return found + off + ", but only " + wantedWords(diagnosis, detection.selection) + " are wanted.";
+    case LossCause::Outside:
+      return "Not looked for: its middle lies outside of the region.";
     case LossCause::NoPose:
       return "No part there: however closely it is looked for, no pose of the part has its surface at this point.";
     case LossCause::NotThere:
@@ -248,7 +264,7 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
              (isUnlikely(diagnosis, selection) ? "Lower MinimumProbability." : "");
     case LossCause::None:
     case LossCause::Inaccurate:
-      return diagnosis.found ? adviceOnFound(*diagnosis.found) : "";
+      return diagnosis.found ? adviceOnFound(diagnosis) : "";
     case LossCause::NotMeasured:
       return "Measure the part from another side or with another exposure.";
     case LossCause::Hidden:
@@ -256,6 +272,8 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
     case LossCause::Enclosed:
       return "When there is a part, it is the floor that is wrong: a plane behind which nothing was measured. "
              "Scan what is below, too.";
+    case LossCause::Outside:
+      return "Enlarge the region (Region), or search everywhere.";
     case LossCause::NoPose:
       return "Take a point of the scan that lies on the part.";
     default:
@@ -301,9 +319,11 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
   }
   if (diagnosis.lessByOthers >= LeastLess)
   {
+    const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
     add("With all that the scan holds it is less likely, by " + decimal(diagnosis.lessByOthers) +
-        (diagnosis.cutsInto > 0 ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
-                                : ": the part, or one of just this shape, may not be in it."));
+        (!mayBeOther(diagnosis) ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
+          : words.empty()       ? ": the part, or one of just this shape, may not be in it."
+                                : ": it may be another part that looks alike, for " + words + "."));
   }
   if (std::abs(diagnosis.moreByCalibration) >= LeastTold)
   {
@@ -312,15 +332,6 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
   }
   if (diagnosis.found)
   {
-    const auto& [continuing, past, misfit] = diagnosis.found->contradictions;
-    if (continuing >= LeastTold || misfit > 1.0)
-    {
-      add("It may be another part that looks alike: " +
-          (continuing >= LeastTold ? "surface goes on beside it over " + decimal(continuing) + " patches" : "") +
-          (continuing >= LeastTold && misfit > 1.0 ? ", and " : "") +
-          (misfit > 1.0 ? "surface lies off the part by " + decimal(misfit) + " times what the scan explains" : "") +
-          ".");
-    }
     const std::vector<RotationAlternative>& others = diagnosis.found->alternatives;
     if (!others.empty())
     {

@@ -5,6 +5,7 @@
 #include "pose/objective/BodyOverlap.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/search/Suppression.h"
+#include "scene/preparation/SearchRegion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,12 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     }
     diagnosis.lostIn = PoseStage::Selection;
     return LossCause::Inaccurate;
+  }
+  const Eigen::Vector3d middle = T_local_model * this->Model.visibility->middle().cast<double>();
+  if (this->Detection.region && !this->Detection.region->contains(this->InScene.T_local_scene().inverse() * middle))
+  {
+    diagnosis.lostIn = PoseStage::Voting;
+    return LossCause::Outside;
   }
   const auto last =
     std::find_if(stages.rbegin(), stages.rend(), [](const StageCount& stage) { return stage.here > 0; });

@@ -12,6 +12,7 @@ enum class LossCause
 {
   None,           ///< it was found
   NoPose,         ///< no pose of the part has its surface at the picked point
+  Outside,        ///< its middle lies outside of the region
   NotThere,       ///< the sensor saw past most of the surface
   NotMeasured,    ///< nothing was measured where most of the surface is
   Enclosed,       ///< some of it would be behind the bin's floor or a wall

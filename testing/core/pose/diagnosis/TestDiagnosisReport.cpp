@@ -136,17 +136,19 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
     "anywhere "
     "(-6.3).",
     "With all that the scan holds it is less likely, by 4.2: its body cuts into that of rank 5.",
-    "It may be another part that looks alike: surface goes on beside it over 0.5 patches, and surface lies off the "
-    "part "
-    "by 3.0 times what the scan explains.",
     "Its rotation is 70 % sure; turned by 180.0 degrees it is 25 %.",
     "The nearest other pose is rank 9, 12 %, 14.0 mm and 90.0 degrees off."
   };
   EXPECT_EQ(meam::reasonsOf(diagnosis), sentences);
   const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
+  diagnosis.cutsInto = 0;
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[2],
+    "With all that the scan holds it is less likely, by 4.2: it may be another part that looks alike, for surface goes "
+    "on beside it over 0.5 patches, and surface lies off the part by 3.0 times what the scan explains.");
   EXPECT_EQ(meam::adviceOf(diagnosis, detection),
     "If it is wrong: where parts that look alike lie, search for all of them together.");
-  diagnosis.found->contradictions = {};
+  diagnosis.lessByOthers = 0.0; // what the scan explains by its own unevenness counts for no other part
+  EXPECT_EQ(meam::reasonsOf(diagnosis).size(), 4u);
   EXPECT_NE(meam::adviceOf(diagnosis, detection).find("RotationCounts"), std::string::npos);
 }
 
