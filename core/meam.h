@@ -121,6 +121,7 @@ struct Detections
   double seconds = 0.0;
   bool isCutShort = false; ///< the time limit struck: these are the best that were found until then
   std::string report; ///< what was assumed of the scan, and what of it was left out; empty when there was nothing to
+  std::string advice; ///< what to change first for more parts or surer ones; empty where nothing stands out
   std::string
     warning; ///< that it struck, that nothing sure was found, and what may be wrong with the scan's unit; mostly empty
 };

@@ -5,6 +5,7 @@
 #include "model/TrainedModel.h"
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
+#include "pose/ScanAdvice.h"
 #include "scene/preparation/SearchRegion.h"
 
 #include <algorithm>
@@ -140,6 +141,7 @@ Detections detect(
     }
     poses.push_back(pose);
   }
+  result.advice = scanAdvice(scene.input.quality, report, poses, largest);
   const std::string ofTime = result.isCutShort ? cutShort(settings.timeLimit) : "";
   for (const std::string& sentence : { ofTime, doubtsOf(poses, scene.input, trained.front()->diameter) })
   {

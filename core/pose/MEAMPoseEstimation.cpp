@@ -22,6 +22,16 @@ StageTimes& StageTimes::operator+=(const StageTimes& other)
   return *this;
 }
 
+WorkCounts& WorkCounts::operator+=(const WorkCounts& other)
+{
+  this->references += other.references;
+  this->screened += other.screened;
+  this->verified += other.verified;
+  this->refined += other.refined;
+  this->selected += other.selected;
+  return *this;
+}
+
 DetectionSettings detectionSettings(Preset preset, int maximumPoses, int threads, double minimumProbability)
 {
   DetectionSettings settings;
@@ -87,11 +97,13 @@ public:
   void rank(Poses poses, const Progress& progress)
   {
     StageTimes& spent = this->Told.times;
+    WorkCounts& work = this->Told.work;
     const Scene& scene = this->InScene;
     const TrainedModel& model = this->Model;
     const DetectionSettings& settings = this->Settings;
     Stopwatch watch;
     this->returned(PoseStage::Voting, poses);
+    work.screened += static_cast<int>(poses.size());
     if (settings.screening)
     {
       poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.0, 0.2));
@@ -99,6 +111,7 @@ public:
     }
     spent.screening += watch.lap();
     EvidenceRates rates;
+    work.verified += static_cast<int>(poses.size());
     poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates);
     const bool haveRates = settings.candidateVerification.method == VerificationMethod::VisibleEvidence;
     const std::optional<EvidenceRates> ofScan = haveRates ? std::optional(rates) : std::nullopt;
@@ -107,6 +120,7 @@ public:
     poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
     this->returned(PoseStage::CandidateSelection, poses);
     spent.selection += watch.lap();
+    work.refined += static_cast<int>(poses.size());
     poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.5, 0.9));
     this->returned(PoseStage::Refinement, poses);
     spent.refinement += watch.lap();
@@ -143,6 +157,7 @@ public:
     selection.evidence.rates = this->Told.rates;
     selection.deadline = this->Settings.deadline;
     Stopwatch watch;
+    this->Told.work.selected += static_cast<int>(this->Verified.size());
     const Poses poses = selectPoses(this->Verified, this->InScene, this->Model, selection, progress);
     this->returned(PoseStage::Selection, poses);
     this->Told.times.selection += watch.lap();
@@ -224,6 +239,7 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
     }
     from = to;
   }
+  told.work.references += search.references();
   const Poses poses = ranking.select(subProgress(progress, most, 1.0));
   told.isCutShort = told.isCutShort || settings.deadline.hasStruck();
   return poses;

@@ -53,10 +53,23 @@ struct StageTimes
   StageTimes& operator+=(const StageTimes& other);
 };
 
+/// What the stages had to do, the same on any machine.
+struct WorkCounts
+{
+  int references = 0; ///< reference points that voted
+  int screened = 0;   ///< candidates
+  int verified = 0;   ///< of them
+  int refined = 0;    ///< poses
+  int selected = 0;   ///< refined poses that instances were chosen from
+
+  WorkCounts& operator+=(const WorkCounts& other);
+};
+
 /// What detection tells besides poses.
 struct DetectionReport
 {
   StageTimes times;
+  WorkCounts work;
   std::optional<EvidenceRates> rates; ///< of the scan, by the candidates; none with the paper's verification
   bool isCutShort = false;            ///< by the deadline
 };

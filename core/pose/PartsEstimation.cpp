@@ -1,19 +1,98 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PartsEstimation.h"
 
+#include "pose/PoseTolerances.h"
 #include "pose/Stopwatch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace meam
 {
+namespace
+{
+constexpr double Searches = 0.95; // of the progress
+
+/// The types of part in a scene, and what was found of each.
+class PartsSearch
+{
+public:
+  PartsSearch(
+    const std::vector<const TrainedModel*>& models, const SceneInput& input, const DetectionSettings& settings)
+    : Models(models)
+    , Settings(settings)
+    , Found(models.size())
+  {
+    for (const TrainedModel* model : models)
+    {
+      StageTimes times;
+      Stopwatch watch;
+      this->Scenes.emplace_back(new Scene(sceneOf(*model, input, settings, &times)));
+      times.scene = watch.lap() - times.tangents;
+      this->Told.times += times;
+    }
+  }
+
+  /// Looks for each type, until so many copies of each are sure; 0: for all.
+  void search(int most, const Progress& progress)
+  {
+    const int count = static_cast<int>(this->Models.size());
+    DetectionSettings settings = this->Settings;
+    settings.selection.maximumPoses = most;
+    for (int part = 0; part < count; ++part)
+    {
+      settings.deadline = this->Settings.deadline.after(1.0 / (count - part));
+      DetectionReport told;
+      this->Found[part] = findPoses(*this->Scenes[part], *this->Models[part], settings, &told,
+        subProgress(progress, static_cast<double>(part) / count, (part + 1.0) / count));
+      this->Told.times += told.times;
+      this->Told.work += told.work;
+      this->Told.rates = told.rates;
+      this->Told.isCutShort = this->Told.isCutShort || told.isCutShort;
+    }
+  }
+
+  /// Of what claims the same surface the best supported, best first, in the scene's own coordinates.
+  std::vector<PartPose> resolved(const Progress& progress)
+  {
+    Stopwatch watch;
+    std::vector<PartDetections> detections;
+    for (std::size_t part = 0; part < this->Models.size(); ++part)
+    {
+      detections.push_back({ *this->Scenes[part], *this->Models[part], this->Found[part] });
+    }
+    ConflictResolutionSettings conflicts;
+    conflicts.maximumPoses = this->Settings.selection.maximumPoses;
+    conflicts.threads = this->Settings.selection.threads;
+    std::vector<PartPose> result = resolveConflicts(detections, conflicts, progress);
+    for (PartPose& one : result)
+    {
+      const Scene& scene = *this->Scenes[one.part];
+      one.pose = toSceneFrame({ one.pose }, scene.T_local_scene(), this->Models[one.part]->symmetries).front();
+    }
+    this->Told.times.selection += watch.lap();
+    return result;
+  }
+
+  const DetectionReport& told() const { return this->Told; }
+
+private:
+  const std::vector<const TrainedModel*>& Models;
+  const DetectionSettings& Settings;
+  std::vector<std::unique_ptr<const Scene>> Scenes;
+  std::vector<Poses> Found;
+  DetectionReport Told;
+};
+
+bool isSure(const PartPose& one) { return one.pose.placeProbability >= 1.0 / (1.0 + std::exp(-SureLogOdds)); }
+}
+
 std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& models, const SceneInput& input,
   const DetectionSettings& settings, DetectionReport* report, const Progress& progress)
 {
-  const int count = static_cast<int>(models.size());
   std::vector<PartPose> result;
-  if (count == 1)
+  if (models.size() == 1)
   {
     for (const Pose& pose : estimatePoses(*models[0], input, settings, report, progress))
     {
@@ -26,43 +105,22 @@ std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& mode
   {
     return result;
   }
-  constexpr double searches = 0.95; // of the progress
-  DetectionSettings all = settings;
-  all.selection.maximumPoses = 0; // conflicts decide which poses stay
-  std::vector<std::unique_ptr<const Scene>> scenes;
-  std::vector<Poses> found(models.size());
-  std::vector<PartDetections> detections;
-  DetectionReport ofAll;
-  for (int part = 0; part < count; ++part)
+  const int asked = settings.selection.maximumPoses;
+  PartsSearch search(models, input, settings);
+  if (asked > 0)
   {
-    const double begin = searches * part / count, end = searches * (part + 1) / count;
-    DetectionReport told;
-    StageTimes prepared;
-    Stopwatch watch;
-    all.deadline = settings.deadline.after(1.0 / (count - part));
-    scenes.emplace_back(new Scene(sceneOf(*models[part], input, all, &prepared, subProgress(progress, begin, begin))));
-    prepared.scene = watch.lap() - prepared.tangents;
-    found[part] = findPoses(*scenes.back(), *models[part], all, &told, subProgress(progress, begin, end));
-    detections.push_back({ *scenes.back(), *models[part], found[part] });
-    told.isCutShort = told.isCutShort || ofAll.isCutShort;
-    told.times += prepared;
-    told.times += ofAll.times;
-    ofAll = told;
+    search.search(asked, subProgress(progress, 0.0, 0.5 * Searches));
+    result = search.resolved({});
   }
-  Stopwatch watch;
-  ConflictResolutionSettings conflicts;
-  conflicts.maximumPoses = settings.selection.maximumPoses;
-  conflicts.threads = settings.selection.threads;
-  result = resolveConflicts(detections, conflicts, subProgress(progress, searches, 1.0));
-  for (PartPose& one : result)
+  // One type may have taken the place of another, which was not found there yet: so many must stay.
+  if (asked == 0 || (std::count_if(result.begin(), result.end(), isSure) < asked && !search.told().isCutShort))
   {
-    const Scene& scene = *scenes[one.part];
-    one.pose = toSceneFrame({ one.pose }, scene.T_local_scene(), models[one.part]->symmetries).front();
+    search.search(0, subProgress(progress, asked > 0 ? 0.5 * Searches : 0.0, Searches));
+    result = search.resolved(subProgress(progress, Searches, 1.0));
   }
-  ofAll.times.selection += watch.lap();
   if (report)
   {
-    *report = ofAll;
+    *report = search.told();
   }
   return result;
 }

@@ -282,6 +282,7 @@ void bindDetection(py::module_& module)
   py::class_<Detections>(module, "Detections")
     .def(py::init(&detectionsOf))
     .def_readonly("poses", &Detections::poses)
+    .def_readonly("advice", &Detections::advice)
     .def("of",
       [](const Detections& found, int part)
       {

@@ -3,10 +3,12 @@
 
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
+#include "pose/ScanAdvice.h"
 #include "pose/verification/EdgeExplanation.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMEstimationWork.h"
 #include "vtkMEAMInstanceConversion.h"
+#include "vtkMEAMModelConversion.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneEdgeConversion.h"
@@ -18,6 +20,7 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -120,7 +123,9 @@ std::string nameOf(vtkDataObject* part, int index)
 }
 }
 
-vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(6); }
+vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(7); }
+
+vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() = default;
 
 int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -133,7 +138,9 @@ int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* in
 
 int vtkMEAMPoseEstimation::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port < 3 ? "vtkPolyData" : "vtkTable");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port < 3   ? "vtkPolyData"
+                                             : port < 6 ? "vtkTable"
+                                                        : "vtkPartitionedDataSetCollection");
   return 1;
 }
 
@@ -148,6 +155,7 @@ int vtkMEAMPoseEstimation::RequestData(
   auto* scores = vtkTable::GetData(outputVector, 3);
   auto* stages = vtkTable::GetData(outputVector, 4);
   auto* answer = vtkTable::GetData(outputVector, 5);
+  auto* trained = vtkPartitionedDataSetCollection::GetData(outputVector, 6);
   return vtkMEAMRun(
     this,
     [&]
@@ -208,8 +216,15 @@ int vtkMEAMPoseEstimation::RequestData(
       InstanceSettings drawn;
       drawn.minimumProbability = this->ShownProbability;
       addLabels(poses, isOne ? std::vector<std::string>() : nameOfEach, drawn.minimumProbability, output);
+      const double largest =
+        (*std::max_element(models.begin(), models.end(),
+           [](const meam::TrainedModel* a, const meam::TrainedModel* b) { return a->diameter < b->diameter; }))
+          ->diameter;
+      const std::string advice = meam::scanAdvice(scene.quality, report, poses, largest);
+      setFieldText(output, "Advice", advice);
       fromAnswer(
-        { poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability") },
+        { poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability"),
+          advice },
         answer);
       if (isOne)
       {
@@ -217,6 +232,14 @@ int vtkMEAMPoseEstimation::RequestData(
           shapes.front(), poses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
         setDiameter(output, models.front()->diameter);
         setPartExtent(output, *models.front());
+        if (this->Given != work.parts.front())
+        {
+          this->GivenData = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+          fromTrainedModel(*models.front(), this->GivenData);
+          shareModel(this->GivenData, work.parts.front()->model);
+          this->Given = work.parts.front();
+        }
+        trained->ShallowCopy(this->GivenData);
       }
       else
       {
@@ -262,6 +285,13 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         scores->AddColumn(output->GetPointData()->GetArray(name));
       }
+      const meam::WorkCounts& done = report.work;
+      const std::pair<const char*, int> counts[] = { { "References", done.references }, { "Screened", done.screened },
+        { "Verified", done.verified }, { "Refined", done.refined }, { "Selected", done.selected } };
+      for (const auto& [name, count] : counts)
+      {
+        setFieldValue(output, (std::string("Work") + name).c_str(), count);
+      }
       setFieldValue(output, "ScenePoints", static_cast<double>(scene.measured.size()));
       setFieldValue(output, "SceneEdgePoints", static_cast<double>(scene.edges.cloud.size()));
       setFieldValue(output, "ModelEdgePoints",
@@ -269,7 +299,7 @@ int vtkMEAMPoseEstimation::RequestData(
           [](double sum, const meam::TrainedModel* model) { return sum + static_cast<double>(model->edges.size()); }));
       setFieldValue(output, "SecondsTotal", filled - start);
     },
-    output, edges, parts, scores, stages, answer);
+    output, edges, parts, scores, stages, answer, trained);
 }
 
 void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)

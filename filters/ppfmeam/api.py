@@ -86,7 +86,8 @@ class Detections(Rows):
     copy is there, however it is turned), `probabilities` (that it is also turned like this), `certainties` (that no
     near-symmetry turns it) and `visible_fractions`, all from 0 to 1; `seconds`, without
     training; `is_cut_short`, that the time limit struck; `scan_quality`, what an organized scan shows of its sensor, by name as
-    vtkMEAMSceneEdgeExtraction has it; `report`, what was assumed of the scan."""
+    vtkMEAMSceneEdgeExtraction has it; `report`, what was assumed of the scan;
+    `advice`, what to change first for more parts or surer ones."""
     COLUMNS = {"poses": ("transform", (4, 4)), "scores": ("score", ()),
                "place_probabilities": ("place_probability", ()), "probabilities": ("probability", ()),
                "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ()), "parts": ("part", ())}
@@ -96,7 +97,7 @@ class Detections(Rows):
         self.inputs, self.settings, self.age = given, settings, inputs.age_of(given["scan"])
         self.core, self.models, self.model = found, models, models[0]
         self.seconds, self.scan_quality, self.is_cut_short = found.seconds, found.quality, found.is_cut_short
-        self.report = found.report
+        self.report, self.advice = found.report, found.advice
 
     def of(self, part):
         """Those of one of several types of part, by its place among them, as pick() takes them."""

@@ -611,6 +611,9 @@ def print_scan_quality(poses):
     report = poses.GetFieldData().GetAbstractArray("ScanReport")
     if report:
         print("scan: " + report.GetValue(0))
+    advice = poses.GetFieldData().GetAbstractArray("Advice")
+    if advice and advice.GetValue(0):
+        print("advice: " + advice.GetValue(0))
     if poses.GetFieldData().GetArray("EdgesFound"):
         print(f"edges: {100 * field(poses, 'EdgesFound'):.0f} % of a part's are found, "
               f"{100 * field(poses, 'EdgesByChance'):.0f} % anywhere")

@@ -99,7 +99,7 @@ labels = [poses.GetPointData().GetAbstractArray("Label").GetValue(i) for i in ra
 sure = [f", rotation {round(100 * c)} %" if c < 0.995 else "" for c, in tuples(poses, "Certainty")]
 check(labels == [f"{i + 1}: {round(100 * p)} %{sure[i]}" for i, (p,) in enumerate(tuples(poses, "PlaceProbability"))],
       f"labels {labels}")
-check(answer(filter) == answer(estimation(part, scan, MaximumNumberOfPoses=0, ShownProbability=0.0)) == "", "all are shown")
+check(answer(filter) == answer(estimation(part, scan, MaximumNumberOfPoses=0, ShownProbability=0.0)) == "", answer(filter))
 scores, stages = filter.GetOutputDataObject(3), filter.GetOutputDataObject(4)
 check([scores.GetValueByName(i, "Pose").ToString() for i in range(scores.GetNumberOfRows())] == ["1", "2"], "rows of poses")
 check(scores.GetValueByName(1, "Probability").ToDouble() == tuples(poses, "Probability")[1][0], "probabilities to plot")
@@ -203,6 +203,9 @@ for features in (0, 1):
 edges_alone = Trained(part).model
 edges_alone.SetFeaturesToEdges()
 fails(estimation(run(edges_alone), scan, Features=1), "edge points alone", "Features")
+
+# The trained model comes out, too, and finds the same.
+check(found(estimation(filter.GetOutputDataObject(6), scan, MaximumNumberOfPoses=2)) == expected, "by the model that came out")
 
 # In a region, a box or a mask of the scan, only the part whose middle lies there.
 middle = [sum(expected[1][4 * row + k] * x for k, x in enumerate((*field(poses, "PartMiddle")[0], 1))) for row in range(3)]

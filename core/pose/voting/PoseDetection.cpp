@@ -144,6 +144,16 @@ Poses CandidateSearch::upTo(double share, const Progress& progress)
   return poses;
 }
 
+int CandidateSearch::references() const
+{
+  std::size_t count = 0;
+  for (const std::map<int, Candidates>& ofRound : this->Prepared->found)
+  {
+    count += ofRound.size();
+  }
+  return static_cast<int>(count);
+}
+
 Poses CandidateSearch::near(const Eigen::Vector3f& place, double radius, const Progress& progress) const
 {
   const Rounds& prepared = *this->Prepared;

@@ -54,6 +54,8 @@ public:
   /// Candidates of the first reference points of each kind, up to a share of them, [0, 1], that is spread over the
   /// scene; those that have voted before do not vote again.
   Poses upTo(double share, const Progress& progress = {});
+  /// How many reference points have voted.
+  int references() const;
   /// By all points within `radius` (mm) of a place in the local frame, whatever the shares of reference points are:
   /// what is found where one looks for it.
   Poses near(const Eigen::Vector3f& place, double radius, const Progress& progress = {}) const;

@@ -99,14 +99,17 @@ TEST(SearchRegion, EdgePointsAreCroppedInTheirOwnFrame)
   meam::SearchRegion(region).crop(edges, measured, 12.0);
   EXPECT_EQ(edges.cloud.size(), 2u);
   EXPECT_EQ(measured.size(), 2u);
-  EXPECT_THROW(meam::SearchRegion(maskOfPixels()), meam::Error);
+  EXPECT_THROW(meam::SearchRegion{ maskOfPixels() }, meam::Error);
 }
 
 TEST(SearchRegion, BadInput)
 {
   meam::PreparedScan scan = floorOfMillimetres();
-  EXPECT_TRUE(
-    files::contains(files::errorOf([&] { meam::SearchRegion(boxOf(10, -10, 0, 20), scan); }), "from before to"));
+  EXPECT_TRUE(files::contains(files::errorOf(
+                                [&] {
+                                  meam::SearchRegion{ boxOf(10, -10, 0, 20), scan };
+                                }),
+    "from before to"));
   const meam::SearchRegion elsewhere(boxOf(500, 600, 0, 20), scan);
   EXPECT_TRUE(files::contains(files::errorOf([&] { elsewhere.crop(scan, 5.0); }), "Nothing of the scan"));
   meam::Region none = maskOfPixels();

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/ScanAdvice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace meam
+{
+namespace
+{
+// From where on parts are lost (docs/evaluation.md, resolution and noise).
+constexpr double FewestPixels = 90.0; // along the part: with half of that one of three is not found
+constexpr double MostNoise = 0.01;    // of the diameter: up to that recall stays above 95 %
+constexpr double TrustedEdges = 1.5;  // times more of a part's edges are found than anywhere, or they tell little
+constexpr double FewestEdges = 0.3;   // of a part's: as many as chance finds in a scan full of edges
+constexpr double LeastCoverage = 0.6; // of the grid: bins of matt parts have more
+constexpr double LikelyThere = 0.5;
+constexpr double SureRotation = 0.9;
+constexpr std::size_t MostSentences = 2;
+
+std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+}
+
+std::string scanAdvice(
+  const ScanQuality& quality, const DetectionReport& report, const Poses& poses, double partDiameter)
+{
+  std::vector<std::string> sentences;
+  if (quality.isKnown())
+  {
+    const double pixels = partDiameter / quality.pointDistance;
+    if (pixels < FewestPixels)
+    {
+      sentences.push_back(
+        "The part is " + std::to_string(std::lround(pixels)) +
+        " pixels long in the scan: below 100 parts are missed; scan from nearer, or with more pixels.");
+    }
+    if (quality.coverage < LeastCoverage && !quality.isCutOut())
+    {
+      sentences.push_back(
+        "Only " + percent(quality.coverage) + " of the scan's pixels have depth: expose longer, or scan twice.");
+    }
+    if (quality.noise > MostNoise * partDiameter)
+    {
+      sentences.push_back("The depth's noise is " + percent(quality.noise / partDiameter) +
+                          " of the part's length: average several scans.");
+    }
+  }
+  if (report.rates)
+  {
+    const EvidenceRate& edges = report.rates->edges;
+    if (edges.found < FewestEdges || edges.found < TrustedEdges * edges.chance)
+    {
+      sentences.push_back("Of a part's edges " + percent(edges.found) + " are found, anywhere " +
+                          percent(edges.chance) + ": they tell little; light the parts from another side.");
+    }
+  }
+  const auto isThere = [](const Pose& pose) { return claimOf(pose, false) >= LikelyThere; };
+  const auto isTurnable = [&](const Pose& pose) { return isThere(pose) && pose.certainty < SureRotation; };
+  const auto there = std::count_if(poses.begin(), poses.end(), isThere);
+  const auto turnable = std::count_if(poses.begin(), poses.end(), isTurnable);
+  if (2 * turnable > there)
+  {
+    sentences.push_back("The rotation of " + std::to_string(turnable) + " of " + std::to_string(there) +
+                        " parts is unsure: what tells it does not show; RotationCounts keeps these back.");
+  }
+  sentences.resize(std::min(sentences.size(), MostSentences));
+  std::string advice;
+  for (const std::string& sentence : sentences)
+  {
+    advice += (advice.empty() ? "" : " ") + sentence;
+  }
+  return advice;
+}
+}

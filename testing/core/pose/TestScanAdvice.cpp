@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/ScanAdvice.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+meam::ScanQuality goodScan()
+{
+  meam::ScanQuality quality;
+  quality.pointDistance = 0.5;
+  quality.noise = 0.1;
+  quality.coverage = 0.9;
+  return quality;
+}
+
+meam::Pose claimed(double place, double certainty)
+{
+  meam::Pose pose;
+  pose.placeProbability = place;
+  pose.certainty = certainty;
+  return pose;
+}
+
+bool says(const std::string& advice, const std::string& words) { return advice.find(words) != std::string::npos; }
+}
+
+TEST(ScanAdvice, NothingOfAGoodScan)
+{
+  meam::DetectionReport report;
+  report.rates.emplace();
+  EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0) }, 100.0), "");
+  EXPECT_EQ(meam::scanAdvice({}, {}, {}, 100.0), "") << "nor where nothing is known";
+}
+
+TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
+{
+  meam::DetectionReport report;
+  meam::ScanQuality coarse = goodScan();
+  coarse.pointDistance = 2.0;
+  EXPECT_TRUE(says(meam::scanAdvice(coarse, report, {}, 100.0), "50 pixels"));
+  meam::ScanQuality noisy = goodScan();
+  noisy.noise = 3.0;
+  EXPECT_TRUE(says(meam::scanAdvice(noisy, report, {}, 100.0), "3 %"));
+  report.rates.emplace();
+  report.rates->edges = { 0.35, 0.3 };
+  EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, {}, 100.0), "35 % are found, anywhere 30 %"));
+  const meam::Poses unsure{ claimed(0.9, 0.3), claimed(0.8, 0.4), claimed(0.7, 1.0), claimed(0.1, 0.2) };
+  report.rates.reset();
+  EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, unsure, 100.0), "2 of 3 parts"));
+  coarse.noise = 3.0;
+  coarse.coverage = 0.5;
+  const std::string both = meam::scanAdvice(coarse, report, unsure, 100.0);
+  EXPECT_LT(both.find("pixels long"), both.find("have depth"));
+  EXPECT_FALSE(says(both, "noise")) << "two sentences";
+}
