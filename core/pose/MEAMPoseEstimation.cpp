@@ -131,8 +131,8 @@ public:
     spent.verification += watch.lap();
   }
 
-  /// Whether so many copies are as good as found.
-  bool areSure(int asked) const
+  /// How many copies are as good as found.
+  int sure() const
   {
     const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
     const double apart = SamePoseDistance * this->Model.diameter;
@@ -146,7 +146,7 @@ public:
         sure.push_back(&pose);
       }
     }
-    return static_cast<int>(sure.size()) >= asked;
+    return static_cast<int>(sure.size());
   }
 
   /// One pose of each instance.
@@ -225,18 +225,21 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   constexpr double most = 0.9; // of the progress
   const Deadline ofVotes = settings.deadline.after(VotingTime);
   double from = 0.0;
+  bool isSoon = asked > 0; // by some of the references enough may be sure
   for (const double to : Shares)
   {
-    if (to < 1.0 && asked == 0 && !settings.deadline.isSet())
+    if (to < 1.0 && !isSoon && !settings.deadline.isSet())
     {
       continue;
     }
     const Progress ofLot = ofVotes.within(subProgress(progress, most * from, most * to));
     told.isCutShort = !isDoneBy(ofVotes, [&] { vote(to, ofLot); });
-    if (told.isCutShort || (asked > 0 && ranking.areSure(asked + SpareCopies)))
+    const int missing = asked + SpareCopies - ranking.sure();
+    if (told.isCutShort || (asked > 0 && missing <= 0))
     {
       break;
     }
+    isSoon = asked > 0 && 2 * missing <= asked + SpareCopies;
     from = to;
   }
   told.work.references += search.references();
