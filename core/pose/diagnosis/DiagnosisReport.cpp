@@ -14,7 +14,7 @@ namespace meam
 namespace
 {
 constexpr double LogOdds = CalibrationWithSurface.slope; // of what adds one to the sum of evidence
-constexpr double Likely = 0.9;                           // certainty of a rotation that needs no word
+constexpr double Likely = 0.9;                           // of a rotation, or a place, that needs no word
 constexpr double LeastLess = 1.0;                        // log odds: more than places lose that nothing contradicts
 constexpr double LeastTold = 0.1;                        // of log odds, or patches: less changes nothing
 
@@ -138,8 +138,14 @@ std::string votingVerdict(const Diagnosis& diagnosis)
 
 namespace
 {
-/// Whether the decision for the whole scan found that a look-alike may be there.
-bool mayBeOther(const Diagnosis& diagnosis) { return diagnosis.lessByOthers >= LeastLess && diagnosis.cutsInto == 0; }
+/// Whether what the scan holds beside it made the place unsure.
+bool isDoubted(const Diagnosis& diagnosis)
+{
+  return diagnosis.lessByOthers >= LeastLess && diagnosis.probability < Likely;
+}
+
+/// Whether a look-alike may be there.
+bool mayBeOther(const Diagnosis& diagnosis) { return isDoubted(diagnosis) && diagnosis.cutsInto == 0; }
 
 /// What of a pose contradicts that it is the part.
 std::string contradictionWords(const Contradictions& contradictions)
@@ -317,7 +323,7 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     add("Against it: " + listed(false) + ", and that little is right of what is anywhere (" +
         decimal(CalibrationWithSurface.constant) + ").");
   }
-  if (diagnosis.lessByOthers >= LeastLess)
+  if (isDoubted(diagnosis))
   {
     const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
     add("With all that the scan holds it is less likely, by " + decimal(diagnosis.lessByOthers) +
