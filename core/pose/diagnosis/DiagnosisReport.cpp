@@ -207,7 +207,7 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
     case LossCause::NotWanted:
       return found + off + ", but only " + wantedWords(diagnosis, detection.selection) + " are wanted.";
     case LossCause::Outside:
-      return "Not looked for: its middle lies outside of the region.";
+      return "Not looked for: it lies outside of the region.";
     case LossCause::NoPose:
       return "No part there: however closely it is looked for, no pose of the part has its surface at this point.";
     case LossCause::NotThere:

@@ -101,7 +101,8 @@ Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& p
     return this->at((takesBest ? best : notWanted)->T_scene_model, subProgress(progress, 0.6, 1.0));
   }
   Diagnosis nothing;
-  nothing.cause = LossCause::NoPose;
+  const bool isOutside = this->Detection.region && !this->Detection.region->contains(point);
+  nothing.cause = isOutside ? LossCause::Outside : LossCause::NoPose;
   report(progress, 1.0);
   return nothing;
 }
