@@ -109,9 +109,7 @@ Detections detect(
   std::vector<const TrainedModel*> trained;
   std::transform(
     models.begin(), models.end(), std::back_inserter(trained), [](const Model& model) { return &model.trained(); });
-  const double largest = (*std::max_element(trained.begin(), trained.end(),
-                            [](const TrainedModel* a, const TrainedModel* b) { return a->diameter < b->diameter; }))
-                           ->diameter;
+  const double largest = largestDiameter(trained);
   requireSettings(settings);
   requireGrid(scan);
   const Deadline deadline = settings.timeLimit > 0.0 ? Deadline(settings.timeLimit) : Deadline();

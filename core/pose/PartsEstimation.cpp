@@ -88,6 +88,30 @@ private:
 bool isSure(const PartPose& one) { return one.pose.placeProbability >= 1.0 / (1.0 + std::exp(-SureLogOdds)); }
 }
 
+RankedPoses posesOfPart(const std::vector<PartPose>& poses, int part)
+{
+  RankedPoses result;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    if (poses[k].part == part)
+    {
+      result.poses.push_back(poses[k].pose);
+      result.ranks.push_back(static_cast<int>(k) + 1);
+    }
+  }
+  return result;
+}
+
+double largestDiameter(const std::vector<const TrainedModel*>& models)
+{
+  double largest = 0.0;
+  for (const TrainedModel* model : models)
+  {
+    largest = std::max(largest, model->diameter);
+  }
+  return largest;
+}
+
 std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& models, const SceneInput& input,
   const DetectionSettings& settings, DetectionReport* report, const Progress& progress)
 {

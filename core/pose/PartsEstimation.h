@@ -8,6 +8,17 @@
 
 namespace meam
 {
+/// The poses of one type among those of several, with their ranks over all, from 1.
+struct RankedPoses
+{
+  Poses poses;
+  std::vector<int> ranks;
+};
+RankedPoses posesOfPart(const std::vector<PartPose>& poses, int part);
+
+/// mm, of the largest type.
+double largestDiameter(const std::vector<const TrainedModel*>& models);
+
 /// The online phase for several types of part in one scan: of poses that claim the same surface the best supported
 /// stays (resolveConflicts). Ranked poses, in the scene's own coordinates (mm), with the type of each. Of one type it
 /// is estimatePoses. Where a few poses are asked for, the search ends when so many stay that are sure. Each type has

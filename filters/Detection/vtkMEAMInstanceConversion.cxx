@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMInstanceConversion.h"
 
+#include "pose/PartsEstimation.h"
 #include "pose/Pose.h"
 #include "vtkMEAMCloudConversion.h"
 
@@ -189,19 +190,10 @@ void fromInstances(const std::vector<vtkPolyData*>& parts, const std::vector<mea
   vtkNew<vtkAppendPolyData> all;
   for (std::size_t part = 0; part < parts.size(); ++part)
   {
-    meam::Poses ofPart;
-    std::vector<int> ranks;
-    for (std::size_t k = 0; k < poses.size(); ++k)
-    {
-      if (poses[k].part == static_cast<int>(part))
-      {
-        ofPart.push_back(poses[k].pose);
-        ranks.push_back(static_cast<int>(k) + 1);
-      }
-    }
+    const meam::RankedPoses ofPart = meam::posesOfPart(poses, static_cast<int>(part));
     vtkNew<vtkPolyData> copies;
     fromInstances(
-      parts[part], ofPart, [&](std::size_t k) { return ranks[k]; }, settings, progress, copies);
+      parts[part], ofPart.poses, [&](std::size_t k) { return ofPart.ranks[k]; }, settings, progress, copies);
     const auto addPart = [&](vtkDataSetAttributes* attributes, vtkIdType size)
     {
       vtkNew<vtkIntArray> ids;

@@ -45,16 +45,7 @@ std::vector<int> ranksOfEdges(const meam::SceneInput& scene, const std::vector<m
   std::vector<int> ranks(scene.edges.cloud.size(), 0);
   for (std::size_t part = 0; part < models.size(); ++part)
   {
-    meam::Poses ofPart;
-    std::vector<int> rankOf;
-    for (std::size_t k = 0; k < poses.size(); ++k)
-    {
-      if (poses[k].part == static_cast<int>(part))
-      {
-        ofPart.push_back(poses[k].pose);
-        rankOf.push_back(static_cast<int>(k) + 1);
-      }
-    }
+    const auto [ofPart, rankOf] = meam::posesOfPart(poses, static_cast<int>(part));
     const std::vector<int> explained =
       meam::explainEdges(scene.edges, ofPart, *models[part], scene.quality.noise, threads);
     for (std::size_t i = 0; i < explained.size(); ++i)
@@ -216,10 +207,7 @@ int vtkMEAMPoseEstimation::RequestData(
       InstanceSettings drawn;
       drawn.minimumProbability = this->ShownProbability;
       addLabels(poses, isOne ? std::vector<std::string>() : nameOfEach, drawn.minimumProbability, output);
-      const double largest =
-        (*std::max_element(models.begin(), models.end(),
-           [](const meam::TrainedModel* a, const meam::TrainedModel* b) { return a->diameter < b->diameter; }))
-          ->diameter;
+      const double largest = meam::largestDiameter(models);
       const std::string advice = meam::scanAdvice(scene.quality, report, poses, largest);
       setFieldText(output, "Advice", advice);
       fromAnswer(
