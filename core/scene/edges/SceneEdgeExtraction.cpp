@@ -3,7 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/Range.h"
-#include "scene/edges/CloudEdges.h"
+#include "scene/edges/CoarseGrid.h"
 #include "scene/edges/GridSurface.h"
 #include "scene/edges/PixelMap.h"
 
@@ -19,6 +19,8 @@ namespace meam
 {
 namespace
 {
+// Grid steps: so large a window tells no more than one of the halved grid without noise.
+constexpr int HalvedFrom = 4;
 constexpr int TangentLength = 2; // of that surface's window in its widths: the slope along the edge is what counts
 
 std::string sizeOf(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
@@ -196,22 +198,59 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
   return found;
 }
 
+/// What the slopes of surfaces are told on: the grid, or where noise takes large windows the halved grid, which tells
+/// as much by fewer points.
+class SlopeGrid
+{
+public:
+  SlopeGrid(const OrganizedCloud& cloud, const GridScale& scale, int threads)
+    : Cloud(cloud)
+    , IsHalved(scale.windowRadius() >= HalvedFrom)
+    , Half(this->IsHalved ? halved(cloud, scale.depthJump(), threads) : OrganizedCloud())
+    , Scale(this->IsHalved ? gridScale(this->Half, threads) : scale)
+  {
+  }
+
+  std::vector<GridEdge> creases(double angle, int threads, const Progress& progress) const
+  {
+    const std::vector<GridEdge> found = findCreases(this->grid(), this->Scale, angle, threads, progress);
+    return this->IsHalved ? onFullGrid(found, this->Half, this->Cloud) : found;
+  }
+
+  /// The planes through the surface around points of the full grid, in windows along these directions.
+  void fit(const int* points, const Eigen::Vector2f* directions, int count, double jump, GridPlane* planes) const
+  {
+    const int radius = this->Scale.windowRadius();
+    std::vector<int> places(points, points + count);
+    std::vector<GridWindow> windows;
+    for (int i = 0; i < count; ++i)
+    {
+      places[i] = this->IsHalved ? placeInHalf(points[i], this->Half, this->Cloud) : points[i];
+      windows.push_back({ TangentLength * radius, radius, directions[i] });
+    }
+    fitPlanes(this->grid(), places.data(), windows.data(), count, jump, planes);
+  }
+
+private:
+  const OrganizedCloud& grid() const { return this->IsHalved ? this->Half : this->Cloud; }
+
+  const OrganizedCloud& Cloud;
+  bool IsHalved;
+  OrganizedCloud Half;
+  GridScale Scale;
+};
+
 /// Lifts each point's direction to the surface there; points whose surface cannot be told are left out.
-SceneEdges withTangents(const EdgePoints& found, const OrganizedCloud& cloud,
-  const SceneEdgeExtractionSettings& settings, double jump, int radius, const Progress& progress)
+SceneEdges withTangents(const EdgePoints& found, const SlopeGrid& slopes, const SceneEdgeExtractionSettings& settings,
+  double jump, const Progress& progress)
 {
   const SceneEdges& edges = found.edges;
   Points tangents(edges.cloud.size(), Eigen::Vector3f::Zero());
   parallelFor(static_cast<int>(tangents.size()), settings.threads, progress,
     [&](int begin, int end, int)
     {
-      std::vector<GridWindow> windows;
-      for (int i = begin; i < end; ++i)
-      {
-        windows.push_back({ TangentLength * radius, radius, found.directions[i] });
-      }
-      std::vector<GridPlane> planes(windows.size());
-      fitPlanes(cloud, &edges.cloud.pointIds[begin], windows.data(), end - begin, jump, planes.data());
+      std::vector<GridPlane> planes(end - begin);
+      slopes.fit(&edges.cloud.pointIds[begin], &found.directions[begin], end - begin, jump, planes.data());
       for (int i = begin; i < end; ++i)
       {
         const GridPlane& plane = planes[i - begin];
@@ -254,6 +293,7 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   report(progress, 0.0);
   const GridScale scale = gridScale(cloud, settings.threads);
   const double jump = settings.depthJump > 0.0 ? settings.depthJump : scale.depthJump();
+  const SlopeGrid slopes(cloud, scale, settings.threads);
   std::vector<Finding> found;
   const auto add = [&](const std::vector<Finding>& some) { found.insert(found.end(), some.begin(), some.end()); };
   if (settings.imageEdges)
@@ -267,12 +307,11 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   }
   if (settings.creases)
   {
-    add(findingsOf(findCreases(cloud, scale, settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)),
-      EdgeSource::Crease));
+    add(findingsOf(
+      slopes.creases(settings.creaseAngle, settings.threads, subProgress(progress, 0.6, 0.8)), EdgeSource::Crease));
   }
   EdgePoints points = merged(cloud, found, settings.threads);
-  SceneEdges result = settings.tangents ? withTangents(points, cloud, settings, jump, scale.windowRadius(),
-                                            subProgress(progress, 0.8, 1.0))
+  SceneEdges result = settings.tangents ? withTangents(points, slopes, settings, jump, subProgress(progress, 0.8, 1.0))
                                         : std::move(points.edges);
   result.quality = measureQuality(cloud, settings.threads);
   report(progress, 1.0);

@@ -413,3 +413,22 @@ TEST(SceneEdgeExtraction, badInput)
   settings.image.smoothing = std::nan("");
   EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), image, settings), meam::Error);
 }
+
+TEST(SceneEdgeExtraction, aCreaseIsFoundWhereNoiseTakesHalfTheResolution)
+{
+  // Windows of four grid steps, and of two of the halved grid.
+  const auto roof = grids::surface(
+    120, 120, [](int x, int) { return 500.0 + 0.8 * std::abs(x - 60.0); }, 0.9);
+  ASSERT_GE(meam::gridScale(roof).windowRadius(), 4);
+  meam::SceneEdgeExtractionSettings settings = meam::sceneEdgeSettings(meam::Preset::Recommended);
+  settings.imageEdges = settings.depthEdges = false;
+  std::set<int> rows;
+  const meam::SceneEdges edges = meam::extractSceneEdges(roof, {}, settings);
+  for (std::size_t i = 0; i < edges.cloud.size(); ++i)
+  {
+    EXPECT_NEAR(edges.cloud.points[i].x(), 60.0, 4.0);
+    EXPECT_GT(std::abs(edges.cloud.tangents[i].y()), 0.8f);
+    rows.insert(edges.cloud.pointIds[i] / 120 / 2);
+  }
+  EXPECT_GE(rows.size(), 45u) << "of 60 rows of the halved grid";
+}
