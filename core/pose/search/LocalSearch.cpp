@@ -281,15 +281,12 @@ void LocalSearch::decide(Pose& pose, Contender current) const
     }
     std::stable_sort(pose.alternatives.begin(), pose.alternatives.end(),
       [&](const RotationAlternative& a, const RotationAlternative& b) { return hasLess(b, a); });
-    if (best == 0)
+    pose.T_scene_model = rotations[best].T_scene_model;
+    if (best <= this->NearSymmetries) // nothing to refine, and the others are the same as seen from it
     {
       return;
     }
-    pose.T_scene_model = rotations[best].T_scene_model;
-    if (best > this->NearSymmetries)
-    {
-      pose = refinePoses({ pose }, this->InScene, this->Model, this->AfterTurn)[0];
-    }
+    pose = refinePoses({ pose }, this->InScene, this->Model, this->AfterTurn)[0];
     current = this->Comparison.contender(pose.T_scene_model);
   }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/InstanceOdds.h"
 
-#include "pose/objective/BodyOverlap.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
@@ -23,9 +22,8 @@ void sortBest(FinishedInstances& found)
     [](const FinishedInstance& a, const FinishedInstance& b) { return isBetter(a.pose, b.pose); });
 }
 
-void excludeOverlaps(FinishedInstances& found, const TrainedModel& model)
+void excludeOverlaps(FinishedInstances& found, const BodyOverlap& overlap)
 {
-  const BodyOverlap overlap(model);
   const auto count = std::count_if(found.begin(), found.end(),
     [](const FinishedInstance& finished) { return finished.pose.placeProbability > WorthExplaining; });
   std::vector<std::vector<char>> cuts(count, std::vector<char>(count, 0));

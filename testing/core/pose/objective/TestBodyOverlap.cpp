@@ -29,6 +29,16 @@ TEST(BodyOverlap, BlocksThatTouchDoNotCut)
   EXPECT_FALSE(cuts(200.0));
 }
 
+TEST(BodyOverlap, TellsDepthsThatDifferByLittle)
+{
+  const meam::BodyOverlap overlap(scenes::trained<slab>());
+  const auto above = [&](double z)
+  { return overlap.cut(Eigen::Isometry3d::Identity(), Eigen::Isometry3d(Eigen::Translation3d(0, 0, z))); };
+  EXPECT_FALSE(above(13.0)) << "2 mm deep, less than 3 % of 74 mm";
+  EXPECT_TRUE(above(12.5)) << "2.5 mm deep";
+  EXPECT_TRUE(above(9.0));
+}
+
 TEST(BodyOverlap, BlocksThatReachIntoEachOtherCut)
 {
   EXPECT_TRUE(cuts(0.0, 90.0)) << "a cross";

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/InstanceFinishing.h"
+
+#include "base/Parallel.h"
+#include "pose/PoseTolerances.h"
+#include "pose/verification/PoseVerification.h"
+
+#include <algorithm>
+
+namespace meam
+{
+namespace
+{
+constexpr int Lot = 8;                 // instances that are finished before it is asked whether they do
+constexpr double WorthFinishing = 0.5; // place: what is likelier is finished in any case
+constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will
+constexpr double ClearlyMore = 3.0;    // log odds of a sure pose over those of one that it excludes
+
+/// A scored pose that is not finished.
+FinishedInstance asItIs(const Pose& scored) { return { scored, {}, scored.evidence, scored.evidence }; }
+}
+
+InstanceFinishing::InstanceFinishing(const Scene& scene, const TrainedModel& model, const LocalSearch& search,
+  const InstanceClaims& claims, const PoseSelectionSettings& settings)
+  : InScene(scene)
+  , Model(model)
+  , Search(search)
+  , Claims(claims)
+  , Settings(settings)
+  , Continuation(scene, model)
+  , Misfit(scene, model)
+  , Overlap(model)
+{
+}
+
+FinishedInstance InstanceFinishing::finish(const Pose& scored) const
+{
+  const LocalSearch::Result best = this->Search.best(scored);
+  Pose pose = best.pose;
+  setSeen(pose, best.evidence, this->InScene, this->Model);
+  setEvidence(pose, best.logOdds);
+  pose.contradictions.past = best.evidence.counts.past + best.evidence.counts.farPast;
+  if (pose.placeProbability <= WorthExplaining || !haveSurfaces(this->InScene, this->Model))
+  {
+    return { pose, {}, best.logOdds, best.logOddsBefore };
+  }
+  double least = this->Misfit.at(pose.T_scene_model); // a part that is turned wrongly is no other part
+  for (const RotationAlternative& other : pose.alternatives)
+  {
+    least = std::min(least, this->Misfit.at(other.T_scene_model));
+  }
+  pose.contradictions.misfit = least / this->Misfit.expected();
+  return { pose, this->Continuation.beyond(pose.T_scene_model), best.logOdds, best.logOddsBefore };
+}
+
+bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& sure) const
+{
+  if (sure.empty() || !this->Settings.excludesOverlaps || scored.placeProbability <= WorthExplaining)
+  {
+    return false;
+  }
+  const InstanceClaims::Claim claim = this->Claims.of(scored.T_scene_model);
+  return std::any_of(sure.begin(), sure.end(),
+    [&](const Sure& one)
+    {
+      return one.logOdds > scored.evidence + ClearlyMore &&
+             (this->Claims.areOne(one.claim, claim) || this->Overlap.cut(one.T_scene_model, scored.T_scene_model));
+    });
+}
+
+bool InstanceFinishing::isEnough(const Pose& next, const std::vector<Sure>& sure, int fruitless) const
+{
+  const int wanted = this->Settings.maximumPoses;
+  const bool haveWanted = wanted > 0 && static_cast<int>(sure.size()) >= wanted + SpareCopies;
+  return next.placeProbability < WorthFinishing && (haveWanted || fruitless >= MostFruitless);
+}
+
+FinishedInstances InstanceFinishing::finished(
+  const Poses& scored, const std::vector<int>& selected, const Progress& progress) const
+{
+  FinishedInstances finished;
+  for (const int k : selected)
+  {
+    finished.push_back(asItIs(scored[k]));
+  }
+  std::vector<Sure> sure;
+  int fruitless = 0;
+  const int count = static_cast<int>(selected.size());
+  for (int next = 0; next < count && !this->isEnough(finished[next].pose, sure, fruitless);)
+  {
+    const double from = static_cast<double>(next) / count;
+    std::vector<int> lot;
+    for (; next < count && static_cast<int>(lot.size()) < Lot; ++next)
+    {
+      if (!this->isExcluded(finished[next].pose, sure))
+      {
+        lot.push_back(next);
+      }
+    }
+    const Deadline& deadline = this->Settings.deadline;
+    const Progress ofLot = deadline.within(subProgress(progress, from, static_cast<double>(next) / count));
+    const bool isDone = isDoneBy(deadline,
+      [&]
+      {
+        parallelFor(static_cast<int>(lot.size()), this->Settings.threads, ofLot,
+          [&](int begin, int end, int)
+          {
+            for (int k = begin; k < end; ++k)
+            {
+              finished[lot[k]] = this->finish(finished[lot[k]].pose);
+            }
+          });
+      });
+    if (!isDone)
+    {
+      break;
+    }
+    for (const int k : lot)
+    {
+      const FinishedInstance& instance = finished[k];
+      const bool isSure = instance.logOdds >= SureLogOdds;
+      if (isSure)
+      {
+        const Eigen::Isometry3d& T = instance.pose.T_scene_model;
+        sure.push_back({ T, instance.logOdds, this->Claims.of(T) });
+      }
+      fruitless = isSure ? 0 : fruitless + 1;
+    }
+  }
+  return finished;
+}
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/InstanceFinishing.h"
+
+#include "TestScene.h"
+#include "pose/verification/PoseVerification.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace
+{
+using scenes::displaced;
+
+/// Poses of the bracket in a scene of three copies, scored and then finished, all of them.
+struct Finishing
+{
+  explicit Finishing(meam::Poses poses)
+  {
+    const meam::Scene& scene = scenes::copiesScene();
+    for (meam::Pose& pose : poses)
+    {
+      pose.T_scene_model = scene.T_local_scene() * pose.T_scene_model;
+    }
+    this->scored = meam::verifyPoses(poses, scene, scenes::bracket());
+  }
+
+  meam::FinishedInstances finished() const
+  {
+    const meam::Scene& scene = scenes::copiesScene();
+    const meam::TrainedModel& model = scenes::bracket();
+    const meam::EvidenceCollector collector(scene, model, {});
+    const meam::PoseComparison comparison(scene, model, {});
+    const meam::EvidenceRates rates = meam::evidenceRatesOf(this->scored, collector, {}, 1, 1);
+    const meam::LocalSearch search(scene, model, comparison, collector, rates, {});
+    const meam::InstanceClaims claims(scene, model, 0.1 * model.diameter);
+    std::vector<int> all(this->scored.size());
+    std::iota(all.begin(), all.end(), 0);
+    return meam::InstanceFinishing(scene, model, search, claims, this->settings).finished(this->scored, all, {});
+  }
+
+  meam::Poses scored;
+  meam::PoseSelectionSettings settings;
+};
+
+/// How many of them were moved from where they were.
+int moved(const Finishing& finishing)
+{
+  const meam::FinishedInstances finished = finishing.finished();
+  EXPECT_EQ(finished.size(), finishing.scored.size());
+  int count = 0;
+  for (std::size_t k = 0; k < finished.size(); ++k)
+  {
+    count += finished[k].pose.T_scene_model.isApprox(finishing.scored[k].T_scene_model, 0.0) ? 0 : 1;
+  }
+  return count;
+}
+
+/// The three copies, a little off, and around the first many that are wrong.
+meam::Poses copiesAndWrongOnes(int wrong)
+{
+  meam::Poses poses;
+  for (const Eigen::Isometry3d& T : scenes::threeCopies())
+  {
+    poses.push_back(displaced(T, 0.3, 0.3));
+  }
+  for (int k = 0; k < wrong; ++k)
+  {
+    poses.push_back(displaced(scenes::threeCopies()[0], 12.0 + 0.1 * k, 25.0));
+  }
+  return poses;
+}
+}
+
+TEST(InstanceFinishing, WhatASurePoseExcludesStaysAsItWasScored)
+{
+  Finishing finishing(copiesAndWrongOnes(0));
+  // Eight are finished together: what comes later finds them sure.
+  for (int k = 0; k < 5; ++k)
+  {
+    finishing.scored.push_back(finishing.scored[0]);
+  }
+  meam::Pose excluded = finishing.scored[0];
+  excluded.T_scene_model = excluded.T_scene_model * Eigen::Translation3d(4.0, 3.0, 0.0);
+  excluded.evidence = 0.0;
+  excluded.placeProbability = 0.5;
+  finishing.scored.push_back(excluded);
+  EXPECT_EQ(moved(finishing), 8);
+  finishing.settings.excludesOverlaps = false;
+  EXPECT_EQ(moved(finishing), 9);
+}
+
+TEST(InstanceFinishing, WhereEnoughAreSureTheUnlikelyStayAsTheyWereScored)
+{
+  Finishing finishing(copiesAndWrongOnes(30));
+  finishing.settings.excludesOverlaps = false;
+  EXPECT_EQ(moved(finishing), 33);
+  finishing.settings.maximumPoses = 1; // and two to spare
+  EXPECT_EQ(moved(finishing), 8) << "those of the first lot";
+}
+
+TEST(InstanceFinishing, ALongRowOfWrongPosesEndsIt)
+{
+  Finishing finishing(copiesAndWrongOnes(100));
+  finishing.settings.excludesOverlaps = false;
+  EXPECT_EQ(moved(finishing), 72) << "three that are sure, and 64 that are not, in lots of eight";
+}
+
+TEST(InstanceFinishing, IsTheSameOnAnyNumberOfThreads)
+{
+  Finishing finishing(copiesAndWrongOnes(20));
+  finishing.settings.threads = 1;
+  const meam::FinishedInstances one = finishing.finished();
+  finishing.settings.threads = 3;
+  const meam::FinishedInstances three = finishing.finished();
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t k = 0; k < one.size(); ++k)
+  {
+    EXPECT_TRUE(one[k].pose.T_scene_model.isApprox(three[k].pose.T_scene_model, 0.0));
+    EXPECT_EQ(one[k].logOdds, three[k].logOdds);
+  }
+}
