@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PoseToolBar.h"
 
+#include "NewPart.h"
 #include "OpenData.h"
 #include "PartView.h"
 #include "ScanPicking.h"
@@ -202,6 +203,7 @@ void build()
     }
   }
   addTutorial(window);
+  addNewPart(window);
   addPartView();
   addScanPicking(window);
   qApp->installEventFilter(new InputNames(window));

@@ -14,21 +14,15 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 import xml.etree.ElementTree as ElementTree
 
-from clicks import (APPLY, BROWSER, PROPERTIES, accept_inputs, choice, connect, event, expect, files, filter_of_menu, item,
-                    menu, number, point_and_press, view)
+from clicks import (APPLY, BROWSER, PROPERTIES, accept_inputs, check, choice, connect, event, expect, files, filter_of_menu, item,
+                    menu, number, play, point_and_press, shoot, view)
 
 RED, GREEN, VIOLET = (220, 30, 30), (40, 170, 50), (150, 60, 190)
 SCANS = 3
 POINT = PROPERTIES + "/InteractiveHandle"
 CUP = 10  # mm: between the holes of the plate
-
-
-def check(condition, message):
-    if not condition:
-        raise AssertionError(message)
 
 
 def clicks(folder, hidden):
@@ -96,39 +90,6 @@ def prepare(folder, repository):
     z = depth[rows[middle], columns[middle]]
     matrix = camera["cam_K"]
     return (columns[middle] - matrix[2]) / matrix[0] * z, (rows[middle] - matrix[5]) / matrix[4] * z, z
-
-
-def start(paraview, folder, events, *options):
-    """The application plays the events with the settings of a new user."""
-    script = os.path.join(folder, "clicks.xml")
-    with open(script, "w") as file:
-        file.write('<?xml version="1.0" ?>\n<pqevents>\n' + "\n".join(events) + "\n</pqevents>\n")
-    environment = dict(os.environ, HOME=folder, XDG_CONFIG_HOME=os.path.join(folder, "config"))
-    return subprocess.Popen([paraview, "--dr", f"--test-script={script}", *options], env=environment, text=True,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-
-
-def play(paraview, folder, events):
-    said, _ = start(paraview, folder, events, "--exit").communicate(timeout=180)
-    errors = [line for line in said.splitlines() if "ERR|" in line or "critical" in line]
-    check(not errors, f"ParaView says {errors}")
-    check("Success =  true" in said, f"the clicks led nowhere: {said[-3000:]}")
-
-
-def shoot(paraview, folder, events, picture):
-    """The whole window after the events."""
-    from PIL import ImageGrab
-
-    done = os.path.join(folder, "done.pvsm")
-    application = start(paraview, folder, events + files("actionFileSaveServerState", "FileSaveServerStateDialog", done))
-    while not os.path.exists(done):
-        time.sleep(0.2)
-    time.sleep(2)
-    window = ImageGrab.grab(xdisplay=os.environ["DISPLAY"])
-    window.crop(window.getbbox()).save(picture, quality=85)
-    application.kill()
-    application.wait()
-    os.remove(done)
 
 
 def plain(path):

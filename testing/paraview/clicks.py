@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Clicks in the application, as ParaView's own player takes them."""
+"""Clicks in the application, as ParaView's own player takes them, and the application that plays them."""
+import os
+import subprocess
+import time
 from xml.sax.saxutils import quoteattr
 
 WINDOW = "pqClientMainWindow"
@@ -66,3 +69,42 @@ def point_and_press(picture, x, y, key, control=False):
 
 def expect(widget, name, value):
     return f'<pqcheck object="{WINDOW}/{widget}" property="{name}" arguments={quoteattr(value, {chr(10): "&#10;"})} />'
+
+
+def check(condition, message):
+    if not condition:
+        raise AssertionError(message)
+
+
+def start(paraview, folder, events, *options):
+    """The application plays the events with the settings of a new user."""
+    script = os.path.join(folder, "clicks.xml")
+    with open(script, "w") as file:
+        file.write('<?xml version="1.0" ?>\n<pqevents>\n' + "\n".join(events) + "\n</pqevents>\n")
+    environment = dict(os.environ, HOME=folder, XDG_CONFIG_HOME=os.path.join(folder, "config"))
+    return subprocess.Popen([paraview, "--dr", f"--test-script={script}", *options], env=environment, text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def play(paraview, folder, events):
+    said, _ = start(paraview, folder, events, "--exit").communicate(timeout=180)
+    errors = [line for line in said.splitlines() if "ERR|" in line or "critical" in line]
+    check(not errors, f"ParaView says {errors}")
+    check("Success =  true" in said, f"the clicks led nowhere: {said[-3000:]}")
+
+
+def shoot(paraview, folder, events, picture):
+    """The whole window after the events."""
+    from PIL import ImageGrab
+
+    done = os.path.join(folder, "done.pvsm")
+    application = start(paraview, folder, events + files("actionFileSaveServerState", "FileSaveServerStateDialog", done))
+    while not os.path.exists(done):
+        check(application.poll() is None, "ParaView has ended before its picture")
+        time.sleep(0.2)
+    time.sleep(2)
+    window = ImageGrab.grab(xdisplay=os.environ["DISPLAY"])
+    window.crop(window.getbbox()).save(picture, quality=85)
+    application.kill()
+    application.wait()
+    os.remove(done)

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PartFiles.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QRegularExpression>
+#include <QStringList>
+
+QString PartFiles::name() const
+{
+  return QFileInfo(this->cad).completeBaseName().replace(QRegularExpression("[^A-Za-z0-9_]"), "_");
+}
+
+bool PartFiles::isDepthImage() const
+{
+  return QStringList{ "png", "tif", "tiff" }.contains(QFileInfo(this->scan).suffix().toLower());
+}
+
+QString PartFiles::modelFile() const { return QDir(this->folder).filePath(this->name() + ".meam"); }
+
+QString PartFiles::graspFile() const { return QDir(this->folder).filePath(this->name() + ".grasps.json"); }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+
+/// What the page New Part asks for. File names that are empty: there is none.
+struct PartFiles
+{
+  enum Gripper
+  {
+    NoGripper,
+    Jaws,
+    Cup
+  };
+
+  QString cad, scan;
+  double scanScale = 1.0;                          ///< brings the scan's lengths to mm
+  QString calibration;                             ///< of the sensor
+  QString image;                                   ///< with a pixel for each of the scan's
+  Gripper gripper = NoGripper;                     // what follows is of a gripper alone
+  double gripperSize = 0.0;                        ///< mm, the opening of jaws or the diameter of a cup
+  double fingerWidth = 0.0, fingerThickness = 0.0; ///< mm, of jaws
+  bool hasBin = true;
+  QString robotFrame;
+  QString folder; ///< that is written to
+
+  QString name() const;      ///< of the part, as programs may be called
+  bool isDepthImage() const; ///< the scan
+  QString modelFile() const;
+  QString graspFile() const;
+};

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page Help > PPFMEAM: New Part, by clicks: what is wrong with its files is a sentence in it; with a part, a scan, a
+gripper and a robot frame it shows poses and picks and writes a model and programs. The program in Python finds what ParaView
+shows, with --long the one in C++, too.
+
+Usage: TestNewPart.py [--long] PARAVIEW PVPYTHON REPOSITORY BUILD; with PPFMEAM_PICTURE=FOLDER a picture of the window goes
+there, that of docs/gallery.md (needs python3-pil).
+"""
+import os
+import re
+import runpy
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+from clicks import check, event, expect, files, menu, play, shoot
+
+PAGE = "PPFMEAMNewPart/Page"
+FIELDS = f"{PAGE}/Area/qt_scrollarea_viewport/Fields"
+START = event(f"{PAGE}/Start", "activate")
+
+
+def file(field, path):
+    return event(f"{FIELDS}/{field}/FileLineEdit", "set_string", path)
+
+
+def length(field, millimetres):
+    return event(f"{FIELDS}/{field}", "set_double", str(millimetres))
+
+
+def answer(text):
+    return [START, expect(f"{PAGE}/Answer", "text", text)]
+
+
+def wrong(folder):
+    """Files that are none."""
+    return [*answer("Choose a CAD file."), file("CAD", f"{folder}/missing.stl"), *answer("Choose a scan."),
+            file("Scan", f"{folder}/scan.pcd"), *answer(f"There is no file {folder}/missing.stl."),
+            file("CAD", f"{folder}/scan.pcd"), *answer(f"The mesh file '{folder}/scan.pcd' has an extension that is not known: give a .stl, .obj, .ply or .off."),
+            file("CAD", f"{folder}/cut.stl"), *answer(f"The mesh file '{folder}/cut.stl' is cut off, or is no STL file."),
+            file("CAD", f"{folder}/part.stl"), file("Scan", f"{folder}/part.stl"),
+            *answer(f"{folder}/part.stl is no scan: choose a PCD, a PLY, or a depth image as PNG or TIFF.")]
+
+
+def right(folder):
+    return [file("CAD", f"{folder}/part.stl"), file("Scan", f"{folder}/scan.pcd"),
+            event(f"{FIELDS}/Gripper", "set_string", "Parallel jaws"), length("FingerWidth", 8),
+            length("FingerThickness", 5), file("RobotFrame", f"{folder}/robot.json"), START]
+
+
+def look(folder):
+    """Poses and picks as ParaView has them."""
+    from paraview import simple
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    simple.LoadState(os.path.join(folder, "state.pvsm"))
+    names = sorted(name for name, _ in simple.GetSources())
+    check(len(names) == 5, f"what is open: {names}")  # nothing is left of the files that were wrong
+    for kind, array in (("MEAMPoseEstimation", "Transform"), ("PickPlanning", "RobotTransform")):
+        source = simple.FindSource(f"{kind}1")
+        source.UpdatePipeline()
+        data = source.GetClientSideObject().GetOutputDataObject(0).GetPointData()
+        numpy.save(os.path.join(folder, f"{kind}.npy"), vtk_to_numpy(data.GetArray(array)).reshape(-1, 4, 4))
+
+
+def build_and_run(written, build, folder):
+    """What the program in C++ prints, built against the installed library."""
+    built = os.path.join(folder, "built")
+    for command in (["cmake", "--install", build, "--prefix", f"{folder}/installed"],
+                    ["cmake", "-S", written, "-B", built, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={folder}/installed"],
+                    ["cmake", "--build", built]):
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return subprocess.run([os.path.join(built, "find_part")], check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def matrices(text):
+    """Those that a program prints, after a line of words each."""
+    rows = [line.split() for line in text.splitlines() if re.fullmatch(r"\s*(-?[\d.]+(e[-+]?\d+)?\s*){4}", line)]
+    return numpy.array(rows, float).reshape(-1, 4, 4)
+
+
+def main(paraview, pvpython, repository, build, long):
+    here = os.path.dirname(os.path.abspath(__file__))
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sys.executable, os.path.join(repository, "testing", "install", "scan.py"), "make", folder], check=True)
+        with open(os.path.join(folder, "part.stl"), "rb") as whole, open(os.path.join(folder, "cut.stl"), "wb") as cut:
+            cut.write(whole.read(1000))
+        opened = [menu("menu_Help", "actionPPFMEAMNewPart")]
+        if os.environ.get("PPFMEAM_PICTURE"):
+            shoot(paraview, folder, opened + right(folder), os.path.join(os.environ["PPFMEAM_PICTURE"], "application_new_part.jpg"))
+        play(paraview, folder, opened + wrong(folder) + right(folder) +
+             files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm"))
+        subprocess.run([pvpython, os.path.join(here, "TestNewPart.py"), "--look", folder], check=True)
+        poses, picks = (numpy.load(os.path.join(folder, f"{kind}.npy")) for kind in ("MEAMPoseEstimation", "PickPlanning"))
+        written = os.path.join(folder, "find_part")
+        sys.argv = [os.path.join(written, "find_part.py")]
+        ran = runpy.run_path(sys.argv[0])
+        check(numpy.array_equal(ran["found"].poses, poses), "the program in Python finds other poses")
+        check(numpy.allclose(ran["picks"].robot_transforms, picks, rtol=0, atol=1e-9), "the program in Python plans other picks")
+        if long:
+            said = build_and_run(written, build, folder)
+            possible = picks[ran["picks"].possible]
+            check(len(poses) and len(possible), f"{len(poses)} poses and {len(possible)} possible picks")
+            printed = matrices(said)
+            check(len(printed) == len(poses) + len(possible), f"the program in C++ says {said}")
+            check(numpy.allclose(printed, numpy.concatenate((poses, possible)), rtol=1e-5, atol=5e-3), f"the program in C++ finds others: {said}")
+
+
+if sys.argv[1] == "--look":
+    look(sys.argv[2])
+else:
+    main(*sys.argv[1 + (sys.argv[1] == "--long"):], sys.argv[1] == "--long")
