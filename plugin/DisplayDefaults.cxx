@@ -119,7 +119,7 @@ void showText(vtkSMProxy* representation)
 void showInFront(vtkSMProxy* representation, const ShownData& shown)
 {
   const char* name = shown.source->GetVTKClassName();
-  const bool isDiagnosis = shown.port == 0 && std::strcmp(name, "vtkMEAMPoseDiagnosis") == 0;
+  const bool isDiagnosis = (shown.port == 0 || shown.port == 4) && std::strcmp(name, "vtkMEAMPoseDiagnosis") == 0;
   const bool isEvaluation = shown.port == 2 && std::strcmp(name, "vtkMEAMPoseEvaluation") == 0;
   if ((isDiagnosis || isEvaluation) && representation->GetProperty("ShaderReplacements"))
   {

@@ -43,7 +43,7 @@ void Legends::onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend)
 {
   vtkSMProxy* colors = vtkSMPropertyHelper(legend, "LookupTable").GetAsProxy();
   const char* name = colors ? view->GetSessionProxyManager()->GetProxyName("lookup_tables", colors) : nullptr;
-  if (name && (std::strcmp(name, "Rank.PVLookupTable") == 0 || std::strcmp(name, "State.PVLookupTable") == 0 ||
+  if (name && (std::strcmp(name, "Rank.PVLookupTable") == 0 || std::strcmp(name, "Residual.PVLookupTable") == 0 ||
                 std::strcmp(name, "Possible.PVLookupTable") == 0 ||
                 std::strcmp(name, "Obstruction.PVLookupTable") == 0 || std::strcmp(name, "PoseOutcome.PVLookupTable") == 0))
   {

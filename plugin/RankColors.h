@@ -2,9 +2,9 @@
 #pragma once
 
 /// ParaView's color maps of our arrays, in ParaView's own form of settings. `Rank`: red, green, blue, yellow and pink for
-/// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `PartId`: the types of part, in colors that are those of no rank. `State`, of vtkMEAMPoseDiagnosis: green
-/// where a point matches, yellow where the surface faces elsewhere, violet where it is hidden, blue where nothing was
-/// measured, red where the sensor saw past it or found no edge. `Possible` and `Obstruction`, of vtkMEAMPickPlanning: green
+/// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `PartId`: the types of part, in colors that are those of no rank. `Residual`, of vtkMEAMPoseDiagnosis:
+/// what the scan shows of a part at a pose and beside it, in colors that are neither those of ranks nor those of picks.
+/// `Possible` and `Obstruction`, of vtkMEAMPickPlanning: green
 /// where a pick is possible, red where it is not. `PoseOutcome`, of vtkMEAMPoseEvaluation: green where a pose is right, yellow where a
 /// better one has found the same copy, violet where it is turned too far, red where it is at another place.
 inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": { "PVLookupTable": {
@@ -23,13 +23,14 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "IndexedColors": [ 0.302, 0.686, 0.780,  0.902, 0.494, 0.133,  0.549, 0.337, 0.647,  0.604, 0.757, 0.239,
                      0.655, 0.424, 0.286 ],
   "NanColor": [ 0.588, 0.588, 0.588 ]
-} }, "State": { "PVLookupTable": {
+} }, "Residual": { "PVLookupTable": {
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,
   "AnnotationsInitialized": 1,
-  "Annotations": [ "0", "matched", "1", "turned", "2", "hidden", "3", "not measured", "4", "violated" ],
-  "IndexedColors": [ 0.157, 0.667, 0.196,  0.961, 0.804, 0.118,  0.588, 0.235, 0.745,  0.157, 0.353, 0.863,
-                     0.863, 0.118, 0.118 ]
+  "Annotations": [ "0", "explained", "5", "missing", "6", "unexplained", "4", "seen past", "1", "turned",
+                   "2", "hidden", "3", "not measured" ],
+  "IndexedColors": [ 0.0, 0.85, 0.85,  0.05, 0.05, 0.05,  0.7, 1.0, 0.1,  1.0, 0.0, 0.85,  0.95, 0.85, 0.65,
+                     0.55, 0.36, 0.2,  0.75, 0.7, 1.0 ]
 } }, "Possible": { "PVLookupTable": {
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,

@@ -16,6 +16,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -28,6 +29,17 @@ namespace
 {
 constexpr double AfterDetection = 0.8; // of the work, for the progress
 const char* const StateNames[] = { "matched", "turned", "hidden", "not measured", "violated" };
+
+/// As the array `Residual` has them: those of states, of edge points of which there is no edge, and of the scan beside
+/// the part.
+constexpr int Missing = 5, Unexplained = 6;
+
+vtkSmartPointer<vtkIntArray> newResidual()
+{
+  auto residual = vtkSmartPointer<vtkIntArray>::New();
+  residual->SetName("Residual");
+  return residual;
+}
 
 /// As the array `State` has it.
 int stateId(meam::PointState state)
@@ -53,6 +65,7 @@ void fromEvidence(const meam::Diagnosis& diagnosis, vtkPolyData* output)
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkIntArray> states, edges;
+  const auto residual = newResidual();
   vtkNew<vtkStringArray> names;
   states->SetName("State");
   names->SetName("StateName");
@@ -66,6 +79,7 @@ void fromEvidence(const meam::Diagnosis& diagnosis, vtkPolyData* output)
       states->InsertNextValue(state);
       names->InsertNextValue(StateNames[state]);
       edges->InsertNextValue(isEdge);
+      residual->InsertNextValue(isEdge != 0 && stateOf[k] == meam::PointState::Violated ? Missing : state);
     }
   };
   add(diagnosis.surfacePoints, diagnosis.evidence.points.surfaceStates, 0);
@@ -75,7 +89,23 @@ void fromEvidence(const meam::Diagnosis& diagnosis, vtkPolyData* output)
   output->GetPointData()->AddArray(states);
   output->GetPointData()->AddArray(names);
   output->GetPointData()->AddArray(edges);
-  output->GetPointData()->SetActiveScalars("State");
+  output->GetPointData()->AddArray(residual);
+  output->GetPointData()->SetActiveScalars("Residual");
+}
+
+void fromUnexplained(const meam::PrecisePoints& from, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const auto residual = newResidual();
+  for (const Eigen::Vector3d& point : from)
+  {
+    points->InsertNextPoint(point.data());
+    residual->InsertNextValue(Unexplained);
+  }
+  output->SetPoints(points);
+  vtkMEAMConversion::addVertices(output);
+  output->GetPointData()->SetScalars(residual);
 }
 
 void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* output)
@@ -121,7 +151,7 @@ struct vtkMEAMPoseDiagnosis::Detection
 vtkMEAMPoseDiagnosis::vtkMEAMPoseDiagnosis()
 {
   this->SetNumberOfInputPorts(5);
-  this->SetNumberOfOutputPorts(4);
+  this->SetNumberOfOutputPorts(5);
 }
 
 vtkMEAMPoseDiagnosis::~vtkMEAMPoseDiagnosis() = default;
@@ -180,6 +210,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
   auto* numbers = vtkTable::GetData(outputVector, 1);
   auto* part = vtkPolyData::GetData(outputVector, 2);
   auto* answer = vtkTable::GetData(outputVector, 3);
+  auto* unexplained = vtkPolyData::GetData(outputVector, 4);
   return vtkMEAMRun(
     this,
     [&]
@@ -200,6 +231,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
           ? detection.diagnosis.atPose(poses[this->RankOfPose - 1].T_scene_model, progress)
           : detection.diagnosis.atPose(placedAt(this->PosePosition, this->PoseRotation).T_scene_model, progress);
       fromEvidence(diagnosis, output);
+      fromUnexplained(diagnosis.unexplained, unexplained);
       fromNumbers(meam::numbersOf(diagnosis), numbers);
       const std::string verdict = meam::verdictOf(diagnosis, detection.work.settings);
       const std::string advice = meam::adviceOf(diagnosis, detection.work.settings);
@@ -233,7 +265,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
           detection.work.parts.front()->shape, { place }, [&](std::size_t) { return diagnosis.rank; }, drawn, {}, part);
       }
     },
-    output, numbers, part, answer);
+    output, numbers, part, answer, unexplained);
 }
 
 void vtkMEAMPoseDiagnosis::PrintSelf(ostream& os, vtkIndent indent)

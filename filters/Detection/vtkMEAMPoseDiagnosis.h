@@ -15,13 +15,15 @@
  * Output port 0: vtkPolyData, the points of the part that should be visible at the place, in the scene's coordinates,
  * with the point arrays `State` (0 matched; 1 turned, a surface that faces elsewhere; 2 hidden, something lies in front
  * of it; 3 not measured, or lost beside a step of the part; 4 violated, the sensor saw past it, or of an edge point
- * there is no edge), `StateName` (the same as a text) and `IsEdge` (1 of an edge point). Field data: `Verdict` (a
+ * there is no edge), `StateName` (the same as a text), `IsEdge` (1 of an edge point) and `Residual` (active scalars:
+ * the same as `State`, but for 5 of an edge point that is missing in the scan). Field data: `Verdict` (a
  * sentence), `Advice` (what to change; may be empty), `Reasons` (what speaks for the place and against it, lines),
  * `LostIn` (the stage; empty: it was found), `Rank` (of the pose that came out there; 0: none), `Transform` (16, the
  * place; not there when no pose lies at the point). Output port 1: vtkTable, the numbers of all steps: `Step`,
  * `Quantity`, `Value`, `Of` (what the value is out of, or is compared with; NaN: nothing). Output port 2: the part at
  * the place, as vtkMEAMPoseInstances has it. Output port 3: vtkTable with one row, `Text`: verdict, advice and reasons
- * in lines, to show in a view.
+ * in lines, to show in a view. Output port 4: vtkPolyData, measured surface that goes on from the part at the place and
+ * is not explained by it, with `Residual` (6).
  */
 #ifndef vtkMEAMPoseDiagnosis_h
 #define vtkMEAMPoseDiagnosis_h

@@ -79,7 +79,10 @@ names = output.GetPointData().GetAbstractArray("StateName")
 NAMES = ("matched", "turned", "hidden", "not measured", "violated")
 check([names.GetValue(i) for i in range(len(states))] == [NAMES[s] for s in states], "the names of states")
 check(states.count(0) > 0.6 * len(states), f"of what was found most matches: {states.count(0)} of {len(states)}")
-check({int(e) for (e,) in tuples(output, "IsEdge")} == {0, 1}, "surface and edges")
+isEdge = [int(e) for (e,) in tuples(output, "IsEdge")]
+check(set(isEdge) == {0, 1}, "surface and edges")
+residual = [int(r) for (r,) in tuples(output, "Residual")]
+check(residual == [5 if s == 4 and e else s for s, e in zip(states, isEdge)] and 5 in residual, "edge points that are missing")
 middle = [transforms[best][i] for i in (3, 7, 11)]
 check(all(math.dist(p, middle) < field(output, "Diameter")[0][0] for p in points(output)), "the points are those of the part")
 table = diagnosis.GetOutputDataObject(1)
@@ -109,6 +112,15 @@ y, z = math.atan2(-place[8], place[10]), math.atan2(-place[1], place[5])
 diagnosis.SetPoseRotation(*(math.degrees(angle) for angle in (x, y, z)))
 output = run(diagnosis)
 check(int(field(output, "Rank")[0][0]) == 1 and " 0.0 mm and 0.0 degrees" in text(output, "Verdict"), text(output, "Verdict"))
+
+# Beside a pose that is shifted along the plate more of the surface goes on than beside the right one.
+on_right = diagnosis.GetOutputDataObject(4).GetNumberOfPoints()
+shift = 0.1 * field(output, "Diameter")[0][0]
+diagnosis.SetPosePosition(*(place[k] + shift * place[k - 3] for k in (3, 7, 11)))
+run(diagnosis)
+unexplained = diagnosis.GetOutputDataObject(4)
+check(unexplained.GetNumberOfPoints() > on_right + 20, f"{unexplained.GetNumberOfPoints()} and {on_right} unexplained")
+check({int(r) for (r,) in tuples(unexplained, "Residual")} == {6}, "as the color map has it")
 
 # A limit is named.
 diagnosis.SetMaximumNumberOfPoses(1)

@@ -23,7 +23,7 @@ except ppfmeam.Error as error:
     skip(str(error))
 
 MOST_BYTES = 10e6  # of a scan of 1.3 megapixels
-RED, GREEN = "#dc1e1e", "#28aa32"
+RED, GREEN, CYAN = "#dc1e1e", "#28aa32", "#00d9d9"
 
 
 def data_of(text):
@@ -128,7 +128,7 @@ refuses("no such folder", "detect.py", "--cad", "plate.stl", "--scene", "scan.pc
 works("why.py", "plate.meam", "scan.pcd", "--pose", "found.txt:1", "--poses", "0", "--report", "why.html")
 data = data_of(read("why.html"))
 states = numpy.frombuffer(base64.b64decode(data["marks"]["states"]), numpy.uint8)
-check(data["marks"]["names"][0] == "matched" and data["marks"]["colors"][0] == GREEN and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
+check(data["marks"]["names"][0] == "matched" and data["marks"]["colors"][0] == CYAN and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
       len(points_of(data["marks"])) == len(states) > 50, f"the points and their states: {data['marks']['names']}")
 check("Found as rank 1" in read("why.html") and "Numbers of the steps" in read("why.html"), "the answer and the numbers")
 works("why.py", "plate.meam", "scan.pcd", "--at", "0", "0", "5", "--report", "nowhere.html")

@@ -19,7 +19,7 @@ import xml.etree.ElementTree as ElementTree
 from clicks import (APPLY, BROWSER, PROPERTIES, accept_inputs, check, choice, connect, event, expect, files, filter_of_menu, item,
                     menu, number, play, point_and_press, shoot, view)
 
-RED, GREEN, VIOLET = (220, 30, 30), (40, 170, 50), (150, 60, 190)
+RED, GREEN, BROWN = (220, 30, 30), (40, 170, 50), (140, 92, 51)
 SCANS = 3
 POINT = PROPERTIES + "/InteractiveHandle"
 CUP = 10  # mm: between the holes of the plate
@@ -137,21 +137,21 @@ def look(folder):
     view = next(v for v in simple.GetViews() if ("BOPReader", 0) in shown_in(v))
     shown = shown_in(view)
     check(sorted(shown) == [("BOPReader", 0), ("MEAMPoseEstimation", 2), ("PickPlanning", 0), ("PickPlanning", 1),
-                            ("PickPlanning", 3), ("PoseDiagnosis", 0)], f"shown: {sorted(shown)}")
+                            ("PickPlanning", 3), ("PoseDiagnosis", 0), ("PoseDiagnosis", 4)], f"shown: {sorted(shown)}")
     labels = shown_in(view, hidden=True)["MEAMPoseEstimation", 0]
     check((labels.Representation, labels.LabelArray) == ("Pose Labels", "Label"), f"labels: {labels.Representation}")
     check(list(shown["MEAMPoseEstimation", 2].ColorArrayName) == ["POINTS", "Rank"], "the parts are not coloured by rank")
     check(shown["BOPReader", 0].MapScalars == 0, "the scan is not grey")
     check(tuple(view.CameraViewUp) == (0, -1, 0), f"seen from {view.CameraPosition}, up {view.CameraViewUp}")
     bars = [r.Title for r in view.Representations if r.GetXMLName() == "ScalarBarWidgetRepresentation" and r.Visibility]
-    check(sorted(bars) == ["Possible", "Rank", "State"], f"legends: {bars}")
+    check(sorted(bars) == ["Possible", "Rank", "Residual"], f"legends: {bars}")
     simple.Render(view)
     look_at_picks(simple, view, folder)
     check(output(found).GetNumberOfPoints() >= 2, f"{output(found).GetNumberOfPoints()} poses")
     check(output(found).GetPointData().GetAbstractArray("Label").GetValue(0).startswith("1: "), "the label of the first")
     picture = os.path.join(folder, "view.png")
     simple.SaveScreenshot(picture, view, ImageResolution=[640, 480])
-    for color, least in ((RED, 0.005), (GREEN, 0.005), (VIOLET, 0.002)):  # the last are points that lie under other parts
+    for color, least in ((RED, 0.005), (GREEN, 0.005), (BROWN, 0.002)):  # the last are points that lie under other parts
         check(share(picture, color) > least, f"{share(picture, color)} of {picture} has the colour {color}")
     verdict = output(why).GetFieldData().GetAbstractArray("Verdict").GetValue(0)
     check(verdict.startswith("Hidden: something lies in front of"), verdict)

@@ -40,12 +40,14 @@ def ask():
     view.OrientationAxesVisibility = 0
     simple.Show(scan, view).Opacity = 0.5  # what lies under it is seen
     display = simple.Show(why, view)
-    check(list(display.ColorArrayName) == ["POINTS", "State"], f"colored by {display.ColorArrayName}")
+    check(list(display.ColorArrayName) == ["POINTS", "Residual"], f"colored by {display.ColorArrayName}")
     display.PointSize = 6
+    simple.Show(simple.OutputPort(why, 4), view).PointSize = 6
     display.SetScalarBarVisibility(view, True)
-    simple.GetScalarBar(simple.GetColorTransferFunction("State"), view).WindowLocation = "Lower Left Corner"
-    table = simple.GetColorTransferFunction("State")
-    check(list(table.Annotations)[1::2] == ["matched", "turned", "hidden", "not measured", "violated"], table.Annotations)
+    simple.GetScalarBar(simple.GetColorTransferFunction("Residual"), view).WindowLocation = "Lower Left Corner"
+    table = simple.GetColorTransferFunction("Residual")
+    check(list(table.Annotations)[1::2] == ["explained", "missing", "unexplained", "seen past", "turned", "hidden", "not measured"],
+          table.Annotations)
 
     check(said("Verdict").startswith("Hidden: something lies in front of"), said("Verdict"))
     check("Take out what lies on it" in said("Advice"), said("Advice"))

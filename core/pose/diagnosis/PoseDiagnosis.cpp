@@ -3,6 +3,7 @@
 
 #include "pose/PoseTolerances.h"
 #include "pose/objective/BodyOverlap.h"
+#include "pose/objective/SurfaceContinuation.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/search/Suppression.h"
 #include "scene/preparation/SearchRegion.h"
@@ -114,6 +115,7 @@ Diagnosis PoseDiagnosis::at(const Eigen::Isometry3d& T_local_model, const Progre
   diagnosis.evidence = evidenceAt(T_local_model, this->InScene, this->Model, this->Detection.verification.evidence);
   diagnosis.edgePoints = inScene(diagnosis.evidence.points.edges, T_local_scene);
   diagnosis.surfacePoints = inScene(diagnosis.evidence.points.surface, T_local_scene);
+  diagnosis.unexplained = inScene(SurfaceContinuation(this->InScene, this->Model).beyond(T_local_model), T_local_scene);
   diagnosis.surfaceShare = surfaceShares(
     { poseAt(T_local_model) }, this->InScene, this->Model, this->Detection.screening.value_or(PoseScreeningSettings()))
                              .front();

@@ -48,6 +48,7 @@ struct Diagnosis
   PlaceEvidence evidence;          ///< at the place
   PrecisePoints edgePoints;        ///< those of the evidence in the scene's own coordinates
   PrecisePoints surfacePoints;     ///< the same
+  PrecisePoints unexplained;       ///< measured surface that goes on beside the part, the scene's own coordinates
   double surfaceShare = 0.0;       ///< as screening finds it
   double candidateShare = 0.0;     ///< lost in screening: the best of the candidates here
   int placeRank = 0;               ///< the place's among all refined poses, by evidence, from 1; 0: it was dropped
