@@ -7,6 +7,9 @@
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 
+#include <QString>
+#include <QStringList>
+
 #include <cstring>
 
 namespace
@@ -43,16 +46,17 @@ void Legends::onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend)
 {
   vtkSMProxy* colors = vtkSMPropertyHelper(legend, "LookupTable").GetAsProxy();
   const char* name = colors ? view->GetSessionProxyManager()->GetProxyName("lookup_tables", colors) : nullptr;
-  if (name && (std::strcmp(name, "Rank.PVLookupTable") == 0 || std::strcmp(name, "Residual.PVLookupTable") == 0 ||
-                std::strcmp(name, "Possible.PVLookupTable") == 0 ||
-                std::strcmp(name, "Obstruction.PVLookupTable") == 0 || std::strcmp(name, "PoseOutcome.PVLookupTable") == 0))
+  const QString array = QString(name).section('.', 0, 0);
+  if (QStringList{ "Rank", "PartId", "Residual", "Possible", "Obstruction", "PoseOutcome" }.contains(array))
   {
     showSmall(legend);
   }
-  if (name && std::strcmp(name, "Possible.PVLookupTable") == 0) // above the picks stands the answer
+  if (array == "Possible" || array == "Residual") // above stands the answer
   {
-    constexpr int LowerCenter = 3;
-    vtkSMPropertyHelper(legend, "WindowLocation").Set(LowerCenter);
+    const double leftOfPicks[2] = { 0.42, 0.02 };
+    constexpr int AnyLocation = 0, LowerCenter = 3;
+    vtkSMPropertyHelper(legend, "WindowLocation").Set(array == "Possible" ? LowerCenter : AnyLocation);
+    vtkSMPropertyHelper(legend, "Position").Set(leftOfPicks, 2);
     legend->UpdateVTKObjects();
   }
   this->Known.emplace_back(view, legend);

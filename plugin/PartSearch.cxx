@@ -217,6 +217,9 @@ public:
     this->update(vtkSMSourceProxy::SafeDownCast(proxy));
   }
 
+  /// Applying what has been made shows it.
+  static void leaveHidden(pqPipelineSource* source) { source->setModifiedState(pqProxy::UNMODIFIED); }
+
   QString warning() const { return this->Said.warning; }
 
 private:
@@ -225,9 +228,6 @@ private:
   {
     vtkSMPropertyHelper(source->getProxy(), property).Set(value);
   }
-
-  /// Applying what has been made shows it.
-  static void leaveHidden(pqPipelineSource* source) { source->setModifiedState(pqProxy::UNMODIFIED); }
 
   static void setLengths(pqPipelineSource* source, const PartFiles& part)
   {
@@ -292,6 +292,7 @@ QString PartSearch::run(const PartFiles& part)
     Steps steps(this->Made);
     pqPipelineSource* cad = steps.open("MEAMMeshReader", part.cad);
     steps.update(cad);
+    Steps::leaveHidden(cad);
     pqPipelineSource* scan = steps.openScan(part);
     applyAll();
     pqPipelineSource* poses = steps.find(cad, scan, part.image);

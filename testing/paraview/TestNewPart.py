@@ -15,19 +15,7 @@ import tempfile
 
 import numpy
 
-from clicks import check, event, expect, files, menu, play, shoot
-
-PAGE = "PPFMEAMNewPart/Page"
-FIELDS = f"{PAGE}/Area/qt_scrollarea_viewport/Fields"
-START = event(f"{PAGE}/Start", "activate")
-
-
-def file(field, path):
-    return event(f"{FIELDS}/{field}/FileLineEdit", "set_string", path)
-
-
-def length(field, millimetres):
-    return event(f"{FIELDS}/{field}", "set_double", str(millimetres))
+from clicks import NEW_PART, PAGE, START, check, expect, files, new_part_choice, new_part_file, new_part_length, play, shoot
 
 
 def answer(text):
@@ -36,18 +24,18 @@ def answer(text):
 
 def wrong(folder):
     """Files that are none."""
-    return [*answer("Choose a CAD file."), file("CAD", f"{folder}/missing.stl"), *answer("Choose a scan."),
-            file("Scan", f"{folder}/scan.pcd"), *answer(f"There is no file {folder}/missing.stl."),
-            file("CAD", f"{folder}/scan.pcd"), *answer(f"The mesh file '{folder}/scan.pcd' has an extension that is not known: give a .stl, .obj, .ply or .off."),
-            file("CAD", f"{folder}/cut.stl"), *answer(f"The mesh file '{folder}/cut.stl' is cut off, or is no STL file."),
-            file("CAD", f"{folder}/part.stl"), file("Scan", f"{folder}/part.stl"),
+    return [*answer("Choose a CAD file."), new_part_file("CAD", f"{folder}/missing.stl"), *answer("Choose a scan."),
+            new_part_file("Scan", f"{folder}/scan.pcd"), *answer(f"There is no file {folder}/missing.stl."),
+            new_part_file("CAD", f"{folder}/scan.pcd"), *answer(f"The mesh file '{folder}/scan.pcd' has an extension that is not known: give a .stl, .obj, .ply or .off."),
+            new_part_file("CAD", f"{folder}/cut.stl"), *answer(f"The mesh file '{folder}/cut.stl' is cut off, or is no STL file."),
+            new_part_file("CAD", f"{folder}/part.stl"), new_part_file("Scan", f"{folder}/part.stl"),
             *answer(f"{folder}/part.stl is no scan: choose a PCD, a PLY, or a depth image as PNG or TIFF.")]
 
 
 def right(folder):
-    return [file("CAD", f"{folder}/part.stl"), file("Scan", f"{folder}/scan.pcd"),
-            event(f"{FIELDS}/Gripper", "set_string", "Parallel jaws"), length("FingerWidth", 8),
-            length("FingerThickness", 5), file("RobotFrame", f"{folder}/robot.json"), START]
+    return [new_part_file("CAD", f"{folder}/part.stl"), new_part_file("Scan", f"{folder}/scan.pcd"),
+            new_part_choice("Gripper", "Parallel jaws"), new_part_length("FingerWidth", 8),
+            new_part_length("FingerThickness", 5), new_part_file("RobotFrame", f"{folder}/robot.json"), START]
 
 
 def look(folder):
@@ -87,10 +75,9 @@ def main(paraview, pvpython, repository, build, long):
         subprocess.run([sys.executable, os.path.join(repository, "testing", "install", "scan.py"), "make", folder], check=True)
         with open(os.path.join(folder, "part.stl"), "rb") as whole, open(os.path.join(folder, "cut.stl"), "wb") as cut:
             cut.write(whole.read(1000))
-        opened = [menu("menu_Help", "actionPPFMEAMNewPart")]
         if os.environ.get("PPFMEAM_PICTURE"):
-            shoot(paraview, folder, opened + right(folder), os.path.join(os.environ["PPFMEAM_PICTURE"], "application_new_part.jpg"))
-        play(paraview, folder, opened + wrong(folder) + right(folder) +
+            shoot(paraview, folder, [NEW_PART] + right(folder), os.path.join(os.environ["PPFMEAM_PICTURE"], "application_new_part.jpg"))
+        play(paraview, folder, [NEW_PART] + wrong(folder) + right(folder) +
              files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm"))
         subprocess.run([pvpython, os.path.join(here, "TestNewPart.py"), "--look", folder], check=True)
         poses, picks = (numpy.load(os.path.join(folder, f"{kind}.npy")) for kind in ("MEAMPoseEstimation", "PickPlanning"))

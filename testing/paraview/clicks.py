@@ -10,6 +10,8 @@ PANEL = "propertiesDock/propertiesPanel"
 PROPERTIES = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
 BROWSER = "pipelineBrowserDock/pipelineBrowser"
 DIALOG = "SelectInputDialog"
+CONTROL = 0x04000000  # as Qt has it
+LONGEST = 180  # seconds, of all clicks
 VIEWS = "centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget/MultiViewWidget1/Container"
 
 
@@ -33,10 +35,10 @@ def filter_of_menu(name):
     return [event("menubar", "activate", "menuFilters"), menu("menuFilters/PoseEstimation", name)]
 
 
-def item(tree, *rows):
-    """An entry of a tree, by its row in each level."""
-    path = "/0:0" + "".join(f"/{row}:0" for row in rows)
-    return [event(tree, f"mouse{what}", f"1,{buttons},0,60,9,{path}") for what, buttons in (("Press", 1), ("Release", 0))]
+def item(tree, *rows, control=False):
+    """An entry of a tree, by its row in each level; with Ctrl beside those that are selected."""
+    path, modifiers = "/0:0" + "".join(f"/{row}:0" for row in rows), CONTROL if control else 0
+    return [event(tree, f"mouse{what}", f"1,{buttons},{modifiers},60,9,{path}") for what, buttons in (("Press", 1), ("Release", 0))]
 
 
 def connect(name, *rows):
@@ -56,6 +58,11 @@ def number(name, value):
     return event(f"{PROPERTIES}/{name}/DoubleLineEdit0", "set_string", str(value))
 
 
+def share(name, value):
+    """A number that has a slider."""
+    return event(f"{PROPERTIES}/{name}/DoubleRangeWidget/DoubleLineEdit", "set_string", str(value))
+
+
 def view(cell):
     """The picture in a cell of the layout: 0 of all, 1 and 2 are its halves."""
     return f"{VIEWS}/Frame.{cell}/CentralWidgetFrame/Viewport"
@@ -63,12 +70,33 @@ def view(cell):
 
 def point_and_press(picture, x, y, key, control=False):
     """The mouse to a place in a picture, both from 0 to 1, and a letter."""
-    press, modifiers = 6, 0x04000000 if control else 0  # as Qt has them
+    press, modifiers = 6, CONTROL if control else 0  # as Qt has them
     return [event(picture, "mouseMove", f"({x},{y},0,0,0)"), event(picture, "keyEvent", f"{press}:{ord(key)}:{modifiers}::0:1")]
 
 
 def expect(widget, name, value):
     return f'<pqcheck object="{WINDOW}/{widget}" property="{name}" arguments={quoteattr(value, {chr(10): "&#10;"})} />'
+
+
+NEW_PART = menu("menu_Help", "actionPPFMEAMNewPart")
+PAGE = "PPFMEAMNewPart/Page"
+START = event(f"{PAGE}/Start", "activate")
+
+
+def new_part_field(name):
+    return f"{PAGE}/Area/qt_scrollarea_viewport/Fields/{name}"
+
+
+def new_part_file(field, path):
+    return event(f"{new_part_field(field)}/FileLineEdit", "set_string", path)
+
+
+def new_part_choice(field, text):
+    return event(new_part_field(field), "set_string", text)
+
+
+def new_part_length(field, millimetres):
+    return event(new_part_field(field), "set_double", str(millimetres))
 
 
 def check(condition, message):
@@ -87,7 +115,7 @@ def start(paraview, folder, events, *options):
 
 
 def play(paraview, folder, events):
-    said, _ = start(paraview, folder, events, "--exit").communicate(timeout=180)
+    said, _ = start(paraview, folder, events, "--exit").communicate(timeout=LONGEST)
     errors = [line for line in said.splitlines() if "ERR|" in line or "critical" in line]
     check(not errors, f"ParaView says {errors}")
     check("Success =  true" in said, f"the clicks led nowhere: {said[-3000:]}")
@@ -99,8 +127,11 @@ def shoot(paraview, folder, events, picture):
 
     done = os.path.join(folder, "done.pvsm")
     application = start(paraview, folder, events + files("actionFileSaveServerState", "FileSaveServerStateDialog", done))
+    until = time.monotonic() + LONGEST
     while not os.path.exists(done):
-        check(application.poll() is None, "ParaView has ended before its picture")
+        if application.poll() is not None or time.monotonic() > until:
+            application.kill()
+            raise AssertionError(f"the clicks led nowhere: {application.communicate()[0][-3000:]}")
         time.sleep(0.2)
     time.sleep(2)
     window = ImageGrab.grab(xdisplay=os.environ["DISPLAY"])
