@@ -18,7 +18,7 @@ namespace
 {
 constexpr double LeastScore = 0.05;    // times that of the best: an alternative with less is not worth refining,
 constexpr int LeastRefined = 60;       // so many are, and all that are likelier than this where these are more
-constexpr double WorthRefining = 1e-5; // (probability, of poses that are not refined yet)
+constexpr double WorthRefining = 3e-7; // (probability, of poses that are not refined yet)
 constexpr std::size_t RateStride = 2;  // of the points that tell the scan's rates of edges one of so many
 
 double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel& model)
