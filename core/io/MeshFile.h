@@ -8,6 +8,8 @@
 
 namespace meam
 {
+constexpr char MeshFileUnit[] = "the file's unit"; // what the lengths of a mesh in a file are of
+
 /// Whether it is a STEP (.step, .stp) or IGES (.iges, .igs) file, by its extension. io/cad reads these.
 bool isBRepFile(const std::string& path);
 

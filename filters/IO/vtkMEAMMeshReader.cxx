@@ -2,7 +2,7 @@
 #include "vtkMEAMMeshReader.h"
 
 #include "io/MeshFile.h"
-#include "mesh/TriangleMesh.h"
+#include "mesh/preparation/StrayComponents.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMPartTrainer.h"
@@ -35,7 +35,12 @@ int vtkMEAMMeshReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
     }
     else
     {
-      vtkMEAMConversion::fromMesh(meam::readMesh(this->FileName, progress), output);
+      const meam::TriangleMesh mesh = meam::readMesh(this->FileName, progress);
+      vtkMEAMConversion::fromMesh(mesh, output);
+      if (const std::string report = meam::strayReport(this->FileName, mesh, meam::MeshFileUnit); !report.empty())
+      {
+        vtkMEAMConversion::setFieldText(output, "CADReport", report);
+      }
     }
     vtkMEAMConversion::setNameOf(this->FileName, output);
   };

@@ -9,8 +9,8 @@
  * their solids and shells are triangulated.
  *
  * Output port 0: vtkPolyData, the triangles, of STEP and IGES files in mm, of others in the file's unit;
- * vtkMEAMMeshPreparation brings them to mm. Field data: CADReport, what was assumed of a STEP or IGES file, if
- * anything.
+ * vtkMEAMMeshPreparation brings them to mm. Field data: CADReport, if there is anything to tell: that a file holds
+ * several solids, or components that are hardly of the part.
  */
 #ifndef vtkMEAMMeshReader_h
 #define vtkMEAMMeshReader_h

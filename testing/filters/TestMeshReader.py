@@ -4,6 +4,7 @@ scripts; and files that are damaged or cut off."""
 import os
 import shutil
 import tempfile
+import warnings
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -122,6 +123,22 @@ with open(rod, "rb") as whole:
 fails(reader(file("cut.step", content[:3000])), "cut.step", "cut off")
 fails(reader(file("empty.igs", b"")), "empty.igs", "no IGES file")
 fails(reader(file("no.step")), "no.step")
+
+# A triangle far off the box is told, by the reader, in Python and in mm by the preparation.
+stray = file("stray.off", BOX.replace(b"8 6 12", b"11 7 12").replace(b"1 2 3\n4 0 2", b"1 2 3\n100 0 0\n101 0 0\n100 1 0\n4 0 2")
+             + b"3 8 9 10\n")
+words = "a component of 1 triangle, far off the rest, 1 x 1 x 0 large at (100.5, 0.5, 0) in the file's unit"
+told = run(reader(stray)).GetFieldData().GetAbstractArray("CADReport").GetValue(0)
+check(words in told, told)
+check(run(reader(path)).GetFieldData().GetAbstractArray("CADReport") is None, "of a rod nothing is told")
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter("always")
+    ppfmeam.train(stray, scale=10)
+check(any(words in str(warning.message) for warning in caught), [str(warning.message) for warning in caught])
+preparation = connect(vtkMEAMMeshPreparation(), reader(stray))
+preparation.SetScale(10)
+told = run(preparation).GetFieldData().GetAbstractArray("Report").GetValue(0)
+check("1 triangle, far off the rest, 10 x 10 x 0 large at (1005, 5, 0) in mm" in told, told)
 
 fails(vtkMEAMMeshReader(), "no file")
 fails(reader("/no/such/part.stl"), "/no/such/part.stl")

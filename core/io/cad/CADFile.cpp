@@ -5,6 +5,7 @@
 #include "io/cad/BRepMesh.h"
 #include "io/cad/ChildProcess.h"
 #include "io/parsing/FileBytes.h"
+#include "mesh/preparation/StrayComponents.h"
 
 #include <cstring>
 
@@ -61,7 +62,9 @@ CADPart readCAD(const std::string& path, const Progress& progress)
 {
   if (!isBRepFile(path))
   {
-    return { readMesh(path, progress), {} };
+    CADPart part{ readMesh(path, progress), {} };
+    part.report = strayReport(path, part.mesh, MeshFileUnit);
+    return part;
   }
   readFile(path, 1); // that it is there
   const auto bytes = runInChildProcess([&] { return bytesOf(meshOfBRep(path)); }, progress);
@@ -82,6 +85,8 @@ CADPart readCAD(const std::string& path, const Progress& progress)
     result.report = "The CAD file '" + path + "' holds " + std::to_string(part.solids) +
                     " solids, which are taken as one part: of an assembly export the part alone.";
   }
+  const std::string stray = strayReport(path, result.mesh, "mm");
+  result.report += (result.report.empty() || stray.empty() ? "" : " ") + stray;
   return result;
 }
 }

@@ -8,6 +8,7 @@
 #include "mesh/preparation/MeshRemeshing.h"
 #include "mesh/preparation/MeshRepair.h"
 #include "mesh/preparation/MeshSimplification.h"
+#include "mesh/preparation/StrayComponents.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -82,6 +83,7 @@ std::string describe(const MeshReport& report)
   found.push_back(report.closed ? "closed" : "open: " + counted(report.borderEdges, "border edge", "border edges"));
   found.push_back(counted(report.components, "component", "components") + " of " +
                   counted(report.triangles, "triangle", "triangles"));
+  found.insert(found.end(), report.stray.begin(), report.stray.end());
   std::string text;
   for (const auto& part : found)
   {
@@ -137,6 +139,7 @@ PreparedMesh prepareMesh(const TriangleMesh& input, const MeshPreparationSetting
   counts.area = PMP::area(mesh);
   counts.volume = counts.closed ? PMP::volume(mesh) : 0.0;
   counts.diameter = diameter(result.mesh.vertices);
+  counts.stray = strayComponents(result.mesh, "mm");
   report(progress, 1.0);
   return result;
 }

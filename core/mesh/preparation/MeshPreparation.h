@@ -6,6 +6,7 @@
 #include "mesh/TriangleMesh.h"
 
 #include <string>
+#include <vector>
 
 namespace meam
 {
@@ -48,8 +49,9 @@ struct MeshReport
   int borderEdges = 0;
   bool closed = false;
   double area = 0.0;
-  double volume = 0.0;   ///< of a closed mesh, otherwise 0
-  double diameter = 0.0; ///< d_max
+  double volume = 0.0;            ///< of a closed mesh, otherwise 0
+  double diameter = 0.0;          ///< d_max
+  std::vector<std::string> stray; ///< components of the result that are hardly of the part, in words
 };
 
 struct PreparedMesh
