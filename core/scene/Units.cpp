@@ -4,7 +4,12 @@
 #include "base/Bounds.h"
 #include "base/Error.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace meam
 {
@@ -13,8 +18,9 @@ namespace
 // A scene's extent, the diagonal of its bounds, in diameters of the part.
 constexpr double LeastUsual = 0.7;      // less is possible, but unlikely: a scene spans a part or more,
 constexpr double MostUsual = 200.0;     // and mostly some tens of them
-constexpr double LeastLikely = 1.5;     // the likely factor is 10 when it takes the extent to one from here
-constexpr double MostLikely = 100.0;    // to here, else 1000
+constexpr double LeastLikely = 1.5;     // a factor is likely when it takes the extent to one from here
+constexpr double MostLikely = 100.0;    // to here,
+constexpr double UsualExtent = 3.5;     // and the more so the nearer to this: 11 of 21 real scans span 3 to 4
 constexpr double LeastPossible = 0.2;   // less is an error,
 constexpr double MostPossible = 1000.0; // and so is more
 // When nothing sure was found. A part in a tenth of the scan's unit spans few of its points, one in ten times as many.
@@ -24,10 +30,43 @@ constexpr double FewParts = 4.0;     // and the other way round
 constexpr double ManyPoints = 500.0; // of a part that fills the picture, of a camera of a megapixel
 constexpr double OtherThings = 0.02; // of the points, at each end of each axis: they are left out when there is more
 
+struct NamedUnit
+{
+  double length; // mm
+  const char* name;
+};
+constexpr NamedUnit UnitsInUse[] = { { Metre, "metres" }, { 25.4, "inches" }, { 10.0, "centimetres" } }; // beside mm
+
 std::string number(double value)
 {
   char text[32];
   std::snprintf(text, sizeof(text), "%.4g", value);
+  return text;
+}
+
+/// The factors that may lie between the units of a scene that spans so many diameters of the part and of the part, by
+/// name, the likeliest first.
+std::string likelyFactors(double parts, bool isSmall)
+{
+  std::vector<std::pair<double, NamedUnit>> likely;
+  for (const NamedUnit& unit : UnitsInUse)
+  {
+    const double scaled = isSmall ? parts * unit.length : parts / unit.length;
+    if (scaled >= LeastLikely && scaled <= MostLikely)
+    {
+      likely.emplace_back(std::abs(std::log(scaled / UsualExtent)), unit);
+    }
+  }
+  std::sort(likely.begin(), likely.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (likely.empty())
+  {
+    likely.emplace_back(0.0, UnitsInUse[0]);
+  }
+  std::string text = "the likely factor is ";
+  for (const auto& [distance, unit] : likely)
+  {
+    text += (text.back() == ')' ? ", or " : "") + number(unit.length) + " (" + unit.name + ")";
+  }
   return text;
 }
 }
@@ -41,14 +80,12 @@ std::string unitsWarning(const Points& scene, double partDiameter, double pointD
     const bool isLarge = parts > ManyParts && points < FewPoints, isSmall = parts < FewParts && points > ManyPoints;
     return pointDistance > 0.0 && (isLarge || isSmall)
              ? "The scan spans " + number(parts) + " diameters of the part, and the part " + number(points) +
-                 " of its points: if their units differ, the likely factor is 10. Scale the " +
-                 (isSmall ? "scene by 10, or the part by 0.1." : "scene by 0.1, or the part by 10.")
+                 " of its points: if their units differ, " + likelyFactors(parts, isSmall) + ". Scale the " +
+                 (isSmall ? "scene up by it, or the part down." : "scene down by it, or the part up.")
              : std::string();
   }
-  const bool isTen = parts < 1.0 ? 10.0 * parts >= LeastLikely : parts / 10.0 <= MostLikely;
-  const int factor = isTen ? 10 : 1000;
   return "The scene spans " + number(parts * partDiameter) + " and the part's diameter is " + number(partDiameter) +
-         ": if their units differ, the likely factor is " + std::to_string(factor) + ". Scale the " +
+         ": if their units differ, " + likelyFactors(parts, parts < 1.0) + ". Scale the " +
          (parts < 1.0 ? "scene" : "part") + " by it.";
 }
 
@@ -64,19 +101,13 @@ void requireSameUnits(const Points& scene, double partDiameter)
   {
     extent = innerBounds(scene, OtherThings).diagonal().norm(); // stray points are no other unit
   }
-  if (extent < LeastPossible * partDiameter)
+  const double parts = extent / partDiameter;
+  if (parts < LeastPossible || parts > MostPossible)
   {
-    throw Error(
-      "The scene spans " + number(extent) + " but the part's diameter is " + number(partDiameter) +
-      ": their units differ (a scene in metres and a part in millimetres differ by 1000). Scale the scene to the "
-      "part's unit.");
-  }
-  if (extent > MostPossible * partDiameter)
-  {
-    throw Error(
-      "The scene spans " + number(extent) + " but the part's diameter is only " + number(partDiameter) +
-      ": their units differ (a part in metres and a scene in millimetres differ by 1000). Scale the part to the "
-      "scene's unit.");
+    const bool isSmall = parts < 1.0;
+    throw Error("The scene spans " + number(extent) + " but the part's diameter is " + (isSmall ? "" : "only ") +
+                number(partDiameter) + ": their units differ, and " + likelyFactors(parts, isSmall) + ". Scale the " +
+                (isSmall ? "scene to the part's unit." : "part to the scene's unit."));
   }
 }
 }

@@ -8,15 +8,15 @@ namespace meam
 constexpr double Metre = 1000.0; // mm
 
 /// Throws Error when a scene cannot be in the part's unit of length: its extent is far smaller or
-/// larger than `partDiameter` allows. The message names the likely factor.
+/// larger than `partDiameter` allows. The message names the likely factors.
 void requireSameUnits(const Points& scene, double partDiameter);
 
 /// Whether points span less than a part that is partly in sight can: no part's edges are all so near to each other.
 bool spansTooLittle(const Points& points, double partDiameter);
 
 /// What to tell a user when a scene's extent is possible but unlikely for a part in the same unit, as with centimetres:
-/// it names the likely factor. Empty when there is nothing to tell. `pointDistance` of the scan, when nothing sure was
-/// found in it: then a factor of 10 is told of, too, when it takes both the extent and how many points the part spans
-/// to what is usual; 0 otherwise.
+/// it names the likely factors, those of centimetres, inches and metres. Empty when there is nothing to tell.
+/// `pointDistance` of the scan, when nothing sure was found in it: then it tells, too, when both the extent and how
+/// many points the part spans are unusual; 0 otherwise.
 std::string unitsWarning(const Points& scene, double partDiameter, double pointDistance = 0.0);
 }

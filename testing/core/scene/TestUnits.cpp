@@ -18,11 +18,39 @@ TEST(Units, AnUnlikelyExtentIsAWarningThatNamesTheFactor)
 {
   const auto spanning = [](float length) { return meam::Points{ { 0, 0, 0 }, { length, 0, 0 } }; };
   EXPECT_TRUE(meam::unitsWarning(spanning(300), 60.0).empty());
-  EXPECT_NE(
-    meam::unitsWarning(spanning(30), 60.0).find("factor is 10. Scale the scene"), std::string::npos); // centimetres
-  EXPECT_NE(meam::unitsWarning(spanning(0.3f), 60.0).find("factor is 1000. Scale the scene"), std::string::npos);
-  EXPECT_NE(meam::unitsWarning(spanning(600), 2.0).find("factor is 10. Scale the part"), std::string::npos);
-  EXPECT_NE(meam::unitsWarning(spanning(3000), 2.0).find("factor is 1000. Scale the part"), std::string::npos);
+  const auto says = [&](float extent, double diameter, const std::string& what)
+  {
+    const std::string warning = meam::unitsWarning(spanning(extent), diameter);
+    EXPECT_NE(warning.find("factor is " + what), std::string::npos) << warning;
+  };
+  says(30, 60, "10 (centimetres), or 25.4 (inches). Scale the scene"); // a scene of 300 mm, or of 762
+  says(12, 60, "25.4 (inches), or 10 (centimetres). Scale the scene"); // of 305 mm, or of 120
+  says(8, 60, "25.4 (inches). Scale the scene");
+  says(0.3f, 60, "1000 (metres). Scale the scene");
+  says(600, 2, "25.4 (inches), or 10 (centimetres). Scale the part"); // a part of 51 mm, or of 20
+  says(3000, 2, "1000 (metres), or 25.4 (inches). Scale the part");
+}
+
+TEST(Units, AnErrorNamesTheFactor)
+{
+  const auto says = [](float extent, double diameter)
+  {
+    try
+    {
+      meam::requireSameUnits({ { 0, 0, 0 }, { extent, 0, 0 } }, diameter);
+    }
+    catch (const meam::Error& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(says(0.3f, 60.0), "The scene spans 0.3 but the part's diameter is 60: their units differ, and the likely "
+                              "factor is 1000 (metres). Scale the scene to the part's unit.");
+  EXPECT_EQ(says(300, 0.06), "The scene spans 300 but the part's diameter is only 0.06: their units differ, and the "
+                             "likely factor is 1000 (metres). Scale the part to the scene's unit.");
+  EXPECT_NE(says(6, 60.0).find("25.4 (inches)"), std::string::npos);
+  EXPECT_NE(says(0, 60.0).find("1000 (metres)"), std::string::npos);
 }
 
 TEST(Units, WhenNothingSureWasFoundAFactorOfTenIsSuspected)
@@ -30,8 +58,10 @@ TEST(Units, WhenNothingSureWasFoundAFactorOfTenIsSuspected)
   const auto spanning = [](float length) { return meam::Points{ { 0, 0, 0 }, { length, 0, 0 } }; };
   const auto says = [&](float extent, double pointDistance)
   { return meam::unitsWarning(spanning(extent), 100.0, pointDistance); };
-  EXPECT_NE(says(3000, 6.0).find("factor is 10. Scale the scene by 0.1, or the part by 10"), std::string::npos);
-  EXPECT_NE(says(150, 0.1).find("factor is 10. Scale the scene by 10, or the part by 0.1"), std::string::npos);
+  EXPECT_NE(
+    says(3000, 6.0).find("factor is 10 (centimetres). Scale the scene down by it, or the part up."), std::string::npos);
+  EXPECT_NE(
+    says(150, 0.1).find("factor is 10 (centimetres), or 25.4 (inches). Scale the scene up by it"), std::string::npos);
   EXPECT_EQ(says(3000, 0.6), ""); // small parts in a large bin, seen finely
   EXPECT_EQ(says(500, 6.0), "");  // seen coarsely
   EXPECT_EQ(says(3000, 0.0), ""); // what is sure was found
