@@ -17,6 +17,7 @@
 #include "calibration/ModelCalibration.h" // JudgedPose, CalibrationReport
 #include "features/Preset.h"              // Preset, Features
 #include "features/TrainSettings.h"       // TrainSettings
+#include "io/cad/CADSettings.h"           // CADSettings
 #include "pose/DetectSettings.h"          // DetectSettings
 #include "scene/Image.h"                  // Image
 #include "scene/PinholeCamera.h"          // Camera
@@ -181,9 +182,9 @@ MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& came
 // ----------------------------------------------------------------------------------------------------------- training
 // Library meam::train. It holds parts of CGAL that are under the GPL; what is linked with it is, too.
 
-/// Reads a part: .step, .stp, .iges or .igs, in mm, or a mesh as loadMesh() does. All solids of a file are one part;
-/// which way the faces of an IGES file look is what prepareMesh() and train() find out.
-MEAM_EXPORT Mesh loadCAD(const std::string& path, const Progress& progress = {});
+/// Reads a part: .step, .stp, .iges or .igs, in mm, or a mesh as loadMesh() does. All solids of a file are one part,
+/// unless the settings choose one; which way the faces of an IGES file look is what prepareMesh() and train() find out.
+MEAM_EXPORT Mesh loadCAD(const std::string& path, const CADSettings& settings = {}, const Progress& progress = {});
 
 /// The mesh as training takes it: in mm, mended, and facing outwards.
 MEAM_EXPORT Mesh prepareMesh(

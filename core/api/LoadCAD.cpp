@@ -4,9 +4,9 @@
 
 namespace meam
 {
-Mesh loadCAD(const std::string& path, const Progress& progress)
+Mesh loadCAD(const std::string& path, const CADSettings& settings, const Progress& progress)
 {
-  CADPart part = readCAD(path, progress);
+  CADPart part = readCAD(path, settings, progress);
   return { std::move(part.mesh.vertices), std::move(part.mesh.triangles), std::move(part.report) };
 }
 }

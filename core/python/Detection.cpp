@@ -150,8 +150,11 @@ void bindData(py::module_& module)
       [](const Scan& scan)
       { return Pixels(static_cast<py::ssize_t>(scan.region.mask.size()), scan.region.mask.data()); },
       [](Scan& scan, const Pixels& mask) { scan.region.mask.assign(mask.data(), mask.data() + mask.size()); });
-  module.def("load_cad", [](const std::string& path)
-    { return withoutLock([&](const Progress& progress) { return loadCAD(path, progress); }); });
+  module.def(
+    "load_cad",
+    [](const std::string& path, const CADSettings& settings)
+    { return withoutLock([&](const Progress& progress) { return loadCAD(path, settings, progress); }); },
+    py::arg("path"), py::arg("settings") = CADSettings());
   module.def("load_scan", &loadScan, Unlocked());
   module.def("load_depth_image", &loadDepthImage, Unlocked());
   module.def("load_image", [](const std::string& path) { return pixelsOf(loadImage(path)); });
@@ -185,6 +188,7 @@ void bindSettings(py::module_& module)
     .def_readwrite("creases", &DetectSettings::creases)
     .def_readwrite("seed", &DetectSettings::seed)
     .def_readwrite("threads", &DetectSettings::threads);
+  py::class_<CADSettings>(module, "CADSettings").def(py::init<>()).def_readwrite("solid", &CADSettings::solid);
   py::class_<TrainSettings>(module, "TrainSettings")
     .def(py::init<>())
     .def_readwrite("preset", &TrainSettings::preset)
@@ -224,8 +228,8 @@ void bindCalibration(py::module_& module)
 
 void bindDetection(py::module_& module)
 {
-  bindData(module);
   bindSettings(module);
+  bindData(module);
   py::class_<Model>(module, "Model")
     .def(py::init<>())
     .def_property_readonly("diameter", &Model::diameter)

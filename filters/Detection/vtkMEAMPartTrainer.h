@@ -19,6 +19,7 @@
 
 namespace meam
 {
+struct CADSettings;
 struct TrainSettings;
 }
 
@@ -34,9 +35,10 @@ public:
   virtual std::shared_ptr<const vtkMEAMConversion::TrainedPart> Train(
     vtkPolyData* mesh, const meam::TrainSettings& settings, const meam::Progress& progress) = 0;
 
-  /// The triangles of a STEP or IGES file, in mm, with what was assumed of it as the field data CADReport. Throws Error
-  /// for a file that cannot be read.
-  virtual void ReadCAD(const std::string& path, vtkPolyData* mesh, const meam::Progress& progress) = 0;
+  /// The triangles of a STEP or IGES file, or of one solid of it, in mm, with what was assumed of it as the field data
+  /// CADReport. Throws Error for a file that cannot be read.
+  virtual void ReadCAD(
+    const std::string& path, const meam::CADSettings& settings, vtkPolyData* mesh, const meam::Progress& progress) = 0;
 
 protected:
   vtkMEAMPartTrainer() = default;

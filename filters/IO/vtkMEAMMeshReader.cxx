@@ -2,6 +2,7 @@
 #include "vtkMEAMMeshReader.h"
 
 #include "io/MeshFile.h"
+#include "io/cad/CADSettings.h"
 #include "mesh/preparation/StrayComponents.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMMeshConversion.h"
@@ -28,10 +29,10 @@ int vtkMEAMMeshReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
       throw meam::Error("No file is given: set FileName to the name of a .step, .iges, .stl, .obj, .ply or .off file.");
     }
     const meam::Progress progress = vtkMEAMConversion::progressOf(this);
-    if (meam::isBRepFile(this->FileName))
+    if (meam::isBRepFile(this->FileName) || this->Solid != 0)
     {
       vtkMEAMPartTrainer::Create("To read " + std::string(this->FileName), "give a mesh of it")
-        ->ReadCAD(this->FileName, output, progress);
+        ->ReadCAD(this->FileName, { this->Solid }, output, progress);
     }
     else
     {
@@ -51,4 +52,5 @@ void vtkMEAMMeshReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Solid: " << this->Solid << "\n";
 }

@@ -6,7 +6,7 @@
  * What is damaged or cut off is an error. Polygons are cut into triangles; all but the shape is skipped. The triangles
  * of an STL file share the vertices that lie at exactly the same place. OFF is ascii, also COFF, NOFF, STOFF and their
  * combinations. STEP and IGES files (.step, .stp, .iges, .igs) need the module PPFMEAM::Training; the faces of all
- * their solids and shells are triangulated.
+ * their solids and shells, or of one solid, are triangulated.
  *
  * Output port 0: vtkPolyData, the triangles, of STEP and IGES files in mm, of others in the file's unit;
  * vtkMEAMMeshPreparation brings them to mm. Field data: CADReport, if there is anything to tell: that a file holds
@@ -31,6 +31,12 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  ///@{
+  /** Of a STEP or IGES file with several solids the one that is the part, from 1; 0: all together. Default: 0. */
+  vtkSetMacro(Solid, int);
+  vtkGetMacro(Solid, int);
+  ///@}
+
 protected:
   vtkMEAMMeshReader();
   ~vtkMEAMMeshReader() override;
@@ -41,6 +47,7 @@ private:
   void operator=(const vtkMEAMMeshReader&) = delete;
 
   char* FileName = nullptr;
+  int Solid = 0;
 };
 
 #endif

@@ -20,9 +20,10 @@ std::shared_ptr<const vtkMEAMConversion::TrainedPart> vtkMEAMModelTrainer::Train
   return part;
 }
 
-void vtkMEAMModelTrainer::ReadCAD(const std::string& path, vtkPolyData* mesh, const meam::Progress& progress)
+void vtkMEAMModelTrainer::ReadCAD(
+  const std::string& path, const meam::CADSettings& settings, vtkPolyData* mesh, const meam::Progress& progress)
 {
-  const meam::CADPart part = meam::readCAD(path, progress);
+  const meam::CADPart part = meam::readCAD(path, settings, progress);
   vtkMEAMConversion::fromMesh(part.mesh, mesh);
   if (!part.report.empty())
   {

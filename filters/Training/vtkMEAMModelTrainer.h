@@ -18,7 +18,8 @@ public:
 
   std::shared_ptr<const vtkMEAMConversion::TrainedPart> Train(
     vtkPolyData* mesh, const meam::TrainSettings& settings, const meam::Progress& progress) override;
-  void ReadCAD(const std::string& path, vtkPolyData* mesh, const meam::Progress& progress) override;
+  void ReadCAD(const std::string& path, const meam::CADSettings& settings, vtkPolyData* mesh,
+    const meam::Progress& progress) override;
 
 protected:
   vtkMEAMModelTrainer() = default;

@@ -109,7 +109,7 @@ class Detections(Rows):
         """The scan, from its file again: results do not hold it."""
         if inputs.age_of(self.inputs["scan"]) != self.age:
             raise Error(f"{self.inputs['scan']} was written anew since the parts were found in it: detect() again to see them")
-        return inputs.scan_of(**{name: value for name, value in self.inputs.items() if name != "cad_scale"})
+        return inputs.scan_of(**{name: value for name, value in self.inputs.items() if name not in ("cad_scale", "solid")})
 
     def __str__(self):
         several = len(self.models) > 1
@@ -213,11 +213,11 @@ class Diagnosis:
         return f"{self.verdict} {self.advice}".rstrip()
 
 
-@takes(settings="train")
-def train(cad, *, settings):
+@takes(settings="train", reading="read")
+def train(cad, *, settings, reading):
     """Learns how a part looks from all sides; takes seconds. `cad`: a .step, .iges, .stl, .obj, .ply or .off file, or a
     vtkPolyData with faces. Returns a Model."""
-    mesh = inputs.mesh_of(cad)
+    mesh = inputs.mesh_of(cad, reading)
     corners = mesh.vertices * settings.scale + numpy.array(settings.offset)
     return Model(_core.train(mesh, settings.apply(_core.TrainSettings(), _core)), None if isinstance(cad, vtkDataObject) else os.fspath(cad),
                  inputs.vtk_mesh(corners, mesh.triangles))
@@ -229,9 +229,9 @@ def load(path):
     return Model(_core.load_model(path) if path.lower().endswith(".meam") else scripting.read_model(path), path)
 
 
-@takes(settings="detect")
+@takes(settings="detect", reading="read")
 def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, region=None, *,
-           settings):
+           settings, reading):
     """Finds the copies of a part in a scan; returns Detections.
 
     part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm). Or
@@ -248,16 +248,16 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     flags or an image file of the scan's size that is not black there. Parts whose middle lies elsewhere are not looked for.
     """
     given = {"scan": scan, "image": image, "boundary": boundary, "camera": camera, "image_camera": image_camera, "scale": scale,
-             "cad_scale": cad_scale, "region": region}
+             "cad_scale": cad_scale, "region": region, **reading.differing()}
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region)
-    models = [part_of(each, cad_scale, settings) for each in (part if isinstance(part, (list, tuple)) else [part])]
+    models = [part_of(each, cad_scale, settings, reading) for each in (part if isinstance(part, (list, tuple)) else [part])]
     found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
         warnings.warn(found.warning, stacklevel=3)
     return Detections(found, models, given, settings)
 
 
-def part_of(part, scale, settings):
+def part_of(part, scale, settings, reading):
     """The trained model."""
     if isinstance(part, Model):
         return part
@@ -265,12 +265,12 @@ def part_of(part, scale, settings):
         return Model(part)
     if not isinstance(part, vtkDataObject) and os.fspath(part).lower().endswith(MODELS):
         return load(part)
-    return train(part, scale=scale, **{name: settings.values[name] for name in ("preset", "features", "seed")})
+    return train(part, scale=scale, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
 
 
-@takes(settings="detect")
+@takes(settings="detect", reading="read")
 def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, camera=None, image_camera=None, scale=1.0,
-        cad_scale=1.0, region=None, *, settings):
+        cad_scale=1.0, region=None, *, settings, reading):
     """Tells why a part of a scan was missed: which step lost it, and what to change.
 
     part, scan, image, boundary, cameras, scales and region: as detect() takes them. at: a point of the scan on the part, three
@@ -281,7 +281,7 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
         raise Error("give either at, a point on the part, or pose, where the part lies")
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
-    diagnosis.SetInputDataObject(part_of(part, cad_scale, settings).data)
+    diagnosis.SetInputDataObject(part_of(part, cad_scale, settings, reading).data)
     for port, data in enumerate(inputs.to_vtk(seen), 1):
         diagnosis.SetInputDataObject(port, data)
     diagnosis.SetRegion(*(regions.of(region)[0] or regions.EVERYWHERE))

@@ -28,13 +28,15 @@ def age_of(scan):
     return os.stat(scan).st_mtime_ns if isinstance(scan, (str, os.PathLike)) and os.path.exists(scan) else None
 
 
-def mesh_of(cad):
-    """The mesh of a file or a vtkPolyData, as it came."""
+def mesh_of(cad, reading):
+    """The mesh of a file or a vtkPolyData, as it came; `reading`: what is chosen of the file."""
     if not isinstance(cad, vtkDataObject):
-        mesh = _core.load_cad(mesh_file(cad))
+        mesh = _core.load_cad(mesh_file(cad), reading.apply(_core.CADSettings(), _core))
         if mesh.report:
             warnings.warn(mesh.report, stacklevel=4)
         return mesh
+    if reading.solid:
+        raise Error("solid is chosen from a STEP or IGES file: give the file, not its mesh")
     triangles = vtkTriangleFilter()
     triangles.SetInputDataObject(cad)
     triangles.PassLinesOff()

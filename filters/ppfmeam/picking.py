@@ -69,8 +69,8 @@ def gripper_model(lengths, kind, mesh=None):
     return gripper
 
 
-@takes(settings="propose", gripper="gripper")
-def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), symmetries=None, *, settings, gripper):
+@takes(settings="propose", gripper="gripper", reading="read")
+def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), symmetries=None, *, settings, gripper, reading):
     """Where a gripper holds a part: the grasps of a `file` (JSON), and those proposed from its mesh, best first.
 
     cad, scale, offset: the part, as train() takes it. propose: parallel (the default without a file), suction, both, or off
@@ -80,7 +80,7 @@ def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), symm
     wanted = propose or ("parallel" if file is None else "off")
     if wanted not in PROPOSED:
         raise Error(f"propose has to be one of {', '.join(map(repr, PROPOSED))}, not {propose!r}")
-    part = _core.prepare_mesh(inputs.mesh_of(cad), scale, offset)
+    part = _core.prepare_mesh(inputs.mesh_of(cad, reading), scale, offset)
     model = _core.Model() if symmetries is None else symmetries.core
     found = _core.load_grasps(inputs.path_of(file)) if file is not None else []
     for kind in PROPOSED[wanted]:
@@ -114,7 +114,7 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
     poses = found.core if isinstance(found, Detections) else _core.Detections(transforms)
     is_mesh = not (isinstance(gripper, str) and gripper in GRIPPERS)
     shape = gripper_model(Chosen("gripper", {**grasps.gripper, **lengths.given}), GRIPPERS.get(gripper) if not is_mesh else None,
-                          _core.prepare_mesh(inputs.mesh_of(gripper), 1.0, (0.0, 0.0, 0.0)) if is_mesh else None)
+                          _core.prepare_mesh(inputs.mesh_of(gripper, Chosen("read", {})), 1.0, (0.0, 0.0, 0.0)) if is_mesh else None)
     place = workplace(bin, robot_frame)
     if bin == "detected" and scan is None:
         raise Error("the bin is found in the scan: give one, or bin, which may be 'none'")

@@ -233,6 +233,7 @@ def add_bin_arguments(parser, scenes):
     """What a script that simulates bins asks for: the part, and how many bins of how many copies; `scenes` by default."""
     parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
     choices.add_options(parser, "train", "scale")
+    choices.add_options(parser, "read", "solid")
     parser.add_argument("--copies", type=count, default=20, help="copies in a bin (default: %(default)s)")
     parser.add_argument("--scenes", type=count, default=scenes, help="bins to fill (default: %(default)s)")
     parser.add_argument("--seed", type=count, default=1,
@@ -297,12 +298,13 @@ def read_with(reader, path):
         raise failure if path in str(failure) else Failure(f"{path}: {failure}") from None
 
 
-def read(path, scale=1.0):
-    """The mesh or the cloud in a file of EXTENSIONS, its coordinates times a factor."""
+def read(path, scale=1.0, solid=0):
+    """The mesh or the cloud in a file of EXTENSIONS, its coordinates times a factor; of a STEP file `solid` alone, or all."""
     extension = os.path.splitext(path)[1].lower()
     if extension not in EXTENSIONS:
         raise Failure(f"{path}: unknown kind of file; known are {', '.join(EXTENSIONS)}")
     reader = filters.vtkMEAMMeshReader()
+    reader.SetSolid(solid)
     if extension == ".pcd":
         reader = filters.vtkMEAMPCDReader()
     elif extension == ".ply" and filters.vtkMEAMPLYReader().CanReadFile(path):  # without faces
@@ -324,9 +326,9 @@ def scaled(data, scale, what):
     return update(filter).GetOutputDataObject(0)
 
 
-def read_mesh(path, offset=(0, 0, 0), scale=1.0):
+def read_mesh(path, offset=(0, 0, 0), scale=1.0, solid=0):
     """The clean mesh of a CAD file, scaled to mm and moved by an offset in mm."""
-    data = read(path)
+    data = read(path, solid=solid)
     if not data.IsA("vtkPolyData"):
         raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.step, .iges, .stl, .obj, .ply or .off)")
     report = data.GetFieldData().GetAbstractArray("CADReport")

@@ -163,7 +163,7 @@ TEST(API, SettingsReachTheSteps)
       point /= 10.0f;
     }
   }
-  EXPECT_TRUE(files::contains(meam::detect(bracketModel(), centimetres).warning, "factor is 10"));
+  EXPECT_TRUE(files::contains(meam::detect(bracketModel(), centimetres).warning, "factor is 10 (centimetres)"));
 }
 
 TEST(API, TrainsSavesAndLoads)
@@ -333,6 +333,12 @@ TEST(API, ReadsScans)
   EXPECT_EQ(
     meam::loadImage(folder.write("grey.png", images::encoded(".png", cv::Mat(3, 4, CV_8UC1, cv::Scalar(7))))).pixels,
     std::vector<std::uint8_t>(12, 7));
+
+  const std::string off = folder.write("a.off",
+    "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n9 0 0\n9 1 0\n9 0 1\n3 0 1 2\n3 3 4 5\n"); // two triangles, far apart
+  EXPECT_TRUE(files::contains(meam::loadMesh(off).report, "far off the rest"));
+  EXPECT_EQ(meam::loadCAD(off).report, meam::loadMesh(off).report);
+  EXPECT_TRUE(files::contains(files::errorOf([&] { meam::loadCAD(off, { 2 }); }), "is a mesh"));
 
   EXPECT_TRUE(files::contains(files::errorOf([&] { meam::loadScan(png, camera); }), "loadDepthImage"));
   EXPECT_TRUE(files::contains(files::errorOf([&] { meam::loadScan(ply, {}, -1.0); }), "positive"));

@@ -17,6 +17,8 @@ GROUPS = {
     "detect": (_core.DetectSettings, (filters.vtkMEAMPoseEstimation, filters.vtkMEAMPoseDiagnosis),
                (("Base", "Estimation"), ("Base", "Threads")), (ppfmeam.detect, ppfmeam.why)),
     "train": (_core.TrainSettings, (filters.vtkMEAMPoseEstimation,), (("Base", "Estimation"),), (ppfmeam.train,)),
+    "read": (_core.CADSettings, (filters.vtkMEAMMeshReader,), (("MeshReader", "MEAMMeshReader"),),
+             (ppfmeam.train, ppfmeam.detect, ppfmeam.why, ppfmeam.grasps)),
     "gripper": (_core.GripperModel, (filters.vtkMEAMGraspDefinition, filters.vtkMEAMPickPlanning), (("Base", "Gripper"),),
                 (ppfmeam.grasps, ppfmeam.pick)),
     "propose": (_core.ProposeSettings, (filters.vtkMEAMGraspDefinition,), (("GraspDefinition", "GraspDefinition"),),
@@ -103,7 +105,7 @@ check({row[1]: row for row in rows} == {
     for name, choice in TABLE["detect"].items()}, f"docs/parameters.md: {rows}")
 
 # What is out of range is one sentence that names the argument.
-for group, function, arguments in (("detect", ppfmeam.detect, (None, None)), ("train", ppfmeam.train, (None,)),
+for group, function, arguments in (("detect", ppfmeam.detect, (None, None)), ("train", ppfmeam.train, (None,)), ("read", ppfmeam.train, (None,)),
                                    ("plan", ppfmeam.pick, (None, None)), ("propose", ppfmeam.grasps, (None,))):
     for name, choice in TABLE[group].items():
         wrong = [None, "many", float("nan")] + [choice[key] + change for key, change in

@@ -124,6 +124,23 @@ fails(reader(file("cut.step", content[:3000])), "cut.step", "cut off")
 fails(reader(file("empty.igs", b"")), "empty.igs", "no IGES file")
 fails(reader(file("no.step")), "no.step")
 
+# The file holds one solid.
+chosen = reader(rod)
+chosen.SetSolid(1)
+check(points(run(chosen)) == points(run(reader(rod))), "the only solid is all of the file")
+chosen.SetSolid(2)
+fails(chosen, "rod.step", "holds 1 solid, no solid 2")
+chosen.SetFileName(square)
+fails(chosen, "square.ply", "is a mesh")
+check(abs(ppfmeam.train(rod, solid=1).diameter - 425 ** 0.5) < 0.05, "the solid is trained")
+for cad, words in ((rod, "holds 1 solid, no solid 3: choose 1, or 0"), (box, "solid is chosen from a STEP or IGES file")):
+    try:
+        ppfmeam.train(cad, solid=3)
+        check(False, "a solid that is not there is trained")
+    except ppfmeam.Error as error:
+        check(words in str(error), error)
+check(field(scripting.read_mesh(rod, solid=1), "Closed") == [(1,)], "scripts choose a solid")
+
 # A triangle far off the box is told, by the reader, in Python and in mm by the preparation.
 stray = file("stray.off", BOX.replace(b"8 6 12", b"11 7 12").replace(b"1 2 3\n4 0 2", b"1 2 3\n100 0 0\n101 0 0\n100 1 0\n4 0 2")
              + b"3 8 9 10\n")
@@ -148,4 +165,4 @@ same = reader(square)
 run(same)
 same.SetFileName(only)
 fails(same, "no faces")
-prints(same, "FileName")
+prints(same, "FileName", "Solid")

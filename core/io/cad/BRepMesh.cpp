@@ -271,25 +271,63 @@ TriangleMesh meshOf(const TopoDS_Shape& shape)
   return joining.mesh();
 }
 
-int solidsIn(const TopoDS_Shape& shape)
+std::vector<TopoDS_Shape> solidsIn(const TopoDS_Shape& shape)
 {
-  int solids = 0;
+  std::vector<TopoDS_Shape> solids;
   for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
   {
-    ++solids;
+    solids.push_back(solid.Current());
   }
   return solids;
 }
+
+/// The solid of that number, from 1; for 0 the whole shape.
+TopoDS_Shape chosenSolid(const std::string& path, const TopoDS_Shape& shape, int solid)
+{
+  if (solid == 0)
+  {
+    return shape;
+  }
+  const std::vector<TopoDS_Shape> solids = solidsIn(shape);
+  const int count = static_cast<int>(solids.size());
+  if (count == 0)
+  {
+    failBRep(path, "holds surfaces and no solid: choose solid 0, all of it");
+  }
+  if (solid > count)
+  {
+    const std::string number = std::to_string(count);
+    failBRep(path, "holds " + number + (count == 1 ? " solid" : " solids") + ", no solid " + std::to_string(solid) +
+                     ": choose " + (count == 1 ? "1" : "one from 1 to " + number) + ", or 0 for all together");
+  }
+  return solids[solid - 1];
 }
 
-BRepMesh meshOfBRep(const std::string& path)
+Points sizesOf(const std::vector<TopoDS_Shape>& solids)
+{
+  Points sizes;
+  for (const TopoDS_Shape& solid : solids)
+  {
+    Bnd_Box box;
+    BRepBndLib::Add(solid, box);
+    box.SetGap(0.0); // what tolerances add
+    const gp_XYZ size = box.IsVoid() ? gp_XYZ() : box.CornerMax().XYZ() - box.CornerMin().XYZ();
+    sizes.push_back(Eigen::Vector3d(size.X(), size.Y(), size.Z()).cast<float>());
+  }
+  return sizes;
+}
+}
+
+BRepMesh meshOfBRep(const std::string& path, int solid)
 {
   try
   {
     const std::string extension = extensionOf(path);
     const bool isIGES = extension == ".iges" || extension == ".igs";
-    const TopoDS_Shape shape = isIGES ? readIGES(path) : readSTEP(path);
-    return { meshOf(sewn(shape)), solidsIn(shape) };
+    const TopoDS_Shape shape = sewn(chosenSolid(path, isIGES ? readIGES(path) : readSTEP(path), solid));
+    BRepMesh part{ meshOf(shape), {} };
+    part.solidSizes = sizesOf(solidsIn(shape));
+    return part;
   }
   catch (const Standard_Failure& failure)
   {

@@ -10,10 +10,11 @@ namespace meam
 struct BRepMesh
 {
   TriangleMesh mesh; ///< mm; no faces when the file holds no surface
-  int solids = 0;
+  Points solidSizes; ///< mm, of the bounds of each solid that the mesh is of
 };
 
-/// The triangles of all faces in a STEP or IGES file, by Open CASCADE, which crashes on many damaged ones. Faces that
-/// share an edge share its vertices. Throws Error for what is cut off or damaged.
-BRepMesh meshOfBRep(const std::string& path);
+/// The triangles of all faces in a STEP or IGES file, or of one of its solids (from 1; 0: all), by Open CASCADE, which
+/// crashes on many damaged ones. Faces that share an edge share its vertices. Throws Error for what is cut off or
+/// damaged, and for a solid that the file does not hold.
+BRepMesh meshOfBRep(const std::string& path, int solid);
 }

@@ -32,7 +32,7 @@ class Pages:
     def __init__(self, options, parts):
         self.options, self.parts = options, []
         for path, is_mesh in parts if options.report else ():
-            shape = scripting.read_mesh(path, scale=options.cad_scale) if is_mesh else scripting.shape_of(scripting.read_model(path))
+            shape = scripting.read_mesh(path, scale=options.cad_scale, solid=options.solid) if is_mesh else scripting.shape_of(scripting.read_model(path))
             self.parts.append(Part(os.path.basename(path), shape))
 
     def write(self, name, scan, poses):

@@ -32,7 +32,7 @@ def files_of_model(path):
 
 
 def trainer(options, path):
-    return lambda: scripting.train(scripting.read_mesh(path, scale=options.cad_scale), options.preset, options.features)
+    return lambda: scripting.train(scripting.read_mesh(path, scale=options.cad_scale, solid=options.solid), options.preset, options.features)
 
 
 def parts_of(options):

@@ -37,6 +37,7 @@ def options_of_user(arguments=None):
     parts.add_argument("--objects", type=evaluation.numbers,
                        help="of a BOP dataset without --model and --cad, such as 1,5-7 (default: all in models/)")
     choices.add_options(parser, "train", "scale")
+    choices.add_options(parser, "read", "solid")
     parser.add_argument("--split", default="test", help="folder of a BOP dataset's scenes (default: %(default)s)")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of depth images and of .ply scans")
     parser.add_argument("--depth-scale", type=float, default=0, metavar="F",

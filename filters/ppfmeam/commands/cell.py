@@ -54,13 +54,13 @@ def print_picks(rows):
 
 def main():
     options = options_of_user()
-    mesh = scripting.read_mesh(options.cad, scale=options.cad_scale)
+    mesh = scripting.read_mesh(options.cad, scale=options.cad_scale, solid=options.solid)
     gripper, lengths = gripper_of(options)
     unknown = [name for name in lengths if name not in choices.TABLE["gripper"]]
     if unknown:
         raise scripting.Failure(f"a gripper has no length {unknown[0]}; it has {', '.join(choices.TABLE['gripper'])}")
     with open(options.cad, "rb") as file:  # another part under the same name is another cell
-        digest = zlib.crc32(file.read() + repr(options.cad_scale).encode())
+        digest = zlib.crc32(file.read() + repr((options.cad_scale, options.solid)).encode())
     known = (f"{os.path.splitext(os.path.basename(options.cad))[0]}-{digest:08x}", options.sensor,
              "-".join((gripper, *(f"{name}={value:g}" for name, value in lengths.items()))))
     size = "x".join(f"{side:g}" for side in options.bin) if options.bin else "0"

@@ -13,6 +13,7 @@ def options_of_user():
     parser.add_argument("--cad", action="append", default=[], metavar="PART",
                         help="CAD file of the part: .step or .iges, or .stl, .obj, .ply or .off in mm; once for each type of part")
     choices.add_options(parser, "train", "offset", "scale")
+    choices.add_options(parser, "read", "solid")
     parser.add_argument("--model", action="append", default=[],
                         help="trained model of `train`, instead of training, once for each type of part; --cad is then for "
                              "the picture")
@@ -62,7 +63,7 @@ def main():
         picture.require_display()
     if options.report:
         page.require_three()
-    meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale) for path in options.cad]
+    meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale, options.solid) for path in options.cad]
     parts = [scripting.read_model(path) for path in options.model] or meshes
     if options.depth:
         scene = scripting.read_depth(options.depth, options.camera, options.depth_scale)

@@ -37,7 +37,7 @@ def main():
     options = options_of_user()
     if os.path.exists(options.out) and (not os.path.isdir(options.out) or os.listdir(options.out)):
         raise scripting.Failure(f"cannot write {options.out}: it is there and not an empty folder")
-    mesh = scripting.read_mesh(options.cad, scale=options.cad_scale)
+    mesh = scripting.read_mesh(options.cad, scale=options.cad_scale, solid=options.solid)
     samples = scripting.Training(mesh).symmetric_samples()
     source = filters.vtkMEAMBinSceneSource()
     source.SetInputDataObject(mesh)

@@ -11,6 +11,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
     choices.add_options(parser, "train", "offset", "scale")
+    choices.add_options(parser, "read", "solid")
     scripting.add_method_options(parser)
     choices.add_options(parser, "train", "features")
     parser.add_argument("--out", required=True, help="the trained model to write: NAME.meam, or NAME.vtpc with a folder NAME beside")
@@ -21,7 +22,7 @@ def main():
 
     scripting.require_folder_of(options.out, options.models_info, options.json)
     training = scripting.Training(
-        scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale), options.preset, options.features)
+        scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale, options.solid), options.preset, options.features)
     start = time.time()
     model = training.model()
     seconds = time.time() - start

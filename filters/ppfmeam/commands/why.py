@@ -26,6 +26,7 @@ def options_of_user():
     place.add_argument("--truth", metavar="FILE",
                        help="the true poses of all parts, a file of the same kinds: a line for each with the stage that lost it")
     choices.add_options(parser, "train", "scale")
+    choices.add_options(parser, "read", "solid")
     parser.add_argument("--scale", type=float, default=1, metavar="F", help="the same of the scan and the boundary")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
@@ -88,7 +89,7 @@ def write_page(options, inputs, diagnosis):
     if options.part.lower().endswith(api.MODELS):
         shape = scripting.shape_of(scripting.read_model(options.part))
     else:
-        shape = scripting.read_mesh(options.part, scale=options.cad_scale)
+        shape = scripting.read_mesh(options.part, scale=options.cad_scale, solid=options.solid)
     seen = scans.scan_of(options.scan, options.camera, options.scale, options.image, image_camera=options.image_camera)
     place = numpy.zeros((0, 4, 4)) if diagnosis.pose is None else diagnosis.pose[None]
     told = Told.of_why(options, inputs, diagnosis)
@@ -101,7 +102,7 @@ def main():
     if options.report:
         page.require_three()
     inputs = {name: getattr(options, name) for name in (
-        "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "poses", "probability", "rotation_counts", "references",
+        "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "solid", "poses", "probability", "rotation_counts", "references",
         "preset", "features", "image_edges", "threads")}
     inputs["region"] = options.roi
     if options.truth:

@@ -31,6 +31,7 @@ class Told:
                   for text in ("--" + name.replace("_", "-"), getattr(options, name))]
         beside += [text for name, scale in (("--scale", options.scene_scale), ("--cad-scale", options.cad_scale)) if scale != 1
                    for text in (name, str(scale))]
+        beside += ["--solid", str(options.solid)] if options.solid else []
         beside += ["--roi", *options.roi] if options.roi else []
         why = shlex.join(["ppfmeam", "why", (options.model or options.cad)[0], scan, *beside]) + " --at {x} {y} {z}"
         chosen = choices.of_options("detect", options)

@@ -167,6 +167,34 @@ TEST(CADFile, allSolidsAreOnePartWhereTheyArePlaced)
   parts::expectTwoFacesAtEachEdge(part.mesh, 0.0f);
   EXPECT_NEAR(volume(part.mesh), 2 * 6000.0, 0.1);
   EXPECT_TRUE(files::contains(part.report, "2 solids")) << part.report;
+  EXPECT_TRUE(files::contains(part.report, "(solid): 1 is 10 x 20 x 30 mm, 2 is 20 x 10 x 30 mm.")) << part.report;
+  EXPECT_TRUE(files::contains(part.report, "12 triangles, far off the rest")) << part.report;
+}
+
+TEST(CADFile, oneSolidIsChosen)
+{
+  const files::Folder folder;
+  gp_Trsf place;
+  place.SetTranslation(gp_Vec(100, 0, 0));
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, box(10, 20, 30));
+  builder.Add(both, BRepPrimAPI_MakeCylinder(10, 30).Shape().Moved(place));
+  const std::string path = stepOf(folder, both);
+  const meam::CADPart first = meam::readCAD(path, { 1 }), second = meam::readCAD(path, { 2 });
+  expectSizes(first.mesh, 10, 20, 30);
+  EXPECT_EQ(first.report, "");
+  parts::expectTwoFacesAtEachEdge(second.mesh, 0.0f);
+  EXPECT_NEAR(volume(second.mesh) / (M_PI * 1e2 * 30), 1.0, 0.01);
+  EXPECT_NEAR(second.mesh.vertices.front().x(), 100.0f, 10.01f); // where the file puts it
+  const auto error = [](const std::string& file, int solid)
+  { return files::errorOf([&] { meam::readCAD(file, { solid }); }); };
+  EXPECT_TRUE(files::contains(error(path, 3), "holds 2 solids, no solid 3: choose one from 1 to 2")) << error(path, 3);
+  EXPECT_TRUE(files::contains(error(path, -1), "0 (all) or more, not -1"));
+  EXPECT_TRUE(files::contains(error(igesOf(folder, box(1, 2, 3), "MM"), 1), "no solid: choose solid 0"));
+  const std::string mesh = folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_TRUE(files::contains(error(mesh, 1), "is a mesh, which has no solids"));
 }
 
 TEST(CADFile, openShellsAreRead)
