@@ -21,6 +21,7 @@ def options_of_user():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    choices.add_options(parser, "read", "solid")
     simulation.add_sensor_argument(parser)
     add_gripper_options(parser)
     parser.add_argument("--bin", type=float, nargs=3, metavar=("LENGTH", "WIDTH", "HEIGHT"),
