@@ -4,7 +4,6 @@
 #include "base/Parallel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace meam

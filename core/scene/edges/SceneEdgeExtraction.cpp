@@ -203,11 +203,11 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
 class SlopeGrid
 {
 public:
-  SlopeGrid(const OrganizedCloud& cloud, const GridScale& scale, int threads)
+  SlopeGrid(const OrganizedCloud& cloud, const GridScale& scale, const SceneEdgeExtractionSettings& settings)
     : Cloud(cloud)
-    , IsHalved(scale.windowRadius() >= HalvedFrom)
-    , Half(this->IsHalved ? halved(cloud, scale.depthJump(), threads) : OrganizedCloud())
-    , Scale(this->IsHalved ? gridScale(this->Half, threads) : scale)
+    , IsHalved((settings.creases || settings.tangents) && scale.windowRadius() >= HalvedFrom)
+    , Half(this->IsHalved ? halved(cloud, scale.depthJump(), settings.threads) : OrganizedCloud())
+    , Scale(this->IsHalved ? gridScale(this->Half, settings.threads) : scale)
   {
   }
 
@@ -293,7 +293,7 @@ SceneEdges extractSceneEdges(const OrganizedCloud& cloud, const Image& image,
   report(progress, 0.0);
   const GridScale scale = gridScale(cloud, settings.threads);
   const double jump = settings.depthJump > 0.0 ? settings.depthJump : scale.depthJump();
-  const SlopeGrid slopes(cloud, scale, settings.threads);
+  const SlopeGrid slopes(cloud, scale, settings);
   std::vector<Finding> found;
   const auto add = [&](const std::vector<Finding>& some) { found.insert(found.end(), some.begin(), some.end()); };
   if (settings.imageEdges)
