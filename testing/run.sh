@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Builds everything and runs the tests: the release build, core under the sanitizers (dev), and the filters
-# under plain VTK (vtk), two tests at a time.
+# Builds everything and runs the tests: the release build, core but for models and poses under the sanitizers (dev), and the
+# filters under plain VTK (vtk), two tests at a time.
 #
 #   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
 #
-# Tests with the label `long` (all scenes of a dataset, thousands of damaged files, libFuzzer for a minute a reader, the tests
-# of core in the release build) and the build of the benchmarks are left out without --long.
+# Tests with the label `long` (all scenes of a dataset, thousands of damaged files, libFuzzer for a minute a reader, each test
+# of core in the build where it does not run every day) and the build of the benchmarks are left out without --long.
 # The dataset tests look for data in $PPFMEAM_DATA and are skipped without it.
 set -uo pipefail
 without=(-LE '^long$')
@@ -28,7 +28,10 @@ run() { # PRESET, "what", build target or "", ctest arguments...
   if grep -q ': fuzz$' <<<"$chosen"; then "$root/cmake/build.sh" fuzz meamFuzz || failed+=("fuzz (build)"); fi
   ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${without[@]}" "$@" || failed+=("$preset")
 }
-if [ ${#without[@]} = 0 ]; then "$root/cmake/build.sh" release meamAblation meamCoreTests || failed+=("release, for --long (build)"); fi
+if [ ${#without[@]} = 0 ]; then
+  "$root/cmake/build.sh" release meamAblation meamCoreTests || failed+=("release, for --long (build)")
+  "$root/cmake/build.sh" dev meamPoseTests || failed+=("dev, for --long (build)")
+fi
 run release "core, filters, plugin" "" "$@"
 if [ ${#without[@]} = 0 ]; then "$root/cmake/build.sh" release meamBenchmarks || failed+=("benchmarks (build)"); fi
 run dev "core under the sanitizers" "" "$@"
