@@ -74,7 +74,7 @@ Scene sceneOf(const TrainedModel& model, const SceneInput& input, const Detectio
 namespace
 {
 // A few poses are asked for of a bin full of parts: some of the reference points find enough that are sure. Of all of
-// them so many vote first; the others follow only where these do not do.
+// them so many vote first, others only where these do not do; what was found out of candidates stays known.
 constexpr double Shares[] = { 0.06, 0.2, 1.0 };
 constexpr double VotingTime = 0.6; // of what is left of a time limit: up to refined poses; the rest finishes them
 
@@ -111,22 +111,30 @@ public:
     }
     spent.screening += watch.lap();
     EvidenceRates rates;
-    work.verified += static_cast<int>(poses.size());
-    poses = verifyPoses(poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates);
+    const std::size_t knownBefore = this->Candidates.size();
+    const std::size_t count = poses.size();
+    poses = verifyPoses(
+      poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates, &this->Candidates);
     const bool haveRates = settings.candidateVerification.method == VerificationMethod::VisibleEvidence;
+    work.verified += static_cast<int>(haveRates ? this->Candidates.size() - knownBefore : count);
     const std::optional<EvidenceRates> ofScan = haveRates ? std::optional(rates) : std::nullopt;
     this->returned(PoseStage::CandidateVerification, poses);
     spent.verification += watch.lap();
     poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
     this->returned(PoseStage::CandidateSelection, poses);
     spent.selection += watch.lap();
-    work.refined += static_cast<int>(poses.size());
-    poses = refinePoses(poses, scene, model, settings.refinement, subProgress(progress, 0.5, 0.9));
+    poses = this->Refined.of(poses,
+      [&](const Poses& unknown)
+      {
+        work.refined += static_cast<int>(unknown.size());
+        return refinePoses(unknown, scene, model, settings.refinement, subProgress(progress, 0.5, 0.9));
+      });
     this->returned(PoseStage::Refinement, poses);
     spent.refinement += watch.lap();
     PoseVerificationSettings verification = settings.verification;
     verification.evidence.rates = ofScan; // of all candidates; few are left
-    this->Verified = verifyPoses(poses, scene, model, verification, subProgress(progress, 0.9, 1.0));
+    this->Verified =
+      verifyPoses(poses, scene, model, verification, subProgress(progress, 0.9, 1.0), nullptr, &this->OfRefined);
     this->Told.rates = ofScan;
     spent.verification += watch.lap();
   }
@@ -185,6 +193,9 @@ private:
   const DetectionSettings& Settings;
   DetectionReport& Told;
   const PoseObserver& Observer;
+  EvidenceMemory Candidates; ///< of those that lots before had, too
+  PoseMemory<Pose> Refined;  ///< by what they were before
+  EvidenceMemory OfRefined;
   Poses Verified;
   std::map<PoseStage, Poses> Returned; ///< in the order of the stages
 };
@@ -225,21 +236,18 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   constexpr double most = 0.9; // of the progress
   const Deadline ofVotes = settings.deadline.after(VotingTime);
   double from = 0.0;
-  bool isSoon = asked > 0; // by some of the references enough may be sure
   for (const double to : Shares)
   {
-    if (to < 1.0 && !isSoon && !settings.deadline.isSet())
+    if (to < 1.0 && asked == 0 && !settings.deadline.isSet())
     {
       continue;
     }
     const Progress ofLot = ofVotes.within(subProgress(progress, most * from, most * to));
     told.isCutShort = !isDoneBy(ofVotes, [&] { vote(to, ofLot); });
-    const int missing = asked + SpareCopies - ranking.sure();
-    if (told.isCutShort || (asked > 0 && missing <= 0))
+    if (told.isCutShort || (asked > 0 && ranking.sure() >= asked + SpareCopies))
     {
       break;
     }
-    isSoon = asked > 0 && 2 * missing <= asked + SpareCopies;
     from = to;
   }
   told.work.references += search.references();

@@ -12,8 +12,9 @@ namespace meam
 namespace
 {
 constexpr int Lot = 8;                 // instances that are finished before it is asked whether they do
-constexpr double WorthFinishing = 0.5; // place: what is likelier is finished in any case
-constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will
+constexpr double WorthFinishing = 0.5; // place: what is likelier is finished where not enough are sure
+constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will,
+constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for: they are not among the first
 constexpr double ClearlyMore = 3.0;    // log odds of a sure pose over those of one that it excludes
 
 /// A scored pose that is not finished.
@@ -68,11 +69,10 @@ bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& 
     });
 }
 
-bool InstanceFinishing::isEnough(const Pose& next, const std::vector<Sure>& sure, int fruitless) const
+bool InstanceFinishing::haveWanted(const std::vector<Sure>& sure) const
 {
   const int wanted = this->Settings.maximumPoses;
-  const bool haveWanted = wanted > 0 && static_cast<int>(sure.size()) >= wanted + SpareCopies;
-  return next.placeProbability < WorthFinishing && (haveWanted || fruitless >= MostFruitless);
+  return wanted > 0 && static_cast<int>(sure.size()) >= wanted + SpareCopies;
 }
 
 FinishedInstances InstanceFinishing::finished(
@@ -84,10 +84,22 @@ FinishedInstances InstanceFinishing::finished(
     finished.push_back(asItIs(scored[k]));
   }
   std::vector<Sure> sure;
+  const int wanted = this->Settings.maximumPoses;
+  const int most = wanted > 0 ? std::min(MostFruitless, FruitlessOfAsked * wanted) : MostFruitless;
   int fruitless = 0;
   const int count = static_cast<int>(selected.size());
-  for (int next = 0; next < count && !this->isEnough(finished[next].pose, sure, fruitless);)
+  for (int next = 0; next < count;)
   {
+    if (this->haveWanted(sure))
+    {
+      std::for_each(
+        finished.begin() + next, finished.end(), [](FinishedInstance& instance) { instance.isLeft = true; });
+      break;
+    }
+    if (fruitless >= most && finished[next].pose.placeProbability < WorthFinishing)
+    {
+      break;
+    }
     const double from = static_cast<double>(next) / count;
     std::vector<int> lot;
     for (; next < count && static_cast<int>(lot.size()) < Lot; ++next)

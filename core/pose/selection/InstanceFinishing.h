@@ -37,9 +37,8 @@ private:
   };
   FinishedInstance finish(const Pose& scored) const;
   bool isExcluded(const Pose& scored, const std::vector<Sure>& sure) const;
-  /// Whether what follows a pose that is scored less than all finished ones, of which `fruitless` in a row did not
-  /// become sure, will not come before them.
-  bool isEnough(const Pose& next, const std::vector<Sure>& sure, int fruitless) const;
+  /// Whether so many are sure that those asked for are among them.
+  bool haveWanted(const std::vector<Sure>& sure) const;
 
   const Scene& InScene;
   const TrainedModel& Model;

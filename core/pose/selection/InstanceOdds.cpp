@@ -19,7 +19,8 @@ constexpr double Likely = 0.5; // place of a pose that explains what it lies on
 void sortBest(FinishedInstances& found)
 {
   std::stable_sort(found.begin(), found.end(),
-    [](const FinishedInstance& a, const FinishedInstance& b) { return isBetter(a.pose, b.pose); });
+    [](const FinishedInstance& a, const FinishedInstance& b)
+    { return a.isLeft != b.isLeft ? b.isLeft : isBetter(a.pose, b.pose); });
 }
 
 void excludeOverlaps(FinishedInstances& found, const BodyOverlap& overlap)
@@ -84,7 +85,8 @@ void allowForLookalikes(
     const auto left = std::count_if(finished.beyond.begin(), finished.beyond.end(), isLeft);
     pose.contradictions.continuing = static_cast<double>(left) * continuation.patchesOfPoint();
     contradictions.push_back(pose.contradictions);
-    places.push_back(pose.placeProbability >= Likely ? pose.placeProbability : 0.0); // others are nothing at all
+    const bool counts = !finished.isLeft && pose.placeProbability >= Likely; // others are nothing at all
+    places.push_back(counts ? pose.placeProbability : 0.0);
   }
   const std::vector<double> shares = sharesOfPart(contradictions, places, excused);
   for (std::size_t k = 0; k < found.size(); ++k)

@@ -16,6 +16,7 @@ struct FinishedInstance
   Points beyond;        ///< measured surface that goes on beside it (SurfaceContinuation)
   double logOdds;       ///< that a copy is there,
   double logOddsBefore; ///< and of the pose before it was moved to where the scan speaks for it the most
+  bool isLeft = false;  ///< as it was scored, for enough others are sure: it comes after them
 };
 
 using FinishedInstances = std::vector<FinishedInstance>;
@@ -23,6 +24,7 @@ using FinishedInstances = std::vector<FinishedInstance>;
 /// Place of a pose; of less it does not matter what contradicts it.
 inline constexpr double WorthExplaining = 0.02;
 
+/// Those that are left at the end.
 void sortBest(FinishedInstances& found);
 
 /// Of poses, best first: of two whose bodies cut into each other one is right at most.

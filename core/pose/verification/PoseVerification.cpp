@@ -67,19 +67,34 @@ namespace
 {
 /// What comes back are the rates that counted.
 EvidenceRates scoreByEvidence(Poses& poses, const Scene& scene, const TrainedModel& model,
-  const EvidenceCollector& collector, const PoseVerificationSettings& settings, const Progress& progress)
+  const EvidenceCollector& collector, const PoseVerificationSettings& settings, const Progress& progress,
+  EvidenceMemory& memory)
 {
-  std::vector<EvidenceCounts> counts(poses.size());
-  parallelFor(static_cast<int>(poses.size()), settings.threads, progress,
-    [&](int begin, int end, int)
+  const std::vector<SeenAtPose> seen = memory.of(poses,
+    [&](const Poses& unknown)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        const PoseEvidence evidence = collector.collect(poses[i].T_scene_model, settings.pointStride);
-        counts[i] = evidence.counts;
-        setSeen(poses[i], evidence, scene, model);
-      }
+      std::vector<SeenAtPose> result(unknown.size());
+      parallelFor(static_cast<int>(unknown.size()), settings.threads, progress,
+        [&](int begin, int end, int)
+        {
+          for (int i = begin; i < end; ++i)
+          {
+            const Eigen::Isometry3d& T = unknown[i].T_scene_model;
+            const PoseEvidence evidence = collector.collect(T, settings.pointStride);
+            result[i] = { evidence.counts, evidence.score(), evidence.visibleFraction(),
+              model.visibility->view(T, scene.sensor) };
+          }
+        });
+      return result;
     });
+  std::vector<EvidenceCounts> counts;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    poses[i].score = seen[i].score;
+    poses[i].visibleFraction = seen[i].visibleFraction;
+    poses[i].viewId = seen[i].viewId;
+    counts.push_back(seen[i].counts);
+  }
   const EvidenceRates rates = settings.evidence.rates ? *settings.evidence.rates : evidenceRates(counts);
   for (std::size_t i = 0; i < poses.size(); ++i)
   {
@@ -90,7 +105,7 @@ EvidenceRates scoreByEvidence(Poses& poses, const Scene& scene, const TrainedMod
 }
 
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
-  const PoseVerificationSettings& settings, const Progress& progress, EvidenceRates* ofScan)
+  const PoseVerificationSettings& settings, const Progress& progress, EvidenceRates* ofScan, EvidenceMemory* memory)
 {
   if (settings.pointStride < 1)
   {
@@ -108,7 +123,9 @@ Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
       break;
     case VerificationMethod::VisibleEvidence:
     {
-      const EvidenceRates rates = scoreByEvidence(scored, scene, model, collector, settings, progress);
+      EvidenceMemory ofThese;
+      const EvidenceRates rates =
+        scoreByEvidence(scored, scene, model, collector, settings, progress, memory ? *memory : ofThese);
       if (ofScan)
       {
         *ofScan = rates;

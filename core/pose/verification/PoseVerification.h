@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "pose/Pose.h"
+#include "pose/PoseMemory.h"
 #include "pose/verification/PoseEvidence.h"
 
 namespace meam
@@ -23,15 +24,27 @@ struct PoseVerificationSettings
   int threads = 0;           ///< 0: one for each processor
 };
 
+/// What was seen at a pose: of its evidence what counts when it is scored.
+struct SeenAtPose
+{
+  EvidenceCounts counts;
+  double score;
+  double visibleFraction;
+  int viewId;
+};
+using EvidenceMemory = PoseMemory<SeenAtPose>;
+
 /// The recommended settings before refinement.
 PoseVerificationSettings candidateVerificationSettings();
 
 /// Scores every pose against the scene, or by its votes, which become those of all that agree with it, and returns them
 /// best first, in the local frame: score, probability, visible
 /// fraction, and the view that shows what the sensor sees. Without a surface only edges count. `rates`, which may be
-/// null, gets how far the scan's edges and outlines can be trusted; the paper's score does not ask.
+/// null, gets how far the scan's edges and outlines can be trusted; the paper's score does not ask. `memory`, which may
+/// be null, is of calls with the same scene, model and settings: what it knows is not looked at again.
 Poses verifyPoses(const Poses& poses, const Scene& scene, const TrainedModel& model,
-  const PoseVerificationSettings& settings = {}, const Progress& progress = {}, EvidenceRates* rates = nullptr);
+  const PoseVerificationSettings& settings = {}, const Progress& progress = {}, EvidenceRates* rates = nullptr,
+  EvidenceMemory* memory = nullptr);
 
 /// The appearance model of a pose: its own, when it names one, otherwise the nearest to the sensor.
 int viewOf(const Pose& pose, const Scene& scene, const TrainedModel& model);

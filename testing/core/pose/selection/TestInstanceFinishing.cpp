@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace
@@ -108,6 +109,31 @@ TEST(InstanceFinishing, ALongRowOfWrongPosesEndsIt)
   Finishing finishing(copiesAndWrongOnes(100));
   finishing.settings.excludesOverlaps = false;
   EXPECT_EQ(finishedOf(finishing), 72) << "three that are sure, and 64 that are not, in lots of eight";
+}
+
+TEST(InstanceFinishing, WhereAFewAreAskedForAShorterRowDoes)
+{
+  Finishing finishing(copiesAndWrongOnes(100));
+  finishing.settings.excludesOverlaps = false;
+  finishing.settings.maximumPoses = 5;
+  EXPECT_EQ(finishedOf(finishing), 24) << "three that are sure, and 15 that are not, in lots of eight";
+}
+
+TEST(InstanceFinishing, WhatIsLeftComesAfterWhatIsFinished)
+{
+  Finishing finishing(copiesAndWrongOnes(10));
+  finishing.settings.excludesOverlaps = false;
+  finishing.settings.maximumPoses = 1; // and two to spare: the first eight are finished
+  finishing.scored.back().evidence = 20.0;
+  finishing.scored.back().probability = 1.0;
+  meam::FinishedInstances finished = finishing.finished();
+  EXPECT_EQ(
+    std::count_if(finished.begin(), finished.end(), [](const meam::FinishedInstance& one) { return one.isLeft; }), 5);
+  EXPECT_EQ(finished.back().pose.evidence, 20.0);
+  meam::sortBest(finished);
+  EXPECT_FALSE(finished[7].isLeft);
+  EXPECT_TRUE(finished[8].isLeft);
+  EXPECT_EQ(finished[8].pose.evidence, 20.0);
 }
 
 TEST(InstanceFinishing, IsTheSameOnAnyNumberOfThreads)
