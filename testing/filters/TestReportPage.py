@@ -2,6 +2,7 @@
 """The page of what was found, `ppfmeam detect --report` and Detections.save(): one file, its numbers are those of the poses and of the
 scan; how results show themselves in a notebook."""
 import base64
+import csv
 import html
 import json
 import os
@@ -128,8 +129,8 @@ refuses("no such folder", "detect.py", "--cad", "plate.stl", "--scene", "scan.pc
 works("why.py", "plate.meam", "scan.pcd", "--pose", "found.txt:1", "--poses", "0", "--report", "why.html")
 data = data_of(read("why.html"))
 states = numpy.frombuffer(base64.b64decode(data["marks"]["states"]), numpy.uint8)
-check(data["marks"]["names"][0] == "matched" and data["marks"]["colors"][0] == CYAN and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
-      len(points_of(data["marks"])) == len(states) > 50, f"the points and their states: {data['marks']['names']}")
+check(data["legend"][0] == [f"matched: {(states == 0).sum()}", CYAN] and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
+      len(points_of(data["marks"])) == len(states) > 50, f"the points and their states: {data['legend']}")
 check("Found as rank 1" in read("why.html") and "Numbers of the steps" in read("why.html"), "the answer and the numbers")
 works("why.py", "plate.meam", "scan.pcd", "--at", "0", "0", "5", "--report", "nowhere.html")
 check(data_of(read("nowhere.html"))["poses"] == [] and "No part there" in read("nowhere.html"), "no part at the place")
@@ -137,13 +138,19 @@ check(data_of(read("nowhere.html"))["poses"] == [] and "No part there" in read("
 # A page for each scan of a batch, and their list.
 os.mkdir("scans")
 os.link("scan.pcd", "scans/a b.pcd")
+write_pcd("scans/coarse.pcd", points.reshape(H, W, 3)[::5, ::5].reshape(-1, 3), W // 5, H // 5, "x y z")
 with open("scans/bad.pcd", "w", encoding="utf-8") as file:
     file.write("no cloud")
-works("batch.py", "scans", "--cad", "plate.stl", "--poses", "0", "--out", "all.csv", "--report", "pages")
-check(sorted(os.listdir("pages")) == ["a b.pcd.html", "index.html"], f"{os.listdir('pages')}")
-data = data_of(read("pages/a b.pcd.html"))
+for most in ("2", "0"):
+    works("batch.py", "scans", "--model", "plate.meam", "--poses", most, "--out", "all.csv", "--report", "pages", *["--why"] * (most == "2"))
+    data = data_of(read("pages/a b.pcd.html"))
+    check(all(("For it, in" in pose["why"]) == (most == "2") for pose in data["poses"]), f"the reasons with --why alone: {data['poses'][0]['why']}")
+    check(data["why"] == "ppfmeam why plate.meam 'scans/a b.pcd' --at {x} {y} {z}", data["why"])
+check(sorted(os.listdir("pages")) == ["a b.pcd.html", "coarse.pcd.html", "index.html"], f"{os.listdir('pages')}")
 check(numpy.allclose([pose["transform"] for pose in data["poses"]], poses, atol=1e-4), "the same poses")
-text = read("pages/index.html")
+text, advice = read("pages/index.html"), [row["advice"] for row in csv.DictReader(read("all.scans.csv").splitlines())]
+check(advice[:2] == ["", ""] and advice[2].startswith("The part is ") and f"<td>{html.escape(advice[2])}</td></tr>" in text and html.escape(advice[2]) in read("pages/coarse.pcd.html"),
+      f"what to change first: {advice}")
 check('<a href="a%20b.pcd.html">a b.pcd</a>' in text and "<tr class=failed><td>bad.pcd</td>" in text, text)
 
 # In Python and in a notebook.

@@ -5,13 +5,12 @@ import os
 import urllib.parse
 
 from .. import inputs, scripting
-from ..report import page
+from ..report import listing, page
 from ..report.content import Part
+from ..report.markup import LIKELY
 from ..report.told import Told
 
-STYLE = """<style>body { font: 14px/1.5 system-ui, "DejaVu Sans", Arial, sans-serif; color: #1d2127; padding: 18px 22px; }
-table { border-collapse: collapse; } td, th { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid #dadee3; }
-.failed td { color: #b3261e; }</style>"""
+COLUMNS = ("scan", "likely poses", "poses", "the likeliest", "time", "what was said", "what to change first")
 
 
 def require(folder):
@@ -27,10 +26,10 @@ def path_of(folder, name):
 
 
 class Pages:
-    """Of the parts, (path, whether it is a mesh and not a model)."""
+    """Of the parts, (path, whether it is a mesh and not a model), and their trained models."""
 
-    def __init__(self, options, parts):
-        self.options, self.parts = options, []
+    def __init__(self, options, parts, models):
+        self.options, self.parts, self.models = options, [], models
         for path, is_mesh in parts if options.report else ():
             shape = scripting.read_mesh(path, scale=options.cad_scale, solid=options.solid) if is_mesh else scripting.shape_of(scripting.read_model(path))
             self.parts.append(Part(os.path.basename(path), shape))
@@ -40,20 +39,19 @@ class Pages:
         if not self.options.report:
             return
         seen = inputs.scan_of(scan.scene, image=scan.image, image_camera=scan.image_camera if scan.image else None)
-        told = Told.of_batch(self.options, [part.name for part in self.parts], name, poses)
+        told = Told.of_batch(self.options, [part.name for part in self.parts], name, scan.files, poses, self.models, scan)
         page.write(path_of(self.options.report, name), page.html(seen, poses, self.parts, told))
 
 
 def write_index(folder, lines):
     """Of the journal's lines, in the order of the scans."""
-    rows = []
-    for line in lines:
+    def cells(line):
         name, path = line["scan"], path_of(folder, line["scan"])
         link = f'<a href="{urllib.parse.quote(os.path.basename(path))}">{html.escape(name)}</a>' if os.path.exists(path) else html.escape(name)
-        likely = f"{100 * float(line['rows'][0][3]):.0f} %" if line["rows"] else ""
-        cells = (link, str(len(line["rows"])), likely, f"{float(line['find_s']):.2f} s", html.escape(line["failure"] or line["warning"]))
-        rows.append(f"<tr{' class=failed' * bool(line['failure'])}>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
-    head = "".join(f"<th>{name}</th>" for name in ("scan", "poses", "the best is likely", "time", "what was said"))
+        places = [float(row[3]) for row in line["rows"]]
+        said = (line["failure"] or line["warning"], line["advice"])
+        return [link, str(sum(place >= LIKELY for place in places)), str(len(places)), f"{100 * max(places):.0f} %" if places else "",
+                f"{float(line['find_s']):.2f} s", *map(html.escape, said)], bool(line["failure"])
+
     with scripting.written(os.path.join(folder, "index.html")) as file:
-        file.write(f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>{len(lines)} scans</title>{STYLE}<h1>{len(lines)} scans</h1>'
-                   f"<table><tr>{head}</tr>{''.join(rows)}</table></html>\n")
+        file.write(listing.html(f"{len(lines)} scans", COLUMNS, map(cells, lines)))

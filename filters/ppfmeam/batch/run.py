@@ -5,13 +5,14 @@ import time
 import warnings
 
 from .. import finding, scripting
+from ..report import told
 from ..version import VERSION
 from . import pages, parts, progress, scans, table
 from .apart import Ended, apart
 from .journal import Journal
 from .ranks import SERVICE_PAUSE, together
 
-ELSEWHERE = ("out", "threads", "watch", "form", "report")  # options that change no pose
+ELSEWHERE = ("out", "threads", "watch", "form", "report", "why")  # options that change no pose
 
 
 class Plan:
@@ -47,13 +48,14 @@ class Search:
 
     def __init__(self, options, plan):
         self.source, self.objects = scans.source(options), plan.objects
-        self.finder = finding.Finder([scripting.read_model(path) for path in plan.models], options)
-        self.pages = pages.Pages(options, plan.shapes)
+        models = [scripting.read_model(path) for path in plan.models]
+        self.finder = finding.Finder(models, options)
+        self.pages = pages.Pages(options, plan.shapes, models)
 
     def line(self, scan, rank=0):
         """All that becomes known of a scan; what fails is a reason."""
         start = time.monotonic()
-        rows, read, found, failure = [], start, None, ""
+        rows, read, found, failure, advice = [], start, None, "", ""
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", UserWarning)
             try:
@@ -61,13 +63,13 @@ class Search:
                 read = time.monotonic()
                 poses = self.finder.find(data.scene, None, data.image, data.image_camera)
                 found = time.monotonic()
-                rows = table.rows_of(poses, self.objects)
+                rows, advice = table.rows_of(poses, self.objects), told.advice(poses)
                 self.pages.write(scan[0], data, poses)
             except scripting.Failure as error:
                 failure = str(error)
             except Exception as error:  # whatever is wrong with a scan, the others are not to wait for it
                 failure = f"{type(error).__name__}: {error}"
-        return self.told(scan, rank, read - start, (found or time.monotonic()) - read, failure, rows, heard)
+        return self.told(scan, rank, read - start, (found or time.monotonic()) - read, failure, rows, heard, advice)
 
     def line_apart(self, scan, rank=0):
         """The same of a scan that may end the process which searches it."""
@@ -78,9 +80,9 @@ class Search:
             return self.told(scan, rank, 0, time.monotonic() - start, f"it ended the process that searched it: {how}")
 
     @staticmethod
-    def told(scan, rank, read, find, failure, rows=(), heard=()):
+    def told(scan, rank, read, find, failure, rows=(), heard=(), advice=""):
         return {"scan": scan[0], "rows": list(rows), "failure": failure, "read_s": f"{read:.4f}", "find_s": f"{find:.4f}",
-                "process": rank, "warning": "; ".join(str(warning.message) for warning in heard)}
+                "process": rank, "warning": "; ".join(dict.fromkeys(str(warning.message) for warning in heard)), "advice": advice}
 
 
 def work(ranks, journal, search, plan):

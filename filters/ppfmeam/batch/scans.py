@@ -10,10 +10,10 @@ DEPTH_IMAGES = (".png", ".tif", ".tiff")
 
 class Scan:
     """A scan as it was read, `image` of a camera with the calibration `image_camera`, or of the scan's own pixels, or
-    None."""
+    None; `files`, of both, where `ppfmeam why` reads them."""
 
-    def __init__(self, scene, image=None, image_camera=None):
-        self.scene, self.image, self.image_camera = scene, image, image_camera
+    def __init__(self, scene, image=None, image_camera=None, files=None):
+        self.scene, self.image, self.image_camera, self.files = scene, image, image_camera, files
 
 
 class Files:
@@ -36,7 +36,7 @@ class Files:
                 scripting.read_depth(path, options.camera, options.depth_scale), options.scene_scale, path)
         else:
             raise scripting.Failure(f"{path}: a depth image needs the calibration of its camera, --camera")
-        return Scan(scene, scripting.read_image(image) if image else None, options.image_camera)
+        return Scan(scene, scripting.read_image(image) if image else None, options.image_camera, (path, image))
 
 
 class Folder(Files):

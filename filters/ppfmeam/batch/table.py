@@ -6,7 +6,7 @@ import os
 from .. import scripting
 
 POSES = ("scan", "obj_id", "rank", "score", "place_probability", "probability", "R", "t", "failure")
-SCANS = ("scan", "poses", "read_s", "find_s", "process", "warning", "failure")
+SCANS = ("scan", "poses", "read_s", "find_s", "process", "warning", "failure", "advice")
 
 
 def rows_of(poses, objects):

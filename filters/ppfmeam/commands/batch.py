@@ -57,11 +57,16 @@ def options_of_user(arguments=None):
                         help="table to write; OUT.run beside it keeps what is done")
     parser.add_argument("--report", metavar="FOLDER",
                         help="write a page for any browser of each scan to a folder, and index.html, which lists them")
+    parser.add_argument("--why", action="store_true",
+                        help="the pages of --report tell of each pose what speaks for it and against it, which takes another search of "
+                             "each scan")
     options = parser.parse_args(arguments)
     if bool(options.watch) == bool(options.scans) or bool(options.watch) == bool(options.out):
         parser.error("give SCANS and --out, or --watch")
     if options.watch and options.report:
         parser.error("--report is of SCANS, not of --watch")
+    if options.why and not options.report:
+        parser.error("--why is of the pages of --report")
     if options.watch and not options.model and not options.cad:
         parser.error("give the part: --cad, or --model of `train`")
     return options

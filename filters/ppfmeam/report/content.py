@@ -51,7 +51,7 @@ def triangles_of(data):
 class Part:
     """A type of part: its name, and its mesh or, of a trained model, the points of its surface."""
 
-    def __init__(self, name, shape):
+    def __init__(self, name, shape, most=MOST_TRIANGLES):
         self.name, self.mesh = name, None
         if shape.GetNumberOfPolys():
             faces = vtkTriangleFilter()
@@ -59,10 +59,10 @@ class Part:
             faces.PassLinesOff()
             faces.PassVertsOff()
             self.mesh = scripting.update(faces).GetOutput()
-            if self.mesh.GetNumberOfPolys() > MOST_TRIANGLES:
+            if self.mesh.GetNumberOfPolys() > most:
                 fewer = vtkQuadricDecimation()
                 fewer.SetInputData(self.mesh)
-                fewer.SetTargetReduction(1 - MOST_TRIANGLES / self.mesh.GetNumberOfPolys())
+                fewer.SetTargetReduction(1 - most / self.mesh.GetNumberOfPolys())
                 self.mesh = scripting.update(fewer).GetOutput()
         self.points = points_of(self.mesh or shape)
 
@@ -88,7 +88,7 @@ class Seen:
     """A scan for the eye: its points with their grey values or colours, and the picture beside it with its camera. `what` the
     picture is: "image", "surface" or "map"."""
 
-    def __init__(self, scan):
+    def __init__(self, scan, most=MOST_POINTS):
         points, image, camera = scan.points, scan.image, scan.image_camera
         self.is_grid = points.ndim == 3
         measured = numpy.isfinite(points).all(axis=-1)
@@ -107,11 +107,11 @@ class Seen:
             self.what, self.projection = "map", FromAbove(points[measured].astype(float), self.looks)
             self.picture = self.map(points[measured].astype(float))
         self.total = int(measured.sum())
-        self.points, self.shades, self.spacing = self.thinned(points, measured, shades)
+        self.points, self.shades, self.spacing = self.thinned(points, measured, shades, most)
 
-    def thinned(self, points, measured, shades):
+    def thinned(self, points, measured, shades, most):
         """Every second, third... point of each row and column, or of the list, without those far away; and how far they are apart."""
-        share = self.total / MOST_POINTS
+        share = self.total / most
         step = max(1, int(numpy.ceil(share ** 0.5 if self.is_grid else share)))
         few = (slice(None, None, step),) * (points.ndim - 1)
         kept = points[few][measured[few]].astype(float)
@@ -198,8 +198,8 @@ def marks(diagnosis):
     """The points of the part at the place of a Diagnosis, by what the scan shows there."""
     names = sorted(set(diagnosis.states), key=list(STATES).index)
     states = [names.index(state) for state in diagnosis.states]
-    return {**quantized(diagnosis.points), "states": base64_of(states, "<u1"), "names": names,
-            "colors": [STATES[name] for name in names]}
+    return {**quantized(diagnosis.points), "states": base64_of(states, "<u1"),
+            "legend": [(f"{name}: {diagnosis.states.count(name)}", STATES[name]) for name in names]}
 
 
 def rank_colors(poses):

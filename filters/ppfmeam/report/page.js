@@ -5,8 +5,8 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   const element = id => document.getElementById(id);
   const all = (selector, work) => document.querySelectorAll(selector).forEach(work);
-  const state = { chosen: data.chosen, least: data.likely, place: null, byPart: data.parts.length > 1 };
-  const shown = pose => pose.place === undefined || pose.place >= state.least || pose.rank === state.chosen;
+  const state = { chosen: data.chosen, least: data.likely, place: null, byPart: data.parts.length > 1 && !data.legend.length };
+  const shown = pose => pose.place === undefined || pose.place >= state.least || pose.rank === state.chosen || pose.judged === "right";
   const inkOf = color => [1, 3, 5].reduce((sum, k, i) => sum + parseInt(color.slice(k, k + 2), 16) * [0.3, 0.59, 0.11][i], 0) < 140 ? "#fff" : "#111";
   const fixed = (values, digits) => values.map(value => value.toFixed(digits));
   const palette = ["#4dafc7", "#e67e22", "#8c56a5", "#9ac13d", "#a76c49"]; // of types of part, as ParaView has them
@@ -69,11 +69,13 @@
       if (outline) edges.add(outline);
       const label = document.createElement("div");
       label.className = "label";
-      label.textContent = pose.place === undefined ? "place" : pose.rank + " · " + Math.round(100 * pose.place) + " %";
+      label.textContent = pose.tag || pose.rank + (pose.place === undefined ? "" : " · " + Math.round(100 * pose.place) + " %");
       labels.appendChild(label);
       return { pose, body, outline, label, middle: new THREE.Vector3().fromArray(data.parts[pose.part].middle).applyMatrix4(matrix) };
     });
-    if (data.marks) addMarks(scene, holder);
+    if (data.marks) addMarks(scene);
+    const legend = holder.appendChild(Object.assign(document.createElement("div"), { id: "legend" }));
+    legend.innerHTML = data.legend.map(([name, color]) => `<div><i style="background:${color}"></i>${name}</div>`).join("");
     const mark = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), new THREE.MeshBasicMaterial({ color: 0xffffff, depthTest: false }));
     mark.visible = false;
     scene.add(mark);
@@ -234,18 +236,16 @@
     };
   }
 
-  // Of a place that is asked about: the part's points by what the scan shows there, before all else, and what their colors mean.
-  function addMarks(scene, holder) {
-    const { names, colors } = data.marks, states = new Uint8Array(bytes(data.marks.states)), cloud = new THREE.BufferGeometry();
-    const rgb = colors.map(color => new THREE.Color(color)), values = new Float32Array(3 * states.length);
+  // Of a place that is asked about: the part's points by what the scan shows there, before all else.
+  function addMarks(scene) {
+    const states = new Uint8Array(bytes(data.marks.states)), cloud = new THREE.BufferGeometry();
+    const rgb = data.legend.map(([, color]) => new THREE.Color(color)), values = new Float32Array(3 * states.length);
     states.forEach((state, i) => rgb[state].toArray(values, 3 * i));
     cloud.setAttribute("position", new THREE.BufferAttribute(positions(data.marks), 3));
     cloud.setAttribute("color", new THREE.BufferAttribute(values, 3));
     const points = new THREE.Points(cloud, new THREE.PointsMaterial({ vertexColors: THREE.VertexColors, sizeAttenuation: false, size: 6, depthTest: false }));
     points.renderOrder = 1;
     scene.add(points);
-    const legend = holder.appendChild(Object.assign(document.createElement("div"), { id: "legend" }));
-    legend.innerHTML = names.map((name, k) => `<div><i style="background:${colors[k]}"></i>${name}: ${states.filter(state => state === k).length}</div>`).join("");
   }
 
   // ---- what is chosen
@@ -300,7 +300,7 @@
       add("p", data.why ? "Does a part lie here that was missed? This tells which step lost it, and what to change:" : "A point of the scan.");
       if (data.why) code(data.why.replace("{x}", at[0]).replace("{y}", at[1]).replace("{z}", at[2]));
     } else if (pose) {
-      add("h2", data.marks ? "What the scan shows at the place" : `Rank ${pose.rank}` + (data.parts.length > 1 ? `, ${data.parts[pose.part].name}` : ""));
+      add("h2", data.marks ? "What the scan shows at the place" : (pose.tag ? "A copy that was missed" : `Rank ${pose.rank}`) + (data.parts.length > 1 ? `, ${data.parts[pose.part].name}` : ""));
       if (pose.why) add("p", pose.why);
       if (pose.certainty < data.likely) add("p", "How it is turned is unsure: what tells its rotations apart is hardly visible. A scan from another side shows it.");
       add("p", "Takes the part's coordinates to the scan's, mm:", "quiet");
@@ -312,7 +312,7 @@
       const least = Math.round(100 * state.least);
       if (hidden) add("p", `${hidden} ${hidden > 1 ? "poses are" : "pose is"} less likely than ${least} % and not shown: the slider shows them.`);
       if (data.poses.length) add("p", "Select a pose to see it from all sides, in the image and in numbers.");
-      if (space) add("p", "A part was missed? Click it in the 3D view: its place and the command that tells why come up here.");
+      if (space && data.why) add("p", "A part was missed? Click it in the 3D view: its place and the command that tells why come up here.");
     }
   }
 
@@ -337,6 +337,7 @@
     document.querySelector(".head h2").textContent = "The place";
     document.querySelector(".head label").hidden = true;
   }
+  document.querySelector("details").open = !data.poses.some(shown); // of the scan stands there what may be wrong with it
   const least = element("least");
   least.value = 100 * state.least;
   least.addEventListener("input", () => { state.least = least.value / 100; update(); });

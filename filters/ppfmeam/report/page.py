@@ -35,20 +35,35 @@ def text_of(path):
 
 def html(scan, poses, parts, told):
     """The page of a scan, as the C++ library has it, poses, VTK's data object, and the parts (content.Part) that they are of."""
-    require_three()
     seen = content.Seen(scan)
     rows = content.pose_rows(seen, parts, poses, told.reasons)
     for row in rows if told.diagnosis else ():
-        row["color"] = PLACE
-    data = {"scan": seen.content(), "parts": [part.content() for part in parts], "poses": rows, "why": told.why,
-            "likely": markup.LIKELY, "chosen": told.chosen, "marks": content.marks(told.diagnosis) if told.diagnosis else None}
-    libraries = "\n".join(text_of(os.path.join(THREE, name)) for name in LIBRARIES)
-    slots = {"TITLE": escape(told.title), "SUMMARY": escape(str(told.diagnosis) if told.diagnosis else summary(rows)),
-             "PICTURE": markup.picture(seen.picture_content(), rows),
-             "CAPTION": CAPTIONS[seen.what], "TABLE": markup.table(rows, [part.name for part in parts]), "RUN": run(told, seen),
-             "DATA": json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
-             "THREE": libraries, "SCRIPT": text_of(os.path.join(HERE, "page.js"))}
-    return re.sub("@([A-Z]+)@", lambda found: slots[found[1]], text_of(os.path.join(HERE, "page.html")))
+        row.update(color=PLACE, tag="place")
+    slots = slots_of(seen, rows, [part.name for part in parts], told, str(told.diagnosis) if told.diagnosis else f"{summary(rows)} {told.advice}".rstrip())
+    slots["DATA"] = json_of({**slots["DATA"], "parts": [part.content() for part in parts]})
+    return filled(slots)
+
+
+def slots_of(seen, rows, names, told, words, legend=(), pixels=content.MOST_PIXELS):
+    """What of page.html depends on a scan (content.Seen): its rows of content.pose_rows(), the names of the parts, the summary in
+    words, names and colors of a legend. DATA lacks the parts."""
+    marks = content.marks(told.diagnosis) if told.diagnosis else None
+    data = {"scan": seen.content(), "poses": rows, "why": told.why, "likely": markup.LIKELY, "chosen": told.chosen, "marks": marks,
+            "legend": marks["legend"] if marks else legend}
+    return {"TITLE": escape(told.title), "SUMMARY": escape(words), "PICTURE": markup.picture(seen.picture_content(pixels), rows),
+            "CAPTION": CAPTIONS[seen.what], "TABLE": markup.table(rows, names), "RUN": run(told, seen), "DATA": data}
+
+
+def filled(slots):
+    """page.html with libraries and script, and with these texts in their places."""
+    require_three()
+    fixed = {"THREE": "\n".join(text_of(os.path.join(THREE, name)) for name in LIBRARIES), "SCRIPT": text_of(os.path.join(HERE, "page.js"))}
+    return re.sub("@([A-Z]+)@", lambda found: {**fixed, **slots}.get(found[1], found[0]), text_of(os.path.join(HERE, "page.html")))
+
+
+def json_of(data):
+    """For a script element."""
+    return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def write(path, text):

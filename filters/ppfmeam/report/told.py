@@ -12,13 +12,13 @@ from .content import parts_of
 
 
 class Told:
-    """`names` of the parts, and of the scan; `facts`, sentences of the scan; `seconds`, of each stage or "total"; `settings` that are
-    not the defaults, by name; `command`, which finds the same again; `why`, a command with {x} {y} {z} for the place that was
-    clicked; `reasons`, of each pose what speaks for it and against it; `diagnosis`, of a page that tells why a part was missed;
+    """`names` of the parts, and of the scan; `facts`, sentences of the scan; `advice`, what to change first; `seconds`, of each stage or
+    "total"; `settings` that are not the defaults, by name; `command`, which finds the same again; `why`, a command with {x} {y} {z} for
+    the place that was clicked; `reasons`, of each pose what speaks for it and against it; `diagnosis`, of a page that tells why a part was missed;
     `chosen`, the rank that is selected at first, 0 for none."""
 
-    def __init__(self, names, scan, facts, seconds, settings, command, why, reasons, diagnosis=None):
-        self.names, self.facts, self.seconds, self.settings = names, facts, seconds, settings
+    def __init__(self, names, scan, facts, advice, seconds, settings, command, why, reasons, diagnosis=None):
+        self.names, self.facts, self.advice, self.seconds, self.settings = names, facts, advice, seconds, settings
         self.command, self.why, self.reasons = command, why, reasons
         self.title = " and ".join(dict.fromkeys(names)) + f" in {scan}"
         self.diagnosis, self.chosen = diagnosis, int(diagnosis is not None and diagnosis.pose is not None)
@@ -27,32 +27,25 @@ class Told:
     def of_command(cls, options, poses, parts, data):
         """Of the options of `detect`, the poses, the parts and the scan, its edge points and its image."""
         scan, files = options.scene or options.depth, options.cad or options.model
-        beside = [text for name in ("camera", "image", "image_camera", "boundary") if getattr(options, name)
-                  for text in ("--" + name.replace("_", "-"), getattr(options, name))]
-        beside += [text for name, scale in (("--scale", options.scene_scale), ("--cad-scale", options.cad_scale)) if scale != 1
-                   for text in (name, str(scale))]
-        beside += ["--solid", str(options.solid)] if options.solid else []
-        beside += ["--roi", *options.roi] if options.roi else []
-        why = shlex.join(["ppfmeam", "why", (options.model or options.cad)[0], scan, *beside]) + " --at {x} {y} {z}"
-        chosen = choices.of_options("detect", options)
-        settings = {**chosen.differing(), **({"roi": " ".join(options.roi)} if options.roi else {})}
-        return cls([os.path.basename(file) for file in files], os.path.basename(scan), facts(poses), stages(poses), settings,
-                   shlex.join(["ppfmeam", "detect", *sys.argv[1:]]), why,
-                   reasons(poses, parts, data, chosen, options))
+        return cls([os.path.basename(file) for file in files], os.path.basename(scan), facts(poses), advice(poses), stages(poses),
+                   settings(options), shlex.join(["ppfmeam", "detect", *sys.argv[1:]]),
+                   why_command(options, scan, options.image, options.boundary),
+                   reasons(poses, parts, data, options, options.image_camera))
 
     @classmethod
-    def of_batch(cls, options, names, scan, poses):
-        """Of the options of `batch`, the names of the parts and of a scan, and the poses."""
-        chosen = choices.of_options("detect", options).differing()
-        command = shlex.join(["ppfmeam", "batch", *sys.argv[1:]])
-        return cls(names, scan, facts(poses), stages(poses), chosen, command, "", None)
+    def of_batch(cls, options, names, scan, files, poses, parts, data):
+        """Of the options of `batch`, the names of the parts and of a scan, its file and its image's or nothing, the poses, the parts
+        and the scan (scans.Scan)."""
+        said = reasons(poses, parts, (data.scene, None, data.image), options, data.image_camera) if options.why else None
+        return cls(names, scan, facts(poses), advice(poses), stages(poses), settings(options),
+                   shlex.join(["ppfmeam", "batch", *sys.argv[1:]]), why_command(options, *files) if files else "", said)
 
     @classmethod
     def of_why(cls, options, inputs, diagnosis):
         """Of the options of `why`, the arguments of api.why() and what it returned."""
         given = choices.Chosen("detect", {name: value for name, value in inputs.items() if name in choices.TABLE["detect"]})
         command = shlex.join(["ppfmeam", "why", *sys.argv[1:]])
-        return cls([os.path.basename(options.part)], os.path.basename(options.scan), [], {}, given.differing(), command, "",
+        return cls([os.path.basename(options.part)], os.path.basename(options.scan), [], "", {}, given.differing(), command, "",
                    [sentences(diagnosis)] * (diagnosis.pose is not None), diagnosis)
 
     @classmethod
@@ -72,7 +65,7 @@ class Told:
                 for k, why in zip(places, api.why(model, pose=found.poses[places], **found.inputs, **found.settings.values)):
                     said[k] = sentences(why)
         choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
-        return cls([model.name for model in found.models], name, found.report.splitlines(), {"total": found.seconds}, chosen,
+        return cls([model.name for model in found.models], name, found.report.splitlines(), found.advice, {"total": found.seconds}, chosen,
                    f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({parts[0]}, {scan}{words}, at=({{x}}, {{y}}, {{z}})))", said)
 
 
@@ -94,8 +87,33 @@ def is_file(value):
 
 def facts(found):
     """What vtkMEAMPoseEstimation says of the scan."""
-    said = [found.GetFieldData().GetAbstractArray(name) for name in ("Report", "ScanReport")]
-    return [line for text in said if text for line in text.GetValue(0).splitlines()]
+    return [line for name in ("Report", "ScanReport") for line in text_of(found, name).splitlines()]
+
+
+def advice(found):
+    """What vtkMEAMPoseEstimation would change first."""
+    return text_of(found, "Advice")
+
+
+def text_of(found, name):
+    text = found.GetFieldData().GetAbstractArray(name)
+    return text.GetValue(0) if text else ""
+
+
+def settings(options):
+    """What differs from the defaults, by name."""
+    return {**choices.of_options("detect", options).differing(), **({"roi": " ".join(options.roi)} if options.roi else {})}
+
+
+def why_command(options, scan, image=None, boundary=None):
+    """That of `why` for a scan, with {x} {y} {z} for the place; empty where the options name no part."""
+    beside = {"camera": options.camera, "image": image, "image-camera": image and options.image_camera, "boundary": boundary,
+              "scale": options.scene_scale, "cad-scale": options.cad_scale}
+    words = [text for name, value in beside.items() if value not in (None, "", 1) for text in ("--" + name, str(value))]
+    words += ["--solid", str(options.solid)] if options.solid else []
+    words += ["--roi", *options.roi] if options.roi else []
+    parts = options.model or options.cad
+    return shlex.join(["ppfmeam", "why", parts[0], scan, *words]) + " --at {x} {y} {z}" if parts else ""
 
 
 def stages(found):
@@ -104,10 +122,11 @@ def stages(found):
     return {words[stage]: scripting.field(found, "Seconds" + stage) for stage in scripting.STAGES}
 
 
-def reasons(poses, parts, data, chosen, options):
+def reasons(poses, parts, data, options, image_camera):
     """Of each pose what speaks for it and against it, which takes another detection of each part."""
     said, of = [""] * poses.GetNumberOfPoints(), numpy.array(parts_of(poses))
     scan, boundary, image = data
+    chosen = choices.of_options("detect", options)
     box, mask = regions.of(options.roi)
     for number, part in enumerate(parts):
         places = numpy.flatnonzero(of == number)
@@ -117,7 +136,7 @@ def reasons(poses, parts, data, chosen, options):
         transforms = scripting.column(poses, "Transform", 4, 4)[places]
         for port, given in enumerate((part, regions.masked(scan, mask), boundary, image, scripting.poses_of(transforms))):
             diagnosis.SetInputDataObject(port, given)
-        diagnosis.SetCameraFile(options.image_camera)
+        diagnosis.SetCameraFile(image_camera if image else None)
         diagnosis.SetRegion(*(box or regions.EVERYWHERE))
         chosen.set(diagnosis)
         diagnosis.SetPlaceToRankedPose()
