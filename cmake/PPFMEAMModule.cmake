@@ -84,7 +84,7 @@ set(package_files __init__.py __main__.py api.py bop.py cell.py cellpicture.py c
 set(command_files __init__.py batch.py calibrate.py cell.py detect.py evaluate.py hand_eye.py pick.py simulate.py train.py why.py)
 set(batch_files __init__.py __main__.py apart.py journal.py pages.py parts.py progress.py ranks.py run.py scans.py table.py
   watch.py)
-set(report_files __init__.py content.py listing.py markup.py notebook.py outlines.py page.html page.js page.py
+set(report_files __init__.py content.py judged.js judged.py listing.py markup.py notebook.py outlines.py page.html page.js page.py
   projection.py told.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
 set(package_copies)

@@ -106,6 +106,14 @@ class Evaluation:
         self.judge.AddInputDataObject(0, poses)
         self.judge.AddInputDataObject(1, truth)
 
+    def judged_image(self, poses, truth):
+        """Of one image the columns of vtkMEAMPoseEvaluation, by name: of each pose, and of each true instance."""
+        judge = self.new_judge()
+        judge.SetInputDataObject(0, poses)
+        judge.SetInputDataObject(1, truth)
+        tables = [scripting.update(judge).GetOutputDataObject(port) for port in range(2)]
+        return [{table.GetColumnName(k): vtk_to_numpy(table.GetColumn(k)) for k in range(table.GetNumberOfColumns())} for table in tables]
+
     def judged(self, name):
         """A column of vtkMEAMPoseEvaluation, of each pose, scene by scene."""
         return vtk_to_numpy(scripting.update(self.judge).GetOutput().GetColumnByName(name))

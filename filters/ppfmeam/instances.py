@@ -3,7 +3,6 @@
 import csv
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from . import api, scripting
 
@@ -18,25 +17,21 @@ class Instances:
         self.rows, self.options = [], options
 
     def add(self, where, run, poses, truth, scan, **inputs):
-        """A scene: `where` has its part, scene and image."""
-        judge = run.new_judge()
-        judge.SetInputDataObject(0, poses)
-        judge.SetInputDataObject(1, truth)
-        table = scripting.update(judge).GetOutputDataObject(1)
-        columns = {name: vtk_to_numpy(table.GetColumnByName(name)) for name in (
-            "HasToBeFound", "FoundBy", "VisibleFraction", "TranslationError", "RotationError")}
+        """A scene: `where` has its part, scene and image. Returns the Diagnosis of each that was missed, by its place."""
+        _, columns = run.judged_image(poses, truth)
         missed = numpy.flatnonzero(columns["FoundBy"] == 0).tolist()
         told = {}
         if missed:
             transforms = scripting.column(truth, "Transform", 4, 4)[missed]
             told = dict(zip(missed, api.why(api.Model(run.model), scan, pose=transforms, poses=0, **inputs, **self.options)))
-        for k in range(table.GetNumberOfRows()):
-            wanted, by, visible, mm, degrees = (of[k] for of in columns.values())
+        for k, (wanted, by, visible, mm, degrees) in enumerate(zip(*(columns[name] for name in (
+                "HasToBeFound", "FoundBy", "VisibleFraction", "TranslationError", "RotationError")))):
             why = told.get(k)
             self.rows.append({**dict.fromkeys(COLUMNS, ""), **where, "instance": k + 1, "has to be found": wanted, "found by": by or "",
                               "visible": f"{visible:.3f}", "mm": f"{mm:.3f}", "degrees": f"{degrees:.3f}",
                               "lost in": why.lost_in if why else "",
                               "why": f"{why.verdict} {why.advice}".strip() if why else ""})
+        return told
 
     def write(self, path):
         with scripting.written(path, newline="") as file:

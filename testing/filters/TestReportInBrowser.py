@@ -12,7 +12,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 import ppfmeam
 from ppfmeam import scripting
 from meamtest import check, skip
-from scripttest import scan_of_bin
+from batchtest import dataset
+from scripttest import scan_of_bin, works
 
 try:
     from selenium import webdriver
@@ -28,7 +29,7 @@ SECONDS = 60  # that a page may take to come up without a graphics card
 RED = 0.03  # share of the pixels at least that the first part has
 
 
-def browser(*arguments):
+def browser(*arguments, page="found.html", wanted="#detail h2"):
     options = webdriver.ChromeOptions()
     options.binary_location = shutil.which("chromium")
     for argument in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "window-size=1400,1100", f"user-data-dir={tempfile.mkdtemp()}",
@@ -36,8 +37,8 @@ def browser(*arguments):
         options.add_argument("--" + argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-    driver.get("file://" + os.path.abspath("found.html"))
-    WebDriverWait(driver, SECONDS).until(lambda driver: driver.find_elements(By.CSS_SELECTOR, "#detail h2"))
+    driver.get("file://" + os.path.abspath(page))
+    WebDriverWait(driver, SECONDS).until(lambda driver: driver.find_elements(By.CSS_SELECTOR, wanted))
     return driver
 
 
@@ -120,5 +121,29 @@ try:
     check(chosen(driver) == [["2"], ["2"]], "table and image work")
     image = pixels_of(driver.find_element(By.ID, "picture"))
     check(len(numpy.unique(image, axis=0)) > 200, "the image is there")
+finally:
+    driver.quit()
+
+# A dataset that was evaluated with poses moved away: the first image, then the chosen one, in a frame.
+dataset("bins", 2)
+with open("none.csv", "w", encoding="utf-8") as file:
+    print("scene_id,im_id,obj_id,score,R,t,time\n0,0,1,1,1 0 0 0 1 0 0 0 1,0 0 700,1", file=file)
+works("evaluate.py", "bop", "bins", "--found", "none.csv", "--report", "evaluated.html")
+driver = browser("use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", page="evaluated.html", wanted="iframe")
+try:
+    for name, counts in (("000000", ["right: 0", "wrong: 1"]), ("000001", ["right: 0", "wrong: 0"])):
+        link = driver.find_element(By.LINK_TEXT, f"{name}/000000")
+        link.click()
+        driver.switch_to.frame(driver.find_element(By.TAG_NAME, "iframe"))
+        WebDriverWait(driver, SECONDS).until(
+            lambda driver: f"{name}/000000" in driver.find_element(By.TAG_NAME, "h1").text and driver.find_elements(By.CSS_SELECTOR, "#legend div"))
+        legend = [each.text for each in driver.find_elements(By.CSS_SELECTOR, "#legend div")]
+        missed = driver.find_elements(By.XPATH, "//div[@class='label'][text()='missed']")
+        check(legend == [*counts, f"missed: {len(missed)}"] and missed, f"{legend}, {len(missed)} labels")
+        red, green, blue = pixels_of(driver.find_element(By.ID, "space")).T
+        check(((red > 2 * blue) & (green > 1.5 * blue) & (red > 100)).mean() > 0.003, "missed copies are drawn in their color")
+        driver.switch_to.default_content()
+        check([row.text.split()[0] for row in driver.find_elements(By.CSS_SELECTOR, "tr.chosen")] == [f"{name}/000000"], "the row is marked")
+    check(not driver.get_log("browser"), "no error")
 finally:
     driver.quit()

@@ -2,10 +2,13 @@
 """simulate.py writes datasets whose depth, image, masks and truth fit each other; evaluate.py finds the parts in them."""
 import contextlib
 import csv
+import html
 import io
 import json
 import os
+import re
 import shutil
+from unittest import mock
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -15,11 +18,13 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from ppfmeam import dataset, evaluation, scripting
 from ppfmeam.commands import evaluate
 from ppfmeam.filters import vtkMEAMSamplePartSource
+from ppfmeam.report import judged, page
 from meamtest import check, close, run
 from scripttest import EXAMPLES, script
 
 PART = os.path.join(EXAMPLES, "parts", "hole_plate.stl")
 COPIES = 4
+HAS_THREE = all(os.path.exists(os.path.join(page.THREE, name)) for name in page.LIBRARIES)
 
 
 def simulate(*arguments):
@@ -161,11 +166,73 @@ done = script("evaluate.py", "bop", "swapped", "--scenes", "0", "--found", "back
 check(done.returncode == 1 and "scene 0, image 0, object 1: the true poses fit" in done.stderr and "another part or another scene" in done.stderr,
       done.stderr)
 check(done.stdout.splitlines()[1].split()[4] == "0.0", done.stdout)
-done = script("evaluate.py", "bop", "plates", "--scenes", "0", "--out", "again.csv", "--why", "why.csv")
+REPORT = ("--report", "found.html") if HAS_THREE else ()
+done = script("evaluate.py", "bop", "plates", "--scenes", "0", "--poses", "0", "--why", "why.csv", *REPORT)
 check(done.returncode == 0, done.stderr)
 with open("why.csv", newline="", encoding="utf-8") as table:
     rows = list(csv.DictReader(table))
 check(len(rows) == COPIES and all((row["found by"] == "") == (row["why"] != "") and row["visible"] for row in rows), f"{rows}")
+def of_page(path):
+    """The texts, the cells of each row, and of each image what it shows."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    cells = [re.findall("<td>(.*?)</td>", row) for row in re.findall("<tr[^>]*>(.*?)</tr>", text[:text.index("<iframe")])[1:]]
+    return text, cells, {place: json.loads(data) for place, data in re.findall('id="(image\\d+)">(.*?)</script>', text)}
+
+
+def counts_of(cells, data):
+    """The row of an image, found, missed and wrong, has the poses that its page shows."""
+    poses = data["poses"]
+    kinds = [pose["judged"] for pose in poses if pose["judged"] != "wrong" or pose.get("place", 1) >= 0.5]
+    right, missed, wrong = map(kinds.count, ("right", "missed", "wrong"))
+    check(int(cells[1]) == int(cells[2]) + missed and int(cells[2]) <= right and cells[3:5] == [str(missed), str(wrong)], f"{cells} {kinds}")
+    check([pose["rank"] for pose in poses] == list(range(1, len(poses) + 1)), "each pose has a number of its own")
+    return right, missed, wrong
+
+
+# The page: the figures as they are printed, and of each image the poses that are right or wrong and the copies that were missed.
+if HAS_THREE:
+    text, cells, images = of_page("found.html")
+    check(html.escape(done.stdout.rstrip()) in text and "@PICTURE@" in text and list(images) == ["image0"], "the figures and the page of an image")
+    right, missed, wrong = counts_of(cells[0], images["image0"]["DATA"])
+    check(right == sum(row["found by"] != "" for row in rows) > 0, f"{right} are right: {rows}")
+    done = script("evaluate.py", "bop", "swapped", "--scenes", "0", "--found", "back.csv", "--report", "swapped.html")
+    _, cells, images = of_page("swapped.html")
+    check(done.returncode == 1 and cells[0][5] == "object 1 failed" and counts_of(cells[0], images["image0"]["DATA"])[0] == 0, f"{cells}")
+    # One pose is left out, one is moved, one is there twice.
+    x, y, z = found[1]["t"].split()
+    changed = [{**found[0], "score": 1}, {**found[0], "score": 0.9}, {**found[1], "score": 0.5, "t": f"{float(x) + 40} {y} {z}"}]
+    with open("changed.csv", "w", newline="", encoding="utf-8") as table:
+        rows = csv.DictWriter(table, list(found[0]))
+        rows.writeheader()
+        rows.writerows(changed)
+    done = script("evaluate.py", "bop", "plates", "--found", "changed.csv", "--report", "changed.html")
+    text, cells, images = of_page("changed.html")
+    check(counts_of(cells[0], images["image0"]["DATA"]) == (1, int(cells[0][1]) - 1, 2), f"{cells}")
+    poses = images["image0"]["DATA"]["poses"]
+    reasons = [pose["why"] for pose in poses]
+    check(reasons[0].startswith("Right: ") and reasons[1] == "A better pose has the same copy." and reasons[2].startswith("No copy is here: the nearest is "),
+          f"{reasons}")
+    check(poses[-1]["tag"] == "missed" and "The nearest pose, rank " in poses[-1]["why"] and len(poses[-1]["outline"]) > 0, f"{poses[-1]}")
+    poses = images["image1"]["DATA"]["poses"]
+    check(counts_of(cells[1], images["image1"]["DATA"])[0] == 0 and poses[0]["why"] == "No pose came out.", f"{cells[1]}")
+    # Where the page would be too large the images with the most errors stay.
+    judged.MOST_BYTES = 1.5 * len(json.dumps(images["image0"]))
+    data = dataset.Dataset("plates")
+    options = mock.Mock(folder="plates", spec=["folder"])
+    shown, run_ = judged.Images({1: data.mesh(1)}, 2), evaluation.Evaluation(data.train(1, "recommended"))
+    stored = dataset.Found("changed.csv", [1])
+    for scene in (0, 1):
+        image = data.scene(scene).image(0)
+        truth, poses = image.truth_of(1), stored.poses(image, 1)
+        shown.add(str(scene), image, None, {1: (poses, truth, run_.judged_image(poses, truth), {})}, [], options)
+    shown.add_failed("2", "cannot read it")
+    with open("few.html", "w", encoding="utf-8") as file:
+        file.write(shown.html("plates", "figures"))
+    text, cells, images = of_page("few.html")
+    worst = max((0, 1), key=lambda place: int(cells[place][3]) + int(cells[place][4]))
+    check(list(images) == [f"image{worst}"] and "the scans of 1 images with" in text and len(cells) == 3 and cells[2][5] == "cannot read it", f"{cells}")
+
 # A diagnosis that fails is told of, once; what is found still counts.
 class Undiagnosed:
     def add(self, *_, **__):
@@ -178,12 +245,12 @@ whole = data.scene(0).image(0)
 poses = {1: dataset.Found("back.csv", [1]).poses(whole, 1)}
 figures = []
 for lost in (None, Undiagnosed()):
-    judged, benchmark, failed, errors = evaluation.Evaluation(model, mesh=mesh), dataset.BOPFigures(mesh, model), set(), io.StringIO()
+    run_, benchmark, failed, errors = evaluation.Evaluation(model, mesh=mesh), dataset.BOPFigures(mesh, model), set(), io.StringIO()
     with contextlib.redirect_stderr(errors):
-        evaluate.judge(whole, poses, {1: judged}, {1: benchmark}, None, lost, failed)
+        evaluate.judge(whole, poses, {1: run_}, {1: benchmark}, None, lost, failed)
     told = "scene 0, image 0, object 1"
     check(failed == ({told} if lost else set()) and errors.getvalue() == (f"{told}: no diagnosis\n" if lost else ""), errors.getvalue())
-    figures.append((judged.figures()["recall"], benchmark.recalls()))
+    figures.append((run_.figures()["recall"], benchmark.recalls()))
 check(figures[0] == figures[1] and figures[0][0] > 0, f"{figures}")
 # An object that fails twice is one that failed.
 failed = set()

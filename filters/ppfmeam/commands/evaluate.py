@@ -18,11 +18,15 @@ Times are the median over the scenes, without reading files and training.
 import argparse
 import contextlib
 import math
+import os
 import sys
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .. import choices, dataset, evaluation, instances, scripting
+from ..report import page
+from ..report.judged import Images
+from ..report.told import sentences
 
 COLUMNS = ("scenes  poses   paper  strict    top1  recall      AP  AP2-20    R@99  median error: mm  degrees (axis  roll)  ms/scene")
 ROW = ("{part:4d}  {scenes:6d}  {poses:5d}  {paper:6.1f}  {strict:6.1f}  {top1:6.1f}  {recall:6.1f}  {AP:6.1f}  {AP_mm:6.1f}  {recall_99:6.1f}"
@@ -53,12 +57,15 @@ def told(where, failed):
         failed.add(where)
 
 
-def print_stages(rows):
-    if all(math.isnan(row["ms"]) for row in rows):
-        return  # another program's poses
-    print("\nmedian ms of each stage\npart  " + "  ".join(f"{stage.lower():>12}" for stage in evaluation.STAGES))
-    for row in rows:
-        print(f"{row['part']:4d}  " + "  ".join(f"{row[stage + '_ms']:12.0f}" for stage in evaluation.STAGES))
+def told_rates(rows, benchmark):
+    """The tables of the rates, of the benchmark's and of the stages' times."""
+    lines = ["obj.  " + COLUMNS, *(ROW.format(**row) for row in rows)]
+    lines.append("\nobj.  recall of " + "  ".join(f"{name:>6}" for name in (*dataset.BOP_FIGURES, "AR")))
+    lines += [f"{row['part']:4d}            " + "  ".join(f"{r:6.1f}" for r in benchmark[row["part"]].recalls().values()) for row in rows]
+    if not all(math.isnan(row["ms"]) for row in rows):  # another program's poses have no times
+        lines.append("\nmedian ms of each stage\nobj.  " + "  ".join(f"{stage.lower():>12}" for stage in evaluation.STAGES))
+        lines += [f"{row['part']:4d}  " + "  ".join(f"{row[stage + '_ms']:12.0f}" for stage in evaluation.STAGES) for row in rows]
+    return "\n".join(lines)
 
 
 def place_of(image, number):
@@ -76,8 +83,9 @@ def find_objects(image, runs, camera, stored, failed):
 
 
 def judge(image, found, runs, benchmark, camera, lost, failed):
-    """Judges the poses of each object in an image, but for one that is not in it; those that fail are added to `failed`."""
-    edges = None
+    """Judges the poses of each object in an image, but for one that is not in it; those that fail are added to `failed`. Returns by
+    the object's number its poses and, with `lost`, the Diagnosis of each copy that was missed, by its place."""
+    edges, judged = None, {}
     for number, run in runs.items():
         truth, poses, where = image.truth_of(number), vtkPolyData(), place_of(image, number)
         if not truth.GetNumberOfPoints():
@@ -89,15 +97,30 @@ def judge(image, found, runs, benchmark, camera, lost, failed):
         with told(where, failed):
             benchmark[number].add(poses, truth, image.scan)
         run.add(poses, truth)
+        judged[number] = poses, {}
         if lost and where not in failed:
             beside = {"image": image.beside, "image_camera": camera} if image.beside else {}
             with told(where, failed):
-                lost.add({"part": number, "scene": image.scene, "image": image.number}, run, poses, truth, image.scan, **beside)
+                place = {"part": number, "scene": image.scene, "image": image.number}
+                judged[number] = poses, lost.add(place, run, poses, truth, image.scan, **beside)
+    return judged
+
+
+def show(images, image, judged, runs, camera, failed, options):
+    """Adds an image to those of the page."""
+    shown = {}
+    for number, (poses, missed) in judged.items():
+        truth = image.truth_of(number)
+        shown[number] = poses, truth, runs[number].judged_image(poses, truth), {k: sentences(why) for k, why in missed.items()}
+    notes = [f"object {number} failed" for number in runs if place_of(image, number) in failed] + ["no true poses"] * (not judged)
+    images.add(f"{image.scene:06d}/{image.number:06d}", image, camera, shown, notes, options)
 
 
 def bop(options):
     """Image by image, all objects in each; returns how many of these failed."""
-    scripting.require_folder_of(options.out, options.json)
+    scripting.require_folder_of(options.out, options.json, options.report)
+    if options.report:
+        page.require_three()
     lost = instances_of(options)
     data = dataset.Dataset(options.folder, options.split)
     objects = options.objects or data.objects()
@@ -107,32 +130,35 @@ def bop(options):
         model, mesh = data.train(number, options.preset, options.features), data.mesh(number)
         runs[number] = evaluation_of(model, mesh, options, options.features)
         benchmark[number] = dataset.BOPFigures(mesh, model)
-    judged, failed = dict.fromkeys(runs, 0), set()
+    judged, failed, scenes = dict.fromkeys(runs, 0), set(), options.scenes or data.scenes()
+    images = Images({number: run.mesh for number, run in runs.items()},
+                    sum(len(data.scene(scene).steps) for scene in scenes)) if options.report else None
     with scripting.written(options.out, newline="") if options.out else contextlib.nullcontext() as file:
         results = dataset.Results(file) if file else None
-        for scene in map(data.scene, options.scenes or data.scenes()):
+        for scene in map(data.scene, scenes):
             for step in scene.steps:
                 try:
                     image = scene.image(step)
                 except scripting.Failure as failure:
                     print(failure, file=sys.stderr)
                     failed.add((scene.folder, step))
+                    if images:
+                        images.add_failed(f"{os.path.basename(scene.folder)}, image {step + 1}", str(failure))
                     continue
                 found = find_objects(image, runs, data.beside(), stored, failed)
                 if results:
                     results.add(image, found, options.poses)
-                judge(image, found, runs, benchmark, data.beside(), lost, failed)
+                judged_here = judge(image, found, runs, benchmark, data.beside(), lost, failed)
+                if images:
+                    show(images, image, judged_here, runs, data.beside(), failed, options)
                 for number in runs:
                     judged[number] += image.truth_of(number).GetNumberOfPoints() > 0
     rows = [{"part": number, "scenes": judged[number], **run.figures()} for number, run in runs.items() if judged[number]]
-    if rows:
-        print("obj.  " + COLUMNS)
-        for row in rows:
-            print(ROW.format(**row))
-        print("\nobj.  recall of " + "  ".join(f"{name:>6}" for name in (*dataset.BOP_FIGURES, "AR")))
-        for row in rows:
-            print(f"{row['part']:4d}            " + "  ".join(f"{r:6.1f}" for r in benchmark[row["part"]].recalls().values()))
-        print_stages(rows)
+    text = told_rates(rows, benchmark) if rows else ""
+    if text:
+        print(text)
+    if images:
+        page.write(options.report, images.html(os.path.basename(os.path.abspath(options.folder)), text))
     if options.json:
         objects = [{**row, **benchmark[row["part"]].recalls()} for row in rows]
         scripting.write_json(options.json, {"objects": objects, "failed": len(failed)})
@@ -156,7 +182,10 @@ def main():
     one.add_argument("--poses", type=scripting.count, default=5,
                      help="poses wanted of each object in an image; 0: all (default: %(default)s)")
     one.add_argument("--json", metavar="FILE", help="write the rates as JSON")
-    result = one.add_mutually_exclusive_group(required=True)
+    one.add_argument("--report", metavar="HTML",
+                     help="write a page for any browser, in one file: the rates, the images, and their scans in 3D with right and wrong poses "
+                          "and the copies that were missed; with --why also why")
+    result = one.add_mutually_exclusive_group()
     result.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
     result.add_argument("--found", metavar="PATH",
                         help="judge the poses that another program left instead of looking for them: a file of BOP results, or a "

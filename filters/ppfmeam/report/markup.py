@@ -5,6 +5,7 @@ from html import escape
 LIKELY = 0.5  # poses that are less likely to be there are hidden at first, as ParaView hides them
 
 COLUMNS = (  # heading, what it means, of a row its text
+    ("judged", "beside the true poses", lambda row: row["judged"]),
     ("likely", "place probability: how likely a copy is there, however it is turned", lambda row: f"{100 * row['place']:.0f} %"),
     ("rotation", "certainty: how likely it is turned like this, where a copy is there", lambda row: f"{100 * row['certainty']:.0f} %"),
     ("probability", "of the pose: the product of the two", lambda row: f"{100 * row['probability']:.0f} %"),
@@ -32,23 +33,22 @@ def table(rows, names):
     """A row for each pose; with the name of its part where there are several."""
     if not rows:
         return '<p class="none">no part found</p>'
-    known = [column for column in COLUMNS if can(column, rows[0])]
+    known = [column for column in COLUMNS if any(said(column, row) for row in rows)]
     part = '<th class="text">part</th>' if len(names) > 1 else ""
     head = "".join(f'<th title="{escape(meaning)}">{escape(name)}{" (mm)" * (name in "xyz")}</th>' for name, meaning, _ in known)
     body = "".join(
         f'<tr data-rank="{row["rank"]}" class="pose{faint(row)}" tabindex="0"><td><b class="rank" '
-        f'style="background:{row["color"]};color:{ink(row["color"])}">{row["rank"]}</b></td>' +
+        f'style="background:{row["color"]};color:{ink(row["color"])}">{row.get("tag", row["rank"])}</b></td>' +
         (f'<td class="text">{escape(names[row["part"]])}</td>' if part else "") +
-        "".join(f"<td>{text(row)}</td>" for _, _, text in known) + "</tr>" for row in rows)
+        "".join(f"<td>{said(column, row)}</td>" for column in known) + "</tr>" for row in rows)
     return f'<table class="poses"><thead><tr><th>rank</th>{part}{head}</tr></thead><tbody>{body}</tbody></table>'
 
 
-def can(column, row):
+def said(column, row):
     try:
-        column[2](row)
-    except KeyError:  # poses of another program have no such number
-        return False
-    return True
+        return column[2](row)
+    except KeyError:  # poses of another program, and true ones, have no such number
+        return ""
 
 
 def faint(row):

@@ -41,6 +41,16 @@ class Told:
                    shlex.join(["ppfmeam", "batch", *sys.argv[1:]]), why_command(options, *files) if files else "", said)
 
     @classmethod
+    def of_evaluation(cls, options, names, image, found):
+        """Of the options of `evaluate`, the names of the objects in an image, and the poses of each."""
+        ours = [(name, poses) for name, poses in zip(names, found) if poses.GetFieldData().HasArray("SecondsTotal")]
+        seconds = {name: scripting.field(poses, "SecondsTotal") for name, poses in ours} if len(ours) > 1 else \
+            stages(ours[0][1]) if ours else {}
+        return cls(names, image, list(dict.fromkeys(fact for _, poses in ours for fact in facts(poses))),
+                   " ".join(dict.fromkeys(filter(None, (advice(poses) for _, poses in ours)))), seconds,
+                   choices.of_options("detect", options).differing(), shlex.join(["ppfmeam", "evaluate", *sys.argv[1:]]), "", None)
+
+    @classmethod
     def of_why(cls, options, inputs, diagnosis):
         """Of the options of `why`, the arguments of api.why() and what it returned."""
         given = choices.Chosen("detect", {name: value for name, value in inputs.items() if name in choices.TABLE["detect"]})
