@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""examples/detect.ipynb: no output is stored, and its cells run one after the other and show what they say."""
+"""examples/detect.ipynb: no output is stored, and its cells run one after the other and show what they say, as a script and in a kernel
+of Jupyter. The latter needs the Debian packages python3-nbclient and python3-ipykernel."""
 import ast
 import json
 import os
+import re
 import tempfile
 import webbrowser
 
@@ -34,3 +36,24 @@ with tempfile.TemporaryDirectory() as tempfile.tempdir:
     check(len(opened) == 1 and os.path.getsize(opened[0][len("file://"):]) > 1e6, f"a page is opened: {opened}")
 check(shown[4].startswith("array([["), shown[4])
 check(names["why"].lost_in == "" and "For it, " in names["why"].reasons, names["why"].reasons)
+
+# In a kernel: the same poses, and the page stands below its cell.
+try:
+    import ipykernel  # noqa: F401, of the kernel
+    import nbformat
+    from nbclient import NotebookClient
+except ImportError as error:
+    skip(f"the notebook in a kernel: {error}")
+tempfile.tempdir = None
+with tempfile.TemporaryDirectory() as folder:
+    os.environ.update(IPYTHONDIR=folder, JUPYTER_RUNTIME_DIR=folder, BROWSER="false")
+    notebook = nbformat.read("detect.ipynb", as_version=4)
+    NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
+outputs = [cell["outputs"] for cell in notebook["cells"] if cell["cell_type"] == "code"]
+check([len(of) for of in outputs] == [1, 0, 1, 1, 1, 1], f"each cell but the second shows one thing, and none warns: {outputs}")
+model, _, table, frame, matrix, why = [of[0].get("data", of[0]) if of else {} for of in outputs]
+check(model["text/plain"] == shown[0] and matrix["text/plain"] == shown[4], f"{model} {matrix}")
+check(re.findall("<td>.*?</td>", table["text/html"]) == re.findall("<td>.*?</td>", shown[2]), "the same table")
+check(table["text/plain"] == str(names["found"]), table["text/plain"])
+check(frame["text/html"].startswith("<iframe srcdoc=") and frame["text/plain"] == "<a page that a notebook shows>", frame["text/plain"])
+check(why["text"] == f"{names['why']}\n{names['why'].reasons}\n", why["text"])

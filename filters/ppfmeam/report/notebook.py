@@ -47,6 +47,9 @@ class Frame:
     def __init__(self, text):
         self.text = text
 
+    def __repr__(self):
+        return "<a page that a notebook shows>"
+
     def _repr_html_(self):
         return f'<iframe srcdoc="{html.escape(self.text)}" width="100%" height="{HEIGHT}" style="border: 0"></iframe>'
 
