@@ -18,6 +18,9 @@ def main():
         + "\n\nppfmeam COMMAND --help tells the options of each.")
     parser.add_argument("--version", action="version", version=f"ppfmeam {VERSION}")
     parser.add_argument("command", choices=SUMMARIES, metavar="COMMAND", help=argparse.SUPPRESS)
+    if len(sys.argv) == 1:
+        parser.print_help(sys.stderr)
+        sys.exit(2)
     command = parser.parse_args(sys.argv[1:2]).command
     sys.argv = [f"ppfmeam {command}", *sys.argv[2:]]
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Poses of scene after scene beside the true ones, and the figures over them."""
+import argparse
 import math
 import statistics
 import warnings
@@ -21,10 +22,12 @@ STAGES = scripting.STAGES[scripting.STAGES.index("Scene"):scripting.STAGES.index
 
 
 def numbers(text):
-    """1,2,5-7 as a list."""
+    """1,2,5-7 as a list, as argparse wants it."""
     result = []
     for item in text.split(","):
-        first, _, last = item.partition("-")
+        first, dash, last = item.partition("-")
+        if not first.isdecimal() or dash and not last.isdecimal() or int(last or first) < int(first):
+            raise argparse.ArgumentTypeError(f"it has to be whole numbers such as 1,5-7, not {text}")
         result += range(int(first), int(last or first) + 1)
     return result
 

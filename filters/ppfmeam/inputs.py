@@ -12,7 +12,6 @@ from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from . import Error, _core, regions, scripting
 
-DEPTH_IMAGES = (".png", ".tif", ".tiff")
 HIDDEN = vtkDataSetAttributes.HIDDENPOINT
 
 
@@ -31,6 +30,8 @@ def age_of(scan):
 def mesh_of(cad, reading):
     """The mesh of a file or a vtkPolyData, as it came; `reading`: what is chosen of the file."""
     if not isinstance(cad, vtkDataObject):
+        if os.fspath(cad).lower().endswith(".pcd"):
+            raise Error(f"{cad} is a scan: the part has to be a mesh with faces ({', '.join(scripting.MESHES)})")
         mesh = _core.load_cad(mesh_file(cad), reading.apply(_core.CADSettings(), _core))
         if mesh.report:
             warnings.warn(mesh.report, stacklevel=4)
@@ -98,12 +99,12 @@ def cloud_of(scan, camera, scale):
         return _core.Scan(scaled(scan, scale, "scan"))
     path = os.fspath(scan)
     extension = os.path.splitext(path)[1].lower()
-    if extension in DEPTH_IMAGES and camera is None:
+    if extension in scripting.DEPTH_IMAGES and camera is None:
         raise Error(f"{path}: a depth image needs the calibration of its camera")
-    if camera is not None and extension not in (".pcd", ".ply", *DEPTH_IMAGES):
+    if camera is not None and extension not in (".pcd", ".ply", *scripting.DEPTH_IMAGES):
         raise Error(f"{path}: only a .pcd or .ply cloud is organized with the camera of the sensor")
     path_of(path)
-    if extension in DEPTH_IMAGES:
+    if extension in scripting.DEPTH_IMAGES:
         return _core.load_depth_image(path, path_of(camera), scale)
     if extension in (".pcd", ".ply"):
         return _core.load_scan(path, "" if camera is None else path_of(camera), scale)

@@ -26,6 +26,8 @@ from . import Error as Failure
 from . import choices, filters
 
 EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj", ".step", ".stp", ".iges", ".igs")
+MESHES = EXTENSIONS[1:]
+DEPTH_IMAGES = (".png", ".tif", ".tiff")
 AS_GOOD = 0.02  # share of the surface that near-symmetries may differ by and count as equally near
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total")
@@ -190,6 +192,26 @@ def update(algorithm, step="Update", *arguments):
     return algorithm
 
 
+class Once(argparse.Action):
+    """Stores the value of an option; a second one is an error and does not take the place of the first."""
+    is_given = False
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        if option_string and self.is_given:
+            raise argparse.ArgumentError(self, "it is given twice")
+        self.is_given = True
+        setattr(namespace, self.dest, values)
+
+
+class Parser(argparse.ArgumentParser):
+    """That of a command."""
+
+    def __init__(self, *arguments, **options):
+        super().__init__(*arguments, **options)
+        for action in (None, "store"):
+            self.register("action", action, Once)
+
+
 def count(text):
     """A number of things, as argparse wants it."""
     if not text.isdecimal():
@@ -298,11 +320,13 @@ def read_with(reader, path):
         raise failure if path in str(failure) else Failure(f"{path}: {failure}") from None
 
 
-def read(path, scale=1.0, solid=0):
-    """The mesh or the cloud in a file of EXTENSIONS, its coordinates times a factor; of a STEP file `solid` alone, or all."""
+def read(path, scale=1.0, solid=0, known=EXTENSIONS):
+    """The mesh or the cloud in a file of EXTENSIONS, its coordinates times a factor; of a STEP file `solid` alone, or all. `known`:
+    what a message names."""
     extension = os.path.splitext(path)[1].lower()
     if extension not in EXTENSIONS:
-        raise Failure(f"{path}: unknown kind of file; known are {', '.join(EXTENSIONS)}")
+        kind = "it is a folder" if os.path.isdir(path) else "unknown kind of file"
+        raise Failure(f"{path}: {kind}; known are {', '.join(known)}")
     reader = filters.vtkMEAMMeshReader()
     reader.SetSolid(solid)
     if extension == ".pcd":
@@ -328,7 +352,7 @@ def scaled(data, scale, what):
 
 def read_mesh(path, offset=(0, 0, 0), scale=1.0, solid=0):
     """The clean mesh of a CAD file, scaled to mm and moved by an offset in mm."""
-    data = read(path, solid=solid)
+    data = read(path, solid=solid, known=MESHES)
     if not data.IsA("vtkPolyData"):
         raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.step, .iges, .stl, .obj, .ply or .off)")
     report = data.GetFieldData().GetAbstractArray("CADReport")
@@ -357,6 +381,8 @@ def read_scan(path, scale=1.0, camera=None):
     extension = os.path.splitext(path)[1].lower()
     if camera and extension not in (".pcd", ".ply"):
         raise Failure(f"{path}: only a .pcd or .ply cloud is organized with the camera of the sensor")
+    if extension in DEPTH_IMAGES:
+        raise Failure(f"{path} is an image: give a depth image with --depth and its --camera, and the scan's image with --image")
     if extension not in (".pcd", ".ply"):
         return read(path, scale)
     if not 0 < scale < float("inf"):

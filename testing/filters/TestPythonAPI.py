@@ -310,6 +310,7 @@ try:
     flat = points.reshape(-1, 3)
     raises("no such file", ppfmeam.train, "missing.stl")
     raises("unknown kind of file", ppfmeam.train, __file__)
+    raises("is a scan: the part has to be a mesh", ppfmeam.train, "scan.pcd")
     raises("scale has to be a number above 0, not -1", ppfmeam.train, "part.stl", scale=-1)
     raises("preset", ppfmeam.train, "part.stl", preset="best")
     raises("no such file", ppfmeam.load, "missing.meam")

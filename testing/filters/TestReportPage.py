@@ -153,6 +153,9 @@ check(advice[:2] == ["", ""] and advice[2].startswith("The part is ") and f"<td>
       f"what to change first: {advice}")
 check('<a href="a%20b.pcd.html">a b.pcd</a>' in text and "<tr class=failed><td>bad.pcd</td>" in text, text)
 
+for name in ("scan.pcd", "pages.html"):
+    refuses(f"cannot write {name}: give a folder for the pages", "batch.py", "scans", "--cad", "plate.stl", "--out", "o.csv", "--report", name)
+
 # In Python and in a notebook.
 model = ppfmeam.train("plate.stl")
 check(re.fullmatch(r"<ppfmeam.Model of plate.stl, [\d.]+ mm, [1-9]\d* views, [1-9]\d* pairs. Nearly the same after half a turn: .*>", repr(model)),

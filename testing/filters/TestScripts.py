@@ -171,7 +171,17 @@ for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "jun
 refuses("no faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
 refuses("mesh with faces", "detect.py", "--cad", "scan.pcd", "--scene", "scan.pcd", *out)
 refuses("positive", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--scene-scale", "0", *out)
-refuses("unknown kind", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
+refuses("unknown kind of file; known are .off", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
+refuses("is an image: give a depth image with --depth", "detect.py", "--cad", "part.stl", "--scene", "image.png", *out)
+refuses("it is a folder", "detect.py", "--cad", "part.stl", "--scene", "model", *out)
+refuses("the name of a page ends in .html", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--report", "o.pdf", *out)
+for arguments, words in ((("detect.py", "--cad", "part.stl", "--scene", "plain.pcd", "--scene", "scan.pcd"), "argument --scene: it is given twice"),
+                         (("train.py", "--cad", "part.stl", "--out", "o.meam", "--cad", "bracket.stl"), "argument --cad: it is given twice"),
+                         (("evaluate.py", "bop", "bins", "--split", "a", "--split", "b"), "argument --split: it is given twice"),
+                         (("evaluate.py", "bop", "bins", "--objects", "5-"), "argument --objects: it has to be whole numbers such as 1,5-7, not 5-"),
+                         (("pick.py", "part.stl", "scan.pcd", "--opening", "60", "--cup", "20"), "--cup: not allowed with argument --opening")):
+    result = script(*arguments)
+    check(result.returncode == 2 and words in result.stderr and not os.path.exists("o.meam"), f"{arguments}: {result.stderr}")
 for name in ("nowhere.pcd", "empty.pcd", "junk.pcd"):
     refuses(name, "detect.py", "--cad", "part.stl", "--scene", name, *out)
 refuses("NaN", "detect.py", "--model", "model.vtpc", "--scene", "nan.pcd", *out)

@@ -17,6 +17,8 @@ def require(folder):
     """Raises a Failure when no pages can be written to a folder, which is made; nothing without one."""
     if folder:
         page.require_three()
+        if os.path.isfile(folder) or folder.lower().endswith(page.EXTENSIONS):
+            raise scripting.Failure(f"cannot write {folder}: give a folder for the pages of all scans")
         scripting.make_folder(folder)
 
 

@@ -5,7 +5,6 @@ import os
 from .. import dataset, scripting
 
 CLOUDS = (".pcd", ".ply")
-DEPTH_IMAGES = (".png", ".tif", ".tiff")
 
 
 class Scan:
@@ -24,12 +23,12 @@ class Files:
 
     def is_scan(self, name):
         """By its extension; a depth image is one when there is a calibration of its camera."""
-        return os.path.splitext(name)[1].lower() in CLOUDS + (DEPTH_IMAGES if self.options.camera else ())
+        return os.path.splitext(name)[1].lower() in CLOUDS + (scripting.DEPTH_IMAGES if self.options.camera else ())
 
     def read(self, _, path, image):
         """A row of list()."""
         options = self.options
-        if os.path.splitext(path)[1].lower() not in DEPTH_IMAGES:
+        if os.path.splitext(path)[1].lower() not in scripting.DEPTH_IMAGES:
             scene = scripting.read_scan(path, options.scene_scale, options.camera)
         elif options.camera:
             scene = scripting.scaled(

@@ -88,7 +88,7 @@ def line_words(what, constant, slope):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = scripting.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", metavar="SCANS", help="a BOP dataset with true poses, or a table of `batch` with a column `right`")
     parser.add_argument("--model", required=True, help="the trained model, calibrated before or not")
     parser.add_argument("--out", required=True, help="the calibrated model to write: NAME.meam or NAME.vtpc; may be that of --model")

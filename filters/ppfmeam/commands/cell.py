@@ -18,7 +18,7 @@ HEAD = ("bin", "pick", "left", "found", "picks", "outcome", "mm off", "degrees",
 
 
 def options_of_user():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = scripting.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
     parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
     choices.add_options(parser, "read", "solid")

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
-import argparse
-
 from .. import choices, finding, inputs, picture, regions, scripting
 from ..report import page
 from ..report.content import Part
@@ -9,7 +7,7 @@ from ..report.told import Told
 
 
 def options_of_user():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = scripting.Parser(description=__doc__)
     parser.add_argument("--cad", action="append", default=[], metavar="PART",
                         help="CAD file of the part: .step or .iges, or .stl, .obj, .ply or .off in mm; once for each type of part")
     choices.add_options(parser, "train", "offset", "scale")
@@ -61,8 +59,7 @@ def main():
     scripting.require_folder_of(options.out, options.json, options.matrices, options.picture, options.report)
     if options.picture:
         picture.require_display()
-    if options.report:
-        page.require_three()
+    page.require(options.report)
     meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale, options.solid) for path in options.cad]
     parts = [scripting.read_model(path) for path in options.model] or meshes
     if options.depth:

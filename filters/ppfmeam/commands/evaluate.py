@@ -119,8 +119,7 @@ def show(images, image, judged, runs, camera, failed, options):
 def bop(options):
     """Image by image, all objects in each; returns how many of these failed."""
     scripting.require_folder_of(options.out, options.json, options.report)
-    if options.report:
-        page.require_three()
+    page.require(options.report)
     lost = instances_of(options)
     data = dataset.Dataset(options.folder, options.split)
     objects = options.objects or data.objects()
@@ -168,7 +167,7 @@ def bop(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = scripting.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     one = parser.add_subparsers(dest="dataset", required=True).add_parser("bop")
     one.add_argument("folder", metavar="DIR", help="where the dataset is")
     one.add_argument("--why", metavar="CSV",

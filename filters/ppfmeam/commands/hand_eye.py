@@ -7,7 +7,7 @@ from .. import filters, scripting
 
 
 def main():
-    parser = argparse.ArgumentParser(
+    parser = scripting.Parser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="""The pairs, as JSON:
   {"mount": "beside", "units": "mm", "pairs": [{"T_base_gripper": [[4x4]], "T_camera_target": [[4x4]]}, ...]}

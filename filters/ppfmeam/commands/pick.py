@@ -18,8 +18,9 @@ def length(words):
 
 
 def add_gripper_options(parser):
-    parser.add_argument("--opening", type=float, default=60.0, metavar="MM", help="of the jaws (default: %(default)s)")
-    parser.add_argument("--cup", type=float, metavar="MM", help="diameter of a suction cup, in place of the jaws")
+    kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--opening", type=float, default=60.0, metavar="MM", help="of the jaws (default: %(default)s)")
+    kind.add_argument("--cup", type=float, metavar="MM", help="diameter of a suction cup, in place of the jaws")
     parser.add_argument("--gripper", type=length, nargs="+", default=[], metavar="NAME=MM",
                         help="other lengths of the gripper, such as finger_length=80, as ppfmeam.grasps() has them")
 
@@ -31,7 +32,7 @@ def gripper_of(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = scripting.Parser(description=__doc__)
     parser.add_argument("part", help="the CAD, mm")
     parser.add_argument("scan", help="an organized cloud of the bin, from above")
     add_gripper_options(parser)
@@ -42,6 +43,8 @@ def main():
     gripper, lengths = gripper_of(options)
     model = ppfmeam.train(options.part)
     grasps = ppfmeam.grasps(options.part, propose="suction" if gripper == "cup" else "parallel", symmetries=model, **lengths)
+    if not len(grasps):
+        raise scripting.Failure("no place of the part is one for this gripper: give another --opening, or a smaller --cup")
     found = ppfmeam.detect(model, options.scan, poses=0, probability=0.5)
     picks = ppfmeam.pick(found, grasps, options.scan, gripper=gripper, bin="none" if options.no_bin else "detected")
     print(picks.report, picks.advice)

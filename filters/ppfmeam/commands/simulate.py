@@ -12,7 +12,7 @@ from .. import bop, filters, scripting, simulation
 
 
 def options_of_user():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = scripting.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     scripting.add_bin_arguments(parser, scenes=1)
     simulation.add_sensor_argument(parser)
     parser.add_argument("--noise", type=float, metavar="MM",

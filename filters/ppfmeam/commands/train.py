@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Trains the model of a part from its CAD file, for `detect --model`; says what symmetries the part has and what they mean."""
-import argparse
 import json
 import time
 
@@ -8,7 +7,7 @@ from .. import choices, scripting
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = scripting.Parser(description=__doc__)
     parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
     choices.add_options(parser, "train", "offset", "scale")
     choices.add_options(parser, "read", "solid")

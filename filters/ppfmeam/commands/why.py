@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tells why a part of a scan was missed: which step lost it, and what to change; with --more in numbers, too, and what speaks for a
 pose that came out, right or wrong, and what against."""
-import argparse
 import math
 
 import numpy
@@ -15,7 +14,7 @@ from ..report.told import Told
 
 
 def options_of_user():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = scripting.Parser(description=__doc__)
     parser.add_argument("part", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`")
     parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm")
     place = parser.add_mutually_exclusive_group(required=True)
@@ -99,8 +98,7 @@ def write_page(options, inputs, diagnosis):
 def main():
     options = options_of_user()
     scripting.require_folder_of(options.json, options.report)
-    if options.report:
-        page.require_three()
+    page.require(options.report)
     inputs = {name: getattr(options, name) for name in (
         "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "solid", "poses", "probability", "rotation_counts", "references",
         "preset", "features", "image_edges", "threads")}

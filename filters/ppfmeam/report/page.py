@@ -19,6 +19,7 @@ THREE = "/usr/share/javascript/three"  # of Debian's package libjs-three; its li
 PLACE = "#969696"  # of the part at a place that is asked about: colours are those of its points
 FEW = 5  # ranks that a sentence names
 BAR = 140  # pixels that stand for the longest time
+EXTENSIONS = (".html", ".htm")
 LIBRARIES = ("three.min.js", "examples/js/controls/OrbitControls.js")
 
 
@@ -26,6 +27,14 @@ def require_three():
     """Raises a Failure when pages cannot be made here."""
     if not all(os.path.exists(os.path.join(THREE, name)) for name in LIBRARIES):
         raise scripting.Failure("a page in 3D needs three.js: install the Debian package libjs-three")
+
+
+def require(path):
+    """Raises a Failure when a page of this name cannot be made here; nothing without one."""
+    if path:
+        require_three()
+        if not path.lower().endswith(EXTENSIONS):
+            raise scripting.Failure(f"{path}: the name of a page ends in .html")
 
 
 def text_of(path):
