@@ -108,7 +108,7 @@ class Detections(Rows):
     def scan(self):
         """The scan, from its file again: results do not hold it."""
         if inputs.age_of(self.inputs["scan"]) != self.age:
-            raise Error(f"{self.inputs['scan']} was written anew since the parts were found in it: detect() again to see them")
+            raise Error(f"{inputs.path_of(self.inputs['scan'])} was written anew since the parts were found in it: detect() again to see them")
         return inputs.scan_of(**{name: value for name, value in self.inputs.items() if name not in ("cad_scale", "solid")})
 
     def __str__(self):
@@ -225,7 +225,7 @@ def train(cad, *, settings, reading):
 
 def load(path):
     """The model in a file that Model.save, or C++, wrote."""
-    path = inputs.path_of(path)
+    path = inputs.path_of(inputs.name_of(path, "the model has to be a file"))
     return Model(_core.load_model(path) if path.lower().endswith(".meam") else scripting.read_model(path), path)
 
 
@@ -263,7 +263,7 @@ def part_of(part, scale, settings, reading):
         return part
     if isinstance(part, vtkPartitionedDataSetCollection):
         return Model(part)
-    if not isinstance(part, vtkDataObject) and os.fspath(part).lower().endswith(MODELS):
+    if not isinstance(part, vtkDataObject) and inputs.name_of(part, "the part has to be a Model, a file, or a vtkPolyData").lower().endswith(MODELS):
         return load(part)
     return train(part, scale=scale, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
 
@@ -292,7 +292,10 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
     settings.set(diagnosis)
     diagnosis.SetFit(fit)
     if pose is None:
-        place = numpy.asarray(at, float)
+        try:
+            place = numpy.asarray(at, float)
+        except (TypeError, ValueError):
+            place = numpy.zeros(0)
         if place.shape != (3,) or not numpy.isfinite(place).all():
             raise Error(f"the point has to be three finite numbers, not {at!r}")
         diagnosis.SetPlaceToPoint()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What users have, files, NumPy arrays or VTK's data objects, as the C++ library takes it, and back to VTK's for the filters."""
+import numbers
 import os
 import tempfile
 import warnings
@@ -13,6 +14,14 @@ from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from . import Error, _core, regions, scripting
 
 HIDDEN = vtkDataSetAttributes.HIDDENPOINT
+
+
+def name_of(file, wanted):
+    """The name of a file; `wanted`: what an argument has to be."""
+    try:
+        return os.fspath(file)
+    except TypeError:
+        raise Error(f"{wanted}, not {type(file).__name__}") from None
 
 
 def path_of(file):
@@ -30,9 +39,9 @@ def age_of(scan):
 def mesh_of(cad, reading):
     """The mesh of a file or a vtkPolyData, as it came; `reading`: what is chosen of the file."""
     if not isinstance(cad, vtkDataObject):
-        if os.fspath(cad).lower().endswith(".pcd"):
+        if name_of(cad, "the part has to be a file, or a vtkPolyData").lower().endswith(".pcd"):
             raise Error(f"{cad} is a scan: the part has to be a mesh with faces ({', '.join(scripting.MESHES)})")
-        mesh = _core.load_cad(mesh_file(cad), reading.apply(_core.CADSettings(), _core))
+        mesh = _core.load_cad(mesh_file(cad, scripting.MESHES), reading.apply(_core.CADSettings(), _core))
         if mesh.report:
             warnings.warn(mesh.report, stacklevel=4)
         return mesh
@@ -47,11 +56,11 @@ def mesh_of(cad, reading):
     return _core.Mesh(vtk_to_numpy(mesh.GetPoints().GetData()), corners)
 
 
-def mesh_file(file):
+def mesh_file(file, known=scripting.EXTENSIONS):
     """The name of a file that is there, and of a kind that has a mesh."""
     path = os.fspath(file)
-    if os.path.splitext(path)[1].lower() not in scripting.EXTENSIONS:
-        raise Error(f"{path}: unknown kind of file; known are {', '.join(scripting.EXTENSIONS)}")
+    if os.path.splitext(path)[1].lower() not in known:
+        raise Error(f"{path}: unknown kind of file; known are {', '.join(known)}")
     return path_of(path)
 
 
@@ -89,7 +98,7 @@ def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camer
 
 def cloud_of(scan, camera, scale):
     """The points, with the image of an organized scan that carries one."""
-    if not 0 < scale < float("inf"):
+    if not isinstance(scale, numbers.Real) or not 0 < scale < float("inf"):
         raise Error(f"scale has to be a positive number, not {scale!r}")
     if camera is not None and isinstance(scan, (vtkDataObject, numpy.ndarray)):
         raise Error("camera brings the points of a file onto its pixels: give a file, or the points as a grid without camera")
@@ -97,7 +106,7 @@ def cloud_of(scan, camera, scale):
         return from_dataset(scan, scale)
     if isinstance(scan, numpy.ndarray):
         return _core.Scan(scaled(scan, scale, "scan"))
-    path = os.fspath(scan)
+    path = name_of(scan, "the scan has to be a file, an array of points, or VTK's data object")
     extension = os.path.splitext(path)[1].lower()
     if extension in scripting.DEPTH_IMAGES and camera is None:
         raise Error(f"{path}: a depth image needs the calibration of its camera")

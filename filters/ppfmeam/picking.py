@@ -5,7 +5,7 @@ import os
 import numpy
 
 from . import Error, _core, inputs, scripting
-from .api import Detections, Rows
+from .api import Detections, Model, Rows
 from .choices import Chosen, takes
 
 PROPOSED = {"parallel": ("parallel",), "suction": ("suction",), "both": ("parallel", "suction"), "off": ()}
@@ -81,6 +81,8 @@ def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), symm
     if wanted not in PROPOSED:
         raise Error(f"propose has to be one of {', '.join(map(repr, PROPOSED))}, not {propose!r}")
     part = _core.prepare_mesh(inputs.mesh_of(cad, reading), scale, offset)
+    if not isinstance(symmetries, (Model, type(None))):
+        raise Error(f"symmetries has to be the part's Model, not {symmetries!r}")
     model = _core.Model() if symmetries is None else symmetries.core
     found = _core.load_grasps(inputs.path_of(file)) if file is not None else []
     for kind in PROPOSED[wanted]:
@@ -104,6 +106,8 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
     bin, whose z goes up from the middle of its floor, to the scan's; mm. robot_frame: a file of OpenCV or ROS with the
     camera in the robot's frame. Returns Picks.
     """
+    if not isinstance(grasps, Grasps):
+        raise Error(f"the grasps have to be those of grasps(), not {type(grasps).__name__}")
     if not isinstance(found, Detections):
         transforms = numpy.asarray(found, float)
         if transforms.ndim != 3 or transforms.shape[1:] != (4, 4):
@@ -126,10 +130,10 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
 def workplace(bin, robot_frame):
     """Where the bin and the robot are."""
     place = _core.Workplace()
-    if isinstance(bin, str):
-        if bin not in ("detected", "none"):
-            raise Error(f"bin has to be 'detected', 'none' or (T, length, width, height, wall), not {bin!r}")
+    if isinstance(bin, str) and bin in ("detected", "none"):
         place.has_bin = bin == "detected"
+    elif not isinstance(bin, (tuple, list)) or len(bin) not in (4, 5):
+        raise Error(f"bin has to be 'detected', 'none' or (T, length, width, height, wall), not {bin!r}")
     else:
         transform, length, width, height, *wall = bin
         frame = numpy.asarray(transform, float)

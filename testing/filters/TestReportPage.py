@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page of what was found, `ppfmeam detect --report` and Detections.save(): one file, its numbers are those of the poses and of the
 scan; how results show themselves in a notebook."""
+import argparse
 import base64
 import csv
 import html
@@ -13,7 +14,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import ppfmeam
-from ppfmeam.report import content, notebook, outlines, page, projection
+from ppfmeam.report import content, notebook, outlines, page, projection, told
 from meamtest import box, check, skip
 from scripttest import H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
@@ -125,6 +126,14 @@ floor = measured * (1, 1, -1) + (0, 0, measured[:, 2].max())
 check((content.Seen(ppfmeam._core.Scan(floor.astype(numpy.float32))).looks == (0, 0, -1)).all(), "points above a floor")
 refuses("no such folder", "detect.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--report", "nowhere/found.html")
 
+# The command that asks why has what the scan and the part are read with; a list of scans has other files than depth images, too.
+options = argparse.Namespace(model=[], cad=["p.stl"], camera="c.json", image_camera="i.json", scene_scale=1, cad_scale=25.4, solid=1, roi=None,
+                             depth_scale=0.1)
+for scan_file, image, words in (("d.png", "i.png", "--image i.png --image-camera i.json --cad-scale 25.4 --solid 1 --depth-scale 0.1"),
+                                ("d.ply", "", "--cad-scale 25.4 --solid 1")):
+    command = told.why_command(options, scan_file, image)
+    check(command == f"ppfmeam why p.stl {scan_file} --camera c.json {words} --at {{x}} {{y}} {{z}}", command)
+
 # Why: the part's points by what the scan shows there; a place without a part.
 works("why.py", "plate.meam", "scan.pcd", "--pose", "found.txt:1", "--poses", "0", "--report", "why.html")
 data = data_of(read("why.html"))
@@ -180,6 +189,14 @@ try:
     check(False, "another scan is not shown with these poses")
 except ppfmeam.Error as error:
     check("scan.pcd was written anew" in str(error), str(error))
+os.rename("scan.pcd", "gone.pcd")
+for path, words in (("other.html", "cannot read scan.pcd"), ("nowhere/other.html", "cannot write nowhere/other.html: no such folder")):
+    try:
+        found.save(path)
+        check(False, "a scan or a folder that is not there")
+    except ppfmeam.Error as error:
+        check(words in str(error), str(error))
+os.rename("gone.pcd", "scan.pcd")
 
 # Large data become small.
 large = numpy.zeros((1000, 1300, 3), numpy.float32)

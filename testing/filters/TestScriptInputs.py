@@ -111,8 +111,10 @@ check("no image" in works("detect.py", *MODEL, "--depth", "depth.png", "--camera
 # Without an image by the edges of the depth alone; a folder of such scans, too.
 works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json", "--no-image", "--matrices", "d.txt")
 all_true(matrices("d.txt"), "a depth image without an image")
-told = works("why.py", "part.vtpc", "depth.png", "--camera", "camera.json", "--truth", "d.txt", "--no-image")
-check(told.count("Found as rank") == 2, told)
+for calibration in (("camera.json",), ("camera.yaml", "--depth-scale", str(SCALE))):
+    told = works("why.py", "part.vtpc", "depth.png", "--camera", *calibration, "--truth", "d.txt", "--no-image")
+    check(told.count("Found as rank") == 2, told)
+refuses("--depth-scale is of a depth image", "why.py", "part.vtpc", "scan.ply", "--depth-scale", "0.1", "--at", "0", "0", "600", status=2)
 os.makedirs("depths")
 os.rename("depth.png", "depths/0.png")
 BATCH = ("batch.py", "depths", *MODEL, "--camera", "camera.json", "--out", "depths.csv")

@@ -98,6 +98,8 @@ for preset in ("recommended", "paper"):
 os.mkdir("mine")
 with open(os.path.join("mine", "drawing.step"), "w") as file:
     file.write("precious")
+result = script("train.py", "--cad", "box.stl", "--cad-scale", "0.001", "--out", "small.meam")
+check(result.returncode == 0 and re.fullmatch(r"warning: the part is 0\.0\d+ mm long: a file in metres needs --cad-scale 1000\n", result.stderr), result.stderr)
 refuses("other files", "train.py", "--cad", "bracket.stl", "--out", "mine.vtpc")
 check(read(os.path.join("mine", "drawing.step")) == "precious", "the folder of the user is gone")
 os.remove(os.path.join("mine", "drawing.step"))

@@ -2,8 +2,11 @@
 """Trains the model of a part from its CAD file, for `detect --model`; says what symmetries the part has and what they mean."""
 import json
 import time
+import warnings
 
 from .. import choices, scripting
+
+LEAST_DIAMETER = 1.0  # mm: a part that is smaller is one in metres
 
 
 def main():
@@ -36,6 +39,8 @@ def main():
     for line in told["symmetries"]:
         print(f"symmetry: {line}")
     print(told["conclusion"])
+    if told["diameter"] < LEAST_DIAMETER:
+        warnings.warn(f"the part is {told['diameter']:.2g} mm long: a file in metres needs --cad-scale 1000")
     if options.json:
         scripting.write_json(options.json, told)
     if options.models_info:

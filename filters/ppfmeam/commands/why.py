@@ -28,6 +28,8 @@ def options_of_user():
     choices.add_options(parser, "read", "solid")
     parser.add_argument("--scale", type=float, default=1, metavar="F", help="the same of the scan and the boundary")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
+    parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
+                        help="mm that 1 in a depth image stands for (default: depth_scale of the calibration, or 1)")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="FILE", help="image of an organized scan that carries none")
     parser.add_argument("--image-camera", metavar="FILE", help="calibration of the camera beside the sensor that took it")
@@ -41,6 +43,8 @@ def options_of_user():
     parser.add_argument("--report", metavar="HTML",
                         help="write a page for any browser, in one file: the scan in 3D, the part at the place, and what of it is there")
     options = parser.parse_args()
+    if options.depth_scale and not (options.camera and options.scan.lower().endswith(scripting.DEPTH_IMAGES)):
+        parser.error("--depth-scale is of a depth image with its --camera")
     if options.report and options.truth:
         parser.error("--report is of one place: give --pose, FILE:ROW")
     return options
@@ -84,12 +88,12 @@ def content(diagnosis):
     return {**told, "numbers": [dict(zip(("step", "quantity", "value", "of"), row)) for row in diagnosis.numbers]}
 
 
-def write_page(options, inputs, diagnosis):
+def write_page(options, scan, inputs, diagnosis):
     if options.part.lower().endswith(api.MODELS):
         shape = scripting.shape_of(scripting.read_model(options.part))
     else:
         shape = scripting.read_mesh(options.part, scale=options.cad_scale, solid=options.solid)
-    seen = scans.scan_of(options.scan, options.camera, options.scale, options.image, image_camera=options.image_camera)
+    seen = scans.scan_of(scan, inputs["camera"], options.scale, options.image, image_camera=options.image_camera)
     place = numpy.zeros((0, 4, 4)) if diagnosis.pose is None else diagnosis.pose[None]
     told = Told.of_why(options, inputs, diagnosis)
     page.write(options.report, page.html(seen, scripting.poses_of(place), [Part(told.names[0], shape)], told))
@@ -103,20 +107,23 @@ def main():
         "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "solid", "poses", "probability", "rotation_counts", "references",
         "preset", "features", "image_edges", "threads")}
     inputs["region"] = options.roi
+    scan = options.scan
+    if options.depth_scale:
+        scan, inputs["camera"] = scripting.read_depth(scan, options.camera, options.depth_scale), None
     if options.truth:
-        found = api.why(options.part, options.scan, pose=transforms_of(options.truth), **inputs)
+        found = api.why(options.part, scan, pose=transforms_of(options.truth), **inputs)
         for row, diagnosis in enumerate(found, 1):
             print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{diagnosis}")
         print(f"{sum(not diagnosis.lost_in for diagnosis in found)} of {len(found)} were found")
         told = [content(diagnosis) for diagnosis in found]
     else:
         place = {"at": options.at} if options.at else {"pose": chosen(options.pose), "fit": True}
-        diagnosis = api.why(options.part, options.scan, **place, **inputs)
+        diagnosis = api.why(options.part, scan, **place, **inputs)
         print(diagnosis)
         if options.more:
             print_numbers(diagnosis)
         told = content(diagnosis)
         if options.report:
-            write_page(options, inputs, diagnosis)
+            write_page(options, scan, inputs, diagnosis)
     if options.json:
         scripting.write_json(options.json, told)

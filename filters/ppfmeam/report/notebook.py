@@ -5,6 +5,7 @@ import sys
 import tempfile
 import webbrowser
 
+from .. import scripting
 from . import content, markup, page
 from .told import Told
 
@@ -37,7 +38,8 @@ def page_of(found):
 
 
 def save(found, path):
-    page.require_three()
+    page.require(path)
+    scripting.require_folder_of(path)
     page.write(path, page_of(found))
 
 

@@ -121,6 +121,8 @@ def why_command(options, scan, image=None, boundary=None):
               "scale": options.scene_scale, "cad-scale": options.cad_scale}
     words = [text for name, value in beside.items() if value not in (None, "", 1) for text in ("--" + name, str(value))]
     words += ["--solid", str(options.solid)] if options.solid else []
+    if options.depth_scale and scan.lower().endswith(scripting.DEPTH_IMAGES):
+        words += ["--depth-scale", str(options.depth_scale)]
     words += ["--roi", *options.roi] if options.roi else []
     parts = options.model or options.cad
     return shlex.join(["ppfmeam", "why", parts[0], scan, *words]) + " --at {x} {y} {z}" if parts else ""
