@@ -14,6 +14,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import ppfmeam
+from ppfmeam.batch import pages
 from ppfmeam.report import content, notebook, outlines, page, projection, told
 from meamtest import box, check, skip
 from scripttest import H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
@@ -162,6 +163,9 @@ check(advice[:2] == ["", ""] and advice[2].startswith("The part is ") and f"<td>
       f"what to change first: {advice}")
 check('<a href="a%20b.pcd.html">a b.pcd</a>' in text and "<tr class=failed><td>bad.pcd</td>" in text, text)
 
+line = {"scan": "a b.pcd", "rows": [], "find_s": "1", "warning": "No part was found.", "failure": "", "advice": ""}
+pages.write_index("pages", [line, {**line, "scan": "b.pcd", "failure": "no cloud"}])
+check(read("pages/index.html").count("<td>nothing stands out: ") == 1, "nothing found, and no advice")
 for name in ("scan.pcd", "pages.html"):
     refuses(f"cannot write {name}: give a folder for the pages", "batch.py", "scans", "--cad", "plate.stl", "--out", "o.csv", "--report", name)
 

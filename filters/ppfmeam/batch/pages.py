@@ -11,6 +11,7 @@ from ..report.markup import LIKELY
 from ..report.told import Told
 
 COLUMNS = ("scan", "likely poses", "poses", "the likeliest", "time", "what was said", "what to change first")
+UNKNOWN = "nothing stands out: its page has what was measured of the scan"
 
 
 def require(folder):
@@ -51,8 +52,9 @@ def write_index(folder, lines):
         name, path = line["scan"], path_of(folder, line["scan"])
         link = f'<a href="{urllib.parse.quote(os.path.basename(path))}">{html.escape(name)}</a>' if os.path.exists(path) else html.escape(name)
         places = [float(row[3]) for row in line["rows"]]
-        said = (line["failure"] or line["warning"], line["advice"])
-        return [link, str(sum(place >= LIKELY for place in places)), str(len(places)), f"{100 * max(places):.0f} %" if places else "",
+        likely = sum(place >= LIKELY for place in places)
+        said = (line["failure"] or line["warning"], line["advice"] or ("" if likely or line["failure"] else UNKNOWN))
+        return [link, str(likely), str(len(places)), f"{100 * max(places):.0f} %" if places else "",
                 f"{float(line['find_s']):.2f} s", *map(html.escape, said)], bool(line["failure"])
 
     with scripting.written(os.path.join(folder, "index.html")) as file:

@@ -4,7 +4,7 @@ from html import escape
 
 STYLE = """body { font: 14px/1.5 system-ui, "DejaVu Sans", Arial, sans-serif; color: #1d2127; padding: 18px 22px; }
 table { border-collapse: collapse; } td, th { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid #dadee3; }
-tr.chosen { background: #e8f0fe; } .failed td { color: #b3261e; } pre { overflow-x: auto; }
+th, td:nth-child(-n+5) { white-space: nowrap; } tr.chosen { background: #e8f0fe; } .failed td { color: #b3261e; } pre { overflow-x: auto; }
 iframe { border: 0; width: 100%; margin-top: 14px; }"""
 
 
