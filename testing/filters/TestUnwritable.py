@@ -64,6 +64,7 @@ for command in (("train", "--cad", PLATE, "--out", "protected/plate.meam"),
                 ("cell", "--cad", PLATE, "--copies", "1", "--out", "protected/cell"),
                 ("hand-eye", "pairs.json", "--out", "protected/robot.json"),
                 ("evaluate", "bop", "bins", "--out", "protected/results.csv"),
+                ("evaluate", "bop", "bins", "--report", "protected/found.html"),
                 ("paper.py", "--quick", "--table", "1", "--out", "protected/paper"),
                 ("world.py", "protected/world"),
                 ("world.py", "world", "--scenes", "protected/scenes")):
