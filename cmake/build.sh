@@ -4,14 +4,17 @@
 #
 #   cmake/build.sh PRESET [TARGET...]        release, dev, vtk or fuzz; the targets default to everything
 #
-# The preset vtk links the core of build/release, which is built first.
+# The preset vtk links the core of build/release, and dev its files with CGAL: they are built first.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 preset=$1; shift
 build=$root/build/$preset
 log=$root/build/$preset.log
 mkdir -p "$root/build"
-if [ "$preset" = vtk ]; then "${BASH_SOURCE[0]}" release coreLibraries; fi
+case $preset in
+  vtk) "${BASH_SOURCE[0]}" release coreLibraries ;;
+  dev) "${BASH_SOURCE[0]}" release meamMeshCore ;;
+esac
 exec 9>"$root/build/.lock"
 flock 9 # two runs at once: the second waits
 
