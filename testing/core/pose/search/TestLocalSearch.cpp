@@ -91,7 +91,7 @@ TEST(LocalSearch, ANearlyRoundPartIsTurnedToWhereItsFlatIs)
   {
     const meam::Pose found = decided(cutDisc(), degrees);
     EXPECT_LT(meam::rotationError(found.T_scene_model, turned(0)), 5.0) << degrees << ": half a step";
-    EXPECT_GT(found.certainty, 0.7) << degrees;
+    EXPECT_GT(found.certainty, 0.5) << degrees << ": more than all others together";
   }
 }
 
