@@ -8,8 +8,8 @@
 #include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"
 #include "model/AppearanceModel.h"
-#include "model/Silhouette.h"
-#include "model/VisibleEdges.h"
+#include "model/edges/Silhouette.h"
+#include "model/edges/VisibleEdges.h"
 
 #include <pcl/features/boundary.h>
 #include <pcl/kdtree/kdtree_flann.h>

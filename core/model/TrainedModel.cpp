@@ -2,6 +2,7 @@
 #include "model/TrainedModel.h"
 
 #include "base/PointGrid.h"
+#include "model/MirrorImage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,5 +70,6 @@ void TrainedModel::deriveFields()
   this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell);
   this->edgeDistance = DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell);
   this->visibility = std::make_shared<const PredictedVisibility>(*this);
+  this->mirrorImage = std::make_shared<const MirrorImage>();
 }
 }

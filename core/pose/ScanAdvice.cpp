@@ -55,6 +55,11 @@ std::string scanAdvice(
                           percent(edges.chance) + ": they tell little; light the parts from another side.");
     }
   }
+  if (!poses.empty() && poses.front().contradictions.mirrored > LikelyThere)
+  {
+    sentences.push_back("The part's mirror image fits better: look for the other hand's part, or turn the scan's axes "
+                        "if they are left-handed.");
+  }
   const auto isThere = [](const Pose& pose) { return claimOf(pose, false) >= LikelyThere; };
   const auto isTurnable = [&](const Pose& pose) { return isThere(pose) && pose.certainty < SureRotation; };
   const auto there = std::count_if(poses.begin(), poses.end(), isThere);

@@ -98,6 +98,20 @@ meam::TriangleMesh windowPlate()
   return mesh;
 }
 
+meam::TriangleMesh blockOnPlate(bool mirrored)
+{
+  meam::TriangleMesh mesh = box({ 0.0f, 0.0f, 0.0f }, { 60.0f, 40.0f, 6.0f });
+  const float left = mirrored ? 0.0f : 40.0f;
+  const meam::TriangleMesh block = box({ left, 0.0f, 3.0f }, { left + 20.0f, 12.0f, 18.0f });
+  const int first = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), block.vertices.begin(), block.vertices.end());
+  for (const auto& triangle : block.triangles)
+  {
+    mesh.triangles.push_back({ triangle[0] + first, triangle[1] + first, triangle[2] + first });
+  }
+  return mesh;
+}
+
 meam::TriangleMesh gear()
 {
   constexpr int Corners = 40;

@@ -32,6 +32,10 @@ meam::TriangleMesh lBracket();
 /// A plate of 60 x 40 x 10 mm with a window of 14 x 20 mm towards one corner: no rotation maps it onto itself.
 meam::TriangleMesh windowPlate();
 
+/// A plate of 60 x 40 x 6 mm with a block of 20 x 12 x 12 mm on one corner, or on its neighbour, which makes it the
+/// mirror image.
+meam::TriangleMesh blockOnPlate(bool mirrored);
+
 /// A gear of ten teeth, one of which is missing: turns by 36 degrees are near-symmetries.
 meam::TriangleMesh gear();
 

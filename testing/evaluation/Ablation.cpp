@@ -117,6 +117,7 @@ std::vector<Switch> makeSwitches()
   instances("shared", "poses that share their surface stay", [](S& s) { s.dropsShared = false; });
   instances("overlaps", "poses may cut into each other", [](S& s) { s.excludesOverlaps = false; });
   instances("lookalikes", "what contradicts a pose speaks for no other part", [](S& s) { s.weighsLookalikes = false; });
+  instances("mirror-image", "no pose is of the mirrored part", [](S& s) { s.weighsMirrorImage = false; });
   instances("absence", "no absence prior", [](S& s) { s.partIsPresent = true; });
   instances("comparison", "instances by their evidence alone", [](S& s) { s.comparesInstances = false; });
   instances("alignment", "no final alignment", [](S& s) { s.search.aligns = false; });

@@ -150,7 +150,11 @@ bool mayBeOther(const Diagnosis& diagnosis) { return isDoubted(diagnosis) && dia
 /// What of a pose contradicts that it is the part.
 std::string contradictionWords(const Contradictions& contradictions)
 {
-  const auto& [continuing, past, misfit] = contradictions;
+  const auto& [continuing, past, misfit, mirrored] = contradictions;
+  if (mirrored > Likely)
+  {
+    return "its mirror image fits better";
+  }
   const std::string beside =
     continuing >= LeastTold ? "surface goes on beside it over " + decimal(continuing) + " patches" : "";
   const std::string off =

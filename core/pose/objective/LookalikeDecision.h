@@ -13,6 +13,8 @@ struct Contradictions
   double past = 0.0;       ///< patches of predicted surface that the sensor saw past
   double misfit = 0.0; ///< how far the surface lies off the part, in what is expected of a right pose (SurfaceMisfit)
 
+  double mirrored = 0.0; ///< probability that what a mirror shows of the part lies there (allowForMirrorImage)
+
   /// Logarithm of how much likelier they are of the part than of one that looks alike. `excused`: [0, 1), by what the
   /// scan itself may make of them.
   double logRatio(double excused) const;

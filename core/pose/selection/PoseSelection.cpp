@@ -5,6 +5,7 @@
 #include "pose/search/InstanceSuppression.h"
 #include "pose/search/PoseClusters.h"
 #include "pose/selection/InstanceFinishing.h"
+#include "pose/selection/MirrorDecision.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
@@ -78,6 +79,10 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     if (settings.weighsLookalikes)
     {
       allowForLookalikes(finished, model, finishing.continuation(), finishing.misfit().excused());
+    }
+    if (settings.weighsMirrorImage)
+    {
+      allowForMirrorImage(finished, scene, model, collector, settings.evidence, rates, settings.threads);
     }
     if (!settings.partIsPresent)
     {

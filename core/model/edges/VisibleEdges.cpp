@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/VisibleEdges.h"
+#include "model/edges/VisibleEdges.h"
 
 #include "base/Parallel.h"
 

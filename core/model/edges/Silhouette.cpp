@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/Silhouette.h"
+#include "model/edges/Silhouette.h"
 
 #include "base/Bounds.h"
 #include "base/Frames.h"

@@ -5,7 +5,7 @@
 #include "mesh/LineOfSight.h"
 #include "mesh/MeshEdges.h"
 #include "mesh/TriangleMesh.h"
-#include "model/Silhouette.h"
+#include "model/edges/Silhouette.h"
 
 #include <optional>
 

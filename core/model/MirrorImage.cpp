@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/MirrorImage.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+constexpr int PlanesOfAxis = 36;      // through each principal axis: of a nearly round part it may be any of them
+constexpr double NearMirrored = 0.01; // of the diameter: surface that comes to lie so near to the part's is shared
+constexpr double ItsOwn = 0.98;       // of the surface, shared: the part is its own mirror image
+constexpr double LeastShared = 0.35;  // of less no pose of one fits the other
+constexpr double LeastOfBest = 0.6;   // times the most that is shared: another way in which the mirrored part may lie
+constexpr std::size_t MostTurns = 4;  // of these
+constexpr float SamePlane = 0.94f;    // cosine between the normals of planes that are tried as one: 20 degrees
+
+/// At a plane through `middle` with this normal.
+struct Reflection
+{
+  Eigen::Vector3f middle, normal;
+  double overlap = 0.0; ///< share of the part's surface that it takes to its surface
+
+  Eigen::Vector3f direction(const Eigen::Vector3f& v) const { return v - 2.0f * this->normal.dot(v) * this->normal; }
+  Eigen::Vector3f point(const Eigen::Vector3f& p) const { return this->middle + this->direction(p - this->middle); }
+  Eigen::Matrix3d linear() const
+  {
+    const Eigen::Vector3d n = this->normal.cast<double>();
+    return Eigen::Matrix3d::Identity() - 2.0 * n * n.transpose();
+  }
+};
+
+double overlapOf(const Reflection& reflection, const TrainedModel& model)
+{
+  const auto near = static_cast<float>(NearMirrored * model.diameter);
+  const std::vector<int>& points = model.verificationPoints;
+  const auto shared = std::count_if(points.begin(), points.end(),
+    [&](int k) { return model.surfaceDistance.at(reflection.point(model.surface.points[k])) < near; });
+  return static_cast<double>(shared) / static_cast<double>(points.size());
+}
+
+/// At planes through the principal axes, the most overlap first.
+std::vector<Reflection> reflectionsOf(const TrainedModel& model)
+{
+  const Eigen::Vector3f middle = model.visibility->middle();
+  Eigen::Matrix3f scatter = Eigen::Matrix3f::Zero();
+  for (const Eigen::Vector3f& point : model.surface.points)
+  {
+    scatter += (point - middle) * (point - middle).transpose();
+  }
+  const Eigen::Matrix3f axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f>(scatter).eigenvectors();
+  std::vector<Reflection> reflections;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int k = 0; k < PlanesOfAxis; ++k)
+    {
+      const auto angle = static_cast<float>(M_PI * k / PlanesOfAxis);
+      reflections.push_back(
+        { middle, std::cos(angle) * axes.col((axis + 1) % 3) + std::sin(angle) * axes.col((axis + 2) % 3) });
+      reflections.back().overlap = overlapOf(reflections.back(), model);
+    }
+  }
+  std::stable_sort(reflections.begin(), reflections.end(),
+    [](const Reflection& a, const Reflection& b) { return a.overlap > b.overlap; });
+  return reflections;
+}
+
+void reflect(PointCloud& cloud, const Reflection& reflection)
+{
+  for (Eigen::Vector3f& point : cloud.points)
+  {
+    point = reflection.point(point);
+  }
+  for (Points* directions : { &cloud.normals, &cloud.tangents })
+  {
+    for (Eigen::Vector3f& direction : *directions)
+    {
+      direction = reflection.direction(direction);
+    }
+  }
+}
+
+TrainedModel mirroredModel(const TrainedModel& model, const Reflection& reflection)
+{
+  TrainedModel mirrored;
+  mirrored.diameter = model.diameter;
+  mirrored.settings = model.settings;
+  mirrored.viewDirections = model.viewDirections;
+  for (Eigen::Vector3f& direction : mirrored.viewDirections)
+  {
+    direction = reflection.direction(direction);
+  }
+  mirrored.edges = model.edges;
+  reflect(mirrored.edges, reflection);
+  mirrored.edgeViews = model.edgeViews;
+  mirrored.edgeVisible = model.edgeVisible;
+  mirrored.surface = model.surface;
+  reflect(mirrored.surface, reflection);
+  mirrored.deriveFields();
+  return mirrored;
+}
+
+std::optional<MirroredPart> mirroredPart(const TrainedModel& model)
+{
+  if (model.surface.empty())
+  {
+    return std::nullopt;
+  }
+  const std::vector<Reflection> reflections = reflectionsOf(model);
+  const Reflection& best = reflections.front();
+  if (best.overlap < LeastShared || best.overlap >= ItsOwn)
+  {
+    return std::nullopt;
+  }
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<Eigen::Isometry3d> turns;
+  for (const Reflection& one : reflections)
+  {
+    const auto isSame = [&](const Eigen::Vector3f& normal) { return std::abs(normal.dot(one.normal)) > SamePlane; };
+    if (one.overlap >= LeastOfBest * best.overlap && turns.size() < MostTurns &&
+        std::none_of(normals.begin(), normals.end(), isSame))
+    {
+      normals.push_back(one.normal);
+      const Eigen::Vector3d middle = best.middle.cast<double>();
+      turns.push_back(Eigen::Translation3d(middle) * Eigen::Quaterniond(Eigen::Matrix3d(one.linear() * best.linear())) *
+                      Eigen::Translation3d(-middle));
+    }
+  }
+  return MirroredPart{ mirroredModel(model, best), turns };
+}
+}
+
+const MirroredPart* MirrorImage::of(const TrainedModel& model) const
+{
+  std::call_once(this->IsMade, [&] { this->Mirrored = mirroredPart(model); });
+  return this->Mirrored ? &*this->Mirrored : nullptr;
+}
+}

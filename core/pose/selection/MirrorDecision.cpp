@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/selection/MirrorDecision.h"
+
+#include "base/Parallel.h"
+#include "model/MirrorImage.h"
+#include "pose/refinement/FinalAlignment.h"
+#include "pose/refinement/PoseRefinement.h"
+#include "pose/verification/PoseVerification.h"
+#include "pose/verification/ProbabilityCalibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meam
+{
+namespace
+{
+constexpr double WorthMirroring = 0.5; // place of a pose that is asked
+constexpr int MostAsked = 8;           // of them
+constexpr double MostOfOne = 5.0;      // log odds that one pose tells at most
+constexpr double Prior = 3.0;  // log odds that it is no mirror image: that lies there by mistake, one time in twenty
+constexpr double Clear = 8.0;  // log odds either way from which on no further pose is asked
+constexpr int MirrorSteps = 6; // of refinement, before the alignment
+
+/// The most that the scan says for the mirrored part where a pose is, as log odds.
+double logOddsMirrored(const Pose& pose, const MirroredPart& mirrored, const Scene& scene,
+  const EvidenceCollector& ofMirrored, const EvidenceRates& rates, int threads)
+{
+  PoseRefinementSettings refinement;
+  refinement.iterations = MirrorSteps;
+  refinement.fullLastStep = false; // the alignment takes all points
+  refinement.threads = 1;          // the turns are worked on in parallel
+  std::vector<double> logOdds(mirrored.turns.size());
+  parallelFor(static_cast<int>(logOdds.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int k = begin; k < end; ++k)
+      {
+        Pose other = pose;
+        other.T_scene_model = pose.T_scene_model * mirrored.turns[k];
+        other = refinePoses({ other }, scene, mirrored.model, refinement)[0];
+        other = alignRobustly(other, scene, mirrored.model);
+        logOdds[k] = ofMirrored.logOdds(other.T_scene_model, rates);
+      }
+    });
+  return *std::max_element(logOdds.begin(), logOdds.end());
+}
+}
+
+void allowForMirrorImage(FinishedInstances& found, const Scene& scene, const TrainedModel& model,
+  const EvidenceCollector& collector, const EvidenceSettings& settings, const EvidenceRates& rates, int threads)
+{
+  const auto isLikely = [](const FinishedInstance& finished)
+  { return !finished.isLeft && finished.pose.placeProbability >= WorthMirroring; };
+  if (std::none_of(found.begin(), found.end(), isLikely))
+  {
+    return;
+  }
+  const MirroredPart* mirrored = model.mirrorImage->of(model);
+  if (!mirrored)
+  {
+    return;
+  }
+  const EvidenceCollector ofMirrored(scene, mirrored->model, settings);
+  double logOdds = Prior;
+  int asked = 0;
+  for (const FinishedInstance& finished : found)
+  {
+    if (isLikely(finished) && asked < MostAsked && std::abs(logOdds) < Clear)
+    {
+      ++asked;
+      logOdds += std::clamp(collector.logOdds(finished.pose.T_scene_model, rates) -
+                              logOddsMirrored(finished.pose, *mirrored, scene, ofMirrored, rates, threads),
+        -MostOfOne, MostOfOne);
+    }
+  }
+  const double share = probabilityOf(logOdds);
+  for (FinishedInstance& finished : found)
+  {
+    finished.pose.contradictions.mirrored = 1.0 - share;
+    finished.logOdds = withCertainty(finished.logOdds, share);
+    setEvidence(finished.pose, finished.logOdds);
+  }
+}
+}
