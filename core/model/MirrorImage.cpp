@@ -11,6 +11,7 @@ namespace meam
 namespace
 {
 constexpr int PlanesOfAxis = 36;      // through each principal axis: of a nearly round part it may be any of them
+constexpr int FinerSteps = 10;        // from the best of them to its neighbors
 constexpr double NearMirrored = 0.01; // of the diameter: surface that comes to lie so near to the part's is shared
 constexpr double ItsOwn = 0.98;       // of the surface, shared: the part is its own mirror image
 constexpr double LeastShared = 0.35;  // of less no pose of one fits the other
@@ -52,19 +53,35 @@ std::vector<Reflection> reflectionsOf(const TrainedModel& model)
     scatter += (point - middle) * (point - middle).transpose();
   }
   const Eigen::Matrix3f axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f>(scatter).eigenvectors();
+  const auto hasMore = [](const Reflection& a, const Reflection& b) { return a.overlap > b.overlap; };
+  constexpr double step = M_PI / PlanesOfAxis;
   std::vector<Reflection> reflections;
   for (int axis = 0; axis < 3; ++axis)
   {
+    const auto at = [&](double angle)
+    {
+      Reflection one{ middle, static_cast<float>(std::cos(angle)) * axes.col((axis + 1) % 3) +
+                                static_cast<float>(std::sin(angle)) * axes.col((axis + 2) % 3) };
+      one.overlap = overlapOf(one, model);
+      return one;
+    };
+    std::vector<Reflection> about;
     for (int k = 0; k < PlanesOfAxis; ++k)
     {
-      const auto angle = static_cast<float>(M_PI * k / PlanesOfAxis);
-      reflections.push_back(
-        { middle, std::cos(angle) * axes.col((axis + 1) % 3) + std::sin(angle) * axes.col((axis + 2) % 3) });
-      reflections.back().overlap = overlapOf(reflections.back(), model);
+      about.push_back(at(k * step));
     }
+    const double best =
+      step * static_cast<double>(std::max_element(about.begin(), about.end(),
+                                   [&](const Reflection& a, const Reflection& b) { return hasMore(b, a); }) -
+                                 about.begin());
+    for (int k = 1; k < FinerSteps; ++k)
+    {
+      about.push_back(at(best + step * k / FinerSteps));
+      about.push_back(at(best - step * k / FinerSteps));
+    }
+    reflections.insert(reflections.end(), about.begin(), about.end());
   }
-  std::stable_sort(reflections.begin(), reflections.end(),
-    [](const Reflection& a, const Reflection& b) { return a.overlap > b.overlap; });
+  std::stable_sort(reflections.begin(), reflections.end(), hasMore);
   return reflections;
 }
 

@@ -26,6 +26,11 @@ std::string scanAdvice(
   const ScanQuality& quality, const DetectionReport& report, const Poses& poses, double partDiameter)
 {
   std::vector<std::string> sentences;
+  if (!poses.empty() && poses.front().contradictions.mirrored > LikelyThere)
+  {
+    sentences.push_back("The part's mirror image fits better: look for the other hand's part, or turn the scan's axes "
+                        "if they are left-handed.");
+  }
   if (quality.isKnown())
   {
     const double pixels = partDiameter / quality.pointDistance;
@@ -54,11 +59,6 @@ std::string scanAdvice(
       sentences.push_back("Of a part's edges " + percent(edges.found) + " are found, anywhere " +
                           percent(edges.chance) + ": they tell little; light the parts from another side.");
     }
-  }
-  if (!poses.empty() && poses.front().contradictions.mirrored > LikelyThere)
-  {
-    sentences.push_back("The part's mirror image fits better: look for the other hand's part, or turn the scan's axes "
-                        "if they are left-handed.");
   }
   const auto isThere = [](const Pose& pose) { return claimOf(pose, false) >= LikelyThere; };
   const auto isTurnable = [&](const Pose& pose) { return isThere(pose) && pose.certainty < SureRotation; };

@@ -8,6 +8,7 @@
 #include "io/PoseFile.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/preparation/MeshPreparation.h"
+#include "model/MirrorImage.h"
 #include "model/ModelTraining.h"
 #include "model/TrainedModel.h"
 #include "pose/MEAMPoseEstimation.h"
@@ -617,7 +618,9 @@ PYBIND11_MODULE(meamAblation, module)
   py::class_<Part>(module, "Part")
     .def(py::init<const Floats&, const Ints&>(), py::arg("vertices"), py::arg("triangles"))
     .def_property_readonly("mesh", [](const Part& part) { return meshArrays(part.Mesh); })
-    .def_property_readonly("diameter", [](Part& part) { return part.model().diameter; });
+    .def_property_readonly("diameter", [](Part& part) { return part.model().diameter; })
+    .def_property_readonly(
+      "has_mirror_image", [](Part& part) { return part.model().mirrorImage->of(part.model()) != nullptr; });
   py::class_<Scan>(module, "Scan").def(py::init(&makeScan), py::arg("points"), py::arg("image"), py::arg("edges"));
   module.def("switches",
     []

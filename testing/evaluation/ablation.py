@@ -140,7 +140,7 @@ def siblings(folder, step):
                                     lambda: made.sibling(path, axis, factor))
                 return {**scene, "truth": NO_TURNS, "visible": numpy.zeros(0)}
 
-            if factor > 0 or not made.is_same(part_of(path), made.sibling(path, axis, factor)):
+            if factor > 0 or part_of(path).has_mirror_image:
                 yield Case("siblings", name, what, lambda path=path: part_of(path), load)
 
 

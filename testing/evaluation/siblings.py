@@ -20,32 +20,6 @@ from ablation import SENSOR_PARTS, SENSORS, meam
 STRETCHES = [(axis, factor) for factor in (0.8, 0.9, 1.12, 1.25) for axis in (0, 1, 2)]
 COLUMNS = ("part", "sibling", "sensor", "seed", "rank", "place", "probability", "continuing", "past", "misfit", "outcome")
 COPIES = 20
-SAME = 0.02  # of the diameter: a sibling whose surface is no farther off is the part itself
-
-
-def cloud_of(part, count=2000):
-    points = ablation.mesh_points(part, part.diameter / 100)
-    return points[numpy.random.default_rng(1).permutation(len(points))[:count]]
-
-
-def is_same(part, other):
-    """Whether a rotation about the middle takes one part to the other, by their principal axes and the turns among them: of a
-    part that has a mirror plane the mirrored one is the same."""
-    a, b = (points - (points.min(0) + points.max(0)) / 2 for points in (cloud_of(part), cloud_of(other)))
-    axes_a, axes_b = (numpy.linalg.svd(points - points.mean(0), full_matrices=False)[2] for points in (a, b))
-    turns = [numpy.eye(3)[list(order)] * signs for order in ((0, 1, 2), (1, 0, 2), (0, 2, 1), (2, 1, 0), (1, 2, 0), (2, 0, 1))
-             for signs in numpy.array(numpy.meshgrid(*[(-1, 1)] * 3)).T.reshape(-1, 3)]
-    for turn in turns:
-        R = axes_b.T @ turn @ axes_a
-        if numpy.linalg.det(R) > 0:
-            if numpy.quantile(nearest_to(a @ R.T, b), 0.99) < SAME * part.diameter + part.diameter / 40:
-                return True
-    return False
-
-
-def nearest_to(points, others):
-    return numpy.concatenate([numpy.sqrt(((block[:, None, :] - others[None]) ** 2).sum(2)).min(1)
-                              for block in numpy.array_split(points, 20)])
 
 
 def sibling(path, axis, factor):
@@ -77,7 +51,7 @@ def cases(parts, sensors, seed):
             yield name, "none", sensor, seed, part, part
             for axis, factor in kinds(k):
                 other = sibling(path, axis, factor)
-                if factor > 0 or not is_same(part, other):
+                if factor > 0 or part.has_mirror_image:
                     what = "mirrored" if factor < 0 else f"{'xyz'[axis]} {factor:g}"
                     yield name, what, sensor, seed, part, other
 

@@ -53,4 +53,7 @@ TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
   const std::string both = meam::scanAdvice(coarse, report, unsure, 100.0);
   EXPECT_LT(both.find("pixels long"), both.find("have depth"));
   EXPECT_FALSE(says(both, "noise")) << "two sentences";
+  meam::Poses ofOtherHand{ claimed(0.01, 1.0) };
+  ofOtherHand[0].contradictions.mirrored = 0.99;
+  EXPECT_EQ(meam::scanAdvice(coarse, report, ofOtherHand, 100.0).find("The part's mirror image fits better"), 0u);
 }
