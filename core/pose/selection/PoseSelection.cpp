@@ -80,7 +80,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     {
       allowForLookalikes(finished, model, finishing.continuation(), finishing.misfit().excused());
     }
-    if (settings.weighsMirrorImage)
+    if (settings.weighsMirrorImage && !settings.deadline.hasStruck())
     {
       allowForMirrorImage(finished, scene, model, collector, settings.evidence, rates, settings.threads);
     }
