@@ -19,18 +19,19 @@ constexpr double LeastOfBest = 0.6;   // times the most that is shared: another 
 constexpr std::size_t MostTurns = 4;  // of these
 constexpr float SamePlane = 0.94f;    // cosine between the normals of planes that are tried as one: 20 degrees
 
-/// At a plane through `middle` with this normal.
+/// At a plane through `at` with this normal.
 struct Reflection
 {
-  Eigen::Vector3f middle, normal;
+  Eigen::Vector3f at, normal;
   double overlap = 0.0; ///< share of the part's surface that it takes to its surface
 
   Eigen::Vector3f direction(const Eigen::Vector3f& v) const { return v - 2.0f * this->normal.dot(v) * this->normal; }
-  Eigen::Vector3f point(const Eigen::Vector3f& p) const { return this->middle + this->direction(p - this->middle); }
-  Eigen::Matrix3d linear() const
+  Eigen::Vector3f point(const Eigen::Vector3f& p) const { return this->at + this->direction(p - this->at); }
+  Eigen::Affine3d transform() const
   {
-    const Eigen::Vector3d n = this->normal.cast<double>();
-    return Eigen::Matrix3d::Identity() - 2.0 * n * n.transpose();
+    const Eigen::Vector3d n = this->normal.cast<double>().normalized(), on = this->at.cast<double>();
+    return Eigen::Translation3d(2.0 * n.dot(on) * n) *
+           Eigen::Affine3d(Eigen::Matrix3d::Identity() - 2.0 * n * n.transpose());
   }
 };
 
@@ -43,7 +44,25 @@ double overlapOf(const Reflection& reflection, const TrainedModel& model)
   return static_cast<double>(shared) / static_cast<double>(points.size());
 }
 
-/// At planes through the principal axes, the most overlap first.
+/// At the plane with this normal through the middle of the surface, or through the middle of its extent, whichever
+/// leaves more of the surface in its place.
+Reflection reflectionAt(const Eigen::Vector3f& normal, const TrainedModel& model)
+{
+  const Eigen::Vector3f middle = model.visibility->middle();
+  float least = 0.0f, most = 0.0f;
+  for (const Eigen::Vector3f& point : model.surface.points)
+  {
+    const float height = normal.dot(point - middle);
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  Reflection one{ middle, normal }, other{ middle + 0.5f * (least + most) * normal, normal };
+  one.overlap = overlapOf(one, model);
+  other.overlap = overlapOf(other, model);
+  return one.overlap >= other.overlap ? one : other;
+}
+
+/// At planes along the principal axes, the most overlap first.
 std::vector<Reflection> reflectionsOf(const TrainedModel& model)
 {
   const Eigen::Vector3f middle = model.visibility->middle();
@@ -60,10 +79,9 @@ std::vector<Reflection> reflectionsOf(const TrainedModel& model)
   {
     const auto at = [&](double angle)
     {
-      Reflection one{ middle, static_cast<float>(std::cos(angle)) * axes.col((axis + 1) % 3) +
-                                static_cast<float>(std::sin(angle)) * axes.col((axis + 2) % 3) };
-      one.overlap = overlapOf(one, model);
-      return one;
+      const Eigen::Vector3f normal = static_cast<float>(std::cos(angle)) * axes.col((axis + 1) % 3) +
+                                     static_cast<float>(std::sin(angle)) * axes.col((axis + 2) % 3);
+      return reflectionAt(normal.normalized(), model);
     };
     std::vector<Reflection> about;
     for (int k = 0; k < PlanesOfAxis; ++k)
@@ -141,9 +159,7 @@ std::optional<MirroredPart> mirroredPart(const TrainedModel& model)
         std::none_of(normals.begin(), normals.end(), isSame))
     {
       normals.push_back(one.normal);
-      const Eigen::Vector3d middle = best.middle.cast<double>();
-      turns.push_back(Eigen::Translation3d(middle) * Eigen::Quaterniond(Eigen::Matrix3d(one.linear() * best.linear())) *
-                      Eigen::Translation3d(-middle));
+      turns.emplace_back((one.transform() * best.transform()).matrix());
     }
   }
   return MirroredPart{ mirroredModel(model, best), turns };

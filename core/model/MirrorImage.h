@@ -13,7 +13,7 @@ namespace meam
 struct MirroredPart
 {
   TrainedModel model; ///< without what votes
-  /// How it may lie where the part is, as turns of the mirrored part: those first that leave the most of its surface
+  /// How it may lie where the part is, as motions of the mirrored part: those first that leave the most of its surface
   /// where the part's is.
   std::vector<Eigen::Isometry3d> turns;
 };

@@ -36,16 +36,16 @@ TEST(MirrorImage, HasThePointsOfThePartMirrored)
   EXPECT_NEAR(other.normals[b].norm(), 1.0f, 1e-5f);
 }
 
-TEST(MirrorImage, TurnsBringOtherMirrorPlanesAboutTheMiddle)
+TEST(MirrorImage, LiesInOtherWaysAfterRigidMotions)
 {
   const meam::TrainedModel& model = scenes::trained<cornerBlock>();
   const std::vector<Eigen::Isometry3d>& turns = model.mirrorImage->of(model)->turns;
   ASSERT_FALSE(turns.empty());
   EXPECT_TRUE(turns[0].isApprox(Eigen::Isometry3d::Identity(), 1e-6)) << "it is mirrored at the best plane";
-  const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
   for (const Eigen::Isometry3d& turn : turns)
   {
     EXPECT_NEAR(turn.linear().determinant(), 1.0, 1e-9);
-    EXPECT_LT((turn * middle - middle).norm(), 1e-6);
+    EXPECT_TRUE((turn.linear() * turn.linear().transpose()).isApprox(Eigen::Matrix3d::Identity(), 1e-9));
+    EXPECT_LT(turn.translation().norm(), 2.0 * model.diameter);
   }
 }
