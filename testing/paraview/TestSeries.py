@@ -45,8 +45,8 @@ def red(path):
     return set(((pixels[:, 0] > 80) & (pixels[:, 1:].max(axis=1) < pixels[:, 0] // 2)).nonzero()[0].tolist())
 
 
-subprocess.run(["/usr/bin/python3", os.path.join(root, "examples", "simulate.py"), "--cad", cad, "--scenes", str(SCENES),
-                "--copies", "3", "--out", bins], check=True, stdout=subprocess.DEVNULL)
+subprocess.run(["/usr/bin/python3", "-c", f"import batchtest; batchtest.dataset({bins!r}, {SCENES})"], check=True,
+               cwd=os.path.join(root, "testing", "filters"))
 part = simple.STLReader(FileNames=[cad])
 part.UpdatePipeline()
 series = simple.BOPReader(FileName=bins)
