@@ -10,6 +10,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import ppfmeam
 from ppfmeam.filters import vtkMEAMModelCalibration, vtkMEAMPoseEstimation
+from batchtest import dataset
 from meamtest import check, close, cloud, connect, fails, field, run
 from scripttest import H, W, read, refuses, scan_of_bin, works, write_pcd, write_stl
 
@@ -84,7 +85,7 @@ refuses("ends in .meam", "calibrate.py", "judged.csv", "--model", "part.stl", "-
 refuses("nowhere.csv", "calibrate.py", "nowhere.csv", "--model", "part.meam", "--out", "no.meam")
 
 # From true poses: six bins of a dataset.
-works("simulate.py", "--cad", "part.stl", "--scenes", "6", "--copies", "4", "--out", "data")
+dataset("data", 6, copies=4)
 text = works("calibrate.py", "data", "--model", "part.meam", "--out", "true.meam")
 check("mean logarithmic loss of a pose" in text and os.path.exists("true.meam"), text)
 
