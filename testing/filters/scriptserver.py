@@ -2,18 +2,18 @@
 """Runs scripts of examples/ or testing/evaluation/, each in a process of its own that is forked off this one: what they import is loaded once. Of
 each line of input, a JSON list of the script and its arguments, the output is a line: exit status, output, errors. Not a
 test."""
+import gc
 import json
 import os
+import pkgutil  # noqa: F401  for runpy
 import sys
 import tempfile
 
-import ppfmeam.bop  # noqa: F401
-import ppfmeam.cell  # noqa: F401
-import ppfmeam.evaluation  # noqa: F401
-import ppfmeam.picture  # noqa: F401
-import ppfmeam.simulation  # noqa: F401
+from ppfmeam import picture, simulation  # noqa: F401
+from ppfmeam.commands import batch, evaluate, pick, train, why  # noqa: F401
 import forked
 
+gc.freeze()  # a child that looks for garbage would copy all that it shares with this process
 for line in sys.stdin:
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
         child = os.fork()
