@@ -6,19 +6,18 @@ import os
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from batchtest import H, W, children, command, dataset, deadly, finished, rows
+from batchtest import children, command, dataset, deadly, rows
 from meamtest import check
 from ppfmeam import scripting
+from scripttest import refuses, script, works
 
-folder = tempfile.TemporaryDirectory()
-os.chdir(folder.name)
-model, scan = dataset("bins", 1)
+W, H = 160, 120
+model, scan = dataset("bins", 1, W, H)
 scripting.write_model(model, "plate.meam")
 os.makedirs("cell")
 os.makedirs("scans")
@@ -29,7 +28,7 @@ HEAD = (f"VERSION .7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 
 whole = HEAD.encode() + numpy.ascontiguousarray(numpy.column_stack((points, grey)), dtype="<f4").tobytes()
 with open("scans/one.pcd", "wb") as file:
     file.write(whole)
-finished(*command("scans", "--model", "plate.meam", "--out", "poses.csv"))
+works("batch.py", "scans", "--model", "plate.meam", "--out", "poses.csv")
 expected = [[float(word) for word in row["t"].split()] for row in rows("poses.csv")]
 check(len(expected) > 1, "no poses to compare with")
 
@@ -149,9 +148,8 @@ check(process.returncode == 0 and not errors and output == "0 scans, 0 failed\n"
 check(not os.path.exists(f"/proc/{searcher}"), "the process that searches is left")
 
 # What cannot be watched.
-result = subprocess.run(command("--watch", "none", "--model", "plate.meam"), capture_output=True, text=True)
-check(result.returncode == 1 and result.stderr == "batch.py: cannot watch none: no such folder\n", result.stderr)
+refuses("cannot watch none: no such folder", "batch.py", "--watch", "none", "--model", "plate.meam")
 for arguments in (("scans", "--watch", "cell", "--model", "plate.meam"), ("--watch", "cell"),
                   ("scans", "--model", "plate.meam")):
-    result = subprocess.run(command(*arguments), capture_output=True, text=True)
+    result = script("batch.py", *arguments)
     check(result.returncode == 2 and "give " in result.stderr, f"{arguments}: {result.stderr}")
