@@ -11,7 +11,7 @@ def build_and_show():
     from paraview import simple
 
     simple._DisableFirstRenderCameraReset()
-    scene = simple.BinSceneSource(Copies=12)
+    scene = simple.BinSceneSource(Copies=8, Width=640, Height=480)
     mesh = simple.MeshPreparation(Input=simple.OutputPort(scene, 2))
     samples = simple.SurfaceSampling(Input=mesh)
     views = simple.VisibilityExtraction(Input=samples)
