@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of three scans is opened,
+"""The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of scans is opened,
 MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked about points of the scan, by Ctrl+P and
 by P, and why a hidden part was missed; grasps are proposed, and picks planned. The state that is saved then is opened by
 pvpython, which looks at it. The tutorial shows its text and opens its example; the dialog of the menu names its inputs.
@@ -20,7 +20,8 @@ from clicks import (APPLY, BROWSER, PROPERTIES, accept_inputs, check, choice, co
                     menu, number, play, point_and_press, shoot, view)
 
 RED, GREEN, BROWN = (220, 30, 30), (40, 170, 50), (140, 92, 51)
-SCANS = 3
+PICTURES = os.environ.get("PPFMEAM_PICTURE")
+SCANS, COPIES, SIZE = (3, 12, (-1, -1)) if PICTURES else (2, 10, (640, 480))  # pixels; -1: the sensor's
 POINT = PROPERTIES + "/InteractiveHandle"
 CUP = 10  # mm: between the holes of the plate
 
@@ -63,7 +64,7 @@ def tutorial(folder, text):
 
 
 def prepare(folder, repository):
-    """Three scans of a part, and a point of it in the last one that a sensor sees, though most lies under others."""
+    """Scans of a part, and a point of it in the last one that a sensor sees, though most lies under others."""
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOImage import vtkPNGReader
@@ -75,9 +76,8 @@ def prepare(folder, repository):
         image = reader.GetOutput()
         return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[1::-1])[::-1].astype(float)
 
-    subprocess.run(["/usr/bin/python3", os.path.join(repository, "examples", "simulate.py"), "--cad",
-                    os.path.join(repository, "examples", "parts", "hole_plate.stl"), "--scenes", str(SCANS), "--copies",
-                    "12", "--out", os.path.join(folder, "bins")], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["/usr/bin/python3", "-c", f"import batchtest; batchtest.dataset({folder + '/bins'!r}, {SCANS}, *{SIZE}, {COPIES})"],
+                   cwd=os.path.join(repository, "testing", "filters"), check=True)
     scene = os.path.join(folder, "bins", "test", f"{SCANS - 1:06d}")
     with open(os.path.join(scene, "scene_gt_info.json")) as file:
         shares = [copy["visib_fract"] for copy in json.load(file)["0"]]
@@ -223,16 +223,15 @@ def look_at_example(path):
 
 
 def main(paraview, pvpython, repository):
-    pictures = os.environ.get("PPFMEAM_PICTURE")
     with tempfile.TemporaryDirectory() as folder:
         hidden = prepare(folder, repository)
         events = []
         for name, stage in clicks(folder, hidden):
             events += stage
-            if pictures:
-                shoot(paraview, folder, events, os.path.join(pictures, f"application_{name}.jpg"))
-        if pictures:
-            shoot(paraview, folder, estimation(folder) + picks(), os.path.join(pictures, "application_picks.jpg"))
+            if PICTURES:
+                shoot(paraview, folder, events, os.path.join(PICTURES, f"application_{name}.jpg"))
+        if PICTURES:
+            shoot(paraview, folder, estimation(folder) + picks(), os.path.join(PICTURES, "application_picks.jpg"))
         events += picks() + files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm")
         events += tutorial(folder, plain(os.path.join(repository, "docs", "tutorial.md")))
         play(paraview, folder, events)
