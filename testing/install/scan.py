@@ -14,7 +14,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 import ppfmeam
 from ppfmeam.filters import vtkMEAMBinSceneSource
 
-WIDTH, HEIGHT, COPIES = 640, 480, 5
+WIDTH, HEIGHT, COPIES = 480, 360, 4
 MILLIMETRES = 1.0
 ROBOT = [[1, 0, 0, 100], [0, -1, 0, 200], [0, 0, -1, 900], [0, 0, 0, 1]]
 
