@@ -26,9 +26,9 @@ from ppfmeam.filters import (
     vtkMEAMSamplePartSource,
     vtkMEAMSceneEdgeExtraction,
 )
-from meamtest import check, connect, fails, field, partitions, prints, run, tuples
+from meamtest import box, check, connect, fails, field, partitions, prints, run, tuples
 
-WIDTH, HEIGHT, COPIES = 640, 480, 3
+WIDTH, HEIGHT, COPIES = 480, 360, 3
 FIELDS = ("Diameter", "Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "LeafSize",
           "CoVisibilityDirections", "ViewDirections", "NumberOfPairs", "FormatVersion", "SymmetriesDiscrete",
           "SymmetriesContinuous", "NearSymmetries", "NearSymmetryOverlap", "NearSymmetryDeviation")
@@ -220,7 +220,7 @@ try:
         same_model(ppfmeam.load(name).data, model.data)
     for mine, other in (("model.meam", scan), ("model.vtpc", scan), (ppfmeam.load("model.meam"), points)):
         same(ppfmeam.detect(mine, other, grey if other is points else None), found)
-    ppfmeam.train("part.stl", preset="paper").save("paper.meam")
+    ppfmeam.train(box(60, 40, 20), preset="paper").save("paper.meam")
     ppfmeam.load("paper.meam").save("paper.vtpc")
     same_model(ppfmeam.load("paper.vtpc").data, ppfmeam.load("paper.meam").data)
     reader = vtkMEAMModelReader()
@@ -333,7 +333,7 @@ try:
     bare, alone = ppfmeam.detect(model, points), ppfmeam.detect(model, flat)
     check("no image" in bare.report and "the grid of a pinhole camera" in alone.report, f"{bare.report} {alone.report}")
     check(numpy.allclose(bare.poses, alone.poses, atol=1e-3), "points alone, on the grid that they lie on")
-    raises("640", ppfmeam.detect, model, points, grey[:-1])
+    raises(str(WIDTH), ppfmeam.detect, model, points, grey[:-1])
     raises("ends in .meam", model.save, "model.stl")
     raises("no such folder", model.save, "no/model.meam")
     raises("extension", found.save, "poses.png")
