@@ -50,7 +50,7 @@ def is_alone(text):
 scan, truth, mesh = scan_of_bin()
 points, grey = vtk_to_numpy(scan.GetPoints().GetData()), vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
 write_stl("plate.stl", mesh)
-write_stl("box.stl", box(30, 20, 10))
+write_stl("box.stl", box(90, 60, 30))
 write_pcd("scan.pcd", numpy.column_stack((points, grey)), W, H, "x y z intensity")
 
 # The command.
@@ -59,7 +59,7 @@ text = read("found.html")
 data = data_of(text)
 poses = numpy.loadtxt("found.txt").reshape(-1, 16)
 check(len(poses) >= 2 and is_alone(text), f"{len(poses)} poses, and nothing from elsewhere")
-check(len(text) < MOST_BYTES / 2, f"{len(text)} bytes of a third of a megapixel")
+check(len(text) < MOST_BYTES / 2, f"{len(text)} bytes of a sixth of a megapixel")
 check(numpy.allclose([pose["transform"] for pose in data["poses"]], poses, atol=1e-4), "the poses of the file")
 check([pose["color"] for pose in data["poses"][:2]] == [RED, GREEN], "the colors of the ranks")
 shown, measured = points_of(data["scan"]), points[numpy.isfinite(points).all(axis=1)]
@@ -146,16 +146,17 @@ works("why.py", "plate.meam", "scan.pcd", "--at", "0", "0", "5", "--report", "no
 check(data_of(read("nowhere.html"))["poses"] == [] and "No part there" in read("nowhere.html"), "no part at the place")
 
 # A page for each scan of a batch, and their list.
-os.mkdir("scans")
-os.link("scan.pcd", "scans/a b.pcd")
+for place in ("one", "scans"):
+    os.mkdir(place)
+    os.link("scan.pcd", f"{place}/a b.pcd")
 write_pcd("scans/coarse.pcd", points.reshape(H, W, 3)[::5, ::5].reshape(-1, 3), W // 5, H // 5, "x y z")
 with open("scans/bad.pcd", "w", encoding="utf-8") as file:
     file.write("no cloud")
-for most in ("2", "0"):
-    works("batch.py", "scans", "--model", "plate.meam", "--poses", most, "--out", "all.csv", "--report", "pages", *["--why"] * (most == "2"))
+for most, place in (("2", "one"), ("0", "scans")):
+    works("batch.py", place, "--model", "plate.meam", "--poses", most, "--out", "all.csv", "--report", "pages", *["--why"] * (most == "2"))
     data = data_of(read("pages/a b.pcd.html"))
     check(all(("For it, in" in pose["why"]) == (most == "2") for pose in data["poses"]), f"the reasons with --why alone: {data['poses'][0]['why']}")
-    check(data["why"] == "ppfmeam why plate.meam 'scans/a b.pcd' --at {x} {y} {z}", data["why"])
+    check(data["why"] == f"ppfmeam why plate.meam '{place}/a b.pcd' --at {{x}} {{y}} {{z}}", data["why"])
 check(sorted(os.listdir("pages")) == ["a b.pcd.html", "coarse.pcd.html", "index.html"], f"{os.listdir('pages')}")
 check(numpy.allclose([pose["transform"] for pose in data["poses"]], poses, atol=1e-4), "the same poses")
 text, advice = read("pages/index.html"), [row["advice"] for row in csv.DictReader(read("all.scans.csv").splitlines())]

@@ -69,15 +69,15 @@ def write_stl(path, mesh):
     writer.Write()
 
 
-W, H = 640, 480
+W, H = 480, 360
 
 
 def scan_of_bin():
-    """Of four copies of the plate, which is trained in a third of the sample part's time: the scan, the true poses, the part."""
+    """Of three copies of the plate, which is trained in a third of the sample part's time: the scan, the true poses, the part."""
     plate = vtkMEAMSamplePartSource()
     plate.SetPartToHolePlate()
     source = connect(vtkMEAMBinSceneSource(), plate)
-    source.SetCopies(4)
+    source.SetCopies(3)
     source.SetWidth(W)
     source.SetHeight(H)
     run(source)
