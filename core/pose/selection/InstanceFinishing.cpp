@@ -14,7 +14,8 @@ namespace
 constexpr int Lot = 8;                 // instances that are finished before it is asked whether they do
 constexpr double WorthFinishing = 0.5; // place: what is likelier is finished where not enough are sure
 constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will,
-constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for: they are not among the first
+constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for, but no fewer than
+constexpr int LeastFruitless = 16;     // these: the order by scores is not that of finished poses
 constexpr double ClearlyMore = 3.0;    // log odds of a sure pose over those of one that it excludes
 
 /// A scored pose that is not finished.
@@ -85,7 +86,7 @@ FinishedInstances InstanceFinishing::finished(
   }
   std::vector<Sure> sure;
   const int wanted = this->Settings.maximumPoses;
-  const int most = wanted > 0 ? std::min(MostFruitless, FruitlessOfAsked * wanted) : MostFruitless;
+  const int most = wanted > 0 ? std::clamp(FruitlessOfAsked * wanted, LeastFruitless, MostFruitless) : MostFruitless;
   int fruitless = 0;
   const int count = static_cast<int>(selected.size());
   for (int next = 0; next < count;)
