@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meam
@@ -15,9 +16,10 @@ constexpr int FinerSteps = 10;        // from the best of them to its neighbors
 constexpr double NearMirrored = 0.01; // of the diameter: surface that comes to lie so near to the part's is shared
 constexpr double ItsOwn = 0.98;       // of the surface, shared: the part is its own mirror image
 constexpr double LeastShared = 0.35;  // of less no pose of one fits the other
-constexpr double LeastOfBest = 0.6;   // times the most that is shared: another way in which the mirrored part may lie
-constexpr std::size_t MostTurns = 4;  // of these
-constexpr float SamePlane = 0.94f;    // cosine between the normals of planes that are tried as one: 20 degrees
+constexpr double LeastOfBest = 0.4;   // times the most that is shared: another way in which the mirrored part may lie
+constexpr std::size_t MostTurns = 8;  // of these
+constexpr float SamePlane = 0.94f;    // cosine between the normals of planes that are tried as one: 20 degrees,
+constexpr double SameOffset = 0.03;   // and of the diameter, between them
 
 /// At a plane through `at` with this normal.
 struct Reflection
@@ -44,9 +46,8 @@ double overlapOf(const Reflection& reflection, const TrainedModel& model)
   return static_cast<double>(shared) / static_cast<double>(points.size());
 }
 
-/// At the plane with this normal through the middle of the surface, or through the middle of its extent, whichever
-/// leaves more of the surface in its place.
-Reflection reflectionAt(const Eigen::Vector3f& normal, const TrainedModel& model)
+/// At the planes with this normal through the middle of the surface, and through the middle of its extent.
+std::array<Reflection, 2> reflectionsAt(const Eigen::Vector3f& normal, const TrainedModel& model)
 {
   const Eigen::Vector3f middle = model.visibility->middle();
   float least = 0.0f, most = 0.0f;
@@ -56,10 +57,13 @@ Reflection reflectionAt(const Eigen::Vector3f& normal, const TrainedModel& model
     least = std::min(least, height);
     most = std::max(most, height);
   }
-  Reflection one{ middle, normal }, other{ middle + 0.5f * (least + most) * normal, normal };
-  one.overlap = overlapOf(one, model);
-  other.overlap = overlapOf(other, model);
-  return one.overlap >= other.overlap ? one : other;
+  std::array<Reflection, 2> both{ Reflection{ middle, normal },
+    Reflection{ middle + 0.5f * (least + most) * normal, normal } };
+  for (Reflection& one : both)
+  {
+    one.overlap = overlapOf(one, model);
+  }
+  return both;
 }
 
 /// At planes along the principal axes, the most overlap first.
@@ -77,25 +81,25 @@ std::vector<Reflection> reflectionsOf(const TrainedModel& model)
   std::vector<Reflection> reflections;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto at = [&](double angle)
+    std::vector<Reflection> about;
+    const auto add = [&](double angle)
     {
       const Eigen::Vector3f normal = static_cast<float>(std::cos(angle)) * axes.col((axis + 1) % 3) +
                                      static_cast<float>(std::sin(angle)) * axes.col((axis + 2) % 3);
-      return reflectionAt(normal.normalized(), model);
+      const std::array<Reflection, 2> both = reflectionsAt(normal.normalized(), model);
+      about.insert(about.end(), both.begin(), both.end());
     };
-    std::vector<Reflection> about;
     for (int k = 0; k < PlanesOfAxis; ++k)
     {
-      about.push_back(at(k * step));
+      add(k * step);
     }
-    const double best =
-      step * static_cast<double>(std::max_element(about.begin(), about.end(),
-                                   [&](const Reflection& a, const Reflection& b) { return hasMore(b, a); }) -
-                                 about.begin());
+    const auto best = std::max_element(
+      about.begin(), about.end(), [&](const Reflection& a, const Reflection& b) { return hasMore(b, a); });
+    const double angleOfBest = step * static_cast<double>((best - about.begin()) / 2); // of two at each angle
     for (int k = 1; k < FinerSteps; ++k)
     {
-      about.push_back(at(best + step * k / FinerSteps));
-      about.push_back(at(best - step * k / FinerSteps));
+      add(angleOfBest + step * k / FinerSteps);
+      add(angleOfBest - step * k / FinerSteps);
     }
     reflections.insert(reflections.end(), about.begin(), about.end());
   }
@@ -150,15 +154,19 @@ std::optional<MirroredPart> mirroredPart(const TrainedModel& model)
   {
     return std::nullopt;
   }
-  std::vector<Eigen::Vector3f> normals;
+  std::vector<Reflection> tried;
   std::vector<Eigen::Isometry3d> turns;
   for (const Reflection& one : reflections)
   {
-    const auto isSame = [&](const Eigen::Vector3f& normal) { return std::abs(normal.dot(one.normal)) > SamePlane; };
-    if (one.overlap >= LeastOfBest * best.overlap && turns.size() < MostTurns &&
-        std::none_of(normals.begin(), normals.end(), isSame))
+    const auto isSame = [&](const Reflection& other)
     {
-      normals.push_back(one.normal);
+      return std::abs(other.normal.dot(one.normal)) > SamePlane &&
+             std::abs(one.normal.dot(other.at - one.at)) < SameOffset * model.diameter;
+    };
+    if (one.overlap >= LeastOfBest * best.overlap && turns.size() < MostTurns &&
+        std::none_of(tried.begin(), tried.end(), isSame))
+    {
+      tried.push_back(one);
       turns.emplace_back((one.transform() * best.transform()).matrix());
     }
   }
