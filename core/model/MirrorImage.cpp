@@ -139,6 +139,8 @@ TrainedModel mirroredModel(const TrainedModel& model, const Reflection& reflecti
   mirrored.surface = model.surface;
   reflect(mirrored.surface, reflection);
   mirrored.deriveFields();
+  mirrored.verificationPoints = model.verificationPoints; // others would tell the two apart
+  mirrored.visibility = std::make_shared<const PredictedVisibility>(mirrored);
   return mirrored;
 }
 

@@ -18,9 +18,10 @@ namespace
 constexpr double WorthMirroring = 0.5; // place of a pose that is asked
 constexpr int MostAsked = 8;           // of them
 constexpr double MostOfOne = 5.0;      // log odds that one pose tells at most
-constexpr double Prior = 3.0;  // log odds that it is no mirror image: that lies there by mistake, one time in twenty
-constexpr double Clear = 8.0;  // log odds either way from which on no further pose is asked
-constexpr int MirrorSteps = 6; // of refinement, before the alignment
+constexpr double Prior = 3.0;    // log odds that it is no mirror image: that lies there by mistake, one time in twenty
+constexpr double OfChance = 1.0; // log odds off the mirrored part's: the best of several ways has as much by chance
+constexpr double Clear = 8.0;    // log odds either way from which on no further pose is asked
+constexpr int MirrorSteps = 6;   // of refinement, before the alignment
 
 /// The most that the scan says for the mirrored part where a pose is, as log odds.
 double logOddsMirrored(const Pose& pose, const MirroredPart& mirrored, const Scene& scene,
@@ -43,7 +44,7 @@ double logOddsMirrored(const Pose& pose, const MirroredPart& mirrored, const Sce
         logOdds[k] = ofMirrored.logOdds(other.T_scene_model, rates);
       }
     });
-  return *std::max_element(logOdds.begin(), logOdds.end());
+  return *std::max_element(logOdds.begin(), logOdds.end()) - OfChance;
 }
 }
 
