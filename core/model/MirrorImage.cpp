@@ -51,9 +51,9 @@ std::array<Reflection, 2> reflectionsAt(const Eigen::Vector3f& normal, const Tra
 {
   const Eigen::Vector3f middle = model.visibility->middle();
   float least = 0.0f, most = 0.0f;
-  for (const Eigen::Vector3f& point : model.surface.points)
+  for (const int k : model.verificationPoints)
   {
-    const float height = normal.dot(point - middle);
+    const float height = normal.dot(model.surface.points[k] - middle);
     least = std::min(least, height);
     most = std::max(most, height);
   }
