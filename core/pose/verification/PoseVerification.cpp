@@ -79,10 +79,10 @@ EvidenceRates scoreByEvidence(Poses& poses, const Scene& scene, const TrainedMod
         {
           for (int i = begin; i < end; ++i)
           {
-            const Eigen::Isometry3d& T = unknown[i].T_scene_model;
-            const PoseEvidence evidence = collector.collect(T, settings.pointStride);
-            result[i] = { evidence.counts, evidence.score(), evidence.visibleFraction(),
-              model.visibility->view(T, scene.sensor) };
+            Pose pose = unknown[i];
+            const PoseEvidence evidence = collector.collect(pose.T_scene_model, settings.pointStride);
+            setSeen(pose, evidence, scene, model);
+            result[i] = { evidence.counts, pose.score, pose.visibleFraction, pose.viewId };
           }
         });
       return result;
