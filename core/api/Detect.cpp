@@ -6,6 +6,7 @@
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
 #include "pose/ScanAdvice.h"
+#include "scene/preparation/ScanViewpoint.h"
 #include "scene/preparation/SearchRegion.h"
 
 #include <algorithm>
@@ -33,11 +34,11 @@ std::optional<Sensor> givenSensor(const Scan& scan)
   std::optional<Sensor> sensor = scan.sensor;
   if (sensor)
   {
-    if (!sensor->direction.allFinite() || !(sensor->direction.norm() > 0.0))
+    sensor->direction = lookingDirection(*sensor, scan.points);
+    if (sensor->direction.isZero(0.0))
     {
       throw Error("The sensor's direction is zero: give the way it looks, in the scan's coordinates.");
     }
-    sensor->direction.normalize();
   }
   return sensor;
 }

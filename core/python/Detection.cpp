@@ -130,6 +130,12 @@ void bindData(py::module_& module)
     .def_property_readonly("matrix", &matrixOf)
     .def_property_readonly("pose", [](const Camera& camera) { return camera.T_camera_scene.matrix(); })
     .def_readonly("distortion", &Camera::distortion);
+  py::class_<Sensor>(module, "Sensor") // that looks at the middle of the points
+    .def(py::init(
+      [] {
+        return Sensor{ true, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
+      }))
+    .def_readwrite("position", &Sensor::position);
   py::class_<Scan>(module, "Scan")
     .def(py::init(&scanOf))
     .def("blank", &blank)
@@ -141,6 +147,7 @@ void bindData(py::module_& module)
       "edges", [](const Scan& scan) { return arrayOf(scan.edges); },
       [](Scan& scan, const Triples<float>& edges) { scan.edges = vectorsOf(edges); })
     .def_readwrite("image_camera", &Scan::imageCamera)
+    .def_readwrite("sensor", &Scan::sensor)
     .def_property("region_box", nullptr,
       [](Scan& scan, const std::array<double, 6>& ends) {
         scan.region.box = { Eigen::Vector3d(ends[0], ends[2], ends[4]), Eigen::Vector3d(ends[1], ends[3], ends[5]) };

@@ -2,6 +2,7 @@
 #include "vtkMEAMSceneConversion.h"
 
 #include "base/Error.h"
+#include "scene/preparation/ScanViewpoint.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMScanConversion.h"
@@ -34,15 +35,17 @@ meam::Sensor sensorOf(
   {
     return sensor; // the data contract: an organized cloud is in its sensor's frame
   }
-  const Eigen::Vector3d direction(viewDirection[0], viewDirection[1], viewDirection[2]);
-  if (!direction.allFinite() || !(direction.norm() > 0.0))
+  sensor.perspective = projection == PerspectiveProjection;
+  sensor.direction = Eigen::Vector3d(viewDirection);
+  sensor.position = Eigen::Vector3d(sensorPosition);
+  auto* measured = vtkPointSet::SafeDownCast(surface);
+  const bool looksAtPoints = sensor.perspective && sensor.direction.isZero(0.0) && measured;
+  sensor.direction = meam::lookingDirection(sensor, looksAtPoints ? toScanCloud(measured).points : meam::Points());
+  if (sensor.direction.isZero(0.0))
   {
     throw Error(
       "The view direction is zero: set ViewDirection to the way the sensor looks, in the scene's coordinates.");
   }
-  sensor.perspective = projection == PerspectiveProjection;
-  sensor.direction = direction.normalized();
-  sensor.position = Eigen::Vector3d(sensorPosition[0], sensorPosition[1], sensorPosition[2]);
   return sensor;
 }
 

@@ -24,7 +24,8 @@ enum Projection
   PerspectiveProjection   ///< from the sensor position, looking along the view direction
 };
 
-/// Where the scene is seen from; `surface` may be null. Throws Error for a view direction of zero.
+/// Where the scene is seen from; `surface` may be null. With a view direction of zero a perspective sensor looks at the
+/// middle of the surface. Throws Error for another view direction of zero.
 meam::Sensor sensorOf(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
 /// The same where the filter's properties say it; none where the scan itself has to tell.

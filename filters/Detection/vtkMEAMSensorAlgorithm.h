@@ -40,7 +40,10 @@ public:
   ///@}
 
   ///@{
-  /** The way the sensor looks, in scene coordinates; of any length. Default: 0, 0, -1 (from above). */
+  /**
+   * The way the sensor looks, in scene coordinates; of any length. 0, 0, 0: a perspective one looks at the middle of
+   * the scene's surface. Default: 0, 0, -1 (from above).
+   */
   vtkSetVector3Macro(ViewDirection, double);
   vtkGetVector3Macro(ViewDirection, double);
   ///@}

@@ -229,9 +229,9 @@ def load(path):
     return Model(_core.load_model(path) if path.lower().endswith(".meam") else scripting.read_model(path), path)
 
 
-@takes(settings="detect", reading="read")
+@takes(settings="detect", sensor="sensor", reading="read")
 def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None, scale=1.0, cad_scale=1.0, region=None, *,
-           settings, reading):
+           settings, sensor, reading):
     """Finds the copies of a part in a scan; returns Detections.
 
     part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm). Or
@@ -248,8 +248,8 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     flags or an image file of the scan's size that is not black there. Parts whose middle lies elsewhere are not looked for.
     """
     given = {"scan": scan, "image": image, "boundary": boundary, "camera": camera, "image_camera": image_camera, "scale": scale,
-             "cad_scale": cad_scale, "region": region, **reading.differing()}
-    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region)
+             "cad_scale": cad_scale, "region": region, **sensor.differing(), **reading.differing()}
+    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region, sensor.viewpoint)
     models = [part_of(each, cad_scale, settings, reading) for each in (part if isinstance(part, (list, tuple)) else [part])]
     found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
@@ -268,9 +268,9 @@ def part_of(part, scale, settings, reading):
     return train(part, scale=scale, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
 
 
-@takes(settings="detect", reading="read")
+@takes(settings="detect", sensor="sensor", reading="read")
 def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, camera=None, image_camera=None, scale=1.0,
-        cad_scale=1.0, region=None, *, settings, reading):
+        cad_scale=1.0, region=None, *, settings, sensor, reading):
     """Tells why a part of a scan was missed: which step lost it, and what to change.
 
     part, scan, image, boundary, cameras, scales and region: as detect() takes them. at: a point of the scan on the part, three
@@ -279,7 +279,7 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
     """
     if (at is None) == (pose is None):
         raise Error("give either at, a point on the part, or pose, where the part lies")
-    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region)
+    seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region, sensor.viewpoint)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
     diagnosis.SetInputDataObject(part_of(part, cad_scale, settings, reading).data)
     for port, data in enumerate(inputs.to_vtk(seen), 1):
@@ -290,6 +290,7 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
     if image_camera is not None:
         diagnosis.SetCameraFile(os.fspath(image_camera))
     settings.set(diagnosis)
+    scripting.set_viewpoint(diagnosis, sensor.viewpoint, scale)
     diagnosis.SetFit(fit)
     if pose is None:
         try:

@@ -34,6 +34,8 @@ def wanted(choice):
 def converted(choice, value):
     """The value as C++ takes it; throws ValueError or TypeError for a wrong one."""
     kind = choice["type"]
+    if value is None and choice["default"] is None:
+        return None
     if kind == "choice":
         if value not in choice["values"]:
             raise ValueError
@@ -139,7 +141,7 @@ def add_options(parser, group, *names):
         choice = TABLE[group][name]
         kind = choice["type"]
         told = {"dest": choice["option"].lstrip("-").replace("-", "_"), "default": choice["default"],
-                "help": choice["help"].replace("%", "%%") + " (default: %(default)s)"}
+                "help": choice["help"].replace("%", "%%") + " (default: %(default)s)" * (choice["default"] is not None)}
         if kind == "flag":
             told.update({"dest": name, "action": "store_false", "help": choice["off"]} if choice["default"] else
                         {"dest": name, "action": "store_true", "help": choice["help"].replace("%", "%%")})

@@ -11,6 +11,7 @@ class Finder:
         for part in parts:
             self.estimation.AddInputDataObject(0, part)
         choices.of_options("detect", options).set(self.estimation)
+        scripting.set_viewpoint(self.estimation, options.viewpoint, options.scene_scale)
         box, self.mask = regions.of(options.roi)
         self.estimation.SetRegion(*(box or regions.EVERYWHERE))
 

@@ -79,9 +79,14 @@ def model_to_vtk(model):
         return scripting.read_model(path)
 
 
-def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camera=None, region=None):
-    """A scan with its image, its edge points and its region, where they are given."""
+def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camera=None, region=None, viewpoint=None):
+    """A scan with its image, its edge points, its region and its viewpoint, where they are given."""
     seen = cloud_of(scan, camera, scale)
+    if viewpoint is not None:
+        if camera is not None:
+            raise Error("the camera tells where the scan is seen from: leave the viewpoint out")
+        seen.sensor = _core.Sensor()
+        seen.sensor.position = scale * numpy.array(viewpoint)
     if boundary is not None:
         seen.edges = cloud_of(boundary, None, scale).points.reshape(-1, 3)
     if image is not None:

@@ -267,6 +267,14 @@ def set_choice(algorithm, name, choice):
     getattr(algorithm, f"Set{name}To{choice[0].upper()}{choice[1:]}")()
 
 
+def set_viewpoint(algorithm, viewpoint, scale=1.0):
+    """The sensor of a filter, at a place of the scan before it is scaled; None: as the scan tells."""
+    if viewpoint is not None:
+        algorithm.SetProjectionToPerspective()
+        algorithm.SetSensorPosition([scale * float(value) for value in viewpoint])
+        algorithm.SetViewDirection(0, 0, 0)  # at the middle of the scan
+
+
 def require_file(path):
     """Raises a Failure when a file cannot be read."""
     try:

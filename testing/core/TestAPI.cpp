@@ -155,6 +155,24 @@ TEST(API, SettingsReachTheSteps)
   EXPECT_TRUE(std::none_of(wrong.poses.begin(), wrong.poses.end(),
     [&](const meam::DetectedPose& pose)
     { return pose.probability > 0.5 && pose.T_scan_part.isApprox(usual.poses[0].T_scan_part, 1e-2); }));
+  // From a place alone it looks at the middle of the points.
+  const meam::Scan three = scanOfThree();
+  const auto fromAbove = [&](double height, const Eigen::Vector3d& direction)
+  {
+    meam::Scan scan = three;
+    scan.sensor = meam::Sensor{ true, { 0, 0, height }, direction };
+    return meam::detect(bracketModel(), scan).poses;
+  };
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& point : three.points)
+  {
+    sum += point.cast<double>();
+  }
+  const Eigen::Vector3d middle = sum / static_cast<double>(three.points.size());
+  const auto given = fromAbove(900.0, middle - Eigen::Vector3d(0, 0, 900)), found = fromAbove(900.0, { 0, 0, 0 });
+  ASSERT_EQ(given.size(), found.size());
+  ASSERT_FALSE(given.empty());
+  EXPECT_TRUE(given[0].T_scan_part.isApprox(found[0].T_scan_part, 1e-9));
   meam::Scan centimetres = scanOfThree();
   for (auto* points : { &centimetres.points, &centimetres.edges })
   {

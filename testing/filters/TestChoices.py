@@ -19,6 +19,8 @@ GROUPS = {
     "train": (_core.TrainSettings, (filters.vtkMEAMPoseEstimation,), (("Base", "Estimation"),), (ppfmeam.train,)),
     "read": (_core.CADSettings, (filters.vtkMEAMMeshReader,), (("MeshReader", "MEAMMeshReader"),),
              (ppfmeam.train, ppfmeam.detect, ppfmeam.why, ppfmeam.grasps)),
+    "sensor": (_core.Sensor, (filters.vtkMEAMPoseEstimation, filters.vtkMEAMPoseDiagnosis), (("Base", "Sensor"),),
+               (ppfmeam.detect, ppfmeam.why)),
     "gripper": (_core.GripperModel, (filters.vtkMEAMGraspDefinition, filters.vtkMEAMPickPlanning), (("Base", "Gripper"),),
                 (ppfmeam.grasps, ppfmeam.pick)),
     "propose": (_core.ProposeSettings, (filters.vtkMEAMGraspDefinition,), (("GraspDefinition", "GraspDefinition"),),
@@ -33,7 +35,9 @@ def plain(text):
 
 
 def cxx_value(choice):
-    """The default as C++ and the filters have it."""
+    """The default as C++ and the filters have it; of what is not given zeros that do not count."""
+    if choice["default"] is None:
+        return [0.0] * 3
     if choice["type"] == "choice":
         return getattr(getattr(_core, choice["property"]), choice["values"][choice["default"]])
     return choice["default"]

@@ -129,7 +129,7 @@ refuses("no such folder", "detect.py", "--cad", "plate.stl", "--scene", "scan.pc
 
 # The command that asks why has what the scan and the part are read with; a list of scans has other files than depth images, too.
 options = argparse.Namespace(model=[], cad=["p.stl"], camera="c.json", image_camera="i.json", scene_scale=1, cad_scale=25.4, solid=1, roi=None,
-                             depth_scale=0.1)
+                             viewpoint=None, depth_scale=0.1)
 for scan_file, image, words in (("d.png", "i.png", "--image i.png --image-camera i.json --cad-scale 25.4 --solid 1 --depth-scale 0.1"),
                                 ("d.ply", "", "--cad-scale 25.4 --solid 1")):
     command = told.why_command(options, scan_file, image)

@@ -10,7 +10,10 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkBMPWriter, vtkPNGWriter, vtkTIFFWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 
-from meamtest import check, connect, pose_error, tuples
+import ppfmeam
+from ppfmeam import scripting
+from ppfmeam.filters import vtkMEAMPoseEstimation
+from meamtest import check, connect, pose_error, run, tuples
 from scripttest import H, W, read, scan_of_bin, script, works
 
 def refuses(word, name, *arguments, status=1):
@@ -107,6 +110,49 @@ works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.yaml", "-
       "--matrices", "c.txt")
 check(numpy.allclose(matrices("c.txt"), matrices("a.txt"), atol=1e-3), "the scale of a depth image")
 check("no image" in works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json"), "the scan says that it has no image")
+
+# Points alone in a robot's frame, in metres, with their viewpoint: all doors find the same, with and without it not the same.
+TURN = numpy.eye(4)
+TURN[:3, :3] = numpy.array([[0, 0.6, 0.8], [1, 0, 0], [0, 0.8, -0.6]])
+TURN[:3, 3] = -400, 150, 900
+in_robot = points[order].astype(float) @ TURN[:3, :3].T + TURN[:3, 3]
+write_ply("robot.ply", in_robot, grey[order])
+VIEW = ("--viewpoint", *map(str, TURN[:3, 3] / 1000))
+told = works("detect.py", *MODEL, "--scene", "robot.ply", "--scene-scale", "1000", *VIEW, "--matrices", "v.txt", "--report", "v.html")
+check(len(matrices("v.txt")) == 2 and "the given viewpoint" in told, told)
+for pose in matrices("v.txt"):
+    back = (numpy.linalg.inv(TURN) @ numpy.reshape(pose, (4, 4))).ravel()
+    errors = [pose_error(back, t) for t in true]
+    check(any(d < 1 and a < 2 for d, a in errors), f"with a viewpoint: {min(errors)}")
+told = script("detect.py", *MODEL, "--scene", "robot.ply", "--scene-scale", "1000").stdout
+check("seen from the origin along +z" in told and "the given viewpoint" not in told, told)
+SEEN = {"scan": "robot.ply", "scale": 1000, "viewpoint": TURN[:3, 3] / 1000}
+model = ppfmeam.load("part.vtpc")
+found = ppfmeam.detect(model, **SEEN, poses=2)
+in_numbers = [tuple(float(f"{value!r}") for value in pose.ravel()) for pose in found.poses]
+check(in_numbers == matrices("v.txt"), f"Python finds {in_numbers} and the command {matrices('v.txt')}")
+filter = vtkMEAMPoseEstimation()
+filter.SetInputDataObject(0, model.data)
+filter.SetInputDataObject(1, scripting.read_scan("robot.ply", 1000))
+filter.SetMaximumNumberOfPoses(2)
+filter.SetProjectionToPerspective()
+filter.SetSensorPosition(TURN[:3, 3])
+filter.SetViewDirection(0, 0, 0)
+check(tuples(run(filter), "Transform") == matrices("v.txt"), "the filter finds other poses")
+os.makedirs("clouds")
+os.rename("robot.ply", "clouds/0.ply")
+works("batch.py", "clouds", *MODEL, "--scene-scale", "1000", *VIEW, "--out", "clouds.csv", "--report", "clouds_pages")
+with open("clouds.csv", encoding="utf-8") as file:
+    rows = list(csv.DictReader(file))
+check([tuple(map(float, row["t"].split())) for row in rows] == [(p[3], p[7], p[11]) for p in matrices("v.txt")], f"batch finds {rows}")
+told = works("why.py", "part.vtpc", "clouds/0.ply", "--scale", "1000", *VIEW, "--truth", "v.txt")
+check(told.count("Found as rank") == 2, told)
+why = ppfmeam.why(model, "clouds/0.ply", scale=1000, viewpoint=SEEN["viewpoint"], pose=found.poses[0])
+check(why.rank == 1, why.verdict)
+for text in (read("v.html"), read("clouds_pages/0.ply.html")):
+    check("--viewpoint -0.4 0.15 0.9" in text, "the command of the page has no viewpoint")
+refuses("--camera tells", "detect.py", *MODEL, "--scene", "scan.ply", "--camera", "camera.json", *VIEW, status=2)
+refuses("the camera tells", "why.py", "part.vtpc", "scan.ply", "--camera", "camera.json", *VIEW, "--at", "0", "0", "600")
 
 # Without an image by the edges of the depth alone; a folder of such scans, too.
 works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json", "--no-image", "--matrices", "d.txt")

@@ -153,6 +153,26 @@ ScanViewpoint viewpointInWorld(const OrganizedCloud& cloud)
 }
 }
 
+Eigen::Vector3d lookingDirection(const Sensor& sensor, const Points& points)
+{
+  if (!sensor.perspective || !sensor.direction.isZero(0.0))
+  {
+    return sensor.direction.allFinite() ? sensor.direction.normalized() : Eigen::Vector3d::Zero().eval();
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const Eigen::Vector3f& point : points)
+  {
+    if (point.allFinite())
+    {
+      sum += point.cast<double>();
+      count += 1.0;
+    }
+  }
+  const Eigen::Vector3d direction = sum / std::max(count, 1.0) - sensor.position;
+  return direction.allFinite() ? direction.normalized() : Eigen::Vector3d::Zero().eval();
+}
+
 ScanViewpoint viewpointOf(const Sensor& sensor)
 {
   ScanViewpoint result;

@@ -17,6 +17,10 @@ struct ScanViewpoint
   std::string report; ///< in sentences, what was assumed of the axes; empty for x right, y down and z forward
 };
 
+/// The way that a given sensor looks, unit: a perspective one without a direction, (0, 0, 0), at the middle of the
+/// points. Zero where neither tells.
+Eigen::Vector3d lookingDirection(const Sensor& sensor, const Points& points);
+
 /// What a given sensor is.
 ScanViewpoint viewpointOf(const Sensor& sensor);
 

@@ -48,6 +48,7 @@ def options_of_user(arguments=None):
                         help="calibration of the camera beside the sensor that took a list's images (default: they are "
                              "registered)")
     regions.add_option(parser)
+    choices.add_options(parser, "sensor", "viewpoint")
     choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "time_limit")
     parser.add_argument("--threads", type=scripting.count, default=0,
                         help="threads of each process; 0: all cores for one process, one thread for each of several "
@@ -65,6 +66,8 @@ def options_of_user(arguments=None):
         parser.error("give SCANS and --out, or --watch")
     if options.watch and options.report:
         parser.error("--report is of SCANS, not of --watch")
+    if options.viewpoint and options.camera:
+        parser.error("--camera tells where the scan is seen from: leave --viewpoint out")
     if options.why and not options.report:
         parser.error("--why is of the pages of --report")
     if options.watch and not options.model and not options.cad:

@@ -32,6 +32,7 @@ def options_of_user():
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took the image (default: it is registered)")
     regions.add_option(parser)
+    choices.add_options(parser, "sensor", "viewpoint")
     choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "time_limit", "threads")
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
@@ -49,6 +50,8 @@ def options_of_user():
         parser.error("a depth image needs its --camera")
     if options.depth_scale and not options.depth:
         parser.error("--depth-scale is of a depth image: use --scene-scale")
+    if options.viewpoint and options.camera:
+        parser.error("--camera tells where the scan is seen from: leave --viewpoint out")
     if options.image_camera and not options.image:
         parser.error("--image-camera is of an --image")
     return options

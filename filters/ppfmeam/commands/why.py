@@ -34,6 +34,7 @@ def options_of_user():
     parser.add_argument("--image", metavar="FILE", help="image of an organized scan that carries none")
     parser.add_argument("--image-camera", metavar="FILE", help="calibration of the camera beside the sensor that took it")
     regions.add_option(parser)
+    choices.add_options(parser, "sensor", "viewpoint")
     choices.add_options(parser, "detect", "poses", "probability", "rotation_counts", "features", "image_edges", "references", "threads")
     parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
                         help="parameters of all steps (default: %(default)s)")
@@ -106,7 +107,7 @@ def main():
     inputs = {name: getattr(options, name) for name in (
         "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "solid", "poses", "probability", "rotation_counts", "references",
         "preset", "features", "image_edges", "threads")}
-    inputs["region"] = options.roi
+    inputs["region"], inputs["viewpoint"] = options.roi, options.viewpoint
     scan = options.scan
     if options.depth_scale:
         scan, inputs["camera"] = scripting.read_depth(scan, options.camera, options.depth_scale), None

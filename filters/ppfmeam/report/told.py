@@ -112,7 +112,9 @@ def text_of(found, name):
 
 def settings(options):
     """What differs from the defaults, by name."""
-    return {**choices.of_options("detect", options).differing(), **({"roi": " ".join(options.roi)} if options.roi else {})}
+    given = {name: getattr(options, name) for name in ("roi", "viewpoint")}
+    return {**choices.of_options("detect", options).differing(),
+            **{name: " ".join(map(str, values)) for name, values in given.items() if values}}
 
 
 def why_command(options, scan, image=None, boundary=None):
@@ -123,7 +125,8 @@ def why_command(options, scan, image=None, boundary=None):
     words += ["--solid", str(options.solid)] if options.solid else []
     if options.depth_scale and scan.lower().endswith(scripting.DEPTH_IMAGES):
         words += ["--depth-scale", str(options.depth_scale)]
-    words += ["--roi", *options.roi] if options.roi else []
+    for name, values in (("--roi", options.roi), ("--viewpoint", options.viewpoint)):
+        words += [name, *map(str, values)] if values else []
     parts = options.model or options.cad
     return shlex.join(["ppfmeam", "why", parts[0], scan, *words]) + " --at {x} {y} {z}" if parts else ""
 
@@ -151,6 +154,7 @@ def reasons(poses, parts, data, options, image_camera):
         diagnosis.SetCameraFile(image_camera if image else None)
         diagnosis.SetRegion(*(box or regions.EVERYWHERE))
         chosen.set(diagnosis)
+        scripting.set_viewpoint(diagnosis, options.viewpoint, options.scene_scale)
         diagnosis.SetPlaceToRankedPose()
         for rank, place in enumerate(places, 1):
             diagnosis.SetRankOfPose(rank)
