@@ -20,6 +20,23 @@ constexpr double SureRotation = 0.9;
 constexpr std::size_t MostSentences = 2;
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+
+/// Which stage was the first without a pose, and what to look at first.
+std::string adviceOnNothing(const WorkCounts& work)
+{
+  const std::string first = "look first at the scan's unit, which has to be the part's (mm), at the region, and at the "
+                            "image, without which edges are those of the depth.";
+  if (work.references == 0)
+  {
+    return "The scan shows no edges as far apart as the part's: " + first;
+  }
+  const std::string of = std::to_string(work.screened) + " candidates";
+  return work.screened == 0   ? "Voting found no candidate: " + first
+         : work.verified == 0 ? "Screening left none of " + of + ", for there is no surface of the part there: " + first
+         : work.refined == 0
+           ? "Verification left none of " + of + ": " + first
+           : "Selection left none of " + std::to_string(work.selected) + " refined poses: lower MinimumProbability.";
+}
 }
 
 std::string scanAdvice(
@@ -68,6 +85,10 @@ std::string scanAdvice(
   {
     sentences.push_back("The rotation of " + std::to_string(turnable) + " of " + std::to_string(there) +
                         " parts is unsure: what tells it does not show; RotationCounts keeps these back.");
+  }
+  if (poses.empty() && !report.isCutShort)
+  {
+    sentences.push_back(adviceOnNothing(report.work));
   }
   sentences.resize(std::min(sentences.size(), MostSentences));
   std::string advice;

@@ -8,7 +8,8 @@
 namespace meam
 {
 /// What to change first in the scan, or in the settings, for more parts or surer ones: at most two sentences, the more
-/// important one first; empty where nothing stands out. `report`: of the search that found the poses.
+/// important one first; empty where parts were found and nothing stands out. `report`: of the search that found the
+/// poses.
 std::string scanAdvice(
   const ScanQuality& quality, const DetectionReport& report, const Poses& poses, double partDiameter);
 }

@@ -30,7 +30,30 @@ TEST(ScanAdvice, NothingOfAGoodScan)
   meam::DetectionReport report;
   report.rates.emplace();
   EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0) }, 100.0), "");
-  EXPECT_EQ(meam::scanAdvice({}, {}, {}, 100.0), "") << "nor where nothing is known";
+  EXPECT_EQ(meam::scanAdvice({}, {}, { claimed(0.9, 1.0) }, 100.0), "") << "nor where nothing is known";
+}
+
+TEST(ScanAdvice, OfNothingFoundTheStageThatHadNothing)
+{
+  meam::DetectionReport report;
+  const auto advice = [&] { return meam::scanAdvice(goodScan(), report, {}, 100.0); };
+  EXPECT_TRUE(says(advice(), "no edges as far apart") && says(advice(), "unit") && says(advice(), "region") &&
+              says(advice(), "image"))
+    << advice();
+  report.work.references = 100;
+  EXPECT_TRUE(says(advice(), "Voting found no candidate")) << advice();
+  report.work.screened = 90;
+  EXPECT_TRUE(says(advice(), "Screening left none of 90 candidates")) << advice();
+  report.work.verified = 80;
+  EXPECT_TRUE(says(advice(), "Verification left none of 90 candidates")) << advice();
+  report.work.refined = 70;
+  report.work.selected = 60;
+  EXPECT_TRUE(says(advice(), "Selection left none of 60 refined poses")) << advice();
+  meam::ScanQuality coarse = goodScan();
+  coarse.pointDistance = 2.0;
+  EXPECT_EQ(meam::scanAdvice(coarse, report, {}, 100.0).find("The part is 50 pixels long"), 0u);
+  report.isCutShort = true;
+  EXPECT_EQ(advice(), "") << "it is told that the time limit struck";
 }
 
 TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
