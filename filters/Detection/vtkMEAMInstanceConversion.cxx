@@ -84,8 +84,15 @@ void describe(vtkDataSetAttributes* attributes, const std::vector<Drawn>& drawn,
   const std::pair<const char*, double meam::Pose::*> values[] = { { "Score", &meam::Pose::score },
     { "PlaceProbability", &meam::Pose::placeProbability }, { "Probability", &meam::Pose::probability },
     { "Certainty", &meam::Pose::certainty }, { "VisibleFraction", &meam::Pose::visibleFraction } };
+  // Of poses from a file, or by votes, there is no more than the score.
+  const bool isJudged =
+    std::any_of(drawn.begin(), drawn.end(), [](const Drawn& one) { return meam::claimOf(*one.pose, false) > 0.0; });
   for (const auto& [name, value] : values)
   {
+    if (value != &meam::Pose::score && !isJudged)
+    {
+      continue;
+    }
     vtkNew<vtkDoubleArray> array;
     array->SetName(name);
     array->SetNumberOfTuples(size);

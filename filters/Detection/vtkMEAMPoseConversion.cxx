@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -78,10 +79,15 @@ meam::Poses toPoses(vtkPolyData* input)
     pose.score = scores ? scores->GetComponent(i, 0) : 0.0;
     pose.votes = votes ? static_cast<int>(votes->GetComponent(i, 0)) : 0;
     pose.viewId = views ? static_cast<int>(views->GetComponent(i, 0)) : -1;
-    pose.visibleFraction = fractions ? fractions->GetComponent(i, 0) : 0.0;
-    pose.certainty = certainties ? certainties->GetComponent(i, 0) : 1.0;
-    pose.placeProbability = places ? places->GetComponent(i, 0) : 0.0;
-    pose.probability = probabilities ? probabilities->GetComponent(i, 0) : 0.0;
+    const auto known = [i](vtkDataArray* array, double unknown)
+    {
+      const double value = array ? array->GetComponent(i, 0) : unknown;
+      return std::isnan(value) ? unknown : value;
+    };
+    pose.visibleFraction = known(fractions, 0.0);
+    pose.certainty = known(certainties, 1.0);
+    pose.placeProbability = known(places, 0.0);
+    pose.probability = known(probabilities, 0.0);
     pose.evidence = evidence ? evidence->GetComponent(i, 0) : 0.0;
     if (residuals && iterations && covariances && constrained && axes)
     {

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 vtkStandardNewMacro(vtkMEAMPoseReader);
 
@@ -40,6 +41,28 @@ void addIds(const std::vector<meam::PoseRow>& rows, vtkPolyData* output)
     array("Rank", &meam::PoseRow::rank);
   }
   output->GetPointData()->SetActiveScalars("Rank");
+}
+
+/// What no row knows; what some know is NaN of the others.
+void removeUnknown(const std::vector<meam::PoseRow>& rows, vtkPolyData* output)
+{
+  const auto remove = [&](const char* name, const auto& isKnown)
+  {
+    if (!rows.empty() && std::none_of(rows.begin(), rows.end(), isKnown))
+    {
+      output->GetPointData()->RemoveArray(name);
+    }
+  };
+  const std::pair<const char*, double meam::PoseRow::*> values[] = {
+    { "VisibleFraction", &meam::PoseRow::visibleFraction }, { "PlaceProbability", &meam::PoseRow::placeProbability },
+    { "Probability", &meam::PoseRow::probability }, { "Certainty", &meam::PoseRow::certainty }
+  };
+  for (const auto& [name, value] : values)
+  {
+    remove(name, [value = value](const meam::PoseRow& row) { return std::isfinite(row.*value); });
+  }
+  remove("Votes", [](const meam::PoseRow& row) { return row.votes >= 0; });
+  remove("Evidence", [](const meam::PoseRow&) { return false; });
 }
 }
 
@@ -80,13 +103,14 @@ int vtkMEAMPoseReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
         pose.score = row.score;
         pose.votes = std::max(0, row.votes);
         pose.viewId = row.viewId;
-        pose.visibleFraction = std::isfinite(row.visibleFraction) ? row.visibleFraction : pose.visibleFraction;
-        pose.placeProbability = std::isfinite(row.placeProbability) ? row.placeProbability : pose.placeProbability;
-        pose.probability = std::isfinite(row.probability) ? row.probability : pose.probability;
-        pose.certainty = std::isfinite(row.certainty) ? row.certainty : pose.certainty;
+        pose.visibleFraction = row.visibleFraction;
+        pose.placeProbability = row.placeProbability;
+        pose.probability = row.probability;
+        pose.certainty = row.certainty;
       }
       vtkMEAMConversion::fromPoses(poses, output);
       addIds(rows, output);
+      removeUnknown(rows, output);
     },
     output);
 }

@@ -16,6 +16,7 @@
 #include "vtkPolyData.h"
 #include "vtksys/SystemTools.hxx"
 
+#include <cmath>
 #include <string_view>
 
 vtkStandardNewMacro(vtkMEAMPoseWriter);
@@ -79,8 +80,12 @@ void vtkMEAMPoseWriter::WriteData()
       const double measured = seconds && seconds->GetNumberOfValues() == 1 ? seconds->GetComponent(0, 0) : -1.0;
       vtkDataArray* parts = input->GetPointData()->GetArray("PartId");
       vtkDataArray* ranks = input->GetPointData()->GetArray("Rank");
-      const auto known = [&](const char* name) { return input->GetPointData()->HasArray(name) == 1; };
       std::vector<meam::PoseRow> rows;
+      const auto known = [&](const char* name)
+      {
+        vtkDataArray* values = input->GetPointData()->GetArray(name);
+        return values && std::isfinite(values->GetComponent(rows.size(), 0));
+      };
       meam::Poses poses = vtkMEAMConversion::toPoses(input);
       if (this->MaximumNumberOfPoses > 0 && poses.size() > static_cast<std::size_t>(this->MaximumNumberOfPoses))
       {

@@ -246,5 +246,5 @@ class Results:
             for i in range(min(count, most) if most else count):
                 T = transforms.GetTuple(i)
                 R, t = (*T[0:3], *T[4:7], *T[8:11]), (T[3], T[7], T[11])
-                self.writer.writerow((image.scene, image.number, number, repr(probabilities.GetValue(i) or scores.GetValue(i)),
+                self.writer.writerow((image.scene, image.number, number, repr(probabilities and probabilities.GetValue(i) or scores.GetValue(i)),
                                       " ".join(map(repr, R)), " ".join(map(repr, t)), repr(seconds)))

@@ -114,6 +114,23 @@ for name in ("all.bop", "all.json", "all.poses", "all.csv", "all.txt"):
 for key in ("Probability", "Certainty", "VisibleFraction", "Votes", "ViewId", "Rank"):
     check([v for v, in tuples(run(reader("all.json")), key)] == known[key], f"JSON loses {key}")
 
+# What a file does not know is not there, or is not a number where another pose of the file has it; the score then counts.
+UNKNOWN = ("PlaceProbability", "Probability", "Certainty", "VisibleFraction", "Votes", "Evidence")
+for name in ("all.bop", "all.txt"):
+    read = run(reader(name))
+    check(not any(read.GetPointData().HasArray(key) for key in UNKNOWN), f"{name} knows more than it has")
+    check(writer(read, "again.json").Write() == 1 and not {"probability", "place_probability", "certainty", "visible_fraction"}
+          & set(json.loads(text("again.json"))["poses"][0]), f"{name}: {text('again.json')}")
+content = json.loads(text("all.json"))
+del content["poses"][1]["probability"]
+with open(path("some.json"), "w") as file:
+    json.dump(content, file)
+read = run(reader("some.json"))
+(first,), (second,) = tuples(read, "Probability")
+check(first == 0.9 and second != second, f"{first}, {second}")
+check(writer(read, "again.csv").Write() == 1 and [row.split(",")[3] for row in text("again.csv").splitlines()[1:]] == ["0.9", "0.4"],
+      "the score of a pose without a probability")
+
 # What cannot be written leaves the old file, and no other.
 before = sorted(os.listdir(folder.name))
 refuses(writer(data, "poses.xyz"), "poses.xyz", ".csv", "set Format")
