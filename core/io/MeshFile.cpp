@@ -240,7 +240,7 @@ TriangleMesh readKind(const std::string& path, const Progress& progress)
   }
   failMesh(path, isBRepFile(path)
                    ? "is a STEP or IGES file, which training reads (meam::loadCAD): give a mesh of it here"
-                   : "has an extension that is not known: give a .stl, .obj, .ply or .off");
+                   : "has an extension that is not known: give a .step, .iges, .stl, .obj, .ply or .off");
 }
 }
 

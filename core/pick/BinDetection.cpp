@@ -192,7 +192,7 @@ Bin detectBin(const OrganizedCloud& cloud, const Progress& progress)
   if (!(bin.size.minCoeff() > 0.0))
   {
     throw Error("No bin was found in the scan: its rim has to be in view all around. Give the place and the size "
-                "of the bin, or do without one (Bin).");
+                "of the bin, or do without one (--no-bin; bin='none' in Python, Bin in ParaView).");
   }
   bin.T_scene_bin.linear().col(2) = up;
   bin.T_scene_bin.linear().col(0) = axes.rightCols<2>() * rim.along;

@@ -10,7 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPartitionedDataSetCollection, vtkPolyData
 
 from . import Error, _core, filters, inputs, regions, scripting
-from .choices import takes
+from .choices import takes, worded
 
 MODELS = (".meam", ".vtpc")
 WIDTHS = {"Quaternion": 4, "Covariance": 36}  # of arrays that have several values of a pose, also of none
@@ -97,7 +97,7 @@ class Detections(Rows):
         self.inputs, self.settings, self.age = given, settings, inputs.age_of(given["scan"])
         self.core, self.models, self.model = found, models, models[0]
         self.seconds, self.scan_quality, self.is_cut_short = found.seconds, found.quality, found.is_cut_short
-        self.report, self.advice = found.report, found.advice
+        self.report, self.advice = found.report, worded(found.advice)
 
     def of(self, part):
         """Those of one of several types of part, by its place among them, as pick() takes them."""
@@ -142,8 +142,12 @@ class Detections(Rows):
 
     def save(self, path):
         """Writes .csv (BOP results), .json, .detections.json (ROS 2), .txt (4x4 matrices), or .html, the page of show()."""
-        if os.fspath(path).lower().endswith((".html", ".htm")):
+        name = os.fspath(path).lower()
+        if name.endswith((".html", ".htm")):
             return self.notebook().save(self, path)
+        if not name.endswith((".csv", ".bop", ".json", ".txt", ".poses")):
+            raise Error(f"{path} was not written: poses go to .csv or .bop (BOP results), .json, .detections.json (ROS 2), .txt or .poses "
+                        "(4x4 matrices), or .html (the page of show()); choose one of these extensions")
         scripting.write_with(filters.vtkMEAMPoseWriter(), self.data, path)
 
     def show(self):
@@ -196,7 +200,7 @@ class Diagnosis:
 
     def __init__(self, data, table):
         def text(name):
-            return data.GetFieldData().GetAbstractArray(name).GetValue(0)
+            return worded(data.GetFieldData().GetAbstractArray(name).GetValue(0))
 
         self.data = data
         self.verdict, self.advice, self.reasons, self.lost_in = map(text, ("Verdict", "Advice", "Reasons", "LostIn"))
@@ -253,7 +257,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     models = [part_of(each, cad_scale, settings, reading) for each in (part if isinstance(part, (list, tuple)) else [part])]
     found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
-        warnings.warn(found.warning, stacklevel=3)
+        warnings.warn(worded(found.warning), stacklevel=3)
     return Detections(found, models, given, settings)
 
 

@@ -9,6 +9,7 @@ import math
 import numbers
 import operator
 import os
+import re
 
 from . import Error
 
@@ -64,6 +65,22 @@ def checked(name, choice, value):
         return converted(choice, value)
     except (TypeError, ValueError, OverflowError):
         raise Error(f"{name} has to be {wanted(choice)}, not {value!r}") from None
+
+
+is_command = False  # scripting.run() is one: texts name its options
+
+
+def worded(text):
+    """A text of the library, which names properties of the filters, with the names of Python's arguments or of a command's options
+    in their place."""
+    for name, choice in TABLE["detect"].items():
+        name = choice.get("option") if is_command else name
+        if name and choice["type"] == "choice":
+            for word, value in choice["values"].items():
+                text = text.replace(f"{choice['property']}: {value}", f"{name} {word}" if is_command else f"{name}={word!r}")
+        elif name:
+            text = re.sub(rf"\b{choice['property']}\b", name, text)
+    return text
 
 
 class Chosen:

@@ -154,6 +154,7 @@ def write_by(writer, path):
 def run(main):
     """Runs a script's main function; a Failure is one message and exit status 1, a warning is a line on stderr, and Ctrl-C ends
     it within a second, with whole files alone left behind."""
+    choices.is_command = True
     warnings.simplefilter("always", UserWarning)
     warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
     signal.signal(signal.SIGINT, interruption.ask)
@@ -184,7 +185,7 @@ def update(algorithm, step="Update", *arguments):
     if isinstance(text, bytes):  # a message with bytes of a file that is not text
         text = text.decode(errors="replace")
     for warning in re.findall(r"Warning: In .*\nvtkMEAM\w+ \(.*?\): ((?:.+\n?)+)", text):
-        warnings.warn(" ".join(warning.split()), stacklevel=3)
+        warnings.warn(choices.worded(" ".join(warning.split())), stacklevel=3)
     errors = re.findall(r"ERROR: In .*\n(?:\w+ \(.*?\): )?((?:.+\n?)+)", text)
     if errors:
         causes = [error for error in errors if "returned failure for request" not in error]
@@ -649,7 +650,7 @@ def print_scan_quality(poses):
         print("scan: " + report.GetValue(0))
     advice = poses.GetFieldData().GetAbstractArray("Advice")
     if advice and advice.GetValue(0):
-        print("advice: " + advice.GetValue(0))
+        print("advice: " + choices.worded(advice.GetValue(0)))
     if poses.GetFieldData().GetArray("EdgesFound"):
         print(f"edges: {100 * field(poses, 'EdgesFound'):.0f} % of a part's are found, "
               f"{100 * field(poses, 'EdgesByChance'):.0f} % anywhere")

@@ -364,5 +364,6 @@ TEST(API, ReadsScans)
   EXPECT_THROW(meam::loadModel("missing.meam"), meam::Error);
   EXPECT_THROW(meam::loadMesh("missing.stl"), meam::Error);
   EXPECT_THROW(meam::loadCAD("missing.step"), meam::Error);
+  EXPECT_TRUE(files::contains(files::errorOf([] { meam::loadCAD("part.dxf"); }), "give a .step, .iges, .stl"));
   EXPECT_THROW(meam::loadImage("missing.png"), meam::Error);
 }

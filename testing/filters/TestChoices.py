@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 import ppfmeam
 from meamtest import check
-from ppfmeam import _core, filters
+from ppfmeam import _core, choices, filters
 from ppfmeam.choices import TABLE
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -107,6 +107,15 @@ check({row[1]: row for row in rows} == {
            choice["values"][choice["default"]] if choice["type"] == "choice" else
            words[choice["default"]] if choice["type"] == "flag" else f"{choice['default']:g}")
     for name, choice in TABLE["detect"].items()}, f"docs/parameters.md: {rows}")
+
+# What the library says names properties: Python and the commands have other names for them.
+said = "Raise MaximumNumberOfPoses; RotationCounts keeps these back; let the surface vote (Features: Both); switch on DepthEdges."
+check(choices.worded(said) == "Raise poses; rotation_counts keeps these back; let the surface vote (features='both'); switch on depth_edges.",
+      choices.worded(said))
+choices.is_command = True
+check(choices.worded(said) == "Raise --poses; --rotation-counts keeps these back; let the surface vote (--features both); switch on DepthEdges.",
+      choices.worded(said))
+choices.is_command = False
 
 # What is out of range is one sentence that names the argument.
 for group, function, arguments in (("detect", ppfmeam.detect, (None, None)), ("train", ppfmeam.train, (None,)), ("read", ppfmeam.train, (None,)),

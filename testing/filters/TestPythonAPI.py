@@ -336,7 +336,7 @@ try:
     raises(str(WIDTH), ppfmeam.detect, model, points, grey[:-1])
     raises("ends in .meam", model.save, "model.stl")
     raises("no such folder", model.save, "no/model.meam")
-    raises("extension", found.save, "poses.png")
+    raises(".html (the page of show())", found.save, "poses.png")
     with open("model.meam", "rb") as whole, open("cut.meam", "wb") as file:
         file.write(whole.read()[:-100])
     raises("train the model again", ppfmeam.load, "cut.meam")

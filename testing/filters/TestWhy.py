@@ -31,7 +31,7 @@ written = json.loads(read("why.json"))
 check(f"{written['verdict']} {written['advice']}".strip() + "\n" == brief and len(written["numbers"]) > 10 and written["lost_in"] == "",
       f"{written}")
 few = works("why.py", "part.meam", "scan.pcd", "--truth", "truth.txt", "--poses", "1")
-check(few.count("only the best 1 are wanted. Raise MaximumNumberOfPoses") >= found - 1, few)
+check(few.count("only the best 1 are wanted. Raise --poses to ") >= found - 1, few)
 
 # In Python; the point is one of the part's that the scan shows.
 model = ppfmeam.load("part.meam")

@@ -107,7 +107,7 @@ def advice(found):
 
 def text_of(found, name):
     text = found.GetFieldData().GetAbstractArray(name)
-    return text.GetValue(0) if text else ""
+    return choices.worded(text.GetValue(0)) if text else ""
 
 
 def settings(options):
