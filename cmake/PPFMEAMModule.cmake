@@ -85,7 +85,7 @@ set(command_files __init__.py batch.py calibrate.py cell.py detect.py evaluate.p
 set(batch_files __init__.py __main__.py apart.py journal.py pages.py parts.py progress.py ranks.py run.py scans.py table.py
   watch.py)
 set(report_files __init__.py content.py judged.js judged.py listing.py markup.py notebook.py outlines.py page.html page.js page.py
-  projection.py told.py)
+  projection.py told.py writer.py)
 set(package_destination "${PROJECT_BINARY_DIR}/${PPFMEAM_PYTHON_DIR}/ppfmeam")
 set(package_copies)
 function(ppfmeam_copy folder) # files of filters/ppfmeam/FOLDER, to the build tree and to the installed one

@@ -109,3 +109,7 @@ for name, reader in several.items():
 cloud = simple.OpenDataFile(path("cloud.ply"))
 cloud.UpdatePipeline()
 check(cloud.GetDataInformation().GetNumberOfPoints() == 2, "the points of a cloud without a camera")
+
+# A page is of what MEAM Pose Estimation found: of other data it is an error, and no file.
+simple.SaveData(path("page.html"), part)
+check(not os.path.exists(path("page.html")), "a page of a part")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of scans is opened,
-MEAM Pose Estimation, Apply; the charts; the series is played; Pose Diagnosis is asked about points of the scan, by Ctrl+P and
+MEAM Pose Estimation, Apply; the page of what was found is saved; the charts; the series is played; Pose Diagnosis is asked about points of the scan, by Ctrl+P and
 by P, and why a hidden part was missed; grasps are proposed, and picks planned. The state that is saved then is opened by
 pvpython, which looks at it. The tutorial shows its text and opens its example; the dialog of the menu names its inputs.
 
@@ -29,7 +29,7 @@ CUP = 10  # mm: between the holes of the plate
 def clicks(folder, hidden):
     """What is clicked, in stages that end with a picture of the gallery."""
     yield "first_contact", estimation(folder)
-    yield "series", [event("PoseEstimationToolbar/ShowCharts", "activate"), event("VCRToolbar/actionVCRPlay", "activate")]
+    yield "series", [*files("actionFileSaveData", "FileSaveDialog", f"{folder}/found.html"), event("PoseEstimationToolbar/ShowCharts", "activate"), event("VCRToolbar/actionVCRPlay", "activate")]
     yield "why", [
         event("PoseEstimationToolbar/AskWhy", "activate"), *point_and_press(view(1), 0.4, 0.6, "P", control=True), APPLY,
         *point_and_press(view(1), 0.5, 0.5, "P"), APPLY,  # alone it is taken where the focus is in the picture
@@ -210,6 +210,14 @@ def look_at_pick(path, scan):
     check(math.sqrt(off) < 2, f"{point} is {math.sqrt(off)} mm from the ray through the middle")
 
 
+def look_at_page(path):
+    """File > Save Data of the poses is the page of `detect --report`."""
+    with open(path) as file:
+        text = file.read()
+    check("<title>obj_000001.ply in camera.json</title>" in text and "poses are more likely right than not" in text, text[:400])
+    check(text.count('"why":"For it, in the logarithm of the odds: ') >= 2, "the poses have no reasons")
+
+
 def look_at_example(path):
     """The button took the example's part and scan."""
     proxies = {p.get("type"): p for p in ElementTree.parse(path).getroot().iter("Proxy") if p.get("group") in ("sources", "filters")
@@ -235,6 +243,7 @@ def main(paraview, pvpython, repository):
         events += picks() + files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm")
         events += tutorial(folder, plain(os.path.join(repository, "docs", "tutorial.md")))
         play(paraview, folder, events)
+        look_at_page(os.path.join(folder, "found.html"))
         look_at_example(os.path.join(folder, "example.pvsm"))
         subprocess.run([pvpython, os.path.abspath(__file__), "--look", folder], check=True)
 

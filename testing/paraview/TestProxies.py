@@ -3,6 +3,7 @@
 
 Runs under pvpython with the plugin loaded; the arguments are the plugin's XML files.
 """
+import importlib
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -74,7 +75,8 @@ def check_proxy(group, element):
         return
     proxy.UpdateVTKObjects()
     made = proxy.GetClientSideObject()
-    if made is None or made.GetClassName() != class_name:
+    module, _, python_class = class_name.rpartition(".")  # a class in Python has its module's name before it
+    if made is None or made.GetClassName() != ("vtkPythonAlgorithm" if module else class_name):
         failures.append(f"{name}: made {made and made.GetClassName()} instead of {class_name}")
         return
     documentation = element.find("Documentation")
@@ -84,7 +86,7 @@ def check_proxy(group, element):
         check(element.find("Hints/ReaderFactory") is not None
               or (element.find("Hints/ShowInMenu") is not None and (group, name) in in_menus),
               f"{name}: not in the menu Pose Estimation")
-    instance = getattr(ppfmeam.filters, class_name)()
+    instance = getattr(importlib.import_module(module or "ppfmeam.filters"), python_class)()
     keys = proxy.NewPropertyIterator()
     keys.Begin()
     found, commands = set(), set()

@@ -10,6 +10,8 @@ import numpy
 from .. import api, choices, filters, regions, scripting
 from .content import parts_of
 
+SAME = ("CADOffset", "CADScale", "CameraFile", "Projection", "Region", "SensorPosition", "ViewDirection")  # and the choices
+
 
 class Told:
     """`names` of the parts, and of the scan; `facts`, sentences of the scan; `advice`, what to change first; `seconds`, of each stage or
@@ -30,13 +32,13 @@ class Told:
         return cls([os.path.basename(file) for file in files], os.path.basename(scan), facts(poses), advice(poses), stages(poses),
                    settings(options), shlex.join(["ppfmeam", "detect", *sys.argv[1:]]),
                    why_command(options, scan, options.image, options.boundary),
-                   reasons(poses, parts, data, options, options.image_camera))
+                   reasons(poses, parts, data, set_up_by(options, options.image_camera)))
 
     @classmethod
     def of_batch(cls, options, names, scan, files, poses, parts, data):
         """Of the options of `batch`, the names of the parts and of a scan, its file and its image's or nothing, the poses, the parts
         and the scan (scans.Scan)."""
-        said = reasons(poses, parts, (data.scene, None, data.image), options, data.image_camera) if options.why else None
+        said = reasons(poses, parts, (data.scene, None, data.image), set_up_by(options, data.image_camera)) if options.why else None
         return cls(names, scan, facts(poses), advice(poses), stages(poses), settings(options),
                    shlex.join(["ppfmeam", "batch", *sys.argv[1:]]), why_command(options, *files) if files else "", said)
 
@@ -57,6 +59,22 @@ class Told:
         command = shlex.join(["ppfmeam", "why", *sys.argv[1:]])
         return cls([os.path.basename(options.part)], os.path.basename(options.scan), [], "", {}, given.differing(), command, "",
                    [sentences(diagnosis)] * (diagnosis.pose is not None), diagnosis)
+
+    @classmethod
+    def of_filter(cls, found, names, scan, poses, parts, data):
+        """Of a vtkMEAMPoseEstimation, the names of the parts and of the scan, the poses, the parts and the scan, its edge points and its
+        image."""
+        def chosen(choice):
+            value = getattr(found, "Get" + choice["property"])()
+            return list(choice["values"])[value] if choice["type"] == "choice" else value
+
+        def set_up(diagnosis):
+            for property in (*SAME, *(choice["property"] for choice in choices.TABLE["detect"].values())):
+                getattr(diagnosis, "Set" + property)(getattr(found, "Get" + property)())
+
+        settings = choices.Chosen("detect", {name: chosen(choice) for name, choice in choices.TABLE["detect"].items()}).differing()
+        return cls(names, scan, facts(poses), advice(poses), stages(poses), settings, "MEAM Pose Estimation, in ParaView", "",
+                   reasons(poses, parts, data, set_up))
 
     @classmethod
     def of_python(cls, found):
@@ -137,24 +155,32 @@ def stages(found):
     return {words[stage]: scripting.field(found, "Seconds" + stage) for stage in scripting.STAGES}
 
 
-def reasons(poses, parts, data, options, image_camera):
-    """Of each pose what speaks for it and against it, which takes another detection of each part."""
-    said, of = [""] * poses.GetNumberOfPoints(), numpy.array(parts_of(poses))
-    scan, boundary, image = data
-    chosen = choices.of_options("detect", options)
+def set_up_by(options, image_camera):
+    """Sets a vtkMEAMPoseDiagnosis by the options of a command."""
     box, mask = regions.of(options.roi)
+
+    def set_up(diagnosis):
+        diagnosis.SetCameraFile(image_camera if diagnosis.GetInputDataObject(3, 0) else None)
+        diagnosis.SetRegion(*(box or regions.EVERYWHERE))
+        diagnosis.SetInputDataObject(1, regions.masked(diagnosis.GetInputDataObject(1, 0), mask))
+        choices.of_options("detect", options).set(diagnosis)
+        scripting.set_viewpoint(diagnosis, options.viewpoint, options.scene_scale)
+    return set_up
+
+
+def reasons(poses, parts, data, set_up):
+    """Of each pose what speaks for it and against it, which takes another detection of each part; `data`: the scan, its edge points
+    and its image; `set_up` sets the properties of the vtkMEAMPoseDiagnosis that has them."""
+    said, of = [""] * poses.GetNumberOfPoints(), numpy.array(parts_of(poses))
     for number, part in enumerate(parts):
         places = numpy.flatnonzero(of == number)
         if not len(places):
             continue
         diagnosis = filters.vtkMEAMPoseDiagnosis()
         transforms = scripting.column(poses, "Transform", 4, 4)[places]
-        for port, given in enumerate((part, regions.masked(scan, mask), boundary, image, scripting.poses_of(transforms))):
+        for port, given in enumerate((part, *data, scripting.poses_of(transforms))):
             diagnosis.SetInputDataObject(port, given)
-        diagnosis.SetCameraFile(image_camera if image else None)
-        diagnosis.SetRegion(*(box or regions.EVERYWHERE))
-        chosen.set(diagnosis)
-        scripting.set_viewpoint(diagnosis, options.viewpoint, options.scene_scale)
+        set_up(diagnosis)
         diagnosis.SetPlaceToRankedPose()
         for rank, place in enumerate(places, 1):
             diagnosis.SetRankOfPose(rank)
