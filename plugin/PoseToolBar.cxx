@@ -97,6 +97,10 @@ void askWhy()
   const QList<pqOutputPort*> asked = openParts();
   const bool isSelected = !asked.empty() && parts.contains(asked.front());
   parts = isSelected ? asked.mid(0, 1) : parts.mid(0, 1);
+  if (searched)
+  {
+    inputs["Poses"] = { searched->getOutputPort(0) }; // those that are drawn
+  }
   pqPipelineSource* diagnosis = parts.empty() ? nullptr : addFilter("PoseDiagnosis", Label, inputs);
   if (diagnosis)
   {
@@ -194,7 +198,7 @@ void build()
     "Finds the copies of the open part in the open scan (MEAM Pose Estimation)", estimatePoses);
   addButton(bar, "ShowCharts", "chart", "Scores and Times",
     "Shows how likely the poses are and how long each stage took, beside the picture", showCharts);
-  addButton(bar, "AskWhy", "why", "Pose Diagnosis", "Tells why a part was missed: point at it, Ctrl+P, Apply (Pose Diagnosis)", askWhy);
+  addButton(bar, "AskWhy", "why", "Pose Diagnosis", "Tells why a part was missed, or why a pose came out: point at it, Ctrl+P, Apply (Pose Diagnosis)", askWhy);
   for (const char* name : { "PoseInstances", "ConflictResolution" }) // ParaView's own actions
   {
     for (QAction* filter : window->findChildren<QAction*>(name))

@@ -9,8 +9,10 @@
 #include "pqRenderView.h"
 #include "vtkAlgorithm.h"
 #include "vtkCamera.h"
+#include "vtkCellArray.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkSMPropertyHelper.h"
@@ -34,12 +36,12 @@ namespace
 {
 constexpr double NotThere = std::numeric_limits<double>::quiet_NaN();
 
-/// A point in the picture: pixels to the right of the mouse and above it, and depth.
-using Projected = std::array<double, 3>;
+/// A point in the picture: pixels to the right of the mouse and above it, depth, and the distance that it is divided by.
+using Projected = std::array<double, 4>;
 
 double squaredDistance(const Projected& point) { return point[0] * point[0] + point[1] * point[1]; }
 
-/// The scan's points against the pixel; NaN where nothing was measured, and behind the camera.
+/// Points against the pixel; NaN where nothing was measured, and behind the camera.
 std::vector<Projected> project(vtkPointSet* scan, vtkRenderer* renderer, const int pixel[2])
 {
   const double* M = renderer->GetActiveCamera()
@@ -47,7 +49,8 @@ std::vector<Projected> project(vtkPointSet* scan, vtkRenderer* renderer, const i
                       ->GetData();
   const int* size = renderer->GetSize();
   auto* grid = vtkStructuredGrid::SafeDownCast(scan);
-  std::vector<Projected> projected(scan->GetNumberOfPoints(), { NotThere, NotThere, NotThere });
+  std::vector<Projected> projected(
+    scan->GetNumberOfPoints(), { NotThere, NotThere, NotThere, NotThere });
   for (vtkIdType k = 0; k < scan->GetNumberOfPoints(); ++k)
   {
     double p[3];
@@ -57,7 +60,7 @@ std::vector<Projected> project(vtkPointSet* scan, vtkRenderer* renderer, const i
     if (w > 0.0 && (!grid || grid->IsPointVisible(k)))
     {
       projected[k] = { (row(0) / w + 1.0) / 2.0 * size[0] - pixel[0] - 0.5,
-        (row(1) / w + 1.0) / 2.0 * size[1] - pixel[1] - 0.5, row(2) / w };
+        (row(1) / w + 1.0) / 2.0 * size[1] - pixel[1] - 0.5, row(2) / w, w };
     }
   }
   return projected;
@@ -76,6 +79,46 @@ bool isAtMouse(const std::array<const Projected*, 4>& corners)
     }
   }
   return isInside;
+}
+
+/// Where the ray through the pixel meets the first triangle of the mesh; false: there is none.
+bool meetsMesh(vtkPolyData* mesh, vtkRenderer* renderer, const int pixel[2], double met[3])
+{
+  const std::vector<Projected> projected = project(mesh, renderer, pixel);
+  double nearest = std::numeric_limits<double>::infinity();
+  vtkCellArray* cells = mesh->GetPolys();
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCellAtId(cell, count, ids);
+    if (count != 3)
+    {
+      continue;
+    }
+    // The mouse is at 0: its weights of the corners in the picture, and, by their depths, in space.
+    const Projected &a = projected[ids[0]], &b = projected[ids[1]], &c = projected[ids[2]];
+    const double weights[3] = { b[0] * c[1] - b[1] * c[0], c[0] * a[1] - c[1] * a[0], a[0] * b[1] - a[1] * b[0] };
+    const double area = weights[0] + weights[1] + weights[2];
+    const double depth = (weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) / area; // NaN, if one is
+    if (std::min({ weights[0] / area, weights[1] / area, weights[2] / area }) >= 0.0 && depth < nearest)
+    {
+      nearest = depth;
+      std::fill_n(met, 3, 0.0);
+      double sum = 0.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const double weight = weights[k] / projected[ids[k]][3];
+        sum += weight;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          met[axis] += weight * mesh->GetPoint(ids[k])[axis];
+        }
+      }
+      std::for_each(met, met + 3, [sum](double& coordinate) { coordinate /= sum; });
+    }
+  }
+  return nearest < std::numeric_limits<double>::infinity();
 }
 
 /// The point of the scan at the pixel: of the nearest cell of its grid there the corner that is next to the pixel;
@@ -129,6 +172,31 @@ vtkPointSet* scanOf(vtkSMProxy* diagnosis)
   auto* producer = source ? vtkAlgorithm::SafeDownCast(source->GetClientSideObject()) : nullptr;
   return producer ? vtkPointSet::SafeDownCast(producer->GetOutputDataObject(static_cast<int>(scene.GetOutputPort())))
                   : nullptr;
+}
+
+/// The parts at the poses of a diagnosis, where they are in this process and drawn in the view, in front of the scan.
+vtkPolyData* drawnPartsOf(vtkSMProxy* diagnosis, vtkSMProxy* view)
+{
+  constexpr int Parts = 2; // output of MEAM Pose Estimation
+  const vtkSMPropertyHelper poses(diagnosis, "Poses");
+  vtkSMProxy* source = poses.GetNumberOfElements() == 1 ? poses.GetAsProxy() : nullptr;
+  if (!source || std::strcmp(source->GetXMLName(), "MEAMPoseEstimation") != 0)
+  {
+    return nullptr;
+  }
+  const vtkSMPropertyHelper shown(view, "Representations");
+  for (unsigned int k = 0; k < shown.GetNumberOfElements(); ++k)
+  {
+    vtkSMProxy* representation = shown.GetAsProxy(k);
+    const vtkSMPropertyHelper input(representation, "Input", true);
+    if (input.GetNumberOfElements() == 1 && input.GetAsProxy() == source && input.GetOutputPort() == Parts &&
+        vtkSMPropertyHelper(representation, "Visibility").GetAsInt() != 0)
+    {
+      auto* producer = vtkAlgorithm::SafeDownCast(source->GetClientSideObject());
+      return producer ? vtkPolyData::SafeDownCast(producer->GetOutputDataObject(Parts)) : nullptr;
+    }
+  }
+  return nullptr;
 }
 
 bool isDiagnosis(vtkSMProxy* proxy) { return std::strcmp(proxy->GetXMLName(), "PoseDiagnosis") == 0; }
@@ -188,11 +256,21 @@ private:
 
   static void pick(pqPropertyWidget* point, vtkSMRenderViewProxy* view, vtkPointSet* scan)
   {
-    const vtkIdType found = pointAt(scan, view->GetRenderer(), view->GetInteractor()->GetEventPosition());
-    if (found >= 0)
+    const int* mouse = view->GetInteractor()->GetEventPosition();
+    vtkPolyData* parts = drawnPartsOf(point->proxy(), view);
+    double place[3];
+    bool isFound = parts && meetsMesh(parts, view->GetRenderer(), mouse, place);
+    if (!isFound)
     {
-      double place[3];
-      scan->GetPoint(found, place);
+      const vtkIdType found = pointAt(scan, view->GetRenderer(), mouse);
+      isFound = found >= 0;
+      if (isFound)
+      {
+        scan->GetPoint(found, place);
+      }
+    }
+    if (isFound)
+    {
       QMetaObject::invokeMethod(
         point, "setWorldPosition", Q_ARG(double, place[0]), Q_ARG(double, place[1]), Q_ARG(double, place[2]));
     }

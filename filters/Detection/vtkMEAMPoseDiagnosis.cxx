@@ -22,6 +22,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkMEAMPoseDiagnosis);
 
@@ -106,6 +107,15 @@ void fromUnexplained(const meam::PrecisePoints& from, vtkPolyData* output)
   output->SetPoints(points);
   vtkMEAMConversion::addVertices(output);
   output->GetPointData()->SetScalars(residual);
+}
+
+/// Whether poses came out of a search for one part: their probabilities are known.
+bool isFound(vtkPolyData* poses)
+{
+  vtkDataArray* places = poses->GetPointData()->GetArray("PlaceProbability");
+  vtkDataArray* parts = poses->GetPointData()->GetArray("PartId");
+  return places && places->GetNumberOfTuples() > 0 && places->GetRange()[0] > 0.0 &&
+         !(parts && parts->GetRange()[0] < parts->GetRange()[1]);
 }
 
 void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* output)
@@ -217,7 +227,15 @@ int vtkMEAMPoseDiagnosis::RequestData(
     {
       const bool isRanked = this->Place == RankedPose;
       requireInputs(this, { "Part", "Scan", nullptr, nullptr, isRanked ? "Poses" : nullptr });
-      const meam::Poses poses = isRanked ? toPoses(given) : meam::Poses();
+      const meam::Poses poses = given ? toPoses(given) : meam::Poses();
+      const bool cameOut = given && isFound(given);
+      const meam::Poses found = cameOut ? poses : meam::Poses();
+      std::vector<int> ranks;
+      vtkDataArray* rankArray = given ? given->GetPointData()->GetArray("Rank") : nullptr;
+      for (std::size_t k = 0; k < found.size(); ++k)
+      {
+        ranks.push_back(rankArray ? static_cast<int>(rankArray->GetComponent(k, 0)) : static_cast<int>(k) + 1);
+      }
       if (isRanked && this->RankOfPose > static_cast<int>(poses.size()))
       {
         throw meam::Error("There is no pose " + std::to_string(this->RankOfPose) + ": the input Poses has " +
@@ -225,11 +243,19 @@ int vtkMEAMPoseDiagnosis::RequestData(
       }
       Detection& detection = this->Detect(inputVector);
       const meam::Progress progress = meam::subProgress(progressOf(this), AfterDetection, 1.0);
-      const meam::Diagnosis diagnosis =
-        this->Place == Point ? detection.diagnosis.atPoint(Eigen::Vector3d(this->Position), progress)
-        : isRanked
-          ? detection.diagnosis.atPose(poses[this->RankOfPose - 1].T_scene_model, progress)
-          : detection.diagnosis.atPose(placedAt(this->PosePosition, this->PoseRotation).T_scene_model, progress);
+      const auto asked = [&]
+      {
+        if (this->Place == Point)
+        {
+          return detection.diagnosis.atPoint(Eigen::Vector3d(this->Position), progress, found, ranks);
+        }
+        const std::size_t place = this->RankOfPose - 1;
+        return !isRanked
+                 ? detection.diagnosis.atPose(placedAt(this->PosePosition, this->PoseRotation).T_scene_model, progress)
+               : found.empty() ? detection.diagnosis.atPose(poses[place].T_scene_model, progress)
+                               : detection.diagnosis.ofFound(found[place], ranks[place], progress);
+      };
+      const meam::Diagnosis diagnosis = asked();
       fromEvidence(diagnosis, output);
       fromUnexplained(diagnosis.unexplained, unexplained);
       fromNumbers(meam::numbersOf(diagnosis), numbers);

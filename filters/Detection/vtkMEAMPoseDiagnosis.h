@@ -10,7 +10,8 @@
  * takes a fraction of the time.
  *
  * Input ports 0 to 3: as vtkMEAMEstimationAlgorithm has them. Input port 4 (optional): poses, a vtkPolyData with
- * `Transform` (16, row-major T_scene_model), such as true ones.
+ * `Transform` (16, row-major T_scene_model), such as true ones. Poses of one part with `PlaceProbability` came out of a
+ * search: of such a pose, also at a point that it has its surface at, it is told why it came out.
  *
  * Output port 0: vtkPolyData, the points of the part that should be visible at the place, in the scene's coordinates,
  * with the point arrays `State` (0 matched; 1 turned, a surface that faces elsewhere; 2 hidden, something lies in front

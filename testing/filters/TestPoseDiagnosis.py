@@ -7,7 +7,7 @@ import re
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMSamplePartSource
-from meamtest import check, connect, fails, field, is_empty, points, prints, run, tuples
+from meamtest import check, cloud, connect, fails, field, is_empty, points, prints, run, tuples
 
 plate = vtkMEAMSamplePartSource()
 plate.SetPartToHolePlate()
@@ -25,6 +25,11 @@ found = run(estimation)
 
 def text(data, name):
     return data.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def tuples_of(data):
+    """The place that a diagnosis is of."""
+    return data.GetFieldData().GetArray("Transform").GetTuple(0)
 
 
 def distance(a, b):
@@ -121,6 +126,25 @@ run(diagnosis)
 unexplained = diagnosis.GetOutputDataObject(4)
 check(unexplained.GetNumberOfPoints() > on_right + 20, f"{unexplained.GetNumberOfPoints()} and {on_right} unexplained")
 check({int(r) for (r,) in tuples(unexplained, "Residual")} == {6}, "as the color map has it")
+check("measured surface goes on beside it over" in text(diagnosis.GetOutput(), "Reasons"), text(diagnosis.GetOutput(), "Reasons"))
+
+# That pose as one that came out, by its rank and by a point on it: what is told is of it, and not of the right one beside it.
+shifted = list(place)
+for k in (3, 7, 11):
+    shifted[k] += shift * place[k - 3]
+wrong = cloud([(0, 0, 0)] * 2, Transform=[place, shifted], PlaceProbability=[0.99, 0.97], Rank=[1, 7])
+asked = connect(vtkMEAMPoseDiagnosis(), mesh, scan)
+asked.SetInputDataObject(4, wrong)
+asked.SetPlaceToRankedPose()
+asked.SetRankOfPose(2)
+output = run(asked)
+beyond = max(points(output), key=lambda p: sum((p[k] - place[4 * k + 3]) * place[4 * k] for k in range(3)))  # where the right one has ended
+asked.SetPlaceToPoint()
+asked.SetPosition(beyond)
+for told in (output, run(asked)):
+    check(text(told, "Verdict").startswith("Found as rank 7, 97 %, 0.0 mm") and text(told, "LostIn") == "", text(told, "Verdict"))
+    check("If it is wrong: " in text(told, "Advice") and text(told, "Reasons").startswith("For it, "), text(told, "Advice"))
+    check(distance(tuples_of(told), shifted) < 0.1, "it is told of another pose")
 
 # A limit is named.
 diagnosis.SetMaximumNumberOfPoses(1)

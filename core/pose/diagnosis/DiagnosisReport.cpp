@@ -169,7 +169,9 @@ std::string adviceOnFound(const Diagnosis& diagnosis)
   return mayBeOther(diagnosis)     ? "If it is wrong: where parts that look alike lie, search for all of them together."
          : pose.certainty < Likely ? "If it is turned wrongly: light or scan the part so that what tells its rotation "
                                      "shows; RotationCounts keeps back what is unsure."
-                                   : "";
+         : diagnosis.probability < Likely
+           ? "If it is wrong: a MinimumProbability above " + percent(diagnosis.probability) + " keeps it back."
+           : "If it is wrong: search for what lies there, too, by its own CAD, or calibrate the model by judged poses.";
 }
 }
 
@@ -327,9 +329,14 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     add("Against it: " + listed(false) + ", and that little is right of what is anywhere (" +
         decimal(CalibrationWithSurface.constant) + ").");
   }
+  const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
+  if (diagnosis.continuing >= LeastTold && !(isDoubted(diagnosis) && words.find("goes on") != std::string::npos))
+  {
+    add("Against it, too: measured surface goes on beside it over " + decimal(diagnosis.continuing) +
+        " patches, which it leaves unexplained.");
+  }
   if (isDoubted(diagnosis))
   {
-    const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
     add("With all that the scan holds it is less likely, by " + decimal(diagnosis.lessByOthers) +
         (!mayBeOther(diagnosis) ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
           : words.empty()       ? ": the part, or one of just this shape, may not be in it."
@@ -385,6 +392,7 @@ std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)
     add("surface", name, evidence.surface(state), points);
   }
   add("surface", "share of the whole part behind the bin's floor or a wall", evidence.behind, alone);
+  add("surface", "patches of the scan that go on beside it, unexplained", diagnosis.continuing, alone);
   const VoteCounts counts = countsOf(diagnosis.votes);
   add("voting", "points on the part that are reference points", counts.references, counts.points);
   add("voting", "reference points that elect the pose", counts.electing, counts.references);

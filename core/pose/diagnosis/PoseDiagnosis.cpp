@@ -22,6 +22,7 @@ constexpr double LeastThere = 0.5;    // share of the unhidden surface: more see
 constexpr double LeastEnclosed = 1.0; // patches of its body behind the bin's floor or a wall: more, and that is why
 constexpr double OnSurface = 0.025;   // of the diameter: a picked point this near to a pose's surface lies on it
 constexpr double LookedFor = 0.5;     // of the diameter: points this near to a picked one, or to a middle, all vote
+constexpr double LikelyFound = 0.5;   // a pose that is there more likely than not: it is drawn
 constexpr int PeaksLookedFor = 3;     // candidates of each of them, when a place is looked for by a picked point
 
 /// The settings without a limit on what comes out.
@@ -69,23 +70,33 @@ Diagnosis PoseDiagnosis::atPose(const Eigen::Isometry3d& T_scene_model, const Pr
   return this->at(this->Fit ? this->fitted(T) : T, progress);
 }
 
-Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& progress)
+Diagnosis PoseDiagnosis::ofFound(const Pose& pose, int rank, const Progress& progress)
+{
+  const Pose local = toLocalFrame({ pose }, this->InScene.T_local_scene(), this->Model.symmetries).front();
+  return this->at(local.T_scene_model, progress, &local, rank);
+}
+
+Diagnosis PoseDiagnosis::atPoint(
+  const Eigen::Vector3d& point, const Progress& progress, const Poses& found, const std::vector<int>& ranks)
 {
   const Eigen::Vector3f place = (this->InScene.T_local_scene() * point).cast<float>();
-  const auto firstOn = [&](const Poses& poses)
-  {
-    return std::find_if(poses.begin(), poses.end(),
-      [&](const Pose& pose)
-      {
-        return this->Model.surfaceDistance.at(pose.T_scene_model.inverse().cast<float>() * place) <
-               OnSurface * this->Model.diameter;
-      });
-  };
+  const auto distanceTo = [&](const Pose& pose)
+  { return this->Model.surfaceDistance.at(pose.T_scene_model.inverse().cast<float>() * place); };
+  const auto isOn = [&](const Pose& pose) { return distanceTo(pose) < OnSurface * this->Model.diameter; };
+  const auto firstOn = [&](const Poses& poses) { return std::find_if(poses.begin(), poses.end(), isOn); };
+  const auto isLikely = [](const Pose& pose) { return claimOf(pose, false) >= LikelyFound; };
   const Poses& ranked = this->Trace.ranked();
-  const auto found = firstOn(ranked);
-  if (found != ranked.end())
+  const auto own = firstOn(ranked);
+  const Poses given = toLocalFrame(found, this->InScene.T_local_scene(), this->Model.symmetries);
+  const auto nearest = std::min_element(
+    given.begin(), given.end(), [&](const Pose& a, const Pose& b) { return distanceTo(a) < distanceTo(b); });
+  if (nearest != given.end() && isOn(*nearest) && (isLikely(*nearest) || own == ranked.end() || !isLikely(*own)))
   {
-    return this->at(found->T_scene_model, progress);
+    return this->at(nearest->T_scene_model, progress, &*nearest, ranks.at(nearest - given.begin()));
+  }
+  if (own != ranked.end())
+  {
+    return this->at(own->T_scene_model, progress);
   }
   PoseDetectionSettings voting = this->Detection.detection;
   voting.peaksPerReference = std::max(voting.peaksPerReference, PeaksLookedFor);
@@ -108,14 +119,15 @@ Diagnosis PoseDiagnosis::atPoint(const Eigen::Vector3d& point, const Progress& p
   return nothing;
 }
 
-Diagnosis PoseDiagnosis::at(const Eigen::Isometry3d& T_local_model, const Progress& progress)
+Diagnosis PoseDiagnosis::at(
+  const Eigen::Isometry3d& T_local_model, const Progress& progress, const Pose* found, int rank)
 {
   Diagnosis diagnosis;
   const Eigen::Isometry3d& T_local_scene = this->InScene.T_local_scene();
   diagnosis.evidence = evidenceAt(T_local_model, this->InScene, this->Model, this->Detection.verification.evidence);
   diagnosis.edgePoints = inScene(diagnosis.evidence.points.edges, T_local_scene);
   diagnosis.surfacePoints = inScene(diagnosis.evidence.points.surface, T_local_scene);
-  diagnosis.unexplained = inScene(SurfaceContinuation(this->InScene, this->Model).beyond(T_local_model), T_local_scene);
+  this->continueSurface(diagnosis, T_local_model);
   diagnosis.surfaceShare = surfaceShares(
     { poseAt(T_local_model) }, this->InScene, this->Model, this->Detection.screening.value_or(PoseScreeningSettings()))
                              .front();
@@ -123,7 +135,14 @@ Diagnosis PoseDiagnosis::at(const Eigen::Isometry3d& T_local_model, const Progre
     votesForPose(T_local_model, this->InScene, this->Model, this->Detection.detection, subProgress(progress, 0.0, 0.4));
   this->score(diagnosis, T_local_model);
   this->count(diagnosis, T_local_model);
-  diagnosis.cause = this->causeOf(diagnosis, T_local_model, subProgress(progress, 0.4, 1.0));
+  if (found)
+  {
+    this->takeFound(diagnosis, *found, rank);
+  }
+  else
+  {
+    diagnosis.cause = this->causeOf(diagnosis, T_local_model, subProgress(progress, 0.4, 1.0));
+  }
   this->explain(diagnosis, T_local_model);
   report(progress, 1.0);
   return diagnosis;
@@ -179,6 +198,41 @@ void PoseDiagnosis::count(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local
     const std::vector<int> here = posesAt(poses, T_local_model, this->tolerance(), this->Model);
     diagnosis.stages.push_back(
       { stage, static_cast<int>(poses.size()), static_cast<int>(here.size()), here.empty() ? 0 : here.front() + 1 });
+  }
+}
+
+void PoseDiagnosis::continueSurface(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
+{
+  const SurfaceContinuation continuation(this->InScene, this->Model);
+  const Points beyond = continuation.beyond(T_local_model);
+  diagnosis.unexplained = inScene(beyond, this->InScene.T_local_scene());
+  const auto isExplained = [&](const Eigen::Vector3f& point)
+  {
+    const Poses& all = this->Trace.unlimited();
+    return std::any_of(all.begin(), all.end(),
+      [&](const Pose& other)
+      {
+        return claimOf(other, false) >= LikelyFound &&
+               !offsetBetween(other.T_scene_model, T_local_model, this->Model).within(this->tolerance()) &&
+               continuation.isOn(point, other.T_scene_model.inverse().cast<float>());
+      });
+  };
+  const auto left = std::count_if(beyond.begin(), beyond.end(), [&](const auto& point) { return !isExplained(point); });
+  diagnosis.continuing = static_cast<double>(left) * continuation.patchesOfPoint();
+}
+
+void PoseDiagnosis::takeFound(Diagnosis& diagnosis, const Pose& found, int rank) const
+{
+  diagnosis.rank = diagnosis.rankWithoutLimits = rank;
+  diagnosis.probability = claimOf(found, this->Detection.selection.rotationCounts);
+  diagnosis.found = found;
+  // What contradicts it, and its other rotations, are known of this search's pose there.
+  const Poses& all = this->Trace.unlimited();
+  const std::vector<int> same = posesAt(all, found.T_scene_model, this->tolerance(), this->Model);
+  if (!same.empty())
+  {
+    diagnosis.found->contradictions = all[same.front()].contradictions;
+    diagnosis.found->alternatives = all[same.front()].alternatives;
   }
 }
 
@@ -269,11 +323,11 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
 void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model)
 {
   const Poses& all = this->Trace.unlimited();
-  if (diagnosis.rank > 0)
+  if (diagnosis.rank > 0 && !diagnosis.found)
   {
     diagnosis.found = this->Trace.ranked()[diagnosis.rank - 1];
   }
-  else if (diagnosis.rankWithoutLimits > 0)
+  else if (diagnosis.rankWithoutLimits > 0 && !diagnosis.found)
   {
     diagnosis.found = all[diagnosis.rankWithoutLimits - 1];
   }

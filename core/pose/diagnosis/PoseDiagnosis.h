@@ -49,6 +49,7 @@ struct Diagnosis
   PrecisePoints edgePoints;        ///< those of the evidence in the scene's own coordinates
   PrecisePoints surfacePoints;     ///< the same
   PrecisePoints unexplained;       ///< measured surface that goes on beside the part, the scene's own coordinates
+  double continuing = 0.0;         ///< patches of it that no other likely pose explains
   double surfaceShare = 0.0;       ///< as screening finds it
   double candidateShare = 0.0;     ///< lost in screening: the best of the candidates here
   int placeRank = 0;               ///< the place's among all refined poses, by evidence, from 1; 0: it was dropped
@@ -85,20 +86,31 @@ public:
 
   /// Of the part at a pose, in the scene's own coordinates. Throws Error for a pose that is not finite.
   Diagnosis atPose(const Eigen::Isometry3d& T_scene_model, const Progress& progress = {});
+  /// Of a pose that came out of a search as this rank, from 1, in the scene's own coordinates: right or wrong, it was
+  /// found. Another search, as this one of all parts, may have another pose there.
+  Diagnosis ofFound(const Pose& pose, int rank, const Progress& progress = {});
   /// Of the part that a point of the scan (the scene's own coordinates) lies on: at the pose that came out there, or
-  /// else at the best of those that limits kept back and those that are found where all points about it vote.
-  Diagnosis atPoint(const Eigen::Vector3d& point, const Progress& progress = {});
+  /// else at the best of those that limits kept back and those that are found where all points about it vote. `found`:
+  /// poses that came out of a search and have these ranks; the nearest that has its surface there comes before all
+  /// others where it is likely.
+  Diagnosis atPoint(const Eigen::Vector3d& point, const Progress& progress = {}, const Poses& found = {},
+    const std::vector<int>& ranks = {});
 
   const DetectionTrace& trace() const { return this->Trace; }
 
 private:
-  Diagnosis at(const Eigen::Isometry3d& T_local_model, const Progress& progress);
+  /// `found`: the pose, where it came out of a search as that rank.
+  Diagnosis at(
+    const Eigen::Isometry3d& T_local_model, const Progress& progress, const Pose* found = nullptr, int rank = 0);
   /// The pose, or what it is fitted to the scene as, when that is near.
   Eigen::Isometry3d fitted(const Eigen::Isometry3d& T_local_model) const;
   void score(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   void count(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   /// Sets which pose has the place's points.
   void findTaker(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
+  /// Sets the surface that goes on beside it.
+  void continueSurface(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
+  void takeFound(Diagnosis& diagnosis, const Pose& found, int rank) const;
   LossCause causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model, const Progress& progress);
   /// Whether it comes out, without limits, when all points about it vote.
   bool isFoundByAllPoints(const Eigen::Isometry3d& T_local_model, const Progress& progress) const;

@@ -305,6 +305,36 @@ TEST(PoseDiagnosis, APickedPointIsThatOfThePoseOnIt)
   EXPECT_EQ(lost, 2);
 }
 
+TEST(PoseDiagnosis, OfAPoseThatCameOutItIsToldWhyThatDid)
+{
+  // Wrong, beside a copy, with its surface in the air: what another search would make of it does not count.
+  const meam::Scene& scene = scenes::copiesScene();
+  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 0));
+  meam::Pose wrong;
+  wrong.T_scene_model = Eigen::Translation3d(7, 4, 9) * Here;
+  wrong.placeProbability = 0.95;
+  const auto check = [&](const meam::Diagnosis& of)
+  {
+    EXPECT_EQ(of.cause, LossCause::None);
+    EXPECT_FALSE(of.lostIn);
+    EXPECT_EQ(of.rank, 4);
+    EXPECT_EQ(of.probability, 0.95);
+    ASSERT_TRUE(of.place && of.found);
+    EXPECT_LT(meam::translationError(of.place->T_scene_model, wrong.T_scene_model), 1e-3);
+    EXPECT_FALSE(of.terms.empty());
+  };
+  check(diagnosis.ofFound(wrong, 4));
+  const Eigen::Vector3d on = wrong.T_scene_model * scenes::bracket().surface.points.front().cast<double>();
+  meam::Pose right = wrong;
+  right.T_scene_model = Here;
+  check(diagnosis.atPoint(on, {}, { right, wrong }, { 1, 4 }));
+  // Where the pose is unlikely, and another one of this search is there, it is that one.
+  wrong.placeProbability = 0.1;
+  const Eigen::Vector3d shared = Here * scenes::bracket().surface.points.front().cast<double>();
+  wrong.T_scene_model = Eigen::Translation3d(0.1, 0, 0) * Here;
+  EXPECT_GT(diagnosis.atPoint(shared, {}, { wrong }, { 4 }).probability, 0.5);
+}
+
 TEST(PoseDiagnosis, ThePaperPresetIsToldOfToo)
 {
   const meam::Scene& scene = scenes::copiesScene();
