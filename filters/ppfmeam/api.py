@@ -9,7 +9,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPartitionedDataSetCollection, vtkPolyData
 
-from . import Error, _core, filters, inputs, regions, scripting
+from . import Error, _core, dataset, filters, inputs, regions, scripting
 from .choices import takes, worded
 
 MODELS = (".meam", ".vtpc")
@@ -105,10 +105,30 @@ class Detections(Rows):
         found.age = self.age
         return found
 
-    def scan(self):
-        """The scan, from its file again: results do not hold it."""
+    def why(self, at=None, rank=None, part=0):
+        """Why a part was missed at a point of the scan, three numbers, mm, or why the pose of a rank, from 1, came out, as
+        ppfmeam.why() tells: a Diagnosis. A point on one of the poses asks about that pose. `part`: of several types the one that is
+        asked about at a point."""
+        if (at is None) == (rank is None):
+            raise Error("give either at, a point on the part, or rank, of a pose that came out")
+        if rank is not None and rank not in range(1, len(self) + 1):
+            raise Error(f"there is no pose of rank {rank!r}: {len(self)} came out")
+        self.require_scan()
+        which = ("PartId", part) if len(self.models) > 1 else None
+        if rank is not None:
+            part, which = self[rank - 1].part, ("Rank", rank)
+        poses = dataset.points_where(self.data, *which) if which else self.data
+        said = why(self.models[part], at=at, pose=poses, **self.inputs, **self.settings.values)
+        return said if rank is None else said[0]
+
+    def require_scan(self):
+        """Raises an Error where the scan's file is another one than the parts were found in."""
         if inputs.age_of(self.inputs["scan"]) != self.age:
             raise Error(f"{inputs.path_of(self.inputs['scan'])} was written anew since the parts were found in it: detect() again to see them")
+
+    def scan(self):
+        """The scan, from its file again: results do not hold it."""
+        self.require_scan()
         return inputs.scan_of(**{name: value for name, value in self.inputs.items() if name not in ("cad_scale", "solid")})
 
     def __str__(self):
@@ -195,10 +215,11 @@ class Diagnosis:
     """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `reasons` (what
     speaks for it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose that came out there; 0: none), `pose` (4 x 4, the place, or None), `numbers` (of
     each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should be visible)
-    and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"). `data` is the VTK data object of the
+    and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"), `unexplained` (M x 3, measured surface of
+    the scan that goes on beside the part there, and is not it). `data` is the VTK data object of the
     points."""
 
-    def __init__(self, data, table):
+    def __init__(self, data, table, beside):
         def text(name):
             return worded(data.GetFieldData().GetAbstractArray(name).GetValue(0))
 
@@ -209,8 +230,8 @@ class Diagnosis:
         self.pose = vtk_to_numpy(place).reshape(4, 4).copy() if place else None
         columns = [table.GetColumnByName(name) for name in ("Step", "Quantity", "Value", "Of")]
         self.numbers = [tuple(column.GetValue(row) for column in columns) for row in range(table.GetNumberOfRows())]
-        count = data.GetNumberOfPoints()
-        self.points = vtk_to_numpy(data.GetPoints().GetData()).copy() if count else numpy.zeros((0, 3))
+        self.points, self.unexplained = (vtk_to_numpy(each.GetPoints().GetData()).copy() if each.GetNumberOfPoints() else numpy.zeros((0, 3))
+                                         for each in (data, beside))
         self.states = scripting.texts(data, "StateName")
 
     def __repr__(self):
@@ -280,8 +301,11 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
     part, scan, image, boundary, cameras, scales and region: as detect() takes them. at: a point of the scan on the part, three
     numbers, mm; or pose: where the part lies, 4 x 4, or several, N x 4 x 4. fit: poses that are nearly right, laid by hand,
     are first fitted to the scan. Returns a Diagnosis; of several poses a list, which takes one detection.
+    pose may also be VTK's data object of poses that came out, found.data: a list tells why they did. With `at`, too, it is about that
+    one of them whose surface is at the point, as found.why() has it.
     """
-    if (at is None) == (pose is None):
+    came_out = pose if isinstance(pose, vtkDataObject) else None
+    if (at is None) == (pose is None) and not (came_out and at is not None):
         raise Error("give either at, a point on the part, or pose, where the part lies")
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region, sensor.viewpoint)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
@@ -296,30 +320,31 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
     settings.set(diagnosis)
     scripting.set_viewpoint(diagnosis, sensor.viewpoint, scale)
     diagnosis.SetFit(fit)
-    if pose is None:
+    if at is not None:
         try:
             place = numpy.asarray(at, float)
         except (TypeError, ValueError):
             place = numpy.zeros(0)
         if place.shape != (3,) or not numpy.isfinite(place).all():
             raise Error(f"the point has to be three finite numbers, not {at!r}")
+        diagnosis.SetInputDataObject(4, came_out)
         diagnosis.SetPlaceToPoint()
         diagnosis.SetPosition(*place)
         return diagnosed(diagnosis)
-    transforms = numpy.asarray(pose, float)
+    transforms = scripting.column(came_out, "Transform", 4, 4) if came_out else numpy.asarray(pose, float)
     if transforms.ndim not in (2, 3) or transforms.shape[-2:] != (4, 4):
         raise Error(f"the pose has to be a matrix of 4 x 4, or several, not an array with the shape {transforms.shape}")
-    diagnosis.SetInputDataObject(4, scripting.poses_of(transforms.reshape(-1, 4, 4)))
+    diagnosis.SetInputDataObject(4, came_out or scripting.poses_of(transforms.reshape(-1, 4, 4)))
     diagnosis.SetPlaceToRankedPose()
-    found = []
+    said = []
     for rank in range(1, transforms.size // 16 + 1):
         diagnosis.SetRankOfPose(rank)
-        found.append(diagnosed(diagnosis))
-    return found if transforms.ndim == 3 else found[0]
+        said.append(diagnosed(diagnosis))
+    return said if transforms.ndim == 3 else said[0]
 
 
 def diagnosed(filter):
     scripting.update(filter)
     data = vtkPolyData()
     data.ShallowCopy(filter.GetOutput())
-    return Diagnosis(data, filter.GetOutputDataObject(1))
+    return Diagnosis(data, filter.GetOutputDataObject(1), filter.GetOutputDataObject(4))

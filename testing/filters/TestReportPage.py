@@ -139,6 +139,8 @@ for scan_file, image, words in (("d.png", "i.png", "--image i.png --image-camera
 works("why.py", "plate.meam", "scan.pcd", "--pose", "found.txt:1", "--poses", "0", "--report", "why.html")
 data = data_of(read("why.html"))
 states = numpy.frombuffer(base64.b64decode(data["marks"]["states"]), numpy.uint8)
+told = ppfmeam.why("plate.meam", "scan.pcd", pose=poses.reshape(-1, 4, 4)[0], fit=True, poses=0)
+check(len(states) == len(told.points) + len(told.unexplained), f"{len(states)} points, {len(told.unexplained)} of the scan beside it")
 check(data["legend"][0] == [f"matched: {(states == 0).sum()}", CYAN] and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
       len(points_of(data["marks"])) == len(states) > 50, f"the points and their states: {data['legend']}")
 check("Found as rank 1" in read("why.html") and "Numbers of the steps" in read("why.html"), "the answer and the numbers")

@@ -43,6 +43,26 @@ check(len(diagnosis.points) == len(diagnosis.states) > 50, "points and states")
 on = diagnosis.points[diagnosis.states.index("matched")]
 report = works("why.py", "part.meam", "scan.pcd", "--at", *map(str, on), "--poses", "0").splitlines()
 check(report[0].startswith(f"Found as rank {diagnosis.rank},"), f"{report}")
+# Of Detections: of the pose that came out, by its rank and by a point on it; the surface that goes on beside a pose that is shifted.
+detections = ppfmeam.detect(model, "scan.pcd", poses=2)
+for k in range(2):
+    told = detections.why(rank=k + 1)
+    again = detections.why(at=told.points[told.states.index("matched")])
+    check(all(each.rank == k + 1 and numpy.allclose(each.pose, detections.poses[k], atol=1e-6) for each in (told, again)),
+          f"{k + 1}: {told.verdict} {again.verdict}")
+for arguments in ({}, {"rank": 1, "at": on}, {"rank": 3}):
+    try:
+        detections.why(**arguments)
+        check(False, f"{arguments} are refused")
+    except ppfmeam.Error:
+        pass
+shifted = transforms[row].copy()
+shifted[:3, 3] += 0.1 * model.diameter * shifted[:3, 0]
+numpy.savetxt("shifted.txt", shifted)
+beside = ppfmeam.why(model, "scan.pcd", pose=shifted).unexplained
+check(beside.shape[1] == 3 and len(beside) > len(diagnosis.unexplained) + 20, f"{len(beside)} and {len(diagnosis.unexplained)} unexplained")
+works("why.py", "part.meam", "scan.pcd", "--pose", "shifted.txt", "--json", "beside.json")
+check(numpy.shape(json.loads(read("beside.json"))["unexplained"])[1:] in ((3,), ()), "unexplained points in JSON")
 nothing = works("why.py", "part.meam", "scan.pcd", "--at", "0", "0", "5")
 check(nothing.startswith("No part there") and nothing.endswith("Take a point of the scan that lies on the part.\n"), nothing)
 for arguments in ({}, {"at": (0, 0, 1), "pose": transforms[0]}, {"at": (1, 2)}, {"pose": numpy.eye(3)}):

@@ -85,7 +85,7 @@ def print_numbers(diagnosis):
 
 def content(diagnosis):
     """All of it, for JSON."""
-    told = {name: getattr(diagnosis, name) for name in ("verdict", "advice", "reasons", "lost_in", "rank", "pose")}
+    told = {name: getattr(diagnosis, name) for name in ("verdict", "advice", "reasons", "lost_in", "rank", "pose", "unexplained")}
     return {**told, "numbers": [dict(zip(("step", "quantity", "value", "of"), row)) for row in diagnosis.numbers]}
 
 

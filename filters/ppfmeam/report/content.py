@@ -20,7 +20,7 @@ MOST_PIXELS = 1600  # along the picture's longer side
 QUALITY = 85  # of its JPEG
 CREASE = 30  # degrees between faces that are shaded as one
 STATES = {"matched": "#00d9d9", "turned": "#f2d9a6", "hidden": "#8c5c33", "not measured": "#bfb3ff",
-          "violated": "#ff00d9"}  # as in ParaView
+          "violated": "#ff00d9", "unexplained": "#b3ff1a"}  # as in ParaView
 STRAY = 0.2, 99.8  # percentiles
 FLOOR = 0.1  # share of the depths that the farthest surface has
 AWAY = 0.3  # share of the largest distance that nothing is nearer than to a sensor; above a floor there are points at 0
@@ -195,11 +195,12 @@ def jpeg(pixels, most):
 
 
 def marks(diagnosis):
-    """The points of the part at the place of a Diagnosis, by what the scan shows there."""
-    names = sorted(set(diagnosis.states), key=list(STATES).index)
-    states = [names.index(state) for state in diagnosis.states]
-    return {**quantized(diagnosis.points), "states": base64_of(states, "<u1"),
-            "legend": [(f"{name}: {diagnosis.states.count(name)}", STATES[name]) for name in names]}
+    """The points of the part at the place of a Diagnosis, by what the scan shows there, and those of the scan beside it."""
+    of = diagnosis.states + ["unexplained"] * len(diagnosis.unexplained)
+    names = sorted(set(of), key=list(STATES).index)
+    states = [names.index(state) for state in of]
+    return {**quantized(numpy.concatenate((diagnosis.points, diagnosis.unexplained))), "states": base64_of(states, "<u1"),
+            "legend": [(f"{name}: {of.count(name)}", STATES[name]) for name in names]}
 
 
 def rank_colors(poses):

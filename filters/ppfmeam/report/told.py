@@ -7,7 +7,7 @@ import sys
 
 import numpy
 
-from .. import api, choices, filters, regions, scripting
+from .. import api, choices, dataset, filters, regions, scripting
 from .content import parts_of
 
 SAME = ("CADOffset", "CADScale", "CameraFile", "Projection", "Region", "SensorPosition", "ViewDirection")  # and the choices
@@ -90,7 +90,8 @@ class Told:
         for number, model in enumerate(found.models):
             places = numpy.flatnonzero(of == number)
             if len(places):
-                for k, why in zip(places, api.why(model, pose=found.poses[places], **found.inputs, **found.settings.values)):
+                poses = dataset.points_where(found.data, "PartId", number) if len(found.models) > 1 else found.data
+                for k, why in zip(places, api.why(model, pose=poses, **found.inputs, **found.settings.values)):
                     said[k] = sentences(why)
         choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
         return cls([model.name for model in found.models], name, found.report.splitlines(), found.advice, {"total": found.seconds}, chosen,
@@ -177,8 +178,8 @@ def reasons(poses, parts, data, set_up):
         if not len(places):
             continue
         diagnosis = filters.vtkMEAMPoseDiagnosis()
-        transforms = scripting.column(poses, "Transform", 4, 4)[places]
-        for port, given in enumerate((part, *data, scripting.poses_of(transforms))):
+        given_poses = dataset.points_where(poses, "PartId", number) if len(parts) > 1 else poses
+        for port, given in enumerate((part, *data, given_poses)):
             diagnosis.SetInputDataObject(port, given)
         set_up(diagnosis)
         diagnosis.SetPlaceToRankedPose()
