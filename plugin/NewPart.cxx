@@ -23,6 +23,7 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QSpinBox>
 #include <QVBoxLayout>
 
 #include <exception>
@@ -46,6 +47,10 @@ public:
     this->Form->setRowWrapPolicy(QFormLayout::WrapLongRows);
     this->CAD = this->addFile("CAD", "CAD file", "CAD (*.step *.stp *.iges *.igs *.stl *.obj *.ply *.off)",
       "The part: STEP or IGES, or a mesh in mm (STL, OBJ, PLY, OFF).");
+    this->Solid = this->add(new QSpinBox, "Solid", "Solid",
+      "Of a STEP or IGES file with several solids the one that is the part, by its number; all: they are one part. The "
+      "answer tells how large each is.");
+    this->Solid->setSpecialValueText("all");
     this->Scan = this->addFile("Scan", "Scan", "Scan (*.pcd *.ply *.png *.tif *.tiff)",
       "One scan of the bin: a cloud (PCD, PLY), best organized, or a depth image (PNG, TIFF).");
     this->Unit = this->add(new QComboBox, "Unit", "Scan's unit",
@@ -91,9 +96,10 @@ public:
     layout->addWidget(this->Start);
     layout->addWidget(this->Answer);
     QObject::connect(this->Start, &QPushButton::clicked, this, [this] { this->run(); });
-    QObject::connect(this->CAD, &pqFileChooserWidget::filenameChanged, this, [this] { this->showFolder(); });
+    QObject::connect(this->CAD, &pqFileChooserWidget::filenameChanged, this, [this] { this->showCAD(); });
     QObject::connect(
       this->Gripper, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] { this->showGripper(); });
+    this->showCAD();
     this->showGripper();
   }
 
@@ -148,7 +154,12 @@ private:
     return cad.filePath().isEmpty() ? QString() : cad.dir().filePath("find_" + this->files().name());
   }
 
-  void showFolder() { this->Folder->findChild<QLineEdit*>()->setPlaceholderText(this->ownFolder()); }
+  void showCAD()
+  {
+    this->Folder->findChild<QLineEdit*>()->setPlaceholderText(this->ownFolder());
+    this->Solid->setValue(0);
+    this->Solid->setEnabled(this->files().hasSolids());
+  }
 
   void showGripper()
   {
@@ -167,6 +178,7 @@ private:
   {
     PartFiles part;
     part.cad = this->CAD->singleFilename();
+    part.solid = this->Solid->value();
     part.scan = this->Scan->singleFilename();
     part.scanScale = part.isDepthImage() ? 1.0 : this->Unit->currentData().toDouble();
     part.calibration = this->Calibration->singleFilename();
@@ -233,6 +245,7 @@ private:
   QFormLayout* Form;
   pqFileChooserWidget *CAD, *Scan, *Calibration, *Image, *RobotFrame, *Folder;
   QComboBox *Unit, *Gripper;
+  QSpinBox* Solid;
   QDoubleSpinBox *Size, *FingerWide, *FingerThick;
   QCheckBox* Bin;
   QPushButton* Start;

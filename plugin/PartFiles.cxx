@@ -11,6 +11,11 @@ QString PartFiles::name() const
   return QFileInfo(this->cad).completeBaseName().replace(QRegularExpression("[^A-Za-z0-9_]"), "_");
 }
 
+bool PartFiles::hasSolids() const
+{
+  return QStringList{ "step", "stp", "iges", "igs" }.contains(QFileInfo(this->cad).suffix().toLower());
+}
+
 bool PartFiles::isDepthImage() const
 {
   return QStringList{ "png", "tif", "tiff" }.contains(QFileInfo(this->scan).suffix().toLower());

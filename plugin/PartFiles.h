@@ -14,6 +14,7 @@ struct PartFiles
   };
 
   QString cad, scan;
+  int solid = 0;                                   ///< of a CAD file with several, from 1; 0: all together
   double scanScale = 1.0;                          ///< brings the scan's lengths to mm
   QString calibration;                             ///< of the sensor
   QString image;                                   ///< with a pixel for each of the scan's
@@ -25,6 +26,7 @@ struct PartFiles
   QString folder; ///< that is written to
 
   QString name() const;      ///< of the part, as programs may be called
+  bool hasSolids() const;    ///< the CAD file: STEP or IGES
   bool isDepthImage() const; ///< the scan
   QString modelFile() const;
   QString graspFile() const;

@@ -26,7 +26,8 @@ QMap<QString, QString> wordsOf(const PartFiles& part, const QString& found)
 {
   return { { "NAME", part.name() }, { "SCAN_NAME", remark(QFileInfo(part.scan).fileName()) },
     { "FOUND", remark(found) }, { "CAD", quoted(part.cad) }, { "SCAN", quoted(part.scan) },
-    { "MODEL", quoted(part.modelFile()) }, { "GRASPS", quoted(part.graspFile()) },
+    { "CHOSEN", part.solid > 0 ? QString(", solid=%1").arg(part.solid) : QString() },
+    { "SOLID", QString::number(part.solid) }, { "MODEL", quoted(part.modelFile()) }, { "GRASPS", quoted(part.graspFile()) },
     { "CALIBRATION", quoted(part.calibration) }, { "IMAGE", quoted(part.image) },
     { "ROBOT_FRAME", quoted(part.robotFrame) }, { "SCALE", QString::number(part.scanScale) },
     { "SIZE", QString::number(part.gripperSize) }, { "FINGER_WIDTH", QString::number(part.fingerWidth) },
@@ -36,11 +37,11 @@ QMap<QString, QString> wordsOf(const PartFiles& part, const QString& found)
 /// What lines of a template ask for that begin with "?NAME ", and those that hold.
 QStringList conditionsOf(const PartFiles& part)
 {
-  const bool isSolid = QStringList{ "step", "stp", "iges", "igs" }.contains(QFileInfo(part.cad).suffix().toLower());
   const QMap<QString, bool> all{ { "picks", part.gripper != PartFiles::NoGripper },
     { "cup", part.gripper == PartFiles::Cup }, { "bin", part.hasBin }, { "robot", !part.robotFrame.isEmpty() },
     { "calibration", !part.calibration.isEmpty() }, { "image", !part.image.isEmpty() },
-    { "scale", part.scanScale != 1.0 }, { "depth", part.isDepthImage() }, { "solid", isSolid } };
+    { "scale", part.scanScale != 1.0 }, { "depth", part.isDepthImage() }, { "solid", part.hasSolids() },
+    { "chosen", part.solid > 0 } };
   return all.keys(true);
 }
 

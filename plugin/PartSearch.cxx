@@ -141,6 +141,14 @@ public:
     return source;
   }
 
+  pqPipelineSource* openCAD(const PartFiles& part)
+  {
+    pqPipelineSource* cad = this->open("MEAMMeshReader", part.cad);
+    set(cad, "Solid", part.solid);
+    this->update(cad);
+    return cad;
+  }
+
   pqPipelineSource* openScan(const PartFiles& part)
   {
     const bool isPLY = part.scan.endsWith(".ply", Qt::CaseInsensitive);
@@ -290,13 +298,12 @@ QString PartSearch::run(const PartFiles& part)
   try
   {
     Steps steps(this->Made);
-    pqPipelineSource* cad = steps.open("MEAMMeshReader", part.cad);
-    steps.update(cad);
+    pqPipelineSource* cad = steps.openCAD(part);
     Steps::leaveHidden(cad);
     pqPipelineSource* scan = steps.openScan(part);
     applyAll();
     pqPipelineSource* poses = steps.find(cad, scan, part.image);
-    told = describePoses(dataOf(poses));
+    told = (fieldText(dataOf(cad), "CADReport") + "\n" + describePoses(dataOf(poses))).trimmed();
     if (!QDir().mkpath(part.folder))
     {
       throw std::runtime_error(("The folder " + part.folder + " cannot be made: choose another one.").toStdString());

@@ -9,13 +9,14 @@ there, that of docs/gallery.md (needs python3-pil).
 import os
 import re
 import runpy
+import shutil
 import subprocess
 import sys
 import tempfile
 
 import numpy
 
-from clicks import NEW_PART, PAGE, START, check, expect, files, new_part_choice, new_part_file, new_part_length, play, shoot
+from clicks import NEW_PART, PAGE, START, check, expect, files, new_part_choice, new_part_file, new_part_length, new_part_number, play, shoot
 
 
 def answer(text):
@@ -30,6 +31,24 @@ def wrong(folder):
             new_part_file("CAD", f"{folder}/cut.stl"), *answer(f"The mesh file '{folder}/cut.stl' is cut off, or is no STL file."),
             new_part_file("CAD", f"{folder}/part.stl"), new_part_file("Scan", f"{folder}/part.stl"),
             *answer(f"{folder}/part.stl is no scan: choose a PCD, a PLY, or a depth image as PNG or TIFF.")]
+
+
+def solid(folder):
+    """One of the solids of a STEP file, which has no other."""
+    return [new_part_file("CAD", f"{folder}/rod.step"), new_part_file("Scan", f"{folder}/scan.pcd"), new_part_number("Solid", 2),
+            *answer(f"The CAD file '{folder}/rod.step' holds 1 solid, no solid 2: choose 1, or 0 for all together."),
+            new_part_choice("Gripper", "Parallel jaws"), new_part_number("Solid", 1), START]
+
+
+def look_at_programs(folder):
+    """They take the solid that was chosen, and of another CAD all."""
+    texts = {}
+    for name in ("find_rod/find_rod.py", "find_rod/find_rod.cpp", "find_part/find_part.py"):
+        with open(os.path.join(folder, name)) as file:
+            texts[name] = file.read()
+    python, cpp, other = texts.values()
+    check(python.count(f'"{folder}/rod.step", solid=1') == 2 and f'meam::loadCAD("{folder}/rod.step", {{ 1 }});' in cpp, f"{python} {cpp}")
+    check("solid" not in other, other)
 
 
 def right(folder):
@@ -73,12 +92,14 @@ def main(paraview, pvpython, repository, build, long):
     here = os.path.dirname(os.path.abspath(__file__))
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.executable, os.path.join(repository, "testing", "install", "scan.py"), "make", folder], check=True)
+        shutil.copy(os.path.join(repository, "testing", "fuzz", "corpus", "step", "rod.step"), folder)
         with open(os.path.join(folder, "part.stl"), "rb") as whole, open(os.path.join(folder, "cut.stl"), "wb") as cut:
             cut.write(whole.read(1000))
         if os.environ.get("PPFMEAM_PICTURE"):
             shoot(paraview, folder, [NEW_PART] + right(folder), os.path.join(os.environ["PPFMEAM_PICTURE"], "application_new_part.jpg"))
-        play(paraview, folder, [NEW_PART] + wrong(folder) + right(folder) +
+        play(paraview, folder, [NEW_PART] + wrong(folder) + solid(folder) + right(folder) +
              files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm"))
+        look_at_programs(folder)
         subprocess.run([pvpython, os.path.join(here, "TestNewPart.py"), "--look", folder], check=True)
         poses, picks = (numpy.load(os.path.join(folder, f"{kind}.npy")) for kind in ("MEAMPoseEstimation", "PickPlanning"))
         written = os.path.join(folder, "find_part")

@@ -95,6 +95,10 @@ def new_part_choice(field, text):
     return event(new_part_field(field), "set_string", text)
 
 
+def new_part_number(field, number):
+    return event(new_part_field(field), "set_int", str(number))
+
+
 def new_part_length(field, millimetres):
     return event(new_part_field(field), "set_double", str(millimetres))
 
