@@ -114,6 +114,20 @@ class Scene:
         return Image(self.reader.GetOutputDataObject(0), self.reader.GetOutputDataObject(1), self.folder)
 
 
+def image_at(path):
+    """The dataset and the image of DIR/SPLIT/SSSSSS/IIIIII; None for a path of another kind."""
+    folder, number = os.path.split(os.path.normpath(path))
+    split, scene = os.path.split(folder)
+    cameras = os.path.join(folder, "scene_camera.json")
+    if not (number.isdecimal() and scene.isdecimal() and os.path.exists(cameras)):
+        return None
+    numbers = sorted(map(int, scripting.read_json(cameras)))
+    if int(number) not in numbers:
+        raise scripting.Failure(f"{folder} has no image {int(number)}: its images are {', '.join(map(str, numbers))}")
+    data = Dataset(os.path.dirname(split) or ".", os.path.basename(split))
+    return data, data.scene(int(scene)).image(numbers.index(int(number)))
+
+
 BOP_FIGURES = ("ADD", "ADI", "MSSD", "MSPD", "VSD")
 
 

@@ -103,7 +103,7 @@ class BOP:
             self.scene, self.number = None, None
             self.scene, self.number = self.data.scene(number), number
         image = self.scene.image(step or 0)
-        return Scan(image.scan, image.beside, self.data.beside())
+        return Scan(image.scan, image.beside, self.data.beside(), (os.path.join(self.scene.folder, f"{image.number:06d}"), None))
 
 
 def source(options):

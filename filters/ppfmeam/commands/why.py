@@ -2,11 +2,12 @@
 """Tells why a part of a scan was missed: which step lost it, and what to change; with --more in numbers, too, and what speaks for a
 pose that came out, right or wrong, and what against."""
 import math
+import os
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from .. import api, choices, filters, regions, scripting
+from .. import api, choices, dataset, filters, regions, scripting
 from .. import inputs as scans
 from ..report import page
 from ..report.content import Part
@@ -15,15 +16,17 @@ from ..report.told import Told
 
 def options_of_user():
     parser = scripting.Parser(description=__doc__)
-    parser.add_argument("part", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`")
-    parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm")
+    parser.add_argument("part", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`; "
+                                     "of a BOP dataset also the number of an object")
+    parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
     place = parser.add_mutually_exclusive_group(required=True)
     place.add_argument("--at", nargs=3, type=float, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
     place.add_argument("--pose", metavar="FILE[:ROW]",
                        help="where the part lies: a pose of a file (BOP's CSV, JSON, or 4x4 matrices), the first or that of "
                             "a row, from 1; it is fitted to the scan first")
-    place.add_argument("--truth", metavar="FILE",
-                       help="the true poses of all parts, a file of the same kinds: a line for each with the stage that lost it")
+    place.add_argument("--truth", metavar="FILE", nargs="?", const="",
+                       help="the true poses of all parts, a file of the same kinds, or, without one, those that the dataset has of the object: "
+                            "a line for each with the stage that lost it")
     choices.add_options(parser, "train", "scale")
     choices.add_options(parser, "read", "solid")
     parser.add_argument("--scale", type=float, default=1, metavar="F", help="the same of the scan and the boundary")
@@ -46,9 +49,50 @@ def options_of_user():
     options = parser.parse_args()
     if options.depth_scale and not (options.camera and options.scan.lower().endswith(scripting.DEPTH_IMAGES)):
         parser.error("--depth-scale is of a depth image with its --camera")
-    if options.report and options.truth:
+    if options.report and options.truth is not None:
         parser.error("--report is of one place: give --pose, FILE:ROW")
     return options
+
+
+class Asked:
+    """The part and the scan of the options, as api.why() takes them, and what goes with the scan; of a BOP dataset as `evaluate bop` has
+    them."""
+
+    def __init__(self, options):
+        self.part, self.scan, self.options, self.truth = options.part, options.scan, options, None
+        self.beside = {name: getattr(options, name) for name in ("image", "boundary", "camera", "image_camera")}
+        found = dataset.image_at(options.scan)
+        self.data, number = found and found[0], options.part if options.part.isdecimal() else None
+        if found:
+            if any(self.beside[name] for name in ("image", "camera", "image_camera")):
+                raise scripting.Failure(f"{options.scan} is of a BOP dataset, which has its cameras and images: leave --camera and --image out")
+            self.scan = found[1].scan
+            if found[1].beside:
+                self.beside.update(image=found[1].beside, image_camera=self.data.beside())
+        if options.depth_scale:
+            self.scan, self.beside["camera"] = scripting.read_depth(options.scan, options.camera, options.depth_scale), None
+        self.number = int(number) if found and number and not os.path.exists(number) else None
+        if self.number is not None:
+            self.part = self.data.train(self.number, options.preset, options.features)
+            self.truth = found[1].truth_of(self.number)
+
+    def shape(self):
+        """What stands for the part on a page."""
+        options = self.options
+        if self.number is not None:
+            return self.data.mesh(self.number)
+        if options.part.lower().endswith(api.MODELS):
+            return scripting.shape_of(scripting.read_model(options.part))
+        return scripting.read_mesh(options.part, scale=options.cad_scale, solid=options.solid)
+
+    def transforms(self):
+        """The true poses."""
+        if self.options.truth:
+            return transforms_of(self.options.truth)
+        if self.truth is None or not self.truth.GetNumberOfPoints():
+            raise scripting.Failure("--truth needs a file of poses, unless the part is an object of a BOP dataset, by its number, and the scan an "
+                                    "image of it that has true poses")
+        return scripting.column(self.truth, "Transform", 4, 4)
 
 
 def transforms_of(path):
@@ -89,42 +133,37 @@ def content(diagnosis):
     return {**told, "numbers": [dict(zip(("step", "quantity", "value", "of"), row)) for row in diagnosis.numbers]}
 
 
-def write_page(options, scan, inputs, diagnosis):
-    if options.part.lower().endswith(api.MODELS):
-        shape = scripting.shape_of(scripting.read_model(options.part))
-    else:
-        shape = scripting.read_mesh(options.part, scale=options.cad_scale, solid=options.solid)
-    seen = scans.scan_of(scan, inputs["camera"], options.scale, options.image, image_camera=options.image_camera)
+def write_page(asked, inputs, diagnosis):
+    options = asked.options
+    seen = scans.scan_of(asked.scan, inputs["camera"], options.scale, inputs["image"], image_camera=inputs["image_camera"])
     place = numpy.zeros((0, 4, 4)) if diagnosis.pose is None else diagnosis.pose[None]
     told = Told.of_why(options, inputs, diagnosis)
-    page.write(options.report, page.html(seen, scripting.poses_of(place), [Part(told.names[0], shape)], told))
+    page.write(options.report, page.html(seen, scripting.poses_of(place), [Part(told.names[0], asked.shape())], told))
 
 
 def main():
     options = options_of_user()
     scripting.require_folder_of(options.json, options.report)
     page.require(options.report)
+    asked = Asked(options)
     inputs = {name: getattr(options, name) for name in (
-        "image", "boundary", "camera", "image_camera", "scale", "cad_scale", "solid", "poses", "probability", "rotation_counts", "references",
-        "preset", "features", "image_edges", "threads")}
-    inputs["region"], inputs["viewpoint"] = options.roi, options.viewpoint
-    scan = options.scan
-    if options.depth_scale:
-        scan, inputs["camera"] = scripting.read_depth(scan, options.camera, options.depth_scale), None
-    if options.truth:
-        found = api.why(options.part, scan, pose=transforms_of(options.truth), **inputs)
+        "scale", "cad_scale", "solid", "viewpoint", "poses", "probability", "rotation_counts", "references", "preset", "features", "image_edges",
+        "threads")}
+    inputs.update(asked.beside, region=options.roi)
+    if options.truth is not None:
+        found = api.why(asked.part, asked.scan, pose=asked.transforms(), **inputs)
         for row, diagnosis in enumerate(found, 1):
             print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{diagnosis}")
         print(f"{sum(not diagnosis.lost_in for diagnosis in found)} of {len(found)} were found")
         told = [content(diagnosis) for diagnosis in found]
     else:
         place = {"at": options.at} if options.at else {"pose": chosen(options.pose), "fit": True}
-        diagnosis = api.why(options.part, scan, **place, **inputs)
+        diagnosis = api.why(asked.part, asked.scan, **place, **inputs)
         print(diagnosis)
         if options.more:
             print_numbers(diagnosis)
         told = content(diagnosis)
         if options.report:
-            write_page(options, scan, inputs, diagnosis)
+            write_page(asked, inputs, diagnosis)
     if options.json:
         scripting.write_json(options.json, told)

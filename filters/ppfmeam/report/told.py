@@ -57,7 +57,8 @@ class Told:
         """Of the options of `why`, the arguments of api.why() and what it returned."""
         given = choices.Chosen("detect", {name: value for name, value in inputs.items() if name in choices.TABLE["detect"]})
         command = shlex.join(["ppfmeam", "why", *sys.argv[1:]])
-        return cls([os.path.basename(options.part)], os.path.basename(options.scan), [], "", {}, given.differing(), command, "",
+        name = f"object {options.part}" if options.part.isdecimal() else os.path.basename(options.part)
+        return cls([name], os.path.basename(options.scan), [], "", {}, given.differing(), command, "",
                    [sentences(diagnosis)] * (diagnosis.pose is not None), diagnosis)
 
     @classmethod
@@ -146,7 +147,7 @@ def why_command(options, scan, image=None, boundary=None):
         words += ["--depth-scale", str(options.depth_scale)]
     for name, values in (("--roi", options.roi), ("--viewpoint", options.viewpoint)):
         words += [name, *map(str, values)] if values else []
-    parts = options.model or options.cad
+    parts = options.model or options.cad or list(map(str, getattr(options, "objects", None) or ()))
     return shlex.join(["ppfmeam", "why", parts[0], scan, *words]) + " --at {x} {y} {z}" if parts else ""
 
 
