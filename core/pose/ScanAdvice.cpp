@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/ScanAdvice.h"
 
+#include "pose/refinement/PartSize.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -47,6 +49,11 @@ std::string scanAdvice(
   {
     sentences.push_back("The part's mirror image fits better: look for the other hand's part, or turn the scan's axes "
                         "if they are left-handed.");
+  }
+  else if (!poses.empty() && poses.front().contradictions.resized > LikelyThere)
+  {
+    sentences.push_back("The parts in the scan are " + sizeWords(poses.front().contradictions.lengths) +
+                        ": another part lies there, or the CAD file is of another version.");
   }
   if (quality.isKnown())
   {

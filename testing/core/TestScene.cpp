@@ -139,6 +139,24 @@ Eigen::Isometry3d lying(double x, double y, double degrees, bool up)
   return T;
 }
 
+std::vector<Copy> stretchedBrackets(int count, const Eigen::Vector3f& factors)
+{
+  const Eigen::Vector3f middle(30.0f, 20.0f, 7.5f); // stays
+  meam::TriangleMesh part = parts::lBracket();
+  for (Eigen::Vector3f& vertex : part.vertices)
+  {
+    vertex = middle + factors.cwiseProduct(vertex - middle);
+  }
+  std::vector<Copy> copies;
+  for (int i = 0; i < count; ++i)
+  {
+    copies.push_back({ part, lying(100.0 * (i % 2), 100.0 * (i / 2), 25.0 + 70.0 * i) });
+  }
+  return copies;
+}
+
+meam::Scene sceneOf(const std::vector<Copy>& copies) { return prepared(withTangents(seenFromAbove(copies))); }
+
 const std::vector<Eigen::Isometry3d>& threeCopies()
 {
   static const std::vector<Eigen::Isometry3d> poses = { lying(0, 0, 20), lying(90, 10, 131, false),

@@ -101,6 +101,10 @@ const meam::Scene& gearScene();
 /// Poses near them, as they come to refinement.
 meam::Poses disturbedCopies(double millimetres, double degrees);
 
+/// So many brackets that lie about, longer by `factors` along their axes, and the scene of them.
+std::vector<Copy> stretchedBrackets(int count, const Eigen::Vector3f& factors);
+meam::Scene sceneOf(const std::vector<Copy>& copies);
+
 /// A pose, `millimetres` along its x axis and turned by `degrees` about its z axis.
 meam::Pose displaced(const Eigen::Isometry3d& T, double millimetres = 0.0, double degrees = 0.0);
 }

@@ -119,6 +119,7 @@ std::vector<Switch> makeSwitches()
   instances("overlaps", "poses may cut into each other", [](S& s) { s.excludesOverlaps = false; });
   instances("lookalikes", "what contradicts a pose speaks for no other part", [](S& s) { s.weighsLookalikes = false; });
   instances("mirror-image", "no pose is of the mirrored part", [](S& s) { s.weighsMirrorImage = false; });
+  instances("part-size", "parts may be of another size", [](S& s) { s.weighsSize = false; });
   instances("absence", "no absence prior", [](S& s) { s.partIsPresent = true; });
   instances("comparison", "instances by their evidence alone", [](S& s) { s.comparesInstances = false; });
   instances("alignment", "no final alignment", [](S& s) { s.search.aligns = false; });
@@ -489,6 +490,12 @@ public:
     result["place"] = column(found.value, placeOrScore);
     result["continuing"] = column(found.value, [](const Pose& pose) { return pose.contradictions.continuing; });
     result["past"] = column(found.value, [](const Pose& pose) { return pose.contradictions.past; });
+    result["lengths"] = py::list();
+    for (const Pose& pose : found.value)
+    {
+      const Eigen::Vector3d& lengths = pose.contradictions.lengths;
+      result["lengths"].cast<py::list>().append(py::make_tuple(lengths.x(), lengths.y(), lengths.z()));
+    }
     result["misfit"] = column(found.value, [](const Pose& pose) { return pose.contradictions.misfit; });
     return result;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/DiagnosisReport.h"
 
+#include "pose/refinement/PartSize.h"
+
 #include "pose/search/Suppression.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
@@ -150,10 +152,14 @@ bool mayBeOther(const Diagnosis& diagnosis) { return isDoubted(diagnosis) && dia
 /// What of a pose contradicts that it is the part.
 std::string contradictionWords(const Contradictions& contradictions)
 {
-  const auto& [continuing, past, misfit, mirrored] = contradictions;
-  if (mirrored > Likely)
+  const double continuing = contradictions.continuing, misfit = contradictions.misfit;
+  if (contradictions.mirrored > Likely)
   {
     return "its mirror image fits better";
+  }
+  if (contradictions.resized > Likely)
+  {
+    return "what lies there is " + sizeWords(contradictions.lengths);
   }
   const std::string beside =
     continuing >= LeastTold ? "surface goes on beside it over " + decimal(continuing) + " patches" : "";

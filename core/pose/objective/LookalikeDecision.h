@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace meam
@@ -14,6 +16,9 @@ struct Contradictions
   double misfit = 0.0; ///< how far the surface lies off the part, in what is expected of a right pose (SurfaceMisfit)
 
   double mirrored = 0.0; ///< probability that what a mirror shows of the part lies there (allowForMirrorImage)
+  double resized = 0.0;  ///< probability that what lies there is longer or shorter along an axis (allowForOtherSize)
+  /// Of the likely poses together, along the axes of the CAD file, as shares of its lengths; 1 where not measured.
+  Eigen::Vector3d lengths = Eigen::Vector3d::Ones();
 
   /// Logarithm of how much likelier they are of the part than of one that looks alike. `excused`: [0, 1), by what the
   /// scan itself may make of them.

@@ -2,6 +2,7 @@
 #include "pose/refinement/PoseResiduals.h"
 
 #include "base/AllVectors.h"
+#include "pose/refinement/SizeEquations.h"
 
 #include <algorithm>
 
@@ -70,8 +71,9 @@ void acrossLines(const SoAOrientedPoints& lines, int first, const SoAPoints& off
 }
 }
 
+template <typename Fit>
 void addSurfaceResiduals(
-  NormalEquations& fit, const DepthMap& depth, const SoAOrientedPoints& surface, const SurfaceWeights& weights)
+  Fit& fit, const DepthMap& depth, const SoAOrientedPoints& surface, const SurfaceWeights& weights)
 {
   const int size = static_cast<int>(surface.size());
   DepthMap::Seen seen;
@@ -85,8 +87,9 @@ void addSurfaceResiduals(
   }
 }
 
+template <typename Fit>
 void addLineResiduals(
-  NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets, const std::vector<float>& weights)
+  Fit& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets, const std::vector<float>& weights)
 {
   const int size = static_cast<int>(lines.size());
   NormalEquations::Rows along, beside;
@@ -98,4 +101,9 @@ void addLineResiduals(
     fit.add(beside);
   }
 }
+
+template void addSurfaceResiduals(NormalEquations&, const DepthMap&, const SoAOrientedPoints&, const SurfaceWeights&);
+template void addSurfaceResiduals(SizeEquations&, const DepthMap&, const SoAOrientedPoints&, const SurfaceWeights&);
+template void addLineResiduals(NormalEquations&, const SoAOrientedPoints&, const SoAPoints&, const std::vector<float>&);
+template void addLineResiduals(SizeEquations&, const SoAOrientedPoints&, const SoAPoints&, const std::vector<float>&);
 }

@@ -16,11 +16,13 @@ struct SurfaceWeights
 };
 
 /// Adds to `fit` what points of a part's surface, in the scene, are off the measured one along their normals.
+template <typename Fit>
 void addSurfaceResiduals(
-  NormalEquations& fit, const DepthMap& depth, const SoAOrientedPoints& surface, const SurfaceWeights& weights);
+  Fit& fit, const DepthMap& depth, const SoAOrientedPoints& surface, const SurfaceWeights& weights);
 
 /// Adds to `fit` by what `offsets` (mm) points are off lines at right angles to the lines' directions: two residuals of
 /// each.
+template <typename Fit>
 void addLineResiduals(
-  NormalEquations& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets, const std::vector<float>& weights);
+  Fit& fit, const SoAOrientedPoints& lines, const SoAPoints& offsets, const std::vector<float>& weights);
 }

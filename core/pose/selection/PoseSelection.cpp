@@ -6,6 +6,7 @@
 #include "pose/search/PoseClusters.h"
 #include "pose/selection/InstanceFinishing.h"
 #include "pose/selection/MirrorDecision.h"
+#include "pose/selection/SizeDecision.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
@@ -79,6 +80,10 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     if (settings.weighsLookalikes)
     {
       allowForLookalikes(finished, model, finishing.continuation(), finishing.misfit().excused());
+    }
+    if (settings.weighsSize)
+    {
+      allowForOtherSize(finished, scene, model, settings.threads);
     }
     if (settings.weighsMirrorImage && !settings.deadline.hasStruck())
     {

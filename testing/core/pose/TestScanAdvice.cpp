@@ -79,4 +79,8 @@ TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
   meam::Poses ofOtherHand{ claimed(0.01, 1.0) };
   ofOtherHand[0].contradictions.mirrored = 0.99;
   EXPECT_EQ(meam::scanAdvice(coarse, report, ofOtherHand, 100.0).find("The part's mirror image fits better"), 0u);
+  meam::Poses ofOtherSize{ claimed(0.01, 1.0) };
+  ofOtherSize[0].contradictions.resized = 0.99;
+  ofOtherSize[0].contradictions.lengths.z() = 0.9;
+  EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofOtherSize, 100.0), "0.90 times as long along z"));
 }

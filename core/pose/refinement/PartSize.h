@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose/Pose.h"
+#include "pose/refinement/PoseFitter.h"
+
+#include <string>
+
+namespace meam
+{
+/// How long the parts of a scan are along the axes of the CAD file, by what its lengths there are.
+struct PartSize
+{
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
+  /// Standard deviations of the factors, by what the poses differ in and half a pixel of the scan; infinite along an
+  /// axis that its pixels are too large for.
+  Eigen::Vector3d deviations;
+};
+
+/// Least squares over all poses together, of what their edges and surface are off: the motion of each, and the three
+/// lengths. `poses`: two at least, aligned, in the local frame.
+PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads);
+
+/// The length that is off the most, for users: "0.89 times as long along z as in the CAD file".
+std::string sizeWords(const Eigen::Vector3d& factors);
+}

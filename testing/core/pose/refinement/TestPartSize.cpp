@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/refinement/PartSize.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+/// Of four copies that lie about, each longer by `factors` than the part that is looked for.
+meam::PartSize measured(const Eigen::Vector3f& factors, int threads = 1)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const std::vector<scenes::Copy> copies = scenes::stretchedBrackets(4, factors);
+  meam::Poses poses;
+  for (const scenes::Copy& copy : copies)
+  {
+    poses.push_back(scenes::displaced(copy.T_scene_model, 0.2, 0.2));
+  }
+  const meam::Scene scene = scenes::sceneOf(copies);
+  return meam::measurePartSize(
+    meam::toLocalFrame(poses, scene.T_local_scene(), model.symmetries), scene, model, threads);
+}
+}
+
+TEST(PartSize, ThePartIsAsLongAsInItsCADFile)
+{
+  const meam::PartSize size = measured(Eigen::Vector3f::Ones());
+  EXPECT_NEAR(size.factors.x(), 1.0, 0.01);
+  EXPECT_NEAR(size.factors.y(), 1.0, 0.01);
+  EXPECT_LT(size.deviations.x(), 0.02);
+}
+
+TEST(PartSize, ALongerAndAShorterPartAreMeasured)
+{
+  const meam::PartSize size = measured({ 1.05f, 0.96f, 1.0f });
+  EXPECT_NEAR(size.factors.x(), 1.05, 0.012);
+  EXPECT_NEAR(size.factors.y(), 0.96, 0.012);
+}
+
+TEST(PartSize, AnyNumberOfThreadsMeasuresTheSame)
+{
+  EXPECT_EQ(measured({ 1.05f, 1.0f, 1.0f }).factors, measured({ 1.05f, 1.0f, 1.0f }, 3).factors);
+}
+
+TEST(PartSize, WordsNameTheLengthThatIsOffTheMost)
+{
+  EXPECT_EQ(meam::sizeWords({ 1.01, 0.893, 1.0 }), "0.89 times as long along y as in the CAD file");
+}
