@@ -171,11 +171,21 @@ std::string contradictionWords(const Contradictions& contradictions)
 /// What to change where the pose is wrong.
 std::string adviceOnFound(const Diagnosis& diagnosis)
 {
-  const Pose& pose = *diagnosis.found;
-  return mayBeOther(diagnosis)     ? "If it is wrong: where parts that look alike lie, search for all of them together."
-         : pose.certainty < Likely ? "If it is turned wrongly: light or scan the part so that what tells its rotation "
-                                     "shows; RotationCounts keeps back what is unsure."
-         : diagnosis.probability < Likely
+  if (mayBeOther(diagnosis))
+  {
+    return "If it is wrong: where parts that look alike lie, search for all of them together.";
+  }
+  if (diagnosis.found->certainty < Likely)
+  {
+    return "If it is turned wrongly: light or scan the part so that what tells its rotation shows; RotationCounts "
+           "keeps "
+           "back what is unsure.";
+  }
+  if (!diagnosis.isOfFound)
+  {
+    return "";
+  }
+  return diagnosis.probability < Likely
            ? "If it is wrong: a MinimumProbability above " + percent(diagnosis.probability) + " keeps it back."
            : "If it is wrong: search for what lies there, too, by its own CAD, or calibrate the model by judged poses.";
 }

@@ -96,7 +96,9 @@ Diagnosis PoseDiagnosis::atPoint(
   }
   if (own != ranked.end())
   {
-    return this->at(own->T_scene_model, progress);
+    Diagnosis of = this->at(own->T_scene_model, progress);
+    of.isOfFound = true;
+    return of;
   }
   PoseDetectionSettings voting = this->Detection.detection;
   voting.peaksPerReference = std::max(voting.peaksPerReference, PeaksLookedFor);
@@ -226,6 +228,7 @@ void PoseDiagnosis::takeFound(Diagnosis& diagnosis, const Pose& found, int rank)
   diagnosis.rank = diagnosis.rankWithoutLimits = rank;
   diagnosis.probability = claimOf(found, this->Detection.selection.rotationCounts);
   diagnosis.found = found;
+  diagnosis.isOfFound = true;
   // What contradicts it, and its other rotations, are known of this search's pose there.
   const Poses& all = this->Trace.unlimited();
   const std::vector<int> same = posesAt(all, found.T_scene_model, this->tolerance(), this->Model);

@@ -60,6 +60,7 @@ struct Diagnosis
   PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
   double probability = 0.0;        ///< of a copy where it came out, or would without limits
   std::optional<Pose> found;       ///< what came out here, or would without limits, local frame
+  bool isOfFound = false;          ///< it is asked about a pose that came out, right or wrong
   std::vector<EvidenceTerm> terms; ///< what speaks for the place and against it; empty with the paper's verification
   double moreByCalibration = 0.0;  ///< log odds by what the model's calibration has taught
   double lessByOthers = 0.0;       ///< log odds that what came out has less than by these terms, for the set it is in

@@ -150,6 +150,17 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   diagnosis.lessByOthers = 0.0; // what the scan explains by its own unevenness counts for no other part
   EXPECT_EQ(meam::reasonsOf(diagnosis).size(), 4u);
   EXPECT_NE(meam::adviceOf(diagnosis, detection).find("RotationCounts"), std::string::npos);
+  diagnosis.continuing = 0.5;
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[2],
+    "Against it, too: measured surface goes on beside it over 0.5 patches, which it leaves unexplained.");
+  // What to change where a pose that came out is wrong; of a place that was given nothing.
+  diagnosis.found->certainty = 1.0;
+  diagnosis.probability = 0.8;
+  EXPECT_EQ(meam::adviceOf(diagnosis, detection), "");
+  diagnosis.isOfFound = true;
+  EXPECT_EQ(meam::adviceOf(diagnosis, detection), "If it is wrong: a MinimumProbability above 80 % keeps it back.");
+  diagnosis.probability = 0.95;
+  EXPECT_EQ(meam::adviceOf(diagnosis, detection).find("If it is wrong: search for what lies there, too"), 0u);
 }
 
 TEST(DiagnosisReport, WhatWasTriedAndHelpedIsAdvised)
