@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/evaluation.md and the table of README.md, from the CSV files of docs/evaluation/."""
+"""docs/evaluation.md, the table of README.md, and what decisions are worth in docs/parameters.md and docs/method.md, from the
+CSV files of docs/evaluation/."""
 import os
 import re
 
@@ -194,9 +195,48 @@ def write_readme(path, rows):
         file.write(new)
 
 
+WORLDS = {"pipes": "pipes", "real": "other real scans", "tohoku": "noise", "bins": "bins", "sensors": "sensors",
+          "siblings": "siblings"}  # as they are called in the documents
+LEAST_COPIES, LEAST_LOSS = 2, 2  # less is within what chance changes; the second is a percentage
+
+
+def worth(rows):
+    """What is lost without a decision, by the rows of its switch: in each world copies, those at 99 %, and log loss."""
+    parts = []
+    for world, name in WORLDS.items():
+        for row in (row for row in rows if row["world"] == world):
+            copies = int(row["found"]) - int(row["found, nothing changed"])
+            sure = int(row["found at 99 %"]) - int(row["found at 99 %, nothing changed"]) if row["found at 99 %"] else 0
+            before = float(row["log loss, nothing changed"] or 0)
+            loss = 100 * (float(row["log loss"]) / before - 1) if before else 0
+            if abs(copies) >= LEAST_COPIES or abs(loss) >= LEAST_LOSS:
+                parts.append(f"{name} {copies:+d}" + (f" ({sure:+d}), {loss:+.0f} %" if before else ""))
+    return "; ".join(parts) or "nothing"
+
+
+def with_worth(text, rows):
+    """A document whose links to the table of switches, [SWITCH](evaluation.md#ablation): ..., are followed by what it tells."""
+    by = {}
+    for row in rows:
+        by.setdefault(row["switch"], []).append(row)
+    def told(match):
+        if match["name"] == "none":
+            sizes = ", ".join(f"{WORLDS[row['world']]} {row['copies'] or row['found']}" for row in by["none"])
+            return f"{match['link']}: {sizes}."
+        return f"{match['link']}: {worth(by[match['name']]) if match['name'] in by else 'not measured'}."
+    return re.sub(r"(?P<link>\[(?P<name>[a-z0-9.-]+)\]\(evaluation\.md#ablation\)): [^|.\n]*\.", told, text)
+
+
 def write(document, readme, folder, titles):
     text = page(folder, titles)
     with open(document, "w", encoding="utf-8") as file:
         file.write(text)
     if os.path.exists(os.path.join(folder, "tohoku.csv")):
         write_readme(readme, read(os.path.join(folder, "tohoku.csv")))
+    if os.path.exists(os.path.join(folder, "ablation.csv")):
+        for name in ("parameters.md", "method.md"):
+            path = os.path.join(os.path.dirname(document), name)
+            with open(path, encoding="utf-8") as file:
+                text = with_worth(file.read(), read(os.path.join(folder, "ablation.csv")))
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)

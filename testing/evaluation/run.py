@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures the tables of docs/evaluation/, a CSV file each with its date and commit, and writes docs/evaluation.md and the table
-of README.md from these files.
+"""Measures the tables of docs/evaluation/, a CSV file each with its date and commit, and writes docs/evaluation.md, the table of
+README.md and what decisions are worth in docs/parameters.md from these files.
 
   . build/release/env.sh; testing/evaluation/run.py [--only NAME,...] [--quick]
 
@@ -219,8 +219,6 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
         "ImageEdges|ImageEdgesTangentsOfPoints|ImageOfAnotherCamera|DepthEdgesAndCreases|BackgroundRemoval"), False),
     "slopes": ("How the time grows", benchmarks.slopes, False),
 }
-OF_OTHERS = {"ablation-clean": "Decisions switched off, without noise",
-             "ablation-noise": "Decisions switched off, with noise"}  # tables that are not made here
 
 
 def stamp():
@@ -253,7 +251,7 @@ def main():
             missing.append(name)
         else:
             results.write(os.path.join(TABLES, name + ".csv"), [{**row, **made} for row in rows])
-    page.write(DOCUMENT, README, TABLES, {**{name: title for name, (title, _, _) in MEASURED.items()}, **OF_OTHERS})
+    page.write(DOCUMENT, README, TABLES, {name: title for name, (title, _, _) in MEASURED.items()})
     if missing:
         raise scripting.Failure(f"not measured: {', '.join(missing)}")
 

@@ -191,6 +191,15 @@ text = page.page("tables", {"resolution": "Pixels", "slopes": "Growth", "noise":
 check('<a id="resolution"></a>' in text and "| 24 | 70 % | - |" in text and "2026-01-02, commit abc" in text, text)
 check('<a id="slopes"></a>Growth: [slopes.csv](evaluation/slopes.csv), 2026-01-03, commit def' in text and "noise" not in text, text)
 
+# What a switch changes follows its links, but for what chance changes as well.
+switched = [{"world": world, "switch": switch, "copies": copies, **{name + end: value for end, of in (("", after), (", nothing changed", before))
+                                                                    for name, value in zip(("found", "found at 99 %", "log loss"), of)}}
+            for world, switch, copies, after, before in (("bins", "none", "412", ("1", "1", "1"), ("1", "1", "1")), ("bins", "signs", "412", ("388", "300", "11"), ("400", "340", "10")),
+                                                         ("pipes", "signs", "", ("9", "", ""), ("10", "", "")), ("bins", "shared", "412", ("401", "3", "10.1"), ("400", "3", "10")))]
+links = [f"[{name}](evaluation.md#ablation): " for name in ("none", "signs", "shared", "tiles")]
+check(page.with_worth("".join(f"{link}old. " for link in links), switched) ==
+      "{}bins 412. {}bins -12 (-40), +10 %. {}nothing. {}not measured. ".format(*links), page.with_worth(links[1] + "x.", switched))
+
 # Bad input.
 for arguments, word in ((("--parts", "nothing"), "there is no nothing"), (("--sensors", "eye"), "there is no eye"), (("--features", "ears"), "there is no ears")):
     result = script("world.py", "o", *arguments)
