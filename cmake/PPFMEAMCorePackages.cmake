@@ -11,6 +11,7 @@ if(TARGET yaml-cpp::yaml-cpp) # from 0.8 on
   set(YAML_CPP_LIBRARIES yaml-cpp::yaml-cpp)
 endif()
 find_package(liblzf REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(CGAL 5.4 REQUIRED)
 find_package(Bullet REQUIRED)
 find_package(OpenCASCADE REQUIRED)

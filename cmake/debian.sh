@@ -36,7 +36,7 @@ packages=(
   paraview paraview-dev python3-paraview python3-numpy xvfb xauth libgl1-mesa-dri
   libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}"$pcl"
   libopencv-imgcodecs-dev libopencv-calib3d-dev libeigen3-dev libcgal-dev libopenmesh-dev
-  libflann-dev liblzf-dev nlohmann-json3-dev libyaml-cpp-dev libbullet-dev libfcl-dev pybind11-dev
+  libflann-dev liblzf-dev zlib1g-dev nlohmann-json3-dev libyaml-cpp-dev libbullet-dev libfcl-dev pybind11-dev
   libocct-{foundation,modeling-data,modeling-algorithms,data-exchange}-dev
   openmpi-bin python3-mpi4py # several processes: ppfmeam batch
   libjs-three # pages in 3D: ppfmeam detect --report

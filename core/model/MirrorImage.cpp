@@ -138,7 +138,6 @@ TrainedModel mirroredModel(const TrainedModel& model, const Reflection& reflecti
   mirrored.edgeVisible = model.edgeVisible;
   mirrored.surface = model.surface;
   reflect(mirrored.surface, reflection);
-  mirrored.deriveFields();
   mirrored.verificationPoints = model.verificationPoints; // others would tell the two apart
   mirrored.visibility = std::make_shared<const PredictedVisibility>(mirrored);
   return mirrored;

@@ -12,7 +12,7 @@ namespace meam
 /// scan are left-handed.
 struct MirroredPart
 {
-  TrainedModel model; ///< without what votes
+  TrainedModel model; ///< without what votes, and without distances
   /// How it may lie where the part is, as motions of the mirrored part: those first that leave the most of its surface
   /// where the part's is.
   std::vector<Eigen::Isometry3d> turns;

@@ -224,6 +224,10 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, int cachedDi
     return result;
   };
   this->Surface = relative(model.surface.points);
+  for (std::size_t k = 0; k < this->Surface.size(); ++k)
+  {
+    this->Radius = std::max(this->Radius, this->Surface[k].norm());
+  }
   std::vector<bool> areContours(model.edges.size());
   if (!model.surface.empty() && model.edgeViews.size() == model.edges.size())
   {

@@ -26,6 +26,8 @@ public:
 
   /// Middle of the part's surface, model frame: the notch or lug that fixes a round part's turn hardly moves it.
   const Eigen::Vector3f& middle() const { return this->Middle; }
+  /// mm about it: all of the surface lies in this ball.
+  float radius() const { return this->Radius; }
 
   /// The appearance model whose viewpoint is nearest to the sensor at a pose.
   int view(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const;
@@ -63,6 +65,7 @@ private:
   double Diameter;
   Points ViewDirections;
   Eigen::Vector3f Middle;
+  float Radius = 0.0f;
   // Relative to the middle:
   SoAPoints Surface;
   SoAOrientedPoints SharpEdges; ///< with tangents

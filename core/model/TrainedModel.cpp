@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/TrainedModel.h"
 
+#include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "model/MirrorImage.h"
 
@@ -61,15 +62,25 @@ PairFeatureQuantizer TrainedModel::surfaceQuantizer() const
 
 void TrainedModel::deriveFields()
 {
-  this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
-  this->surfaceTable.deriveVotes(
-    this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
-  this->verificationPoints = thinPoints(this->surface.points, VerificationLeaf * this->diameter);
   const double reach = Reach * this->diameter;
   const double cell = FieldCell * this->diameter;
-  this->surfaceDistance = DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell);
-  this->edgeDistance = DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell);
-  this->visibility = std::make_shared<const PredictedVisibility>(*this);
+  inParallel(0, // the longest first
+    { [&] {
+       this->surfaceDistance =
+         DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell);
+     },
+      [&] { this->edgeDistance = DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell); },
+      [&] { this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature); },
+      [&]
+      {
+        this->verificationPoints = thinPoints(this->surface.points, VerificationLeaf * this->diameter);
+        this->visibility = std::make_shared<const PredictedVisibility>(*this);
+      },
+      [&]
+      {
+        this->surfaceTable.deriveVotes(
+          this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
+      } });
   this->mirrorImage = std::make_shared<const MirrorImage>();
 }
 }

@@ -3,7 +3,7 @@
 
 #include "base/Error.h"
 
-#include <boost/crc.hpp>
+#include <zlib.h>
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "The arrays are written as they lie in memory: little-endian"
@@ -54,9 +54,7 @@ private:
 
 std::uint32_t checksum(std::string_view bytes)
 {
-  boost::crc_32_type sum;
-  sum.process_bytes(bytes.data(), bytes.size());
-  return sum.checksum();
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 }
 

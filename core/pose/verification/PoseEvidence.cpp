@@ -83,7 +83,7 @@ bool EvidenceCollector::isBehind(const Eigen::Vector3f& point) const
 double EvidenceCollector::shareBehind(const Eigen::Isometry3d& T_scene_model, std::size_t stride) const
 {
   const TrainedModel& model = this->Model;
-  const DistanceField& whole = model.surfaceDistance;
+  const PredictedVisibility& whole = *model.visibility;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   double share = 0.0;
   for (const Plane& plane : this->InScene.enclosure)
