@@ -372,6 +372,11 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
           decimal(rotationError(others.front().T_scene_model, diagnosis.found->T_scene_model)) + " degrees it is " +
           percent(others.front().share) + ".");
     }
+    const std::string sizes = sizesWords(diagnosis.found->contradictions.lengths);
+    if (!sizes.empty())
+    {
+      add("Against the lengths in the CAD file all likely poses together measure " + sizes + ".");
+    }
   }
   if (diagnosis.otherRank > 0)
   {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <vector>
 
 namespace meam
@@ -17,8 +18,8 @@ struct Contradictions
 
   double mirrored = 0.0; ///< probability that what a mirror shows of the part lies there (allowForMirrorImage)
   double resized = 0.0;  ///< probability that what lies there is longer or shorter along an axis (allowForOtherSize)
-  /// Of the likely poses together, along the axes of the CAD file, as shares of its lengths; 1 where not measured.
-  Eigen::Vector3d lengths = Eigen::Vector3d::Ones();
+  /// Of the likely poses together, along the axes of the CAD file, as shares of its lengths; NaN where not measured.
+  Eigen::Vector3d lengths = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
   /// Logarithm of how much likelier they are of the part than of one that looks alike. `excused`: [0, 1), by what the
   /// scan itself may make of them.

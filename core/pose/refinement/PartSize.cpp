@@ -6,6 +6,7 @@
 #include "pose/refinement/PoseResiduals.h"
 #include "pose/refinement/SizeEquations.h"
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <optional>
@@ -105,23 +106,36 @@ PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedMo
         squares += (growth({ all.information - one.information, all.right - one.right }) - grown).cwiseAbs2();
       }
       const double count = static_cast<double>(at.size());
-      size.deviations = isTooThin.select(std::numeric_limits<double>::infinity(),
-        (squares.array() * (count - 1.0) / count + (OfPixel * pixel).square()).sqrt());
+      size.deviations = (squares.array() * (count - 1.0) / count + (OfPixel * pixel).square()).sqrt();
     }
     for (std::size_t i = 0; i < at.size(); ++i)
     {
       at[i].T_scene_model = equations[i]->motionFor(grown) * at[i].T_scene_model;
     }
   }
+  size.factors = isTooThin.select(std::numeric_limits<double>::quiet_NaN(), size.factors);
   return size;
 }
 
 std::string sizeWords(const Eigen::Vector3d& factors)
 {
   Eigen::Index axis;
-  (factors.array() - 1.0).abs().maxCoeff(&axis);
+  factors.array().isNaN().select(0.0, (factors.array() - 1.0).abs()).maxCoeff(&axis);
   char words[64];
   std::snprintf(words, sizeof words, "%.2f times as long along %c as in the CAD file", factors[axis], "xyz"[axis]);
   return words;
+}
+
+std::string sizesWords(const Eigen::Vector3d& factors)
+{
+  std::string all;
+  for (int axis = 0; axis < 3 && !factors.array().isNaN().all(); ++axis)
+  {
+    char factor[16];
+    std::snprintf(factor, sizeof factor, "%.2f", factors[axis]);
+    all += (all.empty() ? "" : ", ") + std::string(std::isnan(factors[axis]) ? "not told" : factor) + " along " +
+           "xyz"[axis];
+  }
+  return all;
 }
 }

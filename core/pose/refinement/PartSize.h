@@ -11,10 +11,8 @@ namespace meam
 /// How long the parts of a scan are along the axes of the CAD file, by what its lengths there are.
 struct PartSize
 {
-  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
-  /// Standard deviations of the factors, by what the poses differ in and half a pixel of the scan; infinite along an
-  /// axis that its pixels are too large for.
-  Eigen::Vector3d deviations;
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones(); ///< NaN along an axis that the scan's pixels are too large for
+  Eigen::Vector3d deviations; ///< standard deviations, by what the poses differ in and half a pixel of the scan
 };
 
 /// Least squares over all poses together, of what their edges and surface are off: the motion of each, and the three
@@ -23,4 +21,6 @@ PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedMo
 
 /// The length that is off the most, for users: "0.89 times as long along z as in the CAD file".
 std::string sizeWords(const Eigen::Vector3d& factors);
+/// All of them, "0.89 along x, 1.00 along y, not told along z"; empty when none is known.
+std::string sizesWords(const Eigen::Vector3d& factors);
 }

@@ -25,7 +25,7 @@ double logOddsOfSize(const PartSize& size)
   int axes = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (std::isfinite(size.deviations[axis]))
+    if (!std::isnan(size.factors[axis]))
     {
       const double variance = Made * Made + size.deviations[axis] * size.deviations[axis];
       const double off = size.factors[axis] - 1.0;

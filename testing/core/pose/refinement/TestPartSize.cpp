@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
+meam::TriangleMesh thinPlate() { return parts::box({ 0, 0, 0 }, { 60, 40, 1 }); }
+
 /// Of four copies that lie about, each longer by `factors` than the part that is looked for.
 meam::PartSize measured(const Eigen::Vector3f& factors, int threads = 1)
 {
@@ -38,12 +42,26 @@ TEST(PartSize, ALongerAndAShorterPartAreMeasured)
   EXPECT_NEAR(size.factors.y(), 0.96, 0.012);
 }
 
+TEST(PartSize, ALengthOfFewPixelsIsNotMeasured)
+{
+  const meam::TrainedModel& model = scenes::trained<thinPlate>();
+  const meam::Scene scene = scenes::alone(thinPlate(), model, Eigen::Isometry3d::Identity());
+  const meam::Poses twice(2, scenes::displaced(scene.T_local_scene()));
+  const meam::PartSize size = meam::measurePartSize(twice, scene, model, 1);
+  EXPECT_NEAR(size.factors.x(), 1.0, 0.01);
+  EXPECT_TRUE(std::isnan(size.factors.z()));
+}
+
 TEST(PartSize, AnyNumberOfThreadsMeasuresTheSame)
 {
-  EXPECT_EQ(measured({ 1.05f, 1.0f, 1.0f }).factors, measured({ 1.05f, 1.0f, 1.0f }, 3).factors);
+  const meam::PartSize one = measured({ 1.05f, 1.0f, 1.0f }), three = measured({ 1.05f, 1.0f, 1.0f }, 3);
+  EXPECT_EQ(one.factors.x(), three.factors.x());
+  EXPECT_EQ(one.factors.y(), three.factors.y());
 }
 
 TEST(PartSize, WordsNameTheLengthThatIsOffTheMost)
 {
-  EXPECT_EQ(meam::sizeWords({ 1.01, 0.893, 1.0 }), "0.89 times as long along y as in the CAD file");
+  EXPECT_EQ(meam::sizeWords({ 1.01, 0.893, parts::NaN }), "0.89 times as long along y as in the CAD file");
+  EXPECT_EQ(meam::sizesWords({ 1.01, 0.893, parts::NaN }), "1.01 along x, 0.89 along y, not told along z");
+  EXPECT_EQ(meam::sizesWords({ parts::NaN, parts::NaN, parts::NaN }), "");
 }

@@ -48,5 +48,5 @@ TEST(SizeDecision, ThreePosesTellNoSize)
 {
   const meam::Pose pose = decided(1.1f, 3);
   EXPECT_NEAR(pose.placeProbability, 0.9, 1e-9);
-  EXPECT_EQ(pose.contradictions.lengths, Eigen::Vector3d::Ones());
+  EXPECT_TRUE(pose.contradictions.lengths.array().isNaN().all());
 }
