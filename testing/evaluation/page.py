@@ -209,8 +209,10 @@ def worth(rows):
             sure = int(row["found at 99 %"]) - int(row["found at 99 %, nothing changed"]) if row["found at 99 %"] else 0
             before = float(row["log loss, nothing changed"] or 0)
             loss = 100 * (float(row["log loss"]) / before - 1) if before else 0
-            if abs(copies) >= LEAST_COPIES or abs(loss) >= LEAST_LOSS:
-                parts.append(f"{name} {copies:+d}" + (f" ({sure:+d}), {loss:+.0f} %" if before else ""))
+            told = [f"{copies:+d}" + (f" ({sure:+d})" if before else "")] if max(abs(copies), abs(sure)) >= LEAST_COPIES else []
+            told += [f"loss {loss:+.0f} %"] if abs(loss) >= LEAST_LOSS else []
+            if told:
+                parts.append(f"{name} {', '.join(told)}")
     return "; ".join(parts) or "nothing"
 
 
