@@ -22,9 +22,10 @@ constexpr double LastAcross = 0.005; // and in the last one
 constexpr double HiddenBy = 0.005;   // in front of an edge: what lies there has edges of its own
 constexpr int SizeSteps = 6;
 constexpr int SizeStride = 2; // of the visible points one of so many
-// Of a length, a pixel at most: of a thinner part the two edges of its side draw each other near.
-constexpr double LargestPixel = 0.04;
-constexpr double OfPixel = 0.5; // that an edge of the scan is off, all alike
+// Of a length, a pixel at most: of a thinner part the two edges of its side draw each other near, and what it has of
+// relief is as narrow as what a sensor smooths.
+constexpr double LargestPixel = 0.025;
+constexpr double OfPixel = 1.0; // that an edge of the scan is off, all alike
 constexpr double Stays = 1e12;  // the information, of all points, that keeps a length as it is
 
 /// Points as on a part that is longer by `factors`, about `middle`.

@@ -12,7 +12,7 @@ namespace meam
 struct PartSize
 {
   Eigen::Vector3d factors = Eigen::Vector3d::Ones(); ///< NaN along an axis that the scan's pixels are too large for
-  Eigen::Vector3d deviations; ///< standard deviations, by what the poses differ in and half a pixel of the scan
+  Eigen::Vector3d deviations; ///< standard deviations, by what the poses differ in and a pixel of the scan
 };
 
 /// Least squares over all poses together, of what their edges and surface are off: the motion of each, and the three
