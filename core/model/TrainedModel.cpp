@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/TrainedModel.h"
 
-#include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "model/MirrorImage.h"
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 namespace meam
 {
@@ -64,23 +64,18 @@ void TrainedModel::deriveFields()
 {
   const double reach = Reach * this->diameter;
   const double cell = FieldCell * this->diameter;
-  inParallel(0, // the longest first
-    { [&] {
-       this->surfaceDistance =
-         DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell);
-     },
-      [&] { this->edgeDistance = DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell); },
-      [&] { this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature); },
-      [&]
-      {
-        this->verificationPoints = thinPoints(this->surface.points, VerificationLeaf * this->diameter);
-        this->visibility = std::make_shared<const PredictedVisibility>(*this);
-      },
-      [&]
-      {
-        this->surfaceTable.deriveVotes(
-          this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
-      } });
+  // Threads of their own, not OpenMP's, which a forked process cannot start: models are loaded there, too.
+  auto ofSurface = std::async(std::launch::async,
+    [&] { return DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell); });
+  auto ofEdges = std::async(std::launch::async,
+    [&] { return DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell); });
+  this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
+  this->surfaceTable.deriveVotes(
+    this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
+  this->verificationPoints = thinPoints(this->surface.points, VerificationLeaf * this->diameter);
+  this->visibility = std::make_shared<const PredictedVisibility>(*this);
+  this->surfaceDistance = ofSurface.get();
+  this->edgeDistance = ofEdges.get();
   this->mirrorImage = std::make_shared<const MirrorImage>();
 }
 }
