@@ -22,9 +22,10 @@ constexpr double LastAcross = 0.005; // and in the last one
 constexpr double HiddenBy = 0.005;   // in front of an edge: what lies there has edges of its own
 constexpr int SizeSteps = 6;
 constexpr int SizeStride = 2; // of the visible points one of so many
-// Of a length, a pixel at most: of a thinner part the two edges of its side draw each other near, and what it has of
-// relief is as narrow as what a sensor smooths.
+// What a thinner part has of relief and of sides is as narrow as what a sensor smooths, and its edges draw each other
+// near: along an axis a pixel is so much of the length at most, and the length so much of the diameter at least.
 constexpr double LargestPixel = 0.025;
+constexpr double LeastLength = 0.25;
 constexpr double OfPixel = 1.0; // that an edge of the scan is off, all alike
 constexpr double Stays = 1e12;  // the information, of all points, that keeps a length as it is
 
@@ -47,8 +48,9 @@ SoAOrientedPoints stretched(
 PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
 {
   const PoseFitter fitter(scene, model);
-  const Eigen::Array3d pixel = scene.depth.pitch() / bounds(model.surface.points).sizes().cast<double>().array();
-  const Eigen::Array<bool, 3, 1> isTooThin = pixel > LargestPixel;
+  const Eigen::Array3d extent = bounds(model.surface.points).sizes().cast<double>();
+  const Eigen::Array3d pixel = scene.depth.pitch() / extent;
+  const Eigen::Array<bool, 3, 1> isTooThin = pixel > LargestPixel || extent < LeastLength * model.diameter;
   const Eigen::Vector3f middle = model.visibility->middle();
   const double window = SizeWindow * model.diameter;
   const float hiddenBy = static_cast<float>(HiddenBy * model.diameter);

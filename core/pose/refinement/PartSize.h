@@ -11,7 +11,7 @@ namespace meam
 /// How long the parts of a scan are along the axes of the CAD file, by what its lengths there are.
 struct PartSize
 {
-  Eigen::Vector3d factors = Eigen::Vector3d::Ones(); ///< NaN along an axis that the scan's pixels are too large for
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones(); ///< NaN along an axis that the part is too thin for
   Eigen::Vector3d deviations; ///< standard deviations, by what the poses differ in and a pixel of the scan
 };
 
