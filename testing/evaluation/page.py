@@ -210,7 +210,7 @@ def worth(rows):
             before = float(row["log loss, nothing changed"] or 0)
             loss = 100 * (float(row["log loss"]) / before - 1) if before else 0
             told = [f"{copies:+d}" + (f" ({sure:+d})" if before else "")] if max(abs(copies), abs(sure)) >= LEAST_COPIES else []
-            told += [f"loss {loss:+.0f} %"] if abs(loss) >= LEAST_LOSS else []
+            told += [f"×{1 + loss / 100:.2f}"] if abs(loss) >= LEAST_LOSS else []
             if told:
                 parts.append(f"{name} {', '.join(told)}")
     return "; ".join(parts) or "nothing"

@@ -198,7 +198,7 @@ switched = [{"world": world, "switch": switch, "copies": copies, **{name + end: 
                                                          ("pipes", "signs", "", ("9", "", ""), ("10", "", "")), ("bins", "shared", "412", ("401", "3", "10.1"), ("400", "3", "10")))]
 links = [f"[{name}](evaluation.md#ablation): " for name in ("none", "signs", "shared", "tiles")]
 check(page.with_worth("".join(f"{link}old. " for link in links), switched) ==
-      "{}bins 412. {}bins -12 (-40), loss +10 %. {}nothing. {}not measured. ".format(*links), page.with_worth(links[1] + "x.", switched))
+      "{}bins 412. {}bins -12 (-40), ×1.10. {}nothing. {}not measured. ".format(*links), page.with_worth(links[1] + "x.", switched))
 
 # Bad input.
 for arguments, word in ((("--parts", "nothing"), "there is no nothing"), (("--sensors", "eye"), "there is no eye"), (("--features", "ears"), "there is no ears")):
