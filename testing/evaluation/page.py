@@ -226,7 +226,7 @@ def with_worth(text, rows):
             sizes = ", ".join(f"{WORLDS[row['world']]} {row['copies'] or row['found']}" for row in by["none"])
             return f"{match['link']}: {sizes}."
         return f"{match['link']}: {worth(by[match['name']]) if match['name'] in by else 'not measured'}."
-    return re.sub(r"(?P<link>\[(?P<name>[a-z0-9.-]+)\]\(evaluation\.md#ablation\)): [^|.\n]*\.", told, text)
+    return re.sub(r"(?P<link>\[(?P<name>[a-z0-9.-]+)\]\(evaluation\.md#ablation\)): [^|\n]*?\.(?=\s|$)", told, text)
 
 
 def write(document, readme, folder, titles):

@@ -197,8 +197,9 @@ switched = [{"world": world, "switch": switch, "copies": copies, **{name + end: 
             for world, switch, copies, after, before in (("bins", "none", "412", ("1", "1", "1"), ("1", "1", "1")), ("bins", "signs", "412", ("388", "300", "11"), ("400", "340", "10")),
                                                          ("pipes", "signs", "", ("9", "", ""), ("10", "", "")), ("bins", "shared", "412", ("401", "3", "10.1"), ("400", "3", "10")))]
 links = [f"[{name}](evaluation.md#ablation): " for name in ("none", "signs", "shared", "tiles")]
-check(page.with_worth("".join(f"{link}old. " for link in links), switched) ==
-      "{}bins 412. {}bins -12 (-40), ×1.10. {}nothing. {}not measured. ".format(*links), page.with_worth(links[1] + "x.", switched))
+told = page.with_worth("".join(f"{link}old. " for link in links), switched)
+check(told == "{}bins 412. {}bins -12 (-40), ×1.10. {}nothing. {}not measured. ".format(*links), told)
+check(page.with_worth(told, switched) == told, "and again the same")
 
 # Bad input.
 for arguments, word in ((("--parts", "nothing"), "there is no nothing"), (("--sensors", "eye"), "there is no eye"), (("--features", "ears"), "there is no ears")):
