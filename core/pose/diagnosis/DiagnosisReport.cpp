@@ -2,7 +2,6 @@
 #include "pose/diagnosis/DiagnosisReport.h"
 
 #include "pose/refinement/PartSize.h"
-
 #include "pose/search/Suppression.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
@@ -177,9 +176,8 @@ std::string adviceOnFound(const Diagnosis& diagnosis)
   }
   if (diagnosis.found->certainty < Likely)
   {
-    return "If it is turned wrongly: light or scan the part so that what tells its rotation shows; RotationCounts "
-           "keeps "
-           "back what is unsure.";
+    return "If it is turned wrongly: light or scan the part so that what tells its rotation shows; "
+           "RotationCounts keeps back what is unsure.";
   }
   if (!diagnosis.isOfFound)
   {

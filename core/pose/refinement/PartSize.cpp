@@ -51,6 +51,11 @@ PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedMo
   const Eigen::Array3d extent = bounds(model.surface.points).sizes().cast<double>();
   const Eigen::Array3d pixel = scene.depth.pitch() / extent;
   const Eigen::Array<bool, 3, 1> isTooThin = pixel > LargestPixel || extent < LeastLength * model.diameter;
+  constexpr double notTold = std::numeric_limits<double>::quiet_NaN();
+  if (isTooThin.all())
+  {
+    return { Eigen::Vector3d::Constant(notTold), Eigen::Vector3d::Constant(notTold) };
+  }
   const Eigen::Vector3f middle = model.visibility->middle();
   const double window = SizeWindow * model.diameter;
   const float hiddenBy = static_cast<float>(HiddenBy * model.diameter);
@@ -116,7 +121,7 @@ PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedMo
       at[i].T_scene_model = equations[i]->motionFor(grown) * at[i].T_scene_model;
     }
   }
-  size.factors = isTooThin.select(std::numeric_limits<double>::quiet_NaN(), size.factors);
+  size.factors = isTooThin.select(notTold, size.factors);
   return size;
 }
 
