@@ -9,8 +9,8 @@
 #include "pqRenderView.h"
 #include "vtkAlgorithm.h"
 #include "vtkCamera.h"
-#include "vtkCellArray.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindowInteractor.h"
@@ -18,6 +18,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMRenderViewProxy.h"
+#include "vtkStaticCellLocator.h"
 #include "vtkStructuredGrid.h"
 
 #include <QApplication>
@@ -36,12 +37,12 @@ namespace
 {
 constexpr double NotThere = std::numeric_limits<double>::quiet_NaN();
 
-/// A point in the picture: pixels to the right of the mouse and above it, depth, and the distance that it is divided by.
-using Projected = std::array<double, 4>;
+/// A point in the picture: pixels to the right of the mouse and above it, and depth.
+using Projected = std::array<double, 3>;
 
 double squaredDistance(const Projected& point) { return point[0] * point[0] + point[1] * point[1]; }
 
-/// Points against the pixel; NaN where nothing was measured, and behind the camera.
+/// The scan's points against the pixel; NaN where nothing was measured, and behind the camera.
 std::vector<Projected> project(vtkPointSet* scan, vtkRenderer* renderer, const int pixel[2])
 {
   const double* M = renderer->GetActiveCamera()
@@ -50,7 +51,7 @@ std::vector<Projected> project(vtkPointSet* scan, vtkRenderer* renderer, const i
   const int* size = renderer->GetSize();
   auto* grid = vtkStructuredGrid::SafeDownCast(scan);
   std::vector<Projected> projected(
-    scan->GetNumberOfPoints(), { NotThere, NotThere, NotThere, NotThere });
+    scan->GetNumberOfPoints(), { NotThere, NotThere, NotThere });
   for (vtkIdType k = 0; k < scan->GetNumberOfPoints(); ++k)
   {
     double p[3];
@@ -60,7 +61,7 @@ std::vector<Projected> project(vtkPointSet* scan, vtkRenderer* renderer, const i
     if (w > 0.0 && (!grid || grid->IsPointVisible(k)))
     {
       projected[k] = { (row(0) / w + 1.0) / 2.0 * size[0] - pixel[0] - 0.5,
-        (row(1) / w + 1.0) / 2.0 * size[1] - pixel[1] - 0.5, row(2) / w, w };
+        (row(1) / w + 1.0) / 2.0 * size[1] - pixel[1] - 0.5, row(2) / w };
     }
   }
   return projected;
@@ -81,44 +82,23 @@ bool isAtMouse(const std::array<const Projected*, 4>& corners)
   return isInside;
 }
 
-/// Where the ray through the pixel meets the first triangle of the mesh; false: there is none.
+/// Where the ray through the pixel meets the mesh first; false: nowhere.
 bool meetsMesh(vtkPolyData* mesh, vtkRenderer* renderer, const int pixel[2], double met[3])
 {
-  const std::vector<Projected> projected = project(mesh, renderer, pixel);
-  double nearest = std::numeric_limits<double>::infinity();
-  vtkCellArray* cells = mesh->GetPolys();
-  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  double ends[2][4]; // nearest and farthest of what the camera shows
+  for (int k = 0; k < 2; ++k)
   {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    cells->GetCellAtId(cell, count, ids);
-    if (count != 3)
-    {
-      continue;
-    }
-    // The mouse is at 0: its weights of the corners in the picture, and, by their depths, in space.
-    const Projected &a = projected[ids[0]], &b = projected[ids[1]], &c = projected[ids[2]];
-    const double weights[3] = { b[0] * c[1] - b[1] * c[0], c[0] * a[1] - c[1] * a[0], a[0] * b[1] - a[1] * b[0] };
-    const double area = weights[0] + weights[1] + weights[2];
-    const double depth = (weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) / area; // NaN, if one is
-    if (std::min({ weights[0] / area, weights[1] / area, weights[2] / area }) >= 0.0 && depth < nearest)
-    {
-      nearest = depth;
-      std::fill_n(met, 3, 0.0);
-      double sum = 0.0;
-      for (int k = 0; k < 3; ++k)
-      {
-        const double weight = weights[k] / projected[ids[k]][3];
-        sum += weight;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          met[axis] += weight * mesh->GetPoint(ids[k])[axis];
-        }
-      }
-      std::for_each(met, met + 3, [sum](double& coordinate) { coordinate /= sum; });
-    }
+    renderer->SetDisplayPoint(pixel[0] + 0.5, pixel[1] + 0.5, k);
+    renderer->DisplayToWorld();
+    renderer->GetWorldPoint(ends[k]);
+    std::for_each(ends[k], ends[k] + 3, [w = ends[k][3]](double& coordinate) { coordinate /= w; });
   }
-  return nearest < std::numeric_limits<double>::infinity();
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(mesh);
+  locator->BuildLocator();
+  double along = 0.0, parametric[3];
+  int part = 0;
+  return locator->IntersectWithLine(ends[0], ends[1], 0.0, along, met, parametric, part) != 0;
 }
 
 /// The point of the scan at the pixel: of the nearest cell of its grid there the corner that is next to the pixel;
