@@ -16,7 +16,6 @@
 #include "pqPipelineFilter.h"
 #include "pqPropertiesPanel.h"
 #include "pqUndoStack.h"
-#include "vtkSMInputProperty.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyIterator.h"
 #include "vtkSMProxy.h"
@@ -38,14 +37,13 @@
 namespace
 {
 constexpr int UntilNextLook = 100; // ms
-constexpr int AllParts = -1;
 
 using Inputs = QMap<QString, QList<pqOutputPort*>>;
 
-/// The parts, or with `most` 1 the first of them, and the scan that are open. None: they are not, which is said.
-Inputs openInputs(const char* label, int most)
+/// The parts and the scan that are open. None: they are not, which is said.
+Inputs openInputs(const char* label)
 {
-  const QList<pqOutputPort*> parts = openParts().mid(0, most);
+  const QList<pqOutputPort*> parts = openParts();
   pqOutputPort* scan = openScan();
   if (parts.empty() || !scan)
   {
@@ -78,30 +76,26 @@ void estimatePoses()
 {
   constexpr const char* Label = "MEAM Pose Estimation";
   applyAll();
-  const Inputs inputs = openInputs(Label, AllParts);
+  const Inputs inputs = openInputs(Label);
   if (!inputs.empty())
   {
     addFilter("MEAMPoseEstimation", Label, inputs);
   }
 }
 
-/// Of the part, of several the one that is selected, in the scan, with the properties that it was searched with, if it was.
+/// Of the parts in the scan, with the properties that they were searched with, if they were.
 void askWhy()
 {
   constexpr const char* Label = "Pose Diagnosis";
   applyAll();
   pqPipelineSource* estimation = openEstimation();
   auto* searched = qobject_cast<pqPipelineFilter*>(estimation);
-  Inputs inputs = searched ? searched->getNamedInputs() : openInputs(Label, 1);
-  QList<pqOutputPort*>& parts = inputs["Input"];
-  const QList<pqOutputPort*> asked = openParts();
-  const bool isSelected = !asked.empty() && parts.contains(asked.front());
-  parts = isSelected ? asked.mid(0, 1) : parts.mid(0, 1);
+  Inputs inputs = searched ? searched->getNamedInputs() : openInputs(Label);
   if (searched)
   {
     inputs["Poses"] = { searched->getOutputPort(0) }; // those that are drawn
   }
-  pqPipelineSource* diagnosis = parts.empty() ? nullptr : addFilter("PoseDiagnosis", Label, inputs);
+  pqPipelineSource* diagnosis = inputs.empty() ? nullptr : addFilter("PoseDiagnosis", Label, inputs);
   if (diagnosis)
   {
     // Ctrl, because the cells of a scan are often smaller than the pixels of the picture: P alone may miss them.
@@ -117,9 +111,9 @@ void askWhy()
   for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
   {
     vtkSMProperty* property = diagnosis->getProxy()->GetProperty(properties->GetKey());
-    if (property && !vtkSMInputProperty::SafeDownCast(property) && !property->GetInformationOnly())
+    if (property && !property->GetInformationOnly())
     {
-      property->Copy(properties->GetProperty());
+      property->Copy(properties->GetProperty()); // inputs, too: ParaView turns the order of the parts round
     }
   }
 }

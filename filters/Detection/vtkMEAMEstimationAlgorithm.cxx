@@ -17,11 +17,13 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 
@@ -52,6 +54,13 @@ meam::Region regionOf(const double ends[6], vtkPointSet* scan)
     }
   }
   return region;
+}
+
+/// What the part that comes in is called: by its file, or by its place among several.
+std::string nameOf(vtkDataObject* part, int index)
+{
+  auto* name = vtkStringArray::SafeDownCast(part->GetFieldData()->GetAbstractArray("Name"));
+  return name && name->GetNumberOfValues() > 0 ? std::string(name->GetValue(0)) : "part " + std::to_string(index + 1);
 }
 }
 
@@ -144,6 +153,10 @@ int vtkMEAMEstimationAlgorithm::FillInputPortInformation(int port, vtkInformatio
     }
   }
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
   return 1;
 }
 
@@ -249,6 +262,10 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   }
   work.settings = meam::detectionSettings(settings);
   work.settings.region = region;
+  for (int k = 0; k < inputVector[0]->GetNumberOfInformationObjects(); ++k)
+  {
+    work.names.push_back(nameOf(vtkDataObject::GetData(inputVector[0], k), k));
+  }
   return work;
 }
 

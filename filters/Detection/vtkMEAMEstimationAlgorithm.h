@@ -8,7 +8,7 @@
  * that have the same CAD and settings share it.
  *
  * Input port 0: the part, a vtkPolyData with the CAD's faces, or the trained model that vtkMEAMHashing
- * returns, a vtkPartitionedDataSetCollection.
+ * returns, a vtkPartitionedDataSetCollection. Repeatable, for several types of part in one scan.
  * Input port 1: the scene in mm, a vtkStructuredGrid of W x H x 1 points in the sensor's frame, or a
  * vtkPolyData with the points of the measured surface, which are brought onto a grid (meam::prepareScan).
  * Input port 2 (optional): the scene's edge points, a vtkPolyData. Without it they are found in the scan: in its image,

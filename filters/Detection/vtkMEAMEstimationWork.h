@@ -19,6 +19,7 @@ struct vtkMEAMEstimationAlgorithm::Work
   static constexpr double Prepared = 0.5; ///< of the work, for the progress: the share that is done
 
   std::vector<std::shared_ptr<const vtkMEAMConversion::TrainedPart>> parts; ///< one of each connection to port 0
+  std::vector<std::string> names; ///< of these: their files, or "part 1" and so on
   meam::SceneInput scene;
   meam::SceneEdges found; ///< of a scan, when no boundary came in
   std::string scanReport; ///< what was assumed of it

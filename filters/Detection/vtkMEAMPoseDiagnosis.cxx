@@ -2,6 +2,7 @@
 #include "vtkMEAMPoseDiagnosis.h"
 
 #include "pose/diagnosis/DiagnosisReport.h"
+#include "pose/diagnosis/PartsDiagnosis.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMEstimationWork.h"
 #include "vtkMEAMInstanceConversion.h"
@@ -20,6 +21,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -28,7 +30,6 @@ vtkStandardNewMacro(vtkMEAMPoseDiagnosis);
 
 namespace
 {
-constexpr double AfterDetection = 0.8; // of the work, for the progress
 const char* const StateNames[] = { "matched", "turned", "hidden", "not measured", "violated" };
 
 /// As the array `Residual` has them: those of states, of edge points of which there is no edge, and of the scan beside
@@ -40,6 +41,23 @@ vtkSmartPointer<vtkIntArray> newResidual()
   auto residual = vtkSmartPointer<vtkIntArray>::New();
   residual->SetName("Residual");
   return residual;
+}
+
+/// Throws Error where the poses' types of part, by their diameters, are not those that are connected.
+void requireOrder(vtkPolyData* poses, const std::vector<const meam::TrainedModel*>& models)
+{
+  constexpr double Same = 1e-3; // of a diameter: one that was rounded
+  vtkDataArray* diameters = poses->GetFieldData()->GetArray("Diameter");
+  for (std::size_t k = 0; diameters && k < models.size(); ++k)
+  {
+    const auto row = static_cast<vtkIdType>(k);
+    if (diameters->GetNumberOfTuples() != static_cast<vtkIdType>(models.size()) ||
+        std::abs(diameters->GetComponent(row, 0) - models[k]->diameter) > Same * models[k]->diameter)
+    {
+      throw meam::Error("The poses are of other parts than those that are connected, or these stand in another order: "
+                        "connect to Part all that were searched, in their order.");
+    }
+  }
 }
 
 /// As the array `State` has it.
@@ -109,13 +127,32 @@ void fromUnexplained(const meam::PrecisePoints& from, vtkPolyData* output)
   output->GetPointData()->SetScalars(residual);
 }
 
-/// Whether poses came out of a search for one part: their probabilities are known.
-bool isFound(vtkPolyData* poses)
+/// The poses that came out of a search for so many types of part: their probabilities are known. None came out of
+/// another one.
+std::vector<meam::FoundPose> foundPoses(vtkPolyData* given, const meam::Poses& poses, int types)
 {
-  vtkDataArray* places = poses->GetPointData()->GetArray("PlaceProbability");
-  vtkDataArray* parts = poses->GetPointData()->GetArray("PartId");
-  return places && places->GetNumberOfTuples() > 0 && places->GetRange()[0] > 0.0 &&
-         !(parts && parts->GetRange()[0] < parts->GetRange()[1]);
+  vtkDataArray* places = given ? given->GetPointData()->GetArray("PlaceProbability") : nullptr;
+  vtkDataArray* parts = given ? given->GetPointData()->GetArray("PartId") : nullptr;
+  vtkDataArray* ranks = given ? given->GetPointData()->GetArray("Rank") : nullptr;
+  const bool areOfOne = !parts || parts->GetRange()[0] == parts->GetRange()[1];
+  std::vector<meam::FoundPose> found;
+  if (places && places->GetNumberOfTuples() > 0 && places->GetRange()[0] > 0.0 &&
+      (types == 1 ? areOfOne : parts != nullptr))
+  {
+    for (std::size_t k = 0; k < poses.size(); ++k)
+    {
+      const auto row = static_cast<vtkIdType>(k);
+      const int part = types == 1 ? 0 : static_cast<int>(parts->GetComponent(row, 0));
+      if (part < 0 || part >= types)
+      {
+        throw meam::Error("The poses are of more types of part than the " + std::to_string(types) +
+                          " that are connected: connect all that were searched, in their order.");
+      }
+      found.push_back(
+        { part, ranks ? static_cast<int>(ranks->GetComponent(row, 0)) : static_cast<int>(k) + 1, poses[k] });
+    }
+  }
+  return found;
 }
 
 void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* output)
@@ -144,18 +181,26 @@ void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* ou
 /// A detection, and what it was made of.
 struct vtkMEAMPoseDiagnosis::Detection
 {
-  Detection(Work&& from, std::vector<double> madeOf, bool fit, const meam::Progress& progress)
+  Detection(Work&& from, std::vector<double> madeOf, bool fit)
     : made(std::move(madeOf))
     , work(std::move(from))
-    , scene(meam::sceneOf(*work.parts.front()->model, work.scene, work.settings))
-    , diagnosis(scene, *work.parts.front()->model, work.settings, fit, progress)
+    , diagnosis(modelsOf(work), work.scene, work.settings, fit)
   {
+  }
+
+  static std::vector<const meam::TrainedModel*> modelsOf(const Work& work)
+  {
+    std::vector<const meam::TrainedModel*> models;
+    for (const auto& part : work.parts)
+    {
+      models.push_back(part->model.get());
+    }
+    return models;
   }
 
   std::vector<double> made;
   Work work;
-  meam::Scene scene;
-  meam::PoseDiagnosis diagnosis;
+  meam::PartsDiagnosis diagnosis;
 };
 
 vtkMEAMPoseDiagnosis::vtkMEAMPoseDiagnosis()
@@ -199,14 +244,16 @@ vtkMEAMPoseDiagnosis::Detection& vtkMEAMPoseDiagnosis::Detect(vtkInformationVect
   }
   for (int port = 0; port < 4; ++port)
   {
-    vtkDataObject* data = vtkDataObject::GetData(inputVector[port]);
-    made.push_back(data ? static_cast<double>(data->GetMTime()) : 0.0);
+    for (int k = 0; k < inputVector[port]->GetNumberOfInformationObjects(); ++k)
+    {
+      made.push_back(static_cast<double>(vtkDataObject::GetData(inputVector[port], k)->GetMTime()));
+    }
+    made.push_back(0.0); // ends those of the port
   }
   if (!this->Detected || this->Detected->made != made)
   {
     this->Detected = nullptr; // until the new one is there
-    this->Detected = std::make_unique<Detection>(this->Prepare(inputVector), std::move(made), this->Fit,
-      meam::subProgress(vtkMEAMConversion::progressOf(this), Work::Prepared, AfterDetection));
+    this->Detected = std::make_unique<Detection>(this->Prepare(inputVector), std::move(made), this->Fit);
   }
   return *this->Detected;
 }
@@ -228,34 +275,36 @@ int vtkMEAMPoseDiagnosis::RequestData(
       const bool isRanked = this->Place == RankedPose;
       requireInputs(this, { "Part", "Scan", nullptr, nullptr, isRanked ? "Poses" : nullptr });
       const meam::Poses poses = given ? toPoses(given) : meam::Poses();
-      const bool cameOut = given && isFound(given);
-      const meam::Poses found = cameOut ? poses : meam::Poses();
-      std::vector<int> ranks;
-      vtkDataArray* rankArray = given ? given->GetPointData()->GetArray("Rank") : nullptr;
-      for (std::size_t k = 0; k < found.size(); ++k)
-      {
-        ranks.push_back(rankArray ? static_cast<int>(rankArray->GetComponent(k, 0)) : static_cast<int>(k) + 1);
-      }
+      const std::vector<meam::FoundPose> found =
+        foundPoses(given, poses, inputVector[0]->GetNumberOfInformationObjects());
       if (isRanked && this->RankOfPose > static_cast<int>(poses.size()))
       {
         throw meam::Error("There is no pose " + std::to_string(this->RankOfPose) + ": the input Poses has " +
                           std::to_string(poses.size()) + ". Set RankOfPose to one of these.");
       }
       Detection& detection = this->Detect(inputVector);
-      const meam::Progress progress = meam::subProgress(progressOf(this), AfterDetection, 1.0);
+      if (!found.empty() && detection.work.parts.size() > 1)
+      {
+        requireOrder(given, Detection::modelsOf(detection.work));
+      }
+      const meam::Progress progress = meam::subProgress(progressOf(this), Work::Prepared, 1.0);
       const auto asked = [&]
       {
         if (this->Place == Point)
         {
-          return detection.diagnosis.atPoint(Eigen::Vector3d(this->Position), progress, found, ranks);
+          return detection.diagnosis.atPoint(Eigen::Vector3d(this->Position), found, this->PartId, progress);
         }
         const std::size_t place = this->RankOfPose - 1;
-        return !isRanked
-                 ? detection.diagnosis.atPose(placedAt(this->PosePosition, this->PoseRotation).T_scene_model, progress)
-               : found.empty() ? detection.diagnosis.atPose(poses[place].T_scene_model, progress)
-                               : detection.diagnosis.ofFound(found[place], ranks[place], progress);
+        if (isRanked && !found.empty())
+        {
+          return detection.diagnosis.ofFound(found[place], progress);
+        }
+        const meam::Pose& pose = isRanked ? poses[place] : placedAt(this->PosePosition, this->PoseRotation);
+        return detection.diagnosis.atPose(pose.T_scene_model, this->PartId, progress);
       };
-      const meam::Diagnosis diagnosis = asked();
+      const meam::PartDiagnosis answered = asked();
+      const meam::Diagnosis& diagnosis = answered.diagnosis;
+      const TrainedPart& about = *detection.work.parts[answered.part];
       fromEvidence(diagnosis, output);
       fromUnexplained(diagnosis.unexplained, unexplained);
       fromNumbers(meam::numbersOf(diagnosis), numbers);
@@ -263,7 +312,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
       const std::string advice = meam::adviceOf(diagnosis, detection.work.settings);
       setFieldText(output, "Verdict", verdict);
       setFieldText(output, "Advice", advice);
-      std::vector<std::string> paragraphs{ verdict, advice };
+      std::vector<std::string> paragraphs{ meam::aboutWords(answered, detection.work.names), verdict, advice };
       std::string reasons;
       for (const std::string& reason : meam::reasonsOf(diagnosis))
       {
@@ -274,7 +323,11 @@ int vtkMEAMPoseDiagnosis::RequestData(
       fromAnswer(paragraphs, answer);
       setFieldText(output, "LostIn", diagnosis.lostIn ? meam::nameOf(*diagnosis.lostIn) : std::string());
       setFieldValue(output, "Rank", diagnosis.rank);
-      setDiameter(output, detection.work.parts.front()->model->diameter);
+      setDiameter(output, about.model->diameter);
+      if (detection.work.parts.size() > 1)
+      {
+        setFieldValue(output, "PartId", answered.part);
+      }
       if (diagnosis.place)
       {
         meam::Pose place = *diagnosis.place;
@@ -288,7 +341,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
         InstanceSettings drawn;
         drawn.minimumProbability = 0.0;
         fromInstances(
-          detection.work.parts.front()->shape, { place }, [&](std::size_t) { return diagnosis.rank; }, drawn, {}, part);
+          about.shape, { place }, [&](std::size_t) { return diagnosis.rank; }, drawn, {}, part);
       }
     },
     output, numbers, part, answer, unexplained);
@@ -305,5 +358,6 @@ void vtkMEAMPoseDiagnosis::PrintSelf(ostream& os, vtkIndent indent)
   print("PosePosition", this->PosePosition);
   print("PoseRotation", this->PoseRotation);
   os << indent << "RankOfPose: " << this->RankOfPose << "\n";
+  os << indent << "PartId: " << this->PartId << "\n";
   os << indent << "Fit: " << this->Fit << "\n";
 }

@@ -10,8 +10,10 @@
  * takes a fraction of the time.
  *
  * Input ports 0 to 3: as vtkMEAMEstimationAlgorithm has them. Input port 4 (optional): poses, a vtkPolyData with
- * `Transform` (16, row-major T_scene_model), such as true ones. Poses of one part with `PlaceProbability` came out of a
- * search: of such a pose, also at a point that it has its surface at, it is told why it came out.
+ * `Transform` (16, row-major T_scene_model), such as true ones. Poses with `PlaceProbability` came out of a search: of
+ * such a pose, also at a point that it has its surface at, it is told why it came out. Of several types of part, which
+ * are connected to port 0 in the order of that search, `PartId` tells the type of each; of poses of several types with
+ * one part on port 0 it is told as of poses that came out of nowhere.
  *
  * Output port 0: vtkPolyData, the points of the part that should be visible at the place, in the scene's coordinates,
  * with the point arrays `State` (0 matched; 1 turned, a surface that faces elsewhere; 2 hidden, something lies in front
@@ -20,11 +22,11 @@
  * the same as `State`, but for 5 of an edge point that is missing in the scan). Field data: `Verdict` (a
  * sentence), `Advice` (what to change; may be empty), `Reasons` (what speaks for the place and against it, lines),
  * `LostIn` (the stage; empty: it was found), `Rank` (of the pose that came out there; 0: none), `Transform` (16, the
- * place; not there when no pose lies at the point). Output port 1: vtkTable, the numbers of all steps: `Step`,
- * `Quantity`, `Value`, `Of` (what the value is out of, or is compared with; NaN: nothing). Output port 2: the part at
- * the place, as vtkMEAMPoseInstances has it. Output port 3: vtkTable with one row, `Text`: verdict, advice and reasons
- * in lines, to show in a view. Output port 4: vtkPolyData, measured surface that goes on from the part at the place and
- * is not explained by it, with `Residual` (6).
+ * place; not there when no pose lies at the point), and of several types `PartId`, that it is about. Output port 1:
+ * vtkTable, the numbers of all steps: `Step`, `Quantity`, `Value`, `Of` (what the value is out of, or is compared with;
+ * NaN: nothing). Output port 2: the part at the place, as vtkMEAMPoseInstances has it. Output port 3: vtkTable with one
+ * row, `Text`: verdict, advice and reasons in lines, to show in a view. Output port 4: vtkPolyData, measured surface
+ * that goes on from the part at the place and is not explained by it, with `Residual` (6).
  */
 #ifndef vtkMEAMPoseDiagnosis_h
 #define vtkMEAMPoseDiagnosis_h
@@ -90,6 +92,16 @@ public:
 
   ///@{
   /**
+   * Of several types of part the one that is asked about, 0 the first on port 0; -1: that of the likely pose at the
+   * place, or else the one that has most evidence there, for which all are searched. Of poses on port 4 their `PartId`
+   * counts. Default: -1.
+   */
+  vtkSetClampMacro(PartId, int, -1, VTK_INT_MAX);
+  vtkGetMacro(PartId, int);
+  ///@}
+
+  ///@{
+  /**
    * A place that is given as a pose is first fitted to the scan, where that leaves it nearby: for poses laid by hand.
    * Default: true.
    */
@@ -119,6 +131,7 @@ private:
   double PosePosition[3] = { 0.0, 0.0, 0.0 };
   double PoseRotation[3] = { 0.0, 0.0, 0.0 };
   int RankOfPose = 1;
+  int PartId = -1;
   bool Fit = true;
 };
 

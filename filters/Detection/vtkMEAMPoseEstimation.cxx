@@ -105,27 +105,11 @@ void addNames(const std::vector<std::string>& names, vtkPolyData* output)
   }
   output->GetFieldData()->AddArray(array);
 }
-
-/// What the part that comes in is called: by its file, or by its place among several.
-std::string nameOf(vtkDataObject* part, int index)
-{
-  auto* name = vtkStringArray::SafeDownCast(part->GetFieldData()->GetAbstractArray("Name"));
-  return name && name->GetNumberOfValues() > 0 ? std::string(name->GetValue(0)) : "part " + std::to_string(index + 1);
-}
 }
 
 vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(7); }
 
 vtkMEAMPoseEstimation::~vtkMEAMPoseEstimation() = default;
-
-int vtkMEAMPoseEstimation::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return this->Superclass::FillInputPortInformation(port, info);
-}
 
 int vtkMEAMPoseEstimation::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -161,13 +145,10 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       std::vector<const meam::TrainedModel*> models;
       std::vector<vtkPolyData*> shapes;
-      std::vector<std::string> names;
       for (const auto& part : work.parts)
       {
         models.push_back(part->model.get());
         shapes.push_back(part->shape);
-        const int index = static_cast<int>(names.size());
-        names.push_back(nameOf(vtkDataObject::GetData(inputVector[0], index), index));
       }
       const meam::SceneInput& scene = work.scene;
       meam::DetectionReport report;
@@ -178,7 +159,7 @@ int vtkMEAMPoseEstimation::RequestData(
       for (const meam::PartPose& one : partPoses)
       {
         poses.push_back(one.pose);
-        nameOfEach.push_back(names[one.part]);
+        nameOfEach.push_back(work.names[one.part]);
       }
       const bool isOne = models.size() == 1;
       const double found = vtkTimerLog::GetUniversalTime();
@@ -233,7 +214,7 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         fromInstances(shapes, partPoses, drawn, {}, parts);
         setParts(partPoses, models, output);
-        addNames(names, output);
+        addNames(work.names, output);
       }
       setFieldText(output, "Report", meam::describe(poses));
       setScanQuality(output, scene.quality, work.scanReport);

@@ -12,8 +12,8 @@
  * A scene and edge points in double precision may lie anywhere: a rigid motion of both, and of the sensor, moves the
  * poses and changes nothing else.
  *
- * Input ports: as vtkMEAMEstimationAlgorithm has them. Port 0 is repeatable, for several types of part in one scan: of
- * poses that claim the same surface the best supported stays (vtkMEAMConflictResolution).
+ * Input ports: as vtkMEAMEstimationAlgorithm has them. Of several types of part, of poses that claim the same surface
+ * the best supported stays (vtkMEAMConflictResolution).
  *
  * Output port 0: the poses, best first, a vtkPolyData with one vertex each, amid what is visible of the part, and the
  * point arrays
@@ -78,7 +78,6 @@ protected:
   vtkMEAMPoseEstimation();
   ~vtkMEAMPoseEstimation() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

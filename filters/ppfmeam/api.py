@@ -105,20 +105,17 @@ class Detections(Rows):
         found.age = self.age
         return found
 
-    def why(self, at=None, rank=None, part=0):
+    def why(self, at=None, rank=None, part=None):
         """Why a part was missed at a point of the scan, three numbers, mm, or why the pose of a rank, from 1, came out, as
         ppfmeam.why() tells: a Diagnosis. A point on one of the poses asks about that pose. `part`: of several types the one that is
-        asked about at a point."""
+        asked about at a point; None: that of the likely pose there, or else the one that has most evidence there."""
         if (at is None) == (rank is None):
             raise Error("give either at, a point on the part, or rank, of a pose that came out")
         if rank is not None and rank not in range(1, len(self) + 1):
             raise Error(f"there is no pose of rank {rank!r}: {len(self)} came out")
         self.require_scan()
-        which = ("PartId", part) if len(self.models) > 1 else None
-        if rank is not None:
-            part, which = self[rank - 1].part, ("Rank", rank)
-        poses = dataset.points_where(self.data, *which) if which else self.data
-        said = why(self.models[part], at=at, pose=poses, **self.inputs, **self.settings.values)
+        poses = self.data if rank is None else dataset.points_where(self.data, "Rank", rank)
+        said = why(self.models, at=at, pose=poses, part_id=part, **self.inputs, **self.settings.values)
         return said if rank is None else said[0]
 
     def require_scan(self):
@@ -213,8 +210,8 @@ def calibrate(model, judged):
 
 class Diagnosis:
     """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `reasons` (what
-    speaks for it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose that came out there; 0: none), `pose` (4 x 4, the place, or None), `numbers` (of
-    each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should be visible)
+    speaks for it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose that came out there; 0: none),
+    `part` (of several types the one that it is about), `pose` (4 x 4, the place, or None), `numbers` (of each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should be visible)
     and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"), `unexplained` (M x 3, measured surface of
     the scan that goes on beside the part there, and is not it). `data` is the VTK data object of the
     points."""
@@ -226,6 +223,7 @@ class Diagnosis:
         self.data = data
         self.verdict, self.advice, self.reasons, self.lost_in = map(text, ("Verdict", "Advice", "Reasons", "LostIn"))
         self.rank = int(scripting.field(data, "Rank"))
+        self.part = int(scripting.field(data, "PartId")) if data.GetFieldData().HasArray("PartId") else 0
         place = data.GetFieldData().GetArray("Transform")
         self.pose = vtk_to_numpy(place).reshape(4, 4).copy() if place else None
         columns = [table.GetColumnByName(name) for name in ("Step", "Quantity", "Value", "Of")]
@@ -295,7 +293,7 @@ def part_of(part, scale, settings, reading):
 
 @takes(settings="detect", sensor="sensor", reading="read")
 def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, camera=None, image_camera=None, scale=1.0,
-        cad_scale=1.0, region=None, *, settings, sensor, reading):
+        cad_scale=1.0, region=None, part_id=None, *, settings, sensor, reading):
     """Tells why a part of a scan was missed: which step lost it, and what to change.
 
     part, scan, image, boundary, cameras, scales and region: as detect() takes them. at: a point of the scan on the part, three
@@ -303,13 +301,16 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
     are first fitted to the scan. Returns a Diagnosis; of several poses a list, which takes one detection.
     pose may also be VTK's data object of poses that came out, found.data: a list tells why they did. With `at`, too, it is about that
     one of them whose surface is at the point, as found.why() has it.
+    part_id: of a list of parts the one that is asked about, as `part` of found.why().
     """
     came_out = pose if isinstance(pose, vtkDataObject) else None
     if (at is None) == (pose is None) and not (came_out and at is not None):
         raise Error("give either at, a point on the part, or pose, where the part lies")
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region, sensor.viewpoint)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
-    diagnosis.SetInputDataObject(part_of(part, cad_scale, settings, reading).data)
+    for each in part if isinstance(part, (list, tuple)) else [part]:
+        diagnosis.AddInputDataObject(part_of(each, cad_scale, settings, reading).data)
+    diagnosis.SetPartId(-1 if part_id is None else part_id)
     for port, data in enumerate(inputs.to_vtk(seen), 1):
         diagnosis.SetInputDataObject(port, data)
     diagnosis.SetRegion(*(regions.of(region)[0] or regions.EVERYWHERE))

@@ -314,7 +314,7 @@ try:
     raises("is a scan: the part has to be a mesh", ppfmeam.train, "scan.pcd")
     raises("the part has to be a file, or a vtkPolyData, not ndarray", ppfmeam.train, flat)
     raises("the model has to be a file, not NoneType", ppfmeam.load, None)
-    raises("the part has to be a Model, a file, or a vtkPolyData, not list", ppfmeam.why, [model], scan, at=(0, 0, 600))
+    raises("the part has to be a Model, a file, or a vtkPolyData, not dict", ppfmeam.why, {}, scan, at=(0, 0, 600))
     raises("the scan has to be a file, an array of points, or VTK's data object, not Model", ppfmeam.detect, "part.stl", model)
     raises("scale has to be a positive number, not '1000'", ppfmeam.detect, model, scan, scale="1000")
     raises("three finite numbers, not 'here'", ppfmeam.why, model, scan, at="here")

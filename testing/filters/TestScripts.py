@@ -140,6 +140,9 @@ told = [(int(row["obj_id"]), [float(word) for word in row["t"].split()]) for row
 check([(pose.part + 1, list(pose.transform[:3, 3])) for pose in together] == told, f"the same in Python: {together} {told}")
 check(sorted({0, 1} & set(together.parts)) == [0, 1] and sum(len(together.of(k)) for k in (0, 1)) == 4, "by part")
 check(tuples(together.data, "PartId") == [(part,) for part in together.parts], "as data")
+told = together.why(rank=1)
+again = together.why(at=told.points[told.states.index("matched")])
+check((told.rank, told.part) == (again.rank, again.part) == (1, together.parts[0]), f"why: {told} {again}")
 result = script("detect.py", "--cad", "part.stl", "--cad", "box.stl", "--model", "model.vtpc", "--scene", "two.pcd")
 check(result.returncode == 2 and "a --cad for each --model" in result.stderr, result.stderr)
 
