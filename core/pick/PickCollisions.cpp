@@ -148,11 +148,17 @@ void PickCollisions::setBin(const Bin* bin)
 
 void PickCollisions::setInstances(const std::vector<Eigen::Isometry3d>& poses)
 {
+  this->setInstances(poses, std::vector<const PickCollisions*>(poses.size(), this));
+}
+
+void PickCollisions::setInstances(
+  const std::vector<Eigen::Isometry3d>& poses, const std::vector<const PickCollisions*>& parts)
+{
   this->Objects->instances.clear();
-  for (const auto& pose : poses)
+  for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    const int instance = static_cast<int>(this->Objects->instances.size());
-    this->Objects->instances.push_back({ this->Objects->part, pose, Obstacle::Instance, instance });
+    this->Objects->instances.push_back(
+      { parts.at(k)->Objects->part, poses[k], Obstacle::Instance, static_cast<int>(k) });
   }
 }
 

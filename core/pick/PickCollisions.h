@@ -37,6 +37,8 @@ public:
   /// What lies around, scene coordinates, mm. Each replaces what was there.
   void setBin(const Bin* bin);
   void setInstances(const std::vector<Eigen::Isometry3d>& poses);
+  /// Copies of several parts: of each pose the collisions that were made of its part.
+  void setInstances(const std::vector<Eigen::Isometry3d>& poses, const std::vector<const PickCollisions*>& parts);
   /// A cube of side `voxelSize` (mm) about every place where at least `fewest` of the points lie.
   void setMeasured(const Points& points, double voxelSize, int fewest);
 

@@ -52,22 +52,59 @@ PickPlanner::~PickPlanner() = default;
 Picks PickPlanner::plan(
   const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress)
 {
+  return planAll({ this }, poses, std::vector<int>(poses.size(), 0), cloud, bin, progress);
+}
+
+Picks PickPlanner::planAll(const std::vector<PickPlanner*>& planners, const Poses& poses, const std::vector<int>& parts,
+  const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress)
+{
+  check(poses);
+  Picks picks;
+  for (std::size_t part = 0; part < planners.size(); ++part)
+  {
+    const double step = 1.0 / static_cast<double>(planners.size());
+    const double from = step * static_cast<double>(part);
+    planners[part]->add(
+      static_cast<int>(part), planners, poses, parts, cloud, bin, subProgress(progress, from, from + step), picks);
+  }
+  const auto order = [](const Pick& pick)
+  { return std::make_tuple(-pick.score, -static_cast<int>(pick.obstruction), pick.tilt); };
+  std::stable_sort(picks.begin(), picks.end(),
+    [&](const Pick& a, const Pick& b) { return a.possible() != b.possible() ? a.possible() : order(a) < order(b); });
+  report(progress, 1.0);
+  return picks;
+}
+
+void PickPlanner::add(int part, const std::vector<PickPlanner*>& planners, const Poses& poses,
+  const std::vector<int>& parts, const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress,
+  Picks& picks)
+{
   GraspSearch& search = *this->Search;
   const PlanSettings& settings = search.settings();
-  check(poses);
   if (bin)
   {
     check(*bin, search.gripper(), settings.safetyMargin);
   }
   report(progress, 0.0);
-  const PickSurroundings around = surroundingsOf(poses, cloud, bin, search.surface(), search.partSize(), settings);
-  search.setObstacles(poses, bin, around);
-  Picks picks;
+  std::vector<const GraspSearch*> searches;
+  std::vector<const PartSurface*> surfaces;
+  for (const int of : parts)
+  {
+    searches.push_back(planners.at(of)->Search.get());
+    surfaces.push_back(&searches.back()->surface());
+  }
+  const PickSurroundings around = surroundingsOf(poses, surfaces, cloud, bin, search.partSize(), settings);
+  search.setObstacles(poses, searches, bin, around);
   std::size_t copy = 0;
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     report(progress, 0.3 + 0.7 * static_cast<double>(k) / static_cast<double>(poses.size()));
     const bool likely = copy < around.copies.size() && around.copies[copy] == static_cast<int>(k);
+    if (parts[k] != part)
+    {
+      copy += likely;
+      continue;
+    }
     const double covered = likely ? coveredShare(poses[k], static_cast<int>(copy), search.surface(), around) : 0.0;
     const bool free = likely && 100.0 * covered <= settings.maximumCovered;
     for (std::size_t g = 0; g < search.grasps().size(); ++g)
@@ -98,11 +135,5 @@ Picks PickPlanner::plan(
     }
     copy += likely;
   }
-  const auto order = [](const Pick& pick)
-  { return std::make_tuple(-pick.score, -static_cast<int>(pick.obstruction), pick.tilt); };
-  std::stable_sort(picks.begin(), picks.end(),
-    [&](const Pick& a, const Pick& b) { return a.possible() != b.possible() ? a.possible() : order(a) < order(b); });
-  report(progress, 1.0);
-  return picks;
 }
 }

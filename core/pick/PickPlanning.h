@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace meam
 {
@@ -37,7 +38,16 @@ public:
   Picks plan(
     const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin = {}, const Progress& progress = {});
 
+  /// The same of several types of part, each with its grasps and one gripper; `parts`: of each pose the index of its
+  /// planner. A pick's `pose` is the index among all, its `grasp` that among those of its type.
+  static Picks planAll(const std::vector<PickPlanner*>& planners, const Poses& poses, const std::vector<int>& parts,
+    const OrganizedCloud& cloud, const std::optional<Bin>& bin = {}, const Progress& progress = {});
+
 private:
+  /// Adds the picks of this type, whose index is `part`, in no order.
+  void add(int part, const std::vector<PickPlanner*>& planners, const Poses& poses, const std::vector<int>& parts,
+    const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress, Picks& picks);
+
   std::unique_ptr<GraspSearch> Search;
 };
 }

@@ -131,7 +131,7 @@ private:
 };
 }
 
-void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, ShownPicks shown, vtkPolyData* output)
+void fromPicks(const meam::Picks& picks, const GraspOf& graspOf, ShownPicks shown, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -167,11 +167,11 @@ void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, ShownPicks 
   addColumn<vtkIntArray>(
     picks, "Grasp", [](const meam::Pick& pick) { return pick.grasp + 1; }, output);
   addColumn<vtkStringArray>(
-    picks, "GraspName", [&](const meam::Pick& pick) { return grasps[pick.grasp].name; }, output);
+    picks, "GraspName", [&](const meam::Pick& pick) { return graspOf(pick).name; }, output);
   addColumn<vtkIntArray>(
-    picks, "Kind", [&](const meam::Pick& pick) { return static_cast<int>(grasps[pick.grasp].kind); }, output);
+    picks, "Kind", [&](const meam::Pick& pick) { return static_cast<int>(graspOf(pick).kind); }, output);
   addColumn<vtkDoubleArray>(
-    picks, "Width", [&](const meam::Pick& pick) { return grasps[pick.grasp].width; }, output);
+    picks, "Width", [&](const meam::Pick& pick) { return graspOf(pick).width; }, output);
   addColumn<vtkIntArray>(
     picks, "Obstacle", [](const meam::Pick& pick) { return pick.obstacle + 1; }, output);
   addColumn<vtkDoubleArray>(
@@ -187,6 +187,12 @@ void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, ShownPicks 
   output->GetPointData()->SetActiveScalars("Possible");
 }
 
+void addParts(const meam::Picks& picks, const std::vector<int>& parts, vtkPolyData* output)
+{
+  addColumn<vtkIntArray>(
+    picks, "PartId", [&](const meam::Pick& pick) { return parts[pick.pose]; }, output);
+}
+
 void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* name, vtkPolyData* output)
 {
   vtkNew<vtkDoubleArray> transforms;
@@ -200,8 +206,8 @@ void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* n
   output->GetPointData()->AddArray(transforms);
 }
 
-void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const meam::Gripper& gripper, ShownPicks shown,
-  vtkPolyData* output)
+void fromGrippers(
+  const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper, ShownPicks shown, vtkPolyData* output)
 {
   Pieces pieces({ "Possible", "Rank", "Obstruction" });
   const std::vector<bool> drawn = drawnOf(picks, shown);
@@ -210,7 +216,7 @@ void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const me
     const meam::Pick& pick = picks[k];
     if (drawn[k])
     {
-      pieces.add(meam::meshOf(gripper, grasps[pick.grasp]), pick.T_scene_grasp,
+      pieces.add(meam::meshOf(gripper, graspOf(pick)), pick.T_scene_grasp,
         { pick.possible() ? 1 : 0, static_cast<int>(k) + 1, static_cast<int>(pick.obstruction) });
     }
   }

@@ -8,6 +8,7 @@
 #include "pick/Bin.h"
 #include "pick/PickPlanning.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,16 +25,22 @@ enum class ShownPicks
   All
 };
 
+/// Which grasp a pick is of.
+using GraspOf = std::function<const meam::Grasp&(const meam::Pick&)>;
+
 /// A vertex for each pick, with the arrays that vtkMEAMPickPlanning documents; `Label` is empty where no gripper is
 /// drawn.
-void fromPicks(const meam::Picks& picks, const meam::Grasps& grasps, ShownPicks shown, vtkPolyData* output);
+void fromPicks(const meam::Picks& picks, const GraspOf& graspOf, ShownPicks shown, vtkPolyData* output);
+
+/// Of several types of part the array `PartId`; `parts`: of each pose its type.
+void addParts(const meam::Picks& picks, const std::vector<int>& parts, vtkPolyData* output);
 
 /// The picks' frames in another frame, such as a robot's, in which the scene's lies at `frame`: as a point array of 16
 /// components, row-major.
 void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* name, vtkPolyData* output);
 
 /// The gripper at picks, with `Rank`, `Possible` and `Obstruction` for its cells.
-void fromGrippers(const meam::Picks& picks, const meam::Grasps& grasps, const meam::Gripper& gripper, ShownPicks shown,
+void fromGrippers(const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper, ShownPicks shown,
   vtkPolyData* output);
 
 /// The floor and the walls, to look at.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPickPlanning.h"
 
+#include "base/Bounds.h"
 #include "calibration/RobotFrameFile.h"
 #include "pick/BinDetection.h"
 #include "pick/PickPlanning.h"
@@ -15,6 +16,8 @@
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSymmetryConversion.h"
 
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -23,8 +26,11 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkMEAMPickPlanning);
 
@@ -46,6 +52,49 @@ meam::OrganizedCloud cloudOf(vtkPointSet* scan)
   }
   return cloud;
 }
+
+/// Of each pose the index of its type of part, for which there are so many meshes and grasps.
+std::vector<int> typesOf(vtkPolyData* poses, int meshes, int grasps)
+{
+  std::vector<int> types(poses->GetNumberOfPoints(), 0);
+  vtkDataArray* parts = vtkMEAMConversion::pointArray(poses, "PartId", 1);
+  int most = 0;
+  if (parts && parts->GetNumberOfTuples() > 0 && (meshes > 1 || parts->GetRange()[0] < parts->GetRange()[1]))
+  {
+    for (vtkIdType k = 0; k < poses->GetNumberOfPoints(); ++k)
+    {
+      types[k] = static_cast<int>(parts->GetComponent(k, 0));
+      most = std::max(most, types[k]);
+    }
+  }
+  if (meshes != grasps || most >= meshes)
+  {
+    throw meam::Error("The poses are of " + std::to_string(most + 1) +
+                      (most > 0 ? " types of part or more" : " type of part") +
+                      ": connect to Part the mesh and to Grasps the grasps of each, in the order in which they were "
+                      "searched, not " +
+                      std::to_string(meshes) + " and " + std::to_string(grasps) + ".");
+  }
+  return types;
+}
+
+/// Throws Error where a mesh is not as large as the type of part that is searched at its place.
+void requireSize(const meam::TriangleMesh& mesh, int type, vtkPolyData* poses)
+{
+  constexpr double Off = 0.05; // of the diameter, which is that of samples
+  vtkDataArray* diameters = poses->GetFieldData()->GetArray("Diameter");
+  if (diameters && type < diameters->GetNumberOfTuples())
+  {
+    const double diameter = diameters->GetComponent(type, 0);
+    const Eigen::Vector3d sides = meam::bounds(mesh.vertices).cast<double>().sizes();
+    if ((1.0 - Off) * sides.maxCoeff() > diameter || (1.0 + Off) * sides.norm() < diameter)
+    {
+      throw meam::Error("Mesh " + std::to_string(type + 1) +
+                        " of the input Part is not as large as the part that was " +
+                        "searched: connect to Part and to Grasps those of all types, in the order in which they were.");
+    }
+  }
+}
 }
 
 vtkMEAMPickPlanning::vtkMEAMPickPlanning()
@@ -61,6 +110,10 @@ int vtkMEAMPickPlanning::FillInputPortInformation(int port, vtkInformation* info
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 3 ? "vtkPointSet" : "vtkPolyData");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
+  if (port == 1 || port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
   return 1;
 }
 
@@ -106,8 +159,6 @@ int vtkMEAMPickPlanning::RequestData(
 {
   using namespace vtkMEAMConversion;
   auto* posesInput = vtkPolyData::GetData(inputVector[0]);
-  auto* part = vtkPolyData::GetData(inputVector[1]);
-  auto* graspsInput = vtkPolyData::GetData(inputVector[2]);
   auto* scan = vtkPointSet::GetData(inputVector[3]);
   auto* gripperInput = vtkPolyData::GetData(inputVector[4]);
   auto* output = vtkPolyData::GetData(outputVector, 0);
@@ -121,12 +172,8 @@ int vtkMEAMPickPlanning::RequestData(
       requireInputs(this, { "Poses", "Part", "Grasps" });
       const meam::Progress progress = progressOf(this);
       const meam::Poses poses = toPoses(posesInput);
-      const meam::Grasps grasps = toGrasps(graspsInput);
-      meam::Symmetries symmetries = symmetriesOf(part);
-      if (!symmetries.exact() && symmetries.near.empty())
-      {
-        symmetries = symmetriesOf(graspsInput);
-      }
+      const std::vector<int> parts = typesOf(
+        posesInput, inputVector[1]->GetNumberOfInformationObjects(), inputVector[2]->GetNumberOfInformationObjects());
       meam::Gripper gripper = *this->Lengths;
       if (gripperInput)
       {
@@ -147,10 +194,38 @@ int vtkMEAMPickPlanning::RequestData(
         }
         bin = meam::detectBin(cloud, meam::subProgress(progress, 0.0, 0.2));
       }
-      meam::PickPlanner planner(toMesh(part), symmetries, grasps, gripper, *this->Settings);
-      const meam::Picks picks = planner.plan(poses, cloud, bin, meam::subProgress(progress, 0.4, 1.0));
+      std::vector<meam::Grasps> grasps;
+      std::vector<std::unique_ptr<meam::PickPlanner>> planners;
+      std::vector<meam::PickPlanner*> ofTypes;
+      for (int type = 0; type < inputVector[1]->GetNumberOfInformationObjects(); ++type)
+      {
+        auto* part = vtkPolyData::GetData(inputVector[1], type);
+        auto* graspsInput = vtkPolyData::GetData(inputVector[2], type);
+        meam::Symmetries symmetries = symmetriesOf(part);
+        if (!symmetries.exact() && symmetries.near.empty())
+        {
+          symmetries = symmetriesOf(graspsInput);
+        }
+        grasps.push_back(toGrasps(graspsInput));
+        const meam::TriangleMesh mesh = toMesh(part);
+        if (inputVector[1]->GetNumberOfInformationObjects() > 1)
+        {
+          requireSize(mesh, type, posesInput);
+        }
+        planners.push_back(
+          std::make_unique<meam::PickPlanner>(mesh, symmetries, grasps.back(), gripper, *this->Settings));
+        ofTypes.push_back(planners.back().get());
+      }
+      const auto graspOf = [&](const meam::Pick& pick) -> const meam::Grasp&
+      { return grasps[parts[pick.pose]][pick.grasp]; };
+      const meam::Picks picks =
+        meam::PickPlanner::planAll(ofTypes, poses, parts, cloud, bin, meam::subProgress(progress, 0.4, 1.0));
       const auto shown = static_cast<ShownPicks>(this->ShownGrippers);
-      fromPicks(picks, grasps, shown, output);
+      fromPicks(picks, graspOf, shown, output);
+      if (grasps.size() > 1)
+      {
+        addParts(picks, parts, output);
+      }
       if (this->RobotFrameFile && *this->RobotFrameFile)
       {
         meam::Pose robot;
@@ -162,7 +237,7 @@ int vtkMEAMPickPlanning::RequestData(
       setFieldText(output, "PickReport", report);
       setFieldText(output, "PickAdvice", advice);
       fromAnswer({ report, advice }, answer);
-      fromGrippers(picks, grasps, gripper, shown, grippers);
+      fromGrippers(picks, graspOf, gripper, shown, grippers);
       if (!gripperInput)
       {
         setGripper(output, gripper);

@@ -9,9 +9,11 @@
  * besides (FCL). Of the turns of a grasp the one comes out where it is possible with most clearance.
  *
  * Input port 0: poses of the part, best first, a vtkPolyData with `Transform` and, where they are known,
- * `PlaceProbability` and `Probability`. Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; with the
- * field data of vtkMEAMSymmetryDetection, or the grasps with it, symmetric grasps are tried, too. Input port 2: grasps,
- * a vtkPolyData with `Transform` (vtkMEAMGraspDefinition). Input port 3, optional: all points the sensor measured, a
+ * `PlaceProbability` and `Probability`; of several types of part with `PartId`. Input port 1: the CAD mesh in the frame
+ * of the poses, a vtkPolyData; with the field data of vtkMEAMSymmetryDetection, or the grasps with it, symmetric grasps
+ * are tried, too. Input port 2: grasps, a vtkPolyData with `Transform` (vtkMEAMGraspDefinition). Ports 1 and 2 are
+ * repeatable, for several types of part, in the order of `PartId`; what is a copy of one type is in the way of the
+ * others. Input port 3, optional: all points the sensor measured, a
  * vtkPointSet in mm. Without it only copies and bin are in the way. Input port 4, optional: any gripper as it stands
  * open, a vtkPolyData with faces in the grasp's frame, mm: origin between the jaws, z the way in. It takes the place of
  * the one by lengths.
@@ -20,13 +22,13 @@
  * in the order of Obstructions. Point arrays: `Transform` (16, row-major T_scene_grasp), `Quaternion` (x y z w), `Rank`
  * (from 1), `Possible` (0 or 1, active scalars), `Obstruction` (int, see Obstructions), `Reason` (text), `Label` (text:
  * where the gripper is shown the rank, or the reason in a word), `Instance` and
- * `Grasp` (from 1: which pose, which grasp), `GraspName` (text), `Kind` and `Width` (of the grasp), `Obstacle` (the
- * instance in the way, 0: none), `Clearance`, `Reach` (mm, down from the bin's rim or the highest point), `Tilt`
- * (degrees), `Covered` and `Score` ([0, 1]); with a RobotFrameFile `RobotTransform` (16, row-major T_robot_grasp, mm).
- * Field data: `PickReport`, in a sentence: how many copies can be picked, and what keeps the gripper from the others;
- * `PickAdvice`: what to change for these, a sentence for each reason, empty where all can be picked; `Gripper` (11,
- * named: kind and lengths; not of a mesh); with a bin `Bin` (20: its frame, row-major, inner length, inner width,
- * height, wall; mm).
+ * `Grasp` (from 1: which pose, which grasp of its type), `GraspName` (text), `Kind` and `Width` (of the grasp),
+ * `Obstacle` (the instance in the way, 0: none), `Clearance`, `Reach` (mm, down from the bin's rim or the highest
+ * point), `Tilt` (degrees), `Covered` and `Score` ([0, 1]); with a RobotFrameFile `RobotTransform` (16, row-major
+ * T_robot_grasp, mm); of several types of part `PartId`. Field data: `PickReport`, in a sentence: how many copies can
+ * be picked, and what keeps the gripper from the others; `PickAdvice`: what to change for these, a sentence for each
+ * reason, empty where all can be picked; `Gripper` (11, named: kind and lengths; not of a mesh); with a bin `Bin` (20:
+ * its frame, row-major, inner length, inner width, height, wall; mm).
  *
  * Output port 1: the gripper at the picks, a vtkPolyData with `Possible` (active scalars), `Rank` and `Obstruction` for
  * its cells.
@@ -53,6 +55,12 @@ public:
   static vtkMEAMPickPlanning* New();
   vtkTypeMacro(vtkMEAMPickPlanning, vtkMEAMGripperAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Takes the meshes, or the grasps, of all types away; one is added by AddInputConnection(1, ...), (2, ...). */
+  void RemoveAllMeshConnections() { this->RemoveAllInputConnections(1); }
+  void RemoveAllGraspsConnections() { this->RemoveAllInputConnections(2); }
+  ///@}
 
   /** Values of `Obstruction`: why a pick is not possible. */
   enum Obstructions

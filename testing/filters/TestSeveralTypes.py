@@ -1,39 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What follows MEAM Pose Estimation of two types of part: Pose Diagnosis of poses of each, and of places where none came out."""
-import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkStructuredGrid
+"""What follows MEAM Pose Estimation of two types of part: Pose Diagnosis of poses of each, and of places where none came out; Pick
+Planning with the grasps of each."""
+from ppfmeam.filters import vtkMEAMGraspDefinition, vtkMEAMPickPlanning, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation
+from meamtest import check, cloud, connect, distance, fails, field, poses, prints, run, tuples
+from twotypes import two_types
 
-from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMSamplePartSource
-from meamtest import bracket, check, cloud, connect, distance, fails, field, poses, prints, run, tuples
-
-W, H = 640, 480
-plate = vtkMEAMSamplePartSource()
-plate.SetPartToHolePlate()
-meshes = [run(plate), bracket()]
-
-
-def bin_of(mesh):
-    source = connect(vtkMEAMBinSceneSource(), mesh)
-    for name, value in (("Copies", 4), ("Seed", 7), ("Width", W), ("Height", H), ("BinSize", 200)):
-        getattr(source, "Set" + name)(value)
-    run(source)
-    return source
-
-
-def halves(bins):
-    """The left half of one scan, the right half of the other: the bins are alike."""
-    left = numpy.tile(numpy.arange(W) < W // 2, H)
-    scan = vtkStructuredGrid()
-    scan.DeepCopy(bins[0].GetOutput())
-    for of in (lambda data: data.GetPoints().GetData(), lambda data: data.GetPointData().GetArray("Intensity")):
-        mine, other = (vtk_to_numpy(of(data)) for data in (scan, bins[1].GetOutput()))
-        mine[~left] = other[~left]
-    return scan
-
-
-bins = [bin_of(mesh) for mesh in meshes]
-scan = halves(bins)
+CUP = 8  # mm
+meshes, scan = two_types()
 
 
 def asked(filter, parts=meshes, found=None, **properties):
@@ -124,4 +97,47 @@ check(answer(alone).startswith("Found as rank "), answer(alone))
 third = rows_of(found, lambda k: True)
 third.GetPointData().GetArray("PartId").SetComponent(0, 0, 2)
 fails(asked(vtkMEAMPoseDiagnosis(), found=third), "more types of part than the 2", "connect all")
+fails(asked(vtkMEAMPoseDiagnosis(), meshes[::-1], found), "another order")
 prints(alone, "PartId")
+
+# Picks of each type with its own grasps, best first; what is of the other type stands in the way, too.
+def grasps_of(mesh):
+    filter = connect(vtkMEAMGraspDefinition(), mesh)
+    filter.SetProposeToSuction()
+    filter.SetCupDiameter(CUP)
+    return run(filter)
+
+
+def planning(meshes, grasps, found=found):
+    filter = vtkMEAMPickPlanning()
+    filter.SetGripperToSuctionCup()
+    filter.SetCupDiameter(CUP)
+    filter.SetInputDataObject(0, found)
+    for port, inputs in ((1, meshes), (2, grasps)):
+        for data in inputs:
+            filter.AddInputDataObject(port, data)
+    filter.SetInputDataObject(3, scan)
+    filter.SetBinToNone()
+    return filter
+
+
+held = [grasps_of(mesh) for mesh in meshes]
+plan = planning(meshes, held)
+picks = run(plan)
+of = [int(part) for part, in tuples(picks, "PartId")]
+instances, number = ([int(value) for value, in tuples(picks, name)] for name in ("Instance", "Grasp"))
+check([parts[instance - 1] for instance in instances] == of, "the type of each pick is that of its pose")
+for part in (0, 1):
+    count = held[part].GetNumberOfPoints()
+    check(sorted(g for g, p in zip(number, of) if p == part) == sorted(list(range(1, count + 1)) * parts.count(part)), f"grasps of {part}")
+names = [data.GetPointData().GetAbstractArray("GraspName") for data in (picks, *held)]
+check(all(names[0].GetValue(k) == names[1 + part].GetValue(g - 1) for k, (part, g) in enumerate(zip(of, number))), "their names")
+possible = [p for p, in tuples(picks, "Possible")]
+check(possible == sorted(possible, reverse=True) and {part for part, p in zip(of, possible) if p} == {0, 1}, f"possible of both: {possible}")
+check(f" of {len(parts)} copies can be picked" in picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0), "the report")
+for wrong in (planning(meshes[:1], held[:1]), planning(meshes, held[:1]), planning(meshes[:1], held[:1], third)):
+    fails(wrong, "types of part", "connect to Part the mesh and to Grasps the grasps of each")
+fails(planning(meshes, held, third), "The poses are of 3 types", "not 2 and 2")
+fails(planning(meshes[::-1], held[::-1]), "Mesh 1 of the input Part is not as large")
+first = run(planning(meshes[:1], held[:1], rows_of(found, lambda k: parts[k] == 0)))
+check(not first.GetPointData().HasArray("PartId") and first.GetNumberOfPoints() == of.count(0), "one type alone")

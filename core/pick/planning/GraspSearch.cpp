@@ -144,15 +144,18 @@ bool GraspSearch::holdsAnyRotation(const Grasp& grasp, const Symmetries& symmetr
 
 double GraspSearch::step() const { return std::max(this->Settings.safetyMargin, 1.0); }
 
-void GraspSearch::setObstacles(const Poses& poses, const std::optional<Bin>& bin, const PickSurroundings& around)
+void GraspSearch::setObstacles(const Poses& poses, const std::vector<const GraspSearch*>& ofPoses,
+  const std::optional<Bin>& bin, const PickSurroundings& around)
 {
   std::vector<Eigen::Isometry3d> places;
+  std::vector<const PickCollisions*> parts;
   for (const int copy : around.copies)
   {
     places.push_back(poses[copy].T_scene_model);
+    parts.push_back(&ofPoses[copy]->Collisions);
   }
   this->Collisions.setBin(bin ? &*bin : nullptr);
-  this->Collisions.setInstances(places);
+  this->Collisions.setInstances(places, parts);
   this->Collisions.setMeasured(around.unexplained, around.voxelSize, FewestInVoxel);
 }
 

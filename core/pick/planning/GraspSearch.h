@@ -35,8 +35,9 @@ public:
   /// count the rotation.
   bool needsRotation(std::size_t grasp) const { return this->NeedsRotation[grasp]; }
 
-  /// What is in the way from now on.
-  void setObstacles(const Poses& poses, const std::optional<Bin>& bin, const PickSurroundings& around);
+  /// What is in the way from now on; `ofPoses`: of each pose the search of its part.
+  void setObstacles(const Poses& poses, const std::vector<const GraspSearch*>& ofPoses, const std::optional<Bin>& bin,
+    const PickSurroundings& around);
 
   /// The best turn of a grasp of a copy; where none is possible the one that comes farthest.
   Pick pickAt(const Pose& pose, int copy, int grasp, const PickSurroundings& around) const;

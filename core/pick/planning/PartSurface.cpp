@@ -42,6 +42,7 @@ void addLattice(
 }
 
 PartSurface::PartSurface(const TriangleMesh& part, double spacing, double reach)
+  : Reach(reach)
 {
   requireMesh(part);
   PointCloud lattice;
@@ -88,10 +89,11 @@ std::vector<int> PartSurface::pointsAt(
   const Eigen::Isometry3d& T_scene_model, const Points& points, double tolerance) const
 {
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
+  const auto near = static_cast<float>(std::min(tolerance, this->Reach));
   std::vector<int> result;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    if (this->Distances.at(toModel * points[k]) < static_cast<float>(tolerance))
+    if (this->Distances.at(toModel * points[k]) < near)
     {
       result.push_back(static_cast<int>(k));
     }

@@ -32,5 +32,6 @@ private:
   DistanceField Distances;
   Eigen::Vector3d Middle = Eigen::Vector3d::Zero();
   double Radius = 0.0;
+  double Reach;
 };
 }

@@ -31,8 +31,8 @@ double confidence(const Pose& pose, bool needsRotation)
   return known > 0.0 ? known : 1.0;
 }
 
-PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin,
-  const PartSurface& surface, double partSize, const PlanSettings& settings)
+PickSurroundings surroundingsOf(const Poses& poses, const std::vector<const PartSurface*>& surfaces,
+  const OrganizedCloud& cloud, const std::optional<Bin>& bin, double partSize, const PlanSettings& settings)
 {
   PickSurroundings around;
   const GridScale scale = cloud.points.empty() ? GridScale{} : gridScale(cloud);
@@ -61,7 +61,7 @@ PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud,
       continue;
     }
     around.copies.push_back(static_cast<int>(k));
-    around.pointsOf.push_back(surface.pointsAt(poses[k].T_scene_model, around.points, around.tolerance));
+    around.pointsOf.push_back(surfaces[k]->pointsAt(poses[k].T_scene_model, around.points, around.tolerance));
     for (const int index : around.pointsOf.back())
     {
       explained[index] = true;

@@ -25,9 +25,10 @@ struct PickSurroundings
   std::vector<std::vector<int>> pointsOf;         ///< of each copy
 };
 
-/// What lies around the copies of a part that is `partSize` mm large.
-PickSurroundings surroundingsOf(const Poses& poses, const OrganizedCloud& cloud, const std::optional<Bin>& bin,
-  const PartSurface& surface, double partSize, const PlanSettings& settings);
+/// What lies around the copies of a part that is `partSize` mm large; `surfaces`: of each pose that of its part, which
+/// may be another one.
+PickSurroundings surroundingsOf(const Poses& poses, const std::vector<const PartSurface*>& surfaces,
+  const OrganizedCloud& cloud, const std::optional<Bin>& bin, double partSize, const PlanSettings& settings);
 
 /// Share, [0, 1], of a pose, the `copy`th of the copies, that lies under something, from above.
 double coveredShare(const Pose& pose, int copy, const PartSurface& surface, const PickSurroundings& around);

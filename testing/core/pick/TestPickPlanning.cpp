@@ -218,6 +218,34 @@ TEST(PickPlanning, TheBestComesFirstAndTheImpossibleLast)
   EXPECT_EQ(meam::adviceOn(picks), "Copies too uncertain: lower the minimum probability, or scan again.");
 }
 
+TEST(PickPlanning, SeveralTypesEachWithItsGraspsAreInEachOthersWay)
+{
+  // A block, held in its middle or at its end, and a pillar 1 mm beside the jaw in the middle.
+  const meam::TriangleMesh pillar = parts::box({ -5, -5, -30 }, { 5, 5, 10 });
+  meam::Grasp ofPillar = fromAbove();
+  ofPillar.T_model_grasp.translation().z() = -20.0;
+  ofPillar.width = 10.0;
+  meam::PickPlanner first(grippers::block(), {}, { fromAbove(15.0), fromAbove() }, grippers::jaws());
+  meam::PickPlanner second(pillar, {}, { ofPillar }, grippers::jaws());
+  const auto planned = [&](double x)
+  {
+    const auto cloud =
+      scan([x](float u, float v) { return std::abs(u - x) < 5.0 && std::abs(v) < 5.0f ? 460.0f : blockOnFloor(u, v); });
+    return meam::PickPlanner::planAll({ &first, &second }, { poseAt(x, 0), poseAt(0, 0) }, { 1, 0 }, cloud, bin());
+  };
+  const meam::Picks near = planned(27.0);
+  ASSERT_EQ(near.size(), 3u);
+  EXPECT_EQ(meam::describe(near), "2 of 2 copies can be picked, by 2 of 3 picks.");
+  for (const meam::Pick& pick : near)
+  {
+    EXPECT_EQ(pick.possible(), pick.pose == 0 || pick.grasp == 0) << meam::describe(pick);
+    EXPECT_NEAR(pick.T_scene_grasp.translation().z(), pick.pose == 0 ? 470.0 : 490.0, 1e-9);
+  }
+  EXPECT_EQ(near.back().obstruction, meam::PickObstruction::Instance) << meam::describe(near.back());
+  EXPECT_EQ(near.back().obstacle, 0);
+  EXPECT_EQ(meam::describe(planned(60.0)), "2 of 2 copies can be picked, by 3 of 3 picks.");
+}
+
 TEST(PickPlanning, MovesWithTheScene)
 {
   const Eigen::Isometry3d motion = Eigen::Translation3d(300, -200, 100) *

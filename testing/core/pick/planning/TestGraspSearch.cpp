@@ -40,7 +40,7 @@ meam::Pick pickFirst(
   {
     around.copies.push_back(i);
   }
-  search.setObstacles(poses, std::nullopt, around);
+  search.setObstacles(poses, std::vector<const meam::GraspSearch*>(poses.size(), &search), std::nullopt, around);
   return search.pickAt(poses[0], 0, 0, around);
 }
 }
