@@ -249,7 +249,7 @@ void addLabels(
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     std::string label = isDrawn(poses[k], minimumProbability) ? std::to_string(k + 1) : "";
-    label = label.empty() || names.empty() ? label : names[k] + " " + label;
+    label += label.empty() || names.empty() ? "" : " (" + names[k] + ")";
     const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
     if (!label.empty() && meam::claimOf(poses[k], false) > 0.0)
     {

@@ -43,7 +43,7 @@ void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, d
 
 /// The text `Label` for each pose: its rank and, where it is known, how likely it is there, as in "1: 98 %", and where
 /// it is unsure its rotation, as in "1: 98 %, rotation 30 %"; nothing for a pose that is less likely, which gets no
-/// copy. `names`, of the part at each pose, stand before it, as in "flap 1: 98 %"; empty: all are of one type.
+/// copy. `names`, of the part at each pose, stand behind the rank, as in "1 (flap): 98 %"; empty: all are of one type.
 void addLabels(
   const meam::Poses& poses, const std::vector<std::string>& names, double minimumProbability, vtkPolyData* output);
 

@@ -21,6 +21,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -127,30 +128,36 @@ void fromUnexplained(const meam::PrecisePoints& from, vtkPolyData* output)
   output->GetPointData()->SetScalars(residual);
 }
 
-/// The poses that came out of a search for so many types of part: their probabilities are known. None came out of
-/// another one.
-std::vector<meam::FoundPose> foundPoses(vtkPolyData* given, const meam::Poses& poses, int types)
+/// Of each pose which of so many types of part it is of, where that is known.
+std::vector<int> typesOf(vtkPolyData* given, std::size_t count, int types)
 {
-  vtkDataArray* places = given ? given->GetPointData()->GetArray("PlaceProbability") : nullptr;
-  vtkDataArray* parts = given ? given->GetPointData()->GetArray("PartId") : nullptr;
-  vtkDataArray* ranks = given ? given->GetPointData()->GetArray("Rank") : nullptr;
-  const bool areOfOne = !parts || parts->GetRange()[0] == parts->GetRange()[1];
-  std::vector<meam::FoundPose> found;
-  if (places && places->GetNumberOfTuples() > 0 && places->GetRange()[0] > 0.0 &&
-      (types == 1 ? areOfOne : parts != nullptr))
+  vtkDataArray* parts = given && types > 1 ? given->GetPointData()->GetArray("PartId") : nullptr;
+  std::vector<int> result(count, types > 1 ? meam::PartsDiagnosis::AnyPart : 0);
+  for (std::size_t k = 0; parts && k < count; ++k)
   {
-    for (std::size_t k = 0; k < poses.size(); ++k)
+    result[k] = static_cast<int>(parts->GetComponent(static_cast<vtkIdType>(k), 0));
+    if (result[k] < 0 || result[k] >= types)
     {
-      const auto row = static_cast<vtkIdType>(k);
-      const int part = types == 1 ? 0 : static_cast<int>(parts->GetComponent(row, 0));
-      if (part < 0 || part >= types)
-      {
-        throw meam::Error("The poses are of more types of part than the " + std::to_string(types) +
-                          " that are connected: connect all that were searched, in their order.");
-      }
-      found.push_back(
-        { part, ranks ? static_cast<int>(ranks->GetComponent(row, 0)) : static_cast<int>(k) + 1, poses[k] });
+      throw meam::Error("The poses are of more types of part than the " + std::to_string(types) +
+                        " that are connected: connect all that were searched, in their order.");
     }
+  }
+  return result;
+}
+
+/// The poses that came out of a search for the connected types of part: their probabilities are known.
+std::vector<meam::FoundPose> foundPoses(vtkPolyData* given, const meam::Poses& poses, const std::vector<int>& types)
+{
+  const auto array = [&](const char* name) { return given ? given->GetPointData()->GetArray(name) : nullptr; };
+  vtkDataArray *places = array("PlaceProbability"), *parts = array("PartId"), *ranks = array("Rank");
+  const bool isKnown = places && places->GetNumberOfTuples() > 0 && places->GetRange()[0] > 0.0;
+  const bool isOne = std::all_of(types.begin(), types.end(), [](int type) { return type == 0; });
+  const bool isOfOthers = isOne && parts && parts->GetRange()[0] < parts->GetRange()[1];
+  std::vector<meam::FoundPose> found;
+  for (std::size_t k = 0; isKnown && !isOfOthers && k < poses.size() && types[k] >= 0; ++k)
+  {
+    const int rank = static_cast<int>(ranks ? ranks->GetComponent(static_cast<vtkIdType>(k), 0) : k + 1.0);
+    found.push_back({ types[k], rank, poses[k] });
   }
   return found;
 }
@@ -275,8 +282,8 @@ int vtkMEAMPoseDiagnosis::RequestData(
       const bool isRanked = this->Place == RankedPose;
       requireInputs(this, { "Part", "Scan", nullptr, nullptr, isRanked ? "Poses" : nullptr });
       const meam::Poses poses = given ? toPoses(given) : meam::Poses();
-      const std::vector<meam::FoundPose> found =
-        foundPoses(given, poses, inputVector[0]->GetNumberOfInformationObjects());
+      const std::vector<int> types = typesOf(given, poses.size(), inputVector[0]->GetNumberOfInformationObjects());
+      const std::vector<meam::FoundPose> found = foundPoses(given, poses, types);
       if (isRanked && this->RankOfPose > static_cast<int>(poses.size()))
       {
         throw meam::Error("There is no pose " + std::to_string(this->RankOfPose) + ": the input Poses has " +
@@ -300,7 +307,8 @@ int vtkMEAMPoseDiagnosis::RequestData(
           return detection.diagnosis.ofFound(found[place], progress);
         }
         const meam::Pose& pose = isRanked ? poses[place] : placedAt(this->PosePosition, this->PoseRotation);
-        return detection.diagnosis.atPose(pose.T_scene_model, this->PartId, progress);
+        const bool isKnown = isRanked && types[place] >= 0;
+        return detection.diagnosis.atPose(pose.T_scene_model, isKnown ? types[place] : this->PartId, progress);
       };
       const meam::PartDiagnosis answered = asked();
       const meam::Diagnosis& diagnosis = answered.diagnosis;

@@ -214,6 +214,7 @@ int vtkMEAMPoseEstimation::RequestData(
       {
         fromInstances(shapes, partPoses, drawn, {}, parts);
         setParts(partPoses, models, output);
+        output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
         addNames(work.names, output);
       }
       setFieldText(output, "Report", meam::describe(poses));

@@ -2,6 +2,7 @@
 """What follows MEAM Pose Estimation of two types of part: Pose Diagnosis of poses of each, and of places where none came out; Pick
 Planning with the grasps of each."""
 from ppfmeam.filters import vtkMEAMGraspDefinition, vtkMEAMPickPlanning, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation
+from ppfmeam.report.told import reasons
 from meamtest import check, cloud, connect, distance, fails, field, poses, prints, run, tuples
 from twotypes import two_types
 
@@ -62,6 +63,10 @@ for k, part in enumerate(parts):
     check(field(why.GetOutput(), "Diameter") == [field(found, "Diameter")[part]], "its diameter")
     on.append(matched(why))
 
+# So a page says it of each.
+said = reasons(found, meshes, (scan, None, None), lambda filter: filter.SetMaximumNumberOfPoses(0))
+check(len(said) == len(parts) and all(text.startswith("For it, in the logarithm of the odds: ") for text in said), said)
+
 # Where none came out: of the type that is there, by a search for both; or of the one that is chosen.
 for part in (0, 1):
     missing = parts.index(part)
@@ -89,6 +94,11 @@ laid.SetPartId(1)
 check(answer(laid).startswith("About part 2 (PartId 1). Found as rank "), answer(laid))
 laid.SetPartId(2)
 fails(laid, "no type of part 2", "of 2 the first is 0")
+
+known = poses(transforms[parts.index(1)])
+known.GetPointData().AddArray(cloud([(0, 0, 0)], PartId=[1]).GetPointData().GetArray("PartId"))
+laid.SetInputDataObject(4, known)
+check(answer(laid).startswith("About part 2 (PartId 1). Found as rank "), answer(laid))
 
 # With one of the CADs what came out of the search for both is as poses that were laid; of three types one is missing.
 alone = asked(vtkMEAMPoseDiagnosis(), [meshes[0]], found)

@@ -5,10 +5,7 @@ import re
 import shlex
 import sys
 
-import numpy
-
-from .. import api, choices, dataset, filters, regions, scripting
-from .content import parts_of
+from .. import api, choices, filters, regions, scripting
 
 SAME = ("CADOffset", "CADScale", "CameraFile", "Projection", "Region", "SensorPosition", "ViewDirection")  # and the choices
 
@@ -87,16 +84,10 @@ class Told:
         scan = found.inputs["scan"]
         name, scan = os.path.basename(scan) if is_file(scan) else "a scan", written(scan) or "scan"
         words = "".join(f", {name}={written(value) or name}" for name, value in call.items())
-        said, of = [""] * len(found), numpy.array(parts_of(found.data))
-        for number, model in enumerate(found.models):
-            places = numpy.flatnonzero(of == number)
-            if len(places):
-                poses = dataset.points_where(found.data, "PartId", number) if len(found.models) > 1 else found.data
-                for k, why in zip(places, api.why(model, pose=poses, **found.inputs, **found.settings.values)):
-                    said[k] = sentences(why)
+        said = [sentences(why) for why in api.why(found.models, pose=found.data, **found.inputs, **found.settings.values)]
         choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
         return cls([model.name for model in found.models], name, found.report.splitlines(), found.advice, {"total": found.seconds}, chosen,
-                   f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({parts[0]}, {scan}{words}, at=({{x}}, {{y}}, {{z}})))", said)
+                   f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({part}, {scan}{words}, at=({{x}}, {{y}}, {{z}})))", said)
 
 
 def sentences(why):
@@ -173,18 +164,14 @@ def set_up_by(options, image_camera):
 def reasons(poses, parts, data, set_up):
     """Of each pose what speaks for it and against it, which takes another detection of each part; `data`: the scan, its edge points
     and its image; `set_up` sets the properties of the vtkMEAMPoseDiagnosis that has them."""
-    said, of = [""] * poses.GetNumberOfPoints(), numpy.array(parts_of(poses))
-    for number, part in enumerate(parts):
-        places = numpy.flatnonzero(of == number)
-        if not len(places):
-            continue
-        diagnosis = filters.vtkMEAMPoseDiagnosis()
-        given_poses = dataset.points_where(poses, "PartId", number) if len(parts) > 1 else poses
-        for port, given in enumerate((part, *data, given_poses)):
-            diagnosis.SetInputDataObject(port, given)
-        set_up(diagnosis)
-        diagnosis.SetPlaceToRankedPose()
-        for rank, place in enumerate(places, 1):
-            diagnosis.SetRankOfPose(rank)
-            said[place] = sentences(api.diagnosed(diagnosis))
+    diagnosis, said = filters.vtkMEAMPoseDiagnosis(), []
+    for part in parts:
+        diagnosis.AddInputDataObject(0, part)
+    for port, given in enumerate((*data, poses), 1):
+        diagnosis.SetInputDataObject(port, given)
+    set_up(diagnosis)
+    diagnosis.SetPlaceToRankedPose()
+    for rank in range(1, poses.GetNumberOfPoints() + 1):
+        diagnosis.SetRankOfPose(rank)
+        said.append(sentences(api.diagnosed(diagnosis)))
     return said
