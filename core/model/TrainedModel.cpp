@@ -2,6 +2,7 @@
 #include "model/TrainedModel.h"
 
 #include "base/PointGrid.h"
+#include "model/BodyInterior.h"
 #include "model/MirrorImage.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace
 // Shares of the diameter.
 constexpr double VotingLeaf = 0.04; // of the edge points in a cube of this side one makes pairs, in model and scene
 constexpr double VerificationLeaf = 0.03; // of the surface points in such a cube one verifies poses
-constexpr double Reach = 0.03;            // of the distance fields: tolerances are less
+constexpr double Reach = 0.03;            // of the distance fields, and of what is deep: tolerances are less
 constexpr double FieldCell = 0.0075;      // of the distance fields
 }
 
@@ -76,6 +77,7 @@ void TrainedModel::deriveFields()
   this->visibility = std::make_shared<const PredictedVisibility>(*this);
   this->surfaceDistance = ofSurface.get();
   this->edgeDistance = ofEdges.get();
+  this->interior = std::make_shared<const BodyInterior>(this->surface, this->diameter, reach);
   this->mirrorImage = std::make_shared<const MirrorImage>();
 }
 }

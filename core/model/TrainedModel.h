@@ -12,6 +12,7 @@
 
 namespace meam
 {
+class BodyInterior;
 class MirrorImage;
 
 /// How the edge appearance models come into one table.
@@ -88,6 +89,7 @@ struct TrainedModel
   DistanceField surfaceDistance;       ///< up to 3 % of the diameter
   DistanceField edgeDistance;
   std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
+  std::shared_ptr<const BodyInterior> interior;          ///< what lies deep in the part
   std::shared_ptr<const MirrorImage> mirrorImage;        ///< the part as a mirror shows it
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.

@@ -348,12 +348,11 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
       const double logOdds = this->Model.calibration.place.countedOf(calibrated);
       diagnosis.moreByCalibration = calibrated - logOdds;
       diagnosis.lessByOthers = collector.logOdds(counts, *evidence.rates) - logOdds;
-      const BodyOverlap overlap(this->Model);
       const auto cut = std::find_if(all.begin(), all.end(),
         [&](const Pose& other)
         {
           return !offsetBetween(other.T_scene_model, T, this->Model).within(this->tolerance()) &&
-                 overlap.cut(other.T_scene_model, T);
+                 bodiesOverlap(this->Model, other.T_scene_model, T);
         });
       diagnosis.cutsInto = cut == all.end() ? 0 : static_cast<int>(cut - all.begin()) + 1;
     }

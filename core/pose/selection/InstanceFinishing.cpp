@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "pose/PoseTolerances.h"
+#include "pose/objective/BodyOverlap.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <algorithm>
@@ -31,7 +32,6 @@ InstanceFinishing::InstanceFinishing(const Scene& scene, const TrainedModel& mod
   , Settings(settings)
   , Continuation(scene, model)
   , Misfit(scene, model)
-  , Overlap(model)
 {
 }
 
@@ -66,7 +66,8 @@ bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& 
     [&](const Sure& one)
     {
       return one.logOdds > scored.evidence + ClearlyMore &&
-             (this->Claims.areOne(one.claim, claim) || this->Overlap.cut(one.T_scene_model, scored.T_scene_model));
+             (this->Claims.areOne(one.claim, claim) ||
+               bodiesOverlap(this->Model, one.T_scene_model, scored.T_scene_model));
     });
 }
 

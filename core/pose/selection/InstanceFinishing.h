@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pose/objective/BodyOverlap.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/objective/SurfaceMisfit.h"
 #include "pose/search/InstanceSuppression.h"
@@ -25,7 +24,6 @@ public:
 
   const SurfaceContinuation& continuation() const { return this->Continuation; }
   const SurfaceMisfit& misfit() const { return this->Misfit; }
-  const BodyOverlap& overlap() const { return this->Overlap; }
 
 private:
   /// A finished pose that is sure.
@@ -47,6 +45,5 @@ private:
   const PoseSelectionSettings& Settings;
   SurfaceContinuation Continuation;
   SurfaceMisfit Misfit;
-  BodyOverlap Overlap;
 };
 }

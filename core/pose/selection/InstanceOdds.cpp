@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/InstanceOdds.h"
 
+#include "pose/objective/BodyOverlap.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
@@ -23,7 +24,7 @@ void sortBest(FinishedInstances& found)
     { return a.isLeft != b.isLeft ? b.isLeft : isBetter(a.pose, b.pose); });
 }
 
-void excludeOverlaps(FinishedInstances& found, const BodyOverlap& overlap)
+void excludeOverlaps(FinishedInstances& found, const TrainedModel& model)
 {
   const auto count = std::count_if(found.begin(), found.end(),
     [](const FinishedInstance& finished) { return finished.pose.placeProbability > WorthExplaining; });
@@ -34,7 +35,8 @@ void excludeOverlaps(FinishedInstances& found, const BodyOverlap& overlap)
     odds.push_back(std::exp(found[k].logOdds));
     for (int other = 0; other < k; ++other)
     {
-      cuts[k][other] = cuts[other][k] = overlap.cut(found[k].pose.T_scene_model, found[other].pose.T_scene_model);
+      cuts[k][other] = cuts[other][k] =
+        bodiesOverlap(model, found[k].pose.T_scene_model, found[other].pose.T_scene_model);
     }
   }
   // The odds of a pose beside another one are less where others exclude it that may be right together with that one.

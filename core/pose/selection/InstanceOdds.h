@@ -3,7 +3,6 @@
 
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
-#include "pose/objective/BodyOverlap.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "scene/Scene.h"
 
@@ -28,7 +27,7 @@ inline constexpr double WorthExplaining = 0.02;
 void sortBest(FinishedInstances& found);
 
 /// Of poses, best first: of two whose bodies cut into each other one is right at most.
-void excludeOverlaps(FinishedInstances& found, const BodyOverlap& overlap);
+void excludeOverlaps(FinishedInstances& found, const TrainedModel& model);
 
 /// Of poses, best first: no pose is likelier than that it is of the part and not of one that looks alike, which what
 /// the pose does not explain of the face that it lies on, nor another pose does, what it lacks and how far the surface

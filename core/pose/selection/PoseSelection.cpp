@@ -75,7 +75,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
   {
     if (settings.excludesOverlaps)
     {
-      excludeOverlaps(finished, finishing.overlap());
+      excludeOverlaps(finished, model);
     }
     if (settings.weighsLookalikes)
     {

@@ -12,12 +12,12 @@ meam::TriangleMesh slab() { return parts::box({ -30, -20, 0 }, { 30, 20, 15 }); 
 /// With a block `shift` mm along its length, turned about its end.
 bool cuts(double shift, double degrees = 0.0)
 {
-  const meam::BodyOverlap overlap(scenes::trained<slab>());
+  const meam::TrainedModel& model = scenes::trained<slab>();
   Eigen::Isometry3d other = Eigen::Isometry3d::Identity();
   other.translation().x() = shift;
   other.rotate(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitZ()));
-  const bool result = overlap.cut(Eigen::Isometry3d::Identity(), other);
-  EXPECT_EQ(overlap.cut(other, Eigen::Isometry3d::Identity()), result);
+  const bool result = meam::bodiesOverlap(model, Eigen::Isometry3d::Identity(), other);
+  EXPECT_EQ(meam::bodiesOverlap(model, other, Eigen::Isometry3d::Identity()), result);
   return result;
 }
 }
@@ -31,9 +31,11 @@ TEST(BodyOverlap, BlocksThatTouchDoNotCut)
 
 TEST(BodyOverlap, TellsDepthsThatDifferByLittle)
 {
-  const meam::BodyOverlap overlap(scenes::trained<slab>());
-  const auto above = [&](double z)
-  { return overlap.cut(Eigen::Isometry3d::Identity(), Eigen::Isometry3d(Eigen::Translation3d(0, 0, z))); };
+  const auto above = [](double z)
+  {
+    return meam::bodiesOverlap(
+      scenes::trained<slab>(), Eigen::Isometry3d::Identity(), Eigen::Isometry3d(Eigen::Translation3d(0, 0, z)));
+  };
   EXPECT_FALSE(above(13.0)) << "2 mm deep, less than 3 % of 74 mm";
   EXPECT_TRUE(above(12.5)) << "2.5 mm deep";
   EXPECT_TRUE(above(9.0));

@@ -24,7 +24,7 @@ std::vector<double> withoutOverlaps(const std::vector<std::pair<double, double>>
     one.logOdds = logOdds;
     meam::setEvidence(one.pose, logOdds);
   }
-  meam::excludeOverlaps(found, meam::BodyOverlap(scenes::trained<rod>()));
+  meam::excludeOverlaps(found, scenes::trained<rod>());
   std::vector<double> after;
   for (const meam::FinishedInstance& one : found)
   {
