@@ -76,6 +76,9 @@ namespace
 // A few poses are asked for of a bin full of parts: some of the reference points find enough that are sure. Of all of
 // them so many vote first, others only where these do not do; what was found out of candidates stays known.
 constexpr double Shares[] = { 0.06, 0.2, 1.0 };
+constexpr std::size_t RefinedOfCopy =
+  6;                               // for each copy that is wanted so many candidates are refined first, best first,
+constexpr std::size_t Growth = 2;  // and then so many times as many, until enough copies are sure
 constexpr double VotingTime = 0.6; // of what is left of a time limit: up to refined poses; the rest finishes them
 
 /// The stages from raw candidates to ranked poses, of which a search may go through all but the last several times,
@@ -93,8 +96,9 @@ public:
   {
   }
 
-  /// Takes candidates as far as refined poses with their scores, in place of those before.
-  void rank(Poses poses, const Progress& progress)
+  /// Takes candidates as far as refined poses with their scores, in place of those before; where a number of copies is
+  /// wanted (0: all), no more than it takes. Returns whether so many are as good as found.
+  bool rank(Poses poses, int wanted, const Progress& progress)
   {
     StageTimes& spent = this->Told.times;
     WorkCounts& work = this->Told.work;
@@ -123,38 +127,32 @@ public:
     poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
     this->returned(PoseStage::CandidateSelection, poses);
     spent.selection += watch.lap();
-    poses = this->Refined.of(poses,
-      [&](const Poses& unknown)
-      {
-        work.refined += static_cast<int>(unknown.size());
-        return refinePoses(unknown, scene, model, settings.refinement, subProgress(progress, 0.5, 0.9));
-      });
-    this->returned(PoseStage::Refinement, poses);
-    spent.refinement += watch.lap();
     PoseVerificationSettings verification = settings.verification;
     verification.evidence.rates = ofScan; // of all candidates; few are left
-    this->Verified =
-      verifyPoses(poses, scene, model, verification, subProgress(progress, 0.9, 1.0), nullptr, &this->OfRefined);
     this->Told.rates = ofScan;
-    spent.verification += watch.lap();
-  }
-
-  /// How many copies are as good as found.
-  int sure() const
-  {
-    const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
-    const double apart = SamePoseDistance * this->Model.diameter;
-    std::vector<const Pose*> sure;
-    for (const Pose& pose : this->Verified)
+    bool haveWanted = false;
+    std::size_t most = wanted > 0 ? RefinedOfCopy * wanted : poses.size();
+    for (double from = 0.0; from < 1.0 && !haveWanted; most *= Growth)
     {
-      const auto isOf = [&](const Pose* other)
-      { return translationError(pose.T_scene_model, other->T_scene_model, middle) < apart; };
-      if (pose.evidence >= SureLogOdds && std::none_of(sure.begin(), sure.end(), isOf))
-      {
-        sure.push_back(&pose);
-      }
+      const bool isLast = most >= poses.size();
+      const Poses best(poses.begin(), isLast ? poses.end() : poses.begin() + static_cast<std::ptrdiff_t>(most));
+      const double to = isLast ? 1.0 : static_cast<double>(most) / static_cast<double>(poses.size());
+      const Progress ofLot = subProgress(progress, 0.5 + 0.5 * from, 0.5 + 0.5 * to);
+      const Poses refined = this->Refined.of(best,
+        [&](const Poses& unknown)
+        {
+          work.refined += static_cast<int>(unknown.size());
+          return refinePoses(unknown, scene, model, settings.refinement, subProgress(ofLot, 0.0, 0.8));
+        });
+      this->returned(PoseStage::Refinement, refined);
+      spent.refinement += watch.lap();
+      this->Verified =
+        verifyPoses(refined, scene, model, verification, subProgress(ofLot, 0.8, 1.0), nullptr, &this->OfRefined);
+      from = to;
+      spent.verification += watch.lap();
+      haveWanted = wanted > 0 && this->sure() >= wanted;
     }
-    return static_cast<int>(sure.size());
+    return haveWanted;
   }
 
   /// One pose of each instance.
@@ -180,6 +178,24 @@ public:
   }
 
 private:
+  /// How many copies are as good as found.
+  int sure() const
+  {
+    const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
+    const double apart = SamePoseDistance * this->Model.diameter;
+    std::vector<const Pose*> sure;
+    for (const Pose& pose : this->Verified)
+    {
+      const auto isOf = [&](const Pose* other)
+      { return translationError(pose.T_scene_model, other->T_scene_model, middle) < apart; };
+      if (pose.evidence >= SureLogOdds && std::none_of(sure.begin(), sure.end(), isOf))
+      {
+        sure.push_back(&pose);
+      }
+    }
+    return static_cast<int>(sure.size());
+  }
+
   void returned(PoseStage stage, const Poses& poses)
   {
     if (this->Observer)
@@ -206,7 +222,7 @@ Poses rankCandidates(Poses poses, const Scene& scene, const TrainedModel& model,
 {
   DetectionReport unused;
   Ranking ranking(scene, model, settings, report ? *report : unused, observer);
-  ranking.rank(std::move(poses), subProgress(progress, 0.0, 0.86));
+  ranking.rank(std::move(poses), 0, subProgress(progress, 0.0, 0.86));
   return ranking.select(subProgress(progress, 0.86, 1.0));
 }
 
@@ -221,6 +237,7 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   Ranking ranking(scene, model, settings, told, observer);
   // The order by votes, or by what fits of edges, does not tell what is sure.
   const int asked = settings.screening ? settings.selection.maximumPoses : 0;
+  const int wanted = asked > 0 ? asked + SpareCopies : 0;
   const Eigen::Isometry3d T_scene_local = scene.T_local_scene().inverse();
   const Eigen::Vector3d middle = model.visibility->middle().cast<double>();
   const auto isOutside = [&](const Pose& pose)
@@ -231,7 +248,7 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
     Poses candidates = search.upTo(share, subProgress(ofLot, 0.0, 0.5));
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isOutside), candidates.end());
     told.times.detection += watch.lap();
-    ranking.rank(std::move(candidates), subProgress(ofLot, 0.5, 1.0));
+    return ranking.rank(std::move(candidates), wanted, subProgress(ofLot, 0.5, 1.0));
   };
   constexpr double most = 0.9; // of the progress
   const Deadline ofVotes = settings.deadline.after(VotingTime);
@@ -243,8 +260,9 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
       continue;
     }
     const Progress ofLot = ofVotes.within(subProgress(progress, most * from, most * to));
-    told.isCutShort = !isDoneBy(ofVotes, [&] { vote(to, ofLot); });
-    if (told.isCutShort || (asked > 0 && ranking.sure() >= asked + SpareCopies))
+    bool haveWanted = false;
+    told.isCutShort = !isDoneBy(ofVotes, [&] { haveWanted = vote(to, ofLot); });
+    if (told.isCutShort || haveWanted)
     {
       break;
     }
