@@ -22,6 +22,7 @@ constexpr double GrazingCosine = 0.15; // surface seen at a flatter angle (81 de
 constexpr double Outward = 1.5;        // cells from a contour to where the buffer tells whether the part hides it
 constexpr int DirectionSteps = 32;     // of each coordinate of the direction to the sensor from 0 to 1: 1.8 degrees
 constexpr int WidestBorder = 4;        // cells
+constexpr int Beside = 2;              // cells of the depth buffer that lie beyond that on each side of the part
 constexpr double EdgeCell = 0.1;       // of the grid that finds visible edges
 constexpr double Border = 2.5;         // point distances: so near to the outline sensors mix what is before and behind
 constexpr double Drop = 0.025; // fall of the part from cell to cell beside which sensors may see just its lower side
@@ -228,6 +229,9 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, int cachedDi
   {
     this->Radius = std::max(this->Radius, this->Surface[k].norm());
   }
+  // Of edges alone a point is never a diameter from the middle.
+  const double reach = model.surface.empty() ? this->Diameter : static_cast<double>(this->Radius);
+  this->HalfCells = static_cast<float>(std::ceil(reach / this->cellSize()) + WidestBorder + Beside);
   std::vector<bool> areContours(model.edges.size());
   if (!model.surface.empty() && model.edgeViews.size() == model.edges.size())
   {
@@ -316,7 +320,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   Visible visible{ towards, {}, {}, {}, {}, {}, {} };
   const float cell = static_cast<float>(Cell * this->Diameter);
   const float tolerance = static_cast<float>(Tolerance * this->Diameter);
-  const float half = static_cast<float>(this->Diameter); // a point is never farther from the middle
+  const float half = this->HalfCells * cell;
   const View across{ frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
   const auto projected = [&](const SoAPoints& points, Projected& result)
   {

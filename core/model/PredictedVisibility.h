@@ -66,6 +66,7 @@ private:
   Points ViewDirections;
   Eigen::Vector3f Middle;
   float Radius = 0.0f;
+  float HalfCells; ///< of the depth buffer, from its middle to its border
   // Relative to the middle:
   SoAPoints Surface;
   SoAOrientedPoints SharpEdges; ///< with tangents
