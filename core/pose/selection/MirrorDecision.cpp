@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/MirrorDecision.h"
 
-#include "base/Parallel.h"
 #include "model/MirrorImage.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/refinement/PoseRefinement.h"
@@ -10,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meam
 {
@@ -23,28 +23,27 @@ constexpr double OfChance = 1.0; // log odds off the mirrored part's: the best o
 constexpr double Clear = 8.0;    // log odds either way from which on no further pose is asked
 constexpr int MirrorSteps = 6;   // of refinement, before the alignment
 
-/// The most that the scan says for the mirrored part where a pose is, as log odds.
+/// The most that the scan says for the mirrored part where a pose is, as log odds: of the ways in which it may lie
+/// there that which fits best before it is aligned.
 double logOddsMirrored(const Pose& pose, const MirroredPart& mirrored, const Scene& scene,
   const EvidenceCollector& ofMirrored, const EvidenceRates& rates, int threads)
 {
   PoseRefinementSettings refinement;
   refinement.iterations = MirrorSteps;
   refinement.fullLastStep = false; // the alignment takes all points
-  refinement.threads = 1;          // the turns are worked on in parallel
-  std::vector<double> logOdds(mirrored.turns.size());
-  parallelFor(static_cast<int>(logOdds.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        Pose other = pose;
-        other.T_scene_model = pose.T_scene_model * mirrored.turns[k];
-        other = refinePoses({ other }, scene, mirrored.model, refinement)[0];
-        other = alignRobustly(other, scene, mirrored.model);
-        logOdds[k] = ofMirrored.logOdds(other.T_scene_model, rates);
-      }
-    });
-  return *std::max_element(logOdds.begin(), logOdds.end()) - OfChance;
+  refinement.threads = threads;
+  Poses turned(mirrored.turns.size(), pose);
+  for (std::size_t k = 0; k < turned.size(); ++k)
+  {
+    turned[k].T_scene_model = pose.T_scene_model * mirrored.turns[k];
+  }
+  turned = refinePoses(turned, scene, mirrored.model, refinement);
+  std::vector<double> logOdds;
+  std::transform(turned.begin(), turned.end(), std::back_inserter(logOdds),
+    [&](const Pose& other) { return ofMirrored.logOdds(other.T_scene_model, rates); });
+  const auto best = std::max_element(logOdds.begin(), logOdds.end()) - logOdds.begin();
+  const Pose aligned = alignRobustly(turned[best], scene, mirrored.model);
+  return std::max(logOdds[best], ofMirrored.logOdds(aligned.T_scene_model, rates)) - OfChance;
 }
 }
 

@@ -12,7 +12,7 @@ namespace meam
 namespace
 {
 constexpr double WorthMeasuring = 0.5;        // place of a pose whose size counts
-constexpr std::size_t MostMeasured = 8;       // of them
+constexpr std::size_t MostMeasured = 6;       // of them
 constexpr std::size_t FewestMeasured = 4;     // what one pose is off may be the scan's, or the pose's
 constexpr double Made = 0.02;                 // standard deviation of the lengths that a part is made with
 constexpr double DensityOfOthers = 1.0 / 0.6; // another part is 0.7 to 1.3 times as long, each alike
