@@ -191,16 +191,20 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
     [](const meam::Pose& pose) { return Eigen::Affine3f(pose.T_scene_model.cast<float>()); }, output);
 }
 
-void fromInstances(const std::vector<vtkPolyData*>& parts, const std::vector<meam::PartPose>& poses,
-  const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output)
+void fromInstances(const std::vector<vtkPolyData*>& parts, std::vector<meam::PartPose> poses,
+  const std::function<int(std::size_t)>& rankOf, InstanceSettings settings, const meam::Progress& progress,
+  vtkPolyData* output)
 {
+  poses.resize(settings.most > 0 ? std::min(poses.size(), settings.most) : poses.size());
+  settings.most = 0; // the best of all, not of each
   vtkNew<vtkAppendPolyData> all;
   for (std::size_t part = 0; part < parts.size(); ++part)
   {
     const meam::RankedPoses ofPart = meam::posesOfPart(poses, static_cast<int>(part));
     vtkNew<vtkPolyData> copies;
     fromInstances(
-      parts[part], ofPart.poses, [&](std::size_t k) { return ofPart.ranks[k]; }, settings, progress, copies);
+      parts[part], ofPart.poses, [&](std::size_t k) { return rankOf(ofPart.ranks[k] - 1); }, settings, progress,
+      copies);
     const auto addPart = [&](vtkDataSetAttributes* attributes, vtkIdType size)
     {
       vtkNew<vtkIntArray> ids;

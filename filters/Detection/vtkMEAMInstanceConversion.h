@@ -33,8 +33,9 @@ void fromInstances(vtkPolyData* part, const meam::Poses& poses, const std::funct
   const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output);
 
 /// The same of several types of part, one type after the other, with the array `PartId`.
-void fromInstances(const std::vector<vtkPolyData*>& parts, const std::vector<meam::PartPose>& poses,
-  const InstanceSettings& settings, const meam::Progress& progress, vtkPolyData* output);
+void fromInstances(const std::vector<vtkPolyData*>& parts, std::vector<meam::PartPose> poses,
+  const std::function<int(std::size_t)>& rankOf, InstanceSettings settings, const meam::Progress& progress,
+  vtkPolyData* output);
 
 /// For the same poses the ellipsoid of so many standard deviations about the part's middle, with the
 /// same arrays.

@@ -265,6 +265,28 @@ void setParts(
   output->GetFieldData()->AddArray(diameters);
 }
 
+std::vector<int> typesOf(vtkPolyData* poses, int meshes)
+{
+  std::vector<int> types(poses->GetNumberOfPoints(), 0);
+  vtkDataArray* parts = pointArray(poses, "PartId", 1);
+  if (parts && !types.empty() && (meshes > 1 || parts->GetRange()[0] < parts->GetRange()[1]))
+  {
+    const int most = static_cast<int>(parts->GetRange()[1]);
+    if (parts->GetRange()[0] < 0.0 || most >= meshes)
+    {
+      throw meam::Error("The poses are of " + std::to_string(most + 1) +
+                        " types of part: connect to Part the mesh of each, in the "
+                        "order in which they were searched, not " +
+                        std::to_string(meshes) + ".");
+    }
+    for (std::size_t k = 0; k < types.size(); ++k)
+    {
+      types[k] = static_cast<int>(parts->GetComponent(static_cast<vtkIdType>(k), 0));
+    }
+  }
+  return types;
+}
+
 meam::Pose placedAt(const double position[3], const double rotation[3])
 {
   const auto turn = [&](int axis)

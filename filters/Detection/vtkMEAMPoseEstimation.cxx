@@ -212,7 +212,8 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       else
       {
-        fromInstances(shapes, partPoses, drawn, {}, parts);
+        fromInstances(
+          shapes, partPoses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
         setParts(partPoses, models, output);
         output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
         addNames(work.names, output);

@@ -16,6 +16,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <vector>
 
 vtkStandardNewMacro(vtkMEAMPoseInstances);
 
@@ -31,8 +32,12 @@ vtkMEAMPoseInstances::~vtkMEAMPoseInstances() = default;
 vtkMEAMClampedSettingMacro(vtkMEAMPoseInstances, MaximumNumberOfInstances, int, most, 0, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseInstances, MinimumProbability, double, minimumProbability, 0.0, 1.0)
 
-int vtkMEAMPoseInstances::FillInputPortInformation(int, vtkInformation* info)
+int vtkMEAMPoseInstances::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
   return 1;
@@ -48,7 +53,6 @@ int vtkMEAMPoseInstances::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   auto* posesInput = vtkPolyData::GetData(inputVector[0]);
-  auto* mesh = vtkPolyData::GetData(inputVector[1]);
   auto* output = vtkPolyData::GetData(outputVector, 0);
   auto* ellipsoids = vtkPolyData::GetData(outputVector, 1);
   auto* answer = vtkTable::GetData(outputVector, 2);
@@ -62,7 +66,25 @@ int vtkMEAMPoseInstances::RequestData(
       vtkDataArray* ranks = posesInput->GetPointData()->GetArray("Rank");
       const auto rankOf = [&](std::size_t k)
       { return ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : static_cast<int>(k) + 1; };
-      vtkMEAMConversion::fromInstances(mesh, poses, rankOf, *this->Settings, progress, output);
+      std::vector<vtkPolyData*> meshes;
+      for (int type = 0; type < inputVector[1]->GetNumberOfInformationObjects(); ++type)
+      {
+        meshes.push_back(vtkPolyData::GetData(inputVector[1], type));
+      }
+      const std::vector<int> types = vtkMEAMConversion::typesOf(posesInput, static_cast<int>(meshes.size()));
+      if (meshes.size() == 1)
+      {
+        vtkMEAMConversion::fromInstances(meshes.front(), poses, rankOf, *this->Settings, progress, output);
+      }
+      else
+      {
+        std::vector<meam::PartPose> ofTypes;
+        for (std::size_t k = 0; k < poses.size(); ++k)
+        {
+          ofTypes.push_back({ types[k], static_cast<int>(k), poses[k] });
+        }
+        vtkMEAMConversion::fromInstances(meshes, ofTypes, rankOf, *this->Settings, progress, output);
+      }
       vtkMEAMConversion::fromAnswer(
         { vtkMEAMConversion::describeHidden(poses, this->Settings->minimumProbability, "MinimumProbability") }, answer);
       if (this->UncertaintyScale > 0.0)

@@ -5,11 +5,12 @@
  *
  * Input port 0: poses, best first, a vtkPolyData with the point array `Transform` (16, row-major
  * T_scene_model) and, where they are there, `Score`, `PlaceProbability`, `Probability` and `Rank`.
- * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; MeshPreparation gives it.
+ * Input port 1: the CAD mesh in the frame of the poses, a vtkPolyData; MeshPreparation gives it. Repeatable, for poses
+ * of several types of part, in the order of their `PartId`.
  *
  * Output port 0: a vtkPolyData with all copies, best first. Point and cell arrays:
  * - `Rank`, the active scalars: 1 for the best; that of the poses, so that those of one part (a threshold of `PartId`)
- *   keep theirs;
+ *   keep theirs; of several meshes `PartId` is active;
  * - `Score`, `PlaceProbability`, `Probability`, `Certainty`, `VisibleFraction`: [0, 1], of the pose;
  * - `RankColor` (3, unsigned char): red, green, blue, yellow and pink for the ranks 1 to 5, grey for the others.
  *
@@ -39,6 +40,9 @@ public:
   static vtkMEAMPoseInstances* New();
   vtkTypeMacro(vtkMEAMPoseInstances, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Takes the meshes of all types of part away; one is added by AddInputConnection(1, ...). */
+  void RemoveAllMeshConnections() { this->RemoveAllInputConnections(1); }
 
   /** The CAD mesh. */
   void SetMeshConnection(vtkAlgorithmOutput* mesh) { this->SetInputConnection(1, mesh); }

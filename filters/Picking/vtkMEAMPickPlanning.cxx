@@ -26,7 +26,6 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,31 +50,6 @@ meam::OrganizedCloud cloudOf(vtkPointSet* scan)
     cloud.height = 1;
   }
   return cloud;
-}
-
-/// Of each pose the index of its type of part, for which there are so many meshes and grasps.
-std::vector<int> typesOf(vtkPolyData* poses, int meshes, int grasps)
-{
-  std::vector<int> types(poses->GetNumberOfPoints(), 0);
-  vtkDataArray* parts = vtkMEAMConversion::pointArray(poses, "PartId", 1);
-  int most = 0;
-  if (parts && parts->GetNumberOfTuples() > 0 && (meshes > 1 || parts->GetRange()[0] < parts->GetRange()[1]))
-  {
-    for (vtkIdType k = 0; k < poses->GetNumberOfPoints(); ++k)
-    {
-      types[k] = static_cast<int>(parts->GetComponent(k, 0));
-      most = std::max(most, types[k]);
-    }
-  }
-  if (meshes != grasps || most >= meshes)
-  {
-    throw meam::Error("The poses are of " + std::to_string(most + 1) +
-                      (most > 0 ? " types of part or more" : " type of part") +
-                      ": connect to Part the mesh and to Grasps the grasps of each, in the order in which they were "
-                      "searched, not " +
-                      std::to_string(meshes) + " and " + std::to_string(grasps) + ".");
-  }
-  return types;
 }
 
 /// Throws Error where a mesh is not as large as the type of part that is searched at its place.
@@ -172,8 +146,14 @@ int vtkMEAMPickPlanning::RequestData(
       requireInputs(this, { "Poses", "Part", "Grasps" });
       const meam::Progress progress = progressOf(this);
       const meam::Poses poses = toPoses(posesInput);
-      const std::vector<int> parts = typesOf(
-        posesInput, inputVector[1]->GetNumberOfInformationObjects(), inputVector[2]->GetNumberOfInformationObjects());
+      const int types = inputVector[1]->GetNumberOfInformationObjects();
+      const std::vector<int> parts = typesOf(posesInput, types);
+      if (inputVector[2]->GetNumberOfInformationObjects() != types)
+      {
+        throw meam::Error("Connect to Grasps the grasps of each type of part, in the order of Part: there are " +
+                          std::to_string(types) + " meshes and " +
+                          std::to_string(inputVector[2]->GetNumberOfInformationObjects()) + " sets of grasps.");
+      }
       meam::Gripper gripper = *this->Lengths;
       if (gripperInput)
       {
@@ -197,7 +177,7 @@ int vtkMEAMPickPlanning::RequestData(
       std::vector<meam::Grasps> grasps;
       std::vector<std::unique_ptr<meam::PickPlanner>> planners;
       std::vector<meam::PickPlanner*> ofTypes;
-      for (int type = 0; type < inputVector[1]->GetNumberOfInformationObjects(); ++type)
+      for (int type = 0; type < types; ++type)
       {
         auto* part = vtkPolyData::GetData(inputVector[1], type);
         auto* graspsInput = vtkPolyData::GetData(inputVector[2], type);
@@ -208,7 +188,7 @@ int vtkMEAMPickPlanning::RequestData(
         }
         grasps.push_back(toGrasps(graspsInput));
         const meam::TriangleMesh mesh = toMesh(part);
-        if (inputVector[1]->GetNumberOfInformationObjects() > 1)
+        if (types > 1)
         {
           requireSize(mesh, type, posesInput);
         }
@@ -222,7 +202,7 @@ int vtkMEAMPickPlanning::RequestData(
         meam::PickPlanner::planAll(ofTypes, poses, parts, cloud, bin, meam::subProgress(progress, 0.4, 1.0));
       const auto shown = static_cast<ShownPicks>(this->ShownGrippers);
       fromPicks(picks, graspOf, shown, output);
-      if (grasps.size() > 1)
+      if (types > 1)
       {
         addParts(picks, parts, output);
       }

@@ -9,7 +9,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStructuredGrid
-from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
 from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
@@ -18,7 +18,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401  the legend's letters
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
 from .filters import vtkMEAMPoseInstances
-from .scripting import Failure, bytes_of, shape_of, update, with_value, written
+from .scripting import Failure, bytes_of, shape_of, update, written
 
 WIDTH = 1600  # pixels
 JPEG_QUALITIES = range(85, 40, -5)
@@ -262,13 +262,11 @@ def copies(instances, port=0):
 
 def posed(poses, parts):
     """Each part at its poses."""
-    together = vtkAppendPolyData()
-    for number, part in enumerate(parts):
-        instances = vtkMEAMPoseInstances()
-        instances.SetInputDataObject(0, with_value(poses, "PartId", number) if len(parts) > 1 else poses)
-        instances.SetInputDataObject(1, shape_of(part))
-        together.AddInputDataObject(update(instances).GetOutput())
-    return update(together)
+    instances = vtkMEAMPoseInstances()
+    instances.SetInputDataObject(0, poses)
+    for part in parts:
+        instances.AddInputDataObject(1, shape_of(part))
+    return update(instances)
 
 
 def legend(copies_made, poses):

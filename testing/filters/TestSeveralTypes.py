@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What follows MEAM Pose Estimation of two types of part: Pose Diagnosis of poses of each, and of places where none came out; Pick
 Planning with the grasps of each."""
-from ppfmeam.filters import vtkMEAMGraspDefinition, vtkMEAMPickPlanning, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation
+from ppfmeam.filters import vtkMEAMGraspDefinition, vtkMEAMPickPlanning, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMPoseInstances
 from ppfmeam.report.told import reasons
 from meamtest import check, cloud, connect, distance, fails, field, poses, prints, run, tuples
 from twotypes import two_types
@@ -110,6 +110,18 @@ fails(asked(vtkMEAMPoseDiagnosis(), found=third), "more types of part than the 2
 fails(asked(vtkMEAMPoseDiagnosis(), meshes[::-1], found), "another order")
 prints(alone, "PartId")
 
+# Each at its poses, the best of all.
+instances = vtkMEAMPoseInstances()
+instances.SetInputDataObject(0, found)
+for mesh in meshes:
+    instances.AddInputDataObject(1, mesh)
+for most in (0, 3):
+    instances.SetMaximumNumberOfInstances(most)
+    copies = run(instances)
+    check({(int(part), int(rank)) for (part,), (rank,) in zip(tuples(copies, "PartId"), tuples(copies, "Rank"))}
+          == {(part, k) for k, part in enumerate(parts[:most or None], 1)}, f"copies of the best {most}")
+check(copies.GetPointData().GetScalars().GetName() == "PartId", "colored by type")
+
 # Picks of each type with its own grasps, best first; what is of the other type stands in the way, too.
 def grasps_of(mesh):
     filter = connect(vtkMEAMGraspDefinition(), mesh)
@@ -145,9 +157,10 @@ check(all(names[0].GetValue(k) == names[1 + part].GetValue(g - 1) for k, (part, 
 possible = [p for p, in tuples(picks, "Possible")]
 check(possible == sorted(possible, reverse=True) and {part for part, p in zip(of, possible) if p} == {0, 1}, f"possible of both: {possible}")
 check(f" of {len(parts)} copies can be picked" in picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0), "the report")
-for wrong in (planning(meshes[:1], held[:1]), planning(meshes, held[:1]), planning(meshes[:1], held[:1], third)):
-    fails(wrong, "types of part", "connect to Part the mesh and to Grasps the grasps of each")
-fails(planning(meshes, held, third), "The poses are of 3 types", "not 2 and 2")
+for wrong in (planning(meshes[:1], held[:1]), connect(vtkMEAMPoseInstances(), found, meshes[0])):
+    fails(wrong, "The poses are of 2 types", "connect to Part the mesh of each", "not 1")
+fails(planning(meshes, held[:1]), "connect to Grasps the grasps of each type", "2 meshes and 1 sets of grasps")
+fails(planning(meshes, held, third), "The poses are of 3 types", "not 2")
 fails(planning(meshes[::-1], held[::-1]), "Mesh 1 of the input Part is not as large")
 first = run(planning(meshes[:1], held[:1], rows_of(found, lambda k: parts[k] == 0)))
 check(not first.GetPointData().HasArray("PartId") and first.GetNumberOfPoints() == of.count(0), "one type alone")
