@@ -21,9 +21,7 @@ constexpr double FirstAcross = 0.02; // across tangents and surface, in the firs
 constexpr double LastAcross = 0.005; // and in the last one
 constexpr double HiddenBy = 0.005;   // in front of an edge: what lies there has edges of its own
 constexpr int SizeSteps = 6;
-constexpr int LastSizeSteps = 2;   // the last ones
-constexpr int FirstSizeStride = 6; // of the visible points one of so many,
-constexpr int LastSizeStride = 2;  // and in the last steps
+constexpr int SizeStride = 2; // of the visible points one of so many
 // What a thinner part has of relief and of sides is as narrow as what a sensor smooths, and its edges draw each other
 // near: along an axis a pixel is so much of the length at most, and the length so much of the diameter at least.
 constexpr double LargestPixel = 0.025;
@@ -82,11 +80,7 @@ PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedMo
       {
         for (int i = begin; i < end; ++i)
         {
-          if (step == SizeSteps - LastSizeSteps)
-          {
-            parts[i] = {};
-          }
-          fitter.update(parts[i], at[i], step < SizeSteps - LastSizeSteps ? FirstSizeStride : LastSizeStride);
+          fitter.update(parts[i], at[i], SizeStride);
           const Eigen::Isometry3d T = at[i].T_scene_model;
           SizeEquations& fit = equations[i].emplace(fitter.middle(T), T.linear());
           const Eigen::Isometry3f Tf = T.cast<float>();
