@@ -2,6 +2,7 @@
 """What follows MEAM Pose Estimation of two types of part: Pose Diagnosis of poses of each, and of places where none came out; Pick
 Planning with the grasps of each."""
 from ppfmeam.filters import vtkMEAMGraspDefinition, vtkMEAMPickPlanning, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMPoseInstances
+from ppfmeam.report.content import rank_colors
 from ppfmeam.report.told import reasons
 from meamtest import check, cloud, connect, distance, fails, field, poses, prints, run, tuples
 from twotypes import two_types
@@ -65,6 +66,7 @@ for k, part in enumerate(parts):
 
 # So a page says it of each.
 said = reasons(found, meshes, (scan, None, None), lambda filter: filter.SetMaximumNumberOfPoses(0))
+check(len(set(rank_colors(found))) == len(parts[:5]) + (len(parts) > 5), f"a color for each rank: {rank_colors(found)}")
 check(len(said) == len(parts) and all(text.startswith("For it, in the logarithm of the odds: ") for text in said), said)
 
 # Where none came out: of the type that is there, by a search for both; or of the one that is chosen.

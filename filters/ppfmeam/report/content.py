@@ -209,9 +209,8 @@ def rank_colors(poses):
         return []
     instances, point = filters.vtkMEAMPoseInstances(), vtkPolyData()
     point.SetPoints(scripting.poses_of(numpy.eye(4)[None]).GetPoints())
-    instances.SetInputDataObject(0, poses)
+    instances.SetInputDataObject(0, scripting.poses_of(scripting.column(poses, "Transform", 4, 4)))  # of whatever types
     instances.SetInputDataObject(1, point)
-    instances.SetMinimumProbability(0)
     colors = vtk_to_numpy(scripting.update(instances).GetOutput().GetPointData().GetArray("RankColor"))
     return ["#{:02x}{:02x}{:02x}".format(*color) for color in colors]
 
