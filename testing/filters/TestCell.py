@@ -26,7 +26,8 @@ os.chdir(folder.name)
 
 
 def command(*arguments):
-    return [sys.executable, os.path.join(EXAMPLES, "cell.py"), "--cad", PART, "--cup", "8", "--copies", str(COPIES), *arguments]
+    copies = () if "--copies" in arguments else ("--copies", str(COPIES))
+    return [sys.executable, os.path.join(EXAMPLES, "cell.py"), "--cad", PART, "--cup", "8", *copies, *arguments]
 
 
 def cell(*arguments):
@@ -116,5 +117,5 @@ check(old.returncode != 0 and "is not of this version" in old.stderr, f"columns 
 for word, arguments in (("1 or more", ("--bins", "0")), ("10000", ("--copies", "10001")), ("cannot write", ("--out", "/proc/no")),
                         ("positive", ("--bin", "0", "1", "1")), ("no length claw", ("--gripper", "claw=3")), ("NAME=MM", ("--gripper", "claw")),
                         ("no grasp", ("--gripper", "cup_diameter=500"))):
-    wrong = cell("--out", "wrong", *arguments)
+    wrong = cell(*(() if "--out" in arguments else ("--out", "wrong")), *arguments)
     check(wrong.returncode != 0 and word in wrong.stderr, f"{arguments}: {wrong.stderr}")
