@@ -12,9 +12,7 @@ namespace meam
 {
 namespace
 {
-constexpr double SearchShare = 0.6;   // of the progress, where types are searched first
-constexpr double AtPoint = 0.025;     // of the diameter: a pose with its surface this near is pointed at
-constexpr double LikelyAtPoint = 0.5; // a pose that is there more likely than not: it is drawn
+constexpr double SearchShare = 0.6; // of the progress, where types are searched first
 
 /// The nearest likely pose that has its surface at the point.
 std::optional<FoundPose> foundAt(
@@ -26,7 +24,7 @@ std::optional<FoundPose> foundAt(
   {
     const TrainedModel& model = *models.at(one.part);
     const double distance = model.surfaceDistance.at((one.pose.T_scene_model.inverse() * point).cast<float>());
-    if (claimOf(one.pose, false) >= LikelyAtPoint && distance < std::min(nearest, AtPoint * model.diameter))
+    if (claimOf(one.pose, false) >= LikelyFound && distance < std::min(nearest, OnSurface * model.diameter))
     {
       at = one;
       nearest = distance;

@@ -20,9 +20,7 @@ constexpr double FoundAngle = 5.0;    // degrees: what comes out and is turned b
 constexpr double LeastVisible = 0.25; // share of the part's side towards the sensor: with less visible it is hidden
 constexpr double LeastThere = 0.5;    // share of the unhidden surface: more seen past or unmeasured, and that is why
 constexpr double LeastEnclosed = 1.0; // patches of its body behind the bin's floor or a wall: more, and that is why
-constexpr double OnSurface = 0.025;   // of the diameter: a picked point this near to a pose's surface lies on it
 constexpr double LookedFor = 0.5;     // of the diameter: points this near to a picked one, or to a middle, all vote
-constexpr double LikelyFound = 0.5;   // a pose that is there more likely than not: it is drawn
 constexpr int PeaksLookedFor = 3;     // candidates of each of them, when a place is looked for by a picked point
 
 /// The settings without a limit on what comes out.

@@ -7,6 +7,10 @@
 
 namespace meam
 {
+// Which pose a picked point asks about.
+inline constexpr double OnSurface = 0.025; ///< of the diameter: a point this near to a pose's surface lies on it
+inline constexpr double LikelyFound = 0.5; ///< a pose that is there more likely than not: it is drawn
+
 /// Why a part did not come out, or came out as it did.
 enum class LossCause
 {
