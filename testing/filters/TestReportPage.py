@@ -118,6 +118,13 @@ write_pcd("bare.pcd", points, W, H, "x y z")
 check(script("detect.py", "--cad", "plate.stl", "--cad", "box.stl", "--scene", "bare.pcd", "--report", "two.html").returncode == 0, "two")
 text = read("two.html")
 check([part["name"] for part in data_of(text)["parts"]] == ["plate.stl", "box.stl"] and '<th class="text">part</th>' in text, "two parts")
+why = data_of(text)["why"]
+check(why == "ppfmeam why bare.pcd --cad plate.stl --cad box.stl --at {x} {y} {z}", why)
+works("why.py", *why.format(x=0, y=0, z=5).split()[2:], "--report", "nothing.html")
+numpy.savetxt("first.txt", numpy.reshape(data_of(text)["poses"][0]["transform"], (4, 4)))
+works("why.py", *why.split()[2:-4], "--pose", "first.txt", "--report", "which.html")
+rows = data_of(read("which.html"))
+check(len(rows["parts"]) == 2 and rows["poses"][0]["part"] == data_of(text)["poses"][0]["part"], f"{rows['poses']}")
 check("it has no image" in text, "the surface in place of an image")
 few = measured[::3]
 write_pcd("few.pcd", few, len(few), 1, "x y z")
@@ -134,6 +141,9 @@ for scan_file, image, words in (("d.png", "i.png", "--image i.png --image-camera
                                 ("d.ply", "", "--cad-scale 25.4 --solid 1")):
     command = told.why_command(options, scan_file, image)
     check(command == f"ppfmeam why p.stl {scan_file} --camera c.json {words} --at {{x}} {{y}} {{z}}", command)
+options.cad, options.objects = [], [3, 5]
+command = told.why_command(options, "set/test/000002/000007")
+check(command.startswith("ppfmeam why set/test/000002/000007 --cad 3 --cad 5 --camera"), command)
 
 # Why: the part's points by what the scan shows there; a place without a part.
 works("why.py", "plate.meam", "scan.pcd", "--pose", "found.txt:1", "--poses", "0", "--report", "why.html")

@@ -143,6 +143,12 @@ check(tuples(together.data, "PartId") == [(part,) for part in together.parts], "
 told = together.why(rank=1)
 again = together.why(at=told.points[told.states.index("matched")])
 check((told.rank, told.part) == (again.rank, again.part) == (1, together.parts[0]), f"why: {told} {again}")
+words = works("why.py", "two.pcd", "--cad", "part.stl", "--cad", "bracket.stl", "--at", *map(str, told.points[told.states.index("matched")]),
+              "--poses", "4", "--json", "why.json")
+check(words.startswith(f"{('part.stl', 'bracket.stl')[told.part]}: Found as rank ") and json.loads(read("why.json"))["part"] == told.part, words)
+for wrong in (("two.pcd",), ("part.stl", "two.pcd", "--cad", "bracket.stl")):
+    result = script("why.py", *wrong, "--at", "0", "0", "800")
+    check(result.returncode == 2 and "or SCAN and --cad, or --model, once for each type of part" in result.stderr, result.stderr)
 result = script("detect.py", "--cad", "part.stl", "--cad", "box.stl", "--model", "model.vtpc", "--scene", "two.pcd")
 check(result.returncode == 2 and "a --cad for each --model" in result.stderr, result.stderr)
 

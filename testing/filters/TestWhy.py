@@ -41,7 +41,7 @@ check(diagnosis.reasons.startswith("For it, in the logarithm of the odds: ") and
       diagnosis.reasons)
 check(len(diagnosis.points) == len(diagnosis.states) > 50, "points and states")
 on = diagnosis.points[diagnosis.states.index("matched")]
-report = works("why.py", "part.meam", "scan.pcd", "--at", *map(str, on), "--poses", "0").splitlines()
+report = works("why.py", "part.meam", "--at", *map(str, on), "--poses", "0", "scan.pcd").splitlines()
 check(report[0].startswith(f"Found as rank {diagnosis.rank},"), f"{report}")
 # Of Detections: of the pose that came out, by its rank and by a point on it; the surface that goes on beside a pose that is shifted.
 detections = ppfmeam.detect(model, "scan.pcd", poses=2)

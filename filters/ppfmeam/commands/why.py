@@ -11,14 +11,17 @@ from .. import api, choices, dataset, filters, regions, scripting
 from .. import inputs as scans
 from ..report import page
 from ..report.content import Part
-from ..report.told import Told
+from ..report.told import Told, names_of
 
 
 def options_of_user():
     parser = scripting.Parser(description=__doc__)
-    parser.add_argument("part", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`; "
+    parser.add_argument("part", nargs="?", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`; "
                                      "of a BOP dataset also the number of an object")
     parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
+    parser.add_argument("--cad", action="append", default=[], metavar="PART",
+                        help="in place of PART, once for each type of part that was searched: the answer is about that which has most evidence there")
+    parser.add_argument("--model", action="append", default=[], help="the same of trained models; --cad is then for the page")
     place = parser.add_mutually_exclusive_group(required=True)
     place.add_argument("--at", nargs=3, type=float, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
     place.add_argument("--pose", metavar="FILE[:ROW]",
@@ -46,7 +49,12 @@ def options_of_user():
     parser.add_argument("--json", metavar="FILE", help="write all of it as JSON")
     parser.add_argument("--report", metavar="HTML",
                         help="write a page for any browser, in one file: the scan in 3D, the part at the place, and what of it is there")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()  # else PART and SCAN would have to stand side by side
+    options.parts = options.model or options.cad or [options.part]
+    if (options.part is None) == (not options.cad and not options.model):
+        parser.error("give PART and SCAN, or SCAN and --cad, or --model, once for each type of part")
+    if options.cad and options.model and len(options.cad) != len(options.model):
+        parser.error("give a --cad for each --model, in the same order, or none")
     if options.depth_scale and not (options.camera and options.scan.lower().endswith(scripting.DEPTH_IMAGES)):
         parser.error("--depth-scale is of a depth image with its --camera")
     if options.report and options.truth is not None:
@@ -55,44 +63,48 @@ def options_of_user():
 
 
 class Asked:
-    """The part and the scan of the options, as api.why() takes them, and what goes with the scan; of a BOP dataset as `evaluate bop` has
+    """The parts and the scan of the options, as api.why() takes them, and what goes with the scan; of a BOP dataset as `evaluate bop` has
     them."""
 
     def __init__(self, options):
-        self.part, self.scan, self.options, self.truth = options.part, options.scan, options, None
+        self.scan, self.options = options.scan, options
         self.beside = {name: getattr(options, name) for name in ("image", "boundary", "camera", "image_camera")}
-        found = dataset.image_at(options.scan)
-        self.data, number = found and found[0], options.part if options.part.isdecimal() else None
+        self.found = found = dataset.image_at(options.scan)
         if found:
             if any(self.beside[name] for name in ("image", "camera", "image_camera")):
                 raise scripting.Failure(f"{options.scan} is of a BOP dataset, which has its cameras and images: leave --camera and --image out")
             self.scan = found[1].scan
             if found[1].beside:
-                self.beside.update(image=found[1].beside, image_camera=self.data.beside())
+                self.beside.update(image=found[1].beside, image_camera=found[0].beside())
         if options.depth_scale:
             self.scan, self.beside["camera"] = scripting.read_depth(options.scan, options.camera, options.depth_scale), None
-        self.number = int(number) if found and number and not os.path.exists(number) else None
-        if self.number is not None:
-            self.part = self.data.train(self.number, options.preset, options.features)
-            self.truth = found[1].truth_of(self.number)
+        self.parts = [found[0].train(int(part), options.preset, options.features) if self.is_object(part) else part for part in options.parts]
 
-    def shape(self):
-        """What stands for the part on a page."""
-        options = self.options
-        if self.number is not None:
-            return self.data.mesh(self.number)
-        if options.part.lower().endswith(api.MODELS):
-            return scripting.shape_of(scripting.read_model(options.part))
-        return scripting.read_mesh(options.part, scale=options.cad_scale, solid=options.solid)
+    def is_object(self, part):
+        """Whether the number of an object of the dataset names the part."""
+        return bool(self.found) and part.isdecimal() and not os.path.exists(part)
+
+    def shapes(self):
+        """What stands for the parts on a page."""
+        return [self.shape(part) for part in self.options.cad or self.options.parts]
+
+    def shape(self, part):
+        if self.is_object(part):
+            return self.found[0].mesh(int(part))
+        if part.lower().endswith(api.MODELS):
+            return scripting.shape_of(scripting.read_model(part))
+        return scripting.read_mesh(part, scale=self.options.cad_scale, solid=self.options.solid)
 
     def transforms(self):
         """The true poses."""
         if self.options.truth:
             return transforms_of(self.options.truth)
-        if self.truth is None or not self.truth.GetNumberOfPoints():
+        part, *others = self.options.parts
+        truth = None if others or not self.is_object(part) else self.found[1].truth_of(int(part))
+        if truth is None or not truth.GetNumberOfPoints():
             raise scripting.Failure("--truth needs a file of poses, unless the part is an object of a BOP dataset, by its number, and the scan an "
                                     "image of it that has true poses")
-        return scripting.column(self.truth, "Transform", 4, 4)
+        return scripting.column(truth, "Transform", 4, 4)
 
 
 def transforms_of(path):
@@ -127,9 +139,14 @@ def print_numbers(diagnosis):
         print(f"{step:26s}{quantity}: {words(value)}" + ("" if math.isnan(of) else f" / {words(of)}"))
 
 
+def answer(diagnosis, parts):
+    """In a line; of several types of part with the name of the one that it is about."""
+    return str(diagnosis) if len(parts) == 1 or diagnosis.pose is None else f"{names_of(parts)[diagnosis.part]}: {diagnosis}"
+
+
 def content(diagnosis):
     """All of it, for JSON."""
-    told = {name: getattr(diagnosis, name) for name in ("verdict", "advice", "reasons", "lost_in", "rank", "pose", "unexplained")}
+    told = {name: getattr(diagnosis, name) for name in ("part", "verdict", "advice", "reasons", "lost_in", "rank", "pose", "unexplained")}
     return {**told, "numbers": [dict(zip(("step", "quantity", "value", "of"), row)) for row in diagnosis.numbers]}
 
 
@@ -137,8 +154,10 @@ def write_page(asked, inputs, diagnosis):
     options = asked.options
     seen = scans.scan_of(asked.scan, inputs["camera"], options.scale, inputs["image"], image_camera=inputs["image_camera"])
     place = numpy.zeros((0, 4, 4)) if diagnosis.pose is None else diagnosis.pose[None]
+    poses = scripting.poses_of(place)
+    api.add_array(poses.GetPointData(), "PartId", numpy.full(len(place), diagnosis.part))
     told = Told.of_why(options, inputs, diagnosis)
-    page.write(options.report, page.html(seen, scripting.poses_of(place), [Part(told.names[0], asked.shape())], told))
+    page.write(options.report, page.html(seen, poses, list(map(Part, told.names, asked.shapes())), told))
 
 
 def main():
@@ -151,15 +170,15 @@ def main():
         "threads")}
     inputs.update(asked.beside, region=options.roi)
     if options.truth is not None:
-        found = api.why(asked.part, asked.scan, pose=asked.transforms(), **inputs)
+        found = api.why(asked.parts, asked.scan, pose=asked.transforms(), **inputs)
         for row, diagnosis in enumerate(found, 1):
-            print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{diagnosis}")
+            print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{answer(diagnosis, options.parts)}")
         print(f"{sum(not diagnosis.lost_in for diagnosis in found)} of {len(found)} were found")
         told = [content(diagnosis) for diagnosis in found]
     else:
         place = {"at": options.at} if options.at else {"pose": chosen(options.pose), "fit": True}
-        diagnosis = api.why(asked.part, asked.scan, **place, **inputs)
-        print(diagnosis)
+        diagnosis = api.why(asked.parts, asked.scan, **place, **inputs)
+        print(answer(diagnosis, options.parts))
         if options.more:
             print_numbers(diagnosis)
         told = content(diagnosis)

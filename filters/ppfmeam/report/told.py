@@ -54,8 +54,7 @@ class Told:
         """Of the options of `why`, the arguments of api.why() and what it returned."""
         given = choices.Chosen("detect", {name: value for name, value in inputs.items() if name in choices.TABLE["detect"]})
         command = shlex.join(["ppfmeam", "why", *sys.argv[1:]])
-        name = f"object {options.part}" if options.part.isdecimal() else os.path.basename(options.part)
-        return cls([name], os.path.basename(options.scan), [], "", {}, given.differing(), command, "",
+        return cls(names_of(options.parts), os.path.basename(options.scan), [], "", {}, given.differing(), command, "",
                    [sentences(diagnosis)] * (diagnosis.pose is not None), diagnosis)
 
     @classmethod
@@ -88,6 +87,11 @@ class Told:
         choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
         return cls([model.name for model in found.models], name, found.report.splitlines(), found.advice, {"total": found.seconds}, chosen,
                    f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({part}, {scan}{words}, at=({{x}}, {{y}}, {{z}})))", said)
+
+
+def names_of(parts):
+    """Of the parts of `why`: files, or numbers of objects."""
+    return [f"object {part}" if part.isdecimal() else os.path.basename(part) for part in parts]
 
 
 def sentences(why):
@@ -139,7 +143,8 @@ def why_command(options, scan, image=None, boundary=None):
     for name, values in (("--roi", options.roi), ("--viewpoint", options.viewpoint)):
         words += [name, *map(str, values)] if values else []
     parts = options.model or options.cad or list(map(str, getattr(options, "objects", None) or ()))
-    return shlex.join(["ppfmeam", "why", parts[0], scan, *words]) + " --at {x} {y} {z}" if parts else ""
+    named = [parts[0], scan] if len(parts) == 1 else [scan, *(word for part in parts for word in ("--model" if options.model else "--cad", part))]
+    return shlex.join(["ppfmeam", "why", *named, *words]) + " --at {x} {y} {z}" if parts else ""
 
 
 def stages(found):
