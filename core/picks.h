@@ -5,6 +5,8 @@
 ///     const meam::Picker picker(model, part, meam::loadGrasps("part.grasps.json"), gripper);   // once for each part
 ///     const meam::PickPlan plan = picker.plan(meam::detect(model, scan), scan);                // of each scan
 ///     if (!plan.picks.empty() && plan.picks.front().possible) ...
+///
+/// Of several types of part meam::Picker::planAll({ picker, another }, found, scan).
 #pragma once
 
 #include "meam.h"
@@ -41,7 +43,8 @@ struct PlannedPick
   Eigen::Isometry3d T_scan_grasp = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Isometry3d> T_robot_grasp; ///< the same in the robot's frame, with a Workplace::T_robot_camera
   int instance = -1;                              ///< index among the poses that were found
-  int grasp = -1;                                 ///< index among the grasps
+  int part = 0;                                   ///< index of its type, as DetectedPose has it
+  int grasp = -1;                                 ///< index among the grasps of its type
   std::string graspName;
   double width = 0.0;     ///< mm, of the part between the jaws
   double clearance = 0.0; ///< mm from all but the part, on the way in; up to 10, or the safety margin
@@ -71,10 +74,15 @@ public:
     const PlanSettings& settings = {});
 
   /// The scan may be without points when the bin is given, or when there is none: then only the other copies and the
-  /// bin are in the way. One call at a time. Throws Error for a pose that is not finite, a bin that is not found, and a
-  /// gripper that does not go into it.
+  /// bin are in the way. One call at a time. Throws Error for a pose that is not finite, poses of several types of
+  /// part, a bin that is not found, and a gripper that does not go into it.
   PickPlan plan(
     const Detections& found, const Scan& scan, const Workplace& place = {}, const Progress& progress = {}) const;
+
+  /// The same of several types of part, with a picker of each, in the order of the models of detect(): copies of all
+  /// types are in the way, and the picks of all are in one order. Throws Error for another number of pickers, too.
+  static PickPlan planAll(const std::vector<Picker>& pickers, const Detections& found, const Scan& scan,
+    const Workplace& place = {}, const Progress& progress = {});
 
 private:
   std::shared_ptr<PickPlanner> Planner;

@@ -8,6 +8,7 @@
 #include "pick/io/GraspFile.h"
 #include "picks.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace meam
@@ -39,6 +40,30 @@ Poses posesOf(const Detections& found)
   }
   return poses;
 }
+
+/// Of each pose the index of its picker. Poses of one type may be of any of the models.
+std::vector<int> pickersOf(const Detections& found, std::size_t pickers)
+{
+  std::vector<int> parts;
+  int types = 0;
+  bool isOne = true;
+  for (const DetectedPose& each : found.poses)
+  {
+    parts.push_back(each.part);
+    types = std::max(types, each.part + 1);
+    isOne = isOne && each.part == parts.front();
+  }
+  if (pickers == 1 && isOne)
+  {
+    return std::vector<int>(parts.size(), 0);
+  }
+  if (pickers == 0 || static_cast<std::size_t>(types) > pickers)
+  {
+    throw Error("The poses are of " + std::to_string(types) + " types of part and there are pickers of " +
+                std::to_string(pickers) + ": give Picker::planAll one of each type, in the order of the models.");
+  }
+  return parts;
+}
 }
 
 Picker::Picker(
@@ -51,16 +76,29 @@ Picker::Picker(
 
 PickPlan Picker::plan(const Detections& found, const Scan& scan, const Workplace& place, const Progress& progress) const
 {
+  return planAll({ *this }, found, scan, place, progress);
+}
+
+PickPlan Picker::planAll(const std::vector<Picker>& pickers, const Detections& found, const Scan& scan,
+  const Workplace& place, const Progress& progress)
+{
   const auto start = std::chrono::steady_clock::now();
+  const std::vector<int> parts = pickersOf(found, pickers.size());
+  std::vector<PickPlanner*> planners;
+  for (const Picker& picker : pickers)
+  {
+    planners.push_back(picker.Planner.get());
+  }
   PickPlan plan;
   if (place.hasBin)
   {
     plan.bin = place.bin ? *place.bin : detectBin(scan, subProgress(progress, 0.0, AfterBin));
   }
-  const Picks picks =
-    this->Planner->plan(posesOf(found), cloudOf(scan), plan.bin, subProgress(progress, AfterBin, 1.0));
+  const Picks picks = PickPlanner::planAll(
+    planners, posesOf(found), parts, cloudOf(scan), plan.bin, subProgress(progress, AfterBin, 1.0));
   for (const Pick& pick : picks)
   {
+    const Grasp& grasp = pickers[parts[pick.pose]].Given[pick.grasp];
     PlannedPick planned;
     planned.possible = pick.possible();
     planned.reason = planned.possible ? std::string() : describe(pick);
@@ -70,9 +108,10 @@ PickPlan Picker::plan(const Detections& found, const Scan& scan, const Workplace
       planned.T_robot_grasp = *place.T_robot_camera * pick.T_scene_grasp;
     }
     planned.instance = pick.pose;
+    planned.part = found.poses[pick.pose].part;
     planned.grasp = pick.grasp;
-    planned.graspName = this->Given[pick.grasp].name;
-    planned.width = this->Given[pick.grasp].width;
+    planned.graspName = grasp.name;
+    planned.width = grasp.width;
     planned.clearance = pick.clearance;
     planned.reach = pick.reach;
     planned.tilt = pick.tilt;

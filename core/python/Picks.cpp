@@ -107,7 +107,8 @@ void bindPlanning(py::module_& module)
       { return pick.T_robot_grasp ? py::cast(pick.T_robot_grasp->matrix().eval()) : py::object(py::none()); },
       "The same in the robot's frame, where that is known.")
     .def_readonly("instance", &PlannedPick::instance, "Which of the poses, from 0.")
-    .def_readonly("grasp", &PlannedPick::grasp, "Which of the grasps, from 0.")
+    .def_readonly("part", &PlannedPick::part, "Which of the types of part, from 0.")
+    .def_readonly("grasp", &PlannedPick::grasp, "Which of the grasps of its type, from 0.")
     .def_readonly("name", &PlannedPick::graspName, "Of the grasp.")
     .def_readonly("width", &PlannedPick::width, "mm, of the part between the jaws.")
     .def_readonly("clearance", &PlannedPick::clearance, "mm from all but the part, on the way in.")
@@ -122,11 +123,20 @@ void bindPlanning(py::module_& module)
     .def_readonly("bin", &PickPlan::bin)
     .def_readonly("seconds", &PickPlan::seconds);
   module.def("plan",
-    [](const Model& model, const Mesh& part, const Grasps& grasps, const GripperModel& gripper,
-      const PlanSettings& settings, const Detections& found, const Scan& scan, const Workplace& place)
+    [](const std::vector<Model>& models, const std::vector<Mesh>& parts, const std::vector<Grasps>& grasps,
+      const std::vector<GripperModel>& grippers, const PlanSettings& settings, const Detections& found,
+      const Scan& scan, const Workplace& place)
     {
-      return withoutLock([&](const Progress& progress)
-        { return Picker(model, part, grasps, gripper, settings).plan(found, scan, place, progress); });
+      return withoutLock(
+        [&](const Progress& progress)
+        {
+          std::vector<Picker> pickers;
+          for (std::size_t k = 0; k < models.size(); ++k)
+          {
+            pickers.emplace_back(models[k], parts[k], grasps[k], grippers[k], settings);
+          }
+          return Picker::planAll(pickers, found, scan, place, progress);
+        });
     });
 }
 }

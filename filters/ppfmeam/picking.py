@@ -37,12 +37,12 @@ class Grasps(Rows):
 class Picks(Rows):
     """What a gripper can take, best first, and after it what it cannot, rows of Pick. In columns `possible`, `reasons` (what is
     against it; empty: nothing), `transforms` (N x 4 x 4, takes the gripper's coordinates to the scan's, mm: z the way in),
-    `robot_transforms` (the same in the robot's frame, with a robot_frame; else None), `instances` (which pose, from 0), `grasps`
-    (which grasp, from 0), `names` (of the grasps), `widths` (mm), `clearances` and `reaches` (mm), `tilts` (degrees), `covered`
+    `robot_transforms` (the same in the robot's frame, with a robot_frame; else None), `instances` (which pose, from 0), `parts`
+    (which type of part, from 0), `grasps` (which grasp of that type, from 0), `names` (of the grasps), `widths` (mm), `clearances` and `reaches` (mm), `tilts` (degrees), `covered`
     and `scores` (from 0 to 1). `report` tells in a sentence what keeps the gripper from copies that cannot be picked, `advice`
     what to change for them (empty: all can be picked); `bin`: the one that was found or given."""
     COLUMNS = {"possible": ("possible", ()), "reasons": ("reason", None), "transforms": ("transform", (4, 4)),
-               "instances": ("instance", ()), "grasps": ("grasp", ()), "names": ("name", None), "widths": ("width", ()),
+               "instances": ("instance", ()), "parts": ("part", ()), "grasps": ("grasp", ()), "names": ("name", None), "widths": ("width", ()),
                "clearances": ("clearance", ()), "reaches": ("reach", ()), "tilts": ("tilt", ()), "covered": ("covered", ()),
                "scores": ("score", ())}
 
@@ -99,15 +99,20 @@ def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), symm
 def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=None, camera=None, scale=1.0, *, settings, lengths):
     """Which of the parts that were found a gripper can take, and what is against the others.
 
-    found: Detections of detect(), or poses N x 4 x 4. grasps: those of the part, as grasps() returns them; the gripper has their
-    lengths, unless others are given. scan, camera, scale: as detect() takes them; without a scan only the other copies and the
+    found: Detections of detect(), or poses N x 4 x 4. grasps: those of the part, as grasps() returns them, or a list of those of
+    each type of part, in the order of detect(), whose copies are all in the way; the gripper has their lengths, unless others are given. scan, camera, scale: as detect() takes them; without a scan only the other copies and the
     bin are in the way. gripper: jaws, cup, or a mesh (a file or a vtkPolyData) as it stands open in the grasp's frame.
     bin: detected (by its rim, in the scan), none, or (T, length, width, height, wall): T, 4 x 4, takes the coordinates of the
     bin, whose z goes up from the middle of its floor, to the scan's; mm. robot_frame: a file of OpenCV or ROS with the
     camera in the robot's frame. Returns Picks.
     """
-    if not isinstance(grasps, Grasps):
-        raise Error(f"the grasps have to be those of grasps(), not {type(grasps).__name__}")
+    sets = grasps if isinstance(grasps, (list, tuple)) else [grasps]
+    for each in sets:
+        if not isinstance(each, Grasps):
+            raise Error(f"the grasps have to be those of grasps(), not {type(each).__name__}")
+    types = len(found.models) if isinstance(found, Detections) else 1
+    if len(sets) != types:
+        raise Error(f"give a list with the grasps of each type of part, in the order of detect(): found has {types} and grasps {len(sets)}")
     if not isinstance(found, Detections):
         transforms = numpy.asarray(found, float)
         if transforms.ndim != 3 or transforms.shape[1:] != (4, 4):
@@ -117,13 +122,15 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
             raise Error("the poses have to be rotations and translations")
     poses = found.core if isinstance(found, Detections) else _core.Detections(transforms)
     is_mesh = not (isinstance(gripper, str) and gripper in GRIPPERS)
-    shape = gripper_model(Chosen("gripper", {**grasps.gripper, **lengths.given}), GRIPPERS.get(gripper) if not is_mesh else None,
-                          _core.prepare_mesh(inputs.mesh_of(gripper, Chosen("read", {})), 1.0, (0.0, 0.0, 0.0)) if is_mesh else None)
+    mesh = _core.prepare_mesh(inputs.mesh_of(gripper, Chosen("read", {})), 1.0, (0.0, 0.0, 0.0)) if is_mesh else None
+    kind = None if is_mesh else GRIPPERS[gripper]
+    shapes = [gripper_model(Chosen("gripper", {**each.gripper, **lengths.given}), kind, mesh) for each in sets]
     place = workplace(bin, robot_frame)
     if bin == "detected" and scan is None:
         raise Error("the bin is found in the scan: give one, or bin, which may be 'none'")
     seen = _core.Scan(numpy.zeros((0, 3), numpy.float32)) if scan is None else inputs.scan_of(scan, camera, scale)
-    plan = _core.plan(grasps.model, grasps.part, grasps.rows, shape, settings.apply(_core.PlanSettings(), _core), poses, seen, place)
+    models, parts, rows = zip(*((each.model, each.part, each.rows) for each in sets))
+    plan = _core.plan(models, parts, rows, shapes, settings.apply(_core.PlanSettings(), _core), poses, seen, place)
     return Picks(plan, robot_frame is not None)
 
 

@@ -138,6 +138,38 @@ TEST(PickAPI, PlansWhatTheCorePlans)
   EXPECT_TRUE(both.picks[0].possible && both.picks[1].possible) << both.report;
 }
 
+TEST(PickAPI, PlansPicksOfSeveralTypesOfPart)
+{
+  const meam::Grasp leg = acrossTheLeg();
+  const meam::Grasp cup = meam::graspAt(meam::GraspKind::Suction, { 40, 6, 0 }, { 0, 0, 1 });
+  meam::PlanSettings settings;
+  settings.minimumProbability = 0.2;
+  const meam::Picker first(bracketModel(), bracketMesh(), { cup, leg }, slim(), settings);
+  const meam::Picker second(bracketModel(), bracketMesh(), { leg }, slim(), settings);
+  meam::Detections found = twoBrackets();
+  found.poses[1].part = 1;
+  const meam::PickPlan plan = meam::Picker::planAll({ first, second }, found, {}, given());
+  ASSERT_EQ(plan.picks.size(), 3u);
+  for (const meam::PlannedPick& pick : plan.picks)
+  {
+    EXPECT_EQ(pick.part, pick.instance);
+    EXPECT_EQ(pick.graspName == "leg", pick.grasp == 1 - pick.part);
+    EXPECT_EQ(pick.possible, pick.graspName == "leg") << pick.reason;
+  }
+  // The other type is in the way.
+  found.poses[1].T_scan_part = found.poses[0].T_scan_part * Eigen::Translation3d(0, 13, 0);
+  EXPECT_FALSE(meam::Picker::planAll({ first, second }, found, {}, given()).picks[0].possible);
+
+  const auto errorOf = [&](const std::vector<meam::Picker>& pickers)
+  { return files::errorOf([&] { meam::Picker::planAll(pickers, found, {}, given()); }); };
+  const std::string few = "The poses are of 2 types of part and there are pickers of 1:";
+  EXPECT_TRUE(files::contains(errorOf({ first }), few)) << errorOf({ first });
+  EXPECT_TRUE(files::contains(files::errorOf([&] { first.plan(found, {}, given()); }), few));
+  EXPECT_TRUE(files::contains(errorOf({}), "pickers of 0"));
+  found.poses.erase(found.poses.begin());
+  EXPECT_EQ(second.plan(found, {}, given()).picks.front().part, 1);
+}
+
 TEST(PickAPI, FindsTheBin)
 {
   const meam::Bin found = meam::detectBin(scanOfBin());

@@ -149,6 +149,19 @@ check(words.startswith(f"{('part.stl', 'bracket.stl')[told.part]}: Found as rank
 for wrong in (("two.pcd",), ("part.stl", "two.pcd", "--cad", "bracket.stl")):
     result = script("why.py", *wrong, "--at", "0", "0", "800")
     check(result.returncode == 2 and "or SCAN and --cad, or --model, once for each type of part" in result.stderr, result.stderr)
+# Picks of both, each by its own grasps.
+grasps = [ppfmeam.grasps(f"{name}.stl", grasps=2, opening=80) for name in ("part", "bracket")]
+picks = ppfmeam.pick(together, grasps, "two.pcd", bin="none", opening=80)
+check(len(picks) == 8 and (picks.parts == together.parts[picks.instances]).all() and set(picks.parts) == {0, 1}, f"{picks}")
+check(all(name == grasps[part].names[grasp] for name, part, grasp in zip(picks.names, picks.parts, picks.grasps)), f"{picks}")
+alone = ppfmeam.pick(together.of(1), grasps[1], "two.pcd", bin="none", opening=80)
+check((alone.parts == 1).all() and len(alone) == 2 * len(together.of(1)), f"{alone}")
+for few in (grasps[0], grasps[:1]):
+    try:
+        ppfmeam.pick(together, few, "two.pcd", bin="none")
+        check(False, "grasps of one type are refused")
+    except ppfmeam.Error as error:
+        check("grasps of each type of part, in the order of detect(): found has 2 and grasps 1" in str(error), str(error))
 result = script("detect.py", "--cad", "part.stl", "--cad", "box.stl", "--model", "model.vtpc", "--scene", "two.pcd")
 check(result.returncode == 2 and "a --cad for each --model" in result.stderr, result.stderr)
 
