@@ -17,6 +17,25 @@ namespace
 constexpr double Likely = 0.5; // place of a pose that explains what it lies on
 }
 
+void allowFor(FinishedInstance& finished, double certainty)
+{
+  finished.logOdds = withCertainty(finished.logOdds, certainty);
+  setEvidence(finished.pose, finished.logOdds);
+}
+
+std::vector<const FinishedInstance*> likelyOf(const FinishedInstances& found, std::size_t most)
+{
+  std::vector<const FinishedInstance*> likely;
+  for (const FinishedInstance& finished : found)
+  {
+    if (!finished.isLeft && finished.pose.placeProbability >= Likely && likely.size() < most)
+    {
+      likely.push_back(&finished);
+    }
+  }
+  return likely;
+}
+
 void sortBest(FinishedInstances& found)
 {
   std::stable_sort(found.begin(), found.end(),
@@ -93,8 +112,7 @@ void allowForLookalikes(
   const std::vector<double> shares = sharesOfPart(contradictions, places, excused);
   for (std::size_t k = 0; k < found.size(); ++k)
   {
-    found[k].logOdds = withCertainty(found[k].logOdds, shares[k]);
-    setEvidence(found[k].pose, found[k].logOdds);
+    allowFor(found[k], shares[k]);
   }
 }
 
@@ -108,8 +126,7 @@ void allowForAbsence(FinishedInstances& found)
   const double present = std::max(LeastPresent, probabilityOf(CalibrationOfPresence.logOdds(best)));
   for (FinishedInstance& finished : found)
   {
-    finished.logOdds = withCertainty(finished.logOdds, present);
-    setEvidence(finished.pose, finished.logOdds);
+    allowFor(finished, present);
   }
 }
 

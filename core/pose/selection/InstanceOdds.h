@@ -23,6 +23,12 @@ using FinishedInstances = std::vector<FinishedInstance>;
 /// Place of a pose; of less it does not matter what contradicts it.
 inline constexpr double WorthExplaining = 0.02;
 
+/// No likelier than `certainty`, that what lies there is the part.
+void allowFor(FinishedInstance& finished, double certainty);
+
+/// Of poses, best first, those that are likely, `most` at most: what a scan holds is decided by these.
+std::vector<const FinishedInstance*> likelyOf(const FinishedInstances& found, std::size_t most);
+
 /// Those that are left at the end.
 void sortBest(FinishedInstances& found);
 

@@ -4,7 +4,6 @@
 #include "model/MirrorImage.h"
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/refinement/PoseRefinement.h"
-#include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
@@ -15,9 +14,8 @@ namespace meam
 {
 namespace
 {
-constexpr double WorthMirroring = 0.5; // place of a pose that is asked
-constexpr int MostAsked = 8;           // of them
-constexpr double MostOfOne = 5.0;      // log odds that one pose tells at most
+constexpr std::size_t MostAsked = 8; // poses
+constexpr double MostOfOne = 5.0;    // log odds that one pose tells at most
 constexpr double Prior = 3.0;    // log odds that it is no mirror image: that lies there by mistake, one time in twenty
 constexpr double OfChance = 1.0; // log odds off the mirrored part's: the best of several ways has as much by chance
 constexpr double Clear = 8.0;    // log odds either way from which on no further pose is asked
@@ -50,27 +48,20 @@ double logOddsMirrored(const Pose& pose, const MirroredPart& mirrored, const Sce
 void allowForMirrorImage(FinishedInstances& found, const Scene& scene, const TrainedModel& model,
   const EvidenceCollector& collector, const EvidenceSettings& settings, const EvidenceRates& rates, int threads)
 {
-  const auto isLikely = [](const FinishedInstance& finished)
-  { return !finished.isLeft && finished.pose.placeProbability >= WorthMirroring; };
-  if (std::none_of(found.begin(), found.end(), isLikely))
-  {
-    return;
-  }
-  const MirroredPart* mirrored = model.mirrorImage->of(model);
+  const std::vector<const FinishedInstance*> likely = likelyOf(found, MostAsked);
+  const MirroredPart* mirrored = likely.empty() ? nullptr : model.mirrorImage->of(model);
   if (!mirrored)
   {
     return;
   }
   const EvidenceCollector ofMirrored(scene, mirrored->model, settings);
   double logOdds = Prior;
-  int asked = 0;
-  for (const FinishedInstance& finished : found)
+  for (const FinishedInstance* finished : likely)
   {
-    if (isLikely(finished) && asked < MostAsked && std::abs(logOdds) < Clear)
+    if (std::abs(logOdds) < Clear)
     {
-      ++asked;
-      logOdds += std::clamp(collector.logOdds(finished.pose.T_scene_model, rates) -
-                              logOddsMirrored(finished.pose, *mirrored, scene, ofMirrored, rates, threads),
+      logOdds += std::clamp(collector.logOdds(finished->pose.T_scene_model, rates) -
+                              logOddsMirrored(finished->pose, *mirrored, scene, ofMirrored, rates, threads),
         -MostOfOne, MostOfOne);
     }
   }
@@ -78,8 +69,7 @@ void allowForMirrorImage(FinishedInstances& found, const Scene& scene, const Tra
   for (FinishedInstance& finished : found)
   {
     finished.pose.contradictions.mirrored = 1.0 - share;
-    finished.logOdds = withCertainty(finished.logOdds, share);
-    setEvidence(finished.pose, finished.logOdds);
+    allowFor(finished, share);
   }
 }
 }

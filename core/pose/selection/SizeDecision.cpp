@@ -2,7 +2,6 @@
 #include "pose/selection/SizeDecision.h"
 
 #include "pose/refinement/PartSize.h"
-#include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
 #include <cmath>
@@ -11,8 +10,7 @@ namespace meam
 {
 namespace
 {
-constexpr double WorthMeasuring = 0.5;        // place of a pose whose size counts
-constexpr std::size_t MostMeasured = 6;       // of them
+constexpr std::size_t MostMeasured = 6;       // poses whose size counts
 constexpr std::size_t FewestMeasured = 4;     // what one pose is off may be the scan's, or the pose's
 constexpr double Made = 0.02;                 // standard deviation of the lengths that a part is made with
 constexpr double DensityOfOthers = 1.0 / 0.6; // another part is 0.7 to 1.3 times as long, each alike
@@ -40,12 +38,9 @@ double logOddsOfSize(const PartSize& size)
 void allowForOtherSize(FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads)
 {
   Poses likely;
-  for (const FinishedInstance& finished : found)
+  for (const FinishedInstance* finished : likelyOf(found, MostMeasured))
   {
-    if (!finished.isLeft && finished.pose.placeProbability >= WorthMeasuring && likely.size() < MostMeasured)
-    {
-      likely.push_back(finished.pose);
-    }
+    likely.push_back(finished->pose);
   }
   if (likely.size() < FewestMeasured)
   {
@@ -59,8 +54,7 @@ void allowForOtherSize(FinishedInstances& found, const Scene& scene, const Train
     if (logOdds < PriorOfSize) // that it fits is what the pose's own evidence says
     {
       finished.pose.contradictions.resized = 1.0 - probabilityOf(logOdds);
-      finished.logOdds = withCertainty(finished.logOdds, probabilityOf(logOdds));
-      setEvidence(finished.pose, finished.logOdds);
+      allowFor(finished, probabilityOf(logOdds));
     }
   }
 }
