@@ -73,7 +73,7 @@ def look(folder):
         locator.BuildLocator()
         nearest, squared = [0.0] * 3, reference(0.0)
         locator.FindClosestPoint(on, nearest, reference(0), reference(0), squared)
-        check(squared < 1e-2, f"{name}: {point} is {squared.get() ** 0.5} mm from the part that is drawn")
+        check(squared < 1e-4, f"{name}: {point} is {squared.get() ** 0.5} mm from the part that is drawn")
 
 
 paraview, repository = sys.argv[1:]
