@@ -209,11 +209,12 @@ def calibrate(model, judged):
 
 
 class Diagnosis:
-    """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `reasons` (what
-    speaks for it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose that came out there; 0: none),
-    `part` (of several types the one that it is about), `pose` (4 x 4, the place, or None), `numbers` (of each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should be visible)
-    and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"), `unexplained` (M x 3, measured surface of
-    the scan that goes on beside the part there, and is not it). `data` is the VTK data object of the
+    """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `reasons` (what speaks for
+    it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose
+    that came out there; 0: none), `part` (of several types the one that it is about), `pose` (4 x 4, the place, or None),
+    `numbers` (of each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should
+    be visible) and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"), `unexplained` (M x 3,
+    measured surface of the scan that goes on beside the part there, and is not it). `data` is the VTK data object of the
     points."""
 
     def __init__(self, data, table, beside):

@@ -38,9 +38,10 @@ class Picks(Rows):
     """What a gripper can take, best first, and after it what it cannot, rows of Pick. In columns `possible`, `reasons` (what is
     against it; empty: nothing), `transforms` (N x 4 x 4, takes the gripper's coordinates to the scan's, mm: z the way in),
     `robot_transforms` (the same in the robot's frame, with a robot_frame; else None), `instances` (which pose, from 0), `parts`
-    (which type of part, from 0), `grasps` (which grasp of that type, from 0), `names` (of the grasps), `widths` (mm), `clearances` and `reaches` (mm), `tilts` (degrees), `covered`
-    and `scores` (from 0 to 1). `report` tells in a sentence what keeps the gripper from copies that cannot be picked, `advice`
-    what to change for them (empty: all can be picked); `bin`: the one that was found or given."""
+    (which type of part, from 0), `grasps` (which grasp of that type, from 0), `names` (of the grasps), `widths` (mm),
+    `clearances` and `reaches` (mm), `tilts` (degrees), `covered` and `scores` (from 0 to 1). `report` tells in a sentence what
+    keeps the gripper from copies that cannot be picked, `advice` what to change for them (empty: all can be picked); `bin`: the
+    one that was found or given."""
     COLUMNS = {"possible": ("possible", ()), "reasons": ("reason", None), "transforms": ("transform", (4, 4)),
                "instances": ("instance", ()), "parts": ("part", ()), "grasps": ("grasp", ()), "names": ("name", None), "widths": ("width", ()),
                "clearances": ("clearance", ()), "reaches": ("reach", ()), "tilts": ("tilt", ()), "covered": ("covered", ()),
@@ -100,8 +101,9 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
     """Which of the parts that were found a gripper can take, and what is against the others.
 
     found: Detections of detect(), or poses N x 4 x 4. grasps: those of the part, as grasps() returns them, or a list of those of
-    each type of part, in the order of detect(), whose copies are all in the way; the gripper has their lengths, unless others are given. scan, camera, scale: as detect() takes them; without a scan only the other copies and the
-    bin are in the way. gripper: jaws, cup, or a mesh (a file or a vtkPolyData) as it stands open in the grasp's frame.
+    each type of part, in the order of detect(), whose copies are all in the way; the gripper has their lengths, unless others
+    are given. scan, camera, scale: as detect() takes them; without a scan only the other copies and the bin are in the way.
+    gripper: jaws, cup, or a mesh (a file or a vtkPolyData) as it stands open in the grasp's frame.
     bin: detected (by its rim, in the scan), none, or (T, length, width, height, wall): T, 4 x 4, takes the coordinates of the
     bin, whose z goes up from the middle of its floor, to the scan's; mm. robot_frame: a file of OpenCV or ROS with the
     camera in the robot's frame. Returns Picks.
