@@ -2,9 +2,9 @@
 # Sets up the machine and brings one build up to date, quietly; the whole output is in build/PRESET.log and
 # its end is shown when something fails. Says nothing when nothing is to be done.
 #
-#   cmake/build.sh PRESET [TARGET...]        release, dev, vtk or fuzz; the targets default to everything
+#   cmake/build.sh PRESET [TARGET...]        release, dev, sanitized, vtk or fuzz; the targets default to everything
 #
-# The preset vtk links the core of build/release, and dev its files with CGAL: they are built first.
+# The preset vtk links the core of build/release, and dev and sanitized some of its objects: they are built first.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 preset=$1; shift
@@ -13,7 +13,8 @@ log=$root/build/$preset.log
 mkdir -p "$root/build"
 case $preset in
   vtk) "${BASH_SOURCE[0]}" release coreLibraries ;;
-  dev) "${BASH_SOURCE[0]}" release meamMeshCore ;;
+  dev) "${BASH_SOURCE[0]}" release meamMeshCore meamPoseCore meamPartCore ;;
+  sanitized) "${BASH_SOURCE[0]}" release meamMeshCore ;;
 esac
 exec 9>"$root/build/.lock"
 flock 9 # two runs at once: the second waits

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds everything and runs the tests: the release build, core but for models and poses under the sanitizers (dev), and the
-# filters under plain VTK (vtk), two tests at a time.
+# Builds everything and runs the tests: the release build, what of core reads files and scans under the sanitizers (dev), and
+# the filters under plain VTK (vtk), two tests at a time.
 #
 #   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
 #
@@ -30,11 +30,15 @@ run() { # PRESET, "what", build target or "", ctest arguments...
 }
 if [ ${#without[@]} = 0 ]; then
   "$root/cmake/build.sh" release meamAblation meamCoreTests || failed+=("release, for --long (build)")
-  "$root/cmake/build.sh" dev meamPoseTests || failed+=("dev, for --long (build)")
 fi
 run release "core, filters, plugin" "" "$@"
 if [ ${#without[@]} = 0 ]; then "$root/cmake/build.sh" release meamBenchmarks || failed+=("benchmarks (build)"); fi
-run dev "core under the sanitizers" "" "$@"
+if [ ${#without[@]} = 0 ]; then
+  "$root/cmake/build.sh" sanitized meamPoseTests || failed+=("sanitized, for --long (build)")
+  run sanitized "core under the sanitizers" "" "$@"
+else
+  run dev "readers and scans under the sanitizers" "" "$@"
+fi
 run vtk "filters under plain VTK" runtime -L filters "$@"
 
 if [ ${#failed[@]} -gt 0 ]; then
