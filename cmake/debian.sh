@@ -33,6 +33,7 @@ esac
 
 packages=(
   g++ cmake ninja-build
+  make # what CMake builds examples/cpp with when it is not told otherwise
   paraview paraview-dev python3-paraview python3-numpy xvfb xauth libgl1-mesa-dri
   libpcl-{common,kdtree,octree,search,sample-consensus,filters,features,registration}"$pcl"
   libopencv-imgcodecs-dev libopencv-calib3d-dev libeigen3-dev libcgal-dev libopenmesh-dev

@@ -3,7 +3,7 @@
 # against it, and find parts in a scan. Usage: package.sh SOURCE_DIR BUILD_DIR PYTHON_DIR PYTHON CXX
 set -euo pipefail
 source=$1 build=$2 python_dir=$3 python=$4
-export CXX=$5 CMAKE_GENERATOR=Ninja
+export CXX=$5 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
