@@ -9,8 +9,8 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 folder=${1:-$root/build/packages}
 mkdir -p "$folder"
-name=${DEBFULLNAME:-$(git -C "$root" config user.name || id -un)}
-address=${DEBEMAIL:-$(git -C "$root" config user.email || echo "$(id -un)@$(hostname -f)")}
+name=${DEBFULLNAME:-$(git -C "$root" config user.name 2>/dev/null || id -un)}
+address=${DEBEMAIL:-$(git -C "$root" config user.email 2>/dev/null || echo "$(id -un)@$(hostname -f)")}
 
 "$root/cmake/debian.sh" packages
 "$root/cmake/build.sh" release runtime
