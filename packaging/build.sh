@@ -4,7 +4,8 @@
 #
 #   packaging/build.sh [FOLDER]      FOLDER: where to put them, default build/packages
 #
-# Their maintainer is DEBFULLNAME <DEBEMAIL>, as for Debian's own tools, or who commits here with git.
+# Their maintainer is DEBFULLNAME <DEBEMAIL>, as for Debian's own tools, or who commits here with git. Where nobody is named
+# it is the user of this machine, and lintian finds errors when that is root or the machine has no domain.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 folder=${1:-$root/build/packages}
