@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/ScanAdvice.h"
 
+#include "pose/objective/MissingSurface.h"
 #include "pose/refinement/PartSize.h"
 
 #include <algorithm>
@@ -54,6 +55,12 @@ std::string scanAdvice(
   {
     sentences.push_back("The parts in the scan are " + sizeWords(poses.front().contradictions.lengths) +
                         ": another part lies there, or the CAD file is of another version.");
+  }
+  else if (!poses.empty() && poses.front().contradictions.missing > MissingByChance)
+  {
+    sentences.push_back(
+      "Some surface of the part is missing on most copies in the scan: another part lies there, or the "
+      "CAD file is of another version.");
   }
   if (quality.isKnown())
   {

@@ -119,6 +119,7 @@ std::vector<Switch> makeSwitches()
   instances("overlaps", "poses may cut into each other", [](S& s) { s.excludesOverlaps = false; });
   instances("lookalikes", "what contradicts a pose speaks for no other part", [](S& s) { s.weighsLookalikes = false; });
   instances("mirror-image", "no pose is of the mirrored part", [](S& s) { s.weighsMirrorImage = false; });
+  instances("missing-surface", "parts may lack some of their surface", [](S& s) { s.weighsMissing = false; });
   instances("part-size", "parts may be of another size", [](S& s) { s.weighsSize = false; });
   instances("absence", "no absence prior", [](S& s) { s.partIsPresent = true; });
   instances("comparison", "instances by their evidence alone", [](S& s) { s.comparesInstances = false; });
@@ -490,6 +491,7 @@ public:
     result["place"] = column(found.value, placeOrScore);
     result["continuing"] = column(found.value, [](const Pose& pose) { return pose.contradictions.continuing; });
     result["past"] = column(found.value, [](const Pose& pose) { return pose.contradictions.past; });
+    result["missing"] = column(found.value, [](const Pose& pose) { return double(pose.contradictions.missing); });
     result["lengths"] = py::list();
     for (const Pose& pose : found.value)
     {

@@ -16,6 +16,7 @@ struct Contradictions
   double past = 0.0;       ///< patches of predicted surface that the sensor saw past
   double misfit = 0.0; ///< how far the surface lies off the part, in what is expected of a right pose (SurfaceMisfit)
 
+  int missing = 0;       ///< patches of the part that are missing on most of the likely poses (missingPatches)
   double mirrored = 0.0; ///< probability that what a mirror shows of the part lies there (allowForMirrorImage)
   double resized = 0.0;  ///< probability that what lies there is longer or shorter along an axis (allowForOtherSize)
   /// Of the likely poses together, along the axes of the CAD file, as shares of its lengths; NaN where not measured.

@@ -2,6 +2,7 @@
 #include "pose/selection/InstanceOdds.h"
 
 #include "pose/objective/BodyOverlap.h"
+#include "pose/objective/MissingSurface.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
@@ -14,7 +15,10 @@ namespace meam
 {
 namespace
 {
-constexpr double Likely = 0.5; // place of a pose that explains what it lies on
+constexpr double Likely = 0.5;          // place of a pose that explains what it lies on
+constexpr std::size_t MostShowing = 12; // poses that tell what is missing
+constexpr double PriorOfWhole = 3.0; // log odds that it is the part: another lies there by mistake, one time in twenty
+constexpr double OfMissingPatch = -5.0; // of a patch beyond
 }
 
 void allowFor(FinishedInstance& finished, double certainty)
@@ -113,6 +117,28 @@ void allowForLookalikes(
   for (std::size_t k = 0; k < found.size(); ++k)
   {
     allowFor(found[k], shares[k]);
+  }
+}
+
+int missingOfLikely(const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads)
+{
+  Poses likely;
+  for (const FinishedInstance* finished : likelyOf(found, MostShowing))
+  {
+    likely.push_back(finished->pose);
+  }
+  return missingPatches(likely, scene, model, threads);
+}
+
+void allowForMissing(FinishedInstances& found, int missing)
+{
+  for (FinishedInstance& finished : found)
+  {
+    finished.pose.contradictions.missing = missing;
+    if (missing > MissingByChance)
+    {
+      allowFor(finished, probabilityOf(PriorOfWhole + OfMissingPatch * (missing - MissingByChance)));
+    }
   }
 }
 

@@ -41,6 +41,11 @@ void excludeOverlaps(FinishedInstances& found, const TrainedModel& model);
 void allowForLookalikes(
   FinishedInstances& found, const TrainedModel& model, const SurfaceContinuation& continuation, double excused);
 
+/// Of poses, best first: missingPatches of the likely ones.
+int missingOfLikely(const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads);
+/// The part may lie there, or one that lacks so many patches of it, or has them elsewhere.
+void allowForMissing(FinishedInstances& found, int missing);
+
 /// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
 /// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
 void allowForAbsence(FinishedInstances& found);

@@ -77,6 +77,8 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     {
       excludeOverlaps(finished, model);
     }
+    // Of what is likely by itself: what else the likely poses say together may make all of them unlikely.
+    const int missing = settings.weighsMissing ? missingOfLikely(finished, scene, model, settings.threads) : 0;
     if (settings.weighsLookalikes)
     {
       allowForLookalikes(finished, model, finishing.continuation(), finishing.misfit().excused());
@@ -89,6 +91,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     {
       allowForMirrorImage(finished, scene, model, collector, settings.evidence, rates, settings.threads);
     }
+    allowForMissing(finished, missing);
     if (!settings.partIsPresent)
     {
       allowForAbsence(finished);

@@ -83,4 +83,7 @@ TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
   ofOtherSize[0].contradictions.resized = 0.99;
   ofOtherSize[0].contradictions.lengths.z() = 0.9;
   EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofOtherSize, 100.0), "0.90 times as long along z"));
+  meam::Poses ofOtherPart{ claimed(0.01, 1.0) };
+  ofOtherPart[0].contradictions.missing = 2;
+  EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofOtherPart, 100.0), "is missing on most copies"));
 }

@@ -53,3 +53,19 @@ TEST(InstanceOdds, WhatABetterPoseExcludesHardlyExcludes)
   EXPECT_LT(row[1], -3.0);
   EXPECT_NEAR(row[2], 3.0 - std::log1p(std::exp(4.0) / (1.0 + std::exp(8.0))), 1e-9);
 }
+
+TEST(InstanceOdds, OnePatchIsMissingByChance)
+{
+  const auto placeWith = [](int missing)
+  {
+    meam::FinishedInstances found(1);
+    found[0].logOdds = std::log(0.9 / 0.1);
+    meam::allowForMissing(found, missing);
+    EXPECT_EQ(found[0].pose.contradictions.missing, missing);
+    return 1.0 / (1.0 + std::exp(-found[0].logOdds));
+  };
+  EXPECT_NEAR(placeWith(0), 0.9, 1e-9);
+  EXPECT_NEAR(placeWith(1), 0.9, 1e-9);
+  EXPECT_NEAR(placeWith(2), 0.9 / (1.0 + std::exp(2.0)), 1e-9);
+  EXPECT_LT(placeWith(3), 0.01);
+}
