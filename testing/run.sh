@@ -32,8 +32,8 @@ if [ ${#without[@]} = 0 ]; then
   "$root/cmake/build.sh" release meamAblation meamCoreTests || failed+=("release, for --long (build)")
 fi
 run release "core, filters, plugin" "" "$@"
-if [ ${#without[@]} = 0 ]; then "$root/cmake/build.sh" release meamBenchmarks || failed+=("benchmarks (build)"); fi
 if [ ${#without[@]} = 0 ]; then
+  "$root/cmake/build.sh" release meamBenchmarks || failed+=("benchmarks (build)")
   "$root/cmake/build.sh" sanitized meamPoseTests || failed+=("sanitized, for --long (build)")
   run sanitized "core under the sanitizers" "" "$@"
 else

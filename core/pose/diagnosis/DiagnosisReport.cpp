@@ -163,8 +163,7 @@ std::string contradictionWords(const Contradictions& contradictions)
   }
   if (contradictions.missing > MissingByChance)
   {
-    return std::to_string(contradictions.missing) +
-           " patches of its surface, 7 % of the diameter wide, are missing on most copies in the scan";
+    return std::to_string(contradictions.missing) + " patches of its surface are missing on most copies in the scan";
   }
   const std::string beside =
     continuing >= LeastTold ? "surface goes on beside it over " + decimal(continuing) + " patches" : "";

@@ -38,7 +38,8 @@ Patch patchOf(const Eigen::Vector3f& point, const Symmetries& symmetries, double
 /// Points of a patch on one copy.
 struct PatchPoints
 {
-  int there = 0, past = 0, hidden = 0;
+  int there = 0; ///< or seen past at a rim
+  int past = 0, hidden = 0;
 };
 
 /// Whether the sensor saw past a point in all cells about its own, too. `behind`: mm along the line of sight.

@@ -27,14 +27,14 @@ void allowFor(FinishedInstance& finished, double certainty)
   setEvidence(finished.pose, finished.logOdds);
 }
 
-std::vector<const FinishedInstance*> likelyOf(const FinishedInstances& found, std::size_t most)
+Poses likelyOf(const FinishedInstances& found, std::size_t most)
 {
-  std::vector<const FinishedInstance*> likely;
+  Poses likely;
   for (const FinishedInstance& finished : found)
   {
     if (!finished.isLeft && finished.pose.placeProbability >= Likely && likely.size() < most)
     {
-      likely.push_back(&finished);
+      likely.push_back(finished.pose);
     }
   }
   return likely;
@@ -122,12 +122,7 @@ void allowForLookalikes(
 
 int missingOfLikely(const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads)
 {
-  Poses likely;
-  for (const FinishedInstance* finished : likelyOf(found, MostShowing))
-  {
-    likely.push_back(finished->pose);
-  }
-  return missingPatches(likely, scene, model, threads);
+  return missingPatches(likelyOf(found, MostShowing), scene, model, threads);
 }
 
 void allowForMissing(FinishedInstances& found, int missing)

@@ -27,7 +27,7 @@ inline constexpr double WorthExplaining = 0.02;
 void allowFor(FinishedInstance& finished, double certainty);
 
 /// Of poses, best first, those that are likely, `most` at most: what a scan holds is decided by these.
-std::vector<const FinishedInstance*> likelyOf(const FinishedInstances& found, std::size_t most);
+Poses likelyOf(const FinishedInstances& found, std::size_t most);
 
 /// Those that are left at the end.
 void sortBest(FinishedInstances& found);

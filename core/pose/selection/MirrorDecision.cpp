@@ -48,7 +48,7 @@ double logOddsMirrored(const Pose& pose, const MirroredPart& mirrored, const Sce
 void allowForMirrorImage(FinishedInstances& found, const Scene& scene, const TrainedModel& model,
   const EvidenceCollector& collector, const EvidenceSettings& settings, const EvidenceRates& rates, int threads)
 {
-  const std::vector<const FinishedInstance*> likely = likelyOf(found, MostAsked);
+  const Poses likely = likelyOf(found, MostAsked);
   const MirroredPart* mirrored = likely.empty() ? nullptr : model.mirrorImage->of(model);
   if (!mirrored)
   {
@@ -56,12 +56,12 @@ void allowForMirrorImage(FinishedInstances& found, const Scene& scene, const Tra
   }
   const EvidenceCollector ofMirrored(scene, mirrored->model, settings);
   double logOdds = Prior;
-  for (const FinishedInstance* finished : likely)
+  for (const Pose& pose : likely)
   {
     if (std::abs(logOdds) < Clear)
     {
-      logOdds += std::clamp(collector.logOdds(finished->pose.T_scene_model, rates) -
-                              logOddsMirrored(finished->pose, *mirrored, scene, ofMirrored, rates, threads),
+      logOdds += std::clamp(collector.logOdds(pose.T_scene_model, rates) -
+                              logOddsMirrored(pose, *mirrored, scene, ofMirrored, rates, threads),
         -MostOfOne, MostOfOne);
     }
   }

@@ -37,11 +37,7 @@ double logOddsOfSize(const PartSize& size)
 
 void allowForOtherSize(FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads)
 {
-  Poses likely;
-  for (const FinishedInstance* finished : likelyOf(found, MostMeasured))
-  {
-    likely.push_back(finished->pose);
-  }
+  const Poses likely = likelyOf(found, MostMeasured);
   if (likely.size() < FewestMeasured)
   {
     return;

@@ -28,8 +28,8 @@ def main():
     start = time.time()
     model = training.model()
     seconds = time.time() - start
-    scripting.write_model(model, options.out)
     samples = training.symmetric_samples()
+    scripting.write_model(model, options.out)  # last: whoever stops the training finds no file
     told = {"model": options.out, "edge_points": scripting.field(model, "NumberOfEdgePoints"),
             "pairs": scripting.field(model, "NumberOfPairs") + scripting.field(model, "NumberOfSurfacePairs"),
             "table_bytes": scripting.field(model, "TableBytes"), "diameter": scripting.field(model, "Diameter"), "seconds": seconds,
