@@ -93,6 +93,27 @@ void allowForSlope(const Eigen::Vector3f& towards, const float* nx, const float*
   }
 }
 
+View viewAlong(const Eigen::Vector3f& towards, float halfCells, float cell)
+{
+  const float half = halfCells * cell;
+  return { frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
+}
+
+void project(const View& view, const SoAPoints& points, Projected& result)
+{
+  result.cells.resize(points.x.size());
+  result.heights.resize(points.x.size());
+  project(view, points.x.data(), points.y.data(), points.z.data(), static_cast<int>(points.x.size()),
+    result.cells.data(), result.heights.data());
+}
+
+void allowForSlope(
+  const Eigen::Vector3f& towards, const SoAPoints& normals, float cell, float grazingCosine, Projected& points)
+{
+  allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
+    grazingCosine, points.heights.data());
+}
+
 /// The lowest of the cells up to `border` off one, along the rows and columns.
 float lowestBeside(const std::vector<float>& buffer, int side, int cell, int border)
 {
@@ -214,20 +235,11 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, int cachedDi
   , Middle(meanOf(model.surface.empty() ? model.edges.points : model.surface.points))
   , VerificationIndices(model.verificationPoints)
 {
-  const auto relative = [&](const Points& points)
+  this->Surface.reserve(model.surface.size());
+  for (std::size_t k = 0; k < model.surface.size(); ++k)
   {
-    SoAPoints result;
-    result.resize(points.size());
-    for (std::size_t k = 0; k < points.size(); ++k)
-    {
-      result.set(k, points[k] - this->Middle);
-    }
-    return result;
-  };
-  this->Surface = relative(model.surface.points);
-  for (std::size_t k = 0; k < this->Surface.size(); ++k)
-  {
-    this->Radius = std::max(this->Radius, this->Surface[k].norm());
+    this->Surface.add(model.surface.points[k] - this->Middle, model.surface.normals[k]);
+    this->Radius = std::max(this->Radius, this->Surface.points[k].norm());
   }
   // Of edges alone a point is never a diameter from the middle.
   const double reach = model.surface.empty() ? this->Diameter : static_cast<double>(this->Radius);
@@ -320,15 +332,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   Visible visible{ towards, {}, {}, {}, {}, {}, {} };
   const float cell = static_cast<float>(Cell * this->Diameter);
   const float tolerance = static_cast<float>(Tolerance * this->Diameter);
-  const float half = this->HalfCells * cell;
-  const View across{ frameAround(towards), half, 1.0f / cell, static_cast<int>(std::ceil(2.0f * half / cell)) + 1 };
-  const auto projected = [&](const SoAPoints& points, Projected& result)
-  {
-    result.cells.resize(points.x.size());
-    result.heights.resize(points.x.size());
-    project(across, points.x.data(), points.y.data(), points.z.data(), static_cast<int>(points.x.size()),
-      result.cells.data(), result.heights.data());
-  };
+  const View across = viewAlong(towards, this->HalfCells, cell);
   struct Room // of the size of the part, and there are hundreds of poses
   {
     Projected surface, others;
@@ -338,14 +342,14 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   thread_local Room room;
   auto& [surface, others, nearest, inSight] = room;
   nearest.assign(static_cast<std::size_t>(across.side) * across.side, Nothing);
-  projected(this->Surface, surface);
+  project(across, this->Surface.points, surface);
   raise(surface, nearest);
   visible.outside = outsideOf(nearest, across, borderCells);
   for (Eigen::Vector3f& point : visible.outside)
   {
     point += this->Middle;
   }
-  projected(this->SharpEdges.points, others);
+  project(across, this->SharpEdges.points, others);
   keepInSight(others, nearest, tolerance + static_cast<float>(EdgeSlope) * cell, inSight);
   const std::vector<OccludingContours::Point> contours = this->Contours.from(towards, inset);
   visible.edges.reserve(inSight.size() + contours.size());
@@ -367,10 +371,8 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
     edges[k] = visible.edges.points[k];
   }
   visible.edgeGrid = PointGrid(edges, EdgeCell * this->Diameter);
-  projected(this->VerificationPoints.points, others);
-  const SoAPoints& normals = this->VerificationPoints.directions;
-  allowForSlope(towards, normals.x.data(), normals.y.data(), normals.z.data(), static_cast<int>(normals.size()), cell,
-    static_cast<float>(GrazingCosine), others.heights.data());
+  project(across, this->VerificationPoints.points, others);
+  allowForSlope(towards, this->VerificationPoints.directions, cell, static_cast<float>(GrazingCosine), others);
   keepInSight(others, nearest, tolerance, inSight);
   visible.surface.reserve(inSight.size());
   visible.isInner.reserve(inSight.size());
@@ -386,5 +388,21 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
     visible.falls.push_back(fall > drop ? fall : 0.0f);
   }
   return visible;
+}
+
+std::vector<int> PredictedVisibility::samplesInSight(
+  const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double leastCosine) const
+{
+  const Eigen::Vector3f towards = this->towards(T_scene_model, sensor);
+  const float cell = static_cast<float>(Cell * this->Diameter);
+  const View across = viewAlong(towards, this->HalfCells, cell);
+  Projected surface;
+  project(across, this->Surface.points, surface);
+  std::vector<float> nearest(static_cast<std::size_t>(across.side) * across.side, Nothing);
+  raise(surface, nearest);
+  allowForSlope(towards, this->Surface.directions, cell, static_cast<float>(leastCosine), surface);
+  std::vector<int> inSight;
+  keepInSight(surface, nearest, static_cast<float>(Tolerance * this->Diameter), inSight);
+  return inSight;
 }
 }

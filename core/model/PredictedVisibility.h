@@ -54,6 +54,11 @@ public:
   std::shared_ptr<const Visible> visible(
     const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double pitch = 0.0) const;
 
+  /// Indices of all surface samples in sight, not of the verification points alone, that face the sensor with this
+  /// cosine at least. Not cached.
+  std::vector<int> samplesInSight(
+    const Eigen::Isometry3d& T_scene_model, const Sensor& sensor, double leastCosine) const;
+
 private:
   using Cache = std::unordered_map<int, std::shared_ptr<const Visible>>; ///< by direction and point distance
 
@@ -68,7 +73,7 @@ private:
   float Radius = 0.0f;
   float HalfCells; ///< of the depth buffer, from its middle to its border
   // Relative to the middle:
-  SoAPoints Surface;
+  SoAOrientedPoints Surface;
   SoAOrientedPoints SharpEdges; ///< with tangents
   OccludingContours Contours;   ///< in the model's frame
   SoAOrientedPoints VerificationPoints;

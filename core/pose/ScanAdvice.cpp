@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/ScanAdvice.h"
 
-#include "pose/objective/MissingSurface.h"
+#include "pose/objective/FloorContact.h"
 #include "pose/refinement/PartSize.h"
 
 #include <algorithm>
@@ -56,11 +56,15 @@ std::string scanAdvice(
     sentences.push_back("The parts in the scan are " + sizeWords(poses.front().contradictions.lengths) +
                         ": another part lies there, or the CAD file is of another version.");
   }
-  else if (!poses.empty() && poses.front().contradictions.missing > MissingByChance)
+  else if (!poses.empty() && poses.front().contradictions.missing > 0)
   {
     sentences.push_back(
       "Some surface of the part is missing on most copies in the scan: another part lies there, or the "
       "CAD file is of another version.");
+  }
+  else if (!poses.empty() && poses.front().contradictions.thickness != 1.0)
+  {
+    sentences.push_back(thicknessWords(poses.front().contradictions.thickness));
   }
   if (quality.isKnown())
   {

@@ -73,6 +73,8 @@ public:
     return place < 0 ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : this->Normals[place];
   }
 
+  /// Of the map, with those in which nothing was measured.
+  int cellCount() const { return this->Width * this->Height; }
   /// The cell at the line of sight through a point; -1 outside of the map.
   int cellAt(const Eigen::Vector3f& point) const { return this->placeOf(point).cell; }
   /// Those beside a cell in its row and its column, as far as there are any: -1.

@@ -48,11 +48,12 @@ Sensor moved(const Sensor& sensor, const Eigen::Isometry3d& motion)
 }
 }
 
-Scene::Scene(LocalCloud edgePoints, const Points& measured, const Sensor& seenFrom, double diameter,
+Scene::Scene(LocalCloud edgePoints, const Points& allMeasured, const Sensor& seenFrom, double diameter,
   const SceneSettings& settings, const ScanQuality& measuredQuality)
   : edges(checked(std::move(edgePoints)))
   , sensor(moved(seenFrom, edges.T_local_scene))
   , quality(measuredQuality)
+  , measured(allMeasured)
   , partDiameter(diameter)
   , depth(measured, sensor, DepthCell * diameter, settings.threads)
 {

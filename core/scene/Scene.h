@@ -23,11 +23,11 @@ struct SceneSettings
 /// which all stages work and all poses stay until the end. Lengths in mm. Calls may run in parallel.
 struct Scene
 {
-  /// `edges`: thinned edge points with tangents (estimateTangents). `measured`: all points that the sensor measured, in
-  /// their frame, or none. `sensor` in the scene's own coordinates. `quality`: what the scan shows of it, where that is
-  /// known. Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], and when no
+  /// `edges`: thinned edge points with tangents (estimateTangents). `allMeasured`: the points that the sensor measured,
+  /// in their frame, or none. `sensor` in the scene's own coordinates. `quality`: what the scan shows of it, where that
+  /// is known. Throws Error when the scene has no edges, edges without tangents, or weights beyond [0, 1], and when no
   /// point of the surface lies before the sensor.
-  Scene(LocalCloud edges, const Points& measured, const Sensor& sensor, double partDiameter,
+  Scene(LocalCloud edges, const Points& allMeasured, const Sensor& sensor, double partDiameter,
     const SceneSettings& settings = {}, const ScanQuality& quality = {});
   Scene(const Scene&) = delete;
   void operator=(const Scene&) = delete;
@@ -41,6 +41,7 @@ struct Scene
   LocalCloud edges;
   Sensor sensor; ///< in the local frame
   ScanQuality quality;
+  Points measured; ///< all that the sensor measured
   double partDiameter;
   EdgeIndex edgeIndex;
   DepthMap depth;

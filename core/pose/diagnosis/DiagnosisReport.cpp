@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/DiagnosisReport.h"
 
-#include "pose/objective/MissingSurface.h"
+#include "pose/objective/FloorContact.h"
 #include "pose/refinement/PartSize.h"
 #include "pose/search/Suppression.h"
 #include "pose/verification/ProbabilityCalibration.h"
@@ -161,7 +161,7 @@ std::string contradictionWords(const Contradictions& contradictions)
   {
     return "what lies there is " + sizeWords(contradictions.lengths);
   }
-  if (contradictions.missing > MissingByChance)
+  if (contradictions.missing > 0)
   {
     return std::to_string(contradictions.missing) + " patches of its surface are missing on most copies in the scan";
   }
@@ -379,6 +379,10 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     if (!sizes.empty())
     {
       add("Against the lengths in the CAD file all likely poses together measure " + sizes + ".");
+    }
+    if (diagnosis.found->contradictions.thickness != 1.0)
+    {
+      add(thicknessWords(diagnosis.found->contradictions.thickness));
     }
   }
   if (diagnosis.otherRank > 0)

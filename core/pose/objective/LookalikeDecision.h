@@ -16,11 +16,14 @@ struct Contradictions
   double past = 0.0;       ///< patches of predicted surface that the sensor saw past
   double misfit = 0.0; ///< how far the surface lies off the part, in what is expected of a right pose (SurfaceMisfit)
 
-  int missing = 0;       ///< patches of the part that are missing on most of the likely poses (missingPatches)
+  int missing = 0;       ///< patches of the part, beyond chance, that are missing on most of the likely poses
   double mirrored = 0.0; ///< probability that what a mirror shows of the part lies there (allowForMirrorImage)
   double resized = 0.0;  ///< probability that what lies there is longer or shorter along an axis (allowForOtherSize)
   /// Of the likely poses together, along the axes of the CAD file, as shares of its lengths; NaN where not measured.
   Eigen::Vector3d lengths = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Times as thick as in the CAD file by the floor (thicknessByFloor): nothing is less likely for it, for sensors see
+  /// parts and floors at different depths; 1 where the floor does not tell of another.
+  double thickness = 1.0;
 
   /// Logarithm of how much likelier they are of the part than of one that looks alike. `excused`: [0, 1), by what the
   /// scan itself may make of them.

@@ -11,13 +11,17 @@ namespace meam
 {
 namespace
 {
-constexpr double PatchSide = 0.07;   // of the diameter: several verification points
-constexpr double OnPart = 0.02;      // of the diameter: surface so near to the part is the part's,
-constexpr double OnPartNoises = 2.0; // or so near in standard deviations of the scan's noise
-constexpr float LeastFacing = 0.35f; // cosine towards the sensor: flatter surface is measured badly
-constexpr int PointsOfPatch = 2;     // and no fewer show it on a copy
-constexpr int CopiesOfPatch = 4;     // show it, and half of all: a side that only few poses show tells of wrong ones
-constexpr double MostOfCopies = 0.5; // of them, on which a missing patch was seen past
+constexpr double PatchSide = 0.06;     // of the diameter: about ten samples of the surface
+constexpr double OnPart = 0.02;        // of the diameter: surface so near to the part is the part's,
+constexpr double OnPartNoises = 2.0;   // or so near in standard deviations of the scan's noise
+constexpr double LeastFacing = 0.35;   // cosine towards the sensor: flatter surface is measured badly
+constexpr double FinePitches = 1.5;    // point distances of the scan, a cell of the depth map: next to none is empty
+constexpr double FinestCell = 0.005;   // of the diameter: finer than the poses are right
+constexpr int PointsOfPatch = 2;       // and no fewer show it on a copy
+constexpr int CopiesOfPatch = 4;       // show it: fewer may be wrong at the same place
+constexpr double MostOfCopies = 0.5;   // of them, on which a missing patch was seen past
+constexpr int MissingByChance = 1;     // and one more of so many that are told of:
+constexpr int ToldOfEachMissing = 100; // of right parts two of four hundred were, at most
 
 using Patch = std::array<int, 3>;
 
@@ -35,6 +39,49 @@ Patch patchOf(const Eigen::Vector3f& point, const Symmetries& symmetries, double
   return { cell.x(), cell.y(), cell.z() };
 }
 
+/// What the sensor measured in the lines of sight of parts, point by point: the scene's own depth map is coarser.
+DepthMap fineDepth(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
+{
+  const DepthMap& coarse = scene.depth;
+  std::vector<char> isNear(coarse.cellCount(), 0);
+  for (const Pose& pose : poses)
+  {
+    const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
+    for (const Eigen::Vector3f& point : model.surface.points)
+    {
+      const int cell = coarse.cellAt(T * point);
+      if (cell >= 0)
+      {
+        isNear[cell] = 1;
+      }
+    }
+  }
+  constexpr int lot = 1 << 16; // points
+  const int count = static_cast<int>(scene.measured.size());
+  std::vector<Points> ofLots((count + lot - 1) / lot);
+  parallelFor(static_cast<int>(ofLots.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        const auto first = scene.measured.begin() + static_cast<std::ptrdiff_t>(i) * lot;
+        std::copy_if(first, first + std::min(lot, count - i * lot), std::back_inserter(ofLots[i]),
+          [&](const Eigen::Vector3f& point)
+          {
+            const int cell = coarse.cellAt(point);
+            return cell >= 0 && isNear[cell];
+          });
+      }
+    });
+  Points near;
+  for (const Points& points : ofLots)
+  {
+    near.insert(near.end(), points.begin(), points.end());
+  }
+  const double cell = std::max(FinePitches * coarse.pitch(), FinestCell * model.diameter);
+  return { near, scene.sensor, cell, threads };
+}
+
 /// Points of a patch on one copy.
 struct PatchPoints
 {
@@ -45,43 +92,39 @@ struct PatchPoints
 /// Whether the sensor saw past a point in all cells about its own, too. `behind`: mm along the line of sight.
 bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, const DepthMap& depth)
 {
-  bool isMeasured = false;
-  for (const int cell : depth.neighboursOf(depth.cellAt(point)))
-  {
-    if (cell >= 0 && depth.isMeasured(cell))
-    {
-      isMeasured = true;
-      if ((point - depth.meanIn(cell)).dot(towards) <= behind)
-      {
-        return false;
-      }
-    }
-  }
-  return isMeasured;
+  const std::array<int, 4> cells = depth.neighboursOf(depth.cellAt(point));
+  return std::all_of(cells.begin(), cells.end(),
+    [&](int cell)
+    { return cell < 0 || !depth.isMeasured(cell) || (point - depth.meanIn(cell)).dot(towards) > behind; });
 }
 
-std::map<Patch, PatchPoints> patchesOf(const Pose& pose, const Scene& scene, const TrainedModel& model)
+std::map<Patch, PatchPoints> patchesOf(
+  const Pose& pose, const Scene& scene, const DepthMap& depth, const TrainedModel& model)
 {
   const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
-  const DepthMap& depth = scene.depth;
-  const auto visible = model.visibility->visible(pose.T_scene_model, scene.sensor, depth.pitch());
-  const Eigen::Vector3f towards = T.linear() * model.visibility->towards(pose.T_scene_model, scene.sensor);
+  const Eigen::Vector3f towards = model.visibility->towards(pose.T_scene_model, scene.sensor);
+  const Eigen::Vector3f inScene = T.linear() * towards;
   const float onPart = static_cast<float>(std::max(OnPart * model.diameter, OnPartNoises * scene.quality.noise));
   std::map<Patch, PatchPoints> patches;
-  for (const int i : visible->surface)
+  for (const int i : model.visibility->samplesInSight(pose.T_scene_model, scene.sensor, LeastFacing))
   {
-    const float cosine = (T.linear() * model.surface.normals[i]).dot(towards);
-    if (cosine < LeastFacing)
+    const Eigen::Vector3f& point = model.surface.points[i];
+    PatchPoints& patch = patches[patchOf(point, model.symmetries, PatchSide * model.diameter)];
+    const float behind = onPart / model.surface.normals[i].dot(towards);
+    switch (depth.relationToMean(T * point, behind))
     {
-      continue;
+      case DepthMap::Relation::OnSurface:
+        ++patch.there;
+        break;
+      case DepthMap::Relation::InFront:
+        ++(isClearAbout(T * point, inScene, behind, depth) ? patch.past : patch.there);
+        break;
+      case DepthMap::Relation::Hidden:
+        ++patch.hidden;
+        break;
+      case DepthMap::Relation::NoSurface:
+        break;
     }
-    const Eigen::Vector3f point = T * model.surface.points[i];
-    PatchPoints& patch = patches[patchOf(model.surface.points[i], model.symmetries, PatchSide * model.diameter)];
-    const DepthMap::Relation relation = depth.relationToMean(point, onPart / cosine);
-    const bool isPast = relation == DepthMap::Relation::InFront && isClearAbout(point, towards, onPart / cosine, depth);
-    patch.past += isPast;
-    patch.hidden += relation == DepthMap::Relation::Hidden;
-    patch.there += !isPast && relation != DepthMap::Relation::Hidden && relation != DepthMap::Relation::NoSurface;
   }
   return patches;
 }
@@ -89,13 +132,18 @@ std::map<Patch, PatchPoints> patchesOf(const Pose& pose, const Scene& scene, con
 
 int missingPatches(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
 {
+  if (poses.size() < CopiesOfPatch)
+  {
+    return 0;
+  }
+  const DepthMap depth = fineDepth(poses, scene, model, threads);
   std::vector<std::map<Patch, PatchPoints>> ofPoses(poses.size());
   parallelFor(static_cast<int>(poses.size()), threads, {},
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        ofPoses[i] = patchesOf(poses[i], scene, model);
+        ofPoses[i] = patchesOf(poses[i], scene, depth, model);
       }
     });
   struct Copies
@@ -117,9 +165,13 @@ int missingPatches(const Poses& poses, const Scene& scene, const TrainedModel& m
       }
     }
   }
-  const int least = std::max(CopiesOfPatch, static_cast<int>(poses.size() + 1) / 2);
-  return static_cast<int>(std::count_if(patches.begin(), patches.end(),
-    [least](const auto& of)
-    { return of.second.showing >= least && of.second.past > MostOfCopies * of.second.showing; }));
+  int told = 0, missing = 0;
+  for (const auto& [place, copies] : patches)
+  {
+    const bool isTold = copies.showing >= CopiesOfPatch;
+    told += isTold;
+    missing += isTold && copies.past > MostOfCopies * copies.showing;
+  }
+  return std::max(missing - MissingByChance - told / ToldOfEachMissing, 0);
 }
 }

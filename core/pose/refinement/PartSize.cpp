@@ -23,9 +23,8 @@ constexpr double HiddenBy = 0.005;   // in front of an edge: what lies there has
 constexpr int SizeSteps = 6;
 constexpr int SizeStride = 2; // of the visible points one of so many
 // What a thinner part has of relief and of sides is as narrow as what a sensor smooths, and its edges draw each other
-// near: along an axis a pixel is so much of the length at most, and the length so much of the diameter at least.
+// near: along an axis a pixel is so much of the length at most, and the length LeastLength at least.
 constexpr double LargestPixel = 0.025;
-constexpr double LeastLength = 0.25;
 constexpr double OfPixel = 1.0; // that an edge of the scan is off, all alike
 constexpr double Stays = 1e12;  // the information, of all points, that keeps a length as it is
 

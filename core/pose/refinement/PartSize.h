@@ -8,6 +8,9 @@
 
 namespace meam
 {
+/// Of the diameter: what a part that is thinner along an axis shows of that is too narrow to be measured.
+inline constexpr double LeastLength = 0.25;
+
 /// How long the parts of a scan are along the axes of the CAD file, by what its lengths there are.
 struct PartSize
 {

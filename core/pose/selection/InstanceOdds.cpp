@@ -16,7 +16,7 @@ namespace meam
 namespace
 {
 constexpr double Likely = 0.5;          // place of a pose that explains what it lies on
-constexpr std::size_t MostShowing = 12; // poses that tell what is missing
+constexpr std::size_t MostShowing = 20; // poses that tell what is missing
 constexpr double PriorOfWhole = 3.0; // log odds that it is the part: another lies there by mistake, one time in twenty
 constexpr double OfMissingPatch = -5.0; // of a patch beyond
 }
@@ -130,9 +130,9 @@ void allowForMissing(FinishedInstances& found, int missing)
   for (FinishedInstance& finished : found)
   {
     finished.pose.contradictions.missing = missing;
-    if (missing > MissingByChance)
+    if (missing > 0)
     {
-      allowFor(finished, probabilityOf(PriorOfWhole + OfMissingPatch * (missing - MissingByChance)));
+      allowFor(finished, probabilityOf(PriorOfWhole + OfMissingPatch * missing));
     }
   }
 }

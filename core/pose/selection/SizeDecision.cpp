@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/SizeDecision.h"
 
+#include "pose/objective/FloorContact.h"
 #include "pose/refinement/PartSize.h"
 #include "pose/verification/ProbabilityCalibration.h"
 
@@ -11,6 +12,7 @@ namespace meam
 namespace
 {
 constexpr std::size_t MostMeasured = 6;       // poses whose size counts
+constexpr std::size_t MostOnFloor = 20;       // poses that may lie on the floor
 constexpr std::size_t FewestMeasured = 4;     // what one pose is off may be the scan's, or the pose's
 constexpr double Made = 0.02;                 // standard deviation of the lengths that a part is made with
 constexpr double DensityOfOthers = 1.0 / 0.6; // another part is 0.7 to 1.3 times as long, each alike
@@ -43,10 +45,12 @@ void allowForOtherSize(FinishedInstances& found, const Scene& scene, const Train
     return;
   }
   const PartSize size = measurePartSize(likely, scene, model, threads);
+  const double thickness = thicknessByFloor(likelyOf(found, MostOnFloor), scene, model);
   const double logOdds = logOddsOfSize(size);
   for (FinishedInstance& finished : found)
   {
     finished.pose.contradictions.lengths = size.factors;
+    finished.pose.contradictions.thickness = thickness;
     if (logOdds < PriorOfSize) // that it fits is what the pose's own evidence says
     {
       finished.pose.contradictions.resized = 1.0 - probabilityOf(logOdds);

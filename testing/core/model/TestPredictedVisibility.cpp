@@ -251,3 +251,15 @@ TEST(PredictedVisibility, APoseFarAwayShowsTheSideThatFacesTheSensor)
   const Eigen::Isometry3d beyondMeasure(Eigen::Translation3d(1e200, 0, 0)); // there is no direction to the sensor
   EXPECT_TRUE(predicted.visible(beyondMeasure, sensor)->surface.empty());
 }
+
+TEST(PredictedVisibility, SamplesInSightAreThoseOfTheUpperSide)
+{
+  const meam::TrainedModel model = cube();
+  const meam::PredictedVisibility visibility(model);
+  const std::vector<int> inSight = visibility.samplesInSight(Eigen::Isometry3d::Identity(), fromAbove(), 0.35);
+  EXPECT_EQ(inSight.size(), static_cast<std::size_t>(CubeSteps * CubeSteps));
+  for (const int i : inSight)
+  {
+    EXPECT_GT(model.surface.normals[i].z(), 0.5f) << model.surface.points[i].transpose();
+  }
+}
