@@ -65,12 +65,18 @@ for found in transforms:
 # pick.py: a sentence, and each possible pick with its matrix.
 text = works("pick.py", "part.stl", "scan.pcd", "--cup", "8", "--json", "picks.json")
 picks = json.loads(read("picks.json"))
+text_of_picks = text.split("\n", 1)[0]
 check(text.startswith(picks["report"]) and sum(pick["possible"] for pick in picks["picks"]) == text.count("clearance"), text)
 told = re.match(r"(\d+) of (\d+) copies can be picked, by (\d+) of \d+ picks", text)
 check(told and 0 < int(told[1]) <= int(told[2]) and (int(told[1]) < int(told[2])) == ("Copies " in text), text)
 check(len(re.findall(r"^part \d+ by suction \d+, clearance \d+\.\d mm\n\[\[", text, re.MULTILINE)) == int(told[3]), text)
 without = re.match(r"(\d+) of", works("pick.py", "part.stl", "scan.pcd", "--cup", "8", "--no-bin"))
 check(without and int(without[1]) >= int(told[1]), "no fewer copies can be picked where no walls are in the way")
+both = works("pick.py", "scan.pcd", "--cad", "part.stl", "--cad", "box.stl", "--cup", "8", "--no-bin", "--json", "both.json")
+check(re.findall(r"^(\S+) \d+ by suction", both, re.MULTILINE), both)
+told = json.loads(read("both.json"))
+check(told["parts"] == ["part.stl", "box.stl"], f"{told['parts']}")
+check(both.count(" by suction") == sum(pick["possible"] for pick in told["picks"]), both)
 refuses("no such file", "pick.py", "box.stl", "missing.pcd")
 refuses("opening", "pick.py", "box.stl", "scan.pcd", "--opening", "-5")
 # The trained model, and the image as a file, give the same poses.
@@ -80,6 +86,8 @@ check(re.search(r"pairs in \d+\.\d MB, .* trained in \d", text) and "\nsymmetry:
 trained = json.loads(read("train.json"))
 check(text.endswith(f"\n{trained['conclusion']}\n") and trained["conclusion"].startswith("Nearly the same after half a turn: ") and
       0 < trained["pairs"] < 1e7, f"a conclusion ends it: {text}")
+check(works("pick.py", "--model", "model.vtpc", "--cad", "part.stl", "scan.pcd", "--cup", "8").split("\n", 1)[0] == text_of_picks,
+      "with the trained model the picks differ")
 works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "2", "--matrices", "c.txt")
 check(read("c.txt") == read("a.txt"), "with the trained model the poses differ")
 works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "0", "--json", "all.json")
@@ -203,6 +211,7 @@ for arguments, words in ((("detect.py", "--cad", "part.stl", "--scene", "plain.p
                          (("train.py", "--cad", "part.stl", "--out", "o.meam", "--cad", "bracket.stl"), "argument --cad: it is given twice"),
                          (("evaluate.py", "bop", "bins", "--split", "a", "--split", "b"), "argument --split: it is given twice"),
                          (("evaluate.py", "bop", "bins", "--objects", "5-"), "argument --objects: it has to be whole numbers such as 1,5-7, not 5-"),
+                         (("pick.py", "--model", "model.vtpc", "scan.pcd"), "give the --cad of each --model"),
                          (("pick.py", "part.stl", "scan.pcd", "--opening", "60", "--cup", "20"), "--cup: not allowed with argument --opening")):
     result = script(*arguments)
     check(result.returncode == 2 and words in result.stderr and not os.path.exists("o.meam"), f"{arguments}: {result.stderr}")

@@ -5,7 +5,10 @@ import argparse
 import numpy
 
 import ppfmeam
-from ppfmeam import scripting
+from ppfmeam import api, asked, scripting
+
+from ..choices import Chosen
+from ..report.told import names_of
 
 
 def length(words):
@@ -31,27 +34,44 @@ def gripper_of(options):
     return "jaws" if options.cup is None else "cup", {**main, **dict(options.gripper)}
 
 
+def grasps_of(of, models, names, gripper, lengths):
+    """Of each type of part."""
+    kind = "suction" if gripper == "cup" else "parallel"
+    sets = [ppfmeam.grasps(mesh, propose=kind, symmetries=model, **lengths) for mesh, model in zip(of.shapes(), models)]
+    for name, found in zip(names, sets):
+        if not len(found):
+            raise scripting.Failure(f"no place of {name} is one for this gripper: give another --opening, or a smaller --cup")
+    return sets
+
+
 def main():
     parser = scripting.Parser(description=__doc__)
-    parser.add_argument("part", help="the CAD, mm")
-    parser.add_argument("scan", help="an organized cloud of the bin, from above")
+    asked.add_options(parser)
+    parser.set_defaults(poses=0, probability=0.5)  # all copies are in the way
     add_gripper_options(parser)
     parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")
+    parser.add_argument("--robot-frame", metavar="FILE", help="the camera in the robot's frame, of OpenCV or ROS: picks are printed in it")
     parser.add_argument("--json", metavar="FILE", help="write all picks as JSON, with what is against those that are not possible")
-    options = parser.parse_args()
+    options = asked.parsed(parser)
+    if options.model and not options.cad:
+        parser.error("give the --cad of each --model: grasps are places on its faces")
     scripting.require_folder_of(options.json)
     gripper, lengths = gripper_of(options)
-    model = ppfmeam.train(options.part)
-    grasps = ppfmeam.grasps(options.part, propose="suction" if gripper == "cup" else "parallel", symmetries=model, **lengths)
-    if not len(grasps):
-        raise scripting.Failure("no place of the part is one for this gripper: give another --opening, or a smaller --cup")
-    found = ppfmeam.detect(model, options.scan, poses=0, probability=0.5)
-    picks = ppfmeam.pick(found, grasps, options.scan, gripper=gripper, bin="none" if options.no_bin else "detected")
+    of, names = asked.Asked(options), names_of(options.parts)
+    how, reading = Chosen("detect", {"preset": options.preset, "features": options.features}), Chosen("read", {"solid": options.solid})
+    models = [api.part_of(part, options.cad_scale, how, reading) for part in of.parts]
+    sets = grasps_of(of, models, names, gripper, lengths)
+    found = ppfmeam.detect(models, of.scan, **of.inputs())
+    picks = ppfmeam.pick(found, sets, of.scan, gripper=gripper, bin="none" if options.no_bin else "detected", robot_frame=options.robot_frame,
+                         camera=of.beside["camera"], scale=options.scale)
     print(picks.report, picks.advice)
     for k in numpy.flatnonzero(picks.possible):
-        print(f"part {picks.instances[k] + 1} by {picks.names[k]}, clearance {picks.clearances[k]:.1f} mm")
-        print(picks.transforms[k])
+        which = "part" if len(names) == 1 else names[picks.parts[k]]
+        print(f"{which} {picks.instances[k] + 1} by {picks.names[k]}, clearance {picks.clearances[k]:.1f} mm")
+        print(picks.transforms[k] if picks.robot_transforms is None else picks.robot_transforms[k])
     if options.json:
         columns = {name: getattr(picks, name) for name in picks.COLUMNS}
+        if options.robot_frame:
+            columns["robot_transforms"] = picks.robot_transforms
         rows = [dict(zip(columns, row)) for row in zip(*columns.values())]
-        scripting.write_json(options.json, {"report": picks.report, "advice": picks.advice, "picks": rows})
+        scripting.write_json(options.json, {"report": picks.report, "advice": picks.advice, "parts": names, "picks": rows})
