@@ -172,6 +172,6 @@ int missingPatches(const Poses& poses, const Scene& scene, const TrainedModel& m
     told += isTold;
     missing += isTold && copies.past > MostOfCopies * copies.showing;
   }
-  return std::max(missing - MissingByChance - told / ToldOfEachMissing, 0);
+  return std::max(missing - MissingByChance - (told + ToldOfEachMissing / 2) / ToldOfEachMissing, 0);
 }
 }
