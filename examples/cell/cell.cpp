@@ -2,9 +2,8 @@
 // A picking cell in one file, to be copied and changed: scans come in, the best pick of each goes to the robot.
 //
 //     cell part.meam part.stl part.grasps.json scan.pcd                                // prints the line of one scan
-//     cell part.meam part.stl part.grasps.json --watch scans --robot-frame robot.json  // those that arrive, for a
-//     robot cell part.meam part.stl part.grasps.json --replay cell.log                       // the same scans once
-//     more
+//     cell part.meam part.stl part.grasps.json --watch scans --robot-frame robot.json  // as they arrive, for a robot
+//     cell part.meam part.stl part.grasps.json --replay cell.log                       // the same scans once more
 //
 // The robot's program connects, sends NEXT, and gets a line of the newest scan, PICK ... or NONE ... (docs/robot.md).
 // It links meam::detect and meam::pick, which are under the BSD licence; see cell.py for the same program in Python.
@@ -31,6 +30,10 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 using Options = std::map<std::string, std::string>;
+struct Part
+{
+  std::string model, cad, grasps;
+};
 
 // What to change for a cell of your own; mm and seconds.
 constexpr double Opening = 60.0, FingerWidth = 8.0, FingerThickness = 5.0; // of the jaws; of a cup: kind, cupDiameter
@@ -46,6 +49,7 @@ struct Answer
   std::string scan, reason;
   std::optional<Eigen::Isometry3d> transform;
   double width = 0.0, clearance = 0.0, probability = 0.0;
+  std::optional<int> part; // of several types, from 1
 
   std::string line(const Eigen::Isometry3d& T_base_gripper = Eigen::Isometry3d::Identity()) const
   {
@@ -67,6 +71,10 @@ struct Answer
     text << "PICK " << std::fixed << std::setprecision(3) << T.translation().format(inRow) << ' '
          << std::setprecision(6) << q.coeffs().format(inRow) << ' ' << std::setprecision(3) << start.format(inRow)
          << ' ' << this->width << ' ' << this->clearance << ' ' << this->probability;
+    if (this->part)
+    {
+      text << ' ' << *this->part;
+    }
     return text.str();
   }
 };
@@ -74,11 +82,15 @@ struct Answer
 class Cell
 {
 public:
-  Cell(const std::string& model, const std::string& cad, const std::string& grasps, const Options& options)
+  Cell(const std::vector<Part>& parts, const Options& options)
     : Given(options)
-    , Model(meam::loadModel(model))
-    , Picker(Model, meam::loadMesh(cad), meam::loadGrasps(grasps), gripper(), planning())
   {
+    for (const Part& part : parts)
+    {
+      this->Models.push_back(meam::loadModel(part.model));
+      this->Pickers.emplace_back(
+        this->Models.back(), meam::loadMesh(part.cad), meam::loadGrasps(part.grasps), gripper(), planning());
+    }
     if (options.count("--robot-frame"))
     {
       this->Place.T_robot_camera = meam::loadRobotFrame(options.at("--robot-frame"));
@@ -94,20 +106,20 @@ public:
     settings.minimumProbability = Probability;
     settings.timeLimit = std::stod(this->Given.at("--time-limit"));        // the best that are found by then are used
     const meam::Scan scan = meam::loadScan(path, this->given("--camera")); // of depth images meam::loadDepthImage
-    const meam::Detections found = meam::detect(this->Model, scan, settings);
+    const meam::Detections found = meam::detect(this->Models, scan, settings);
     std::cerr << found.warning << (found.warning.empty() ? "" : "\n");
     if (found.poses.empty())
     {
       return { path, "no part was found", {} };
     }
-    const meam::PickPlan plan = this->Picker.plan(found, scan, this->Place);
+    const meam::PickPlan plan = meam::Picker::planAll(this->Pickers, found, scan, this->Place);
     const meam::PlannedPick& best = plan.picks.front();
     if (!best.possible)
     {
       return { path, plan.report + " " + plan.advice, {} };
     }
     return { path, "", best.T_robot_grasp ? *best.T_robot_grasp : best.T_scan_grasp, best.width, best.clearance,
-      found.poses[best.instance].probability };
+      found.poses[best.instance].probability, this->Models.size() > 1 ? std::optional(best.part + 1) : std::nullopt };
   }
   catch (const std::exception& error) // the next scan is not to wait for it
   {
@@ -156,8 +168,8 @@ private:
   }
 
   Options Given;
-  meam::Model Model;
-  meam::Picker Picker;
+  std::vector<meam::Model> Models;
+  std::vector<meam::Picker> Pickers;
   meam::Workplace Place; // the bin is found in each scan by its rim, unless it is given here
 };
 
@@ -380,6 +392,7 @@ int main(int argc, char** argv)
 try
 {
   std::vector<std::string> files;
+  std::vector<Part> beside;
   Options options{ { "--port", "5050" },
     { "--time-limit", "2" } }; // and --robot-frame, --camera, --out, --log, as cell.py has them
   for (int k = 1; k < argc; ++k)
@@ -388,6 +401,11 @@ try
     {
       files.push_back(argv[k]);
     }
+    else if (std::strcmp(argv[k], "--beside") == 0 && k + 3 < argc)
+    {
+      beside.push_back({ argv[k + 1], argv[k + 2], argv[k + 3] });
+      k += 3;
+    }
     else if (++k < argc)
     {
       options[argv[k - 1]] = argv[k];
@@ -395,17 +413,18 @@ try
   }
   if (files.size() < 3)
   {
-    std::cerr
-      << "usage: cell MODEL CAD GRASPS [SCAN...] [--watch FOLDER] [--port N] [--robot-frame FILE] [--camera FILE] "
-         "[--time-limit SECONDS] "
-         "[--out FILE] [--log FILE] [--replay LOG]\n";
+    std::cerr << "usage: cell MODEL CAD GRASPS [--beside MODEL CAD GRASPS]... [SCAN...] [--watch FOLDER] [--port N] "
+                 "[--robot-frame FILE] [--camera FILE] "
+                 "[--time-limit SECONDS] "
+                 "[--out FILE] [--log FILE] [--replay LOG]\n";
     return 2;
   }
   if (options.count("--replay"))
   {
     options["--time-limit"] = "0"; // none
   }
-  const Cell cell(files[0], files[1], files[2], options);
+  beside.insert(beside.begin(), { files[0], files[1], files[2] });
+  const Cell cell(beside, options);
   if (options.count("--replay"))
   {
     return isReplayed(cell, options["--replay"]) ? 0 : 1;

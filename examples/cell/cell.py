@@ -32,8 +32,8 @@ SCANS = (".pcd", ".ply", ".png", ".tif", ".tiff")  # images are depth images, wi
 class Answer:
     """What the robot is told of a scan: a pick, or why there is none."""
 
-    def __init__(self, scan, reason="", transform=None, numbers=()):
-        self.scan, self.reason, self.transform, self.numbers = scan, reason, transform, numbers
+    def __init__(self, scan, reason="", transform=None, numbers=(), part=()):
+        self.scan, self.reason, self.transform, self.numbers, self.part = scan, reason, transform, numbers, part
 
     def line(self, T_base_gripper=numpy.eye(4)):
         if self.transform is None:
@@ -44,21 +44,23 @@ class Answer:
         w, x, y, z = quaternion if quaternion[0] >= 0 else -quaternion
         start = T[:3, 3] - WAY_IN * T[:3, 2]
         return " ".join(["PICK"] + [f"{value:.3f}" for value in T[:3, 3]] + [f"{value:.6f}" for value in (x, y, z, w)] +
-                        [f"{value:.3f}" for value in (*start, *self.numbers)])
+                        [f"{value:.3f}" for value in (*start, *self.numbers)] + [str(number) for number in self.part])
 
 
 class Cell:
     def __init__(self, options):
         self.options = options
-        self.model = ppfmeam.load(options.model)
-        self.grasps = ppfmeam.grasps(options.cad, file=options.grasps, symmetries=self.model, **GRIPPER)
-        ppfmeam.pick(numpy.zeros((0, 4, 4)), self.grasps, bin="none", gripper=KIND,
-                     robot_frame=options.robot_frame)  # what is wrong with these shows now
+        self.models, self.grasps = [], []
+        for model, cad, grasps in ((options.model, options.cad, options.grasps), *options.beside):
+            self.models.append(ppfmeam.load(model))
+            self.grasps.append(ppfmeam.grasps(cad, file=grasps, symmetries=self.models[-1], **GRIPPER))
+            ppfmeam.pick(numpy.zeros((0, 4, 4)), self.grasps[-1], bin="none", gripper=KIND,
+                         robot_frame=options.robot_frame)  # what is wrong with these shows now
 
     def take(self, scan):
         """The answer to a scan; whatever is wrong with it is a reason."""
         try:
-            found = ppfmeam.detect(self.model, scan, camera=self.options.camera, poses=0, probability=PROBABILITY,
+            found = ppfmeam.detect(self.models, scan, camera=self.options.camera, poses=0, probability=PROBABILITY,
                                    time_limit=self.options.time_limit)
             if not len(found):
                 return Answer(scan, "no part was found")
@@ -68,7 +70,8 @@ class Cell:
             if not best.possible:
                 return Answer(scan, f"{picks.report} {picks.advice}")
             transforms = picks.transforms if picks.robot_transforms is None else picks.robot_transforms
-            return Answer(scan, "", transforms[0], (best.width, best.clearance, found.probabilities[best.instance]))
+            return Answer(scan, "", transforms[0], (best.width, best.clearance, found.probabilities[best.instance]),
+                          (best.part + 1,) if len(self.models) > 1 else ())
         except Exception as error:  # the next scan is not to wait for it
             return Answer(scan, str(error))
 
@@ -204,6 +207,8 @@ def main():
     parser.add_argument("cad", help="the part, mm")
     parser.add_argument("grasps", help="JSON")
     parser.add_argument("scans", nargs="*", help="scans that are there already")
+    parser.add_argument("--beside", nargs=3, action="append", default=[], metavar=("MODEL", "CAD", "GRASPS"),
+                        help="of another type of part in the same bin; each PICK then ends with the type, from 1")
     parser.add_argument("--watch", metavar="FOLDER", help="scans that arrive")
     parser.add_argument("--port", type=int, default=5050, help="that the robot connects to (default: %(default)s)")
     parser.add_argument("--robot-frame", metavar="FILE",

@@ -123,6 +123,10 @@ def run(command):
     assert again.returncode == 1 and again.stdout.count("it was PICK 1") == 2, again
     one = subprocess.run([*command, *parts, "scan.pcd"], capture_output=True, text=True)
     assert one.stdout == f"SCAN scan.pcd {answers[0]}\n", one
+    # The same part as a second type: the pick is of one of them, and says of which.
+    two = subprocess.run([*command, *parts, "--beside", *parts[:3], "scan.pcd"], capture_output=True, text=True)
+    assert len(two.stdout.split()) == 17 and two.stdout.split()[-1] in ("1", "2"), two
+    answers.append(two.stdout)
     return answers
 
 

@@ -100,12 +100,10 @@ std::string thicknessWords(double factor)
   {
     return "";
   }
-  char words[256];
-  std::snprintf(words, sizeof words,
-    "By the floor that they lie on the parts are %.2f times as thick as in the CAD file: another part lies there, or "
-    "the "
-    "sensor sees parts and floor at different depths.",
-    factor);
-  return words;
+  char times[16];
+  std::snprintf(times, sizeof times, "%.2f", factor);
+  return "By the floor that they lie on the parts are " + std::string(times) +
+         " times as thick as in the CAD file: another part lies there, or the sensor sees parts and floor at "
+         "different depths.";
 }
 }
