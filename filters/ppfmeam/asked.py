@@ -12,10 +12,10 @@ def add_options(parser):
                                      "of a BOP dataset also the number of an object")
     parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
     parser.add_argument("--cad", action="append", default=[], metavar="PART", help="in place of PART, once for each type of part in the scan")
-    parser.add_argument("--model", action="append", default=[], help="the same of trained models; --cad is then for their faces")
+    parser.add_argument("--model", action="append", default=[], help="a trained model in place of PART, once for each type of part; its --cad, in the same order, has the faces that are shown and held")
     choices.add_options(parser, "train", "scale")
     choices.add_options(parser, "read", "solid")
-    parser.add_argument("--scale", type=float, default=1, metavar="F", help="the same of the scan and the boundary")
+    parser.add_argument("--scale", type=float, default=1, metavar="F", help="factor that brings the scan and the boundary to mm (default: %(default)s)")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
     parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
                         help="mm that 1 in a depth image stands for (default: depth_scale of the calibration, or 1)")
