@@ -4,6 +4,7 @@
 #include "base/Bounds.h"
 #include "base/Error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,6 +16,7 @@ namespace
 {
 constexpr double MostCells = 4e6;
 constexpr double SameDistance = 1e-4; // of a cube's side
+constexpr float OtherSide = -0.5f;    // cosine of two normals, less and the points are of two sides of a sheet
 constexpr double MostCubes = 1 << 21; // along an axis, so that 64 bits number all
 constexpr double StrayShare = 0.001;  // of the points, at each end of each axis
 constexpr double MiddleShare = 0.49;  // as that leaves next to the medians
@@ -108,8 +110,9 @@ PointGrid::PointGrid(const Points& points, double cellSize)
 namespace
 {
 /// Points count less next to the borders of their cubes when they fade there, and the origin is the middle of a cube,
-/// not a corner.
-ThinnedPoints thin(const Points& points, double leafSize, bool fade)
+/// not a corner. With `normals`, points that face away from the one that is kept are of another side, of which one is
+/// kept, too.
+ThinnedPoints thin(const Points& points, double leafSize, bool fade, const Points* normals = nullptr)
 {
   const double corner = fade ? 0.5 : 0.0;
   ThinnedPoints kept;
@@ -157,9 +160,9 @@ ThinnedPoints thin(const Points& points, double leafSize, bool fade)
   sortByCube(members, bitsX + bitsY + bitsZ);
 
   const double same = SameDistance * leafSize;
-  for (auto begin = members.begin(); begin != members.end();)
+  using Members = std::vector<Member>::iterator;
+  const auto keep = [&](Members begin, Members end)
   {
-    const auto end = std::find_if(begin, members.end(), [&](const Member& other) { return other.cube != begin->cube; });
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0.0;
     for (auto member = begin; member != end; ++member)
@@ -186,6 +189,24 @@ ThinnedPoints thin(const Points& points, double leafSize, bool fade)
     }
     kept.indices.push_back(nearest);
     kept.weights.push_back(static_cast<float>(std::min(1.0, weights)));
+  };
+  for (auto begin = members.begin(); begin != members.end();)
+  {
+    const auto end = std::find_if(begin, members.end(), [&](const Member& other) { return other.cube != begin->cube; });
+    keep(begin, end);
+    if (normals)
+    {
+      const Eigen::Vector3f& normal = (*normals)[kept.indices.back()];
+      const auto isOfSide = [&](const Member& member) { return !((*normals)[member.point].dot(normal) < OtherSide); };
+      const auto other = std::stable_partition(begin, end, isOfSide);
+      if (other != end)
+      {
+        kept.indices.pop_back();
+        kept.weights.pop_back();
+        keep(begin, other);
+        keep(other, end);
+      }
+    }
     begin = end;
   }
   return kept;
@@ -193,6 +214,11 @@ ThinnedPoints thin(const Points& points, double leafSize, bool fade)
 }
 
 std::vector<int> thinPoints(const Points& points, double leafSize) { return thin(points, leafSize, false).indices; }
+
+std::vector<int> thinSurface(const PointCloud& surface, double leafSize)
+{
+  return thin(surface.points, leafSize, false, &surface.normals).indices;
+}
 
 ThinnedPoints thinWithWeights(const Points& points, double leafSize) { return thin(points, leafSize, true); }
 }

@@ -135,6 +135,8 @@ typename Array::Scalar weightInCell(const Array& place)
 /// others one or a few stay. Ordered by cube: along z, then y, then x. A
 /// leaf of 0 or less keeps every point.
 std::vector<int> thinPoints(const Points& points, double leafSize);
+/// The same of points with normals, but in a cube through which a thin sheet goes one of each of its sides.
+std::vector<int> thinSurface(const PointCloud& surface, double leafSize);
 
 struct ThinnedPoints
 {

@@ -339,8 +339,8 @@ void buildSurfaceTable(TrainedModel& model, const PointCloud& surface, const std
   }
   PointCloud& points = model.surfacePairPoints;
   std::vector<std::uint32_t> views;
-  const Points candidates = surface.subset(seen).points;
-  for (const int k : thinPoints(candidates, model.settings.surface.leafSize * model.diameter))
+  const PointCloud candidates = surface.subset(seen);
+  for (const int k : thinSamples(candidates, model.settings.surface.leafSize * model.diameter, model.diameter))
   {
     points.points.push_back(surface.points[seen[k]]);
     points.normals.push_back(surface.normals[seen[k]]);
@@ -479,7 +479,7 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   const std::vector<std::uint32_t> surfaceBits =
     visibilityBits(surface.points, settings.coVisibilityDirections, subProgress(progress, 0.1, 0.7));
   model.edgeVisible = edgeVisibility(model.edges, surface, surfaceBits, EdgeVoxels * voxelSize);
-  for (const int i : thinPoints(surface.points, SurfaceLeafShare * model.diameter))
+  for (const int i : thinSamples(surface, SurfaceLeafShare * model.diameter, model.diameter))
   {
     model.surface.points.push_back(surface.points[i]);
     model.surface.normals.push_back(surface.normals[i]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/TrainedModel.h"
 
+#include "base/Bounds.h"
 #include "base/PointGrid.h"
 #include "model/BodyInterior.h"
 #include "model/MirrorImage.h"
@@ -18,6 +19,18 @@ constexpr double VotingLeaf = 0.04; // of the edge points in a cube of this side
 constexpr double VerificationLeaf = 0.03; // of the surface points in such a cube one verifies poses
 constexpr double Reach = 0.03;            // of the distance fields, and of what is deep: tolerances are less
 constexpr double FieldCell = 0.0075;      // of the distance fields
+constexpr double FlatThickness = 0.075;   // PoseEvidence tells such parts from what they lie on by their thickness
+
+float thicknessOf(const PointCloud& surface)
+{
+  return surface.empty() ? 0.0f : bounds(surface.points).sizes().minCoeff();
+}
+}
+
+std::vector<int> thinSamples(const PointCloud& surface, double leafSize, double diameter)
+{
+  return thicknessOf(surface) <= FlatThickness * diameter ? thinSurface(surface, leafSize)
+                                                          : thinPoints(surface.points, leafSize);
 }
 
 double TrainedModel::votingLeaf() const
@@ -73,7 +86,8 @@ void TrainedModel::deriveFields()
   this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
   this->surfaceTable.deriveVotes(
     this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
-  this->verificationPoints = thinPoints(this->surface.points, VerificationLeaf * this->diameter);
+  this->thickness = thicknessOf(this->surface);
+  this->verificationPoints = thinSamples(this->surface, VerificationLeaf * this->diameter, this->diameter);
   this->visibility = std::make_shared<const PredictedVisibility>(*this);
   this->surfaceDistance = ofSurface.get();
   this->edgeDistance = ofEdges.get();

@@ -56,6 +56,11 @@ struct MEAMHashingSettings
 /// The paper's settings (Section 6) in place of the recommended ones.
 MEAMHashingSettings paperHashingSettings();
 
+/// Of surface samples of a part one for each cube of side `leafSize` (mm): of a part that is flat, no thicker than
+/// 7.5 % of its diameter along an axis of the CAD file, one of each face. Both are seen; of the walls of hollow parts
+/// the outer face is.
+std::vector<int> thinSamples(const PointCloud& surface, double leafSize, double diameter);
+
 /// All that detection needs to know of a part: the result of the offline phase.
 struct TrainedModel
 {
@@ -85,6 +90,7 @@ struct TrainedModel
   ModelCalibration calibration; ///< what a user's own scans have taught
 
   // What deriveFields() makes of the above.
+  float thickness = 0.0f;              ///< mm, the least of its sizes along the axes of the CAD file
   std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
   DistanceField surfaceDistance;       ///< up to 3 % of the diameter
   DistanceField edgeDistance;

@@ -14,9 +14,6 @@ struct DetectSettings
   int maximumPoses = 5;               ///< the best ones; 0: all
   double minimumProbability = 0.0;    ///< [0, 1], of each, that a copy is there, however it is turned;
   bool rotationCounts = false;        ///< or that it is also turned like this
-  /// Known to be in the scan, as in a cell that counts what it takes: poses are not less likely because it may be
-  /// missing.
-  bool partIsPresent = false;
   /// [0, 1], of the scene's edge points those that vote; more find more of the hidden copies and take longer; 0: the
   /// preset's
   double referenceShare = 0.0;

@@ -27,7 +27,6 @@ DetectionSettings detectionSettings(const DetectSettings& chosen)
     settings.detection.referenceShare = chosen.referenceShare;
   }
   settings.selection.rotationCounts = chosen.rotationCounts;
-  settings.selection.partIsPresent = chosen.partIsPresent;
   return settings;
 }
 

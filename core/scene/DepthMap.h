@@ -56,6 +56,16 @@ public:
     return std::abs(behind) <= tolerance ? Relation::OnSurface : behind > 0.0f ? Relation::Hidden : Relation::InFront;
   }
 
+  /// How far what was measured at that very place lies behind a point, mm along the line of sight; NaN where nothing
+  /// was.
+  float behind(const Eigen::Vector3f& point) const
+  {
+    const Place place = this->placeOf(point);
+    return place.cell >= 0 && this->isMeasured(place.cell)
+             ? this->Axes.row(2).dot(this->Cells[place.cell].mean - this->Eye) - place.depth
+             : std::numeric_limits<float>::quiet_NaN();
+  }
+
   /// Whether a point, as the sensor sees it, is no more than `margin` mm outside of the rectangle about everything that
   /// was measured.
   bool covers(const Eigen::Vector3f& point, float margin) const

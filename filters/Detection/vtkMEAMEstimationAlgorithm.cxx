@@ -132,7 +132,6 @@ vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Features, int, features, 
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MaximumNumberOfPoses, int, maximumPoses, 0, VTK_INT_MAX);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, MinimumProbability, double, minimumProbability, 0.0, 1.0);
 vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, RotationCounts, bool, rotationCounts);
-vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, PartIsPresent, bool, partIsPresent);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, ReferenceShare, double, referenceShare, 0.0, 1.0);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, TimeLimit, double, timeLimit, 0.0, VTK_DOUBLE_MAX);
 vtkMEAMClampedSettingMacro(vtkMEAMEstimationAlgorithm, Seed, int, seed, 0, VTK_INT_MAX);
@@ -278,7 +277,6 @@ void vtkMEAMEstimationAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfPoses: " << settings.maximumPoses << "\n";
   os << indent << "MinimumProbability: " << settings.minimumProbability << "\n";
   os << indent << "RotationCounts: " << settings.rotationCounts << "\n";
-  os << indent << "PartIsPresent: " << settings.partIsPresent << "\n";
   os << indent << "ReferenceShare: " << settings.referenceShare << "\n";
   os << indent << "TimeLimit: " << settings.timeLimit << " s\n";
   os << indent << "Seed: " << settings.seed << "\n";

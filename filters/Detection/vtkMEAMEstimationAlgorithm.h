@@ -114,16 +114,6 @@ public:
 
   ///@{
   /**
-   * The part is known to be in the scan, as in a cell that counts what it takes: no pose is less likely because the
-   * part may be missing. Default: off.
-   */
-  virtual void SetPartIsPresent(bool value);
-  virtual bool GetPartIsPresent();
-  vtkBooleanMacro(PartIsPresent, bool);
-  ///@}
-
-  ///@{
-  /**
    * Share of the scene's edge points, and of its surface points, that are reference points, in [0, 1] (P_ref, Section
    * 5.1); 0: the preset's, as vtkMEAMPoseDetection has them. More finds more of the hidden copies and takes longer.
    * Default: 0.

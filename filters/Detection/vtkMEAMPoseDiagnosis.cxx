@@ -240,9 +240,9 @@ vtkMEAMPoseDiagnosis::Detection& vtkMEAMPoseDiagnosis::Detect(vtkInformationVect
   const char* camera = this->GetCameraFile();
   std::vector<double> made{ static_cast<double>(this->GetPreset()), static_cast<double>(this->GetFeatures()),
     static_cast<double>(this->GetMaximumNumberOfPoses()), this->GetMinimumProbability(),
-    this->GetRotationCounts() ? 1.0 : 0.0, this->GetPartIsPresent() ? 1.0 : 0.0, this->GetReferenceShare(),
-    static_cast<double>(this->GetSeed()), this->GetImageEdges() ? 1.0 : 0.0, this->GetDepthEdges() ? 1.0 : 0.0,
-    this->GetCreases() ? 1.0 : 0.0, this->GetCADScale(), static_cast<double>(this->Projection), this->Fit ? 1.0 : 0.0,
+    this->GetRotationCounts() ? 1.0 : 0.0, this->GetReferenceShare(), static_cast<double>(this->GetSeed()),
+    this->GetImageEdges() ? 1.0 : 0.0, this->GetDepthEdges() ? 1.0 : 0.0, this->GetCreases() ? 1.0 : 0.0,
+    this->GetCADScale(), static_cast<double>(this->Projection), this->Fit ? 1.0 : 0.0,
     static_cast<double>(std::hash<std::string>()(camera ? camera : "")) };
   made.insert(made.end(), this->GetRegion(), this->GetRegion() + 6);
   for (const double* vector : { this->GetCADOffset(), this->ViewDirection, this->SensorPosition })

@@ -62,7 +62,6 @@ class Station:
         self.estimation.SetInputDataObject(self.model)
         self.estimation.SetMaximumNumberOfPoses(0)
         self.estimation.SetMinimumProbability(PROBABILITY)
-        self.estimation.SetPartIsPresent(True)  # a cell knows how many were thrown in
         self.estimation.SetNumberOfThreads(threads)
         self.planning.SetInputDataObject(1, mesh)
         self.planning.SetInputDataObject(2, self.grasps)

@@ -112,7 +112,6 @@ std::vector<Switch> makeSwitches()
   instances("ascent-close", "the same where something close hides", [](S& s) { s.search.pattern.ifClose = false; });
   instances("ascent-covered", "likely poses move that something close hides",
     [](S& s) { s.search.pattern.leavesLikely = false; });
-  instances("ascent-sure", "sure poses move, too", [](S& s) { s.search.pattern.leavesSure = false; });
   instances("ascent-orders", "one order of motions", [](S& s) { s.search.pattern.bothOrders = false; });
   instances("ascent-price", "no penalty of a moved pose", [](S& s) { s.search.pattern.penalizes = false; });
   instances("shared", "poses that share their surface stay", [](S& s) { s.dropsShared = false; });
@@ -121,7 +120,6 @@ std::vector<Switch> makeSwitches()
   instances("mirror-image", "no pose is of the mirrored part", [](S& s) { s.weighsMirrorImage = false; });
   instances("missing-surface", "parts may lack some of their surface", [](S& s) { s.weighsMissing = false; });
   instances("part-size", "parts may be of another size", [](S& s) { s.weighsSize = false; });
-  instances("absence", "no absence prior", [](S& s) { s.partIsPresent = true; });
   instances("comparison", "instances by their evidence alone", [](S& s) { s.comparesInstances = false; });
   instances("alignment", "no final alignment", [](S& s) { s.search.aligns = false; });
   instances(

@@ -145,4 +145,19 @@ std::string sizesWords(const Eigen::Vector3d& factors)
   }
   return all;
 }
+
+std::string untoldWords(const Eigen::Vector3d& factors)
+{
+  std::string axes;
+  for (int axis = 0; axis < 3 && !factors.array().isNaN().all(); ++axis)
+  {
+    if (std::isnan(factors[axis]))
+    {
+      axes += (axes.empty() ? "" : " and ") + std::string(1, "xyz"[axis]);
+    }
+  }
+  return axes.empty() ? ""
+                      : "This scan does not tell how long the parts are along " + axes +
+                          ": a part that differs in that alone looks the same.";
+}
 }

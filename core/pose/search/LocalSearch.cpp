@@ -187,7 +187,7 @@ LocalSearch::Result LocalSearch::best(Pose pose) const
   {
     other.T_scene_model = pose.T_scene_model * T_decided.inverse() * other.T_scene_model;
   }
-  return { pose, moved.evidence, moved.logOdds, moved.logOddsBefore };
+  return { pose, moved.evidence, moved.logOdds };
 }
 
 void LocalSearch::restart(Pose& pose, Contender& current) const

@@ -38,8 +38,7 @@ public:
   {
     Pose pose; ///< with its certainty, how likely its rotation is among all, the alternatives to it, and its fit
     PoseEvidence evidence; ///< at it
-    double logOdds;        ///< that a copy is there,
-    double logOddsBefore;  ///< and of the pose before it was moved to where the scan speaks for it the most
+    double logOdds;        ///< that a copy is there
   };
   /// The pose, or the one that the scene speaks for most.
   Result best(Pose pose) const;

@@ -56,8 +56,8 @@ PatternSearch::PatternSearch(const EvidenceCollector& collector, const EvidenceR
 
 PatternSearch::Result PatternSearch::at(const Eigen::Isometry3d& T_scene_model) const
 {
-  Result result{ T_scene_model, this->Collector.collect(T_scene_model), 0.0, 0.0, false };
-  result.logOdds = result.logOddsBefore = this->Collector.logOdds(result.evidence.counts, this->Rates);
+  Result result{ T_scene_model, this->Collector.collect(T_scene_model), 0.0, false };
+  result.logOdds = this->Collector.logOdds(result.evidence.counts, this->Rates);
   return result;
 }
 
@@ -70,7 +70,6 @@ PatternSearch::Result PatternSearch::best(const Eigen::Isometry3d& T_scene_model
     {
       Result moved = this->at(this->maximum(T_scene_model, motions));
       moved.logOdds -= this->Settings.penalizes ? Penalty : 0.0;
-      moved.logOddsBefore = best.logOddsBefore;
       moved.isMoved = true;
       if (moved.logOdds > best.logOdds)
       {
@@ -84,7 +83,7 @@ PatternSearch::Result PatternSearch::best(const Eigen::Isometry3d& T_scene_model
 bool PatternSearch::isContradicted(const Result& pose) const
 {
   const double probability = probabilityOf(pose.logOdds);
-  if (probability < WorthTrying || (this->Settings.leavesSure && probability >= Sure))
+  if (probability < WorthTrying || probability >= Sure)
   {
     return false;
   }

@@ -14,7 +14,6 @@ struct PatternSearchSettings
   bool ifClose = true;      ///< and those that a surface close before them hides
   bool bothOrders = true;   ///< shifts first and turns first; else shifts first alone
   bool leavesLikely = true; ///< what is close before a likely pose is another object
-  bool leavesSure = true;   ///< a sure pose stays
   bool penalizes = true;    ///< a moved pose, for the best of so many has some evidence by chance
 };
 
@@ -38,7 +37,6 @@ public:
     Eigen::Isometry3d T_scene_model;
     PoseEvidence evidence; ///< at it
     double logOdds;        ///< less the penalty, where it was moved
-    double logOddsBefore;  ///< of the pose as it was
     bool isMoved;
   };
   /// What the scan says of a pose, in the local frame.

@@ -44,7 +44,7 @@ FinishedInstance InstanceFinishing::finish(const Pose& scored) const
   pose.contradictions.past = best.evidence.counts.past + best.evidence.counts.farPast;
   if (pose.placeProbability <= WorthExplaining || !haveSurfaces(this->InScene, this->Model))
   {
-    return { pose, {}, best.logOdds, best.logOddsBefore };
+    return { pose, {}, best.logOdds };
   }
   double least = this->Misfit.at(pose.T_scene_model); // a part that is turned wrongly is no other part
   for (const RotationAlternative& other : pose.alternatives)
@@ -52,7 +52,7 @@ FinishedInstance InstanceFinishing::finish(const Pose& scored) const
     least = std::min(least, this->Misfit.at(other.T_scene_model));
   }
   pose.contradictions.misfit = least / this->Misfit.expected();
-  return { pose, this->Continuation.beyond(pose.T_scene_model), best.logOdds, best.logOddsBefore };
+  return { pose, this->Continuation.beyond(pose.T_scene_model), best.logOdds };
 }
 
 bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& sure) const

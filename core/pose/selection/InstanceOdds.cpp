@@ -137,20 +137,6 @@ void allowForMissing(FinishedInstances& found, int missing)
   }
 }
 
-void allowForAbsence(FinishedInstances& found)
-{
-  double best = -std::numeric_limits<double>::infinity();
-  for (const FinishedInstance& finished : found)
-  {
-    best = std::max(best, finished.logOddsBefore);
-  }
-  const double present = std::max(LeastPresent, probabilityOf(CalibrationOfPresence.logOdds(best)));
-  for (FinishedInstance& finished : found)
-  {
-    allowFor(finished, present);
-  }
-}
-
 void calibrate(FinishedInstances& found, const ModelCalibration& calibration)
 {
   for (FinishedInstance& finished : found)

@@ -12,10 +12,9 @@ namespace meam
 struct FinishedInstance
 {
   Pose pose;
-  Points beyond;        ///< measured surface that goes on beside it (SurfaceContinuation)
-  double logOdds;       ///< that a copy is there,
-  double logOddsBefore; ///< and of the pose before it was moved to where the scan speaks for it the most
-  bool isLeft = false;  ///< as it was scored, for enough others are sure: it comes after them
+  Points beyond;       ///< measured surface that goes on beside it (SurfaceContinuation)
+  double logOdds;      ///< that a copy is there
+  bool isLeft = false; ///< as it was scored, for enough others are sure: it comes after them
 };
 
 using FinishedInstances = std::vector<FinishedInstance>;
@@ -45,10 +44,6 @@ void allowForLookalikes(
 int missingOfLikely(const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads);
 /// The part may lie there, or one that lacks so many patches of it, or has them elsewhere.
 void allowForMissing(FinishedInstances& found, int missing);
-
-/// A part that is not in the scan fits here and there, but nowhere well: no pose is likelier than that the part is
-/// there at all, which the best evidence tells, before poses are moved: moved they fit much that is not the part.
-void allowForAbsence(FinishedInstances& found);
 
 /// What is said of places and rotations is what held in the scans that the model was calibrated on.
 void calibrate(FinishedInstances& found, const ModelCalibration& calibration);

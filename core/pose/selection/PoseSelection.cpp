@@ -92,10 +92,6 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
       allowForMirrorImage(finished, scene, model, collector, settings.evidence, rates, settings.threads);
     }
     allowForMissing(finished, missing);
-    if (!settings.partIsPresent)
-    {
-      allowForAbsence(finished);
-    }
     sortBest(finished);
   }
   if (model.calibration.poses > 0)

@@ -27,7 +27,6 @@ struct PoseSelectionSettings
   double minimumProbability = 0.0; ///< of what comes out, poses are dropped where a copy is less likely,
   bool rotationCounts = false;     ///< or, counting its rotation, the pose is
   // Instances
-  bool partIsPresent = false;    ///< no pose is less likely because the part may be missing
   bool dropsShared = true;       ///< poses whose surface better ones have
   bool excludesOverlaps = true;  ///< of poses that cut into each other one is right at most
   bool weighsLookalikes = true;  ///< what contradicts a pose speaks for another part

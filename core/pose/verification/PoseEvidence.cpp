@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "pose/PoseTolerances.h"
 #include "pose/verification/ProbabilityCalibration.h"
+#include "pose/verification/SheetSurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,9 @@ constexpr double Shown = 0.25;        // of its whole surface a body shows, on a
 /// its edge. Where the sensor sees past one side of a narrower one it sees past the other, and such strips are
 /// everywhere, as the rims and edges of other things.
 constexpr double OutlineOfPatch = 4.0;
-constexpr float OutlineTolerance = 1.5f; // tolerances: a surface beyond the outline that goes on
+constexpr float OutlineTolerance = 1.5f; // tolerances: a surface beyond the outline that goes on,
+constexpr float OutlineThickness = 0.6f; // and no more than so much of a thin part, which may lie on it,
+constexpr double OutlineNoises = 3.0;    // but no less than so much noise of the scan
 
 int count(const std::vector<PointState>& states, PointState state)
 {
@@ -51,6 +54,9 @@ EvidenceCollector::EvidenceCollector(const Scene& scene, const TrainedModel& mod
       settings.tolerance > 0.0
         ? settings.tolerance
         : std::max(FitDistance * model.diameter, settings.followsNoise ? Noises * scene.quality.noise : 0.0)))
+  , Beside(std::min(OutlineTolerance * Tolerance,
+      std::max(OutlineThickness * model.thickness, static_cast<float>(OutlineNoises * scene.quality.noise))))
+  , IsSheet(Beside < Tolerance)
 {
 }
 
@@ -223,7 +229,8 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
       {
         const Eigen::Vector3f measured = depth.normalAt(point);
         const bool isTurned = !measured.isZero() && measured.dot(normal) < FacingSurface;
-        (isTurned ? counts.turned : measured.isZero() ? counts.unclear : counts.there) += seen;
+        const bool isOfBin = this->IsSheet && SheetSurface::isOfBin(point, this->InScene, model);
+        (isTurned ? counts.turned : measured.isZero() ? counts.unclear : counts.there) += isOfBin ? 0.0 : seen;
         state = isTurned ? PointState::Turned : PointState::Matched;
         break;
       }
@@ -261,18 +268,23 @@ void EvidenceCollector::addOutline(const Predicted& predicted, PoseEvidence& evi
   const TrainedModel& model = this->Model;
   const DepthMap& depth = this->InScene.depth;
   const double patch = PatchSize * model.diameter;
-  const float beside = OutlineTolerance * this->Tolerance;
+  std::optional<SheetSurface> sheet;
+  if (this->IsSheet)
+  {
+    sheet.emplace(this->InScene, model, T_scene_model, *visible, this->Tolerance, stride);
+  }
   const double side = stride * model.visibility->cellSize() / patch;
   double under = 0.0; // of the outline, what a floor or a wall covers
   for (std::size_t k = 0; k < visible->outside.size(); k += stride)
   {
-    const Eigen::Vector3f point = T * visible->outside[k];
-    const DepthMap::Relation relation = depth.relationToMean(point, beside);
+    const Eigen::Vector3f atPose = T * visible->outside[k];
+    const Eigen::Vector3f point = sheet ? sheet->onMeasured(atPose) : atPose;
+    const DepthMap::Relation relation = depth.relationToMean(point, this->Beside);
     counts.goesOn += relation == DepthMap::Relation::OnSurface ? side : 0.0;
     under += relation == DepthMap::Relation::Hidden && this->isBehind(point) ? side : 0.0;
     const bool ends = relation == DepthMap::Relation::InFront ||
                       (relation == DepthMap::Relation::NoSurface && depth.covers(point, static_cast<float>(patch)));
-    counts.ends += ends && this->InScene.longLines.nearest(point, beside) < 0 ? side : 0.0;
+    counts.ends += ends && this->InScene.longLines.nearest(point, OutlineTolerance * this->Tolerance) < 0 ? side : 0.0;
   }
   // What ends all around may be the part's own face, as of parts side by side on no floor. Outline that is covered goes
   // on below.

@@ -101,5 +101,7 @@ private:
   const TrainedModel& Model;
   EvidenceSettings Settings;
   float Tolerance; ///< mm
+  float Beside;    ///< mm, of a surface beside the outline that goes on
+  bool IsSheet;    ///< what it lies on may be within the tolerance: SheetSurface
 };
 }

@@ -102,6 +102,19 @@ TEST(PointGrid, OnePointStaysPerOccupiedCube)
   EXPECT_EQ(meam::thinPoints({ { 3e38f, 0, 0 }, { 1, 0, 0 } }, 1e-3).size(), 2u);
 }
 
+TEST(PointGrid, OnePointOfEachSideOfASheetStaysPerCube)
+{
+  const Eigen::Vector3f up(0, 0, 1), aslant(0.8f, 0, 0.6f), down(0, 0, -1);
+  meam::PointCloud sheet;
+  sheet.points = { { 0.4f, 1, 1.2f }, { 1.0f, 1, 1.2f }, { 1.6f, 1, 1.2f }, { 0.5f, 1, 0.8f }, { 1.1f, 1, 0.8f },
+    { 5, 1, 1 } };
+  sheet.normals = { up, aslant, up, down, down, down };
+  EXPECT_EQ(meam::thinSurface(sheet, 2.0), std::vector<int>({ 1, 4, 5 })) << "nearest to the mean of its side";
+  sheet.normals = { up, aslant, up, up, up, down };
+  EXPECT_EQ(meam::thinSurface(sheet, 2.0), meam::thinPoints(sheet.points, 2.0)) << "one side";
+  EXPECT_EQ(meam::thinSurface(sheet, 0.0).size(), 6u);
+}
+
 TEST(PointGrid, ThinningLooksAtEveryCube)
 {
   // Cubes on both sides of the origin, more along an axis than one digit of the sort counts.

@@ -55,14 +55,6 @@ TEST(DetectionSteps, LimitsSeedAndThreadsReachTheSteps)
   EXPECT_EQ(meam::sceneEdgeSettings(chosen).threads, 2);
 }
 
-TEST(DetectionSteps, APresentPartIsNeverLessLikelyForItsAbsence)
-{
-  meam::DetectSettings chosen;
-  EXPECT_FALSE(meam::detectionSettings(chosen).selection.partIsPresent);
-  chosen.partIsPresent = true;
-  EXPECT_TRUE(meam::detectionSettings(chosen).selection.partIsPresent);
-}
-
 TEST(DetectionSteps, FoundEdgesAreOfAScan)
 {
   meam::SceneEdges found;

@@ -64,4 +64,8 @@ TEST(PartSize, WordsNameTheLengthThatIsOffTheMost)
   EXPECT_EQ(meam::sizeWords({ 1.01, 0.893, parts::NaN }), "0.89 times as long along y as in the CAD file");
   EXPECT_EQ(meam::sizesWords({ 1.01, 0.893, parts::NaN }), "1.01 along x, 0.89 along y, not told along z");
   EXPECT_EQ(meam::sizesWords({ parts::NaN, parts::NaN, parts::NaN }), "");
+  EXPECT_EQ(meam::untoldWords({ 1.01, parts::NaN, parts::NaN }),
+    "This scan does not tell how long the parts are along y and z: a part that differs in that alone looks the same.");
+  EXPECT_EQ(meam::untoldWords({ 1.01, 0.893, 1.0 }), "");
+  EXPECT_EQ(meam::untoldWords({ parts::NaN, parts::NaN, parts::NaN }), "");
 }

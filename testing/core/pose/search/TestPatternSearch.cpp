@@ -179,19 +179,3 @@ TEST(PatternSearch, SelectionMovesAPoseAndItsCovarianceSaysByHowMuch)
   EXPECT_GE(ofShifts.trace(), 0.99 * distance * distance);
   EXPECT_GT(after.evidence, before.evidence);
 }
-
-TEST(PatternSearch, WhereAPoseIsMovedToDoesNotTellThatThePartIsThere)
-{
-  SelectionTrial trial;
-  trial.settings.weighsLookalikes = false;
-  const double doubted = trial.selected(true).evidence;
-  trial.settings.partIsPresent = true;
-  const meam::Pose before = trial.selected(false), after = trial.selected(true);
-  const auto doubt = [&](const meam::Pose& best)
-  {
-    const double isPresent = meam::probabilityOf(meam::CalibrationOfPresence.logOdds(best.evidence));
-    return meam::withCertainty(after.evidence, std::max(meam::LeastPresent, isPresent));
-  };
-  EXPECT_NEAR(doubted, doubt(before), 1e-9);
-  EXPECT_GT(doubt(after), doubt(before) + 0.1);
-}

@@ -20,7 +20,7 @@ meam::Pose decided(
   meam::Pose pose = scenes::displaced(scene.T_local_scene() * T);
   const double logOdds = std::log(place / (1.0 - place));
   meam::setEvidence(pose, logOdds);
-  meam::FinishedInstances found{ { pose, {}, logOdds, logOdds } };
+  meam::FinishedInstances found{ { pose, {}, logOdds } };
   meam::allowForMirrorImage(found, scene, model, collector, {}, {}, 1);
   return found[0].pose;
 }

@@ -113,24 +113,6 @@ TEST(PoseSelection, PosesWithLessThanTheMinimumProbabilityGo)
     1u);
 }
 
-TEST(PoseSelection, NoPoseIsLikelierThanThatThePartIsThereAtAll)
-{
-  const Eigen::Isometry3d wrong = scenes::displaced(scenes::threeCopies()[1], 9.0, 20.0).T_scene_model;
-  meam::PoseSelectionSettings settings;
-  settings.evidence.rates.emplace();
-  settings.search.halfTurns = settings.search.smallTurns = false; // the wrong pose stays
-  settings.weighsLookalikes = false;                              // which another pose beside it changes, too
-  const auto last = [&](const meam::Poses& poses) { return selected(poses, settings).back(); };
-  const meam::Pose alone = last({ displaced(wrong) });
-  const meam::Pose besideTheTrueOne = last({ displaced(wrong), displaced(scenes::threeCopies()[0]) });
-  ASSERT_TRUE(alone.T_scene_model.isApprox(besideTheTrueOne.T_scene_model, 1e-9));
-  EXPECT_LT(alone.probability, 0.3 * besideTheTrueOne.probability);
-  EXPECT_GT(alone.probability, 0.2 * besideTheTrueOne.probability) << "it may be alone";
-  settings.partIsPresent = true;
-  EXPECT_NEAR(
-    last({ displaced(wrong) }).probability, besideTheTrueOne.probability, 0.05 * besideTheTrueOne.probability);
-}
-
 TEST(PoseSelection, PosesThatMatchTheSameSurfaceAreOfOneInstance)
 {
   // Farther apart than the cluster distance (10 % of 73.6 mm), but mostly on the same face.

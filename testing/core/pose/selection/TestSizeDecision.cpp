@@ -20,7 +20,7 @@ meam::Pose decided(float factor, int copies = 4)
   for (const scenes::Copy& copy : lying)
   {
     const double logOdds = std::log(0.9 / 0.1);
-    found.push_back({ scenes::displaced(scene.T_local_scene() * copy.T_scene_model), {}, logOdds, logOdds });
+    found.push_back({ scenes::displaced(scene.T_local_scene() * copy.T_scene_model), {}, logOdds });
     meam::setEvidence(found.back().pose, logOdds);
   }
   meam::allowForOtherSize(found, scene, model, 1);

@@ -357,3 +357,40 @@ TEST(PoseEvidence, TheTwoSidesOfAThinStripAreNoTwoOutlines)
   EXPECT_LT(upright.inSight, 2.0);
   EXPECT_NEAR(upright.counts.ends + upright.counts.goesOn, 4.0 * upright.inSight, 1e-9);
 }
+
+TEST(PoseEvidence, ASheetOnTheFloorIsToldFromTheFloor)
+{
+  // 0.6 mm thick, which is less than a pose may be off: what it lies on would do for its face.
+  const meam::TrainedModel& model = scenes::trained<sheet>();
+  scenes::Seen seen = scenes::seenFromAbove({ scenes::Copy{ sheet(), Eigen::Isometry3d::Identity() } });
+  for (float x = -150.0f; x <= 150.0f; x += 0.5f)
+  {
+    for (float y = -80.0f; y <= 80.0f; y += 0.5f)
+    {
+      if (std::abs(x) > 25.0f || std::abs(y) > 15.0f)
+      {
+        seen.surface.push_back({ x, y, 0.0f });
+      }
+    }
+  }
+  const meam::Scene scene = scenes::prepared(scenes::withTangents(seen, model.diameter), model.diameter);
+  ASSERT_EQ(scene.enclosure.size(), 1u);
+  const meam::EvidenceCollector collector(scene, model);
+  const auto at = [&](double x, double above)
+  {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << x, 0.0, above;
+    return collector.collect(scene.T_local_scene() * pose).counts;
+  };
+  const meam::EvidenceCounts right = at(0.0, 0.0);
+  EXPECT_GT(right.there, 25.0) << "patches of 5.8 mm of a face of 50 x 30 mm, without its border";
+  EXPECT_GT(right.ends, 20.0);
+  EXPECT_LT(right.goesOn, 0.5 * right.ends) << "some cells beside the outline have a point of the sheet";
+  for (const double above : { -0.6, 0.0, 0.6, 1.0 })
+  {
+    const meam::EvidenceCounts floor = at(90.0, above);
+    EXPECT_LT(floor.there, 1.0) << above;
+    EXPECT_LT(floor.ends, 1.0) << above;
+    EXPECT_GT(floor.goesOn, 20.0) << above;
+  }
+}
