@@ -11,6 +11,9 @@ inline constexpr double UnexplainedDistance = 0.02; ///< a scene point this far 
 inline constexpr float FacingSurface =
   0.8f; ///< cosine of the part's normal and the measured one, from which on a surface fits
 
+/// Of the thickness of a flat part: what is measured so far off its face is the floor, or the face of another copy.
+inline constexpr float OtherFace = 0.5f;
+
 // Two poses that no step has refined yet are one and the same below both.
 inline constexpr double SamePoseDistance =
   0.1;                                        ///< of the diameter, between the part's middles: no two copies are nearer

@@ -18,7 +18,6 @@ namespace
 {
 constexpr float Steepest = 0.3f;     // cosine towards the sensor: flatter surface is measured badly
 constexpr float OfOther = 0.5f;      // of the distance, to another surface of the part: what is nearer is that one's
-constexpr float OfThickness = 0.5f;  // of a flat part: what lies farther off is the face of a copy above or below
 constexpr int LeastCells = 3;        // of the depth map in a patch: fewer tell no average
 constexpr double LeastPatches = 3.0; // so many full ones: fewer tell of a corner
 constexpr double DeviationsOfMedian = 1.4826;   // standard deviations in a median absolute one, of normal noise
@@ -129,7 +128,7 @@ double SurfaceMisfit::at(const Eigen::Isometry3d& T_scene_model) const
   const auto visible = model.visibility->visible(T_scene_model, this->InScene.sensor, depth.pitch());
   const Eigen::Vector3f towards = T.linear() * model.visibility->towards(T_scene_model, this->InScene.sensor);
   const Eigen::Isometry3f toModel = T.inverse();
-  const float most = std::min(static_cast<float>(FitDistance * model.diameter), OfThickness * model.thickness);
+  const float most = std::min(static_cast<float>(FitDistance * model.diameter), OtherFace * model.thickness);
   const float distinct = static_cast<float>(ExplainedDistance * model.diameter);
   const float patch = static_cast<float>(PatchSize * model.diameter);
   struct Off

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/verification/SheetSurface.h"
 
+#include "pose/PoseTolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,9 +10,8 @@ namespace meam
 {
 namespace
 {
-constexpr int FewestPoints = 6;     // of a plane; with less the pose itself counts
-constexpr double Slightly = 1e-9;   // keeps the equations of points in a row from failing
-constexpr float OfThickness = 0.5f; // what lies nearer to the bin than so much of the part is the bin
+constexpr int FewestPoints = 6;   // of a plane; with less the pose itself counts
+constexpr double Slightly = 1e-9; // keeps the equations of points in a row from failing
 }
 
 SheetSurface::SheetSurface(const Scene& scene, const TrainedModel& model, const Eigen::Isometry3d& T_scene_model,
@@ -57,6 +58,6 @@ bool SheetSurface::isOfBin(const Eigen::Vector3f& point, const Scene& scene, con
   const int cell = scene.depth.cellAt(point);
   return cell >= 0 && std::any_of(scene.enclosure.begin(), scene.enclosure.end(),
                         [&](const Plane& plane)
-                        { return plane.absDistance(scene.depth.meanIn(cell)) < OfThickness * model.thickness; });
+                        { return plane.absDistance(scene.depth.meanIn(cell)) < OtherFace * model.thickness; });
 }
 }
