@@ -7,7 +7,7 @@ README.md and what decisions are worth in docs/parameters.md from these files.
 
 Tables that are not measured stay as they are. All together take hours: name them one at a time, or take the --quick ones; `--only
 none` writes the documents alone. Data are looked for in $PPFMEAM_DATA (tohoku/, cad/, rings/, scanner/, pipes/ and real/); bins
-are simulated once and kept in build/evaluation. `voting`, `decisions`, `slopes` and `scene-edges` need the target meamBenchmarks,
+are simulated once and kept in build/evaluation. `voting`, `slopes` and `scene-edges` need the target meamBenchmarks,
 `rivals` the build option PPFMEAM_BUILD_RIVALS, which adds them to `paper`, too."""
 import argparse
 import datetime
@@ -33,7 +33,6 @@ import robustness
 import stage
 import tohoku
 import world
-import wrong_poses
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 DATA = os.environ.get("PPFMEAM_DATA", "")
@@ -199,22 +198,15 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
     "paper": ("The paper's own experiments", of_paper, False),
     "figure13": ("The paper's Figure 13", lambda: stage.run(kept("paper"), paper.PARTS[0], "recommended", 2, 1)[1], False),
     "paper-reading": ("Readings of the paper's text", lambda: paper_reading.measure(TOHOKU), False),
-    "wrong-poses": ("Where wrong poses of the compared methods go",
-                    lambda: wrong_poses.measure(TOHOKU, os.path.join(kept("paper"), "bins")), False),
     "rivals": ("What others would use instead", rivals, False),
     "cell": ("The picking cell", cell, False),
     "cell-failures": ("The picking cell: picks that failed, and parts that were left", lambda: [
         row for row in results.read(os.path.join(kept("cell"), "picks.csv")) if row["outcome"] != "success"], False),
     "models": ("Which model to train", lambda: models.measure(TOHOKU), False),
-    "models-20": ("Which model to train: candidates for the default, all scenes", lambda: models.measure(
-        TOHOKU, scenes=20, only=("preset", "mesh-visibility", "mesh-edges", "mesh-both", "views-14")), False),
-    "models-paper": ("Which model to train, with the paper's parameters", lambda: models.measure(
-        TOHOKU, preset="paper", only=("preset", "mesh-edges", "separate", "whole")), False),
     "ablation": ("Each decision switched off, in several worlds", ablation, False),
     "voting": ("Speed of voting", lambda: benchmarks.medians(
         "ReadEntries|Increments|IncrementsInFirstCache|CastVotes|Voting|VotingByHashMap|Peaks|PairKeys|PairKeysOneByOne", 9),
                False),
-    "decisions": ("What decisions cost", lambda: benchmarks.medians("Decision"), False),
     "scene-edges": ("Speed of scene edges", lambda: benchmarks.medians(
         "ImageEdges|ImageEdgesTangentsOfPoints|ImageOfAnotherCamera|DepthEdgesAndCreases|BackgroundRemoval"), False),
     "slopes": ("How the time grows", benchmarks.slopes, False),
