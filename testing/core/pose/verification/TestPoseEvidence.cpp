@@ -358,6 +358,19 @@ TEST(PoseEvidence, TheTwoSidesOfAThinStripAreNoTwoOutlines)
   EXPECT_NEAR(upright.counts.ends + upright.counts.goesOn, 4.0 * upright.inSight, 1e-9);
 }
 
+TEST(PoseEvidence, BothFacesOfASheetAreVerified)
+{
+  const meam::TrainedModel& model = scenes::trained<sheet>();
+  int up = 0, down = 0;
+  for (const int i : model.verificationPoints)
+  {
+    up += model.surface.normals[i].z() > 0.9f ? 1 : 0;
+    down += model.surface.normals[i].z() < -0.9f ? 1 : 0;
+  }
+  EXPECT_GT(up, 400) << "one for each square of 3 % of 58 mm, of 50 x 30 mm";
+  EXPECT_NEAR(down, up, 0.1 * up);
+}
+
 TEST(PoseEvidence, ASheetOnTheFloorIsToldFromTheFloor)
 {
   // 0.6 mm thick, which is less than a pose may be off: what it lies on would do for its face.
