@@ -25,7 +25,8 @@ constexpr double Shown = 0.25;        // of its whole surface a body shows, on a
 constexpr double OutlineOfPatch = 4.0;
 constexpr float OutlineTolerance = 1.5f; // tolerances: a surface beyond the outline that goes on,
 constexpr float OutlineThickness = 0.6f; // and no more than so much of a thin part, which may lie on it,
-constexpr double OutlineNoises = 3.0;    // but no less than so much noise of the scan
+constexpr double OutlineNoises = 3.0;    // but no less than so much noise of the scan,
+constexpr double OutlineOfPose = 0.003;  // nor than so much of the diameter: poses are not exact
 
 int count(const std::vector<PointState>& states, PointState state)
 {
@@ -55,7 +56,8 @@ EvidenceCollector::EvidenceCollector(const Scene& scene, const TrainedModel& mod
         ? settings.tolerance
         : std::max(FitDistance * model.diameter, settings.followsNoise ? Noises * scene.quality.noise : 0.0)))
   , Beside(std::min(OutlineTolerance * Tolerance,
-      std::max(OutlineThickness * model.thickness, static_cast<float>(OutlineNoises * scene.quality.noise))))
+      std::max(OutlineThickness * model.thickness,
+        static_cast<float>(std::max(OutlineNoises * scene.quality.noise, OutlineOfPose * model.diameter)))))
   , IsSheet(Beside < Tolerance)
 {
 }

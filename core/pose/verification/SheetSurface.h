@@ -13,7 +13,7 @@ class SheetSurface
 {
 public:
   /// `tolerance`: mm, behind and before the pose; what was measured beyond is another surface. Looks at every
-  /// `stride`-th point. Keeps references.
+  /// `stride`-th point.
   SheetSurface(const Scene& scene, const TrainedModel& model, const Eigen::Isometry3d& T_scene_model,
     const PredictedVisibility::Visible& visible, float tolerance, std::size_t stride);
 
