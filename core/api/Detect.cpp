@@ -6,6 +6,7 @@
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
 #include "pose/ScanAdvice.h"
+#include "pose/refinement/PartSize.h"
 #include "scene/preparation/ScanViewpoint.h"
 #include "scene/preparation/SearchRegion.h"
 
@@ -140,6 +141,8 @@ Detections detect(
     }
     poses.push_back(pose);
   }
+  const std::string untold = poses.empty() ? "" : untoldWords(poses.front().contradictions.lengths);
+  result.report += (result.report.empty() || untold.empty() ? "" : " ") + untold;
   result.advice = scanAdvice(scene.input.quality, report, poses, largest);
   const std::string ofTime = result.isCutShort ? cutShort(settings.timeLimit) : "";
   for (const std::string& sentence : { ofTime, doubtsOf(poses, scene.input, trained.front()->diameter) })

@@ -108,15 +108,11 @@ std::string scanAdvice(
   {
     sentences.push_back(adviceOnNothing(report.work));
   }
-  if (there > 0 && poses.front().contradictions.thickness == 1.0)
-  {
-    sentences.push_back(untoldWords(poses.front().contradictions.lengths));
-  }
   sentences.resize(std::min(sentences.size(), MostSentences));
   std::string advice;
   for (const std::string& sentence : sentences)
   {
-    advice += (advice.empty() || sentence.empty() ? "" : " ") + sentence;
+    advice += (advice.empty() ? "" : " ") + sentence;
   }
   return advice;
 }

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace
 {
 meam::ScanQuality goodScan()
@@ -88,9 +86,4 @@ TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
   meam::Poses ofOtherPart{ claimed(0.01, 1.0) };
   ofOtherPart[0].contradictions.missing = 2;
   EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofOtherPart, 100.0), "is missing on most copies"));
-  meam::Poses ofFlatPart{ claimed(0.9, 1.0) };
-  ofFlatPart[0].contradictions.lengths << 1.0, 1.01, std::nan("");
-  EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofFlatPart, 100.0), "not tell how long the parts are along z"));
-  ofFlatPart[0].placeProbability = 0.1;
-  EXPECT_EQ(meam::scanAdvice(goodScan(), report, ofFlatPart, 100.0), "") << "none is likely";
 }
