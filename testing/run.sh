@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything and runs the tests: the release build, what of core reads files and scans under the sanitizers (dev), and
-# the filters under plain VTK (vtk), one test more at a time than there are processors, for many wait.
+# the filters under plain VTK (vtk), two tests at a time.
 #
 #   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
 #
@@ -26,7 +26,7 @@ run() { # PRESET, "what", build target or "", ctest arguments...
   chosen=$(ctest --test-dir "$root/build/$preset" -N "${without[@]}" "$@")
   found=$((found + $(sed -n 's/^Total Tests: //p' <<<"$chosen")))
   if grep -q ': fuzz$' <<<"$chosen"; then "$root/cmake/build.sh" fuzz meamFuzz || failed+=("fuzz (build)"); fi
-  ctest --test-dir "$root/build/$preset" --output-on-failure -j"$(($(nproc) + 1))" "${without[@]}" "$@" || failed+=("$preset")
+  ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${without[@]}" "$@" || failed+=("$preset")
 }
 if [ ${#without[@]} = 0 ]; then
   "$root/cmake/build.sh" release meamAblation meamCoreTests || failed+=("release, for --long (build)")
