@@ -5,7 +5,6 @@
 #include "pose/refinement/FinalAlignment.h"
 #include "pose/selection/PoseSelection.h"
 #include "pose/verification/PoseVerification.h"
-#include "pose/verification/ProbabilityCalibration.h"
 
 #include <gtest/gtest.h>
 
