@@ -6,7 +6,6 @@
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
 #include "pose/ScanAdvice.h"
-#include "pose/refinement/PartSize.h"
 #include "scene/preparation/ScanViewpoint.h"
 #include "scene/preparation/SearchRegion.h"
 
@@ -141,7 +140,7 @@ Detections detect(
     }
     poses.push_back(pose);
   }
-  const std::string untold = poses.empty() ? "" : untoldWords(poses.front().contradictions.lengths);
+  const std::string untold = untoldLengths(found);
   result.report += (result.report.empty() || untold.empty() ? "" : " ") + untold;
   result.advice = scanAdvice(scene.input.quality, report, poses, largest);
   const std::string ofTime = result.isCutShort ? cutShort(settings.timeLimit) : "";

@@ -3,9 +3,11 @@
 
 #include "pose/PoseTolerances.h"
 #include "pose/Stopwatch.h"
+#include "pose/refinement/PartSize.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 namespace meam
@@ -110,6 +112,24 @@ double largestDiameter(const std::vector<const TrainedModel*>& models)
     largest = std::max(largest, model->diameter);
   }
   return largest;
+}
+
+std::string untoldLengths(const std::vector<PartPose>& poses)
+{
+  std::map<int, Eigen::Vector3d> lengths;
+  for (const PartPose& one : poses)
+  {
+    lengths.emplace(one.part, one.pose.contradictions.lengths);
+  }
+  std::string sentences;
+  for (const auto& [part, factors] : lengths)
+  {
+    const std::string untold = lengths.size() > 1
+                                 ? untoldWords(factors, "the copies of part " + std::to_string(part + 1))
+                                 : untoldWords(factors);
+    sentences += (sentences.empty() || untold.empty() ? "" : " ") + untold;
+  }
+  return sentences;
 }
 
 std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& models, const SceneInput& input,

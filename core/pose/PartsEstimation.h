@@ -4,6 +4,7 @@
 #include "pose/MEAMPoseEstimation.h"
 #include "pose/search/ConflictResolution.h"
 
+#include <string>
 #include <vector>
 
 namespace meam
@@ -18,6 +19,9 @@ RankedPoses posesOfPart(const std::vector<PartPose>& poses, int part);
 
 /// mm, of the largest type.
 double largestDiameter(const std::vector<const TrainedModel*>& models);
+
+/// What poses leave open of how long their parts are, in a sentence for each type; empty where nothing is.
+std::string untoldLengths(const std::vector<PartPose>& poses);
 
 /// The online phase for several types of part in one scan: of poses that claim the same surface the best supported
 /// stays (resolveConflicts). Ranked poses, in the scene's own coordinates (mm), with the type of each. Of one type it

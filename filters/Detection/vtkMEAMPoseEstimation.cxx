@@ -218,7 +218,8 @@ int vtkMEAMPoseEstimation::RequestData(
         output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
         addNames(work.names, output);
       }
-      setFieldText(output, "Report", meam::describe(poses));
+      const std::string untold = meam::untoldLengths(partPoses);
+      setFieldText(output, "Report", meam::describe(poses) + (untold.empty() ? "" : " ") + untold);
       setScanQuality(output, scene.quality, work.scanReport);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
       if (report.rates)

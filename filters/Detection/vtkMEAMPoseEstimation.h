@@ -20,8 +20,8 @@
  * `Transform` (16, row-major T_scene_model), `Quaternion` (x y z w), `Score`, `PlaceProbability`, `Probability`,
  * `Certainty` and `VisibleFraction` in [0, 1], `Votes`, `ViewId`, `Rank`, `Label` (rank and probability of those on
  * port 2), and those that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether
- * parts were found and how sure that is; where nothing is, a warning says so, too), `ScanReport` and `ScanQuality` (of
- * an organized scan, as vtkMEAMSceneEdgeExtraction has them), `EdgesFound` and `EdgesByChance` (share of the edge
+ * parts were found and how sure that is, and which lengths of the part the scan leaves open; where nothing is found, a
+ * warning says so, too), `ScanReport` and `ScanQuality` (of an organized scan, as vtkMEAMSceneEdgeExtraction has them), `EdgesFound` and `EdgesByChance` (share of the edge
  * points of a part that a scene edge lies on, where the part is and anywhere: how far this scan's edges can be
  * trusted), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`, `SecondsTangents`, `SecondsDetection`,
  * `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`, `SecondsSelection`, `SecondsOutput` (to fill the

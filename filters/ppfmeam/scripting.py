@@ -641,6 +641,8 @@ def print_poses(poses):
               f"  {array('ViewId').GetValue(i):4d}  {100 * array('VisibleFraction').GetValue(i):5.0f} %")
     if poses.GetNumberOfPoints() == 0:
         print("      no part found")
+    else:
+        print("found: " + poses.GetFieldData().GetAbstractArray("Report").GetValue(0))
 
 
 def print_scan_quality(poses):

@@ -32,11 +32,15 @@ def command_of(script, *arguments):
     return [sys.executable, os.path.join(root, "examples", script), *arguments]
 
 
-def work_of(script, *arguments):
-    """Processor seconds of a script that nothing stops."""
-    before = processor_seconds()
-    subprocess.run(command_of(script, *arguments), stdout=subprocess.DEVNULL, check=True)
-    return processor_seconds() - before
+def work_of(script, *arguments, until=None):
+    """Processor seconds of a script that nothing stops, or those before a file of its is there."""
+    before, process = processor_seconds(), subprocess.Popen(command_of(script, *arguments), stdout=subprocess.DEVNULL)
+    spent = None
+    while until and process.poll() is None and spent is None:
+        spent = processor_seconds(process) if os.path.exists(until) else None
+        time.sleep(0.01)
+    check(process.wait() == 0, f"{script} ends with {process.returncode}")
+    return processor_seconds() - before if spent is None else spent
 
 
 def interrupted(work, folder, *command):
@@ -57,11 +61,14 @@ def interrupted(work, folder, *command):
 
 loading = work_of("train.py", "--help")  # its modules, which Ctrl-C may cut off anyhow
 with tempfile.TemporaryDirectory() as folder:
-    training = ["train.py", "--cad", part, "--out", os.path.join(folder, "part.meam")]
-    whole = work_of(*training)
-    os.remove(training[-1])
+    model = os.path.join(folder, "part.meam")
+    training = ["train.py", "--cad", part, "--out", model]
+    before_writing = []
+    for _ in range(2):  # the first reads its modules from the disk
+        before_writing.append(work_of(*training, until=model))
+        os.remove(model)
     for share in (0.25, 0.6):
-        left = interrupted(loading + share * (whole - loading), folder, *training)
+        left = interrupted(loading + share * (min(before_writing) - loading), folder, *training)
         check(not left, f"train.py leaves {left}")
     bins = os.path.join(folder, "bins")
     left = interrupted(loading + 1.2, bins, "simulate.py", "--cad", part, "--scenes", "50", "--out", bins)

@@ -55,7 +55,7 @@ png.Write()
 # detect.py: the table, the times and three files.
 text = works("detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--poses", "2", "--out", "a.csv", "--json", "a.json",
              "--matrices", "a.txt", "--threads", "2", "--method", "meam")
-check([line.split()[0] for line in text.splitlines()] == ["rank", "1", "2", "scan:", "edges:", "time:"] and "total" in text,
+check([line.split()[0] for line in text.splitlines()] == ["rank", "1", "2", "found:", "scan:", "edges:", "time:"] and "total" in text,
           f"a table of two, what the scan shows of its sensor, and times: {text}")
 check(len(read("a.csv").splitlines()) == 3 and len(json.loads(read("a.json"))["poses"]) == 2, "two poses in the files")
 transforms = numpy.array(read("a.txt").split(), float).reshape(-1, 4, 4)

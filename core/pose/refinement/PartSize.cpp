@@ -146,7 +146,7 @@ std::string sizesWords(const Eigen::Vector3d& factors)
   return all;
 }
 
-std::string untoldWords(const Eigen::Vector3d& factors)
+std::string untoldWords(const Eigen::Vector3d& factors, const std::string& parts)
 {
   std::string axes;
   for (int axis = 0; axis < 3 && !factors.array().isNaN().all(); ++axis)
@@ -157,7 +157,7 @@ std::string untoldWords(const Eigen::Vector3d& factors)
     }
   }
   return axes.empty() ? ""
-                      : "This scan does not tell how long the parts are along " + axes +
+                      : "This scan does not tell how long " + parts + " are along " + axes +
                           ": a part that differs in that alone looks the same.";
 }
 }

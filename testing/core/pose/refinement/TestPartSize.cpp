@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/refinement/PartSize.h"
 
+#include "pose/PartsEstimation.h"
+
 #include "TestScene.h"
 
 #include <gtest/gtest.h>
@@ -68,4 +70,21 @@ TEST(PartSize, WordsNameTheLengthThatIsOffTheMost)
     "This scan does not tell how long the parts are along y and z: a part that differs in that alone looks the same.");
   EXPECT_EQ(meam::untoldWords({ 1.01, 0.893, 1.0 }), "");
   EXPECT_EQ(meam::untoldWords({ parts::NaN, parts::NaN, parts::NaN }), "");
+}
+
+TEST(PartSize, LengthsThatAreNotToldAreNamedForEachTypeOfPart)
+{
+  std::vector<meam::PartPose> found(2);
+  EXPECT_EQ(meam::untoldLengths({}), "");
+  EXPECT_EQ(meam::untoldLengths(found), "") << "too few poses to measure";
+  found[0].pose.contradictions.lengths = { 1.0, 1.0, parts::NaN };
+  found[1].pose.contradictions.lengths = { parts::NaN, 1.0, 1.0 };
+  EXPECT_EQ(meam::untoldLengths(found), "This scan does not tell how long the parts are along z: a part that differs in "
+                                        "that alone looks the same.")
+    << "of the first copy of each";
+  found[1].part = 1;
+  EXPECT_EQ(meam::untoldLengths(found),
+    "This scan does not tell how long the copies of part 1 are along z: a part that differs in that alone looks the "
+    "same. This scan does not tell how long the copies of part 2 are along x: a part that differs in that alone looks "
+    "the same.");
 }
