@@ -79,8 +79,9 @@ TEST(PartSize, LengthsThatAreNotToldAreNamedForEachTypeOfPart)
   EXPECT_EQ(meam::untoldLengths(found), "") << "too few poses to measure";
   found[0].pose.contradictions.lengths = { 1.0, 1.0, parts::NaN };
   found[1].pose.contradictions.lengths = { parts::NaN, 1.0, 1.0 };
-  EXPECT_EQ(meam::untoldLengths(found), "This scan does not tell how long the parts are along z: a part that differs in "
-                                        "that alone looks the same.")
+  EXPECT_EQ(meam::untoldLengths(found),
+    "This scan does not tell how long the parts are along z: a part that differs in "
+    "that alone looks the same.")
     << "of the first copy of each";
   found[1].part = 1;
   EXPECT_EQ(meam::untoldLengths(found),
