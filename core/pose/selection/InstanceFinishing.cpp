@@ -20,7 +20,7 @@ constexpr int LeastFruitless = 16;     // these: the order by scores is not that
 constexpr double ClearlyMore = 3.0;    // log odds of a sure pose over those of one that it excludes
 
 /// A scored pose that is not finished.
-FinishedInstance asItIs(const Pose& scored) { return { scored, {}, scored.evidence, scored.evidence }; }
+FinishedInstance asItIs(const Pose& scored) { return { scored, {}, scored.evidence }; }
 }
 
 InstanceFinishing::InstanceFinishing(const Scene& scene, const TrainedModel& model, const LocalSearch& search,
