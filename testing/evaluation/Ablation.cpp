@@ -104,7 +104,7 @@ std::vector<Switch> makeSwitches()
   instances(
     "restarts", "no restarts of the refinement", [](S& s) { s.search.halfTurns = s.search.smallTurns = false; });
   instances("half-turns", "no restarts at half turns", [](S& s) { s.search.halfTurns = false; });
-  instances("small-turns", "no restarts at 10 degrees", [](S& s) { s.search.smallTurns = false; });
+  instances("small-turns", "no restarts at small turns", [](S& s) { s.search.smallTurns = false; });
   instances("rotation-search", "no search about a round axis", [](S& s) { s.search.aboutAxis = false; });
   instances("rotation-decision", "no decision between near-symmetries", [](S& s) { s.search.nearSymmetries = false; });
   instances("ascent", "no maximization of the log odds", [](S& s) { s.search.maximizes = false; });

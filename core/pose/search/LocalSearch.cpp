@@ -14,9 +14,11 @@ namespace meam
 namespace
 {
 constexpr int Iterations = 6;         // of refinement: what stays is aligned afterwards
-constexpr double SmallTurn = 10.0;    // degrees
+constexpr double SmallTurn = 10.0;    // degrees,
+constexpr double SmallerTurn = 6.0;   // and of likely poses: those of them that are wrong lie 5 to 8 off
 constexpr double WorthTrying = 1e-3;  // probability of a pose before: less, and it is not refined again;
-constexpr double Sure = 0.9;          // more, and it is from half turns alone
+constexpr double Likely = 0.9;        // more, and it is from smaller turns;
+constexpr double Sure = 0.999;        // more, and it is from half turns alone
 constexpr double StepOfRound = 10.0;  // degrees, between the rotations of a nearly round part
 constexpr double LeastOverlap = 0.8;  // of its surface, that comes to lie on the surface when it is nearly round at one
 constexpr double TurnDistance = 0.04; // of the diameter: correspondences of another rotation, which is nearly right
@@ -133,7 +135,7 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
   {
     const Eigen::Isometry3d turn = turnAbout(axes.col(axis), degrees * M_PI / 180.0, middle);
     const auto isKnown = [&](const Eigen::Isometry3d& other)
-    { return rotationError(nearestEqual(turn, other, same), other) < 0.5 * SmallTurn; };
+    { return rotationError(nearestEqual(turn, other, same), other) < 0.5 * std::min(std::abs(degrees), SmallTurn); };
     if (std::none_of(known.begin(), known.end(), isKnown))
     {
       known.push_back(turn);
@@ -150,6 +152,8 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
     {
       add(axis, -SmallTurn, this->SmallTurns);
       add(axis, SmallTurn, this->SmallTurns);
+      add(axis, -SmallerTurn, this->SmallerTurns);
+      add(axis, SmallerTurn, this->SmallerTurns);
     }
   }
 }
@@ -218,7 +222,7 @@ void LocalSearch::restart(Pose& pose, Contender& current) const
       tryFrom(turned);
     }
   }
-  for (const Eigen::Isometry3d& turn : this->SmallTurns)
+  for (const Eigen::Isometry3d& turn : probability < Likely ? this->SmallTurns : this->SmallerTurns)
   {
     if (probability < Sure)
     {

@@ -14,9 +14,9 @@ struct LocalSearchSettings
 {
   bool halfTurns = true; ///< refines from half turns about the principal axes, for thin parts fit nearly as well upside
                          ///< down
-  bool smallTurns = true; ///< refines from 10 degrees to both sides, for a flat part's refinement may end beside the
-                          ///< truth
-  bool aboutAxis = true;  ///< turns a nearly round part about its axis to where the scene's edges fit its own
+  bool smallTurns = true; ///< refines from 10 or 6 degrees to both sides, for a flat part's refinement may end beside
+                          ///< the truth
+  bool aboutAxis = true;      ///< turns a nearly round part about its axis to where the scene's edges fit its own
   bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis
   bool aligns = true;         ///< robustly, at the end
   bool maximizes = true;      ///< moves an aligned pose that the scan contradicts
@@ -61,7 +61,7 @@ private:
   RotationSearch Search;
   PoseRefinementSettings AfterTurn; ///< refinement of a pose that is nearly right
   // In the part's frame, without the identity
-  std::vector<Eigen::Isometry3d> HalfTurns, SmallTurns;
+  std::vector<Eigen::Isometry3d> HalfTurns, SmallTurns, SmallerTurns;
   std::vector<Eigen::Isometry3d> Rotations; ///< that hardly move the surface: near-symmetries first, then steps
   std::size_t NearSymmetries = 0;           ///< of these
   PatternSearch Pattern;
