@@ -16,7 +16,7 @@ struct LocalSearchSettings
                          ///< down
   bool smallTurns = true; ///< refines from 10 or 6 degrees to both sides, for a flat part's refinement may end beside
                           ///< the truth
-  bool aboutAxis = true;      ///< turns a nearly round part about its axis to where the scene's edges fit its own
+  bool aboutAxis = true;  ///< turns a nearly round part about its axis to where the scene's edges fit its own
   bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis
   bool aligns = true;         ///< robustly, at the end
   bool maximizes = true;      ///< moves an aligned pose that the scan contradicts
