@@ -61,9 +61,8 @@ public:
   float behind(const Eigen::Vector3f& point) const
   {
     const Place place = this->placeOf(point);
-    return place.cell >= 0 && this->isMeasured(place.cell)
-             ? this->Axes.row(2).dot(this->Cells[place.cell].mean - this->Eye) - place.depth
-             : std::numeric_limits<float>::quiet_NaN();
+    return place.cell >= 0 && this->isMeasured(place.cell) ? this->depthIn(place.cell) - place.depth
+                                                           : std::numeric_limits<float>::quiet_NaN();
   }
 
   /// Whether a point, as the sensor sees it, is no more than `margin` mm outside of the rectangle about everything that
@@ -85,6 +84,8 @@ public:
 
   /// Of the map, with those in which nothing was measured.
   int cellCount() const { return this->Width * this->Height; }
+  int columns() const { return this->Width; }
+  int rows() const { return this->Height; }
   /// The cell at the line of sight through a point; -1 outside of the map.
   int cellAt(const Eigen::Vector3f& point) const { return this->placeOf(point).cell; }
   /// Those beside a cell in its row and its column, as far as there are any: -1.
@@ -99,6 +100,19 @@ public:
   /// Of the nearest layer of a cell in which something was measured, as means() and normalAt() have them.
   const Eigen::Vector3f& meanIn(int cell) const { return this->Cells[cell].mean; }
   const Eigen::Vector3f& normalIn(int cell) const { return this->Normals[cell]; }
+  /// mm, of the mean, along the line of sight.
+  float depthIn(int cell) const { return this->Axes.row(2).dot(this->Cells[cell].mean - this->Eye); }
+
+  /// Where points lie in the map.
+  struct Places
+  {
+    int cells[SoABlock];     ///< cellCount(): outside of the map
+    float depths[SoABlock];  ///< mm, along the line of sight
+    float insides[SoABlock]; ///< how far inside its cell, 1 in the middle and 0 at the border
+  };
+  /// Of at most SoABlock points from `begin` on, which `toScene` takes to the scene.
+  void findPlaces(
+    const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, Places& places) const;
 
   /// The relation of `count` points from `begin` on, which `toScene` takes to the scene, several at a time.
   void relations(const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, float tolerance,
@@ -166,14 +180,6 @@ private:
                         !(this->IsPerspective && p.z() <= 0.0f);
     return { inside ? static_cast<int>(index.y()) * this->Width + static_cast<int>(index.x()) : -1, p.z() };
   }
-  struct Places
-  {
-    int cells[SoABlock]; ///< the last one: outside the map
-    float depths[SoABlock];
-    float insides[SoABlock];
-  };
-  void findPlaces(
-    const Eigen::Isometry3f& toScene, const SoAPoints& points, int begin, int count, Places& places) const;
   /// Points of a scan that follow each other, and the rows of the map that they come to.
   struct Run
   {

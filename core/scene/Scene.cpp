@@ -14,6 +14,8 @@ namespace
 // Cells of what is looked up in a scene, as shares of the part's diameter: about the distances that are asked for.
 constexpr double EdgeCell = 0.08;           // of the edge index; refinement starts with correspondences of 10 %
 constexpr double DepthCell = 0.02;          // of the depth map: some points of a usual scan each
+constexpr double FinePitches = 1.5;         // point distances of the scan, of the fine depth map's,
+constexpr double FinestCell = 0.005;        // and no less: finer than poses are right
 constexpr double SurfaceCell = 0.05;        // of the measured surface's grid
 constexpr double EnclosureTolerance = 0.03; // so near to a plane or line of the bin what was measured lies on it,
 constexpr double EnclosureNoises = 3.0;     // and no less than so many times the noise of the scan
@@ -56,6 +58,7 @@ Scene::Scene(LocalCloud edgePoints, const Points& allMeasured, const Sensor& see
   , measured(allMeasured)
   , partDiameter(diameter)
   , depth(measured, sensor, DepthCell * diameter, settings.threads)
+  , Threads(settings.threads)
 {
   inParallel(settings.threads, { [&] { this->surface = PointGrid(this->depth.means(), SurfaceCell * diameter); },
                                  [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, EdgeCell * diameter); } });
@@ -86,5 +89,16 @@ Scene::Scene(LocalCloud edgePoints, const Points& allMeasured, const Sensor& see
       " surface points, but the sensor looks away from all of them: turn the view direction round, or move the sensor "
       "position (a perspective sensor sees what lies before it).");
   }
+}
+
+const DepthMap& Scene::fineDepth() const
+{
+  std::call_once(this->IsFine,
+    [this]
+    {
+      const double cell = std::max(FinePitches * this->depth.pitch(), FinestCell * this->partDiameter);
+      this->FineDepth.emplace(this->measured, this->sensor, cell, this->Threads);
+    });
+  return *this->FineDepth;
 }
 }

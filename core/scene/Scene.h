@@ -9,6 +9,9 @@
 #include "scene/ScanQuality.h"
 #include "scene/Sensor.h"
 
+#include <mutex>
+#include <optional>
+
 namespace meam
 {
 struct SceneSettings
@@ -37,6 +40,8 @@ struct Scene
   const PointCloud& edgePoints() const { return this->edges.cloud; }
   /// Grid of the edge points.
   const PointGrid& edgeGrid() const { return this->edgeIndex.grid(); }
+  /// The depth map point by point, made when it is first asked for: next to none of its cells is empty on a surface.
+  const DepthMap& fineDepth() const;
 
   LocalCloud edges;
   Sensor sensor; ///< in the local frame
@@ -49,5 +54,10 @@ struct Scene
   std::vector<Plane> enclosure;            ///< the bin's floor and walls, as far as they are in sight
   std::vector<unsigned char> isOnLongLine; ///< of each edge point: the line is longer than the part
   PointGrid longLines;                     ///< of these edge points
+
+private:
+  int Threads;
+  mutable std::once_flag IsFine;
+  mutable std::optional<DepthMap> FineDepth;
 };
 }

@@ -107,6 +107,7 @@ std::vector<Switch> makeSwitches()
   instances("small-turns", "no restarts at small turns", [](S& s) { s.search.smallTurns = false; });
   instances("rotation-search", "no search about a round axis", [](S& s) { s.search.aboutAxis = false; });
   instances("rotation-decision", "no decision between near-symmetries", [](S& s) { s.search.nearSymmetries = false; });
+  instances("depth-fit", "rotations without the depth point by point", [](S& s) { s.search.depthFit = false; });
   instances("ascent", "no maximization of the log odds", [](S& s) { s.search.maximizes = false; });
   instances("ascent-past", "the same where the sensor saw past", [](S& s) { s.search.pattern.ifPast = false; });
   instances("ascent-close", "the same where something close hides", [](S& s) { s.search.pattern.ifClose = false; });

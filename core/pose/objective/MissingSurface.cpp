@@ -15,8 +15,6 @@ constexpr double PatchSide = 0.06;     // of the diameter: about ten samples of 
 constexpr double OnPart = 0.02;        // of the diameter: surface so near to the part is the part's,
 constexpr double OnPartNoises = 2.0;   // or so near in standard deviations of the scan's noise
 constexpr double LeastFacing = 0.35;   // cosine towards the sensor: flatter surface is measured badly
-constexpr double FinePitches = 1.5;    // point distances of the scan, a cell of the depth map: next to none is empty
-constexpr double FinestCell = 0.005;   // of the diameter: finer than the poses are right
 constexpr int PointsOfPatch = 2;       // and no fewer show it on a copy
 constexpr int CopiesOfPatch = 4;       // show it: fewer may be wrong at the same place
 constexpr double MostOfCopies = 0.5;   // of them, on which a missing patch was seen past
@@ -39,49 +37,6 @@ Patch patchOf(const Eigen::Vector3f& point, const Symmetries& symmetries, double
   return { cell.x(), cell.y(), cell.z() };
 }
 
-/// What the sensor measured in the lines of sight of parts, point by point: the scene's own depth map is coarser.
-DepthMap fineDepth(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
-{
-  const DepthMap& coarse = scene.depth;
-  std::vector<char> isNear(coarse.cellCount(), 0);
-  for (const Pose& pose : poses)
-  {
-    const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
-    for (const Eigen::Vector3f& point : model.surface.points)
-    {
-      const int cell = coarse.cellAt(T * point);
-      if (cell >= 0)
-      {
-        isNear[cell] = 1;
-      }
-    }
-  }
-  constexpr int lot = 1 << 16; // points
-  const int count = static_cast<int>(scene.measured.size());
-  std::vector<Points> ofLots((count + lot - 1) / lot);
-  parallelFor(static_cast<int>(ofLots.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        const auto first = scene.measured.begin() + static_cast<std::ptrdiff_t>(i) * lot;
-        std::copy_if(first, first + std::min(lot, count - i * lot), std::back_inserter(ofLots[i]),
-          [&](const Eigen::Vector3f& point)
-          {
-            const int cell = coarse.cellAt(point);
-            return cell >= 0 && isNear[cell];
-          });
-      }
-    });
-  Points near;
-  for (const Points& points : ofLots)
-  {
-    near.insert(near.end(), points.begin(), points.end());
-  }
-  const double cell = std::max(FinePitches * coarse.pitch(), FinestCell * model.diameter);
-  return { near, scene.sensor, cell, threads };
-}
-
 /// Points of a patch on one copy.
 struct PatchPoints
 {
@@ -98,9 +53,9 @@ bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, 
     { return cell < 0 || !depth.isMeasured(cell) || (point - depth.meanIn(cell)).dot(towards) > behind; });
 }
 
-std::map<Patch, PatchPoints> patchesOf(
-  const Pose& pose, const Scene& scene, const DepthMap& depth, const TrainedModel& model)
+std::map<Patch, PatchPoints> patchesOf(const Pose& pose, const Scene& scene, const TrainedModel& model)
 {
+  const DepthMap& depth = scene.fineDepth(); // the scene's own is coarser than what is missing
   const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
   const Eigen::Vector3f towards = model.visibility->towards(pose.T_scene_model, scene.sensor);
   const Eigen::Vector3f inScene = T.linear() * towards;
@@ -136,14 +91,13 @@ int missingPatches(const Poses& poses, const Scene& scene, const TrainedModel& m
   {
     return 0;
   }
-  const DepthMap depth = fineDepth(poses, scene, model, threads);
   std::vector<std::map<Patch, PatchPoints>> ofPoses(poses.size());
   parallelFor(static_cast<int>(poses.size()), threads, {},
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        ofPoses[i] = patchesOf(poses[i], scene, depth, model);
+        ofPoses[i] = patchesOf(poses[i], scene, model);
       }
     });
   struct Copies

@@ -46,6 +46,8 @@ PoseRefinementSettings settingsAfterTurn(const TrainedModel& model)
   return settings;
 }
 
+bool hasLess(const RotationAlternative& a, const RotationAlternative& b) { return a.share < b.share; }
+
 /// As columns.
 Eigen::Matrix3d principalAxes(const Points& points, const Eigen::Vector3d& middle)
 {
@@ -122,6 +124,10 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
     this->NearSymmetries = this->Rotations.size();
     const std::vector<Eigen::Isometry3d> steps = stepsAboutAxes(model);
     this->Rotations.insert(this->Rotations.end(), steps.begin(), steps.end());
+    if (settings.depthFit)
+    {
+      this->Depth.emplace(scene, model);
+    }
   }
   if (model.surface.empty())
   {
@@ -264,7 +270,10 @@ void LocalSearch::decide(Pose& pose, Contender current) const
       }
       rotations.push_back({ rotated, advantage });
     }
-    const auto hasLess = [](const RotationAlternative& a, const RotationAlternative& b) { return a.share < b.share; };
+    if (isLikely && this->Depth && this->Depth->isKnown())
+    {
+      this->addDepth(rotations);
+    }
     const std::size_t best = std::max_element(rotations.begin(), rotations.end(), hasLess) - rotations.begin();
     const double most = rotations[best].share;
     double odds = 0.0; // of all rotations against the best
@@ -284,7 +293,7 @@ void LocalSearch::decide(Pose& pose, Contender current) const
       }
     }
     std::stable_sort(pose.alternatives.begin(), pose.alternatives.end(),
-      [&](const RotationAlternative& a, const RotationAlternative& b) { return hasLess(b, a); });
+      [](const RotationAlternative& a, const RotationAlternative& b) { return hasLess(b, a); });
     pose.T_scene_model = rotations[best].T_scene_model;
     if (best <= this->NearSymmetries) // nothing to refine, and the others are the same as seen from it
     {
@@ -292,6 +301,23 @@ void LocalSearch::decide(Pose& pose, Contender current) const
     }
     pose = refinePoses({ pose }, this->InScene, this->Model, this->AfterTurn)[0];
     current = this->Comparison.contender(pose.T_scene_model);
+  }
+}
+
+void LocalSearch::addDepth(std::vector<RotationAlternative>& rotations) const
+{
+  const double least = std::max_element(rotations.begin(), rotations.end(), hasLess)->share + Hopeless;
+  std::optional<DepthFit::Rendered> first; // as most poses have no other rotation that is not hopeless
+  for (auto other = rotations.begin() + 1; other != rotations.end(); ++other)
+  {
+    if (other->share > least)
+    {
+      if (!first)
+      {
+        first = this->Depth->render(rotations.front().T_scene_model);
+      }
+      other->share += SureAdvantage * this->Depth->logOdds(this->Depth->render(other->T_scene_model), *first);
+    }
   }
 }
 }

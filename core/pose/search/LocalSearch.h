@@ -2,11 +2,14 @@
 #pragma once
 
 #include "pose/Pose.h"
+#include "pose/objective/DepthFit.h"
 #include "pose/refinement/PoseRefinement.h"
 #include "pose/search/PatternSearch.h"
 #include "pose/selection/PoseComparison.h"
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
+
+#include <optional>
 
 namespace meam
 {
@@ -17,7 +20,8 @@ struct LocalSearchSettings
   bool smallTurns = true; ///< refines from 10 or 6 degrees to both sides, for a flat part's refinement may end beside
                           ///< the truth
   bool aboutAxis = true;  ///< turns a nearly round part about its axis to where the scene's edges fit its own
-  bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis
+  bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis,
+  bool depthFit = true;       ///< by the measured depth point by point, too
   bool aligns = true;         ///< robustly, at the end
   bool maximizes = true;      ///< moves an aligned pose that the scan contradicts
   PatternSearchSettings pattern;
@@ -49,8 +53,11 @@ private:
   void restart(Pose& pose, Contender& current) const;
   /// Takes the better of the rotations about the axis of a nearly round part, refined.
   void turnAboutAxis(Pose& pose, Contender& current) const;
-  /// Takes the likeliest rotation, by the comparison and, of a pose that is likely, by the evidence.
+  /// Takes the likeliest rotation, by the comparison and, of a pose that is likely, by the evidence and the depth.
   void decide(Pose& pose, Contender current) const;
+  /// Adds what the measured depth says for each of the rotations against the first, where their share, which is the
+  /// advantage here, is not hopeless.
+  void addDepth(std::vector<RotationAlternative>& rotations) const;
 
   const Scene& InScene;
   const TrainedModel& Model;
@@ -65,5 +72,6 @@ private:
   std::vector<Eigen::Isometry3d> Rotations; ///< that hardly move the surface: near-symmetries first, then steps
   std::size_t NearSymmetries = 0;           ///< of these
   PatternSearch Pattern;
+  std::optional<DepthFit> Depth; ///< where there are rotations
 };
 }

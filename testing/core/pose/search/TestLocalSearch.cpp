@@ -78,7 +78,7 @@ meam::Pose decided(const meam::TriangleMesh& part, double degrees, double probab
   const meam::EvidenceCollector collector(scene, cutDiscModel());
   meam::Pose pose = scenes::displaced(scene.T_local_scene() * turned(degrees));
   pose.probability = probability;
-  const meam::LocalSearchSettings settings{ false, false, false, true, false, false, {} };
+  const meam::LocalSearchSettings settings{ false, false, false, true, false, false, false, {} };
   pose = meam::LocalSearch(scene, cutDiscModel(), comparison, collector, {}, settings).best(pose).pose;
   pose.T_scene_model = scene.T_local_scene().inverse() * pose.T_scene_model;
   return pose;
