@@ -9,12 +9,15 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 
 namespace meam
 {
 namespace
 {
 constexpr double Searches = 0.95; // of the progress
+
+bool isSure(const Pose& pose) { return pose.placeProbability >= 1.0 / (1.0 + std::exp(-SureLogOdds)); }
 
 /// The types of part in a scene, and what was found of each.
 class PartsSearch
@@ -36,18 +39,20 @@ public:
     }
   }
 
-  /// Looks for each type, until so many copies of each are sure; 0: for all.
-  void search(int most, const Progress& progress)
+  /// Looks for each of these types, until so many copies of each are sure; 0: for all.
+  void search(const std::vector<int>& parts, int most, const Progress& progress)
   {
-    const int count = static_cast<int>(this->Models.size());
+    const double count = static_cast<double>(parts.size());
     DetectionSettings settings = this->Settings;
     settings.selection.maximumPoses = most;
-    for (int part = 0; part < count; ++part)
+    for (std::size_t k = 0; k < parts.size(); ++k)
     {
-      settings.deadline = this->Settings.deadline.after(1.0 / (count - part));
+      const int part = parts[k];
+      const double done = static_cast<double>(k);
+      settings.deadline = this->Settings.deadline.after(1.0 / (count - done));
       DetectionReport told;
       this->Found[part] = findPoses(*this->Scenes[part], *this->Models[part], settings, &told,
-        subProgress(progress, static_cast<double>(part) / count, (part + 1.0) / count));
+        subProgress(progress, done / count, (done + 1.0) / count));
       this->Told.times += told.times;
       this->Told.work += told.work;
       this->Told.rates = told.rates;
@@ -77,6 +82,20 @@ public:
     return result;
   }
 
+  /// The types of which so many copies are sure: a search for these ends before it has found all.
+  std::vector<int> withSure(int count) const
+  {
+    std::vector<int> parts;
+    for (std::size_t part = 0; part < this->Found.size(); ++part)
+    {
+      if (std::count_if(this->Found[part].begin(), this->Found[part].end(), isSure) >= count)
+      {
+        parts.push_back(static_cast<int>(part));
+      }
+    }
+    return parts;
+  }
+
   const DetectionReport& told() const { return this->Told; }
 
 private:
@@ -87,7 +106,6 @@ private:
   DetectionReport Told;
 };
 
-bool isSure(const PartPose& one) { return one.pose.placeProbability >= 1.0 / (1.0 + std::exp(-SureLogOdds)); }
 }
 
 RankedPoses posesOfPart(const std::vector<PartPose>& poses, int part)
@@ -151,15 +169,16 @@ std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& mode
   }
   const int asked = settings.selection.maximumPoses;
   PartsSearch search(models, input, settings);
-  if (asked > 0)
+  std::vector<int> all(models.size());
+  std::iota(all.begin(), all.end(), 0);
+  search.search(all, asked, subProgress(progress, 0.0, asked > 0 ? 0.5 * Searches : Searches));
+  result = search.resolved(asked > 0 ? Progress() : subProgress(progress, Searches, 1.0));
+  const auto sure = std::count_if(result.begin(), result.end(), [](const PartPose& one) { return isSure(one.pose); });
+  // Of a type that has lost places to another more may be found.
+  const std::vector<int> more = asked > 0 && sure < asked ? search.withSure(asked) : std::vector<int>();
+  if (!more.empty() && !search.told().isCutShort)
   {
-    search.search(asked, subProgress(progress, 0.0, 0.5 * Searches));
-    result = search.resolved({});
-  }
-  // One type may have taken the place of another, which was not found there yet: so many must stay.
-  if (asked == 0 || (std::count_if(result.begin(), result.end(), isSure) < asked && !search.told().isCutShort))
-  {
-    search.search(0, subProgress(progress, asked > 0 ? 0.5 * Searches : 0.0, Searches));
+    search.search(more, 0, subProgress(progress, 0.5 * Searches, Searches));
     result = search.resolved(subProgress(progress, Searches, 1.0));
   }
   if (report)

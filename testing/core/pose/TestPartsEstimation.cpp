@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/PartsEstimation.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+meam::TriangleMesh blockOnCorner() { return parts::blockOnPlate(false); }
+
+meam::SceneInput inputOf(const scenes::Seen& seen)
+{
+  meam::SceneInput input{ meam::toLocalCloud(seen.edges), {}, seen.sensor };
+  input.measured = meam::toLocalPoints(seen.surface, input.edges.T_local_scene);
+  return input;
+}
+
+meam::WorkCounts sumOf(const meam::TrainedModel& model, const meam::SceneInput& input, int asked)
+{
+  meam::DetectionReport report;
+  meam::estimatePoses(model, input, meam::detectionSettings(meam::Preset::Recommended, asked), &report);
+  return report.work;
+}
+}
+
+TEST(PartsEstimation, TwoTypesTakeTheWorkOfEachWhereAllCopiesAreFewerThanAsked)
+{
+  const meam::TrainedModel &bracket = scenes::bracket(), &plate = scenes::trained<blockOnCorner>();
+  const meam::SceneInput input = inputOf(scenes::seenFromAbove(
+    { { parts::lBracket(), scenes::lying(0, 0, 20) }, { blockOnCorner(), scenes::lying(90, 10, 131) } }));
+  meam::DetectionReport report;
+  const std::vector<meam::PartPose> found =
+    meam::estimateParts({ &bracket, &plate }, input, meam::detectionSettings(meam::Preset::Recommended, 5), &report);
+  for (const int part : { 0, 1 })
+  {
+    EXPECT_GT(meam::posesOfPart(found, part).poses.at(0).placeProbability, 0.5) << part;
+  }
+  meam::WorkCounts each = sumOf(bracket, input, 5);
+  each += sumOf(plate, input, 5);
+  EXPECT_EQ(report.work.references, each.references);
+  EXPECT_EQ(report.work.verified, each.verified);
+  EXPECT_EQ(report.work.selected, each.selected);
+}
