@@ -20,7 +20,7 @@ constexpr float LayerDepth = 0.01f;      // of the nearest surface in a cell, th
 constexpr float FlattestCell = 0.4f;     // cosine towards the sensor: flatter surface is measured badly
 constexpr float FacingAtAll = 0.05f;     // the same: flatter surface is out of sight
 constexpr double MostOfCell = 3.0;       // nats: more is of another body, or at a rim
-constexpr double MostOfRotation = 6.0;   // nats: such depths came out wrongly one time in four hundred
+constexpr double MostOfRotation = 6.0;   // nats: what the model leaves out is trusted no more than 400 to 1
 constexpr int SplatPoints = 5;           // the sample and one to each side
 }
 
