@@ -105,7 +105,6 @@ private:
   std::vector<Poses> Found;
   DetectionReport Told;
 };
-
 }
 
 RankedPoses posesOfPart(const std::vector<PartPose>& poses, int part)

@@ -53,9 +53,9 @@ bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, 
     { return cell < 0 || !depth.isMeasured(cell) || (point - depth.meanIn(cell)).dot(towards) > behind; });
 }
 
-std::map<Patch, PatchPoints> patchesOf(const Pose& pose, const Scene& scene, const TrainedModel& model)
+std::map<Patch, PatchPoints> patchesOf(
+  const Pose& pose, const Scene& scene, const DepthMap& depth, const TrainedModel& model)
 {
-  const DepthMap& depth = scene.fineDepth(); // the scene's own is coarser than what is missing
   const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
   const Eigen::Vector3f towards = model.visibility->towards(pose.T_scene_model, scene.sensor);
   const Eigen::Vector3f inScene = T.linear() * towards;
@@ -91,13 +91,14 @@ int missingPatches(const Poses& poses, const Scene& scene, const TrainedModel& m
   {
     return 0;
   }
+  const DepthMap& depth = scene.fineDepth(); // made by all threads, which it is not within the loop
   std::vector<std::map<Patch, PatchPoints>> ofPoses(poses.size());
   parallelFor(static_cast<int>(poses.size()), threads, {},
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        ofPoses[i] = patchesOf(poses[i], scene, model);
+        ofPoses[i] = patchesOf(poses[i], scene, depth, model);
       }
     });
   struct Copies

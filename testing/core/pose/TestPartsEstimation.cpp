@@ -16,7 +16,7 @@ meam::SceneInput inputOf(const scenes::Seen& seen)
   return input;
 }
 
-meam::WorkCounts sumOf(const meam::TrainedModel& model, const meam::SceneInput& input, int asked)
+meam::WorkCounts workOf(const meam::TrainedModel& model, const meam::SceneInput& input, int asked)
 {
   meam::DetectionReport report;
   meam::estimatePoses(model, input, meam::detectionSettings(meam::Preset::Recommended, asked), &report);
@@ -36,8 +36,8 @@ TEST(PartsEstimation, TwoTypesTakeTheWorkOfEachWhereAllCopiesAreFewerThanAsked)
   {
     EXPECT_GT(meam::posesOfPart(found, part).poses.at(0).placeProbability, 0.5) << part;
   }
-  meam::WorkCounts each = sumOf(bracket, input, 5);
-  each += sumOf(plate, input, 5);
+  meam::WorkCounts each = workOf(bracket, input, 5);
+  each += workOf(plate, input, 5);
   EXPECT_EQ(report.work.references, each.references);
   EXPECT_EQ(report.work.verified, each.verified);
   EXPECT_EQ(report.work.selected, each.selected);
