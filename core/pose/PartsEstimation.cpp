@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PartsEstimation.h"
 
+#include "pose/PoseSearch.h"
 #include "pose/PoseTolerances.h"
 #include "pose/Stopwatch.h"
 #include "pose/refinement/PartSize.h"
@@ -15,9 +16,11 @@ namespace meam
 {
 namespace
 {
-constexpr double Searches = 0.95; // of the progress
+constexpr double Voted = 0.75; // of the progress: up to refined poses
 
 bool isSure(const Pose& pose) { return pose.placeProbability >= 1.0 / (1.0 + std::exp(-SureLogOdds)); }
+
+int sureOf(const Poses& poses) { return static_cast<int>(std::count_if(poses.begin(), poses.end(), isSure)); }
 
 /// The types of part in a scene, and what was found of each.
 class PartsSearch
@@ -27,6 +30,8 @@ public:
     const std::vector<const TrainedModel*>& models, const SceneInput& input, const DetectionSettings& settings)
     : Models(models)
     , Settings(settings)
+    , Wanted(models.size(), 0)
+    , Sure(models.size(), 0)
     , Found(models.size())
   {
     for (const TrainedModel* model : models)
@@ -36,33 +41,118 @@ public:
       this->Scenes.emplace_back(new Scene(sceneOf(*model, input, settings, &times)));
       times.scene = watch.lap() - times.tangents;
       this->Told.times += times;
+      this->Types.emplace_back(new PoseSearch(*this->Scenes.back(), *model, settings, this->Told));
     }
   }
 
-  /// Looks for each of these types, until so many copies of each are sure; 0: for all.
-  void search(const std::vector<int>& parts, int most, const Progress& progress)
+  /// All types in turn by more and more of their reference points, until together as many copies as are asked for are
+  /// sure.
+  std::vector<PartPose> search(const Progress& progress)
   {
-    const double count = static_cast<double>(parts.size());
-    DetectionSettings settings = this->Settings;
-    settings.selection.maximumPoses = most;
-    for (std::size_t k = 0; k < parts.size(); ++k)
+    const int wanted = sureCopiesFor(this->Settings);
+    const Deadline ofVotes = this->Settings.deadline.after(VotingTime);
+    std::vector<int> parts(this->Models.size());
+    std::iota(parts.begin(), parts.end(), 0);
+    double from = 0.0;
+    for (const double share : SharesOfReferences)
+    {
+      if (share < 1.0 && wanted == 0 && !this->Settings.deadline.isSet())
+      {
+        continue;
+      }
+      this->upTo(share, parts, wanted, ofVotes, subProgress(progress, Voted * from, Voted * share));
+      from = share;
+      if (this->Told.isCutShort || share == 1.0)
+      {
+        break;
+      }
+      if (wanted > 0 && std::accumulate(this->Sure.begin(), this->Sure.end(), 0) >= wanted)
+      {
+        std::vector<PartPose> stay = this->selected(parts, subProgress(progress, Voted, 1.0));
+        if (this->areEnough(stay))
+        {
+          return stay;
+        }
+      }
+    }
+    std::vector<PartPose> stay = this->selected(parts, subProgress(progress, Voted, 1.0));
+    if (!this->Told.isCutShort && !this->areEnough(stay))
+    {
+      const std::vector<int> more = this->withMore();
+      this->upTo(1.0, more, 0, ofVotes, {});
+      stay = this->selected(more, {});
+    }
+    return stay;
+  }
+
+  const DetectionReport& told() const { return this->Told; }
+
+private:
+  static double shareOf(std::size_t k, std::size_t count) { return static_cast<double>(k) / count; }
+
+  /// Types in turn by so many of their reference points, until together enough copies are as good as found; 0: all.
+  void upTo(double share, const std::vector<int>& parts, int wanted, const Deadline& deadline, const Progress& progress)
+  {
+    const std::size_t count = parts.size();
+    for (std::size_t k = 0; k < count; ++k)
     {
       const int part = parts[k];
-      const double done = static_cast<double>(k);
-      settings.deadline = this->Settings.deadline.after(1.0 / (count - done));
-      DetectionReport told;
-      this->Found[part] = findPoses(*this->Scenes[part], *this->Models[part], settings, &told,
-        subProgress(progress, done / count, (done + 1.0) / count));
-      this->Told.times += told.times;
-      this->Told.work += told.work;
-      this->Told.rates = told.rates;
-      this->Told.isCutShort = this->Told.isCutShort || told.isCutShort;
+      const Deadline ofPart = deadline.after(shareOf(1, count - k));
+      const Progress inTurn = ofPart.within(subProgress(progress, shareOf(k, count), shareOf(k + 1, count)));
+      this->Wanted[part] = this->wantedOf(part, wanted);
+      const bool isDone = isDoneBy(ofPart, [&] { this->Types[part]->upTo(share, this->Wanted[part], inTurn); });
+      this->Told.isCutShort = this->Told.isCutShort || !isDone;
+      this->Sure[part] = this->Types[part]->sure();
     }
   }
 
-  /// Of what claims the same surface the best supported, best first, in the scene's own coordinates.
-  std::vector<PartPose> resolved(const Progress& progress)
+  /// Of so many copies that are wanted in all: what the other types do not have, and no less than the type's share.
+  int wantedOf(int part, int wanted) const
   {
+    const int count = static_cast<int>(this->Sure.size());
+    const int others = std::accumulate(this->Sure.begin(), this->Sure.end(), -this->Sure[part]);
+    return wanted > 0 ? std::max(wanted - others, (wanted + count - 1) / count) : 0;
+  }
+
+  /// The types of which more may be sure than were found, for these were enough.
+  std::vector<int> withMore() const
+  {
+    std::vector<int> parts;
+    for (std::size_t part = 0; part < this->Found.size(); ++part)
+    {
+      const int enough = std::min(this->Wanted[part], this->Settings.selection.maximumPoses);
+      if (enough > 0 && sureOf(this->Found[part]) >= enough)
+      {
+        parts.push_back(static_cast<int>(part));
+      }
+    }
+    return parts;
+  }
+
+  /// Whether as many of the copies that stay are sure as are asked for, or no more are to be had.
+  bool areEnough(const std::vector<PartPose>& stay) const
+  {
+    const auto sure = std::count_if(stay.begin(), stay.end(), [](const PartPose& one) { return isSure(one.pose); });
+    return sure >= this->Settings.selection.maximumPoses || this->withMore().empty();
+  }
+
+  /// Selects anew of these types. Of what claims the same surface the best supported, best first, in the scene's own
+  /// coordinates.
+  std::vector<PartPose> selected(const std::vector<int>& parts, const Progress& progress)
+  {
+    const std::size_t count = parts.size();
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const int part = parts[k];
+      PoseSelectionSettings selection = this->Settings.selection;
+      selection.sureCopies = this->Wanted[part];
+      selection.maximumPoses = this->Wanted[part] > 0 ? selection.maximumPoses : 0;
+      selection.deadline = this->Settings.deadline.after(shareOf(1, count - k));
+      this->Found[part] =
+        this->Types[part]->select(selection, subProgress(progress, shareOf(k, count + 1), shareOf(k + 1, count + 1)));
+      this->Sure[part] = sureOf(this->Found[part]);
+    }
+    this->Told.isCutShort = this->Told.isCutShort || this->Settings.deadline.hasStruck();
     Stopwatch watch;
     std::vector<PartDetections> detections;
     for (std::size_t part = 0; part < this->Models.size(); ++part)
@@ -72,36 +162,23 @@ public:
     ConflictResolutionSettings conflicts;
     conflicts.maximumPoses = this->Settings.selection.maximumPoses;
     conflicts.threads = this->Settings.selection.threads;
-    std::vector<PartPose> result = resolveConflicts(detections, conflicts, progress);
-    for (PartPose& one : result)
+    std::vector<PartPose> stay =
+      resolveConflicts(detections, conflicts, subProgress(progress, shareOf(count, count + 1), 1.0));
+    for (PartPose& one : stay)
     {
       const Scene& scene = *this->Scenes[one.part];
       one.pose = toSceneFrame({ one.pose }, scene.T_local_scene(), this->Models[one.part]->symmetries).front();
     }
     this->Told.times.selection += watch.lap();
-    return result;
+    return stay;
   }
 
-  /// The types of which so many copies are sure: a search for these ends before it has found all.
-  std::vector<int> withSure(int count) const
-  {
-    std::vector<int> parts;
-    for (std::size_t part = 0; part < this->Found.size(); ++part)
-    {
-      if (std::count_if(this->Found[part].begin(), this->Found[part].end(), isSure) >= count)
-      {
-        parts.push_back(static_cast<int>(part));
-      }
-    }
-    return parts;
-  }
-
-  const DetectionReport& told() const { return this->Told; }
-
-private:
   const std::vector<const TrainedModel*>& Models;
   const DetectionSettings& Settings;
   std::vector<std::unique_ptr<const Scene>> Scenes;
+  std::vector<std::unique_ptr<PoseSearch>> Types;
+  std::vector<int> Wanted; ///< copies of each type that are to be sure
+  std::vector<int> Sure;   ///< that are
   std::vector<Poses> Found;
   DetectionReport Told;
 };
@@ -166,20 +243,8 @@ std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& mode
   {
     return result;
   }
-  const int asked = settings.selection.maximumPoses;
   PartsSearch search(models, input, settings);
-  std::vector<int> all(models.size());
-  std::iota(all.begin(), all.end(), 0);
-  search.search(all, asked, subProgress(progress, 0.0, asked > 0 ? 0.5 * Searches : Searches));
-  result = search.resolved(asked > 0 ? Progress() : subProgress(progress, Searches, 1.0));
-  const auto sure = std::count_if(result.begin(), result.end(), [](const PartPose& one) { return isSure(one.pose); });
-  // Of a type that has lost places to another more may be found.
-  const std::vector<int> more = asked > 0 && sure < asked ? search.withSure(asked) : std::vector<int>();
-  if (!more.empty() && !search.told().isCutShort)
-  {
-    search.search(more, 0, subProgress(progress, 0.5 * Searches, Searches));
-    result = search.resolved(subProgress(progress, Searches, 1.0));
-  }
+  result = search.search(progress);
   if (report)
   {
     *report = search.told();

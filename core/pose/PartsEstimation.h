@@ -25,9 +25,9 @@ std::string untoldLengths(const std::vector<PartPose>& poses);
 
 /// The online phase for several types of part in one scan: of poses that claim the same surface the best supported
 /// stays (resolveConflicts). Ranked poses, in the scene's own coordinates (mm), with the type of each. Of one type it
-/// is estimatePoses. Where a few poses are asked for, the search ends when so many stay that are sure. Each type has
-/// its share of the time up to the deadline. `report` may be null; its rates are those of the last type, its times and
-/// work of all.
+/// is estimatePoses. Where a few poses are asked for, all types are searched in turn, some reference points of each
+/// after others, until together so many are sure. Each type has its share of the time up to the deadline. `report` may
+/// be null; its rates are those of the last type, its times and work of all.
 std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& models, const SceneInput& input,
   const DetectionSettings& settings, DetectionReport* report = nullptr, const Progress& progress = {});
 }

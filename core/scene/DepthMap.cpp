@@ -215,7 +215,7 @@ void findGaps(const std::uint8_t* above, const std::uint8_t* row, const std::uin
 }
 }
 
-DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads)
+DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads, Detail detail)
   : IsPerspective(sensor.perspective)
   , Eye(sensor.perspective ? sensor.position.cast<float>().eval() : Eigen::Vector3f::Zero().eval())
   , CellSize(cellSize)
@@ -333,16 +333,19 @@ DepthMap::DepthMap(const Points& surface, const Sensor& sensor, double cellSize,
   {
     this->Means.insert(this->Means.end(), some->begin(), some->end());
   }
-  this->fillGaps(layer, threads);
-  this->Normals.assign(this->Cells.size(), Eigen::Vector3f::Zero());
-  parallelFor(this->Width * this->Height, threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
+  if (detail == Detail::Surface)
+  {
+    this->fillGaps(layer, threads);
+    this->Normals.assign(this->Cells.size(), Eigen::Vector3f::Zero());
+    parallelFor(this->Width * this->Height, threads, {},
+      [&](int begin, int end, int)
       {
-        this->Normals[k] = this->normalOf(k);
-      }
-    });
+        for (int k = begin; k < end; ++k)
+        {
+          this->Normals[k] = this->normalOf(k);
+        }
+      });
+  }
   const auto gaps = std::count_if(this->Cells.begin(), this->Cells.end(), [](const Cell& cell) { return cell.isGap; });
   this->Pitch = cellSize * std::sqrt(static_cast<double>(this->Means.size() + gaps) / static_cast<double>(all.count));
 }

@@ -24,9 +24,16 @@ public:
     NoSurface ///< the sensor saw nothing there
   };
 
+  enum class Detail
+  {
+    Surface,     ///< with normals, and gaps of one cell filled
+    Measurements ///< neither, for what asks by what was measured at that very place: a third of the time less
+  };
+
   /// `cellSize` is in mm, for a perspective sensor at the middle of the scene. Rows of cells run along the first axis,
   /// as seen by the sensor. The same for any number of threads.
-  DepthMap(const Points& surface, const Sensor& sensor, double cellSize, int threads = 1);
+  DepthMap(
+    const Points& surface, const Sensor& sensor, double cellSize, int threads = 1, Detail detail = Detail::Surface);
 
   /// Side of a cell, mm: no point of the surface is farther from the mean of its cell, seen along the line of sight.
   double cellSize() const { return this->CellSize; }
@@ -75,11 +82,11 @@ public:
   }
 
   /// Unit normal, towards the sensor, of the nearest layer at the line of sight through a point; zero where the sensor
-  /// saw too little about it.
+  /// saw too little about it, and without detail.
   Eigen::Vector3f normalAt(const Eigen::Vector3f& point) const
   {
     const int place = this->placeOf(point).cell;
-    return place < 0 ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : this->Normals[place];
+    return place < 0 || this->Normals.empty() ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : this->Normals[place];
   }
 
   /// Of the map, with those in which nothing was measured.
@@ -99,7 +106,7 @@ public:
   bool isMeasured(int cell) const { return this->Cells[cell].nearest < NothingSeen && !this->Cells[cell].isGap; }
   /// Of the nearest layer of a cell in which something was measured, as means() and normalAt() have them.
   const Eigen::Vector3f& meanIn(int cell) const { return this->Cells[cell].mean; }
-  const Eigen::Vector3f& normalIn(int cell) const { return this->Normals[cell]; }
+  const Eigen::Vector3f& normalIn(int cell) const { return this->Normals[cell]; } ///< with the surface's detail
   /// mm, of the mean, along the line of sight.
   float depthIn(int cell) const { return this->Axes.row(2).dot(this->Cells[cell].mean - this->Eye); }
 
@@ -212,6 +219,6 @@ private:
   int Height = 0;
   std::vector<Cell> Cells{ nothing() }; ///< and at the end one where there is nothing
   Points Means;
-  Points Normals; ///< of the cells, unit; zero where too little was seen
+  Points Normals; ///< of the cells, unit; zero where too little was seen; none of measurements alone
 };
 }

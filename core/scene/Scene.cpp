@@ -97,7 +97,7 @@ const DepthMap& Scene::fineDepth() const
     [this]
     {
       const double cell = std::max(FinePitches * this->depth.pitch(), FinestCell * this->partDiameter);
-      this->FineDepth.emplace(this->measured, this->sensor, cell, this->Threads);
+      this->FineDepth.emplace(this->measured, this->sensor, cell, this->Threads, DepthMap::Detail::Measurements);
     });
   return *this->FineDepth;
 }

@@ -40,7 +40,8 @@ struct Scene
   const PointCloud& edgePoints() const { return this->edges.cloud; }
   /// Grid of the edge points.
   const PointGrid& edgeGrid() const { return this->edgeIndex.grid(); }
-  /// The depth map point by point, made when it is first asked for: next to none of its cells is empty on a surface.
+  /// The depth map point by point (DepthMap::Detail::Measurements), made when it is first asked for: next to none of
+  /// its cells is empty on a surface.
   const DepthMap& fineDepth() const;
 
   LocalCloud edges;

@@ -12,7 +12,8 @@ namespace meam
 {
 namespace
 {
-constexpr int Lot = 8;                 // instances that are finished before it is asked whether they do
+constexpr int Lot = 8;                 // instances that are finished before it is asked whether they do,
+constexpr int LeastLot = 4;            // or those that are still wanted, and no fewer
 constexpr double WorthFinishing = 0.5; // place: what is likelier is finished where not enough are sure
 constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will,
 constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for, but no fewer than
@@ -71,12 +72,6 @@ bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& 
     });
 }
 
-bool InstanceFinishing::haveWanted(const std::vector<Sure>& sure) const
-{
-  const int wanted = this->Settings.maximumPoses;
-  return wanted > 0 && static_cast<int>(sure.size()) >= wanted + SpareCopies;
-}
-
 FinishedInstances InstanceFinishing::finished(
   const Poses& scored, const std::vector<int>& selected, const Progress& progress) const
 {
@@ -86,13 +81,15 @@ FinishedInstances InstanceFinishing::finished(
     finished.push_back(asItIs(scored[k]));
   }
   std::vector<Sure> sure;
-  const int wanted = this->Settings.maximumPoses;
-  const int most = wanted > 0 ? std::clamp(FruitlessOfAsked * wanted, LeastFruitless, MostFruitless) : MostFruitless;
+  const int asked = this->Settings.maximumPoses;
+  const int wanted = this->Settings.sureCopies > 0 ? this->Settings.sureCopies : asked > 0 ? asked + SpareCopies : 0;
+  const int most = asked > 0 ? std::clamp(FruitlessOfAsked * asked, LeastFruitless, MostFruitless) : MostFruitless;
   int fruitless = 0;
   const int count = static_cast<int>(selected.size());
   for (int next = 0; next < count;)
   {
-    if (this->haveWanted(sure))
+    const int missing = wanted - static_cast<int>(sure.size());
+    if (wanted > 0 && missing <= 0)
     {
       std::for_each(
         finished.begin() + next, finished.end(), [](FinishedInstance& instance) { instance.isLeft = true; });
@@ -103,8 +100,9 @@ FinishedInstances InstanceFinishing::finished(
       break;
     }
     const double from = static_cast<double>(next) / count;
+    const int mostInLot = wanted > 0 ? std::clamp(missing, LeastLot, Lot) : Lot;
     std::vector<int> lot;
-    for (; next < count && static_cast<int>(lot.size()) < Lot; ++next)
+    for (; next < count && static_cast<int>(lot.size()) < mostInLot; ++next)
     {
       if (!this->isExcluded(finished[next].pose, sure))
       {

@@ -35,8 +35,6 @@ private:
   };
   FinishedInstance finish(const Pose& scored) const;
   bool isExcluded(const Pose& scored, const std::vector<Sure>& sure) const;
-  /// Whether so many are sure that those asked for are among them.
-  bool haveWanted(const std::vector<Sure>& sure) const;
 
   const Scene& InScene;
   const TrainedModel& Model;

@@ -37,8 +37,9 @@ struct PoseSelectionSettings
   EvidenceSettings evidence;     ///< that poses are scored by once more
   PoseComparisonSettings comparison;
   LocalSearchSettings search;
-  int threads = 0;   ///< 0: one for each processor
-  Deadline deadline; ///< then those come out that are finished, and the others as they came in
+  int sureCopies = 0; ///< no more are finished when so many are sure; 0: two more than maximumPoses
+  int threads = 0;    ///< 0: one for each processor
+  Deadline deadline;  ///< then those come out that are finished, and the others as they came in
 };
 
 /// The recommended settings before refinement.

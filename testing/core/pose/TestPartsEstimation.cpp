@@ -42,3 +42,25 @@ TEST(PartsEstimation, TwoTypesTakeTheWorkOfEachWhereAllCopiesAreFewerThanAsked)
   EXPECT_EQ(report.work.verified, each.verified);
   EXPECT_EQ(report.work.selected, each.selected);
 }
+
+TEST(PartsEstimation, TwoTypesEndTheirSearchTogetherWhereTheyHaveEnough)
+{
+  const meam::TrainedModel &bracket = scenes::bracket(), &plate = scenes::trained<blockOnCorner>();
+  std::vector<scenes::Copy> copies;
+  for (const double y : { -70.0, 0.0, 70.0 })
+  {
+    copies.push_back({ parts::lBracket(), scenes::lying(0, y, 20 + y) });
+    copies.push_back({ blockOnCorner(), scenes::lying(90, y + 10, 131 - y) });
+  }
+  const meam::SceneInput input = inputOf(scenes::seenFromAbove(copies));
+  const int asked = 3; // and two more: of each type alone there are too few
+  meam::DetectionReport report;
+  const std::vector<meam::PartPose> found = meam::estimateParts(
+    { &bracket, &plate }, input, meam::detectionSettings(meam::Preset::Recommended, asked), &report);
+  ASSERT_EQ(found.size(), 3u);
+  for (const meam::PartPose& one : found)
+  {
+    EXPECT_GT(one.pose.placeProbability, 0.9);
+  }
+  EXPECT_LT(2 * report.work.references, workOf(bracket, input, asked).references);
+}

@@ -101,7 +101,11 @@ TEST(InstanceFinishing, WhereEnoughAreSureTheUnlikelyStayAsTheyWereScored)
   finishing.settings.excludesOverlaps = false;
   EXPECT_EQ(finishedOf(finishing), 33);
   finishing.settings.maximumPoses = 1; // and two to spare
-  EXPECT_EQ(finishedOf(finishing), 8) << "those of the first lot";
+  EXPECT_EQ(finishedOf(finishing), 4) << "those of the smallest lot";
+  finishing.settings.maximumPoses = 2; // of four, one is missing: nothing but a long row of wrong ones ends it
+  EXPECT_EQ(finishedOf(finishing), 20) << "three that are sure, and 16 that are not, in lots of four";
+  finishing.settings.sureCopies = 3;
+  EXPECT_EQ(finishedOf(finishing), 4);
 }
 
 TEST(InstanceFinishing, ALongRowOfWrongPosesEndsIt)
@@ -116,24 +120,24 @@ TEST(InstanceFinishing, WhereAFewAreAskedForAShorterRowDoes)
   Finishing finishing(copiesAndWrongOnes(100));
   finishing.settings.excludesOverlaps = false;
   finishing.settings.maximumPoses = 5;
-  EXPECT_EQ(finishedOf(finishing), 24) << "three that are sure, and 15 that are not, in lots of eight";
+  EXPECT_EQ(finishedOf(finishing), 19) << "three that are sure, and 15 that are not, in lots of seven and of four";
 }
 
 TEST(InstanceFinishing, WhatIsLeftComesAfterWhatIsFinished)
 {
   Finishing finishing(copiesAndWrongOnes(10));
   finishing.settings.excludesOverlaps = false;
-  finishing.settings.maximumPoses = 1; // and two to spare: the first eight are finished
+  finishing.settings.maximumPoses = 1; // and two to spare: the first four are finished
   finishing.scored.back().evidence = 20.0;
   finishing.scored.back().probability = 1.0;
   meam::FinishedInstances finished = finishing.finished();
   EXPECT_EQ(
-    std::count_if(finished.begin(), finished.end(), [](const meam::FinishedInstance& one) { return one.isLeft; }), 5);
+    std::count_if(finished.begin(), finished.end(), [](const meam::FinishedInstance& one) { return one.isLeft; }), 9);
   EXPECT_EQ(finished.back().pose.evidence, 20.0);
   meam::sortBest(finished);
-  EXPECT_FALSE(finished[7].isLeft);
-  EXPECT_TRUE(finished[8].isLeft);
-  EXPECT_EQ(finished[8].pose.evidence, 20.0);
+  EXPECT_FALSE(finished[3].isLeft);
+  EXPECT_TRUE(finished[4].isLeft);
+  EXPECT_EQ(finished[4].pose.evidence, 20.0);
 }
 
 TEST(InstanceFinishing, IsTheSameOnAnyNumberOfThreads)

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/PoseSearch.h"
+
+#include "pose/PoseTolerances.h"
+#include "pose/Stopwatch.h"
+#include "scene/preparation/SearchRegion.h"
+
+#include <algorithm>
+
+namespace meam
+{
+namespace
+{
+constexpr std::size_t RefinedOfCopy =
+  6;                              // for each copy that is wanted so many candidates are refined first, best first,
+constexpr std::size_t Growth = 2; // and then so many times as many, until enough copies are sure
+}
+
+int sureCopiesFor(const DetectionSettings& settings)
+{
+  // The order by votes, or by what fits of edges, does not tell what is sure.
+  const int asked = settings.screening ? settings.selection.maximumPoses : 0;
+  return asked > 0 ? asked + SpareCopies : 0;
+}
+
+PoseSearch::PoseSearch(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
+  DetectionReport& told, const PoseObserver& observer)
+  : InScene(scene)
+  , Model(model)
+  , Settings(settings)
+  , Told(told)
+  , Observer(observer)
+{
+}
+
+void PoseSearch::upTo(double share, int wanted, const Progress& progress)
+{
+  Stopwatch watch;
+  int votersBefore = 0;
+  if (this->Search)
+  {
+    votersBefore = this->Search->references();
+  }
+  else
+  {
+    this->Search.emplace(this->InScene, this->Model, this->Settings.detection);
+  }
+  Poses candidates = this->Search->upTo(share, subProgress(progress, 0.0, 0.5));
+  this->Told.work.references += this->Search->references() - votersBefore;
+  candidates.erase(
+    std::remove_if(candidates.begin(), candidates.end(), [this](const Pose& pose) { return this->isOutside(pose); }),
+    candidates.end());
+  this->Told.times.detection += watch.lap();
+  this->rank(std::move(candidates), wanted, subProgress(progress, 0.5, 1.0));
+}
+
+void PoseSearch::rank(Poses poses, int wanted, const Progress& progress)
+{
+  StageTimes& spent = this->Told.times;
+  WorkCounts& work = this->Told.work;
+  const Scene& scene = this->InScene;
+  const TrainedModel& model = this->Model;
+  const DetectionSettings& settings = this->Settings;
+  Stopwatch watch;
+  this->returned(PoseStage::Voting, poses);
+  work.screened += static_cast<int>(poses.size());
+  if (settings.screening)
+  {
+    poses = screenPoses(poses, scene, model, *settings.screening, subProgress(progress, 0.0, 0.2));
+    this->returned(PoseStage::Screening, poses);
+  }
+  spent.screening += watch.lap();
+  EvidenceRates rates;
+  const std::size_t knownBefore = this->Candidates.size();
+  const std::size_t count = poses.size();
+  poses = verifyPoses(
+    poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates, &this->Candidates);
+  const bool haveRates = settings.candidateVerification.method == VerificationMethod::VisibleEvidence;
+  work.verified += static_cast<int>(haveRates ? this->Candidates.size() - knownBefore : count);
+  const std::optional<EvidenceRates> ofScan = haveRates ? std::optional(rates) : std::nullopt;
+  this->returned(PoseStage::CandidateVerification, poses);
+  spent.verification += watch.lap();
+  poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
+  this->returned(PoseStage::CandidateSelection, poses);
+  spent.selection += watch.lap();
+  PoseVerificationSettings verification = settings.verification;
+  verification.evidence.rates = ofScan; // of all candidates; few are left
+  this->Rates = ofScan;
+  this->Told.rates = ofScan;
+  bool haveWanted = false;
+  std::size_t most = wanted > 0 ? RefinedOfCopy * wanted : poses.size();
+  for (double from = 0.0; from < 1.0 && !haveWanted; most *= Growth)
+  {
+    const bool isLast = most >= poses.size();
+    const Poses best(poses.begin(), isLast ? poses.end() : poses.begin() + static_cast<std::ptrdiff_t>(most));
+    const double to = isLast ? 1.0 : static_cast<double>(most) / static_cast<double>(poses.size());
+    const Progress ofLot = subProgress(progress, 0.5 + 0.5 * from, 0.5 + 0.5 * to);
+    const Poses refined = this->Refined.of(best,
+      [&](const Poses& unknown)
+      {
+        work.refined += static_cast<int>(unknown.size());
+        return refinePoses(unknown, scene, model, settings.refinement, subProgress(ofLot, 0.0, 0.8));
+      });
+    this->returned(PoseStage::Refinement, refined);
+    spent.refinement += watch.lap();
+    this->Verified =
+      verifyPoses(refined, scene, model, verification, subProgress(ofLot, 0.8, 1.0), nullptr, &this->OfRefined);
+    from = to;
+    spent.verification += watch.lap();
+    haveWanted = wanted > 0 && this->sure() >= wanted;
+  }
+}
+
+int PoseSearch::sure() const
+{
+  const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
+  const double apart = SamePoseDistance * this->Model.diameter;
+  std::vector<const Pose*> sure;
+  for (const Pose& pose : this->Verified)
+  {
+    const auto isOf = [&](const Pose* other)
+    { return translationError(pose.T_scene_model, other->T_scene_model, middle) < apart; };
+    if (pose.evidence >= SureLogOdds && std::none_of(sure.begin(), sure.end(), isOf))
+    {
+      sure.push_back(&pose);
+    }
+  }
+  return static_cast<int>(sure.size());
+}
+
+Poses PoseSearch::select(PoseSelectionSettings selection, const Progress& progress)
+{
+  this->returned(PoseStage::Verification, this->Verified);
+  selection.evidence.rates = this->Rates;
+  Stopwatch watch;
+  this->Told.work.selected += static_cast<int>(this->Verified.size());
+  const Poses poses = selectPoses(this->Verified, this->InScene, this->Model, selection, progress);
+  this->returned(PoseStage::Selection, poses);
+  this->Told.times.selection += watch.lap();
+  if (this->Observer)
+  {
+    for (const auto& [stage, all] : this->Returned)
+    {
+      this->Observer(stage, all);
+    }
+  }
+  return poses;
+}
+
+void PoseSearch::returned(PoseStage stage, const Poses& poses)
+{
+  if (this->Observer)
+  {
+    this->Returned[stage] = poses;
+  }
+}
+
+bool PoseSearch::isOutside(const Pose& pose) const
+{
+  const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
+  const Eigen::Isometry3d T_scene_local = this->InScene.T_local_scene().inverse();
+  return this->Settings.region && !this->Settings.region->contains(T_scene_local * pose.T_scene_model * middle);
+}
+}

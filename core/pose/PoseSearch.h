@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose/MEAMPoseEstimation.h"
+#include "pose/PoseMemory.h"
+#include "pose/verification/PoseVerification.h"
+
+#include <map>
+#include <optional>
+
+namespace meam
+{
+/// The stages from reference points to ranked poses of one type of part, which can go on with more reference points and
+/// for more copies: what was found out of candidates stays known. All poses are in the scene's local frame.
+class PoseSearch
+{
+public:
+  /// Keeps references to all of these. The settings' deadline is the caller's.
+  PoseSearch(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings, DetectionReport& told,
+    const PoseObserver& observer = {});
+
+  /// Takes the candidates of reference points up to a share of them, [0, 1], as far as refined poses with their scores,
+  /// in place of those before; where a number of copies is wanted (0: all), no more than it takes.
+  void upTo(double share, int wanted, const Progress& progress = {});
+  /// The same with candidates from elsewhere.
+  void rank(Poses candidates, int wanted, const Progress& progress = {});
+
+  /// How many copies are as good as found.
+  int sure() const;
+
+  /// Ranked poses, one of each instance, by the scan's own rates.
+  Poses select(PoseSelectionSettings selection, const Progress& progress = {});
+
+private:
+  void returned(PoseStage stage, const Poses& poses);
+  bool isOutside(const Pose& pose) const;
+
+  const Scene& InScene;
+  const TrainedModel& Model;
+  const DetectionSettings& Settings;
+  DetectionReport& Told;
+  PoseObserver Observer;
+  std::optional<CandidateSearch> Search; ///< from when reference points vote
+  EvidenceMemory Candidates;             ///< of those that lots before had, too
+  PoseMemory<Pose> Refined;              ///< by what they were before
+  EvidenceMemory OfRefined;
+  std::optional<EvidenceRates> Rates; ///< of the scan, by the candidates
+  Poses Verified;
+  std::map<PoseStage, Poses> Returned; ///< in the order of the stages
+};
+
+// Where few poses are asked for, of a bin full of parts, some of the reference points find enough that are sure: of all
+// of them so many vote first, others only where these do not do.
+inline constexpr double SharesOfReferences[] = { 0.06, 0.2, 1.0 };
+inline constexpr double VotingTime = 0.6; ///< of a time limit: up to refined poses; the rest finishes them
+
+/// How many copies are to be sure before a search ends that has been asked for so many; 0: it never ends before all.
+int sureCopiesFor(const DetectionSettings& settings);
+}
