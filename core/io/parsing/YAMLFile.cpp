@@ -25,12 +25,18 @@ class JSONBuilder : public YAML::EventHandler
 public:
   nlohmann::json root;
 
+  explicit JSONBuilder(const std::string& path)
+    : Path(path)
+  {
+  }
+
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { this->addScalar(mark, "", nullptr); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override
   {
-    throw YAML::ParserException(mark, "aliases are not read");
+    throw Error("The file '" + this->Path + "' has an alias in line " + std::to_string(mark.line + 1) +
+                ", which is not read: write there what it stands for.");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override
   {
@@ -99,6 +105,7 @@ private:
     this->Open.push_back({ &place, nullptr });
   }
 
+  const std::string& Path;
   std::vector<Level> Open;
 };
 }
@@ -116,7 +123,7 @@ nlohmann::json parseYAML(const std::string& path, const std::string& text)
                   " times over: it is damaged, or no file of this kind.");
     }
   }
-  JSONBuilder builder;
+  JSONBuilder builder(path);
   try
   {
     std::istringstream stream(text);
