@@ -13,6 +13,7 @@
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <tuple>
 
@@ -29,23 +30,41 @@ constexpr double MostPixels = 65535.0; // in a row or a column
   throw Error("The camera file '" + path + "' " + what + ".");
 }
 
+/// A name in lower case, its letters and digits alone: programs differ in the rest.
+std::string bareName(const std::string& name)
+{
+  std::string bare;
+  for (const char letter : name)
+  {
+    if (std::isalnum(static_cast<unsigned char>(letter)))
+    {
+      bare += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+  }
+  return bare;
+}
+
 /// Numbers by any of the names, empty without; fails when there are not as many as there should be.
 std::vector<double> find(const std::string& path, const nlohmann::json& entries,
   std::initializer_list<const char*> names, std::size_t fewest, std::size_t most)
 {
   for (const char* name : names)
   {
-    if (!entries.is_object() || !entries.contains(name))
+    const std::string bare = bareName(name);
+    for (const auto& [key, value] : entries.items()) // of a list the keys are numbers
     {
-      continue;
+      if (bareName(key) != bare)
+      {
+        continue;
+      }
+      const std::vector<double> numbers = numbersOfMatrix(value, path, key);
+      if (numbers.size() < fewest || numbers.size() > most)
+      {
+        failCamera(path,
+          "has " + std::to_string(numbers.size()) + " numbers as " + key + " instead of " + std::to_string(fewest));
+      }
+      return numbers;
     }
-    const std::vector<double> numbers = numbersOfMatrix(entries[name], path, name);
-    if (numbers.size() < fewest || numbers.size() > most)
-    {
-      failCamera(path,
-        "has " + std::to_string(numbers.size()) + " numbers as " + name + " instead of " + std::to_string(fewest));
-    }
-    return numbers;
   }
   return {};
 }
@@ -98,7 +117,11 @@ struct Intrinsics
 
 std::optional<Intrinsics> intrinsicsOf(const std::string& path, const nlohmann::json& entries)
 {
-  auto m = find(path, entries, { "camera_matrix", "cameraMatrix", "K", "k" }, 9, 9);
+  auto m = find(path, entries, { "camera_matrix", "K", "cam_K", "mtx", "M1" }, 9, 9);
+  if (!find(path, entries, { "M2" }, 0, 9).empty())
+  {
+    failCamera(path, "has 2 cameras, M1 and M2: leave the one that is meant");
+  }
   if (m.empty())
   {
     m = find(path, entries, { "intrinsic_matrix" }, 9, 9); // Open3D's, column by column
@@ -131,48 +154,108 @@ std::optional<Intrinsics> intrinsicsOf(const std::string& path, const nlohmann::
   return result;
 }
 
-/// The name that a file gives its lens model, in lower case, blanks and underscores left out; empty without.
+/// Whether a bare name is one of the lens's distortion, its model's among them.
+bool namesDistortion(const std::string& bare)
+{
+  constexpr const char* names[] = { "d", "d1", "coeff", "coeffs", "k1" };
+  constexpr const char* others[] = { "distance", "distribution", "distro", "undist" };
+  return std::find(std::begin(names), std::end(names), bare) != std::end(names) ||
+         (bare.find("dist") != std::string::npos &&
+           std::none_of(std::begin(others), std::end(others),
+             [&](const char* other) { return bare.find(other) != std::string::npos; }));
+}
+
+bool namesLensModel(const std::string& bare)
+{
+  const auto endsWith = [&](const std::string& end)
+  { return bare.size() >= end.size() && bare.compare(bare.size() - end.size(), end.size(), end) == 0; };
+  return bare == "model" || (namesDistortion(bare) && (endsWith("model") || endsWith("type")));
+}
+
+/// The bare name that a file gives its lens model; empty without.
 std::string lensModelOf(const nlohmann::json& entries)
 {
-  for (const char* name : { "distortion_model", "model" })
+  constexpr const char* numbered[] = { "none", "modifiedbrownconrady", "inversebrownconrady", "ftheta", "brownconrady",
+    "kannalabrandt" };                             // RealSense's
+  for (const auto& [key, value] : entries.items()) // distortion_model before model
   {
-    if (!entries.is_object() || !entries.contains(name) || !entries[name].is_string())
+    const double number = namesLensModel(bareName(key)) && value.is_number() ? value.get<double>() : -1.0;
+    if (number >= 0.0 && number < static_cast<double>(std::size(numbered)))
     {
-      continue;
+      return numbered[static_cast<int>(number)];
     }
-    std::string model;
-    for (const char letter : entries[name].get<std::string>())
+    if (namesLensModel(bareName(key)) && value.is_string())
     {
-      if (std::isalnum(static_cast<unsigned char>(letter)))
-      {
-        model += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-      }
+      return bareName(value.get<std::string>());
     }
-    return model;
   }
   return {};
 }
 
-/// k1 k2 p1 p2 k3 k4 k5 k6.
-std::array<double, 8> distortionOf(const std::string& path, const nlohmann::json& entries)
+[[noreturn]] void failLens(const std::string& path, const std::string& model)
+{
+  failCamera(path, "has a lens of the model '" + model +
+                     "', which is not read: calibrate it as plumb_bob or rational_polynomial, or undistort the "
+                     "images and leave the coefficients away");
+}
+
+/// Fails for a camera that is no pinhole, whatever its coefficients are.
+void requirePinhole(const std::string& path, const nlohmann::json& entries)
+{
+  if (const auto fisheye = find(path, entries, { "fisheye_model" }, 1, 1); !fisheye.empty() && fisheye.front() != 0.0)
+  {
+    failLens(path, "fisheye"); // OpenCV's
+  }
+  for (const auto& [key, value] : entries.items())
+  {
+    const bool isNamed = bareName(key) == "cameramodel" && value.is_string();
+    const std::string model = isNamed ? bareName(value.get<std::string>()) : std::string();
+    if (model == "omni" || model == "ds" || model == "eucm" || model.find("fisheye") != std::string::npos)
+    {
+      failLens(path, model); // Kalibr's
+    }
+  }
+}
+
+/// Of entries that are named k1, k2 and so on, in OpenCV's order.
+std::vector<double> namedCoefficients(const std::string& path, const nlohmann::json& entries)
+{
+  std::vector<double> numbers;
+  std::vector<bool> isGiven;
+  for (const char* name : { "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y" })
+  {
+    const auto number = find(path, entries, { name }, 1, 1);
+    isGiven.push_back(!number.empty());
+    numbers.push_back(number.empty() ? 0.0 : number.front());
+  }
+  // Other models have a k1 without p1 and p2, as fisheye's, or a k4 without k5 and k6.
+  const bool isPlain = isGiven[0] && isGiven[1] && isGiven[2] && isGiven[3];
+  const bool isRational = isGiven[5] && isGiven[6] && isGiven[7];
+  if ((!isPlain || (!isRational && (isGiven[5] || isGiven[6] || isGiven[7]))) &&
+      std::any_of(numbers.begin(), numbers.end(), [](double number) { return number != 0.0; }))
+  {
+    failCamera(path, "names coefficients of its lens that are neither k1 k2 p1 p2, k1 k2 p1 p2 k3 nor k1 k2 p1 p2 k3 "
+                     "k4 k5 k6: calibrate with these");
+  }
+  return numbers;
+}
+
+/// k1 k2 p1 p2 k3 k4 k5 k6 of a lens of that model, from the numbers that a file has.
+std::array<double, 8> coefficientsOf(
+  const std::string& path, const std::string& model, const std::vector<double>& numbers)
 {
   std::array<double, 8> result{};
-  const auto numbers =
-    find(path, entries, { "distortion_coefficients", "dist_coeffs", "distortion_coeffs", "coeffs", "D", "d" }, 0, 14);
   if (std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0.0; }))
   {
     return result; // of any model
   }
   // By their number of coefficients, where they are named; a name that is not known may be of any lens.
-  const std::string model = lensModelOf(entries);
   const bool isBrown = model.empty() || model == "plumbbob" || model == "radtan" || model == "browndistortion" ||
                        model.rfind("browncon", 0) == 0 || model == "distortionbrownconrady" || model == "pinhole";
   const bool isRational = model == "rationalpolynomial" || model == "rational";
   if (!isBrown && !isRational)
   {
-    failCamera(path, "has a lens of the model '" + model +
-                       "', which is not read: calibrate it as plumb_bob or rational_polynomial, or undistort the "
-                       "images and leave the coefficients away");
+    failLens(path, model);
   }
   if (numbers.size() < 4 || (isRational && numbers.size() < 8))
   {
@@ -193,17 +276,64 @@ std::array<double, 8> distortionOf(const std::string& path, const nlohmann::json
   return result;
 }
 
-/// Where the one camera stands among a file's entries, as Open3D and Kalibr have it a level deeper.
-const nlohmann::json& entriesOfCamera(const std::string& path, const nlohmann::json& file)
+/// Of every entry that is named like a distortion: one that is not read is refused.
+std::array<double, 8> distortionOf(const std::string& path, const nlohmann::json& entries)
 {
-  const nlohmann::json* found = &file;
+  std::array<double, 8> result{};
+  std::string found;
+  for (const auto& [key, value] : entries.items())
+  {
+    const std::string name = bareName(key);
+    if (!namesDistortion(name) || namesLensModel(name) || value.is_null())
+    {
+      continue;
+    }
+    const nlohmann::json& owner = name == "k1" ? entries : value;
+    const bool isNamed = owner.is_object() && (name == "k1" || !find(path, owner, { "k1" }, 1, 1).empty());
+    const std::string model = isNamed ? lensModelOf(owner) : std::string();
+    const std::array<double, 8> coefficients = coefficientsOf(path, model.empty() ? lensModelOf(entries) : model,
+      isNamed ? namedCoefficients(path, owner) : numbersOfMatrix(value, path, key));
+    if (!found.empty() && coefficients != result)
+    {
+      failCamera(path, "has a lens with other coefficients as " + key + " than as " + found + ": leave the right ones");
+    }
+    result = coefficients;
+    found = key;
+  }
+  return result;
+}
+
+/// A camera's numbers are those of its whole sensor, also where ROS makes its image smaller.
+void requireWholeImage(const std::string& path, const nlohmann::json& entries)
+{
+  const auto isMore = [&](const nlohmann::json& in, const char* name, double most)
+  {
+    const auto number = find(path, in, { name }, 1, 1);
+    return !number.empty() && number.front() > most;
+  };
+  bool isPart = isMore(entries, "binning_x", 1.0) || isMore(entries, "binning_y", 1.0);
+  if (entries.is_object() && entries.contains("roi"))
+  {
+    isPart = isPart || isMore(entries["roi"], "x_offset", 0.0) || isMore(entries["roi"], "y_offset", 0.0);
+  }
+  if (isPart)
+  {
+    failCamera(path, "has a binning or a region of interest (binning_x, binning_y, roi), which is not read: give the "
+                     "calibration of the image as it is, and set these to 0");
+  }
+}
+
+/// The one camera's entries, which Open3D and Kalibr have a level deeper, and those beside them.
+nlohmann::json entriesOfCamera(const std::string& path, nlohmann::json file)
+{
+  std::string found;
   int cameras = 0;
   for (const auto& [name, entry] : file.items()) // of a list the names are numbers
   {
     if (entry.is_object() && (name == "intrinsic" || name == "intrinsics" || name.rfind("cam", 0) == 0) &&
         (entry.contains("intrinsics") || entry.contains("intrinsic_matrix") || entry.contains("fx")))
     {
-      found = &entry;
+      found = name;
       ++cameras;
     }
   }
@@ -211,11 +341,26 @@ const nlohmann::json& entriesOfCamera(const std::string& path, const nlohmann::j
   {
     failCamera(path, "has " + std::to_string(cameras) + " cameras: leave the one that is meant");
   }
-  return *found;
+  if (cameras == 0)
+  {
+    return file;
+  }
+  nlohmann::json entries = std::move(file[found]);
+  file.erase(found);
+  for (auto& [name, entry] : file.items())
+  {
+    if (!entries.contains(name))
+    {
+      entries[name] = std::move(entry);
+    }
+  }
+  return entries;
 }
 
 Camera cameraOf(const std::string& path, const nlohmann::json& entries)
 {
+  requirePinhole(path, entries);
+  requireWholeImage(path, entries);
   const std::optional<Intrinsics> intrinsics = intrinsicsOf(path, entries);
   if (!intrinsics)
   {
@@ -246,8 +391,7 @@ CameraFile readCamera(const std::string& path)
   {
     failCamera(path, "is not a text of a camera's calibration");
   }
-  const nlohmann::json file = parseStorage(path, bytes);
-  const nlohmann::json& entries = entriesOfCamera(path, file);
+  const nlohmann::json entries = entriesOfCamera(path, parseStorage(path, bytes));
   CameraFile result;
   result.camera = cameraOf(path, entries);
   try

@@ -2,6 +2,7 @@
 #include "io/parsing/JSONFile.h"
 
 #include "base/Error.h"
+#include "io/parsing/TextLines.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,9 +18,11 @@ constexpr int MostLevels = 64; // of a file; copies and comparisons call themsel
 
 void append(const nlohmann::json& value, int nested, std::vector<double>& numbers, bool& good)
 {
-  if (value.is_number())
+  double number = 0.0;
+  const bool isQuoted = value.is_string() && parseNumber(value.get_ref<const std::string&>(), number);
+  if (value.is_number() || isQuoted)
   {
-    numbers.push_back(value.get<double>());
+    numbers.push_back(isQuoted ? number : value.get<double>());
     good = good && std::isfinite(numbers.back());
     return;
   }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -38,7 +39,7 @@ std::vector<double> numbersIn(std::string_view text)
   return numbers;
 }
 
-/// Elements <name>numbers</name> and <name><data>numbers</data></name> within the first one.
+/// Elements <name>numbers</name> and <name><data>numbers</data></name> within the first one; of words alone their text.
 nlohmann::json numbersInXML(const std::string& path, const std::string& text)
 {
   nlohmann::json result = nlohmann::json::object();
@@ -71,10 +72,12 @@ nlohmann::json numbersInXML(const std::string& path, const std::string& text)
     if (open.size() == 2 || (open.size() == 3 && open.back() == "data"))
     {
       end = std::min(text.find('<', at), text.size());
-      const std::vector<double> numbers = numbersIn(std::string_view(text).substr(at, end - at));
+      const std::string words = text.substr(at, end - at);
+      const std::vector<double> numbers = numbersIn(words);
+      const bool isText = std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isnan(number); });
       if (!numbers.empty())
       {
-        result[open[1]] = numbers;
+        result[open[1]] = isText ? nlohmann::json(words) : nlohmann::json(numbers);
       }
     }
   }

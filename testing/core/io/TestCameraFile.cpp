@@ -177,6 +177,83 @@ TEST(CameraFile, otherPrograms)
   readCamera.fails(kalibr + replaced(kalibr, "cam0", "cam1"), "has 2 cameras");
 }
 
+namespace
+{
+/// A camera of 640 x 480 pixels, in YAML, with these lines.
+std::string yamlWith(const std::string& lines)
+{
+  return "width: 640\nheight: 480\nfx: 800\nfy: 801\ncx: 320\ncy: 240\n" + lines + "\n";
+}
+}
+
+TEST(CameraFile, distortionByAnyName)
+{
+  const std::array<double, 8> numbers{ -0.3, 0.1, 0.001, -0.002, 0.01 };
+  const std::string list = ": [-0.3, 0.1, 0.001, -0.002, 0.01]";
+  for (const std::string name :
+    { "distortion_coefficients", "dist_coeffs", "distCoeffs", "Distortion_Coefficients", "dist", "distortion", "D1",
+      "distorsion", "lens_distortion", "cam_dist", "coeffs", "coeff", "distortion_model: plumb_bob\ndist_coeff" })
+  {
+    EXPECT_EQ(readCamera(yamlWith(name + list)).camera.distortion, numbers) << name;
+  }
+  EXPECT_EQ(readCamera(replaced(replaced(xml, "<dist_coeffs", "<DistCoeffs"), "</dist_coeffs", "</DistCoeffs"))
+              .camera.distortion[3],
+    0.4);
+  const std::string named = "k1: -0.3\nk2: 0.1\np1: 0.001\np2: -0.002\nk3: 0.01";
+  EXPECT_EQ(readCamera(yamlWith(named)).camera.distortion, numbers);
+  EXPECT_EQ(readCamera(yamlWith("distortion: {K1: -0.3, K2: 0.1, P1: 0.001, P2: -0.002, K3: 0.01}")).camera.distortion,
+    numbers);
+  EXPECT_EQ(readCamera(yamlWith(named + "\nk4: 1\nk5: 2\nk6: 3")).camera.distortion[7], 3.0);
+  EXPECT_EQ(readCamera(yamlWith("k1: 0\nk2: 0")).camera.distortion, (std::array<double, 8>{}));
+  EXPECT_EQ(
+    readCamera("intrinsics: {fx: 800, fy: 801, cx: 320, cy: 240}\ndistortion" + list).camera.distortion, numbers)
+    << "beside the camera's own entries";
+  EXPECT_EQ(readCamera(yamlWith("distance: 700\nros_distro: humble\nis_undistorted: no")).camera.distortion,
+    (std::array<double, 8>{}));
+  readCamera.fails(yamlWith("k1: 0.1\nk2: 0.1\nk3: 0.1\nk4: 0.1"), "names coefficients of its lens");
+  readCamera.fails(yamlWith(named + "\nk4: 1"), "names coefficients of its lens");
+  readCamera.fails(yamlWith(named + "\ns1: 1"), "thin prism");
+  readCamera.fails(yamlWith("distortion: {radial: [0.1, 0.2]}"), "a distortion that is not made of numbers");
+  readCamera.fails(yamlWith("dist: [0, 0, 0, 0]\nD" + list), "other coefficients as dist than as D");
+}
+
+TEST(CameraFile, otherLenses)
+{
+  const std::string fisheye =
+    replaced(yaml, "image_width", "fisheye_model: 1\nimage_width"); // whatever its coefficients are
+  readCamera.fails(fisheye, "a lens of the model 'fisheye', which is not read");
+  EXPECT_EQ(readCamera(replaced(fisheye, "_model: 1", "_model: 0")).camera.width, 1280);
+  readCamera.fails(replaced(xml, "<depth_scale>", "<fisheye_model>1</fisheye_model><depth_scale>"), "'fisheye'");
+  readCamera.fails(
+    replaced(xml, "<depth_scale>", "<distortion_model>equidistant</distortion_model><depth_scale>"), "'equidistant'");
+  const std::string numbered = yamlWith("model: 2\ncoeffs: [0.1, 0, 0, 0, 0]"); // RealSense's
+  readCamera.fails(numbered, "'inversebrownconrady'");
+  EXPECT_EQ(readCamera(replaced(numbered, "model: 2", "model: 4")).camera.distortion[0], 0.1);
+  const std::string kalibr = "cam0:\n  camera_model: omni\n  distortion_coeffs: []\n  distortion_model: none\n  "
+                             "intrinsics: [1.2, 800, 801, 320, 240]\n  resolution: [640, 480]\n";
+  readCamera.fails(kalibr, "'omni'");
+  readCamera.fails(replaced(kalibr, "omni", "eucm"), "'eucm'");
+}
+
+TEST(CameraFile, namesInAnySpelling)
+{
+  const std::string matrix = ": [[800, 0, 320], [0, 801, 240], [0, 0, 1]]\n";
+  for (const std::string name : { "K", "k", "cam_K", "mtx", "M1", "cameraMatrix", "Camera_Matrix" })
+  {
+    EXPECT_EQ(readCamera(name + matrix).camera.fy, 801.0) << name;
+  }
+  readCamera.fails("M1" + matrix + "M2" + matrix, "has 2 cameras");
+  EXPECT_EQ(readCamera("fx: \"800\"\nfy: '801'\ncx: \"320\"\ncy: \"240.5\"\n").camera.cy, 240.5);
+}
+
+TEST(CameraFile, partsOfAnImage)
+{
+  const std::string text = yamlWith("binning_x: 1\nbinning_y: 0\nroi: {x_offset: 0, y_offset: 0, width: 640}");
+  EXPECT_EQ(readCamera(text).camera.width, 640);
+  readCamera.fails(replaced(text, "binning_y: 0", "binning_y: 2"), "has a binning or a region of interest");
+  readCamera.fails(replaced(text, "y_offset: 0", "y_offset: 100"), "has a binning or a region of interest");
+}
+
 TEST(CameraFile, whatIsNoCalibration)
 {
   EXPECT_THROW(meam::readCamera("/no/such/camera.json"), meam::Error);
