@@ -2,11 +2,19 @@
 #include "io/DepthImage.h"
 
 #include "io/ImageFile.h"
+#include "scene/Units.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace meam
 {
+namespace
+{
+constexpr double FarthestDepth = 50.0 * Metre; // mm; beyond it no sensor for bins measures
+}
+
 OrganizedCloud readDepthImage(
   const std::string& path, const Camera& camera, double depthScale, const Progress& progress)
 {
@@ -31,19 +39,30 @@ OrganizedCloud readDepthImage(
   cloud.width = depths.width;
   cloud.height = depths.height;
   cloud.points.assign(depths.pixels.size(), Eigen::Vector3f::Constant(NAN));
+  double nearest = INFINITY;
   for (int row = 0, i = 0; row < depths.height; ++row)
   {
     for (int column = 0; column < depths.width; ++column, ++i)
     {
       if (std::isfinite(depths.pixels[i]))
       {
-        cloud.points[i] = unproject(sensor, Eigen::Vector2d(column, row), depthScale * depths.pixels[i]).cast<float>();
+        const double depth = depthScale * depths.pixels[i];
+        cloud.points[i] = unproject(sensor, Eigen::Vector2d(column, row), depth).cast<float>();
+        nearest = std::min(nearest, depth);
       }
     }
     if (row % 64 == 0)
     {
       report(progress, 0.5 + 0.5 * row / depths.height);
     }
+  }
+  if (nearest > FarthestDepth && std::isfinite(nearest))
+  {
+    char told[128];
+    std::snprintf(
+      told, sizeof told, "%.4g m, with a depth scale of %.6g mm for a value of 1", nearest / Metre, depthScale);
+    throw Error("The depth image '" + path + "' has nothing nearer than " + told +
+                ": correct depth_scale in its calibration, or --depth-scale.");
   }
   report(progress, 1.0);
   return cloud;

@@ -92,12 +92,19 @@ enum Name : std::uint64_t
   SamplesPerPixel = 277,
   RowsPerStrip = 278,
   TileWidth = 322,
-  TileHeight = 323
+  TileHeight = 323,
+  SampleFormat = 339
 };
 enum Type : std::uint64_t
 {
   Short = 3,
   Long = 4
+};
+enum Format : std::uint64_t
+{
+  Unsigned = 1,
+  Signed = 2,
+  Real = 3
 };
 
 struct Tag
@@ -171,7 +178,7 @@ Size sizeOf(const std::string& path, const std::string& bytes)
   {
     return tiff::sizeOf(bytes);
   }
-  failImage(path, "is not a PNG, JPEG, BMP or TIFF image");
+  failImage(path, "is not a PNG, JPEG, BMP or TIFF image: save images as PNG, depth as PNG or TIFF");
 }
 
 /// The size that a file's first bytes tell, once it is sure that a file of that length can have it.
@@ -225,6 +232,27 @@ void checkTIFF(const std::string& path, std::string& bytes, const Size& size, st
   }
 }
 
+/// OpenCV reads whole numbers of 32 bits with a sign alone: what they have without one is none, as what is too far. Of
+/// other numbers it prints, or takes real ones of 16 bits for whole ones.
+void checkSamples(const std::string& path, std::string& bytes)
+{
+  const tiff::Tag bits = tiff::tagOf(bytes, tiff::BitsPerSample), format = tiff::tagOf(bytes, tiff::SampleFormat);
+  const std::uint64_t kind = format.at > 0 ? format.value : std::uint64_t(tiff::Unsigned);
+  if (bits.value == 32 && kind == tiff::Unsigned && format.type == tiff::Short)
+  {
+    tiff::set(bytes, format, tiff::Signed);
+    return;
+  }
+  const bool isKnown = kind == tiff::Real ? bits.value == 32 || bits.value == 64
+                                          : bits.value <= 16 || (bits.value == 32 && kind == tiff::Signed);
+  if (!isKnown)
+  {
+    failImage(path, std::string("has ") + (kind == tiff::Real ? "real" : "whole") + " numbers of " +
+                      std::to_string(bits.value) +
+                      " bits, which are not read: save whole ones of 16 or 32 bits, or real ones of 32 or 64");
+  }
+}
+
 /// Whether a JPEG file has more scans than can be. Within one the two bytes that start another do not stand.
 bool hasTooManyScans(const std::string& bytes)
 {
@@ -273,6 +301,7 @@ cv::Mat decode(const std::string& path, std::uint64_t mostBits = MostImageBits)
   if (bytes[0] == 'I' || bytes[0] == 'M')
   {
     checkTIFF(path, bytes, size, mostBits);
+    checkSamples(path, bytes);
   }
   if (!isWhole(bytes, size))
   {
@@ -355,15 +384,16 @@ DepthPixels readDepthPixels(const std::string& path)
 {
   cv::Mat pixels = decode(path, MostDepthBits);
   const int depth = pixels.depth();
-  if (pixels.channels() != 1 || (depth != CV_16U && depth != CV_32F && depth != CV_64F))
+  if (pixels.channels() != 1 || pixels.elemSize1() < 2)
   {
     failImage(path, "has " + std::to_string(pixels.channels()) + " channels of " +
                       std::to_string(8 * pixels.elemSize1()) +
                       " bits: a depth image has one of whole numbers of 16 "
-                      "bits, or of real ones");
+                      "or 32 bits, or of real ones");
   }
-  const float saturated =
-    depth == CV_16U ? std::numeric_limits<std::uint16_t>::max() : std::numeric_limits<float>::infinity();
+  const float saturated = depth == CV_16U   ? std::numeric_limits<std::uint16_t>::max()
+                          : depth == CV_16S ? std::numeric_limits<std::int16_t>::max()
+                                            : std::numeric_limits<float>::infinity();
   pixels.convertTo(pixels, CV_32F);
   DepthPixels image{ pixels.cols, pixels.rows, {} };
   image.pixels.assign(pixels.begin<float>(), pixels.end<float>());

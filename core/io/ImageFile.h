@@ -28,7 +28,7 @@ struct DepthPixels
   std::vector<float> pixels; ///< NaN where there is no depth: 0 and less, the largest value of 16 bits, NaN
 };
 
-/// Reads an image of one channel (PNG or TIFF), as depth images are: whole numbers of 16 bits, or real ones of 32
-/// or 64. Throws Error as readImage().
+/// Reads an image of one channel (PNG or TIFF), as depth images are: whole numbers of 16 bits or, in TIFF, 32, or real
+/// ones of 32 or 64. Throws Error as readImage().
 DepthPixels readDepthPixels(const std::string& path);
 }

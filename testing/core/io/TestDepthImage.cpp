@@ -62,6 +62,44 @@ TEST(DepthImage, realNumbers)
     meam::readDepthImage(folder.write("depth.png", images::encoded(".png", saturated)), camera()).points[0].z()));
 }
 
+TEST(DepthImage, wholeNumbersOfOtherKinds)
+{
+  const files::Folder folder;
+  const auto depthsOf = [&](const std::string& bytes)
+  {
+    std::vector<float> result;
+    for (const Eigen::Vector3f& point : meam::readDepthImage(folder.write("depth.tiff", bytes), camera()).points)
+    {
+      result.push_back(std::isnan(point.z()) ? 0.0f : point.z());
+    }
+    return result;
+  };
+  const std::string ofShort = images::encoded(".tiff", (cv::Mat_<std::int16_t>(1, 4) << 0, -1, 700, 32767));
+  EXPECT_EQ(depthsOf(ofShort), (std::vector<float>{ 0, 0, 700, 0 }));
+  std::string ofInt = images::encoded(".tiff", (cv::Mat_<std::int32_t>(1, 4) << 0, -1, 700, 70000));
+  EXPECT_EQ(depthsOf(ofInt), (std::vector<float>{ 0, 0, 700, 70000 }));
+  const std::string tag("\x53\x01\x03\0\x01\0\0\0", 8); // SampleFormat, of one number of 16 bits
+  ASSERT_NE(ofInt.find(tag), std::string::npos);
+  ofInt[ofInt.find(tag) + tag.size()] = 1; // without a sign
+  EXPECT_EQ(depthsOf(ofInt), (std::vector<float>{ 0, 0, 700, 70000 }));
+  std::string half = ofShort;
+  half[half.find(tag) + tag.size()] = 3;
+  EXPECT_TRUE(
+    files::contains(files::errorOf([&] { depthsOf(half); }), "has real numbers of 16 bits, which are not read"));
+  EXPECT_TRUE(files::contains(files::errorOf([&] { depthsOf("P5 4 1 65535\n01234567"); }), "depth as PNG or TIFF"));
+}
+
+TEST(DepthImage, depthsBeyondAnySensor)
+{
+  const files::Folder folder;
+  const cv::Mat tenths = (cv::Mat_<std::uint16_t>(1, 3) << 0, 5000, 7000);
+  const std::string path = folder.write("depth.png", images::encoded(".png", tenths));
+  EXPECT_EQ(meam::readDepthImage(path, camera(), 10.0).points[1].z(), 50000.0f);
+  EXPECT_TRUE(files::contains(files::errorOf([&] { meam::readDepthImage(path, camera(), 1000.0); }),
+    "has nothing nearer than 5000 m, with a depth scale of 1000 mm for a value of 1: correct depth_scale in its "
+    "calibration, or --depth-scale."));
+}
+
 TEST(DepthImage, theLensIsUndone)
 {
   const files::Folder folder;
