@@ -470,11 +470,16 @@ def require_room(folder, data, path):
         os.posix_fallocate(file.fileno(), 0, 2048 * (data.GetActualMemorySize() + 1))  # KiB; a text is a third longer
 
 
+def require_model_name(path):
+    """Raises a Failure when a trained model cannot have that name: before any work is done."""
+    if os.path.splitext(path)[1] not in (".meam", ".vtpc"):
+        raise Failure(f"{path}: the name of a trained model ends in .meam, or .vtpc")
+
+
 def write_model(model, path):
     """Writes a trained model, NAME.meam, or NAME.vtpc and the folder NAME beside it, whole or not at all."""
+    require_model_name(path)
     name, extension = os.path.splitext(os.path.basename(path))
-    if extension not in (".meam", ".vtpc"):
-        raise Failure(f"{path}: the name of a trained model ends in .meam, or .vtpc")
     if extension == ".meam":
         writer = filters.vtkMEAMModelWriter()
         writer.SetInputDataObject(model)

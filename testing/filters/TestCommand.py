@@ -51,3 +51,6 @@ check(len(read("a.txt").split()) % 16 == 0 and read("a.txt") == read("b.txt") !=
 # A message names the sub-command.
 result = script(COMMAND, "detect", "--cad", "none.stl", *scan)
 check(result.returncode == 1 and result.stderr.startswith("ppfmeam detect: cannot read none.stl"), result.stderr)
+# What cannot be written is told before any work.
+result = script(COMMAND, "train", "--cad", "none.stl", "--out", "a.xyz")
+check(result.returncode == 1 and "the name of a trained model ends in .meam" in result.stderr, result.stderr)

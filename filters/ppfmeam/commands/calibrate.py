@@ -99,6 +99,7 @@ def main():
     options = parser.parse_args()
     options.preset, options.features = "recommended", "both"
 
+    scripting.require_model_name(options.out)
     scripting.require_folder_of(options.out)
     if not os.path.isdir(options.scans):
         scripting.require_file(options.scans)

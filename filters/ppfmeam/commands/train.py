@@ -22,6 +22,7 @@ def main():
     parser.add_argument("--json", metavar="FILE", help="write what is printed as JSON")
     options = parser.parse_args()
 
+    scripting.require_model_name(options.out)
     scripting.require_folder_of(options.out, options.models_info, options.json)
     training = scripting.Training(
         scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale, options.solid), options.preset, options.features)
