@@ -89,34 +89,37 @@ std::string lowered(std::string_view word)
   return lower;
 }
 
-/// The text without what programs put about it: a byte order mark and blanks before, Ctrl-Z behind.
-std::string_view bareText(std::string_view bytes)
-{
-  constexpr std::string_view mark = "\xef\xbb\xbf";
-  bytes.remove_prefix(bytes.substr(0, mark.size()) == mark ? mark.size() : 0);
-  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
-  while (!bytes.empty() && std::string_view(" \t\r\n\x1a").find(bytes.back()) != std::string_view::npos)
-  {
-    bytes.remove_suffix(1);
-  }
-  return bytes;
-}
-
 TriangleMesh readTextSTL(const std::string& path, std::string_view text, const Progress& progress)
 {
   Points vertices;
+  std::size_t start = 0; // of the facet
   bool isWhole = false;
   const Progress parsing = subProgress(progress, 0.0, 0.5);
   TextLines lines(text);
   for (std::size_t line = 0; lines.next(); ++line)
   {
     reportLine(parsing, line, lines, text.size());
-    const std::string word = lowered(lines.word());
-    if (word == "vertex")
+    for (std::string word = lowered(lines.word()); !word.empty(); word = lowered(lines.word()))
     {
-      vertices.push_back(pointOf(path, lines));
+      word += word == "end" ? lowered(lines.word()) : "";
+      if (word == "vertex")
+      {
+        vertices.push_back(pointOf(path, lines));
+      }
+      else if (word == "endloop")
+      {
+        if (const std::size_t corners = vertices.size() - start; corners != 3)
+        {
+          failMesh(path, "has a facet of " + std::to_string(corners) + " corners: export it as triangles, or as OBJ");
+        }
+        start = vertices.size();
+      }
+      else if (word == "solid" || word == "endsolid") // a name follows
+      {
+        isWhole = word == "endsolid";
+        break;
+      }
     }
-    isWhole = word == "endsolid" || (word == "end" && lowered(lines.word()) == "solid");
   }
   if (!isWhole || vertices.size() % 3 != 0)
   {
@@ -178,11 +181,17 @@ int cornerOf(const std::string& path, std::string_view word, int vertices)
   return corner;
 }
 
-/// A backslash at the end of a line continues it on the next one.
+/// A backslash at the end of a line, but for a comment, continues it on the next one.
 void joinContinuedLines(std::string& text)
 {
-  for (std::size_t at = 0; (at = text.find('\\', at)) != std::string::npos; ++at)
+  bool isComment = false;
+  for (std::size_t at = 0; (at = text.find_first_of("\\#\r\n", at)) != std::string::npos; ++at)
   {
+    isComment = text[at] == '#' || (isComment && text[at] == '\\');
+    if (isComment || text[at] != '\\')
+    {
+      continue;
+    }
     std::size_t end = at + 1;
     end += end < text.size() && text[end] == '\r' ? 1 : 0;
     end += end < text.size() && text[end] == '\n' ? 1 : 0;

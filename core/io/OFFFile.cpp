@@ -19,16 +19,15 @@ namespace
   throw Error("The OFF file '" + path + "' " + what + ".");
 }
 
-/// The first word's letters in front of OFF, or npos for another word: ST texture, C colour, N normal.
-/// 4OFF and nOFF have points of other dimensions.
-std::size_t prefixOf(std::string_view word)
+/// Whether the first word is OFF behind letters, ST texture, C colour, N normal, which stand in any order; or all of it
+/// in lower case. 4OFF and nOFF have points of other dimensions.
+bool startsOFF(std::string_view word)
 {
-  std::size_t at = 0;
-  for (const std::string_view part : { "ST", "C", "N" })
+  for (const std::string_view part : { "ST", "C", "N", "C" })
   {
-    at += word.substr(at, part.size()) == part ? part.size() : 0;
+    word.remove_prefix(word.substr(0, part.size()) == part ? part.size() : 0);
   }
-  return word.substr(at) == "OFF" ? at : std::string_view::npos;
+  return word == "OFF" || word == "off";
 }
 
 /// A word that is not what it should be, for a message.
@@ -44,7 +43,7 @@ TriangleMesh readOFF(const std::string& path, const Progress& progress)
   report(progress, 0.0);
   TextLines lines(bytes);
   const std::string_view first = lines.next() ? lines.word() : std::string_view();
-  if (prefixOf(first) == std::string_view::npos)
+  if (!startsOFF(first))
   {
     failOFF(
       path, "does not start with OFF, COFF, NOFF or STOFF: it is not an OFF file, or of a kind that is not known");

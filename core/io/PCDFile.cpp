@@ -7,6 +7,7 @@
 #include <liblzf/lzf.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <limits>
@@ -64,6 +65,7 @@ Header parseHeader(const std::string& path, const std::string& bytes)
   bool hasWidth = false;
   bool hasHeight = false;
   bool hasPoints = false;
+  header.dataAt = bytes.size() - withoutMark(bytes).size();
   std::vector<std::string> sizes, types, counts;
   std::string encoding;
   while (encoding.empty())
@@ -128,6 +130,8 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     else if (key == "DATA")
     {
       encoding = values[0];
+      std::transform(
+        encoding.begin(), encoding.end(), encoding.begin(), [](unsigned char c) { return std::tolower(c); });
     }
     else if (key != "VIEWPOINT") // the sensor's pose: points are in its frame
     {
@@ -170,7 +174,8 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     Field& field = header.fields[i];
     if (!types.empty())
     {
-      field.type = types[i].size() == 1 ? types[i][0] : '?';
+      field.type =
+        types[i].size() == 1 ? static_cast<char>(std::toupper(static_cast<unsigned char>(types[i][0]))) : '?';
     }
     if (!sizes.empty())
     {
@@ -329,7 +334,12 @@ std::string binaryOfAscii(const std::string& path, const std::string& bytes, Hea
         const char* first = bytes.data() + start + (bytes[start] == '+' ? 1 : 0);
         double value = 0.0;
         const auto [end, failure] = std::from_chars(first, bytes.data() + at, value);
-        if (end != bytes.data() + at || failure != std::errc())
+        const std::string_view word = std::string_view(bytes).substr(start, at - start);
+        if (word.find(".#") != std::string_view::npos) // 1.#QNAN, -1.#IND and 1.#INF of Windows
+        {
+          value = std::numeric_limits<double>::quiet_NaN();
+        }
+        else if (end != bytes.data() + at || failure != std::errc())
         {
           failPCD(path, "has a value that is not a number in point " + std::to_string(point) + ": '" +
                           bytes.substr(start, std::min<std::size_t>(at - start, 40)) + "'");

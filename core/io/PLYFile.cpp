@@ -2,6 +2,7 @@
 #include "io/PLYFile.h"
 
 #include "io/parsing/FileBytes.h"
+#include "io/parsing/TextLines.h"
 #include "mesh/PolygonTriangulation.h"
 
 #include <algorithm>
@@ -103,6 +104,7 @@ Property propertyOf(const std::string& path, std::istringstream& words)
 PLYHeader parsePLYHeader(const std::string& path, const std::string& bytes)
 {
   PLYHeader header;
+  header.dataAt = bytes.size() - withoutMark(bytes).size();
   // Lines end as the first one does: data may begin with the byte of another end.
   const std::size_t firstEnd = bytes.find_first_of("\r\n");
   const bool endsWithReturn =
@@ -157,7 +159,7 @@ PLYHeader parsePLYHeader(const std::string& path, const std::string& bytes)
       }
       header.elements.back().properties.push_back(propertyOf(path, words));
     }
-    else if (!first && key != "comment" && key != "obj_info" && key != "end_header")
+    else if (!first && !key.empty() && key != "comment" && key != "obj_info" && key != "end_header")
     {
       failPLY(path, "has an unknown header line '" + key.substr(0, 40) + "'");
     }
@@ -205,10 +207,11 @@ public:
     }
   }
 
-  /// Fails for a text that goes on.
+  /// Fails for a file that goes on.
   void requireEnd() const
   {
-    if (this->Form == PLYEncoding::Ascii && this->Rest.find_first_not_of(" \t\r\n\x1a") != std::string_view::npos)
+    constexpr std::string_view fill(" \t\r\n\x1a\0", 6);
+    if (this->Rest.find_first_not_of(fill) != std::string_view::npos)
     {
       failPLY(this->Path, "goes on after what its header promises: it is damaged");
     }
@@ -425,6 +428,10 @@ void takeFaces(
   if (list < 0)
   {
     failPLY(path, "has faces without the list vertex_indices");
+  }
+  if (mesh.vertices.empty())
+  {
+    failPLY(path, "has its faces before its points, which is not read: save it with the points first");
   }
   std::vector<int> corners;
   const auto entry = [&](std::size_t k, double value)

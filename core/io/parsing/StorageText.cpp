@@ -91,14 +91,12 @@ nlohmann::json numbersInXML(const std::string& path, const std::string& text)
 
 nlohmann::json parseStorage(const std::string& path, const std::string& text)
 {
-  const std::size_t first = text.find_first_not_of(Blanks);
-  if (first == std::string::npos)
+  const std::string_view bare = bareText(text);
+  if (bare.empty())
   {
     failStorage(path, "is empty");
   }
-  return text[first] == '<'   ? numbersInXML(path, text)
-         : text[first] == '{' ? parseJSON(path, text)
-                              : parseYAML(path, text);
+  return bare[0] == '<' ? numbersInXML(path, text) : bare[0] == '{' ? parseJSON(path, text) : parseYAML(path, text);
 }
 
 std::vector<double> numbersOfMatrix(const nlohmann::json& value, const std::string& path, const std::string& what)

@@ -8,12 +8,27 @@
 
 namespace meam
 {
+/// The text behind a byte order mark.
+inline std::string_view withoutMark(std::string_view text)
+{
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.substr(text.substr(0, mark.size()) == mark ? mark.size() : 0);
+}
+
+/// The text without what programs put about it: a byte order mark and blanks before, blanks and Ctrl-Z behind.
+inline std::string_view bareText(std::string_view text)
+{
+  text = withoutMark(text);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  return text.substr(0, text.find_last_not_of(" \t\r\n\x1a") + 1);
+}
+
 /// Goes through the words of a text line by line; comments, from # on, and empty lines are skipped.
 class TextLines
 {
 public:
   explicit TextLines(std::string_view bytes)
-    : Rest(bytes)
+    : Rest(withoutMark(bytes.substr(0, bytes.find_last_not_of('\x1a') + 1)))
   {
   }
 

@@ -76,6 +76,7 @@ TEST(CameraFile, xmlOfOpenCV)
   EXPECT_EQ(file.camera.distortion, (std::array<double, 8>{ 0.1, 0.2, 0.3, 0.4, 0 }));
   EXPECT_TRUE(file.camera.T_camera_scene.isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_EQ(file.depthScale, 0.1);
+  EXPECT_EQ(readCamera("\xef\xbb\xbf" + xml).camera.fy, 801.0);
 }
 
 TEST(CameraFile, jsonOfOpenCV)

@@ -250,13 +250,33 @@ TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
   std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char letter) { return std::toupper(letter); });
   const files::Folder folder;
   for (const std::string& form : { upper, replaced("solid", "Solid"), replaced("endsolid", "end solid"), returns,
-         "\xef\xbb\xbf" + text, text + "\x1a", "\r\n " + text })
+         "\xef\xbb\xbf" + text, text + "\x1a", "\r\n " + text, text + "made by hand\n", replaced("\nouter", " outer"),
+         replaced("\nvertex", " vertex"), replaced("endloop\nendfacet\n", "end loop end facet ") })
   {
     EXPECT_EQ(corners(meam::readMesh(folder.write("a.stl", form))), corners(part)) << form.substr(0, 20);
   }
   const auto error = [&](const std::string& form)
   { return files::errorOf([&] { meam::readMesh(folder.write("a.stl", form)); }); };
   EXPECT_TRUE(files::contains(error("solid\nfacet normal 0 0 0\nouter loop\nvertex 1,5 0 0\n"), "decimal comma"));
+  // Nine corners, but no three triangles.
+  const std::string corner = "vertex 0 1 2\n", two = corner + corner;
+  EXPECT_TRUE(files::contains(error("solid\nouter loop\n" + two + two + "endloop\nouter loop\n" + two +
+                                    "endloop\nouter loop\n" + two + corner + "endloop\nendsolid\n"),
+    "has a facet of 4 corners: export it as triangles, or as OBJ"));
+  EXPECT_TRUE(files::contains(error("solid\nouter loop\n" + two + "endloop\nendsolid\n"), "has a facet of 2 corners"));
+}
+
+TEST(MeshFile, CommentsOfOBJAreNotContinued)
+{
+  const files::Folder folder;
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", mark = "\xef\xbb\xbf";
+  for (const std::string& text : { mark + "# of C:\\parts\\\n" + points + "f 1 2 3 # \\\nf 2 3 4\n",
+         points + "f 1 2 \\\n3\r\nf 2 \\\r\n3 4 # or \\ so \\\r\n" })
+  {
+    const meam::TriangleMesh mesh = meam::readMesh(folder.write("a.obj", text));
+    EXPECT_EQ(mesh.vertices.size(), 4u) << text;
+    EXPECT_EQ(mesh.triangles.size(), 2u) << text;
+  }
 }
 
 TEST(MeshFile, AHeaderThatContradictsTheFileIsAnError)
@@ -269,6 +289,16 @@ TEST(MeshFile, AHeaderThatContradictsTheFileIsAnError)
   EXPECT_TRUE(files::contains(error("a.stl", stl), "promises 3 triangles and has room for"));
   EXPECT_TRUE(files::contains(error("a.off", off(parts::lBracket()) + "3 0 1 2\n"), "goes on after"));
   EXPECT_TRUE(files::contains(error("a.ply", asciiPLY(parts::lBracket()) + "3 0 1 2\n"), "goes on after"));
+  const std::string ply = binaryPLY(parts::lBracket()),
+                    count = "face " + std::to_string(parts::lBracket().triangles.size());
+  EXPECT_TRUE(files::contains(
+    error("a.ply", std::string(ply).replace(ply.find(count), count.size(), "face 3")), "goes on after"));
+  EXPECT_EQ(error("a.ply", ply + "\n"), "");
+  EXPECT_TRUE(
+    files::contains(error("a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                   "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                                   "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n"),
+      "has its faces before its points"));
 }
 
 TEST(MeshFile, FacesOfManyCornersAreCutInside)

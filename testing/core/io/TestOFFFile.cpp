@@ -51,7 +51,10 @@ TEST(OFFFile, colorsNormalsAndTextureAreSkipped)
     readOFF("COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 0 0 0 0\n3 0 1 2 0.5 0.5 0.5\n").vertices[2],
     Eigen::Vector3f(0, 1, 0));
   EXPECT_EQ(readOFF("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 200 10 10\n").triangles.size(), 1u);
-  EXPECT_EQ(readOFF("STCNOFF\n" + triangle + "3 0 1 2\n").triangles.size(), 1u);
+  for (const std::string word : { "STCNOFF", "NCOFF", "off", "\xef\xbb\xbfOFF" })
+  {
+    EXPECT_EQ(readOFF(word + "\n" + triangle + "3 0 1 2\n\x1a").triangles.size(), 1u) << word;
+  }
 }
 
 TEST(OFFFile, pointsAndLinesHaveNoTriangles)

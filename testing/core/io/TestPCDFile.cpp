@@ -47,6 +47,16 @@ TEST(PCDFile, asciiOrganized)
   EXPECT_TRUE(data.colors.empty());
 }
 
+TEST(PCDFile, asOtherProgramsWriteIt)
+{
+  std::string lower = xyz;
+  std::replace(lower.begin() + static_cast<std::ptrdiff_t>(lower.find("TYPE") + 4), lower.end(), 'F', 'f');
+  const meam::MeasuredCloud data = readPCD(
+    "\xef\xbb\xbf# .PCD v0.7\n" + lower + "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ASCII\n1 2 3\n1.#QNAN -1.#IND 6\n");
+  EXPECT_EQ(data.cloud.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_TRUE(std::isnan(data.cloud.points[1].x()) && std::isnan(data.cloud.points[1].y()));
+}
+
 TEST(PCDFile, sizeOfTheHeader)
 {
   const files::Folder folder;

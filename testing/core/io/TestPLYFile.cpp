@@ -99,6 +99,7 @@ TEST(PLYFile, linesOfAnyEnd)
     }
     EXPECT_EQ(readPLY(other).cloud.points, readPLY(text).cloud.points);
   }
+  EXPECT_EQ(readPLY("\xef\xbb\xbf" + std::string(text).insert(4, "\n")).cloud.points, readPLY(text).cloud.points);
   // A binary file's data may begin with the byte of a line's end.
   const std::string binary = head("binary_little_endian", "element vertex 1\n" + floats);
   std::string other;
