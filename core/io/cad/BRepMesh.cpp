@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "io/parsing/FileBytes.h"
+#include "io/parsing/TextLines.h"
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -25,9 +26,16 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <string_view>
 #include <vector>
 
 namespace meam
@@ -43,6 +51,7 @@ constexpr double Angle = 8.0 * M_PI / 180.0;
 constexpr double SewingTolerance = 1e-4;
 
 constexpr std::size_t IGESSection = 72; // where in a line the letter is that tells its section
+constexpr std::size_t IGESCount = 8;    // in the last line: a section's letter and its number of lines
 
 [[noreturn]] void failBRep(const std::string& path, const std::string& what)
 {
@@ -61,6 +70,48 @@ void load(const std::string& path, XSControl_Reader& reader)
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
   {
     failBRep(path, "is cut off or damaged, or is of another kind than its name says");
+  }
+}
+
+/// A STEP text with blanks in place of its comments and of what it quotes.
+std::string bareSTEP(std::string text)
+{
+  for (std::size_t at = 0; (at = text.find_first_of("'/", at)) != std::string::npos; ++at)
+  {
+    const bool isComment = text.compare(at, 2, "/*") == 0;
+    if (isComment || text[at] == '\'')
+    {
+      const std::string_view close = isComment ? "*/" : "'";
+      const std::size_t end = std::min(text.find(close, at + close.size()), text.size() - close.size()) + close.size();
+      std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    }
+  }
+  return text;
+}
+
+/// Every #7 is an entity of the file: what refers to another one Open CASCADE leaves out of lists.
+void requireReferences(const std::string& path)
+{
+  const std::string text = bareSTEP(readFile(path));
+  std::vector<std::uint64_t> entities, references;
+  for (std::size_t at = 0; (at = text.find('#', at)) != std::string::npos;)
+  {
+    std::uint64_t number = 0;
+    const auto [end, failure] = std::from_chars(text.data() + at + 1, text.data() + text.size(), number);
+    at = static_cast<std::size_t>(end - text.data());
+    const std::size_t next = text.find_first_not_of(" \t\r\n", at);
+    if (failure == std::errc())
+    {
+      (next < text.size() && text[next] == '=' ? entities : references).push_back(number);
+    }
+  }
+  std::sort(entities.begin(), entities.end());
+  for (const std::uint64_t number : references)
+  {
+    if (!std::binary_search(entities.begin(), entities.end(), number))
+    {
+      failBRep(path, "refers to #" + std::to_string(number) + ", which it does not have: it is cut off or damaged");
+    }
   }
 }
 
@@ -85,16 +136,41 @@ void requireSurfaces(const std::string& path, const XSControl_Reader& reader)
   }
 }
 
+/// The same once shapes are made of the entities. Of others than surfaces and their boundaries it complains, too, where
+/// it reads them.
+void requireTransferred(const std::string& path, const XSControl_Reader& reader)
+{
+  const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
+  const auto require = [&](Interface_CheckIterator checks, const auto& isLost)
+  {
+    for (checks.Start(); checks.More(); checks.Next())
+    {
+      const Handle(Standard_Transient) entity = checks.Value()->Entity();
+      const std::string type = entity.IsNull() ? "" : entity->DynamicType()->Name();
+      const bool isSurface = type.rfind("StepGeom_", 0) == 0 || type.find("Surface") != std::string::npos;
+      if (checks.Value()->HasFailed() && isSurface && isLost(entity))
+      {
+        failBRep(path, "is damaged, in an entity " + type + " of it, of which nothing can be made");
+      }
+    }
+  };
+  using Entity = Handle(Standard_Transient);
+  require(transfer->CheckList(false), [](const Entity&) { return true; });
+  require(reader.WS()->ModelCheckList(false), [&](const Entity& entity) { return !transfer->IsBound(entity); });
+}
+
 TopoDS_Shape readSTEP(const std::string& path)
 {
   STEPControl_Reader reader;
   load(path, reader);
+  requireReferences(path);
   requireSurfaces(path, reader);
   reader.TransferRoots();
+  requireTransferred(path, reader);
   return reader.OneShape();
 }
 
-/// The first line is of the start section, the last of the terminate section.
+/// The first line is of the start section, the last of the terminate section, which has the number of lines of each.
 void requireSections(const std::string& path)
 {
   const std::string text = readFile(path);
@@ -108,6 +184,24 @@ void requireSections(const std::string& path)
   if (!isOf('T', text.rfind('\n', end) + 1))
   {
     failBRep(path, "is cut off: its last line is not that of the terminate section");
+  }
+  std::map<char, int> lines;
+  const std::size_t last = text.rfind('\n', end) + 1;
+  for (std::size_t line = 0; line < last; line = text.find('\n', line) + 1)
+  {
+    ++lines[text.find('\n', line) > line + IGESSection ? text[line + IGESSection] : ' '];
+  }
+  for (std::size_t at = last; at < last + IGESSection; at += IGESCount)
+  {
+    const std::string number = text.substr(at + 1, IGESCount - 1);
+    const std::size_t first = std::min(number.find_first_not_of(' '), number.size());
+    int count = 0;
+    const bool isSection = std::string_view("SGDP").find(text[at]) != std::string_view::npos;
+    if (isSection && parseNumber(std::string_view(number).substr(first), count) && lines[text[at]] != count)
+    {
+      failBRep(path, "has " + std::to_string(lines[text[at]]) + " lines of the section " + text[at] + " instead of " +
+                       std::to_string(count) + ": it is damaged");
+    }
   }
 }
 
@@ -142,6 +236,7 @@ TopoDS_Shape readIGES(const std::string& path)
   IGESControl_Reader reader;
   load(path, reader);
   reader.TransferRoots();
+  requireTransferred(path, reader);
   return reader.OneShape();
 }
 
@@ -149,13 +244,14 @@ TopoDS_Shape readIGES(const std::string& path)
 class FaceJoining
 {
 public:
-  void add(const TopoDS_Face& face)
+  /// False for a face without triangles.
+  bool add(const TopoDS_Face& face)
   {
     TopLoc_Location location;
     const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, location);
     if (triangles.IsNull())
     {
-      return;
+      return false;
     }
     const gp_Trsf& toPart = location.Transformation();
     const int first = static_cast<int>(this->Places.size());
@@ -176,6 +272,7 @@ public:
     {
       this->join(TopoDS::Edge(edge.Current()), triangles, location, first);
     }
+    return true;
   }
 
   TriangleMesh mesh()
@@ -252,7 +349,13 @@ private:
   std::vector<std::vector<int>> NodesOf; // each edge in the first of its faces
 };
 
-TriangleMesh meshOf(const TopoDS_Shape& shape)
+/// Whether a face would show in triangles that are so far off it; one without edges is damaged.
+bool isSeen(const TopoDS_Shape& face, double deflection)
+{
+  return !TopExp_Explorer(face, TopAbs_EDGE).More() || !(diagonalOf(face) <= deflection);
+}
+
+TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
 {
   const double diagonal = diagonalOf(shape);
   if (!(diagonal > 0.0))
@@ -264,9 +367,16 @@ TriangleMesh meshOf(const TopoDS_Shape& shape)
   fineness.Angle = fineness.AngleInterior = Angle;
   BRepMesh_IncrementalMesh(shape, fineness);
   FaceJoining joining;
-  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
+  int faces = 0, missing = 0;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next(), ++faces)
   {
-    joining.add(TopoDS::Face(face.Current()));
+    const bool isMissing = !joining.add(TopoDS::Face(face.Current()));
+    missing += isMissing && isSeen(face.Current(), fineness.Deflection);
+  }
+  if (missing > 0)
+  {
+    failBRep(path, "has " + std::to_string(missing) + " of its " + std::to_string(faces) +
+                     " faces damaged: they cannot be triangulated");
   }
   return joining.mesh();
 }
@@ -325,7 +435,7 @@ BRepMesh meshOfBRep(const std::string& path, int solid)
     const std::string extension = extensionOf(path);
     const bool isIGES = extension == ".iges" || extension == ".igs";
     const TopoDS_Shape shape = sewn(chosenSolid(path, isIGES ? readIGES(path) : readSTEP(path), solid));
-    BRepMesh part{ meshOf(shape), {} };
+    BRepMesh part{ meshOf(path, shape), {} };
     part.solidSizes = sizesOf(solidsIn(shape));
     return part;
   }

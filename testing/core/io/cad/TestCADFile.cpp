@@ -255,6 +255,45 @@ TEST(CADFile, whatIsDamagedIsASentence)
   EXPECT_TRUE(files::contains(errorOfCAD(stepOf(folder, line)), "no surface"));
 }
 
+TEST(CADFile, whatIsMissingIsASentence)
+{
+  const files::Folder folder;
+  const std::string whole = meam::readFile(stepOf(folder, box(10, 20, 30)));
+  // A list without one of its entities, which Open CASCADE reads as a shorter list.
+  std::string text = whole;
+  const std::size_t edge = text.rfind('#', text.find("ORIENTED_EDGE"));
+  const std::string name = text.substr(edge, text.find(' ', edge) - edge);
+  text.erase(edge, text.find(';', edge) + 1 - edge);
+  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("edge.step", text)), "refers to " + name + ", which"));
+  text = whole;
+  text.insert(text.find("DATA;"), "/* #7 of 'it */");
+  text.insert(text.find("'", text.find("DATA;")) + 1, "it''s #9");
+  EXPECT_EQ(meam::readCAD(folder.write("quoted.step", text)).mesh.triangles.size(), 12u);
+  // A cylinder that is none.
+  const std::string rod = meam::readFile(stepOf(folder, BRepPrimAPI_MakeCylinder(10, 30).Shape()));
+  const std::size_t radius = rod.find(",10.)", rod.find("CYLINDRICAL_SURFACE")) + 1;
+  const std::string thin = errorOfCAD(folder.write("thin.step", std::string(rod).replace(radius, 3, "0.")));
+  EXPECT_TRUE(files::contains(thin, "has 1 of its 3 faces damaged: they cannot be triangulated")) << thin;
+  const std::string negative = errorOfCAD(folder.write("negative.step", std::string(rod).insert(radius, "-")));
+  EXPECT_TRUE(files::contains(negative, "in an entity StepGeom_CylindricalSurface of it, of which")) << negative;
+
+  const std::string iges = meam::readFile(igesOf(folder, box(10, 20, 30), "MM"));
+  constexpr std::size_t length = 81; // of a line with its end
+  const auto without = [&](const char* line)
+  {
+    std::string result = iges;
+    return result.erase(result.find(line) / length * length, length);
+  };
+  const std::string line = errorOfCAD(folder.write("line.igs", without("P0000005")));
+  EXPECT_TRUE(files::contains(line, "lines of the section P instead of")) << line;
+  const std::string entity = errorOfCAD(folder.write("entity.igs", without("D0000003")));
+  EXPECT_TRUE(files::contains(entity, "lines of the section D instead of")) << entity;
+  text = iges;
+  text.replace(text.find("\n144,") + 5, 2, "99"); // a face of another surface
+  const std::string surface = errorOfCAD(folder.write("surface.igs", text));
+  EXPECT_TRUE(files::contains(surface, "in an entity IGESGeom_TrimmedSurface of it, of which")) << surface;
+}
+
 TEST(CADFile, otherFilesAreReadAsMeshes)
 {
   const files::Folder folder;
