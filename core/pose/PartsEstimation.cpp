@@ -230,17 +230,31 @@ std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& mode
   const DetectionSettings& settings, DetectionReport* report, const Progress& progress)
 {
   std::vector<PartPose> result;
+  std::vector<const TrainedModel*> shown;
+  std::vector<int> partOf;
+  for (std::size_t part = 0; part < models.size(); ++part)
+  {
+    if (!showsNothing(input, models[part]->diameter))
+    {
+      shown.push_back(models[part]);
+      partOf.push_back(static_cast<int>(part));
+    }
+  }
+  if (shown.size() < models.size())
+  {
+    result = shown.empty() ? result : estimateParts(shown, input, settings, report, progress);
+    for (PartPose& one : result)
+    {
+      one.part = partOf[one.part];
+    }
+    return result;
+  }
   if (models.size() == 1)
   {
     for (const Pose& pose : estimatePoses(*models[0], input, settings, report, progress))
     {
       result.push_back({ 0, static_cast<int>(result.size()), pose });
     }
-    return result;
-  }
-  if (std::all_of(
-        models.begin(), models.end(), [&](const TrainedModel* model) { return showsNothing(input, model->diameter); }))
-  {
     return result;
   }
   PartsSearch search(models, input, settings);

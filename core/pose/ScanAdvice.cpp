@@ -23,8 +23,8 @@ constexpr double SureRotation = 0.9;
 constexpr std::size_t MostSentences = 2;
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+}
 
-/// Which stage was the first without a pose, and what to look at first.
 std::string adviceOnNothing(const WorkCounts& work)
 {
   const std::string first = "look first at the scan's unit, which has to be the part's (mm), at the region, and at the "
@@ -39,7 +39,6 @@ std::string adviceOnNothing(const WorkCounts& work)
          : work.refined == 0
            ? "Verification left none of " + of + ": " + first
            : "Selection left none of " + std::to_string(work.selected) + " refined poses: lower MinimumProbability.";
-}
 }
 
 std::string scanAdvice(

@@ -7,6 +7,9 @@
 
 namespace meam
 {
+/// Which stage was the first without a pose, and what to look at first.
+std::string adviceOnNothing(const WorkCounts& work);
+
 /// What to change first in the scan, or in the settings, for more parts or surer ones: at most two sentences, the more
 /// important one first; empty where parts were found and nothing stands out. `report`: of the search that found the
 /// poses.

@@ -65,6 +65,11 @@ works("why.py", "part.meam", "scan.pcd", "--pose", "shifted.txt", "--json", "bes
 check(numpy.shape(json.loads(read("beside.json"))["unexplained"])[1:] in ((3,), ()), "unexplained points in JSON")
 nothing = works("why.py", "part.meam", "scan.pcd", "--at", "0", "0", "5")
 check(nothing.startswith("No part there") and nothing.endswith("Take a point of the scan that lies on the part.\n"), nothing)
+floor = numpy.zeros_like(columns)
+floor[:, 0], floor[:, 1], floor[:, 2] = numpy.arange(W * H) % W - W / 2, numpy.arange(W * H) // W - H / 2, 600
+write_pcd("floor.pcd", floor, W, H, "x y z intensity")
+nothing = works("why.py", "part.meam", "floor.pcd", "--at", "0", "0", "600")
+check(nothing.startswith("Nothing was found: the scan shows no part. The scan shows no edges"), nothing)
 for arguments in ({}, {"at": (0, 0, 1), "pose": transforms[0]}, {"at": (1, 2)}, {"pose": numpy.eye(3)}):
     try:
         ppfmeam.why(model, "scan.pcd", **arguments)

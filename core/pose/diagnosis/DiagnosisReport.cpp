@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/DiagnosisReport.h"
 
+#include "pose/ScanAdvice.h"
 #include "pose/objective/FloorContact.h"
 #include "pose/refinement/PartSize.h"
 #include "pose/search/Suppression.h"
@@ -233,6 +234,8 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
       return found + off + ", but only " + wantedWords(diagnosis, detection.selection) + " are wanted.";
     case LossCause::Outside:
       return "Not looked for: it lies outside of the region.";
+    case LossCause::NothingShown:
+      return "Nothing was found: the scan shows no part.";
     case LossCause::NoPose:
       return "No part there: however closely it is looked for, no pose of the part has its surface at this point.";
     case LossCause::NotThere:
@@ -305,6 +308,8 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
              "Scan what is below, too.";
     case LossCause::Outside:
       return "Enlarge the region (Region), or search everywhere.";
+    case LossCause::NothingShown:
+      return adviceOnNothing({});
     case LossCause::NoPose:
       return "Take a point of the scan that lies on the part.";
     default:

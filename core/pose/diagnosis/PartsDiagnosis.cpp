@@ -118,7 +118,16 @@ PartDiagnosis PartsDiagnosis::ask(int part, const Progress& progress, const Ques
   for (std::size_t k = 0; k < asked.size(); ++k)
   {
     const Progress share = ofShare(SearchShare, 1.0, k);
-    PartDiagnosis one{ asked[k], isChosen, {}, question(this->searched(asked[k], {}), asked[k], share) };
+    PartDiagnosis one{ asked[k], isChosen, {}, {} };
+    if (PoseDiagnosis* search = this->searched(asked[k], {}))
+    {
+      one.diagnosis = question(*search, asked[k], share);
+    }
+    else
+    {
+      one.diagnosis.cause = LossCause::NothingShown;
+      one.diagnosis.lostIn = PoseStage::Voting;
+    }
     if (!most || supportOf(one.diagnosis) > supportOf(most->diagnosis))
     {
       most = std::move(one);
@@ -127,16 +136,16 @@ PartDiagnosis PartsDiagnosis::ask(int part, const Progress& progress, const Ques
   return *most;
 }
 
-PoseDiagnosis& PartsDiagnosis::searched(int part, const Progress& progress)
+PoseDiagnosis* PartsDiagnosis::searched(int part, const Progress& progress)
 {
   Search& search = this->Searches[part];
-  if (!search.diagnosis)
+  const TrainedModel& model = *this->Models[part];
+  if (!search.diagnosis && !showsNothing(this->Input, model.diameter))
   {
-    const TrainedModel& model = *this->Models[part];
     search.scene.reset(new Scene(sceneOf(model, this->Input, this->Detection))); // which cannot be moved
     search.diagnosis = std::make_unique<PoseDiagnosis>(*search.scene, model, this->Detection, this->Fit, progress);
   }
-  return *search.diagnosis;
+  return search.diagnosis.get();
 }
 
 std::string aboutWords(const PartDiagnosis& diagnosis, const std::vector<std::string>& names)

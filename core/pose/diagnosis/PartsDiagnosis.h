@@ -55,7 +55,8 @@ private:
 
   /// Asks about one type, or about all.
   PartDiagnosis ask(int part, const Progress& progress, const Question& question);
-  PoseDiagnosis& searched(int part, const Progress& progress);
+  /// Null where the scan shows nothing.
+  PoseDiagnosis* searched(int part, const Progress& progress);
 
   std::vector<const TrainedModel*> Models;
   const SceneInput& Input;

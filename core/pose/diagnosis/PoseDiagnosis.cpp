@@ -115,6 +115,7 @@ Diagnosis PoseDiagnosis::atPoint(
   Diagnosis nothing;
   const bool isOutside = this->Detection.region && !this->Detection.region->contains(point);
   nothing.cause = isOutside ? LossCause::Outside : LossCause::NoPose;
+  nothing.lostIn = PoseStage::Voting;
   report(progress, 1.0);
   return nothing;
 }

@@ -15,6 +15,7 @@ inline constexpr double LikelyFound = 0.5; ///< a pose that is there more likely
 enum class LossCause
 {
   None,           ///< it was found
+  NothingShown,   ///< the scan shows no edges, or a few by chance, as a floor with nothing on it
   NoPose,         ///< no pose of the part has its surface at the picked point
   Outside,        ///< its middle lies outside of the region
   NotThere,       ///< the sensor saw past most of the surface

@@ -64,3 +64,18 @@ TEST(PartsEstimation, TwoTypesEndTheirSearchTogetherWhereTheyHaveEnough)
   }
   EXPECT_LT(2 * report.work.references, workOf(bracket, input, asked).references);
 }
+
+TEST(PartsEstimation, ATypeOfWhichTheScanShowsNothingIsLeftOut)
+{
+  meam::SceneInput input = inputOf(scenes::seenFromAbove({ { parts::lBracket(), scenes::lying(0, 0, 20) } }));
+  input.edges.fromScan = true;
+  const double farAway = 2000.0; // mm: the scan is large enough for the other type
+  input.measured.emplace_back(farAway, 0.0f, 0.0f);
+  meam::TrainedModel large = scenes::bracket();
+  large.diameter = 1500.0;
+  const std::vector<meam::PartPose> found =
+    meam::estimateParts({ &large, &scenes::bracket() }, input, meam::detectionSettings(meam::Preset::Recommended, 1));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].part, 1);
+  EXPECT_GT(found[0].pose.placeProbability, 0.5);
+}

@@ -100,6 +100,25 @@ TEST(PartsDiagnosis, AChosenTypeIsAskedAboutWhereAnotherOneCameOut)
   EXPECT_THROW(both().diagnosis.atPoint(point, {}, 2), meam::Error);
 }
 
+TEST(PartsDiagnosis, AScanThatShowsNothingIsTold)
+{
+  meam::SceneInput floor;
+  floor.edges.fromScan = true;
+  floor.measured = { { 0, 0, 0 }, { 300, 0, 0 }, { 0, 300, 0 } };
+  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended);
+  meam::PartsDiagnosis diagnosis(both().models, floor, settings);
+  for (const meam::PartDiagnosis& told :
+    { diagnosis.atPoint({ 0, 0, 0 }), diagnosis.atPose(BlockAt, 1), diagnosis.atPoint({ 0, 0, 0 }, {}, 1) })
+  {
+    EXPECT_EQ(told.diagnosis.cause, meam::LossCause::NothingShown);
+    EXPECT_TRUE(told.diagnosis.lostIn);
+    EXPECT_FALSE(told.diagnosis.place);
+  }
+  // A few edges by chance are no scan in another unit.
+  floor.edges.cloud.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+  EXPECT_EQ(diagnosis.atPoint({ 0, 0, 0 }).diagnosis.cause, meam::LossCause::NothingShown);
+}
+
 TEST(PartsDiagnosis, APoseIsOfTheTypeThatFits)
 {
   EXPECT_EQ(both().diagnosis.atPose(BlockAt).part, 1);
