@@ -15,6 +15,12 @@ namespace
 {
 bool isRatherThere(const Pose& pose) { return placeOrScore(pose) >= 0.5; }
 
+/// The methods that the paper compares itself with give scores alone.
+bool haveProbabilities(const Poses& poses)
+{
+  return std::any_of(poses.begin(), poses.end(), [](const Pose& pose) { return claimOf(pose, false) > 0.0; });
+}
+
 /// Of poses that these symmetries make equal the one that is turned least.
 Eigen::Isometry3d leastTurned(const Eigen::Isometry3d& T, const Symmetries& symmetries)
 {
@@ -77,8 +83,13 @@ std::string describe(const Poses& poses)
   {
     return "No part was found.";
   }
+  const std::string all = std::to_string(poses.size()) + (poses.size() == 1 ? " pose" : " poses");
+  if (!haveProbabilities(poses))
+  {
+    return all + " came out; the method does not tell how likely a copy is there.";
+  }
   const auto count = std::count_if(poses.begin(), poses.end(), isRatherThere);
-  const std::string of = " of " + std::to_string(poses.size()) + (poses.size() == 1 ? " pose" : " poses");
+  const std::string of = " of " + all;
   if (count > 0)
   {
     return std::to_string(count) + of + (count == 1 ? " is" : " are") + " more likely there than not.";
@@ -91,7 +102,8 @@ std::string describe(const Poses& poses)
 
 std::string doubtsOf(const Poses& poses)
 {
-  return std::any_of(poses.begin(), poses.end(), isRatherThere) ? std::string() : describe(poses);
+  const bool isSure = !poses.empty() && !haveProbabilities(poses);
+  return isSure || std::any_of(poses.begin(), poses.end(), isRatherThere) ? std::string() : describe(poses);
 }
 
 std::string cutShort(double timeLimit)

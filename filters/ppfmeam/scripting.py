@@ -635,13 +635,14 @@ def symmetry_conclusion(samples):
 def print_poses(poses):
     """Prints poses as a table; with the number of the part, from 1, where there are several."""
     array = poses.GetPointData().GetArray
-    part = array("PartId")
+    part, likely = array("PartId"), array("PlaceProbability")
+    is_known = likely.GetNumberOfTuples() > 0 and likely.GetRange()[1] > 0
     print(f"rank  {'part  ' if part else ''}score  likely  rotation  translation (mm)               quaternion (x y z w)                view  visible")
     for i in range(poses.GetNumberOfPoints()):
         t = array("Transform").GetTuple(i)
         q = array("Quaternion").GetTuple(i)
         number = f"{part.GetValue(i) + 1:4d}  " if part else ""
-        print(f"{array('Rank').GetValue(i):4d}  {number}{array('Score').GetValue(i):.3f}  {100 * array('PlaceProbability').GetValue(i):4.0f} %"
+        print(f"{array('Rank').GetValue(i):4d}  {number}{array('Score').GetValue(i):.3f}  {f'{100 * likely.GetValue(i):4.0f} %' if is_known else '     -'}"
               f"  {100 * array('Certainty').GetValue(i):6.0f} %  {t[3]:9.3f} {t[7]:9.3f} {t[11]:9.3f}  {q[0]:8.5f} {q[1]:8.5f} {q[2]:8.5f} {q[3]:8.5f}"
               f"  {array('ViewId').GetValue(i):4d}  {100 * array('VisibleFraction').GetValue(i):5.0f} %")
     if poses.GetNumberOfPoints() == 0:

@@ -145,6 +145,13 @@ options.cad, options.objects = [], [3, 5]
 command = told.why_command(options, "set/test/000002/000007")
 check(command.startswith("ppfmeam why set/test/000002/000007 --cad 3 --cad 5 --camera"), command)
 
+# A method without probabilities: the page does not speak of any, and all poses are shown.
+printed = works("detect.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--poses", "2", "--method", "ppf", "--report", "ppf.html")
+text = read("ppf.html")
+check(not any(name in pose for pose in data_of(text)["poses"] for name in ("place", "probability", "certainty")), "no probabilities")
+check(len(data_of(text)["poses"]) == 2 and text.count("came out; the method does not tell how likely a copy is there.") == 2, "on the page")
+check("likely there than not" not in printed + text and "2 poses came out; the method does not tell how likely" in printed, printed)
+
 # Why: the part's points by what the scan shows there; a place without a part.
 works("why.py", "plate.meam", "scan.pcd", "--pose", "found.txt:1", "--poses", "0", "--report", "why.html")
 data = data_of(read("why.html"))

@@ -219,7 +219,7 @@ def drawn(projection, parts, poses):
     """The outline of each pose in the picture, as the path of an SVG."""
     transforms, of = scripting.column(poses, "Transform", 4, 4), parts_of(poses)
     places = scripting.column(poses, "PlaceProbability")
-    is_likely = numpy.ones(len(of), bool) if places is None else places.ravel() >= LIKELY
+    is_likely = numpy.ones(len(of), bool) if places is None or not places.any() else places.ravel() >= LIKELY
     paths = outlines(projection, [parts[part].copy(transform) for part, transform in zip(of, transforms)], is_likely)
     return ["".join("M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in line) for line in lines) for lines in paths]
 
@@ -238,6 +238,8 @@ def pose_rows(seen, parts, poses, reasons=None):
     """Of each pose its numbers, its colour, its outline, and what speaks for it."""
     columns = {name: scripting.column(poses, array) for name, array in NUMBERS.items()}
     columns = {name: values.ravel().tolist() for name, values in columns.items() if values is not None}
+    if not any(columns.get("place", ())):  # methods that have scores alone
+        columns = {name: values for name, values in columns.items() if name not in ("place", "probability", "certainty")}
     shown = zip(scripting.column(poses, "Transform", 16), parts_of(poses), rank_colors(poses), drawn(seen.projection, parts, poses))
     rows = []
     for k, (transform, part, color, path) in enumerate(shown):

@@ -333,10 +333,9 @@
       if (next && each.matches("tr")) { event.preventDefault(); next.focus(); choose(Number(next.dataset.rank), false); }
     });
   });
-  if (data.marks) {
-    document.querySelector(".head h2").textContent = "The place";
-    document.querySelector(".head label").hidden = true;
-  }
+  if (data.marks) document.querySelector(".head h2").textContent = "The place";
+  const isScored = data.poses.some(pose => pose.score !== undefined && pose.place === undefined); // by a method without probabilities
+  document.querySelector(".head label").hidden = Boolean(data.marks) || isScored;
   document.querySelector("details").open = !data.poses.some(shown); // of the scan stands there what may be wrong with it
   const least = element("least");
   least.value = 100 * state.least;

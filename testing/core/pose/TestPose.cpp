@@ -120,6 +120,11 @@ TEST(Pose, InOneSentenceHowSureItIsThatPartsWereFound)
   EXPECT_EQ(meam::doubtsOf(poses), "");
   poses[1].score = 0.9;
   EXPECT_EQ(meam::describe(poses), "2 of 3 poses are more likely there than not.") << "of a file with scores alone";
+  // Methods that the paper compares itself with have no probabilities.
+  poses = meam::Poses(2);
+  poses[0].score = 1.0;
+  EXPECT_EQ(meam::describe(poses), "2 poses came out; the method does not tell how likely a copy is there.");
+  EXPECT_EQ(meam::doubtsOf(poses), "");
 }
 
 TEST(Pose, ThoseThatMoreSpeaksForComeFirst)
