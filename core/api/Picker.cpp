@@ -125,15 +125,7 @@ PickPlan Picker::planAll(const std::vector<Picker>& pickers, const Detections& f
   return plan;
 }
 
-Bin detectBin(const Scan& scan, const Progress& progress)
-{
-  if (scan.height < 2)
-  {
-    throw Error("The bin is found in an organized scan: give one, or the bin (Workplace::bin), or set "
-                "Workplace::hasBin to false.");
-  }
-  return detectBin(cloudOf(scan), progress);
-}
+Bin detectBin(const Scan& scan, const Progress& progress) { return detectBin(cloudOf(scan), progress); }
 
 Grasp graspAt(GraspKind kind, const Eigen::Vector3d& position, const Eigen::Vector3d& approach,
   const Eigen::Vector3d& closing, double width)

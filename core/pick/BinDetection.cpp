@@ -15,6 +15,9 @@ namespace meam
 {
 namespace
 {
+constexpr const char* WithoutRim =
+  "the place and the size of the bin, or do without one (--no-bin; bin='none' in Python, Bin "
+  "in ParaView, Workplace in C++).";
 constexpr double MostTilt = 30.0;      // degrees between the floor's normal and the sensor's direction
 constexpr double FullSides = 60.0;     // % of each side of the rim that must have been measured
 constexpr double LeastSize = 10.0;     // % of the scan's extent: a smaller rectangle is none
@@ -99,6 +102,10 @@ std::ptrdiff_t countInside(const Rectangle& rectangle, const PlanePoints& points
 
 Bin detectBin(const OrganizedCloud& cloud, const Progress& progress)
 {
+  if (cloud.height < 2)
+  {
+    throw Error(std::string("The bin is found in an organized scan: give one, or ") + WithoutRim);
+  }
   const BackgroundRemoval background = removeBackground(cloud, nullptr, {}, subProgress(progress, 0.0, 0.6));
   Eigen::Vector3d up = -Eigen::Vector3d::UnitZ();
   std::optional<double> floor;
@@ -191,8 +198,7 @@ Bin detectBin(const OrganizedCloud& cloud, const Progress& progress)
   }
   if (!(bin.size.minCoeff() > 0.0))
   {
-    throw Error("No bin was found in the scan: its rim has to be in view all around. Give the place and the size "
-                "of the bin, or do without one (--no-bin; bin='none' in Python, Bin in ParaView).");
+    throw Error(std::string("No bin was found in the scan: its rim has to be in view all around. Give ") + WithoutRim);
   }
   bin.T_scene_bin.linear().col(2) = up;
   bin.T_scene_bin.linear().col(0) = axes.rightCols<2>() * rim.along;

@@ -168,10 +168,6 @@ int vtkMEAMPickPlanning::RequestData(
       }
       else if (this->Bin == DetectedBin)
       {
-        if (!vtkStructuredGrid::SafeDownCast(scan))
-        {
-          throw meam::Error("The bin is found in an organized scan: connect Scan, or set Bin to Given or None.");
-        }
         bin = meam::detectBin(cloud, meam::subProgress(progress, 0.0, 0.2));
       }
       std::vector<meam::Grasps> grasps;

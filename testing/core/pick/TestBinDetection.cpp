@@ -81,3 +81,19 @@ TEST(BinDetection, FindsTheSimulatedOne)
 }
 
 TEST(BinDetection, SaysWhenThereIsNone) { EXPECT_THROW(meam::detectBin(scanOf(0.3, 0.1f, false)), meam::Error); }
+
+TEST(BinDetection, PointsAloneAreRefusedWithTheOptionToChange)
+{
+  for (const meam::OrganizedCloud& cloud : { meam::OrganizedCloud(), meam::OrganizedCloud{ 1, 1, { { 0, 0, 500 } } } })
+  {
+    try
+    {
+      meam::detectBin(cloud);
+      FAIL() << "it is no grid";
+    }
+    catch (const meam::Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("--no-bin"), std::string::npos) << error.what();
+    }
+  }
+}
