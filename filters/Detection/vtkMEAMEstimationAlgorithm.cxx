@@ -142,7 +142,7 @@ vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, Creases, bool, creases);
 int vtkMEAMEstimationAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   static const char* const types[4][2] = { { "vtkPolyData", "vtkPartitionedDataSetCollection" },
-    { "vtkStructuredGrid", "vtkPolyData" }, { "vtkPolyData", nullptr }, { "vtkImageData", nullptr } };
+    { "vtkStructuredGrid", "vtkPolyData" }, { "vtkPolyData", "vtkStructuredGrid" }, { "vtkImageData", nullptr } };
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   for (const char* type : types[port])
   {
@@ -177,7 +177,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
 {
   using namespace vtkMEAMConversion;
   auto* sceneInput = vtkPointSet::GetData(inputVector[1]);
-  auto* boundary = vtkPolyData::GetData(inputVector[2]);
+  auto* boundary = vtkPointSet::GetData(inputVector[2]);
   auto* image = vtkImageData::GetData(inputVector[3]);
   const meam::Progress progress = progressOf(this);
   meam::DetectSettings& settings = *this->Settings;

@@ -63,7 +63,7 @@ int vtkMEAMDepthImageReader::RequestData(vtkInformation*, vtkInformationVector**
     }
     const meam::CameraFile calibration =
       vtkMEAMConversion::calibrationOf(this->CameraFile, this->FocalLength, this->PrincipalPoint);
-    const double scale = this->DepthScale > 0.0 ? this->DepthScale : calibration.depthScale;
+    const double scale = this->DepthScale != 0.0 ? this->DepthScale : calibration.depthScale;
     const meam::OrganizedCloud cloud =
       meam::readDepthImage(this->FileName, calibration.camera, scale, vtkMEAMConversion::progressOf(this));
     meam::requirePoints(cloud.points, std::string("The depth image '") + this->FileName + "'");

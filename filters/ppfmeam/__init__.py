@@ -11,6 +11,10 @@ The single steps are VTK algorithms: ppfmeam.filters."""
 class Error(Exception):
     """Something the user has to know and can act on: the message says what is wrong and what to do."""
 
+    def __str__(self):
+        from .choices import worded
+        return worded(super().__str__())
+
 
 _HOMES = {"Detections": "api", "Diagnosis": "api", "Model": "api", "calibrate": "api", "detect": "api", "load": "api", "train": "api", "why": "api",
           "Grasp": "_core", "Pick": "_core", "Pose": "_core", "Grasps": "picking", "Picks": "picking", "grasps": "picking",

@@ -10,7 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPartitionedDataSetCollection, vtkPolyData
 
 from . import Error, _core, dataset, filters, inputs, regions, scripting
-from .choices import takes, worded
+from .choices import checked_scale, takes, worded
 
 MODELS = (".meam", ".vtpc")
 WIDTHS = {"Quaternion": 4, "Covariance": 36}  # of arrays that have several values of a pose, also of none
@@ -92,16 +92,16 @@ class Detections(Rows):
                "place_probabilities": ("place_probability", ()), "probabilities": ("probability", ()),
                "certainties": ("certainty", ()), "visible_fractions": ("visible_fraction", ()), "parts": ("part", ())}
 
-    def __init__(self, found, models, given, settings):
+    def __init__(self, found, models, given, of_cad, settings):
         super().__init__(found.poses)
-        self.inputs, self.settings, self.age = given, settings, inputs.age_of(given["scan"])
+        self.inputs, self.of_cad, self.settings, self.age = given, of_cad, settings, inputs.age_of(given["scan"])
         self.core, self.models, self.model = found, models, models[0]
         self.seconds, self.scan_quality, self.is_cut_short = found.seconds, found.quality, found.is_cut_short
         self.report, self.advice = found.report, worded(found.advice)
 
     def of(self, part):
         """Those of one of several types of part, by its place among them, as pick() takes them."""
-        found = Detections(self.core.of(part), [self.models[part]], self.inputs, self.settings)
+        found = Detections(self.core.of(part), [self.models[part]], self.inputs, self.of_cad, self.settings)
         found.age = self.age
         return found
 
@@ -126,12 +126,13 @@ class Detections(Rows):
     def scan(self):
         """The scan, from its file again: results do not hold it."""
         self.require_scan()
-        return inputs.scan_of(**{name: value for name, value in self.inputs.items() if name not in ("cad_scale", "solid")})
+        return inputs.scan_of(**self.inputs)
 
     def __str__(self):
-        several = len(self.models) > 1
+        several, is_known = len(self.models) > 1, bool(numpy.any(self.place_probabilities))
         lines = ["rank  " + "part  " * several + "likely  score   rotation  visible  translation (mm)"]
-        lines += [f"{rank:4d}  " + f"{pose.part:4d}  " * several + f"{100 * pose.place_probability:4.0f} %  {pose.score:.3f}  {100 * pose.certainty:7.0f} %  "
+        lines += [f"{rank:4d}  " + f"{pose.part:4d}  " * several + (f"{100 * pose.place_probability:4.0f} %" if is_known else "     -") +
+                  f"  {pose.score:.3f}  {100 * pose.certainty:7.0f} %  "
                   f"{100 * pose.visible_fraction:5.0f} %  {pose.transform[0, 3]:9.3f} {pose.transform[1, 3]:9.3f} "
                   f"{pose.transform[2, 3]:9.3f}" for rank, pose in enumerate(self, 1)]
         return "\n".join(lines if self.rows else lines + ["      no part found"])
@@ -272,13 +273,28 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     flags or an image file of the scan's size that is not black there. Parts whose middle lies elsewhere are not looked for.
     """
     given = {"scan": scan, "image": image, "boundary": boundary, "camera": camera, "image_camera": image_camera, "scale": scale,
-             "cad_scale": cad_scale, "region": region, **sensor.differing(), **reading.differing()}
+             "region": region, **sensor.differing()}
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region, sensor.viewpoint)
-    models = [part_of(each, cad_scale, settings, reading) for each in (part if isinstance(part, (list, tuple)) else [part])]
+    models = models_of(part, cad_scale, settings, reading)
     found = _core.detect([model.core for model in models], seen, settings.apply(_core.DetectSettings(), _core))
     if found.warning:
         warnings.warn(worded(found.warning), stacklevel=3)
-    return Detections(found, models, given, settings)
+    return Detections(found, models, given, {"cad_scale": cad_scale, **reading.differing()}, settings)
+
+
+def is_model(part):
+    """Whether it is a trained model, or the name of the file of one."""
+    return isinstance(part, (Model, vtkPartitionedDataSetCollection)) or \
+        isinstance(part, (str, os.PathLike)) and os.fspath(part).lower().endswith(MODELS)
+
+
+def models_of(part, cad_scale, settings, reading):
+    """The trained models of a part, or of several."""
+    parts, cad_scale = part if isinstance(part, (list, tuple)) else [part], checked_scale("cad_scale", cad_scale)
+    given = "solid" if reading.solid else "cad_scale" if cad_scale != 1.0 else None
+    if given and all(map(is_model, parts)):
+        raise Error(f"{given} is of a CAD file: leave it out, a trained model has its own")
+    return [part_of(each, cad_scale, settings, reading) for each in parts]
 
 
 def part_of(part, scale, settings, reading):
@@ -287,8 +303,10 @@ def part_of(part, scale, settings, reading):
         return part
     if isinstance(part, vtkPartitionedDataSetCollection):
         return Model(part)
-    if not isinstance(part, vtkDataObject) and inputs.name_of(part, "the part has to be a Model, a file, or a vtkPolyData").lower().endswith(MODELS):
+    if is_model(part):
         return load(part)
+    if not isinstance(part, vtkDataObject):
+        inputs.name_of(part, "the part has to be a Model, a file, or a vtkPolyData")
     return train(part, scale=scale, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
 
 
@@ -309,8 +327,8 @@ def why(part, scan, at=None, pose=None, fit=False, image=None, boundary=None, ca
         raise Error("give either at, a point on the part, or pose, where the part lies")
     seen = inputs.scan_of(scan, camera, scale, image, boundary, image_camera, region, sensor.viewpoint)
     diagnosis = filters.vtkMEAMPoseDiagnosis()
-    for each in part if isinstance(part, (list, tuple)) else [part]:
-        diagnosis.AddInputDataObject(part_of(each, cad_scale, settings, reading).data)
+    for model in models_of(part, cad_scale, settings, reading):
+        diagnosis.AddInputDataObject(model.data)
     diagnosis.SetPartId(-1 if part_id is None else part_id)
     for port, data in enumerate(inputs.to_vtk(seen), 1):
         diagnosis.SetInputDataObject(port, data)

@@ -15,9 +15,9 @@ def add_options(parser):
     parser.add_argument("--model", action="append", default=[], help="a trained model in place of PART, once for each type of part; its --cad, in the same order, has the faces that are shown and held")
     choices.add_options(parser, "train", "scale")
     choices.add_options(parser, "read", "solid")
-    parser.add_argument("--scale", type=float, default=1, metavar="F", help="factor that brings the scan and the boundary to mm (default: %(default)s)")
+    parser.add_argument("--scale", "--scene-scale", type=choices.factor, default=1, metavar="F", help="factor that brings the scan and the boundary to mm (default: %(default)s)")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
-    parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
+    parser.add_argument("--depth-scale", type=choices.factor, metavar="F",
                         help="mm that 1 in a depth image stands for (default: depth_scale of the calibration, or 1)")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="FILE", help="image of an organized scan that carries none")
@@ -37,9 +37,17 @@ def parsed(parser):
         parser.error("give PART and SCAN, or SCAN and --cad, or --model, once for each type of part")
     if options.cad and options.model and len(options.cad) != len(options.model):
         parser.error("give a --cad for each --model, in the same order, or none")
+    scripting.require_cad(parser, options, not all(api.is_model(part) or is_number(part) for part in options.cad or options.parts))
+    if options.image and not options.image_edges and not getattr(options, "report", None):
+        parser.error("--no-image leaves the image out: give one of --image and --no-image")
     if options.depth_scale and not (options.camera and options.scan.lower().endswith(scripting.DEPTH_IMAGES)):
         parser.error("--depth-scale is of a depth image with its --camera")
     return options
+
+
+def is_number(part):
+    """Whether it is no file's name, but the number of an object."""
+    return part.isdecimal() and not os.path.exists(part)
 
 
 class Asked:
@@ -61,11 +69,12 @@ class Asked:
 
     def is_object(self, part):
         """Whether the number of an object of the dataset names the part."""
-        return bool(self.found) and part.isdecimal() and not os.path.exists(part)
+        return bool(self.found) and is_number(part)
 
     def inputs(self):
         """What goes with the scan, and how parts are looked for."""
-        names = ("scale", "cad_scale", "solid", "viewpoint", "poses", "preset", *OF_DETECTION)
+        of_cad = () if self.options.model else ("cad_scale", "solid")
+        names = ("scale", *of_cad, "viewpoint", "poses", "preset", *OF_DETECTION)
         return {**{name: getattr(self.options, name) for name in names}, **self.beside, "region": self.options.roi}
 
     def shapes(self):
@@ -75,6 +84,6 @@ class Asked:
     def shape(self, part):
         if self.is_object(part):
             return self.found[0].mesh(int(part))
-        if part.lower().endswith(api.MODELS):
+        if api.is_model(part):
             return scripting.shape_of(scripting.read_model(part))
         return scripting.read_mesh(part, scale=self.options.cad_scale, solid=self.options.solid)

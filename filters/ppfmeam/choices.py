@@ -35,7 +35,7 @@ def wanted(choice):
 def converted(choice, value):
     """The value as C++ takes it; throws ValueError or TypeError for a wrong one."""
     kind = choice["type"]
-    if value is None and choice["default"] is None:
+    if value is None and choice.get("default", 0) is None:
         return None
     if kind == "choice":
         if value not in choice["values"]:
@@ -67,6 +67,13 @@ def checked(name, choice, value):
         raise Error(f"{name} has to be {wanted(choice)}, not {value!r}") from None
 
 
+def checked_scale(name, value):
+    """A factor that brings lengths to mm."""
+    return checked(name, TABLE["train"]["scale"], value)
+
+
+# Of what is chosen beside the detection.
+OTHERS = {"Scale of its reader": ("scale", "--scene-scale"), "CADScale": ("cad_scale", "--cad-scale")}
 is_command = False  # scripting.run() is one: texts name its options
 
 
@@ -79,8 +86,15 @@ def worded(text):
             for word, value in choice["values"].items():
                 text = text.replace(f"{choice['property']}: {value}", f"{name} {word}" if is_command else f"{name}={word!r}")
         elif name:
-            text = re.sub(rf"\b{choice['property']}\b", name, text)
+            text = named(text, choice["property"], name)
+    for property, (argument, option) in OTHERS.items():
+        text = named(text, property, option if is_command else argument)
     return text
+
+
+def named(text, property, name):
+    """The text with a name in place of a property's; names of files stay as they are."""
+    return re.sub(rf"(?<![\w/]){property}(?![\w/])", name, text)
 
 
 class Chosen:
@@ -152,6 +166,10 @@ def number(choice):
     return of
 
 
+# Of options that are in no table.
+finite, factor = number({"type": "number"}), number({"type": "number", "above": 0})
+
+
 def add_options(parser, group, *names):
     """Adds the command line options of choices to a parser."""
     for name in names:
@@ -165,7 +183,7 @@ def add_options(parser, group, *names):
         elif kind == "choice":
             told["choices"] = list(choice["values"])
         elif kind == "vector":
-            told.update(nargs=3, type=float, metavar=("X", "Y", "Z"))
+            told.update(nargs=3, type=finite, metavar=("X", "Y", "Z"))
         else:
             told.update(type=number(choice), metavar="N" if kind == "integer" else "X")
         parser.add_argument(choice["option"], **told)

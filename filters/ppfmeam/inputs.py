@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What users have, files, NumPy arrays or VTK's data objects, as the C++ library takes it, and back to VTK's for the filters."""
-import numbers
 import os
 import tempfile
 import warnings
@@ -12,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkDataSe
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from . import Error, _core, regions, scripting
+from .choices import checked_scale
 
 HIDDEN = vtkDataSetAttributes.HIDDENPOINT
 
@@ -103,8 +103,7 @@ def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camer
 
 def cloud_of(scan, camera, scale):
     """The points, with the image of an organized scan that carries one."""
-    if not isinstance(scale, numbers.Real) or not 0 < scale < float("inf"):
-        raise Error(f"scale has to be a positive number, not {scale!r}")
+    scale = checked_scale("scale", scale)
     if camera is not None and isinstance(scan, (vtkDataObject, numpy.ndarray)):
         raise Error("camera brings the points of a file onto its pixels: give a file, or the points as a grid without camera")
     if isinstance(scan, vtkDataObject):

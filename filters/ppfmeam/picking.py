@@ -6,7 +6,7 @@ import numpy
 
 from . import Error, _core, inputs, scripting
 from .api import Detections, Model, Rows
-from .choices import Chosen, takes
+from .choices import TABLE, Chosen, checked, checked_scale, takes
 
 PROPOSED = {"parallel": ("parallel",), "suction": ("suction",), "both": ("parallel", "suction"), "off": ()}
 GRIPPERS = {"jaws": "parallel", "cup": "suction"}
@@ -81,7 +81,7 @@ def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), symm
     wanted = propose or ("parallel" if file is None else "off")
     if wanted not in PROPOSED:
         raise Error(f"propose has to be one of {', '.join(map(repr, PROPOSED))}, not {propose!r}")
-    part = _core.prepare_mesh(inputs.mesh_of(cad, reading), scale, offset)
+    part = _core.prepare_mesh(inputs.mesh_of(cad, reading), checked_scale("scale", scale), checked("offset", TABLE["train"]["offset"], offset))
     if not isinstance(symmetries, (Model, type(None))):
         raise Error(f"symmetries has to be the part's Model, not {symmetries!r}")
     model = _core.Model() if symmetries is None else symmetries.core

@@ -263,6 +263,13 @@ def add_bin_arguments(parser, scenes):
                         help="of the first bin, the next has the next one (default: %(default)s)")
 
 
+def require_cad(parser, options, cad):
+    """Ends the command where something is chosen of a CAD file, and there is none."""
+    for name in ("solid", "cad_scale", "cad_offset"):
+        if not cad and getattr(options, name, None) != parser.get_default(name):
+            parser.error(f"--{name.replace('_', '-')} is of a CAD file: leave it out, trained models and datasets have their own")
+
+
 def set_choice(algorithm, name, choice):
     """Sets an enumerated property: Preset, recommended calls SetPresetToRecommended()."""
     getattr(algorithm, f"Set{name}To{choice[0].upper()}{choice[1:]}")()
@@ -402,11 +409,11 @@ def read_scan(path, scale=1.0, camera=None):
     return read_with(reader, path)
 
 
-def read_depth(path, camera, scale=0.0):
-    """The organized cloud of a depth image and its camera's calibration."""
+def read_depth(path, camera, scale=None):
+    """The organized cloud of a depth image and its camera's calibration; `scale` in place of the calibration's."""
     reader = filters.vtkMEAMDepthImageReader()
     reader.SetCameraFile(camera)
-    reader.SetDepthScale(scale)
+    reader.SetDepthScale(scale or 0.0)
     return read_with(reader, path)
 
 

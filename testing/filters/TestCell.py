@@ -115,7 +115,7 @@ with open("old/picks.csv", "w", encoding="utf-8") as file:
 old = cell("--out", "old")
 check(old.returncode != 0 and "is not of this version" in old.stderr, f"columns of another version: {old.stderr}")
 for word, arguments in (("1 or more", ("--bins", "0")), ("10000", ("--copies", "10001")), ("cannot write", ("--out", "/proc/no")),
-                        ("positive", ("--bin", "0", "1", "1")), ("no length claw", ("--gripper", "claw=3")), ("NAME=MM", ("--gripper", "claw")),
+                        ("above 0", ("--bin", "0", "1", "1")), ("no length claw", ("--gripper", "claw=3")), ("NAME=MM", ("--gripper", "claw")),
                         ("no grasp", ("--gripper", "cup_diameter=500"))):
     wrong = cell(*(() if "--out" in arguments else ("--out", "wrong")), *arguments)
     check(wrong.returncode != 0 and word in wrong.stderr, f"{arguments}: {wrong.stderr}")

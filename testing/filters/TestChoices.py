@@ -112,7 +112,11 @@ check({row[1]: row for row in rows} == {
 said = "Raise MaximumNumberOfPoses; RotationCounts keeps these back; let the surface vote (Features: Both); switch on DepthEdges."
 check(choices.worded(said) == "Raise poses; rotation_counts keeps these back; let the surface vote (features='both'); switch on depth_edges.",
       choices.worded(said))
+scaled = "Scale the scene (Scale of its reader), or the part (CADScale)."
+check(str(ppfmeam.Error(scaled)) == "Scale the scene (scale), or the part (cad_scale).", "errors name arguments")
 choices.is_command = True
+check(str(ppfmeam.Error(scaled)) == "Scale the scene (--scene-scale), or the part (--cad-scale).", "errors name options")
+check(choices.worded("cannot read /data/CADScale/Seed.stl") == "cannot read /data/CADScale/Seed.stl", "names of files stay")
 check(choices.worded(said) == "Raise --poses; --rotation-counts keeps these back; let the surface vote (--features both); switch on DepthEdges.",
       choices.worded(said))
 choices.is_command = False

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """ppfmeam's functions: files and NumPy arrays in, rows and NumPy arrays out, the same as of the filters; exceptions and nothing
 on the console; threads and signals of Python while they work; the files of a trained model hold the same."""
+import math
 import os
 import shutil
 import signal
@@ -316,7 +317,11 @@ try:
     raises("the model has to be a file, not NoneType", ppfmeam.load, None)
     raises("the part has to be a Model, a file, or a vtkPolyData, not dict", ppfmeam.why, {}, scan, at=(0, 0, 600))
     raises("the scan has to be a file, an array of points, or VTK's data object, not Model", ppfmeam.detect, "part.stl", model)
-    raises("scale has to be a positive number, not '1000'", ppfmeam.detect, model, scan, scale="1000")
+    raises("scale has to be a number above 0, not '1000'", ppfmeam.detect, model, scan, scale="1000")
+    raises("cad_scale has to be a number above 0, not nan", ppfmeam.detect, "part.stl", scan, cad_scale=math.nan)
+    raises("scale has to be a number above 0, not 0", ppfmeam.grasps, "part.stl", scale=0)
+    raises("cad_scale is of a CAD file", ppfmeam.detect, model, scan, cad_scale=1000)
+    raises("solid is of a CAD file", ppfmeam.why, [model, "model.meam"], scan, solid=3, at=(0, 0, 600))
     raises("three finite numbers, not 'here'", ppfmeam.why, model, scan, at="here")
     raises("symmetries has to be the part's Model, not 'part.meam'", ppfmeam.grasps, "part.stl", symmetries="part.meam")
     raises("the grasps have to be those of grasps(), not Model", ppfmeam.pick, found, model, scan)

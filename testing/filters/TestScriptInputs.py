@@ -14,7 +14,7 @@ import ppfmeam
 from ppfmeam import scripting
 from ppfmeam.filters import vtkMEAMPoseEstimation
 from meamtest import check, connect, pose_error, run, tuples
-from scripttest import H, W, read, scan_of_bin, script, works
+from scripttest import H, W, read, scan_of_bin, script, works, write_pcd
 
 def refuses(word, name, *arguments, status=1):
     result = script(name, *arguments)
@@ -160,6 +160,30 @@ all_true(matrices("d.txt"), "a depth image without an image")
 for calibration in (("camera.json",), ("camera.yaml", "--depth-scale", str(SCALE))):
     told = works("why.py", "part.vtpc", "depth.png", "--camera", *calibration, "--truth", "d.txt", "--no-image")
     check(told.count("Found as rank") == 2, told)
+# Edge points may come as a grid, too.
+heights = numpy.nan_to_num(points[:, 2]).reshape(H, W)
+jumps = valid & (abs(numpy.diff(heights, axis=1, prepend=0)) > 3).ravel()
+write_pcd("grid.pcd", numpy.where(jumps[:, None], points, numpy.nan), W, H, "x y z")
+write_pcd("edges.pcd", points[jumps], jumps.sum(), 1, "x y z")
+for name in ("grid", "edges"):
+    works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json", "--boundary", f"{name}.pcd", "--matrices", f"{name}.txt")
+check(numpy.allclose(matrices("grid.txt"), matrices("edges.txt"), atol=1e-3), "a grid of edge points")
+
+# What is given is taken, or refused.
+AT = ("--at", "0", "0", "600")
+for wrong in ("0", "-0.1", "nan", "inf"):
+    words = f"it has to be a number above 0, not {wrong}"
+    refuses(words, "detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json", "--depth-scale", wrong, status=2)
+    refuses(words, "detect.py", *MODEL, "--scene", "scan.ply", "--scene-scale", wrong, status=2)
+    refuses(words, "why.py", "part.vtpc", "scan.ply", "--scale", wrong, *AT, status=2)
+refuses("it has to be a number, not nan", "detect.py", *MODEL, "--scene", "scan.ply", "--viewpoint", "0", "0", "nan", status=2)
+for option in (("--solid", "3"), ("--cad-scale", "1000"), ("--cad-offset", "1", "2", "3")):
+    refuses(f"{option[0]} is of a CAD file", "detect.py", *MODEL, "--scene", "scan.ply", *option, status=2)
+refuses("--cad-scale is of a CAD file", "why.py", "part.vtpc", "scan.ply", "--cad-scale", "1000", *AT, status=2)
+refuses("--cad-scale is of a CAD file", "batch.py", "clouds", *MODEL, "--cad-scale", "1000", "--out", "none.csv", status=2)
+refuses("--depth-scale is of depth images", "batch.py", "clouds", *MODEL, "--depth-scale", "2", "--out", "none.csv", status=2)
+for name, scene in (("detect.py", (*MODEL, "--scene", "scan.ply")), ("why.py", ("part.vtpc", "scan.ply", *AT))):
+    refuses("--no-image leaves the image out", name, *scene, "--image", "image.png", "--no-image", status=2)
 refuses("--depth-scale is of a depth image", "why.py", "part.vtpc", "scan.ply", "--depth-scale", "0.1", "--at", "0", "0", "600", status=2)
 os.makedirs("depths")
 os.rename("depth.png", "depths/0.png")

@@ -40,9 +40,9 @@ def options_of_user(arguments=None):
     choices.add_options(parser, "read", "solid")
     parser.add_argument("--split", default="test", help="folder of a BOP dataset's scenes (default: %(default)s)")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of depth images and of .ply scans")
-    parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
+    parser.add_argument("--depth-scale", type=choices.factor, metavar="F",
                         help="mm that 1 in a depth image stands for (default: depth_scale of the calibration, or 1)")
-    parser.add_argument("--scene-scale", type=float, default=1, metavar="F",
+    parser.add_argument("--scene-scale", type=choices.factor, default=1, metavar="F",
                         help="factor from the scans' lengths to mm")
     parser.add_argument("--image-camera", metavar="FILE",
                         help="calibration of the camera beside the sensor that took a list's images (default: they are "
@@ -66,8 +66,11 @@ def options_of_user(arguments=None):
         parser.error("give SCANS and --out, or --watch")
     if options.watch and options.report:
         parser.error("--report is of SCANS, not of --watch")
+    if options.depth_scale and not options.camera:
+        parser.error("--depth-scale is of depth images with their --camera")
     if options.viewpoint and options.camera:
         parser.error("--camera tells where the scan is seen from: leave --viewpoint out")
+    scripting.require_cad(parser, options, options.cad)
     if options.why and not options.report:
         parser.error("--why is of the pages of --report")
     if options.watch and not options.model and not options.cad:

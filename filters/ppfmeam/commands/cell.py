@@ -20,11 +20,11 @@ HEAD = ("bin", "pick", "left", "found", "picks", "outcome", "mm off", "degrees",
 def options_of_user():
     parser = scripting.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cad", required=True, help="CAD file: .step or .iges, or .stl, .obj, .ply or .off in mm")
-    parser.add_argument("--cad-scale", type=float, default=1, metavar="F", help="factor to mm: 1000 for a CAD in metres")
+    choices.add_options(parser, "train", "scale")
     choices.add_options(parser, "read", "solid")
     simulation.add_sensor_argument(parser)
     add_gripper_options(parser)
-    parser.add_argument("--bin", type=float, nargs=3, metavar=("LENGTH", "WIDTH", "HEIGHT"),
+    parser.add_argument("--bin", type=choices.factor, nargs=3, metavar=("LENGTH", "WIDTH", "HEIGHT"),
                         help="of the bin inside, mm (default: a square that the copies fill about twice)")
     parser.add_argument("--copies", type=scripting.count, default=20, help="in the bin, up to 10000 (default: %(default)s)")
     parser.add_argument("--bins", type=scripting.count, default=1,
@@ -36,8 +36,6 @@ def options_of_user():
     options = parser.parse_args()
     if options.bins < 1 or not 1 <= options.copies <= 10000:
         parser.error("--bins has to be 1 or more, --copies 1 to 10000")
-    if options.bin and min(options.bin) <= 0:
-        parser.error("--bin has to be three positive lengths, mm")
     return options
 
 
@@ -57,9 +55,6 @@ def main():
     options = options_of_user()
     mesh = scripting.read_mesh(options.cad, scale=options.cad_scale, solid=options.solid)
     gripper, lengths = gripper_of(options)
-    unknown = [name for name in lengths if name not in choices.TABLE["gripper"]]
-    if unknown:
-        raise scripting.Failure(f"a gripper has no length {unknown[0]}; it has {', '.join(choices.TABLE['gripper'])}")
     with open(options.cad, "rb") as file:  # another part under the same name is another cell
         digest = zlib.crc32(file.read() + repr((options.cad_scale, options.solid)).encode())
     known = (f"{os.path.splitext(os.path.basename(options.cad))[0]}-{digest:08x}", options.sensor,

@@ -22,9 +22,9 @@ def options_of_user():
     parser.add_argument("--camera", metavar="FILE",
                         help="calibration of the sensor (docs/inputs.md): of the depth image, or of a scan whose points are not "
                              "organized, which it brings back onto its pixels")
-    parser.add_argument("--depth-scale", type=float, default=0, metavar="F",
+    parser.add_argument("--depth-scale", type=choices.factor, metavar="F",
                         help="mm that 1 in the depth image stands for (default: depth_scale of the calibration, or 1)")
-    parser.add_argument("--scene-scale", type=float, default=1, metavar="F",
+    parser.add_argument("--scene-scale", type=choices.factor, default=1, metavar="F",
                         help="factor to mm, also of the boundary, and of the depth image beside its own scale")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")
     parser.add_argument("--image", metavar="FILE",
@@ -52,6 +52,9 @@ def options_of_user():
         parser.error("--depth-scale is of a depth image: use --scene-scale")
     if options.viewpoint and options.camera:
         parser.error("--camera tells where the scan is seen from: leave --viewpoint out")
+    scripting.require_cad(parser, options, options.cad)
+    if options.image and not options.image_edges and not options.report:
+        parser.error("--no-image leaves the image out: give one of --image and --no-image")
     if options.image_camera and not options.image:
         parser.error("--image-camera is of an --image")
     return options

@@ -3,7 +3,7 @@
 tells it, and of a target, or a part, as the camera sees it at the same moment."""
 import argparse
 
-from .. import filters, scripting
+from .. import choices, filters, scripting
 
 
 def main():
@@ -19,7 +19,7 @@ Twenty pairs, with the gripper turned by 30 degrees and more about several axes.
                              "the file says, or else beside)")
     parser.add_argument("--out", metavar="FILE",
                         help="write T_robot_camera: .json in mm, or .yaml, a transform of ROS in metres")
-    parser.add_argument("--limit", type=float, metavar="MM", help="fail when the residual is larger than this")
+    parser.add_argument("--limit", type=choices.factor, metavar="MM", help="fail when the residual is larger than this")
     options = parser.parse_args()
 
     scripting.require_file(options.pairs)

@@ -5,7 +5,7 @@ import argparse
 import numpy
 
 import ppfmeam
-from ppfmeam import api, asked, scripting
+from ppfmeam import api, asked, choices, scripting
 
 from ..choices import Chosen
 from ..report.told import names_of
@@ -30,6 +30,10 @@ def add_gripper_options(parser):
 
 def gripper_of(options):
     """Jaws or cup, and its lengths by name."""
+    known = choices.TABLE["gripper"]
+    for name, _ in options.gripper:
+        if name not in known:
+            raise scripting.Failure(f"a gripper has no length {name}; it has {', '.join(known)}")
     main = {"opening": options.opening} if options.cup is None else {"cup_diameter": options.cup}
     return "jaws" if options.cup is None else "cup", {**main, **dict(options.gripper)}
 

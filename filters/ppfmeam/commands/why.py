@@ -6,7 +6,7 @@ import math
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from .. import api, asked, filters, scripting
+from .. import api, asked, choices, filters, scripting
 from .. import inputs as scans
 from ..report import page
 from ..report.content import Part
@@ -17,7 +17,7 @@ def options_of_user():
     parser = scripting.Parser(description=__doc__)
     asked.add_options(parser)
     place = parser.add_mutually_exclusive_group(required=True)
-    place.add_argument("--at", nargs=3, type=float, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
+    place.add_argument("--at", nargs=3, type=choices.finite, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
     place.add_argument("--pose", metavar="FILE[:ROW]",
                        help="where the part lies: a pose of a file (BOP's CSV, JSON, or 4x4 matrices), the first or that of "
                             "a row, from 1; it is fitted to the scan first")

@@ -76,7 +76,7 @@ class Told:
     @classmethod
     def of_python(cls, found):
         """Of Detections."""
-        call = {name: value for name, value in found.inputs.items() if name != "scan" and value not in (None, 1.0)}
+        call = {name: value for name, value in {**found.inputs, **found.of_cad}.items() if name != "scan" and value not in (None, 1.0)}
         chosen = found.settings.differing()
         parts = [repr(model.file) if model.file else "model" for model in found.models]
         part = parts[0] if len(parts) == 1 else f"[{', '.join(parts)}]"
@@ -135,9 +135,9 @@ def settings(options):
 def why_command(options, scan, image=None, boundary=None):
     """That of `why` for a scan, with {x} {y} {z} for the place; empty where the options name no part."""
     beside = {"camera": options.camera, "image": image, "image-camera": image and options.image_camera, "boundary": boundary,
-              "scale": options.scene_scale, "cad-scale": options.cad_scale}
+              "scale": options.scene_scale, "cad-scale": None if options.model else options.cad_scale}
     words = [text for name, value in beside.items() if value not in (None, "", 1) for text in ("--" + name, str(value))]
-    words += ["--solid", str(options.solid)] if options.solid else []
+    words += ["--solid", str(options.solid)] if options.solid and not options.model else []
     if options.depth_scale and scan.lower().endswith(scripting.DEPTH_IMAGES):
         words += ["--depth-scale", str(options.depth_scale)]
     for name, values in (("--roi", options.roi), ("--viewpoint", options.viewpoint)):
