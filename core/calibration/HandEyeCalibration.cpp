@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -232,20 +233,27 @@ HandEyePairs shifted(const HandEyePairs& pairs, int lag)
 
 struct Mistake
 {
-  const char* what;
-  void (*undo)(HandEyePair& pair);
+  std::string what;
+  std::function<void(HandEyePair&)> undo;
 };
-const Mistake Mistakes[] = {
-  { "one of its poses is inverse", [](HandEyePair& pair) { pair.T_camera_target = pair.T_camera_target.inverse(); } },
-  { "both poses of a pair are inverse",
-    [](HandEyePair& pair) {
-      pair = { pair.T_base_gripper.inverse(), pair.T_camera_target.inverse() };
-    } },
-  { "the grippers' poses are in metres, the targets' in mm",
-    [](HandEyePair& pair) { pair.T_base_gripper.translation() *= Metre; } },
-  { "the targets' poses are in metres, the grippers' in mm",
-    [](HandEyePair& pair) { pair.T_camera_target.translation() *= Metre; } },
-};
+
+std::vector<Mistake> mistakesInUse()
+{
+  std::vector<Mistake> mistakes{ { "one of its poses is inverse",
+                                   [](HandEyePair& pair) { pair.T_camera_target = pair.T_camera_target.inverse(); } },
+    { "both poses of a pair are inverse", [](HandEyePair& pair) {
+       pair = { pair.T_base_gripper.inverse(), pair.T_camera_target.inverse() };
+     } } };
+  for (const LengthUnit& unit : UnitsBesideMM)
+  {
+    const std::string name = unit.name;
+    mistakes.push_back({ "the grippers' poses are in " + name + ", the targets' in mm",
+      [unit](HandEyePair& pair) { pair.T_base_gripper.translation() *= unit.length; } });
+    mistakes.push_back({ "the targets' poses are in " + name + ", the grippers' in mm",
+      [unit](HandEyePair& pair) { pair.T_camera_target.translation() *= unit.length; } });
+  }
+  return mistakes;
+}
 
 /// The pairs that stand out: those without which all others fit, the worst first; none when they are more than a share.
 std::vector<std::size_t> outliersOf(const HandEyePairs& pairs, CameraMount mount)
@@ -298,19 +306,23 @@ std::string suspicionOf(const HandEyePairs& pairs, CameraMount mount, const Hand
     return std::string("They fit a camera ") + otherName +
            ": set the mount; or the poses of all targets (T_target_camera), or of all grippers, are inverse.";
   }
-  for (const Mistake& mistake : Mistakes)
+  const std::vector<Mistake> mistakes = mistakesInUse();
+  for (const Mistake& mistake : mistakes)
   {
     if (isSane(bestOf(changed(pairs, mistake.undo), mount)))
     {
       return std::string("They fit if ") + mistake.what + ": change that.";
     }
   }
-  for (const int lag : { 1, -1, 2, -2 })
+  for (std::size_t lag = 1; 2 * lag <= pairs.size() && pairs.size() - lag > FewestPairs; ++lag)
   {
-    if (const HandEyePairs others = shifted(pairs, lag); others.size() > FewestPairs && isSane(bestOf(others, mount)))
+    for (const int sign : { 1, -1 })
     {
-      return "They fit if each gripper belongs to the target of the pair " + std::to_string(std::abs(lag)) +
-             (lag > 0 ? " later" : " earlier") + ": the lists are shifted against each other.";
+      if (isSane(bestOf(shifted(pairs, sign * static_cast<int>(lag)), mount)))
+      {
+        return "They fit if each gripper belongs to the target of the pair " + std::to_string(lag) +
+               (sign > 0 ? " later" : " earlier") + ": the lists are shifted against each other.";
+      }
     }
   }
   if (const std::vector<std::size_t> out = outliersOf(pairs, mount); !out.empty())
@@ -320,7 +332,7 @@ std::string suspicionOf(const HandEyePairs& pairs, CameraMount mount, const Hand
     {
       which += (which.empty() ? "" : ", ") + std::to_string(pair + 1);
     }
-    for (const Mistake& mistake : Mistakes)
+    for (const Mistake& mistake : mistakes)
     {
       HandEyePairs mended = pairs;
       for (const std::size_t pair : out)
@@ -334,7 +346,7 @@ std::string suspicionOf(const HandEyePairs& pairs, CameraMount mount, const Hand
     }
     return "Without pair " + which + " the others fit: leave it out.";
   }
-  for (const Mistake& mistake : Mistakes)
+  for (const Mistake& mistake : mistakes)
   {
     if (isSane(bestOf(changed(pairs, mistake.undo), other)))
     {
@@ -376,6 +388,12 @@ HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, Camer
   {
     throw Error(
       "No place of the camera fits the pairs of poses. " + describe(*best) + " " + suspicionOf(exact, mount, *best));
+  }
+  const std::string doubt = cameraUnitDoubt(best->T_robot_camera.translation().norm());
+  if (!doubt.empty())
+  {
+    throw Error(
+      "The pairs of poses put " + doubt + ". Set 'units' of the JSON to the poses' unit, or write them in mm.");
   }
   return *best;
 }

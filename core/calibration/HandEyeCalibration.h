@@ -39,7 +39,8 @@ struct HandEyeCalibration
 /// (1994), Horaud and Dornaika (1995), Daniilidis (1999) and Tsai and Lenz (1989), and takes that under which the
 /// target moves least. Throws Error for fewer than three pairs, poses that are not rigid, and motions that turn too
 /// little or about parallel axes alone, which leave the camera's place open; and for a residual of more than 20 mm or 5
-/// degrees, with what the pairs look like: inverse, in other units, of another mount, shifted, or which stand out.
+/// degrees, with what the pairs look like: inverse, in other units, of another mount, shifted, or which stand out; and
+/// for a camera so near or far that all lengths are in another unit.
 HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, CameraMount mount = CameraMount::Beside);
 
 /// In a sentence, the residual.

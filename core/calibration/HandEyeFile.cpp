@@ -17,6 +17,7 @@ namespace meam
 namespace
 {
 constexpr std::string_view Separators = ",; \t";
+constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF"; // of UTF-8, as spreadsheets write it
 
 [[noreturn]] void failHandEye(const std::string& path, const std::string& what)
 {
@@ -38,7 +39,11 @@ Eigen::Isometry3d poseOf(
 
 HandEyeFile readJSON(const std::string& path, const std::string& bytes)
 {
-  const nlohmann::json file = parseJSON(path, bytes);
+  nlohmann::json file = parseJSON(path, bytes);
+  if (file.is_array()) // the pairs alone
+  {
+    file = { { "pairs", std::move(file) } };
+  }
   if (!file.contains("pairs") || !file["pairs"].is_array())
   {
     failHandEye(path, "has no list 'pairs'");
@@ -86,18 +91,20 @@ HandEyeFile readTable(const std::string& path, const std::string& bytes)
   {
     std::vector<double> numbers;
     std::string_view rest = lines.line();
-    bool good = true;
+    bool good = true, isWords = true;
     for (std::size_t at = rest.find_first_not_of(Separators); at != std::string_view::npos;
          at = rest.find_first_not_of(Separators))
     {
       rest.remove_prefix(at);
       const std::size_t end = std::min(rest.find_first_of(Separators), rest.size());
       double value = 0.0;
-      good = good && parseNumber(rest.substr(0, end), value);
+      const bool isNumber = parseNumber(rest.substr(0, end), value);
+      good &= isNumber;
+      isWords &= !isNumber;
       numbers.push_back(value);
       rest.remove_prefix(end);
     }
-    const bool isHeader = first && !good;
+    const bool isHeader = first && isWords;
     first = false;
     if (isHeader)
     {
@@ -118,8 +125,10 @@ HandEyeFile readTable(const std::string& path, const std::string& bytes)
 
 HandEyeFile readHandEye(const std::string& path)
 {
-  const std::string bytes = readFile(path);
+  std::string bytes = readFile(path);
+  bytes.erase(0, bytes.rfind(ByteOrderMark, 0) == 0 ? ByteOrderMark.size() : 0);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  return first != std::string::npos && bytes[first] == '{' ? readJSON(path, bytes) : readTable(path, bytes);
+  const bool isJSON = first != std::string::npos && (bytes[first] == '{' || bytes[first] == '[');
+  return isJSON ? readJSON(path, bytes) : readTable(path, bytes);
 }
 }

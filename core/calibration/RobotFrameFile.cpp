@@ -22,9 +22,6 @@ namespace
 constexpr std::size_t MostBytes = 1 << 20; // a transform is a page of text
 constexpr std::size_t MostName = 256;      // characters; numbers with a longer name would fill the memory
 constexpr double Tolerance = 1e-3;         // of entries that were printed with few digits
-// No camera is so near to a robot's base or gripper, in metres it is; and none so far, in mm it is.
-constexpr double NearestCamera = 3.0;           // mm
-constexpr double FarthestCamera = 50.0 * Metre; // mm
 constexpr const char* Entry = "T_robot_camera";
 
 [[noreturn]] void failRobotFrame(const std::string& path, const std::string& what)
@@ -164,12 +161,10 @@ Eigen::Isometry3d readRobotFrame(const std::string& path)
     failRobotFrame(
       path, std::string("has no ") + Entry + " (4x4), no translation and rotation, and not one matrix alone");
   }
-  const double distance = found->translation().norm();
-  if ((distance > 0.0 && distance < NearestCamera) || distance > FarthestCamera)
+  const std::string doubt = cameraUnitDoubt(found->translation().norm());
+  if (!doubt.empty())
   {
-    failRobotFrame(path, "has the camera " + nlohmann::json(std::round(1000.0 * distance) / 1000.0).dump() +
-                           " mm away: its lengths are likely in " + (distance < NearestCamera ? "metres" : "mm") +
-                           ", where they are taken as " + (distance < NearestCamera ? "mm" : "metres"));
+    failRobotFrame(path, "has " + doubt);
   }
   return *found;
 }

@@ -30,12 +30,13 @@ constexpr double FewParts = 4.0;     // and the other way round
 constexpr double ManyPoints = 500.0; // of a part that fills the picture, of a camera of a megapixel
 constexpr double OtherThings = 0.02; // of the points, at each end of each axis: they are left out when there is more
 
-struct NamedUnit
-{
-  double length; // mm
-  const char* name;
-};
-constexpr NamedUnit UnitsInUse[] = { { Metre, "metres" }, { 25.4, "inches" }, { 10.0, "centimetres" } }; // beside mm
+// No camera is so near to a robot's base or gripper, in metres it is; and none so far, in mm it is.
+constexpr double NearestCamera = 3.0;           // mm
+constexpr double FarthestCamera = 50.0 * Metre; // mm
+
+// With the property to change.
+std::string sceneScaled(const std::string& how) { return "scene " + how + " (Scale of its reader)"; }
+std::string partScaled(const std::string& how) { return "part " + how + " (CADScale)"; }
 
 std::string number(double value)
 {
@@ -48,8 +49,8 @@ std::string number(double value)
 /// name, the likeliest first.
 std::string likelyFactors(double parts, bool isSmall)
 {
-  std::vector<std::pair<double, NamedUnit>> likely;
-  for (const NamedUnit& unit : UnitsInUse)
+  std::vector<std::pair<double, LengthUnit>> likely;
+  for (const LengthUnit& unit : UnitsBesideMM)
   {
     const double scaled = isSmall ? parts * unit.length : parts / unit.length;
     if (scaled >= LeastLikely && scaled <= MostLikely)
@@ -60,7 +61,7 @@ std::string likelyFactors(double parts, bool isSmall)
   std::sort(likely.begin(), likely.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (likely.empty())
   {
-    likely.emplace_back(0.0, UnitsInUse[0]);
+    likely.emplace_back(0.0, UnitsBesideMM[0]);
   }
   std::string text = "the likely factor is ";
   for (const auto& [distance, unit] : likely)
@@ -69,6 +70,17 @@ std::string likelyFactors(double parts, bool isSmall)
   }
   return text;
 }
+}
+
+std::string cameraUnitDoubt(double distance)
+{
+  const bool isNear = distance < NearestCamera;
+  char text[32];
+  std::snprintf(text, sizeof(text), isNear ? "%.3f" : "%.0f", distance);
+  return distance > 0.0 && (isNear || distance > FarthestCamera)
+           ? "the camera " + std::string(text) + " mm away: its lengths are likely in " + (isNear ? "metres" : "mm") +
+               ", where they are taken as " + (isNear ? "mm" : "metres")
+           : std::string();
 }
 
 std::string unitsWarning(const Points& scene, double partDiameter, double pointDistance)
@@ -81,12 +93,13 @@ std::string unitsWarning(const Points& scene, double partDiameter, double pointD
     return pointDistance > 0.0 && (isLarge || isSmall)
              ? "The scan spans " + number(parts) + " diameters of the part, and the part " + number(points) +
                  " of its points: if their units differ, " + likelyFactors(parts, isSmall) + ". Scale the " +
-                 (isSmall ? "scene up by it, or the part down." : "scene down by it, or the part up.")
+                 sceneScaled(isSmall ? "up by it" : "down by it") + ", or the " + partScaled(isSmall ? "down" : "up") +
+                 "."
              : std::string();
   }
   return "The scene spans " + number(parts * partDiameter) + " and the part's diameter is " + number(partDiameter) +
          ": if their units differ, " + likelyFactors(parts, parts < 1.0) + ". Scale the " +
-         (parts < 1.0 ? "scene" : "part") + " by it.";
+         (parts < 1.0 ? sceneScaled("by it") : partScaled("by it")) + ".";
 }
 
 bool spansTooLittle(const Points& points, double partDiameter)
@@ -107,7 +120,7 @@ void requireSameUnits(const Points& scene, double partDiameter)
     const bool isSmall = parts < 1.0;
     throw Error("The scene spans " + number(extent) + " but the part's diameter is " + (isSmall ? "" : "only ") +
                 number(partDiameter) + ": their units differ, and " + likelyFactors(parts, isSmall) + ". Scale the " +
-                (isSmall ? "scene to the part's unit." : "part to the scene's unit."));
+                (isSmall ? sceneScaled("to the part's unit") : partScaled("to the scene's unit")) + ".");
   }
 }
 }

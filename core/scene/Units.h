@@ -3,9 +3,22 @@
 
 #include "base/PointCloud.h"
 
+#include <string>
+
 namespace meam
 {
 constexpr double Metre = 1000.0; // mm
+
+struct LengthUnit
+{
+  double length; // mm
+  const char* name;
+};
+inline constexpr LengthUnit UnitsBesideMM[] = { { Metre, "metres" }, { 25.4, "inches" }, { 10.0, "centimetres" } };
+
+/// What to tell where a camera so far (mm) from a robot's base or gripper is likely in another unit: "the camera 1.2 mm
+/// away: ..."; empty where mm may be right.
+std::string cameraUnitDoubt(double distance);
 
 /// Throws Error when a scene cannot be in the part's unit of length: its extent is far smaller or
 /// larger than `partDiameter` allows. The message names the likely factors.

@@ -119,14 +119,30 @@ TEST(HandEyeCalibration, anAbsurdFitIsRefusedWithWhatItLooksLike)
   EXPECT_TRUE(files::contains(metres, "grippers' poses are in metres")) << metres;
   const std::string targets = error(changed([](HandEyePair& pair) { pair.T_camera_target.translation() *= 1e-3; }));
   EXPECT_TRUE(files::contains(targets, "targets' poses are in metres")) << targets;
-  std::vector<HandEyePair> late = good;
-  for (std::size_t k = 0; k + 1 < good.size(); ++k)
+  const std::string inches = error(changed([](HandEyePair& pair) { pair.T_base_gripper.translation() /= 25.4; }));
+  EXPECT_TRUE(files::contains(inches, "grippers' poses are in inches")) << inches;
+  const std::string centimetres = error(changed([](HandEyePair& pair) { pair.T_camera_target.translation() /= 10.0; }));
+  EXPECT_TRUE(files::contains(centimetres, "targets' poses are in centimetres")) << centimetres;
+  for (const double factor : { 1e-3, 1e3 })
   {
-    late[k].T_camera_target = good[k + 1].T_camera_target;
+    const std::string all = error(changed(
+      [&](HandEyePair& pair)
+      {
+        pair.T_base_gripper.translation() *= factor;
+        pair.T_camera_target.translation() *= factor;
+      }));
+    EXPECT_EQ(files::contains(all, "likely in metres"), factor < 1.0) << all;
   }
-  late.pop_back();
-  const std::string shifted = error(late);
-  EXPECT_TRUE(files::contains(shifted, "1 earlier: the lists are shifted")) << shifted;
+  for (const std::size_t lag : { 1, 4 })
+  {
+    std::vector<HandEyePair> late(good.begin(), good.end() - static_cast<std::ptrdiff_t>(lag));
+    for (std::size_t k = 0; k < late.size(); ++k)
+    {
+      late[k].T_camera_target = good[k + lag].T_camera_target;
+    }
+    const std::string shifted = error(late);
+    EXPECT_TRUE(files::contains(shifted, std::to_string(lag) + " earlier: the lists are shifted")) << shifted;
+  }
   std::vector<HandEyePair> outliers = good;
   std::swap(outliers[4].T_camera_target, outliers[11].T_camera_target);
   const std::string out = error(outliers);

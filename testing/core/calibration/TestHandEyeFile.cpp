@@ -32,12 +32,21 @@ TEST(HandEyeFile, json)
 TEST(HandEyeFile, table)
 {
   const std::string row = "1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1,0,-1,0,1.5,1,0,0,2,0,0,1,3,0,0,0,1\n";
-  for (const char* header : { "", "b00,b01 and so on\n", "# robot, camera\n" })
+  for (const char* header : { "", "b00,b01 and so on\n", "# robot, camera\n", "\xEF\xBB\xBF",
+         "\xEF\xBB\xBF"
+         "b00\n" })
   {
     const meam::HandEyeFile file = readHandEye(header + row + row);
     ASSERT_EQ(file.pairs.size(), 2u);
     EXPECT_EQ(file.pairs[1].T_camera_target.translation(), Eigen::Vector3d(1.5, 2, 3));
   }
+}
+
+TEST(HandEyeFile, jsonWithAByteOrderMarkAndPairsAlone)
+{
+  const std::string pairs = "[" + pair(Identity, Turned) + "," + pair(Turned, Identity) + "]";
+  EXPECT_EQ(readHandEye("\xEF\xBB\xBF{\"pairs\": " + pairs + "}").pairs.size(), 2u);
+  EXPECT_EQ(readHandEye(pairs).pairs.size(), 2u);
 }
 
 TEST(HandEyeFile, errorsNameThePair)
@@ -49,5 +58,6 @@ TEST(HandEyeFile, errorsNameThePair)
   readHandEye.fails(R"({"units": "inch", "pairs": []})", "'units'");
   readHandEye.fails(R"({"mount": "wall", "pairs": []})", "'mount'");
   readHandEye.fails("1,2,3\n", "32 numbers");
+  readHandEye.fails("1,2,x3\n", "32 numbers");
   EXPECT_THROW(meam::readHandEye("/no/such/file"), meam::Error);
 }

@@ -46,9 +46,9 @@ TEST(Units, AnErrorNamesTheFactor)
     return std::string();
   };
   EXPECT_EQ(says(0.3f, 60.0), "The scene spans 0.3 but the part's diameter is 60: their units differ, and the likely "
-                              "factor is 1000 (metres). Scale the scene to the part's unit.");
+                              "factor is 1000 (metres). Scale the scene to the part's unit (Scale of its reader).");
   EXPECT_EQ(says(300, 0.06), "The scene spans 300 but the part's diameter is only 0.06: their units differ, and the "
-                             "likely factor is 1000 (metres). Scale the part to the scene's unit.");
+                             "likely factor is 1000 (metres). Scale the part to the scene's unit (CADScale).");
   EXPECT_NE(says(6, 60.0).find("25.4 (inches)"), std::string::npos);
   EXPECT_NE(says(0, 60.0).find("1000 (metres)"), std::string::npos);
 }
@@ -59,7 +59,9 @@ TEST(Units, WhenNothingSureWasFoundAFactorOfTenIsSuspected)
   const auto says = [&](float extent, double pointDistance)
   { return meam::unitsWarning(spanning(extent), 100.0, pointDistance); };
   EXPECT_NE(
-    says(3000, 6.0).find("factor is 10 (centimetres). Scale the scene down by it, or the part up."), std::string::npos);
+    says(3000, 6.0).find(
+      "factor is 10 (centimetres). Scale the scene down by it (Scale of its reader), or the part up (CADScale)."),
+    std::string::npos);
   EXPECT_NE(
     says(150, 0.1).find("factor is 10 (centimetres), or 25.4 (inches). Scale the scene up by it"), std::string::npos);
   EXPECT_EQ(says(3000, 0.6), ""); // small parts in a large bin, seen finely
