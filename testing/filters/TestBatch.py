@@ -184,6 +184,8 @@ for word, name in (("has no scans", "empty"), ("cannot read none", "none"), ("tw
                    ("not a list", "plate.meam")):
     refuses(word, "batch.py", name, "--model", "plate.meam", "--out", "x.csv")
 refuses("give the parts", "batch.py", "folder", "--out", "x.csv")
+for option in (("--camera", "bins/camera.json"), ("--scene-scale", "10"), ("--image-camera", "bins/camera.json")):
+    refuses(f"leave {option[0]} out", "batch.py", "bins", "--model", "plate.meam", "--out", "x.csv", *option)
 refuses("no such folder", "batch.py", "bins", "--model", "plate.meam", "--out", "none/x.csv")
 for word, name in (("cut off", "cut.meam"), ("version 99", "old.meam")):
     refuses(word, "batch.py", "bins", "--model", name, "--out", "x.csv")

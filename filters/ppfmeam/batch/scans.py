@@ -80,6 +80,9 @@ class BOP:
 
     def __init__(self, options):
         self.data = dataset.Dataset(options.scans, options.split)
+        for name in ("camera", "depth_scale", "image_camera", "scene_scale"):
+            if getattr(options, name) not in (None, 1):
+                raise scripting.Failure(f"{options.scans} is a BOP dataset, which has its cameras and scales: leave --{name.replace('_', '-')} out")
         self.scene, self.number = None, None  # the last one
 
     def list(self):
