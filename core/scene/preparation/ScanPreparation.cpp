@@ -149,8 +149,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   requirePoints(scan.points, "The scan");
   const bool isOrganized = scan.width > 1 && scan.height > 1;
   PreparedScan result;
-  result.report = removeUnmeasured(scan.points, isOrganized && !sensor);
-  result.isAsGiven = result.report.empty();
+  result.report = removeMarkers(scan.points);
   requirePoints(scan.points, "The scan");
   const bool isRegistered = image.width == scan.width && image.height == scan.height && !image.pixels.empty();
   ScanViewpoint viewpoint;
@@ -158,11 +157,22 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   if (isOrganized)
   {
     viewpoint = sensor ? viewpointOf(*sensor) : viewpointOfGrid(scan);
+    if (!viewpoint.T_sensor_scan.matrix().isIdentity(0.0))
+    {
+      scan.points = moved(scan.points, viewpoint.T_sensor_scan);
+    }
+    if (!sensor && viewpoint.perspective)
+    {
+      appendSentence(result.report, removeByDepth(scan.points));
+      requirePoints(scan.points, "The scan");
+    }
+    result.isAsGiven = result.report.empty() && viewpoint.T_sensor_scan.matrix().isIdentity(0.0);
     appendSentence(result.report, viewpoint.report);
     raster = rasterOf(scan);
   }
   else
   {
+    result.isAsGiven = false;
     const FoundView found = findView(scan.points, sensor, result.report);
     viewpoint = found.viewpoint;
     scan.points = moved(scan.points, viewpoint.T_sensor_scan);
@@ -174,12 +184,6 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
     }
   }
   result.T_sensor_scan = viewpoint.T_sensor_scan;
-  const bool isTurned = !viewpoint.T_sensor_scan.matrix().isIdentity(0.0);
-  if (isOrganized && isTurned)
-  {
-    scan.points = moved(scan.points, viewpoint.T_sensor_scan);
-  }
-  result.isAsGiven &= isOrganized && !isTurned;
   int step = 1;
   if (fillOf(raster) < Sparse)
   {

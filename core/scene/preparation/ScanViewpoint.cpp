@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <optional>
+#include <vector>
 
 namespace meam
 {
@@ -17,6 +20,8 @@ const double Oblique = std::cos(M_PI / 4.0);    // of the mean direction: nearer
 const double MostAside = std::cos(M_PI / 6.0);  // of a sensor's frame, how far its scan's middle is beside its axis,
 const double WidestView = std::cos(M_PI / 3.0); // and how far it sees beside it
 constexpr double MostOff = 0.02;          // of the width, root mean square, that pixels are off a pinhole camera's
+constexpr double Worse = 3.0;             // times as far off as from another place: that is the sensor's,
+constexpr double Exact = 0.05;            // pixels, or no farther off than rounded coordinates are
 constexpr double StrayDirections = 0.001; // share of the points that may lie elsewhere
 constexpr std::size_t DirectionSamples = 20000; // points that are looked at, spread evenly
 
@@ -73,50 +78,72 @@ bool liesAhead(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vect
          StrayDirections * static_cast<double>(directions.size());
 }
 
-/// The sum of the steps of the points' rays, seen from the origin along an axis, from one place of the grid to the
-/// next.
-Eigen::Vector3d stepsOf(const OrganizedCloud& cloud, int places, const Eigen::Vector3d& axis)
+/// Whether a cloud is likely in the frame of a sensor that looks along an axis.
+bool liesInFront(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vector3d& axis)
 {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const std::size_t step = static_cast<std::size_t>(places);
-  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / DirectionSamples);
-  for (std::size_t i = 0; i + step < cloud.size(); i += stride)
-  {
-    const Eigen::Vector3d from = cloud.points[i].cast<double>(), to = cloud.points[i + step].cast<double>();
-    const bool goesOn = places > 1 || (i + 1) % static_cast<std::size_t>(cloud.width) != 0;
-    if (goesOn && from.dot(axis) > 0.0 && to.dot(axis) > 0.0)
-    {
-      sum += to / to.dot(axis) - from / from.dot(axis);
-    }
-  }
-  return sum;
+  return meanDirection(directions).normalized().dot(axis) >= MostAside && liesAhead(directions, axis, WidestView);
 }
 
-/// Whether pixels follow the rays from the origin, but for what lenses make of them.
-bool isPinhole(const OrganizedCloud& cloud, const Eigen::Vector3d& axis)
+/// How well the pixels of a grid follow rays from the origin, seen along an axis.
+struct OriginView
 {
+  Eigen::Vector3d forward;
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();      ///< the axis that columns go along most
+  double off = std::numeric_limits<double>::infinity(); ///< widths of the grid, root mean square
+  bool isMirrored = false;                              ///< rows run backwards
+  bool isAllAhead = false;                              ///< but for strays
+};
+
+OriginView viewFromOrigin(const std::vector<GridSample>& samples, const Eigen::Vector3d& forward)
+{
+  OriginView view{ forward };
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> ofPixels = Eigen::Matrix<double, 3, 2>::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-  double count = 0.0;
-  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / DirectionSamples);
-  for (std::size_t i = 0; i < cloud.size(); i += stride)
+  std::size_t ahead = 0;
+  for (const auto& [point, pixel] : samples)
   {
-    const Eigen::Vector3d point = cloud.points[i].cast<double>();
-    if (point.dot(axis) > 0.0)
+    if (point.dot(forward) > 0.0)
     {
-      const auto width = static_cast<std::size_t>(cloud.width);
-      const Eigen::Vector2d pixel(static_cast<double>(i % width), static_cast<double>(i / width));
-      const Eigen::Vector3d ray = point / point.dot(axis); // 1 along the axis: what is ahead has a pixel, too
+      const Eigen::Vector3d ray = point / point.dot(forward); // 1 along the axis: what is ahead has a pixel, too
       sum += ray * ray.transpose();
       ofPixels += ray * pixel.transpose();
       squares += pixel * pixel.transpose();
-      count += 1.0;
+      ++ahead;
     }
   }
+  if (2 * ahead <= samples.size()) // behind is what was not measured, and that is not most
+  {
+    return view;
+  }
   const Eigen::Matrix<double, 3, 2> fit = sum.ldlt().solve(ofPixels);
-  const double off = (squares - fit.transpose() * ofPixels).trace() / std::max(count, 1.0);
-  return std::sqrt(std::max(off, 0.0)) < MostOff * cloud.width;
+  const double off = (squares - fit.transpose() * ofPixels).trace() / static_cast<double>(ahead);
+  view.off = std::sqrt(std::max(off, 0.0));
+  const Eigen::Vector3d column = fit.col(0) - fit.col(0).dot(forward) * forward;
+  Eigen::Index number = 0;
+  column.cwiseAbs().maxCoeff(&number);
+  view.right = axisOf(static_cast<int>(number), column[number]);
+  view.isAllAhead =
+    static_cast<double>(samples.size() - ahead) <= StrayDirections * static_cast<double>(samples.size());
+  view.isMirrored = fit.col(0).cross(fit.col(1)).dot(forward) < 0.0;
+  return view;
+}
+
+/// Along the first axis, +z before the others, from which pixels follow the rays but for what lenses make of them.
+std::optional<OriginView> viewFromOrigin(const std::vector<GridSample>& samples)
+{
+  for (int number = 2; number >= 0; --number)
+  {
+    for (const double sign : { 1.0, -1.0 })
+    {
+      const OriginView view = viewFromOrigin(samples, axisOf(number, sign));
+      if (view.off < MostOff)
+      {
+        return view;
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 std::string placeText(const Eigen::Vector3d& place, const char* form)
@@ -133,22 +160,60 @@ void tellOfMirror(std::string& report)
             "matter, or its axes are left-handed, and parts come out mirrored: negate y then.";
 }
 
-/// Of a cloud that is not in its sensor's frame.
-ScanViewpoint viewpointInWorld(const OrganizedCloud& cloud)
+/// Of a sensor elsewhere, which all points are in front of.
+bool isBetter(const ResectedSensor& sensor, const OriginView& origin, int width)
+{
+  const double rounding = Exact / width;
+  return origin.isAllAhead ? origin.off > Worse * sensor.off + rounding : sensor.off <= origin.off + rounding;
+}
+
+ScanViewpoint viewpointAtOrigin(const OriginView& view)
 {
   ScanViewpoint result;
-  if (const std::optional<ResectedSensor> sensor = resectSensor(cloud))
+  if (view.forward != Eigen::Vector3d::UnitZ())
   {
-    result.T_sensor_scan = sensor->T_sensor_scan;
-    const Eigen::Isometry3d T_scan_sensor = sensor->T_sensor_scan.inverse();
-    result.report = "The scan is not in its sensor's frame: by where the points lie on the grid the sensor is at " +
-                    placeText(T_scan_sensor.translation(), "(%.0f, %.0f, %.0f)") + " and looks along " +
-                    placeText(T_scan_sensor.linear().col(2), "(%.2f, %.2f, %.2f)") + ".";
-    if (sensor->isMirrored)
-    {
-      tellOfMirror(result.report);
-    }
+    result.T_sensor_scan = frameLooking(view.right, view.forward);
+    result.report = "The scan lies along " + nameOfAxis(view.forward) + " of its axes, with " +
+                    nameOfAxis(-view.forward.cross(view.right)) + " up" +
+                    (view.forward == -Eigen::Vector3d::UnitZ() ? ", as OpenGL has it" : "") +
+                    ": it was turned to be seen along +z; poses are in the scan's own axes.";
   }
+  if (view.isMirrored)
+  {
+    tellOfMirror(result.report);
+  }
+  return result;
+}
+
+ScanViewpoint viewpointInWorld(const ResectedSensor& sensor)
+{
+  ScanViewpoint result;
+  result.T_sensor_scan = sensor.T_sensor_scan;
+  const Eigen::Isometry3d T_scan_sensor = sensor.T_sensor_scan.inverse();
+  result.report = "The scan is not in its sensor's frame: by where the points lie on the grid the sensor is at " +
+                  placeText(T_scan_sensor.translation(), "(%.0f, %.0f, %.0f)") + " and looks along " +
+                  placeText(T_scan_sensor.linear().col(2), "(%.2f, %.2f, %.2f)") + ".";
+  if (sensor.isMirrored)
+  {
+    tellOfMirror(result.report);
+  }
+  return result;
+}
+
+/// The grid does not tell which way an orthographic sensor looks, for the rows of a height map may run up or down: it
+/// is seen from above, unless it is a depth map, which lies ahead of the origin, with rows that run down.
+ScanViewpoint orthographicViewpoint(const ResectedSensor& sensor, const Points& points)
+{
+  ScanViewpoint result;
+  result.perspective = false;
+  Eigen::Vector3d forward = sensor.T_sensor_scan.linear().row(2);
+  if (forward.z() > Oblique && !liesInFront(directionsOf(points), Eigen::Vector3d::UnitZ()))
+  {
+    forward = -forward;
+  }
+  result.T_sensor_scan = frameLooking(sensor.T_sensor_scan.linear().row(0), forward);
+  result.report = "The points lie on the grid of an orthographic sensor: it is taken to look along " +
+                  placeText(forward, "(%.2f, %.2f, %.2f)") + "; where it looks the other way, give its viewpoint.";
   return result;
 }
 }
@@ -193,35 +258,21 @@ ScanViewpoint viewpointOf(const Sensor& sensor)
 
 ScanViewpoint viewpointOfGrid(const OrganizedCloud& cloud)
 {
-  ScanViewpoint result;
-  const std::vector<Eigen::Vector3d> directions = directionsOf(cloud.points);
-  const Eigen::Vector3d mean = meanDirection(directions);
-  Eigen::Index number = 0;
-  mean.cwiseAbs().maxCoeff(&number);
-  const bool isAhead = mean.normalized().z() >= Oblique && liesAhead(directions, Eigen::Vector3d::UnitZ(), 0.0);
-  const Eigen::Vector3d forward = isAhead ? Eigen::Vector3d::UnitZ() : axisOf(static_cast<int>(number), mean[number]);
-  const Eigen::Vector3d column = stepsOf(cloud, 1, forward), row = stepsOf(cloud, cloud.width, forward);
-  if (!isAhead)
+  const std::vector<GridSample> samples = samplesOf(cloud);
+  const std::optional<OriginView> origin = viewFromOrigin(samples);
+  if (origin && origin->isAllAhead && !origin->isMirrored)
   {
-    if (!liesAhead(directions, forward, 0.0) || !isPinhole(cloud, forward))
-    {
-      return viewpointInWorld(cloud);
-    }
-    Eigen::Vector3d across = column - column.dot(forward) * forward;
-    across.cwiseAbs().maxCoeff(&number);
-    const Eigen::Vector3d right = axisOf(static_cast<int>(number), across[number]);
-    result.T_sensor_scan = frameLooking(right, forward);
-    result.report = "The scan lies along " + nameOfAxis(forward) + " of its axes, with " +
-                    nameOfAxis(-forward.cross(right)) + " up" +
-                    (forward == -Eigen::Vector3d::UnitZ() ? ", as OpenGL has it" : "") +
-                    ": it was turned to be seen along +z; poses are in the scan's own axes.";
+    return viewpointAtOrigin(*origin);
   }
-  const Eigen::Matrix3d R = result.T_sensor_scan.linear();
-  if ((R * column).cross(R * row).z() < 0.0)
+  // A floor that is seen from above lies on about the same grid from below, mirrored: the parts on it tell.
+  const std::optional<ResectedSensor> sensor = resectSensor(samples, cloud.width);
+  if (origin && !(sensor && isBetter(*sensor, *origin, cloud.width)))
   {
-    tellOfMirror(result.report);
+    return viewpointAtOrigin(*origin);
   }
-  return result;
+  return !sensor               ? ScanViewpoint()
+         : sensor->perspective ? viewpointInWorld(*sensor)
+                               : orthographicViewpoint(*sensor, cloud.points);
 }
 
 ScanViewpoint likelyViewpoint(const Points& points)
@@ -230,7 +281,7 @@ ScanViewpoint likelyViewpoint(const Points& points)
   const std::vector<Eigen::Vector3d> directions = directionsOf(points);
   const Eigen::Vector3d mean = meanDirection(directions).normalized();
   const Eigen::Vector3d axis = axisOf(2, mean.z());
-  if (mean.dot(axis) >= MostAside && liesAhead(directions, axis, WidestView))
+  if (liesInFront(directions, axis))
   {
     result.T_sensor_scan = axis.z() > 0.0 ? result.T_sensor_scan : frameLooking(Eigen::Vector3d::UnitX(), axis);
     result.report = "seen from the origin along " + nameOfAxis(axis);

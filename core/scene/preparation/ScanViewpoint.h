@@ -24,9 +24,9 @@ Eigen::Vector3d lookingDirection(const Sensor& sensor, const Points& points);
 /// What a given sensor is.
 ScanViewpoint viewpointOf(const Sensor& sensor);
 
-/// Of an organized cloud, by its own points: its sensor is at the origin and looks along the axis that they are about,
-/// with columns going right. Where that is not +z and rays from there do not follow the grid, as in a robot's frame, it
-/// is where the points lie on the grid that tells.
+/// Of an organized cloud, by where its points lie on its grid. Its sensor is at the origin and looks along an axis when
+/// pixels follow the rays from there; otherwise it is a pinhole camera elsewhere, as in a robot's frame, or an
+/// orthographic one, as of a height map, which is seen from above. Where nothing fits, at the origin, along +z.
 ScanViewpoint viewpointOfGrid(const OrganizedCloud& cloud);
 
 /// That a cloud without a grid is likely seen from: the origin, along +z or -z, when all lies ahead of it within 60

@@ -18,7 +18,7 @@ constexpr double FewestOfOthers = 0.01;     // share that has not: a floor witho
 constexpr double MostBeside = 0.01;         // and its parts are near it: share of the others that may be
 constexpr float FarBeyond = 10.0f;          // times how far half of the coordinates across it are from the axis
 constexpr float Beside = 2.0f;              // times nearer or farther
-constexpr std::size_t FewestAtOrigin = 2;   // a single one may be a point of a robot's frame
+constexpr int FewestAtOrigin = 2;           // a single one may be a point of a robot's frame
 
 std::string depthText(const char* form, double value)
 {
@@ -33,9 +33,9 @@ std::string shareText(std::size_t count, std::size_t all)
   return depthText(percent < 1.0 ? "%.2g" : "%.0f", percent) + " % of the points";
 }
 
-/// Blanks what the predicate takes, and counts it.
+/// Blanks what the predicate takes, and tells how many these are.
 template <typename Takes>
-std::size_t blank(Points& points, const Takes& takes)
+void remove(Points& points, const Takes& takes, const std::string& which, std::string& report)
 {
   std::size_t count = 0;
   for (Eigen::Vector3f& point : points)
@@ -46,7 +46,11 @@ std::size_t blank(Points& points, const Takes& takes)
       ++count;
     }
   }
-  return count;
+  if (count > 0)
+  {
+    report +=
+      (report.empty() ? "" : " ") + shareText(count, points.size()) + " " + which + ": they are taken as not measured.";
+  }
 }
 
 /// The depth that stands for none, if there is one. In another frame than the sensor's, where depths may be around 0,
@@ -93,38 +97,39 @@ std::optional<float> constantDepth(const Points& points, bool isInSensorFrame)
   }
   return std::nullopt;
 }
-}
-
-std::string removeUnmeasured(Points& points, bool isInSensorFrame)
+void removeConstantDepth(Points& points, bool isInSensorFrame, std::string& report)
 {
-  std::size_t atOrigin = 0, inFront = 0, behind = 0;
-  for (const Eigen::Vector3f& point : points)
-  {
-    atOrigin += point.isZero(0.0f) ? 1 : 0;
-    inFront += point.z() > 0.0f ? 1 : 0;
-    behind += point.z() < 0.0f ? 1 : 0;
-  }
-  std::string report;
-  const auto tell = [&](std::size_t count, const std::string& which)
-  {
-    if (count > 0)
-    {
-      report += (report.empty() ? "" : " ") + shareText(count, points.size()) + " " + which +
-                ": they are taken as not measured.";
-    }
-  };
-  if (atOrigin >= FewestAtOrigin)
-  {
-    tell(blank(points, [](const Eigen::Vector3f& point) { return point.isZero(0.0f); }), "are (0, 0, 0)");
-  }
   if (const std::optional<float> depth = constantDepth(points, isInSensorFrame))
   {
-    tell(blank(points, [&](const Eigen::Vector3f& point) { return point.z() == *depth; }),
-      "have the depth " + depthText("%.6g", *depth) + ", which no other comes near");
+    const auto hasIt = [&](const Eigen::Vector3f& point) { return point.z() == *depth; };
+    remove(points, hasIt, "have the depth " + depthText("%.6g", *depth) + ", which no other comes near", report);
   }
-  if (isInSensorFrame && behind > 0 && inFront > behind)
+}
+}
+
+std::string removeMarkers(Points& points)
+{
+  std::string report;
+  const auto isAtOrigin = [](const Eigen::Vector3f& point) { return point.isZero(0.0f); };
+  if (std::count_if(points.begin(), points.end(), isAtOrigin) >= FewestAtOrigin)
   {
-    tell(blank(points, [](const Eigen::Vector3f& point) { return point.z() <= 0.0f; }), "have a depth of 0 or less");
+    remove(points, isAtOrigin, "are (0, 0, 0)", report);
+  }
+  removeConstantDepth(points, false, report);
+  return report;
+}
+
+std::string removeByDepth(Points& points)
+{
+  std::string report;
+  removeConstantDepth(points, true, report);
+  const auto isBehind = [](const Eigen::Vector3f& point) { return point.z() <= 0.0f; };
+  const auto isInFront = [](const Eigen::Vector3f& point) { return point.z() > 0.0f; };
+  const auto behind =
+    std::count_if(points.begin(), points.end(), [](const Eigen::Vector3f& point) { return point.z() < 0.0f; });
+  if (behind > 0 && std::count_if(points.begin(), points.end(), isInFront) > behind)
+  {
+    remove(points, isBehind, "have a depth of 0 or less", report);
   }
   return report;
 }

@@ -172,6 +172,66 @@ TEST(ScanPreparation, theSensorOfAGridInARobotsFrameIsFound)
   EXPECT_LT(offOutline(edgesOf(scan).cloud.points, T_robot_sensor.inverse()), 2.5);
 }
 
+TEST(ScanPreparation, theSensorAboveAFloorIsFoundFromAnyOriginBelowIt)
+{
+  // z goes up: seen from the origin, below the floor, the grid is mirrored.
+  for (const double height : { 600.0, 700.0, 1000.0, 3000.0 })
+  {
+    Eigen::Isometry3d T_floor_sensor = Eigen::Isometry3d::Identity();
+    T_floor_sensor.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
+    T_floor_sensor.translation() << 0, 0, height;
+    meam::OrganizedCloud cloud = boxOnFloor();
+    cloud.points = meam::moved(cloud.points, T_floor_sensor);
+    const meam::PreparedScan scan = prepared(cloud);
+    EXPECT_FALSE(says(scan, "negate y")) << scan.report;
+    EXPECT_TRUE(scan.T_sensor_scan.isApprox(T_floor_sensor.inverse(), 1e-3)) << scan.T_sensor_scan.matrix();
+    EXPECT_EQ(scan.measured().size(), cloud.size());
+    EXPECT_LT(offOutline(edgesOf(scan).cloud.points, T_floor_sensor.inverse()), 2.5);
+  }
+}
+
+TEST(ScanPreparation, whatIsBehindTheSensorIsAskedInItsFrame)
+{
+  const Eigen::Matrix3f R_robot_sensor = (Eigen::Matrix3f() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(); // z goes up
+  meam::OrganizedCloud cloud = boxOnFloor();
+  cloud.height = 60; // two thirds of it above the sensor
+  cloud.points.resize(static_cast<std::size_t>(GridWidth) * 60);
+  for (Eigen::Vector3f& point : cloud.points)
+  {
+    point = R_robot_sensor * point;
+  }
+  EXPECT_EQ(prepared(cloud).measured(), cloud.points);
+  for (std::size_t i = 0; i < cloud.size(); i += 8)
+  {
+    cloud.points[i].x() = -1.0f - 0.01f * static_cast<float>(i);
+  }
+  const meam::PreparedScan scan = prepared(cloud);
+  EXPECT_TRUE(says(scan, "along +x") && says(scan, "12 % of the points have a depth of 0 or less")) << scan.report;
+}
+
+TEST(ScanPreparation, aHeightMapIsSeenFromAbove)
+{
+  for (const float alongRows : { 0.9f, -0.9f })
+  {
+    for (const float corner : { -45.0f, 0.0f, 400.0f })
+    {
+      meam::OrganizedCloud cloud{ GridWidth, GridHeight, {} };
+      for (int i = 0; i < GridWidth * GridHeight; ++i)
+      {
+        const float x = 0.7f * static_cast<float>(i % GridWidth), y = alongRows * static_cast<float>(i / GridWidth);
+        const float height = std::hypot(x - 40.0f, std::abs(y) - 35.0f) < 20.0f ? 25.0f : 0.01f * x;
+        cloud.points.emplace_back(corner + x, corner + y, height - 5.0f);
+      }
+      const meam::PreparedScan scan = prepared(cloud);
+      EXPECT_TRUE(says(scan, "orthographic") && !says(scan, "not measured")) << scan.report;
+      EXPECT_FALSE(scan.sensor.perspective);
+      EXPECT_TRUE(scan.sensor.direction.isApprox(-Eigen::Vector3d::UnitZ(), 1e-5)) << scan.sensor.direction;
+      EXPECT_EQ(scan.measured().size(), cloud.size());
+      EXPECT_GT(edgesOf(scan).cloud.size(), 60u);
+    }
+  }
+}
+
 TEST(ScanPreparation, leftHandedAxesAreNamed)
 {
   meam::OrganizedCloud cloud = boxOnFloor();
