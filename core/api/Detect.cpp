@@ -82,6 +82,7 @@ ScanScene sceneOfScan(const Scan& scan, double partDiameter, const DetectSetting
     const SceneEdges found = findEdges(prepared, settings, scan.imageCamera, progress);
     setFoundEdges(found, settings.threads, scene.input);
     scene.input.sensor = prepared.sensor;
+    scene.input.isViewpointGuessed = prepared.isViewpointGuessed;
     scene.report = prepared.report;
     if (!prepared.isAsGiven)
     {
@@ -142,7 +143,7 @@ Detections detect(
   }
   const std::string untold = untoldLengths(found);
   result.report += (result.report.empty() || untold.empty() ? "" : " ") + untold;
-  result.advice = scanAdvice(scene.input.quality, report, poses, largest);
+  result.advice = scanAdvice(scene.input.quality, report, poses, largest, scene.input.isViewpointGuessed);
   const std::string ofTime = result.isCutShort ? cutShort(settings.timeLimit) : "";
   for (const std::string& sentence : { ofTime, doubtsOf(poses, scene.input, trained.front()->diameter) })
   {

@@ -77,10 +77,11 @@ struct DetectionReport
 /// What a sensor says of a bin.
 struct SceneInput
 {
-  LocalCloud edges;      ///< edge points, not thinned yet, with tangents where they are known
-  Points measured;       ///< all points that the sensor measured, in the frame of the edges; may be empty
-  Sensor sensor;         ///< in the scene's own coordinates
-  ScanQuality quality{}; ///< how well it measures, where that is known
+  LocalCloud edges;                ///< edge points, not thinned yet, with tangents where they are known
+  Points measured;                 ///< all points that the sensor measured, in the frame of the edges; may be empty
+  Sensor sensor;                   ///< in the scene's own coordinates
+  ScanQuality quality{};           ///< how well it measures, where that is known
+  bool isViewpointGuessed = false; ///< nothing tells where the sensor stood
 };
 
 /// The scene of an input, with its edges thinned as for the model. Of `times`, which may be null, it sets `tangents`.

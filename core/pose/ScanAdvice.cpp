@@ -41,10 +41,16 @@ std::string adviceOnNothing(const WorkCounts& work)
            : "Selection left none of " + std::to_string(work.selected) + " refined poses: lower MinimumProbability.";
 }
 
-std::string scanAdvice(
-  const ScanQuality& quality, const DetectionReport& report, const Poses& poses, double partDiameter)
+std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report, const Poses& poses,
+  double partDiameter, bool isViewpointGuessed)
 {
   std::vector<std::string> sentences;
+  const auto isThere = [](const Pose& pose) { return claimOf(pose, false) >= LikelyThere; };
+  const auto there = std::count_if(poses.begin(), poses.end(), isThere);
+  if (isViewpointGuessed && there == 0)
+  {
+    sentences.push_back("Where the sensor stood was guessed: give the scan's viewpoint.");
+  }
   if (!poses.empty() && poses.front().contradictions.mirrored > LikelyThere)
   {
     sentences.push_back("The part's mirror image fits better: look for the other hand's part, or turn the scan's axes "
@@ -74,7 +80,7 @@ std::string scanAdvice(
         "The part is " + std::to_string(std::lround(pixels)) +
         " pixels long in the scan: below 100 parts are missed; scan from nearer, or with more pixels.");
     }
-    if (quality.coverage < LeastCoverage && !quality.isCutOut())
+    if (quality.coverage < LeastCoverage && !quality.isCutOut() && !isViewpointGuessed)
     {
       sentences.push_back(
         "Only " + percent(quality.coverage) + " of the scan's pixels have depth: expose longer, or scan twice.");
@@ -94,9 +100,7 @@ std::string scanAdvice(
                           percent(edges.chance) + ": they tell little; light the parts from another side.");
     }
   }
-  const auto isThere = [](const Pose& pose) { return claimOf(pose, false) >= LikelyThere; };
   const auto isTurnable = [&](const Pose& pose) { return isThere(pose) && pose.certainty < SureRotation; };
-  const auto there = std::count_if(poses.begin(), poses.end(), isThere);
   const auto turnable = std::count_if(poses.begin(), poses.end(), isTurnable);
   if (2 * turnable > there)
   {

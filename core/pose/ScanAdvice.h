@@ -12,7 +12,7 @@ std::string adviceOnNothing(const WorkCounts& work);
 
 /// What to change first in the scan, or in the settings, for more parts or surer ones: at most two sentences, the more
 /// important one first; empty where parts were found and nothing stands out. `report`: of the search that found the
-/// poses.
-std::string scanAdvice(
-  const ScanQuality& quality, const DetectionReport& report, const Poses& poses, double partDiameter);
+/// poses. A scan whose viewpoint was guessed is on no grid of its sensor: how much of it was measured is not known.
+std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report, const Poses& poses,
+  double partDiameter, bool isViewpointGuessed = false);
 }

@@ -241,6 +241,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
     work.found = meam::findEdges(prepared, settings, camera, meam::subProgress(progress, 0.0, AfterSceneEdges));
     meam::setFoundEdges(work.found, this->NumberOfThreads, scene);
     scene.sensor = prepared.sensor;
+    scene.isViewpointGuessed = prepared.isViewpointGuessed;
     isAsGiven = prepared.isAsGiven;
     work.scanReport = prepared.report;
     if (!isAsGiven)

@@ -189,7 +189,7 @@ int vtkMEAMPoseEstimation::RequestData(
       drawn.minimumProbability = this->ShownProbability;
       addLabels(poses, isOne ? std::vector<std::string>() : nameOfEach, drawn.minimumProbability, output);
       const double largest = meam::largestDiameter(models);
-      const std::string advice = meam::scanAdvice(scene.quality, report, poses, largest);
+      const std::string advice = meam::scanAdvice(scene.quality, report, poses, largest, scene.isViewpointGuessed);
       setFieldText(output, "Advice", advice);
       fromAnswer(
         { poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability"),

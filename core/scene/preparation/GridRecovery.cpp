@@ -173,4 +173,19 @@ std::optional<RasterView> recoverGrid(const Points& points, bool perspective)
   }
   return fillOf(rasterize(points, view)) < LeastFill ? std::nullopt : std::optional(view);
 }
+
+double offGrid(const Points& points, const RasterView& view)
+{
+  double sum = 0.0, count = 0.0;
+  for (const Eigen::Vector3f& point : points)
+  {
+    const Eigen::Array2d pixel = view.lookAt(point).cwiseProduct(view.pixels) + view.offset;
+    if (pixel.isFinite().all())
+    {
+      sum += (pixel - pixel.round()).abs().sum();
+      count += 2.0;
+    }
+  }
+  return sum / count;
+}
 }

@@ -12,4 +12,7 @@ namespace meam
 /// sensor's frame, mm; none of it has to be known but where it is. None when they lie on no lattice, or on one of which
 /// they fill less than a third.
 std::optional<RasterView> recoverGrid(const Points& points, bool perspective);
+
+/// Pixels that points are off the middles of theirs, on average.
+double offGrid(const Points& points, const RasterView& view);
 }

@@ -20,6 +20,7 @@ constexpr int MostSteps = 16;  // that a grid is made coarser by; more leave not
 constexpr double Finer = 0.5;  // of the pixels that points would fill if they lay evenly: where the search begins
 constexpr double PixelGrowth = 1.15; // from one size of pixels to the next
 constexpr int MostSizes = 40;        // 1.15^40 is 270 times as large
+constexpr double OnGrid = 0.05;      // pixels that points are off their sensor's grid, on average, and no more
 
 std::string textOfNumber(const char* form, double value)
 {
@@ -70,31 +71,45 @@ struct FoundView
 {
   ScanViewpoint viewpoint;
   RasterView view;
+  bool isGuessed = false;
 };
 
 FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std::string& report)
 {
-  // A lattice tells for sure where the sensor is; of the frames in use the most usual ones.
-  FoundView found{ sensor ? viewpointOf(*sensor) : likelyViewpoint(scan), {} };
-  const Points points = moved(scan, found.viewpoint.T_sensor_scan);
-  const std::string from = sensor ? "the given viewpoint" : "one that is " + found.viewpoint.report;
-  std::optional<RasterView> grid = recoverGrid(points, found.viewpoint.perspective);
-  if (grid)
+  const std::vector<ScanViewpoint> viewpoints =
+    sensor ? std::vector<ScanViewpoint>{ viewpointOf(*sensor) } : likelyViewpoints(scan);
+  // A lattice tells where the sensor is, of the less likely places one that the points are on: a flat floor and the
+  // middles of voxels are about on others, too.
+  std::optional<FoundView> found;
+  for (const ScanViewpoint& viewpoint : viewpoints)
   {
-    found.view = *grid;
-    appendSentence(
-      report, "The points are not organized, but lie on the grid of " +
-                std::string(found.viewpoint.perspective ? "a pinhole camera (" : "an orthographic camera (") +
-                textOfNumber(found.viewpoint.perspective ? "%.1f" : "%.3g", grid->pixels.x()) +
-                (found.viewpoint.perspective ? " pixels of focal length" : " pixels a mm") + "), " +
-                (sensor ? "at " : "") + (sensor ? from : found.viewpoint.report) + ": it was found again.");
-    return found;
+    const Points points = moved(scan, viewpoint.T_sensor_scan);
+    const std::optional<RasterView> grid = recoverGrid(points, viewpoint.perspective);
+    const bool isOn = grid && offGrid(points, *grid) < OnGrid;
+    if (isOn || (grid && &viewpoint == &viewpoints.front()))
+    {
+      found = { viewpoint, *grid };
+    }
+    if (isOn)
+    {
+      break;
+    }
   }
-  found.view = viewThatPointsFill(points, found.viewpoint.perspective);
-  appendSentence(
-    report, "The points are not organized, and lie on no grid: they are looked at by a virtual camera, at " + from +
-              ", with pixels that they fill.");
-  return found;
+  if (found)
+  {
+    const bool isPinhole = found->viewpoint.perspective;
+    appendSentence(report, "The points are not organized, but lie on the grid of " +
+                             std::string(isPinhole ? "a pinhole camera (" : "an orthographic camera (") +
+                             textOfNumber(isPinhole ? "%.1f" : "%.3g", found->view.pixels.x()) +
+                             (isPinhole ? " pixels of focal length" : " pixels a mm") + "), " +
+                             (sensor ? "at the given viewpoint" : found->viewpoint.report) + ": it was found again.");
+    return *found;
+  }
+  const ScanViewpoint& likeliest = viewpoints.front();
+  appendSentence(report, "The points are not organized, and lie on no grid: they are looked at by a virtual camera, " +
+                           (sensor ? "at the given viewpoint" : likeliest.report) + ", with pixels that they fill." +
+                           (sensor ? "" : " Where the sensor stood elsewhere, give its viewpoint."));
+  return { likeliest, viewThatPointsFill(moved(scan, likeliest.T_sensor_scan), likeliest.perspective), !sensor };
 }
 
 /// A grid that is filled, and its step in those of the sparse one; the same grid when no coarser one is.
@@ -175,6 +190,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
     result.isAsGiven = false;
     const FoundView found = findView(scan.points, sensor, result.report);
     viewpoint = found.viewpoint;
+    result.isViewpointGuessed = found.isGuessed;
     scan.points = moved(scan.points, viewpoint.T_sensor_scan);
     raster = rasterize(scan.points, found.view);
     if (raster.points.empty())

@@ -18,8 +18,9 @@ struct PreparedScan
   std::vector<int> pointIds; ///< of each place of the grid the scan's point, or -1; empty: they are the same
   Sensor sensor;             ///< in the scan's own coordinates
   Eigen::Isometry3d T_sensor_scan = Eigen::Isometry3d::Identity();
-  bool isAsGiven = true; ///< neither points nor axes differ from the scan's
-  std::string report;    ///< in sentences, what was assumed; empty when there was nothing to
+  bool isViewpointGuessed = false; ///< nothing tells where the sensor stood
+  bool isAsGiven = true;           ///< neither points nor axes differ from the scan's
+  std::string report;              ///< in sentences, what was assumed; empty when there was nothing to
 
   /// The measured points, in the scan's own coordinates.
   Points measured() const;

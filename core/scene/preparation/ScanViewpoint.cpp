@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace meam
@@ -275,21 +276,28 @@ ScanViewpoint viewpointOfGrid(const OrganizedCloud& cloud)
                                : orthographicViewpoint(*sensor, cloud.points);
 }
 
-ScanViewpoint likelyViewpoint(const Points& points)
+std::vector<ScanViewpoint> likelyViewpoints(const Points& points)
 {
-  ScanViewpoint result;
   const std::vector<Eigen::Vector3d> directions = directionsOf(points);
-  const Eigen::Vector3d mean = meanDirection(directions).normalized();
-  const Eigen::Vector3d axis = axisOf(2, mean.z());
-  if (liesInFront(directions, axis))
+  std::vector<ScanViewpoint> fromOrigin;
+  bool isInFront = false;
+  for (int number = 2; number >= 0; --number)
   {
-    result.T_sensor_scan = axis.z() > 0.0 ? result.T_sensor_scan : frameLooking(Eigen::Vector3d::UnitX(), axis);
-    result.report = "seen from the origin along " + nameOfAxis(axis);
-    return result;
+    for (const double sign : { 1.0, -1.0 })
+    {
+      const Eigen::Vector3d axis = axisOf(number, sign);
+      if (liesAhead(directions, axis, WidestView))
+      {
+        isInFront = isInFront || (number == 2 && liesInFront(directions, axis));
+        fromOrigin.push_back(viewpointOf({ true, Eigen::Vector3d::Zero(), axis }));
+        fromOrigin.back().report = "seen from the origin along " + nameOfAxis(axis);
+      }
+    }
   }
-  result.perspective = false;
-  result.T_sensor_scan = frameLooking(Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitZ());
-  result.report = "seen from far above, along -z";
+  ScanViewpoint above = viewpointOf({ false, Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ() });
+  above.report = "seen from far above, along -z";
+  std::vector<ScanViewpoint> result = std::move(fromOrigin);
+  result.insert(result.begin() + (isInFront ? 1 : 0), std::move(above));
   return result;
 }
 }

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace meam
 {
@@ -29,7 +30,8 @@ ScanViewpoint viewpointOf(const Sensor& sensor);
 /// orthographic one, as of a height map, which is seen from above. Where nothing fits, at the origin, along +z.
 ScanViewpoint viewpointOfGrid(const OrganizedCloud& cloud);
 
-/// That a cloud without a grid is likely seen from: the origin, along +z or -z, when all lies ahead of it within 60
-/// degrees, otherwise from far above, along -z.
-ScanViewpoint likelyViewpoint(const Points& points);
+/// That a cloud without a grid is usually seen from, the likeliest first: the origin, along +z or -z, when all lies
+/// ahead of it within 60 degrees and its middle within 30; far above, along -z; the origin, along another axis that all
+/// lies ahead of. The grid of its sensor, where it is found again, tells which.
+std::vector<ScanViewpoint> likelyViewpoints(const Points& points);
 }

@@ -33,6 +33,18 @@ TEST(ScanAdvice, NothingOfAGoodScan)
   EXPECT_EQ(meam::scanAdvice({}, {}, { claimed(0.9, 1.0) }, 100.0), "") << "nor where nothing is known";
 }
 
+TEST(ScanAdvice, AGuessedViewpointIsAskedForFirstWhereNothingIsSure)
+{
+  meam::ScanQuality scan = goodScan();
+  scan.noise = 3.0;
+  scan.coverage = 0.5;
+  const std::string advice = meam::scanAdvice(scan, {}, { claimed(0.2, 1.0) }, 100.0, true);
+  EXPECT_LT(advice.find("give the scan's viewpoint"), advice.find("noise")) << advice;
+  EXPECT_FALSE(says(advice, "have depth")) << advice;
+  scan.noise = 0.1;
+  EXPECT_EQ(meam::scanAdvice(scan, {}, { claimed(0.9, 1.0) }, 100.0, true), "");
+}
+
 TEST(ScanAdvice, OfNothingFoundTheStageThatHadNothing)
 {
   meam::DetectionReport report;

@@ -259,20 +259,43 @@ TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgain)
   }
 }
 
+TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgainAlongAnyAxis)
+{
+  const Eigen::Matrix3f rotations[] = { Eigen::Vector3f(1, -1, -1).asDiagonal().toDenseMatrix(),
+    (Eigen::Matrix3f() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(),
+    (Eigen::Matrix3f() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished(),
+    (Eigen::Matrix3f() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished() };
+  for (const Eigen::Matrix3f& R_scan_sensor : rotations)
+  {
+    meam::OrganizedCloud points = shuffled(boxOnFloor());
+    for (Eigen::Vector3f& point : points.points)
+    {
+      point = R_scan_sensor * point;
+    }
+    const meam::PreparedScan scan = prepared(points);
+    EXPECT_TRUE(says(scan, "the grid of a pinhole camera (300.0 pixels")) << scan.report;
+    EXPECT_EQ(scan.sensor.direction, R_scan_sensor.col(2).cast<double>());
+    EXPECT_FALSE(scan.isViewpointGuessed);
+  }
+}
+
 TEST(ScanPreparation, anOrthographicGridIsSeenFromAbove)
 {
-  meam::OrganizedCloud cloud{ GridWidth * GridHeight, 1, {} };
-  for (int i = 0; i < GridWidth * GridHeight; ++i)
+  for (const double floor : { 0.0, 300.0 }) // which lies ahead of the origin, too
   {
-    const double x = 0.7 * (i % GridWidth) - 40.0, y = 0.9 * (i / GridWidth) - 35.0;
-    cloud.points.push_back(Eigen::Vector3d(x, y, std::hypot(x, y) < 20.0 ? 25.0 : 0.01 * x).cast<float>());
+    meam::OrganizedCloud cloud{ GridWidth * GridHeight, 1, {} };
+    for (int i = 0; i < GridWidth * GridHeight; ++i)
+    {
+      const double x = 0.7 * (i % GridWidth) - 40.0, y = 0.9 * (i / GridWidth) - 35.0;
+      cloud.points.push_back(Eigen::Vector3d(x, y, floor + (std::hypot(x, y) < 20.0 ? 25.0 : 0.01 * x)).cast<float>());
+    }
+    const meam::PreparedScan scan = prepared(cloud);
+    EXPECT_TRUE(says(scan, "orthographic camera") && says(scan, "along -z")) << scan.report;
+    EXPECT_FALSE(scan.sensor.perspective);
+    EXPECT_EQ(scan.sensor.direction, -Eigen::Vector3d::UnitZ());
+    EXPECT_EQ(measuredCount(scan.cloud), cloud.size());
+    EXPECT_GT(edgesOf(scan).cloud.size(), 60u);
   }
-  const meam::PreparedScan scan = prepared(cloud);
-  EXPECT_TRUE(says(scan, "orthographic camera") && says(scan, "along -z")) << scan.report;
-  EXPECT_FALSE(scan.sensor.perspective);
-  EXPECT_EQ(scan.sensor.direction, -Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(measuredCount(scan.cloud), cloud.size());
-  EXPECT_GT(edgesOf(scan).cloud.size(), 60u);
 }
 
 TEST(ScanPreparation, pointsOnNoGridAreLookedAtWithPixelsThatTheyFill)
@@ -285,6 +308,7 @@ TEST(ScanPreparation, pointsOnNoGridAreLookedAtWithPixelsThatTheyFill)
   }
   const meam::PreparedScan scan = prepared(points);
   EXPECT_TRUE(says(scan, "virtual camera") && says(scan, "from the origin along +z")) << scan.report;
+  EXPECT_TRUE(says(scan, "give its viewpoint") && scan.isViewpointGuessed) << scan.report;
   EXPECT_GT(measuredCount(scan.cloud), points.size() / 3);
   const meam::SceneEdges edges = edgesOf(scan);
   EXPECT_GT(edges.cloud.size(), 40u);
