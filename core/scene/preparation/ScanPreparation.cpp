@@ -14,10 +14,11 @@ namespace meam
 {
 namespace
 {
-constexpr double Sparse = 0.5; // of the neighbours of a grid's points: fewer that are there leave no surface to see
-constexpr double Filled = 0.6; // and so many are enough of a coarser one
-constexpr int MostSteps = 16;  // that a grid is made coarser by; more leave nothing of its parts
-constexpr double Finer = 0.5;  // of the pixels that points would fill if they lay evenly: where the search begins
+constexpr double Sparse = 0.5;   // of the neighbours of a grid's points: fewer that are there leave no surface to see
+constexpr double Filled = 0.6;   // and so many are enough of a coarser one
+constexpr int MostSteps = 16;    // that a grid is made coarser by; more leave nothing of its parts
+constexpr int FewestPoints = 20; // fewer are too few, however they lie
+constexpr double Finer = 0.5;    // of the pixels that points would fill if they lay evenly: where the search begins
 constexpr double PixelGrowth = 1.15; // from one size of pixels to the next
 constexpr int MostSizes = 40;        // 1.15^40 is 270 times as large
 constexpr double OnGrid = 0.05;      // pixels that points are off their sensor's grid, on average, and no more
@@ -133,6 +134,23 @@ double shareOf(const PointRaster& raster)
          static_cast<double>(raster.points.size());
 }
 
+void requireSurface(const PointRaster& raster, const Points& points)
+{
+  if (raster.width > 1 && raster.height > 1)
+  {
+    return;
+  }
+  const auto count =
+    std::count_if(points.begin(), points.end(), [](const Eigen::Vector3f& point) { return point.allFinite(); });
+  if (count < FewestPoints)
+  {
+    throw Error("The scan has only " + std::to_string(count) + (count == 1 ? " point" : " points") +
+                ", and a part takes hundreds: check the file and the step before this one.");
+  }
+  throw Error("The scan's points lie on a line, or at one place, as its sensor sees them, and a part takes a surface: "
+              "check the file, and the viewpoint where one is given.");
+}
+
 /// The scan's own grid.
 PointRaster rasterOf(const OrganizedCloud& scan)
 {
@@ -212,6 +230,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
                                       " times as coarse is used.");
     }
   }
+  requireSurface(raster, scan.points);
   result.isAsGiven &= step == 1;
   const Eigen::Isometry3d T_scan_sensor = viewpoint.T_sensor_scan.inverse();
   result.sensor.perspective = viewpoint.perspective;

@@ -360,6 +360,40 @@ TEST(ScanPreparation, withoutPointsItIsAnError)
   EXPECT_THROW(prepared({ 3, 1, meam::Points(3, Eigen::Vector3f::Zero()) }), meam::Error);
 }
 
+TEST(ScanPreparation, tooFewPointsAndThoseOnALineAreNamed)
+{
+  const auto errorOf = [](const meam::Points& points)
+  {
+    try
+    {
+      prepared({ static_cast<int>(points.size()), 1, points });
+      return std::string("none");
+    }
+    catch (const meam::Error& error)
+    {
+      return std::string(error.what());
+    }
+  };
+  const meam::Points some{ { 3, 8, 500 }, { -20, 5, 510 }, { 9, -30, 490 }, { 40, 31, 505 } };
+  for (std::size_t count = 1; count <= some.size(); ++count)
+  {
+    const std::string error = errorOf({ some.begin(), some.begin() + static_cast<std::ptrdiff_t>(count) });
+    EXPECT_TRUE(files::contains(error, "only " + std::to_string(count) + " point")) << error;
+  }
+  meam::Points line, diagonal, profile;
+  for (int i = 0; i < 300; ++i)
+  {
+    const auto at = static_cast<float>(i - 150);
+    line.emplace_back(at, 0.0f, 500.0f);
+    diagonal.emplace_back(at, 0.7f * at, 500.0f);
+    profile.push_back(Eigen::Vector3f(0.002f * at, 0.1f, 1.0f) * (500.0f + 20.0f * std::sin(0.1f * at)));
+  }
+  for (const meam::Points& points : { line, diagonal, profile, meam::Points(300, Eigen::Vector3f(1, 2, 500)) })
+  {
+    EXPECT_TRUE(files::contains(errorOf(points), "lie on a line")) << errorOf(points);
+  }
+}
+
 TEST(ScanPreparation, strayPointsDoNotSpoilTheGrid)
 {
   meam::OrganizedCloud points = shuffled(boxOnFloor());
