@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -17,7 +18,10 @@ constexpr double FewestOfConstant = 0.02;   // share of the scan that has it: fe
 constexpr double FewestOfOthers = 0.01;     // share that has not: a floor without noise may be all of one depth,
 constexpr double MostBeside = 0.01;         // and its parts are near it: share of the others that may be
 constexpr float FarBeyond = 10.0f;          // times how far half of the coordinates across it are from the axis
-constexpr float Beside = 2.0f;              // times nearer or farther
+constexpr float Beside = 2.0f;              // times nearer or farther,
+constexpr float BesideMany = 1.25f;         // and of one that many have, as where a sensor's range ends,
+constexpr double ManyOfConstant = 0.1;      // which is such a share of the scan,
+constexpr std::size_t FewestDepths = 50;    // in a scan of so many depths: a floor without noise has few beside its own
 constexpr int FewestAtOrigin = 2;           // a single one may be a point of a robot's frame
 
 std::string depthText(const char* form, double value)
@@ -77,6 +81,9 @@ std::optional<float> constantDepth(const Points& points, bool isInSensorFrame)
   const float far = isInSensorFrame ? 0.0f : FarBeyond * *middle;
   std::sort(depths.begin(), depths.end());
   const double all = static_cast<double>(depths.size());
+  std::vector<float> distinct;
+  std::unique_copy(depths.begin(), depths.end(), std::back_inserter(distinct));
+  const bool isVaried = distinct.size() >= FewestDepths;
   for (auto first = depths.begin(); first != depths.end();)
   {
     const float depth = *first;
@@ -87,7 +94,9 @@ std::optional<float> constantDepth(const Points& points, bool isInSensorFrame)
     {
       continue;
     }
-    const float low = std::min(depth / Beside, depth * Beside), high = std::max(depth / Beside, depth * Beside);
+    const bool areMany = isInSensorFrame && isVaried && same >= ManyOfConstant * all;
+    const float factor = areMany ? BesideMany : Beside;
+    const float low = std::min(depth / factor, depth * factor), high = std::max(depth / factor, depth * factor);
     const auto near =
       std::upper_bound(depths.begin(), depths.end(), high) - std::lower_bound(depths.begin(), depths.end(), low);
     if (static_cast<double>(near) - same <= MostBeside * (all - same))

@@ -121,6 +121,19 @@ TEST(ScanPreparation, whatWasNotMeasuredIsLeftOutAndSaid)
   }
 }
 
+TEST(ScanPreparation, theEndOfASensorsRangeIsNotMeasured)
+{
+  meam::OrganizedCloud cloud = boxOnFloor();
+  for (std::size_t i = 0; i < cloud.size(); i += 8)
+  {
+    cloud.points[i] *= 800.0f / cloud.points[i].z();
+    cloud.points[i].z() = 800.0f;
+  }
+  const meam::PreparedScan scan = prepared(cloud);
+  EXPECT_TRUE(says(scan, "12 % of the points have the depth 800")) << scan.report;
+  EXPECT_EQ(scan.measured().size(), cloud.size() - cloud.size() / 8);
+}
+
 TEST(ScanPreparation, aFloorOfOneDepthIsMeasured)
 {
   meam::OrganizedCloud cloud = boxOnFloor();
@@ -131,6 +144,15 @@ TEST(ScanPreparation, aFloorOfOneDepthIsMeasured)
   EXPECT_TRUE(prepared(cloud).isAsGiven);
   cloud.points[3 * GridWidth + 7].z() = 580.0f;
   EXPECT_TRUE(prepared(cloud).isAsGiven);
+  for (int row = 30; row < 60; ++row) // a tall box
+  {
+    for (int column = 40; column < 80; ++column)
+    {
+      cloud.points[row * GridWidth + column] =
+        meam::unproject(boxCamera(), Eigen::Vector2d(column, row), 400.0).cast<float>();
+    }
+  }
+  EXPECT_TRUE(prepared(cloud).isAsGiven) << prepared(cloud).report;
 }
 
 TEST(ScanPreparation, axesAreTurnedAndEdgesComeBackInTheScansOwn)
