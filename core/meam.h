@@ -152,7 +152,8 @@ MEAM_EXPORT CalibratedModel calibrate(const Model& model, const std::vector<Judg
 MEAM_EXPORT Model loadModel(const std::string& path);
 
 /// Reads a scan: a .pcd or a .ply; one that is not organized comes back onto its camera's pixels when that is given.
-/// Colours or grey values become the image. `scale` brings lengths to mm: 1000 for metres.
+/// Colours or grey values become the image, and a VIEWPOINT that points alone were seen from the sensor. `scale` brings
+/// lengths to mm: 1000 for metres.
 MEAM_EXPORT Scan loadScan(const std::string& path, const std::string& cameraFile = {}, double scale = 1.0);
 
 /// A part's surface. Corners of a triangle go counter-clockwise seen from outside.

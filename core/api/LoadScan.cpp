@@ -5,6 +5,7 @@
 #include "io/parsing/FileBytes.h"
 #include "meam.h"
 #include "scene/preparation/CloudOrganization.h"
+#include "scene/preparation/ScanPreparation.h"
 
 namespace meam
 {
@@ -14,6 +15,7 @@ namespace
 Scan scanOf(MeasuredCloud measured)
 {
   Scan scan;
+  scan.sensor = sensorOfFile(measured);
   scan.width = measured.cloud.width;
   scan.height = measured.cloud.height;
   scan.points = std::move(measured.cloud.points);
@@ -27,15 +29,19 @@ Scan scanOf(MeasuredCloud measured)
   return scan;
 }
 
-void scalePoints(Points& points, double scale, const std::string& path)
+void scaleCloud(MeasuredCloud& measured, double scale, const std::string& path)
 {
   if (!(scale > 0.0 && std::isfinite(scale)))
   {
     throw Error("The scale of '" + path + "' has to be a positive number: 1000 brings metres to mm.");
   }
-  for (auto& point : points)
+  for (auto& point : measured.cloud.points)
   {
     point *= static_cast<float>(scale);
+  }
+  if (measured.T_cloud_sensor)
+  {
+    measured.T_cloud_sensor->translation() *= scale;
   }
 }
 }
@@ -50,7 +56,7 @@ Scan loadScan(const std::string& path, const std::string& cameraFile, double sca
                 "read by loadDepthImage().");
   }
   MeasuredCloud measured = extension == ".pcd" ? readPCD(path) : readPLYCloud(path);
-  scalePoints(measured.cloud.points, scale, path);
+  scaleCloud(measured, scale, path);
   return scanOf(cameraFile.empty() ? std::move(measured) : organizeCloud(measured, readCamera(cameraFile).camera));
 }
 

@@ -7,10 +7,13 @@
 #include <liblzf/lzf.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 namespace meam
 {
@@ -41,7 +44,24 @@ struct Header
   std::uint64_t record = 0; ///< bytes, or values in ascii, of a point
   Encoding encoding = Encoding::Ascii;
   std::size_t dataAt = 0; ///< position in the file
+  std::optional<Eigen::Isometry3d> T_cloud_sensor;
 };
+
+/// Of a VIEWPOINT, x y z and a quaternion, w first; none of the default, and of one that is no pose.
+std::optional<Eigen::Isometry3d> poseOf(const std::vector<std::string>& values)
+{
+  std::array<double, 7> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (i >= values.size() || !parseNumber(values[i], numbers[i]) || !std::isfinite(numbers[i]))
+    {
+      return std::nullopt;
+    }
+  }
+  const Eigen::Quaterniond rotation(numbers[3], numbers[4], numbers[5], numbers[6]);
+  const Eigen::Isometry3d T = Eigen::Translation3d(numbers[0], numbers[1], numbers[2]) * rotation.normalized();
+  return rotation.norm() > 0.0 && !T.matrix().isIdentity(0.0) ? std::optional(T) : std::nullopt;
+}
 
 [[noreturn]] void failPCD(const std::string& path, const std::string& what)
 {
@@ -133,7 +153,11 @@ Header parseHeader(const std::string& path, const std::string& bytes)
       std::transform(
         encoding.begin(), encoding.end(), encoding.begin(), [](unsigned char c) { return std::tolower(c); });
     }
-    else if (key != "VIEWPOINT") // the sensor's pose: points are in its frame
+    else if (key == "VIEWPOINT")
+    {
+      header.T_cloud_sensor = poseOf(values);
+    }
+    else
     {
       failPCD(path, "has an unknown header line '" + key.substr(0, 40) + "': it is not a PCD file");
     }
@@ -456,6 +480,7 @@ MeasuredCloud readPCD(const std::string& path, const Progress& progress)
   MeasuredCloud result;
   result.cloud.width = static_cast<int>(header.width);
   result.cloud.height = static_cast<int>(header.height);
+  result.T_cloud_sensor = header.T_cloud_sensor;
   result.cloud.points = take("x", "y", "z");
   if (result.cloud.points.empty())
   {

@@ -3,6 +3,8 @@
 
 #include "scene/OrganizedCloud.h"
 
+#include <optional>
+
 namespace meam
 {
 /// A cloud with what a sensor says of each point; an array is empty when it says nothing. A cloud of height 1
@@ -13,6 +15,8 @@ struct MeasuredCloud
   Points normals;
   std::vector<float> intensities;   ///< grey values of any range
   std::vector<std::uint8_t> colors; ///< red, green, blue of each point
+  /// The sensor's pose that a file tells; points may be in this sensor's own frame instead.
+  std::optional<Eigen::Isometry3d> T_cloud_sensor{};
 };
 
 /// Grey values of 8 bits: those that are whole numbers up to 255 already as they are, others times what makes the

@@ -7,8 +7,12 @@
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMScanConversion.h"
 
+#include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPointSet.h"
 #include "vtkStructuredGrid.h"
@@ -54,9 +58,33 @@ std::optional<meam::Sensor> givenSensor(
 {
   const bool isFromAbove = viewDirection[0] == 0.0 && viewDirection[1] == 0.0 && viewDirection[2] < 0.0;
   const bool isDefault = isFromAbove || vtkStructuredGrid::SafeDownCast(surface);
-  return projection == AutomaticProjection && isDefault
-           ? std::nullopt
-           : std::optional(sensorOf(projection, viewDirection, sensorPosition, surface));
+  if (projection != AutomaticProjection || !isDefault)
+  {
+    return sensorOf(projection, viewDirection, sensorPosition, surface);
+  }
+  auto* ofFile = surface ? surface->GetFieldData()->GetArray("Sensor") : nullptr;
+  if (!ofFile || ofFile->GetNumberOfComponents() != 6 || ofFile->GetNumberOfTuples() != 1)
+  {
+    return std::nullopt;
+  }
+  double values[6];
+  ofFile->GetTuple(0, values);
+  return sensorOf(PerspectiveProjection, values + 3, values, surface);
+}
+
+void fromSensor(const std::optional<meam::Sensor>& sensor, vtkDataObject* output)
+{
+  output->GetFieldData()->RemoveArray("Sensor");
+  if (sensor)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName("Sensor");
+    array->SetNumberOfComponents(6);
+    array->SetNumberOfTuples(1);
+    Eigen::Map<Eigen::Vector3d>(array->GetPointer(0)) = sensor->position;
+    Eigen::Map<Eigen::Vector3d>(array->GetPointer(3)) = sensor->direction;
+    output->GetFieldData()->AddArray(array);
+  }
 }
 
 meam::LocalCloud edgesOf(vtkPointSet* input, int threads)

@@ -10,6 +10,7 @@
 
 #include <optional>
 
+class vtkDataObject;
 class vtkDataSet;
 class vtkPointSet;
 
@@ -28,9 +29,12 @@ enum Projection
 /// middle of the surface. Throws Error for another view direction of zero.
 meam::Sensor sensorOf(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
-/// The same where the filter's properties say it; none where the scan itself has to tell.
+/// The same where the filter's properties say it, or the scan's file by `Sensor`; none where the points have to tell.
 std::optional<meam::Sensor> givenSensor(
   int projection, const double viewDirection[3], const double sensorPosition[3], vtkDataSet* surface);
+/// The sensor of a scan's file as its field data `Sensor`: position, then direction, (0, 0, 0) for at the points'
+/// middle.
+void fromSensor(const std::optional<meam::Sensor>& sensor, vtkDataObject* output);
 /// A scene's edge points with `Tangent`, and `Weight` where it is there, in their local frame. Throws Error without
 /// points or tangents.
 meam::LocalCloud edgesOf(vtkPointSet* input, int threads);

@@ -3,8 +3,10 @@
 
 #include "io/CameraFile.h"
 #include "scene/preparation/CloudOrganization.h"
+#include "scene/preparation/ScanPreparation.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
+#include "vtkMEAMSceneConversion.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -101,6 +103,10 @@ int vtkMEAMCloudReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
     {
       point *= static_cast<float>(this->Scale);
     }
+    if (measured.T_cloud_sensor)
+    {
+      measured.T_cloud_sensor->translation() *= this->Scale;
+    }
     if (this->HasCamera())
     {
       const meam::Camera camera =
@@ -108,6 +114,7 @@ int vtkMEAMCloudReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
       measured = meam::organizeCloud(measured, camera, meam::subProgress(progress, 0.5, 1.0));
     }
     vtkMEAMConversion::fromMeasuredCloud(measured, output);
+    vtkMEAMConversion::fromSensor(meam::sensorOfFile(measured), output);
   };
   return vtkMEAMRun(this, work, output);
 }

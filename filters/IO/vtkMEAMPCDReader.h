@@ -18,6 +18,9 @@
  * - `Intensity` (unsigned char) from intensity, gray or i. Whole numbers from 0 to 255 are kept, other values are
  *   spread so that the largest becomes 255;
  * - `RGB` (3, unsigned char) from rgb or rgba; or from red, green, blue or r, g, b.
+ *
+ * Field data `Sensor` (6): where points alone, in another frame than their sensor's, were seen from by VIEWPOINT:
+ * position and direction, (0, 0, 0) for at their middle. MEAM Pose Estimation takes it where its properties tell none.
  */
 #ifndef vtkMEAMPCDReader_h
 #define vtkMEAMPCDReader_h

@@ -10,12 +10,12 @@ from meamtest import check, close, fails, points, prints, run, tuples
 folder = tempfile.TemporaryDirectory()
 
 
-def pcd(rows, width, height, fields="x y z"):
+def pcd(rows, width, height, fields="x y z", viewpoint="0 0 0 1 0 0 0"):
     path = os.path.join(folder.name, "cloud.PCD")
     count = len(fields.split())
     with open(path, "w") as file:
         file.write(f"VERSION .7\nFIELDS {fields}\nSIZE{' 4' * count}\nTYPE{' F' * count}\nCOUNT{' 1' * count}\n"
-                   f"WIDTH {width}\nHEIGHT {height}\nPOINTS {width * height}\nDATA ascii\n")
+                   f"WIDTH {width}\nHEIGHT {height}\nVIEWPOINT {viewpoint}\nPOINTS {width * height}\nDATA ascii\n")
         file.writelines(" ".join(str(v) for v in row) + "\n" for row in rows)
     return path
 
@@ -87,3 +87,10 @@ fails(reader(pcd(GRID[:4], 3, 2)), "cut off")
 same.SetFileName(pcd([], 0, 1))
 fails(same, "no points")
 prints(same, "FileName", "Scale")
+
+# Where a file says that its sensor stood, of points that are in another frame than its own.
+table = [(100 + x, y, 0) for x in range(3) for y in range(3)]
+for place, told in (("100 0 300 0 1 0 0", True), ("0 0 0 1 0 0 0", False)):
+    sensor = run(reader(pcd(table, 9, 1, viewpoint=place), 10.0)).GetFieldData().GetArray("Sensor")
+    check((sensor is not None) == told, f"the sensor of VIEWPOINT {place}: {sensor}")
+    check(not told or sensor.GetTuple(0)[:3] == (1000, 0, 3000), "the sensor's place is scaled with the points")

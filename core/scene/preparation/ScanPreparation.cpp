@@ -19,9 +19,11 @@ constexpr double Filled = 0.6;   // and so many are enough of a coarser one
 constexpr int MostSteps = 16;    // that a grid is made coarser by; more leave nothing of its parts
 constexpr int FewestPoints = 20; // fewer are too few, however they lie
 constexpr double Finer = 0.5;    // of the pixels that points would fill if they lay evenly: where the search begins
-constexpr double PixelGrowth = 1.15; // from one size of pixels to the next
-constexpr int MostSizes = 40;        // 1.15^40 is 270 times as large
-constexpr double OnGrid = 0.05;      // pixels that points are off their sensor's grid, on average, and no more
+constexpr double PixelGrowth = 1.15;  // from one size of pixels to the next
+constexpr int MostSizes = 40;         // 1.15^40 is 270 times as large
+constexpr double OnGrid = 0.05;       // pixels that points are off their sensor's grid, on average, and no more,
+constexpr double GridRounding = 0.01; // and so few by the rounding of their coordinates;
+constexpr double Nearer = 3.0;        // off the grid from another place they are so many times as far
 
 std::string textOfNumber(const char* form, double value)
 {
@@ -75,27 +77,43 @@ struct FoundView
   bool isGuessed = false;
 };
 
-FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std::string& report)
+std::string placeOf(const Sensor& sensor)
 {
-  const std::vector<ScanViewpoint> viewpoints =
-    sensor ? std::vector<ScanViewpoint>{ viewpointOf(*sensor) } : likelyViewpoints(scan);
-  // A lattice tells where the sensor is, of the less likely places one that the points are on: a flat floor and the
-  // middles of voxels are about on others, too.
+  const auto number = [&](int k) { return textOfNumber("%.0f", sensor.position[k]); };
+  return sensor.perspective ? " (" + number(0) + ", " + number(1) + ", " + number(2) + ")" : "";
+}
+
+/// A lattice tells where the sensor is: that of the likeliest place, unless points are nearer to that of another. A
+/// flat floor and the middles of voxels are about on those of others, too.
+std::optional<FoundView> findGrid(const Points& scan, const std::vector<ScanViewpoint>& viewpoints)
+{
   std::optional<FoundView> found;
+  double least = 0.0;
   for (const ScanViewpoint& viewpoint : viewpoints)
   {
     const Points points = moved(scan, viewpoint.T_sensor_scan);
     const std::optional<RasterView> grid = recoverGrid(points, viewpoint.perspective);
-    const bool isOn = grid && offGrid(points, *grid) < OnGrid;
-    if (isOn || (grid && &viewpoint == &viewpoints.front()))
+    const double off = grid ? offGrid(points, *grid) : 1.0;
+    const double most = found ? std::min(OnGrid, least / Nearer) : OnGrid;
+    if (grid && (off < most || &viewpoint == &viewpoints.front()))
     {
       found = { viewpoint, *grid };
+      least = off;
     }
-    if (isOn)
+    if (found && least < GridRounding)
     {
       break;
     }
   }
+  return found;
+}
+
+FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std::string& report)
+{
+  const std::vector<ScanViewpoint> viewpoints =
+    sensor ? std::vector<ScanViewpoint>{ viewpointOf(*sensor) } : likelyViewpoints(scan);
+  const std::optional<FoundView> found = findGrid(scan, viewpoints);
+  const std::string given = sensor ? "at the given viewpoint" + placeOf(*sensor) : "";
   if (found)
   {
     const bool isPinhole = found->viewpoint.perspective;
@@ -103,12 +121,12 @@ FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std:
                              std::string(isPinhole ? "a pinhole camera (" : "an orthographic camera (") +
                              textOfNumber(isPinhole ? "%.1f" : "%.3g", found->view.pixels.x()) +
                              (isPinhole ? " pixels of focal length" : " pixels a mm") + "), " +
-                             (sensor ? "at the given viewpoint" : found->viewpoint.report) + ": it was found again.");
+                             (sensor ? given : found->viewpoint.report) + ": it was found again.");
     return *found;
   }
   const ScanViewpoint& likeliest = viewpoints.front();
   appendSentence(report, "The points are not organized, and lie on no grid: they are looked at by a virtual camera, " +
-                           (sensor ? "at the given viewpoint" : likeliest.report) + ", with pixels that they fill." +
+                           (sensor ? given : likeliest.report) + ", with pixels that they fill." +
                            (sensor ? "" : " Where the sensor stood elsewhere, give its viewpoint."));
   return { likeliest, viewThatPointsFill(moved(scan, likeliest.T_sensor_scan), likeliest.perspective), !sensor };
 }
@@ -253,6 +271,29 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   result.cloud = cloudOf(raster, scan.points);
   result.pointIds = std::move(raster.points);
   return result;
+}
+
+std::optional<Sensor> sensorOfFile(const MeasuredCloud& measured)
+{
+  if (!measured.T_cloud_sensor || measured.cloud.height > 1)
+  {
+    return std::nullopt;
+  }
+  Points points = measured.cloud.points;
+  removeMarkers(points);
+  Sensor sensor;
+  sensor.position = measured.T_cloud_sensor->translation();
+  sensor.direction = measured.T_cloud_sensor->linear().col(2);
+  std::vector<ScanViewpoint> viewpoints = likelyViewpoints(points);
+  const bool isInFront = viewpoints.front().perspective;
+  viewpoints.push_back(viewpointOf(sensor));
+  if (const std::optional<FoundView> found = findGrid(points, viewpoints))
+  {
+    const bool isOfFile = found->viewpoint.T_sensor_scan.matrix() == viewpoints.back().T_sensor_scan.matrix();
+    return isOfFile ? std::optional(sensor) : std::nullopt;
+  }
+  sensor.direction.setZero(); // at the middle of the points: files often tell the place alone
+  return !isInFront && seesAll(sensor, points) ? std::optional(sensor) : std::nullopt;
 }
 
 SceneEdges extractSceneEdges(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "scene/MeasuredCloud.h"
 #include "scene/OrganizedCloud.h"
 #include "scene/Sensor.h"
 #include "scene/edges/SceneEdgeExtraction.h"
@@ -32,6 +33,10 @@ struct PreparedScan
 /// few places are filled is made coarser. `image` is registered with the scan, or empty. `sensor`: none, when it is not
 /// known. Throws Error for a cloud without points.
 PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<Sensor>& sensor);
+
+/// Where points alone were seen from, by the pose that their file tells. None where they are on the grid of a sensor at
+/// a usual place or in front of the origin, as those in the sensor's own frame are, and where not all lie ahead of it.
+std::optional<Sensor> sensorOfFile(const MeasuredCloud& measured);
 
 /// The edge points of a scan, in its own coordinates, and their pointIds of its own points. Without an image they are
 /// those of the cloud, if the settings look for these.

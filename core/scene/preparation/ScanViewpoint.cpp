@@ -257,6 +257,12 @@ ScanViewpoint viewpointOf(const Sensor& sensor)
   return result;
 }
 
+bool seesAll(const Sensor& sensor, const Points& points)
+{
+  const Points seen = moved(points, Eigen::Isometry3d(Eigen::Translation3d(-sensor.position)));
+  return liesAhead(directionsOf(seen), lookingDirection(sensor, points), WidestView);
+}
+
 ScanViewpoint viewpointOfGrid(const OrganizedCloud& cloud)
 {
   const std::vector<GridSample> samples = samplesOf(cloud);

@@ -25,6 +25,9 @@ Eigen::Vector3d lookingDirection(const Sensor& sensor, const Points& points);
 /// What a given sensor is.
 ScanViewpoint viewpointOf(const Sensor& sensor);
 
+/// Whether all points but strays lie within 60 degrees of the way from a perspective sensor to their middle.
+bool seesAll(const Sensor& sensor, const Points& points);
+
 /// Of an organized cloud, by where its points lie on its grid. Its sensor is at the origin and looks along an axis when
 /// pixels follow the rays from there; otherwise it is a pinhole camera elsewhere, as in a robot's frame, or an
 /// orthographic one, as of a height map, which is seen from above. Where nothing fits, at the origin, along +z.

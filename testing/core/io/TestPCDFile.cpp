@@ -45,6 +45,18 @@ TEST(PCDFile, asciiOrganized)
   EXPECT_TRUE(data.normals.empty());
   EXPECT_TRUE(data.intensities.empty());
   EXPECT_TRUE(data.colors.empty());
+  ASSERT_TRUE(data.T_cloud_sensor);
+  EXPECT_EQ(data.T_cloud_sensor->translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(data.T_cloud_sensor->linear().col(2), -Eigen::Vector3d::UnitZ());
+}
+
+TEST(PCDFile, aViewpointThatTellsNothingIsNone)
+{
+  for (const char* viewpoint : { "0 0 0 1 0 0 0", "1 2 3 0 0 0 0", "1 2 nan 1 0 0 0", "1 2 3", "1 2 3 1 0 0 x" })
+  {
+    const std::string file = xyz + "WIDTH 1\nHEIGHT 1\nVIEWPOINT " + viewpoint + "\nDATA ascii\n1 2 3\n";
+    EXPECT_FALSE(readPCD(file).T_cloud_sensor) << viewpoint;
+  }
 }
 
 TEST(PCDFile, asOtherProgramsWriteIt)

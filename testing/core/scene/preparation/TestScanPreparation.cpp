@@ -354,6 +354,34 @@ TEST(ScanPreparation, aGivenViewpointIsTaken)
   EXPECT_LT(offOutline(edgesOf(scan).cloud.points, T_scan_sensor.inverse()), 2.5);
 }
 
+TEST(ScanPreparation, theViewpointOfAFileIsTakenWherePointsAreNotInItsFrame)
+{
+  const auto sensorOf = [](const Eigen::Isometry3d& T_cloud_points, const Eigen::Isometry3d& T_cloud_sensor)
+  {
+    meam::MeasuredCloud measured;
+    measured.cloud = shuffled(boxOnFloor());
+    measured.cloud.points = meam::moved(measured.cloud.points, T_cloud_points);
+    measured.T_cloud_sensor = T_cloud_sensor;
+    return meam::sensorOfFile(measured);
+  };
+  Eigen::Isometry3d T_robot_sensor = Eigen::Isometry3d::Identity();
+  T_robot_sensor.translation() << 450, -120, 600;
+  T_robot_sensor.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  const auto above = sensorOf(T_robot_sensor, T_robot_sensor);
+  ASSERT_TRUE(above);
+  EXPECT_EQ(above->position, T_robot_sensor.translation());
+  EXPECT_EQ(above->direction, -Eigen::Vector3d::UnitZ()) << "from where they are on a grid";
+  const Eigen::Isometry3d T_place(Eigen::Translation3d(T_robot_sensor.translation()));
+  Eigen::Isometry3d T_tilted = T_robot_sensor;
+  T_tilted.rotate(Eigen::AngleAxisd(0.6, Eigen::Vector3d(1, 0.3, 0.2).normalized()));
+  const auto tilted = sensorOf(T_tilted, T_place);
+  ASSERT_TRUE(tilted) << "only the place is told";
+  EXPECT_EQ(tilted->direction, Eigen::Vector3d::Zero()) << "at the middle of the points";
+  EXPECT_FALSE(sensorOf(Eigen::Isometry3d::Identity(), T_robot_sensor)) << "points in the sensor's frame";
+  const Eigen::Isometry3d T_among(Eigen::Translation3d(T_robot_sensor * Eigen::Vector3d(0, 0, 600)));
+  EXPECT_FALSE(sensorOf(T_robot_sensor, T_among)) << "points on all sides of it";
+}
+
 TEST(ScanPreparation, aGridWithFewPointsBecomesCoarser)
 {
   meam::OrganizedCloud cloud = boxOnFloor();
