@@ -17,7 +17,6 @@ namespace meam
 namespace
 {
 constexpr std::string_view Separators = ",; \t";
-constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF"; // of UTF-8, as spreadsheets write it
 
 [[noreturn]] void failHandEye(const std::string& path, const std::string& what)
 {
@@ -125,10 +124,9 @@ HandEyeFile readTable(const std::string& path, const std::string& bytes)
 
 HandEyeFile readHandEye(const std::string& path)
 {
-  std::string bytes = readFile(path);
-  bytes.erase(0, bytes.rfind(ByteOrderMark, 0) == 0 ? ByteOrderMark.size() : 0);
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  const bool isJSON = first != std::string::npos && (bytes[first] == '{' || bytes[first] == '[');
+  const std::string bytes = readFile(path);
+  const std::string_view bare = bareText(bytes);
+  const bool isJSON = !bare.empty() && (bare[0] == '{' || bare[0] == '[');
   return isJSON ? readJSON(path, bytes) : readTable(path, bytes);
 }
 }
