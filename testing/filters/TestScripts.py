@@ -231,7 +231,7 @@ check(larger.returncode == 0 and larger.stderr.startswith("warning: ") and "like
 check("no image" in script("detect.py", "--model", "model.vtpc", "--scene", "plain.pcd").stdout, "a scan without an image")
 refuses("30 x 20", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "small.png", *out)
 refuses("not a PNG", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "junk.png", *out)
-refuses("not organized", "detect.py", "--model", "model.vtpc", "--scene", "points.ply", *out)
+refuses("only 3 points", "detect.py", "--model", "model.vtpc", "--scene", "points.ply", *out)
 refuses("junk.vtpc", "detect.py", "--model", "junk.vtpc", "--scene", "scan.pcd", *out)
 refuses("cannot write", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--out", "no/such/folder.csv")
 path, os.environ["PATH"], display = os.environ["PATH"], "", os.environ.pop("DISPLAY", None)
