@@ -53,22 +53,28 @@ DepthFit::Rendered DepthFit::render(const Eigen::Isometry3d& T_scene_model) cons
   const auto diameter = static_cast<float>(this->Model.diameter);
   const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  SoAPoints splats;
-  std::vector<float> cosines; // of the samples that are splatted
+  std::vector<int> facing;
+  std::vector<float> cosines; // of these samples
   for (std::size_t k = 0; k < surface.size(); ++k)
   {
     const float cosine = surface.normals[k].dot(towards);
     if (cosine >= FacingAtAll)
     {
-      // Along axes of the scene, so that two poses leave the same cells between splats empty.
-      const Eigen::Vector3f point = T * surface.points[k], normal = T.linear() * surface.normals[k];
-      const Eigen::Vector3f x = SplatReach * diameter * normal.unitOrthogonal(), y = normal.cross(x);
-      splats.add(point);
-      splats.add(point + x);
-      splats.add(point - x);
-      splats.add(point + y);
-      splats.add(point - y);
+      facing.push_back(static_cast<int>(k));
       cosines.push_back(cosine);
+    }
+  }
+  SoAPoints splats;
+  splats.resize(SplatPoints * facing.size());
+  for (std::size_t k = 0; k < facing.size(); ++k)
+  {
+    // Along axes of the scene, so that two poses leave the same cells between splats empty.
+    const Eigen::Vector3f point = T * surface.points[facing[k]], normal = T.linear() * surface.normals[facing[k]];
+    const Eigen::Vector3f x = SplatReach * diameter * normal.unitOrthogonal(), y = normal.cross(x);
+    const Eigen::Vector3f splat[SplatPoints] = { point, point + x, point - x, point + y, point - y };
+    for (int i = 0; i < SplatPoints; ++i)
+    {
+      splats.set(SplatPoints * k + i, splat[i]);
     }
   }
   struct Point
@@ -77,6 +83,7 @@ DepthFit::Rendered DepthFit::render(const Eigen::Isometry3d& T_scene_model) cons
     float depth, cosine;
   };
   std::vector<Point> points;
+  points.reserve(splats.size());
   int left = depth.columns(), right = -1, top = depth.rows(), bottom = -1;
   DepthMap::Places places;
   const int count = static_cast<int>(splats.size());

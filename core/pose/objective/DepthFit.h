@@ -43,7 +43,6 @@ private:
 
   const Scene& InScene;
   const TrainedModel& Model;
-  SoAPoints Splats;       ///< SplatPoints of each surface sample
   float Deviation = 0.0f; ///< mm, of a measured point off the surface that it is of; 0: not known
   float Near = 0.0f;      ///< mm, so near to the part a surface is the part's
 };
