@@ -311,6 +311,7 @@
       add("h2", "What next");
       const least = Math.round(100 * state.least);
       if (hidden) add("p", `${hidden} ${hidden > 1 ? "poses are" : "pose is"} less likely than ${least} % and not shown: the slider shows them.`);
+      if (!data.poses.length) add("p", "Nothing was found: \u201cHow it was found\u201d tells what the scan is like.");
       if (data.poses.length) add("p", "Select a pose to see it from all sides, in the image and in numbers.");
       if (space && data.why) add("p", "A part was missed? Click it in the 3D view: its place and the command that tells why come up here.");
     }
