@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "api/Conversion.h"
+
 #include "base/Range.h"
+#include "base/Sentences.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
 #include "pose/DetectionSteps.h"
@@ -141,14 +143,10 @@ Detections detect(
     }
     poses.push_back(pose);
   }
-  const std::string untold = untoldLengths(found);
-  result.report += (result.report.empty() || untold.empty() ? "" : " ") + untold;
+  appendSentence(result.report, untoldLengths(found));
   result.advice = scanAdvice(scene.input.quality, report, poses, largest, scene.input.isViewpointGuessed);
-  const std::string ofTime = result.isCutShort ? cutShort(settings.timeLimit) : "";
-  for (const std::string& sentence : { ofTime, doubtsOf(poses, scene.input, trained.front()->diameter) })
-  {
-    result.warning += (result.warning.empty() || sentence.empty() ? "" : " ") + sentence;
-  }
+  appendSentence(result.warning, result.isCutShort ? cutShort(settings.timeLimit) : "");
+  appendSentence(result.warning, doubtsOf(poses, scene.input, trained.front()->diameter));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/DetectionSteps.h"
 
+#include "base/Sentences.h"
 #include "scene/Units.h"
 
 namespace meam
 {
-namespace
-{
-void tell(PreparedScan& scan, const std::string& sentence)
-{
-  scan.report += (scan.report.empty() ? "" : " ") + sentence;
-}
-}
-
 DetectionSettings detectionSettings(const DetectSettings& chosen)
 {
   DetectionSettings settings =
@@ -55,12 +48,12 @@ SceneEdges findEdges(
   }
   else if (chosen.imageEdges)
   {
-    tell(scan, "The scan has no image: its edges are those of the cloud alone.");
+    appendSentence(scan.report, "The scan has no image: its edges are those of the cloud alone.");
   }
   SceneEdges found = extractSceneEdges(scan, settings, progress);
   if (found.quality.isCutOut())
   {
-    tell(scan,
+    appendSentence(scan.report,
       "Little was measured: if what lies around the parts was cut out, leave it in, for it tells where they end.");
   }
   return found;
@@ -81,8 +74,9 @@ std::string doubtsOf(const Poses& poses, const SceneInput& scene, double partDia
   {
     return doubts;
   }
-  const std::string ofUnits = unitsWarning(hasEdges ? scene.edges.cloud.points : scene.measured, partDiameter,
+  std::string told = unitsWarning(hasEdges ? scene.edges.cloud.points : scene.measured, partDiameter,
     doubts.empty() ? 0.0 : scene.quality.pointDistance);
-  return ofUnits + (ofUnits.empty() || doubts.empty() ? "" : " ") + doubts;
+  appendSentence(told, doubts);
+  return told;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PartsEstimation.h"
 
+#include "base/Sentences.h"
 #include "pose/PoseSearch.h"
 #include "pose/PoseTolerances.h"
 #include "pose/Stopwatch.h"
@@ -218,10 +219,9 @@ std::string untoldLengths(const std::vector<PartPose>& poses)
   std::string sentences;
   for (const auto& [part, factors] : lengths)
   {
-    const std::string untold = lengths.size() > 1
-                                 ? untoldWords(factors, "the copies of part " + std::to_string(part + 1))
-                                 : untoldWords(factors);
-    sentences += (sentences.empty() || untold.empty() ? "" : " ") + untold;
+    appendSentence(sentences, lengths.size() > 1
+                                ? untoldWords(factors, "the copies of part " + std::to_string(part + 1))
+                                : untoldWords(factors));
   }
   return sentences;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/ScanAdvice.h"
 
+#include "base/Sentences.h"
 #include "pose/objective/FloorContact.h"
 #include "pose/refinement/PartSize.h"
 
@@ -115,7 +116,7 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
   std::string advice;
   for (const std::string& sentence : sentences)
   {
-    advice += (advice.empty() ? "" : " ") + sentence;
+    appendSentence(advice, sentence);
   }
   return advice;
 }

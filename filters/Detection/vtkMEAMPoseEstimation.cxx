@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseEstimation.h"
 
+#include "base/Sentences.h"
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
 #include "pose/ScanAdvice.h"
@@ -218,8 +219,9 @@ int vtkMEAMPoseEstimation::RequestData(
         output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
         addNames(work.names, output);
       }
-      const std::string untold = meam::untoldLengths(partPoses);
-      setFieldText(output, "Report", meam::describe(poses) + (untold.empty() ? "" : " ") + untold);
+      std::string told = meam::describe(poses);
+      meam::appendSentence(told, meam::untoldLengths(partPoses));
+      setFieldText(output, "Report", told);
       setScanQuality(output, scene.quality, work.scanReport);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
       if (report.rates)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/cad/CADFile.h"
 
+#include "base/Sentences.h"
 #include "io/MeshFile.h"
 #include "io/cad/BRepMesh.h"
 #include "io/cad/ChildProcess.h"
@@ -114,8 +115,7 @@ CADPart readCAD(const std::string& path, const CADSettings& settings, const Prog
   requireMesh(part.mesh);
   report(progress, 1.0);
   CADPart result{ std::move(part.mesh), solidsReport(path, part.solidSizes) };
-  const std::string stray = strayReport(path, result.mesh, "mm");
-  result.report += (result.report.empty() || stray.empty() ? "" : " ") + stray;
+  appendSentence(result.report, strayReport(path, result.mesh, "mm"));
   return result;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/ScanPreparation.h"
 
+#include "base/Sentences.h"
 #include "scene/preparation/GridRecovery.h"
 #include "scene/preparation/ScanViewpoint.h"
 #include "scene/preparation/UnmeasuredPoints.h"
@@ -30,11 +31,6 @@ std::string textOfNumber(const char* form, double value)
   char text[32];
   std::snprintf(text, sizeof text, form, value);
   return text;
-}
-
-void appendSentence(std::string& report, const std::string& sentence)
-{
-  report += (report.empty() || sentence.empty() ? "" : " ") + sentence;
 }
 
 Image imageOn(const std::vector<int>& points, int width, const Image& image)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/ScanViewpoint.h"
 
+#include "base/Sentences.h"
 #include "scene/preparation/SensorResection.h"
 
 #include <Eigen/Cholesky>
@@ -156,9 +157,9 @@ std::string placeText(const Eigen::Vector3d& place, const char* form)
 
 void tellOfMirror(std::string& report)
 {
-  report += std::string(report.empty() ? "" : " ") +
-            "The scan's rows or columns run backwards: either they are stored from the other side, which does not "
-            "matter, or its axes are left-handed, and parts come out mirrored: negate y then.";
+  appendSentence(report,
+    "The scan's rows or columns run backwards: either they are stored from the other side, which does not matter, or "
+    "its axes are left-handed, and parts come out mirrored: negate y then.");
 }
 
 /// Of a sensor elsewhere, which all points are in front of.

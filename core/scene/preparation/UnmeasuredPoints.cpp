@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/UnmeasuredPoints.h"
 
+#include "base/Sentences.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -52,8 +54,7 @@ void remove(Points& points, const Takes& takes, const std::string& which, std::s
   }
   if (count > 0)
   {
-    report +=
-      (report.empty() ? "" : " ") + shareText(count, points.size()) + " " + which + ": they are taken as not measured.";
+    appendSentence(report, shareText(count, points.size()) + " " + which + ": they are taken as not measured.");
   }
 }
 
