@@ -2,7 +2,7 @@
 #include "api/Conversion.h"
 
 #include "base/Range.h"
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
 #include "pose/DetectionSteps.h"

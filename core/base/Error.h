@@ -53,4 +53,10 @@ inline Progress subProgress(const Progress& progress, double from, double to)
   }
   return [=](double share) { return progress(from + (to - from) * share); };
 }
+
+/// Adds a sentence to what a user is told, with a blank between them; either may be empty.
+inline void appendSentence(std::string& told, const std::string& sentence)
+{
+  told += (told.empty() || sentence.empty() ? "" : " ") + sentence;
+}
 }

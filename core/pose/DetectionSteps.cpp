@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/DetectionSteps.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "scene/Units.h"
 
 namespace meam

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PartsEstimation.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "pose/PoseSearch.h"
 #include "pose/PoseTolerances.h"
 #include "pose/Stopwatch.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/ScanAdvice.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "pose/objective/FloorContact.h"
 #include "pose/refinement/PartSize.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseEstimation.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "pose/DetectionSteps.h"
 #include "pose/PartsEstimation.h"
 #include "pose/ScanAdvice.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/cad/CADFile.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "io/MeshFile.h"
 #include "io/cad/BRepMesh.h"
 #include "io/cad/ChildProcess.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/ScanPreparation.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "scene/preparation/GridRecovery.h"
 #include "scene/preparation/ScanViewpoint.h"
 #include "scene/preparation/UnmeasuredPoints.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/ScanViewpoint.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 #include "scene/preparation/SensorResection.h"
 
 #include <Eigen/Cholesky>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/UnmeasuredPoints.h"
 
-#include "base/Sentences.h"
+#include "base/Error.h"
 
 #include <algorithm>
 #include <cmath>
