@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "api/Conversion.h"
 
-#include "base/Range.h"
 #include "base/Error.h"
+#include "base/Range.h"
 #include "meam.h"
 #include "model/TrainedModel.h"
 #include "pose/DetectionSteps.h"
