@@ -48,8 +48,15 @@ public:
 
   /// All types in turn by more and more of their reference points, until together as many copies as are asked for are
   /// sure.
-  std::vector<PartPose> search(const Progress& progress)
+  std::vector<PartPose> search(const Progress& callback)
   {
+    double most = 0.0; // what is searched further does not take it back
+    const auto onward = [&](double share)
+    {
+      most = std::max(most, share);
+      return callback(most);
+    };
+    const Progress progress = callback ? Progress(onward) : Progress();
     const int wanted = sureCopiesFor(this->Settings);
     const Deadline ofVotes = this->Settings.deadline.after(VotingTime);
     std::vector<int> parts(this->Models.size());
@@ -80,8 +87,8 @@ public:
     if (!this->Told.isCutShort && !this->areEnough(stay))
     {
       const std::vector<int> more = this->withMore();
-      this->upTo(1.0, more, 0, ofVotes, {});
-      stay = this->selected(more, {});
+      this->upTo(1.0, more, 0, ofVotes, progress);
+      stay = this->selected(more, progress);
     }
     return stay;
   }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace
 {
 meam::TriangleMesh blockOnCorner() { return parts::blockOnPlate(false); }
@@ -55,8 +57,15 @@ TEST(PartsEstimation, TwoTypesEndTheirSearchTogetherWhereTheyHaveEnough)
   const meam::SceneInput input = inputOf(scenes::seenFromAbove(copies));
   const int asked = 3; // and two more: of each type alone there are too few
   meam::DetectionReport report;
-  const std::vector<meam::PartPose> found = meam::estimateParts(
-    { &bracket, &plate }, input, meam::detectionSettings(meam::Preset::Recommended, asked), &report);
+  std::vector<double> shares;
+  const std::vector<meam::PartPose> found =
+    meam::estimateParts({ &bracket, &plate }, input, meam::detectionSettings(meam::Preset::Recommended, asked), &report,
+      [&](double share)
+      {
+        shares.push_back(share);
+        return true;
+      });
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   ASSERT_EQ(found.size(), 3u);
   for (const meam::PartPose& one : found)
   {
@@ -78,4 +87,34 @@ TEST(PartsEstimation, ATypeOfWhichTheScanShowsNothingIsLeftOut)
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].part, 1);
   EXPECT_GT(found[0].pose.placeProbability, 0.5);
+}
+
+TEST(PartsEstimation, WhatOneTypeLosesToAnotherIsSearchedForFurther)
+{
+  // The same part twice: each claims all that the other has, so that no type may end its search with its share.
+  const meam::TrainedModel& bracket = scenes::bracket();
+  std::vector<scenes::Copy> copies;
+  for (const double y : { -70.0, 0.0, 70.0 })
+  {
+    copies.push_back({ parts::lBracket(), scenes::lying(0, y, 20 + y) });
+  }
+  const meam::SceneInput input = inputOf(scenes::seenFromAbove(copies));
+  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  std::vector<double> shares;
+  const std::vector<meam::PartPose> found = meam::estimateParts({ &bracket, &bracket }, input, settings, nullptr,
+    [&](double share)
+    {
+      shares.push_back(share);
+      return true;
+    });
+  ASSERT_EQ(found.size(), 3u);
+  for (const meam::PartPose& one : found)
+  {
+    EXPECT_GT(one.pose.placeProbability, 0.9);
+  }
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  const std::size_t last = shares.size() - 1;
+  EXPECT_THROW(meam::estimateParts({ &bracket, &bracket }, input, settings, nullptr,
+                 [&, calls = std::size_t{ 0 }](double) mutable { return ++calls < last; }),
+    meam::Aborted);
 }
