@@ -102,8 +102,8 @@ std::string describe(const Poses& poses)
 
 std::string doubtsOf(const Poses& poses)
 {
-  const bool isSure = !poses.empty() && !haveProbabilities(poses);
-  return isSure || std::any_of(poses.begin(), poses.end(), isRatherThere) ? std::string() : describe(poses);
+  const bool haveScoresAlone = !poses.empty() && !haveProbabilities(poses);
+  return haveScoresAlone || std::any_of(poses.begin(), poses.end(), isRatherThere) ? std::string() : describe(poses);
 }
 
 std::string cutShort(double timeLimit)
