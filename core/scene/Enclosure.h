@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "scene/DepthMap.h"
+#include "scene/depth/DepthMap.h"
 
 #include <Eigen/Geometry>
 

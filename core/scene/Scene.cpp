@@ -57,8 +57,9 @@ Scene::Scene(LocalCloud edgePoints, const Points& allMeasured, const Sensor& see
   , quality(measuredQuality)
   , measured(allMeasured)
   , partDiameter(diameter)
-  , depth(measured, sensor, DepthCell * diameter, settings.threads)
-  , Threads(settings.threads)
+  , lines(measured, sensor, settings.threads)
+  , depth(lines, DepthCell * diameter, settings.threads)
+  , fineDepth(lines, std::max(FinePitches * depth.pitch(), FinestCell * diameter))
 {
   inParallel(settings.threads, { [&] { this->surface = PointGrid(this->depth.means(), SurfaceCell * diameter); },
                                  [&] { this->edgeIndex = EdgeIndex(this->edges.cloud, EdgeCell * diameter); } });
@@ -89,16 +90,5 @@ Scene::Scene(LocalCloud edgePoints, const Points& allMeasured, const Sensor& see
       " surface points, but the sensor looks away from all of them: turn the view direction round, or move the sensor "
       "position (a perspective sensor sees what lies before it).");
   }
-}
-
-const DepthMap& Scene::fineDepth() const
-{
-  std::call_once(this->IsFine,
-    [this]
-    {
-      const double cell = std::max(FinePitches * this->depth.pitch(), FinestCell * this->partDiameter);
-      this->FineDepth.emplace(this->measured, this->sensor, cell, this->Threads, DepthMap::Detail::Measurements);
-    });
-  return *this->FineDepth;
 }
 }

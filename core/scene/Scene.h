@@ -3,14 +3,12 @@
 
 #include "base/LocalCloud.h"
 #include "base/PointGrid.h"
-#include "scene/DepthMap.h"
+#include "scene/depth/DepthMap.h"
+#include "scene/depth/FineDepth.h"
 #include "scene/EdgeIndex.h"
 #include "scene/Enclosure.h"
 #include "scene/ScanQuality.h"
 #include "scene/Sensor.h"
-
-#include <mutex>
-#include <optional>
 
 namespace meam
 {
@@ -40,9 +38,6 @@ struct Scene
   const PointCloud& edgePoints() const { return this->edges.cloud; }
   /// Grid of the edge points.
   const PointGrid& edgeGrid() const { return this->edgeIndex.grid(); }
-  /// The depth map point by point (DepthMap::Detail::Measurements), made when it is first asked for: next to none of
-  /// its cells is empty on a surface.
-  const DepthMap& fineDepth() const;
 
   LocalCloud edges;
   Sensor sensor; ///< in the local frame
@@ -50,15 +45,12 @@ struct Scene
   Points measured; ///< all that the sensor measured
   double partDiameter;
   EdgeIndex edgeIndex;
+  ScanProjection lines; ///< of `measured`
   DepthMap depth;
+  FineDepth fineDepth;                     ///< point by point: next to none of its cells is empty on a surface
   PointGrid surface;                       ///< of depth.means()
   std::vector<Plane> enclosure;            ///< the bin's floor and walls, as far as they are in sight
   std::vector<unsigned char> isOnLongLine; ///< of each edge point: the line is longer than the part
   PointGrid longLines;                     ///< of these edge points
-
-private:
-  int Threads;
-  mutable std::once_flag IsFine;
-  mutable std::optional<DepthMap> FineDepth;
 };
 }

@@ -35,7 +35,6 @@ DepthFit::DepthFit(const Scene& scene, const TrainedModel& model)
   this->Deviation =
     static_cast<float>(std::hypot(scene.quality.smoothing * scene.quality.noise, OffPose * model.diameter));
   this->Near = static_cast<float>(UnexplainedDistance * model.diameter);
-  scene.fineDepth();
 }
 
 const DepthFit::Rendered::Cell& DepthFit::Rendered::at(int column, int row) const
@@ -48,7 +47,7 @@ const DepthFit::Rendered::Cell& DepthFit::Rendered::at(int column, int row) cons
 
 DepthFit::Rendered DepthFit::render(const Eigen::Isometry3d& T_scene_model) const
 {
-  const DepthMap& depth = this->InScene.fineDepth();
+  const FineDepth& depth = this->InScene.fineDepth;
   const PointCloud& surface = this->Model.surface;
   const auto diameter = static_cast<float>(this->Model.diameter);
   const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
@@ -85,7 +84,7 @@ DepthFit::Rendered DepthFit::render(const Eigen::Isometry3d& T_scene_model) cons
   std::vector<Point> points;
   points.reserve(splats.size());
   int left = depth.columns(), right = -1, top = depth.rows(), bottom = -1;
-  DepthMap::Places places;
+  DepthGrid::Places places;
   const int count = static_cast<int>(splats.size());
   for (int begin = 0; begin < count; begin += SoABlock)
   {
@@ -140,7 +139,7 @@ DepthFit::Rendered DepthFit::render(const Eigen::Isometry3d& T_scene_model) cons
 
 double DepthFit::logOdds(const Rendered& a, const Rendered& b) const
 {
-  const DepthMap& depth = this->InScene.fineDepth();
+  const FineDepth& depth = this->InScene.fineDepth;
   const int right = std::max(a.left + a.width, b.left + b.width), bottom = std::max(a.top + a.height, b.top + b.height);
   double sum = 0.0;
   for (int row = std::min(a.top, b.top); row < bottom; ++row)
@@ -149,12 +148,15 @@ double DepthFit::logOdds(const Rendered& a, const Rendered& b) const
     {
       const Rendered::Cell &ofA = a.at(column, row), &ofB = b.at(column, row);
       const auto isFlat = [](const Rendered::Cell& cell) { return cell.count > 0 && cell.cosine < FlattestCell; };
-      const int cell = row * depth.columns() + column;
-      if ((ofA.count == 0 && ofB.count == 0) || isFlat(ofA) || isFlat(ofB) || !depth.isMeasured(cell))
+      if ((ofA.count == 0 && ofB.count == 0) || isFlat(ofA) || isFlat(ofB))
       {
         continue;
       }
-      const float measured = depth.depthIn(cell);
+      const float measured = depth.depthIn(column, row);
+      if (std::isnan(measured))
+      {
+        continue;
+      }
       const float behindA = (measured - ofA.depth) * ofA.cosine, behindB = (measured - ofB.depth) * ofB.cosine;
       sum += this->lossOf(ofB, behindB, behindA) - this->lossOf(ofA, behindA, behindB);
     }

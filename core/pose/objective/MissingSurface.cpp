@@ -45,16 +45,18 @@ struct PatchPoints
 };
 
 /// Whether the sensor saw past a point in all cells about its own, too. `behind`: mm along the line of sight.
-bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, const DepthMap& depth)
+bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, const FineDepth& depth)
 {
   const std::array<int, 4> cells = depth.neighboursOf(depth.cellAt(point));
   return std::all_of(cells.begin(), cells.end(),
     [&](int cell)
-    { return cell < 0 || !depth.isMeasured(cell) || (point - depth.meanIn(cell)).dot(towards) > behind; });
+    {
+      const Eigen::Vector3f* mean = cell < 0 ? nullptr : depth.meanIn(cell);
+      return !mean || (point - *mean).dot(towards) > behind;
+    });
 }
 
-std::map<Patch, PatchPoints> patchesOf(
-  const Pose& pose, const Scene& scene, const DepthMap& depth, const TrainedModel& model)
+std::map<Patch, PatchPoints> patchesOf(const Pose& pose, const Scene& scene, const TrainedModel& model)
 {
   const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
   const Eigen::Vector3f towards = model.visibility->towards(pose.T_scene_model, scene.sensor);
@@ -66,18 +68,18 @@ std::map<Patch, PatchPoints> patchesOf(
     const Eigen::Vector3f& point = model.surface.points[i];
     PatchPoints& patch = patches[patchOf(point, model.symmetries, PatchSide * model.diameter)];
     const float behind = onPart / model.surface.normals[i].dot(towards);
-    switch (depth.relationToMean(T * point, behind))
+    switch (scene.fineDepth.relation(T * point, behind))
     {
-      case DepthMap::Relation::OnSurface:
+      case DepthGrid::Relation::OnSurface:
         ++patch.there;
         break;
-      case DepthMap::Relation::InFront:
-        ++(isClearAbout(T * point, inScene, behind, depth) ? patch.past : patch.there);
+      case DepthGrid::Relation::InFront:
+        ++(isClearAbout(T * point, inScene, behind, scene.fineDepth) ? patch.past : patch.there);
         break;
-      case DepthMap::Relation::Hidden:
+      case DepthGrid::Relation::Hidden:
         ++patch.hidden;
         break;
-      case DepthMap::Relation::NoSurface:
+      case DepthGrid::Relation::NoSurface:
         break;
     }
   }
@@ -91,14 +93,13 @@ int missingPatches(const Poses& poses, const Scene& scene, const TrainedModel& m
   {
     return 0;
   }
-  const DepthMap& depth = scene.fineDepth(); // made by all threads, which it is not within the loop
   std::vector<std::map<Patch, PatchPoints>> ofPoses(poses.size());
   parallelFor(static_cast<int>(poses.size()), threads, {},
     [&](int begin, int end, int)
     {
       for (int i = begin; i < end; ++i)
       {
-        ofPoses[i] = patchesOf(poses[i], scene, depth, model);
+        ofPoses[i] = patchesOf(poses[i], scene, model);
       }
     });
   struct Copies

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pose/refinement/NormalEquations.h"
-#include "scene/DepthMap.h"
+#include "scene/depth/DepthMap.h"
 
 namespace meam
 {

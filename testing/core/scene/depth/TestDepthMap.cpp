@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/DepthMap.h"
+#include "scene/depth/DepthMap.h"
 
 #include <gtest/gtest.h>
 
@@ -236,35 +236,6 @@ TEST(DepthMap, OfNothingTellsNothing)
   EXPECT_EQ(map.relation({ 0, 0, 0 }, 1.0f), meam::DepthMap::Relation::NoSurface);
   EXPECT_FALSE(meanAt(map, { 0, 0, 0 }));
   EXPECT_TRUE(map.normalAt({ 0, 0, 0 }).isZero());
-}
-
-TEST(DepthMap, MeasurementsAloneAreThoseOfTheSurface)
-{
-  std::mt19937 random(4);
-  std::uniform_real_distribution<float> across(-50.0f, 50.0f), height(0.0f, 20.0f);
-  meam::Points points;
-  for (int k = 0; k < 2000; ++k) // a cell in five stays empty
-  {
-    points.emplace_back(across(random), across(random), height(random));
-  }
-  const meam::DepthMap surface(points, fromAbove(), 2.5);
-  const meam::DepthMap alone(points, fromAbove(), 2.5, 1, meam::DepthMap::Detail::Measurements);
-  ASSERT_EQ(alone.cellCount(), surface.cellCount());
-  int measured = 0;
-  for (int cell = 0; cell < surface.cellCount(); ++cell)
-  {
-    ASSERT_EQ(alone.isMeasured(cell), surface.isMeasured(cell));
-    measured += surface.isMeasured(cell);
-    EXPECT_TRUE(!surface.isMeasured(cell) || alone.meanIn(cell) == surface.meanIn(cell));
-  }
-  EXPECT_GT(measured, 0);
-  EXPECT_LT(measured, surface.cellCount());
-  for (int k = 0; k < 1000; ++k)
-  {
-    const Eigen::Vector3f asked(across(random), across(random), height(random));
-    EXPECT_EQ(alone.relationToMean(asked, 1.0f), surface.relationToMean(asked, 1.0f));
-    EXPECT_TRUE(alone.normalAt(asked).isZero());
-  }
 }
 
 TEST(DepthMap, TheSameForAnyNumberOfThreads)
