@@ -156,6 +156,11 @@ MEAM_EXPORT Model loadModel(const std::string& path);
 /// lengths to mm: 1000 for metres.
 MEAM_EXPORT Scan loadScan(const std::string& path, const std::string& cameraFile = {}, double scale = 1.0);
 
+/// A scan of what a depth camera gave: distances along its z axis, one for each pixel, row by row from the top; NaN, 0
+/// and less are not measured. `scale` brings them to mm. The camera's pose does not matter, nor its size where it is 0.
+MEAM_EXPORT Scan scanOfDepths(
+  const std::vector<float>& depths, int width, int height, const Camera& camera, double scale = 1.0);
+
 /// A part's surface. Corners of a triangle go counter-clockwise seen from outside.
 struct Mesh
 {
@@ -169,6 +174,8 @@ MEAM_EXPORT Mesh loadMesh(const std::string& path);
 
 /// Reads a calibration of OpenCV (YAML, XML, JSON) or BOP (camera.json), for Scan::imageCamera.
 MEAM_EXPORT Camera loadCamera(const std::string& path);
+/// mm for a value of 1 of the camera's depth images, as its calibration says; 1 where it does not.
+MEAM_EXPORT double loadDepthScale(const std::string& path);
 
 // ------------------------------------------------------------------------------------------------------------- images
 // Library meam::images, for those who have images as files. It links OpenCV's imgcodecs, which in Debian links GDAL and

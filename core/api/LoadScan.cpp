@@ -4,6 +4,7 @@
 #include "io/PLYFile.h"
 #include "io/parsing/FileBytes.h"
 #include "meam.h"
+#include "scene/DepthCloud.h"
 #include "scene/preparation/CloudOrganization.h"
 #include "scene/preparation/ScanPreparation.h"
 
@@ -60,5 +61,16 @@ Scan loadScan(const std::string& path, const std::string& cameraFile, double sca
   return scanOf(cameraFile.empty() ? std::move(measured) : organizeCloud(measured, readCamera(cameraFile).camera));
 }
 
+Scan scanOfDepths(const std::vector<float>& depths, int width, int height, const Camera& camera, double scale)
+{
+  OrganizedCloud cloud = cloudOfDepths(depths, width, height, camera, scale, "The depth image");
+  Scan scan;
+  scan.width = width;
+  scan.height = height;
+  scan.points = std::move(cloud.points);
+  return scan;
+}
+
 Camera loadCamera(const std::string& path) { return readCamera(path).camera; }
+double loadDepthScale(const std::string& path) { return readCamera(path).depthScale; }
 }

@@ -104,6 +104,8 @@ def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camer
 def cloud_of(scan, camera, scale):
     """The points, with the image of an organized scan that carries one."""
     scale = checked_scale("scale", scale)
+    if isinstance(scan, numpy.ndarray) and scan.ndim == 2 and scan.shape[1] != 3:
+        return depths_seen(scan, camera, scale)
     if camera is not None and isinstance(scan, (vtkDataObject, numpy.ndarray)):
         raise Error("camera brings the points of a file onto its pixels: give a file, or the points as a grid without camera")
     if isinstance(scan, vtkDataObject):
@@ -122,6 +124,27 @@ def cloud_of(scan, camera, scale):
     if extension in (".pcd", ".ply"):
         return _core.load_scan(path, "" if camera is None else path_of(camera), scale)
     return _core.Scan(scaled(_core.load_cad(mesh_file(path)).vertices, scale, "scan"))
+
+
+def depths_seen(depths, camera, scale):
+    """The scan of depths H x W, whose camera is a calibration file, or a camera matrix."""
+    if camera is None:
+        raise Error(f"a depth image needs its camera, a calibration file or a matrix of 3 x 3; an array of {depths.shape[0]} x "
+                    f"{depths.shape[1]} numbers is no points, which are H x W x 3 or N x 3")
+    if depths.dtype.kind not in "fui" or not depths.size:
+        raise Error(f"the depth image has to be an array of numbers, H x W, not {depths.dtype} with the shape {depths.shape}")
+    values = depths.astype(numpy.float32)
+    if depths.dtype == numpy.uint16:
+        values[depths == numpy.iinfo(numpy.uint16).max] = numpy.nan  # as cameras write what they did not measure
+    if isinstance(camera, (str, os.PathLike)):
+        path = path_of(camera)
+        return _core.scan_of_depths(values, _core.load_camera(path), scale * _core.load_depth_scale(path))
+    matrix = numpy.asarray(camera)
+    if matrix.shape != (3, 3) or matrix.dtype.kind not in "fiu":
+        raise Error(f"the camera of a depth image has to be a calibration file or a matrix of 3 x 3, not {camera!r}")
+    if matrix[0, 1] or matrix[1, 0] or (matrix[2] != (0, 0, 1)).any():
+        raise Error(f"the camera matrix has to be fx 0 cx, 0 fy cy, 0 0 1, in pixels, not {matrix.tolist()}")
+    return _core.scan_of_depths(values, _core.Camera(depths.shape[1], depths.shape[0], matrix, numpy.eye(4)), scale)
 
 
 def scaled(points, scale, what):

@@ -348,6 +348,22 @@ TEST(API, ReadsScans)
   scan = meam::loadDepthImage(png, camera);
   EXPECT_EQ(scan.width, 4);
   EXPECT_EQ(scan.points[4 * 1 + 1], Eigen::Vector3f(0, 0, 100));
+  EXPECT_EQ(meam::loadDepthScale(camera), 0.5);
+
+  std::vector<float> depths(12, 200.0f);
+  depths[0] = 0.0f;
+  depths[1] = -1.0f;
+  depths[2] = NAN;
+  const meam::Scan same = meam::scanOfDepths(depths, 4, 3, meam::loadCamera(camera), 0.5);
+  EXPECT_EQ(std::vector<Eigen::Vector3f>(same.points.begin() + 3, same.points.end()),
+    std::vector<Eigen::Vector3f>(scan.points.begin() + 3, scan.points.end()));
+  EXPECT_TRUE(std::isnan(same.points[0].x()) && std::isnan(same.points[1].x()) && std::isnan(same.points[2].x()));
+  const auto errorOf = [&](int width, int height, double scale)
+  { return files::errorOf([&] { meam::scanOfDepths(depths, width, height, meam::loadCamera(camera), scale); }); };
+  EXPECT_TRUE(files::contains(errorOf(4, 4, 1.0), "has 12 values for 4 x 4 pixels"));
+  EXPECT_TRUE(files::contains(errorOf(3, 4, 1.0), "has 3 x 4 pixels, but its camera has 4 x 3"));
+  EXPECT_TRUE(files::contains(errorOf(4, 3, 0.0), "depth scale"));
+  EXPECT_TRUE(files::contains(errorOf(4, 3, 1e6), "nothing nearer than 2e+05 m"));
   EXPECT_EQ(
     meam::loadImage(folder.write("grey.png", images::encoded(".png", cv::Mat(3, 4, CV_8UC1, cv::Scalar(7))))).pixels,
     std::vector<std::uint8_t>(12, 7));

@@ -139,6 +139,25 @@ filter.SetProjectionToPerspective()
 filter.SetSensorPosition(TURN[:3, 3])
 filter.SetViewDirection(0, 0, 0)
 check(tuples(run(filter), "Transform") == matrices("v.txt"), "the filter finds other poses")
+
+# A depth image as an array, with a calibration file or a camera matrix.
+by_file = ppfmeam.detect(model, "depth.png", camera="camera.json", poses=2)
+matrix = numpy.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+for array, camera, scale in ((depth, "camera.json", 1), (depth, matrix, SCALE), (depth / 1000, matrix.tolist(), 1000 * SCALE)):
+    seen = ppfmeam.detect(model, array, camera=camera, scale=scale, poses=2)
+    check(len(seen) == 2 and all(min(pose_error(pose.ravel(), t)[0] for t in true) < 1 for pose in seen.poses), f"{seen.poses}")
+    check(array.dtype != numpy.uint16 or numpy.array_equal(seen.poses, by_file.poses), f"the file's poses: {by_file.poses}")
+    told = ppfmeam.why(model, array, camera=camera, scale=scale, pose=seen.poses[0])
+    check("rank 1" in str(told), told)
+for words, array, camera in (("needs its camera", depth, None), ("matrix of 3 x 3", depth, numpy.eye(4)), ("fx 0 cx", depth, matrix.T),
+                             ("array of numbers", depth > 0, matrix), ("its camera has", depth[1:], "camera.json"),
+                             ("focal lengths", depth, numpy.diag((0, 0, 1)))):
+    try:
+        ppfmeam.detect(model, array, camera=camera)
+        check(False, f"{words} was not said")
+    except ppfmeam.Error as error:
+        check(words in str(error), error)
+
 os.makedirs("clouds")
 os.rename("robot.ply", "clouds/0.ply")
 works("batch.py", "clouds", *MODEL, "--scene-scale", "1000", *VIEW, "--out", "clouds.csv", "--report", "clouds_pages")
