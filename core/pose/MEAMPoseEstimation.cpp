@@ -94,23 +94,12 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
   DetectionReport unused;
   DetectionReport& told = report ? *report : unused;
   PoseSearch search(scene, model, settings, told, observer);
-  const int wanted = sureCopiesFor(settings);
-  const Deadline ofVotes = settings.deadline.after(VotingTime);
-  double from = 0.0;
-  for (const double share : SharesOfReferences)
-  {
-    if (share < 1.0 && wanted == 0 && !settings.deadline.isSet())
+  searchByShares(settings, subProgress(progress, 0.0, Searches),
+    [&](double share, int wanted, const Deadline& ofVotes, const Progress& ofShare)
     {
-      continue;
-    }
-    const Progress ofLot = ofVotes.within(subProgress(progress, Searches * from, Searches * share));
-    told.isCutShort = !isDoneBy(ofVotes, [&] { search.upTo(share, wanted, ofLot); });
-    if (told.isCutShort || (wanted > 0 && search.sure() >= wanted))
-    {
-      break;
-    }
-    from = share;
-  }
+      told.isCutShort = !isDoneBy(ofVotes, [&] { search.upTo(share, wanted, ofVotes.within(ofShare)); });
+      return told.isCutShort || (wanted > 0 && search.sure() >= wanted);
+    });
   const Poses poses = search.select(selectionOf(settings), subProgress(progress, Searches, 1.0));
   told.isCutShort = told.isCutShort || settings.deadline.hasStruck();
   return poses;

@@ -57,37 +57,27 @@ public:
       return callback(most);
     };
     const Progress progress = callback ? Progress(onward) : Progress();
-    const int wanted = sureCopiesFor(this->Settings);
-    const Deadline ofVotes = this->Settings.deadline.after(VotingTime);
     std::vector<int> parts(this->Models.size());
     std::iota(parts.begin(), parts.end(), 0);
-    double from = 0.0;
-    for (const double share : SharesOfReferences)
-    {
-      if (share < 1.0 && wanted == 0 && !this->Settings.deadline.isSet())
+    std::vector<PartPose> stay;
+    Deadline votes;
+    searchByShares(this->Settings, subProgress(progress, 0.0, Voted),
+      [&](double share, int wanted, const Deadline& ofVotes, const Progress& ofShare)
       {
-        continue;
-      }
-      this->upTo(share, parts, wanted, ofVotes, subProgress(progress, Voted * from, Voted * share));
-      from = share;
-      if (this->Told.isCutShort || share == 1.0)
-      {
-        break;
-      }
-      if (wanted > 0 && std::accumulate(this->Sure.begin(), this->Sure.end(), 0) >= wanted)
-      {
-        std::vector<PartPose> stay = this->selected(parts, subProgress(progress, Voted, 1.0));
-        if (this->areEnough(stay))
+        votes = ofVotes;
+        this->upTo(share, parts, wanted, votes, ofShare);
+        const bool isLast = this->Told.isCutShort || share == 1.0;
+        if (isLast || (wanted > 0 && std::accumulate(this->Sure.begin(), this->Sure.end(), 0) >= wanted))
         {
-          return stay;
+          stay = this->selected(parts, subProgress(progress, Voted, 1.0));
+          return isLast || this->areEnough(stay);
         }
-      }
-    }
-    std::vector<PartPose> stay = this->selected(parts, subProgress(progress, Voted, 1.0));
+        return false;
+      });
     if (!this->Told.isCutShort && !this->areEnough(stay))
     {
       const std::vector<int> more = this->withMore();
-      this->upTo(1.0, more, 0, ofVotes, progress);
+      this->upTo(1.0, more, 0, votes, progress);
       stay = this->selected(more, progress);
     }
     return stay;

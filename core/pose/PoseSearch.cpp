@@ -14,13 +14,29 @@ namespace
 constexpr std::size_t RefinedOfCopy =
   6;                              // for each copy that is wanted so many candidates are refined first, best first,
 constexpr std::size_t Growth = 2; // and then so many times as many, until enough copies are sure
+// Where few poses are asked for, of a bin full of parts, some of the reference points find enough that are sure: of all
+// of them so many vote first, others only where these do not do.
+constexpr double SharesOfReferences[] = { 0.06, 0.2, 1.0 };
+constexpr double VotingTime = 0.6; // of a time limit: up to refined poses
 }
 
-int sureCopiesFor(const DetectionSettings& settings)
+void searchByShares(const DetectionSettings& settings, const Progress& progress,
+  const std::function<bool(double share, int wanted, const Deadline& ofVotes, const Progress& progress)>& isDone)
 {
   // The order by votes, or by what fits of edges, does not tell what is sure.
   const int asked = settings.screening ? settings.selection.maximumPoses : 0;
-  return asked > 0 ? asked + SpareCopies : 0;
+  const int wanted = asked > 0 ? asked + SpareCopies : 0;
+  const Deadline ofVotes = settings.deadline.after(VotingTime);
+  double from = 0.0;
+  for (const double share : SharesOfReferences)
+  {
+    const bool isSkipped = share < 1.0 && wanted == 0 && !settings.deadline.isSet();
+    if (!isSkipped && isDone(share, wanted, ofVotes, subProgress(progress, from, share)))
+    {
+      return;
+    }
+    from = isSkipped ? from : share;
+  }
 }
 
 PoseSearch::PoseSearch(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,

@@ -5,6 +5,7 @@
 #include "pose/PoseMemory.h"
 #include "pose/verification/PoseVerification.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -49,11 +50,8 @@ private:
   std::map<PoseStage, Poses> Returned; ///< in the order of the stages
 };
 
-// Where few poses are asked for, of a bin full of parts, some of the reference points find enough that are sure: of all
-// of them so many vote first, others only where these do not do.
-inline constexpr double SharesOfReferences[] = { 0.06, 0.2, 1.0 };
-inline constexpr double VotingTime = 0.6; ///< of a time limit: up to refined poses; the rest finishes them
-
-/// How many copies are to be sure before a search ends that has been asked for so many; 0: it never ends before all.
-int sureCopiesFor(const DetectionSettings& settings);
+/// Searches by more and more of the reference points until `isDone`, which searches by this share of them, says that
+/// they were enough. `wanted`: copies that are to be sure before; 0: all vote. `ofVotes`: up to refined poses.
+void searchByShares(const DetectionSettings& settings, const Progress& progress,
+  const std::function<bool(double share, int wanted, const Deadline& ofVotes, const Progress& progress)>& isDone);
 }
