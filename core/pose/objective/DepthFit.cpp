@@ -27,14 +27,14 @@ constexpr int SplatPoints = 5;           // the sample and one to each side
 DepthFit::DepthFit(const Scene& scene, const TrainedModel& model)
   : InScene(scene)
   , Model(model)
+  , Deviation(static_cast<float>(std::hypot(scene.quality.smoothing * scene.quality.noise, OffPose * model.diameter)))
+  , Near(static_cast<float>(UnexplainedDistance * model.diameter))
 {
-  if (!scene.quality.isKnown() || !haveSurfaces(scene, model))
-  {
-    return;
-  }
-  this->Deviation =
-    static_cast<float>(std::hypot(scene.quality.smoothing * scene.quality.noise, OffPose * model.diameter));
-  this->Near = static_cast<float>(UnexplainedDistance * model.diameter);
+}
+
+bool DepthFit::tells(const Scene& scene, const TrainedModel& model)
+{
+  return scene.quality.isKnown() && haveSurfaces(scene, model);
 }
 
 const DepthFit::Rendered::Cell& DepthFit::Rendered::at(int column, int row) const

@@ -12,11 +12,11 @@ namespace meam
 class DepthFit
 {
 public:
-  /// Keeps references to both. Makes the fine depth map of the scene, where that tells anything.
+  /// Keeps references to both.
   DepthFit(const Scene& scene, const TrainedModel& model);
 
-  /// Whether the scan's noise is known.
-  bool isKnown() const { return this->Deviation > 0.0f; }
+  /// Whether depth tells anything: the scan's noise is known, and the surface of both.
+  static bool tells(const Scene& scene, const TrainedModel& model);
 
   /// The part as the sensor should see it, were nothing before it: in cells of the fine depth map.
   struct Rendered
@@ -43,7 +43,7 @@ private:
 
   const Scene& InScene;
   const TrainedModel& Model;
-  float Deviation = 0.0f; ///< mm, of a measured point off the surface that it is of; 0: not known
-  float Near = 0.0f;      ///< mm, so near to the part a surface is the part's
+  float Deviation; ///< mm, of a measured point off the surface that it is of
+  float Near;      ///< mm, so near to the part a surface is the part's
 };
 }

@@ -124,7 +124,7 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
     this->NearSymmetries = this->Rotations.size();
     const std::vector<Eigen::Isometry3d> steps = stepsAboutAxes(model);
     this->Rotations.insert(this->Rotations.end(), steps.begin(), steps.end());
-    if (settings.depthFit)
+    if (settings.depthFit && DepthFit::tells(scene, model))
     {
       this->Depth.emplace(scene, model);
     }
@@ -270,7 +270,7 @@ void LocalSearch::decide(Pose& pose, Contender current) const
       }
       rotations.push_back({ rotated, advantage });
     }
-    if (isLikely && this->Depth && this->Depth->isKnown())
+    if (isLikely && this->Depth)
     {
       this->addDepth(rotations);
     }

@@ -72,6 +72,6 @@ private:
   std::vector<Eigen::Isometry3d> Rotations; ///< that hardly move the surface: near-symmetries first, then steps
   std::size_t NearSymmetries = 0;           ///< of these
   PatternSearch Pattern;
-  std::optional<DepthFit> Depth; ///< where there are rotations
+  std::optional<DepthFit> Depth; ///< where there are rotations, and depth tells of them
 };
 }

@@ -38,11 +38,11 @@ std::optional<double> forTheRightPose(double noise, const std::vector<scenes::Co
   quality.pointDistance = noise >= 0.0 ? 0.7 : 0.0;
   quality.noise = noise;
   const meam::Scene scene(std::move(edges), measured, seen.sensor, model.diameter, {}, quality);
-  const meam::DepthFit fit(scene, model);
-  if (!fit.isKnown())
+  if (!meam::DepthFit::tells(scene, model))
   {
     return std::nullopt;
   }
+  const meam::DepthFit fit(scene, model);
   const Eigen::Isometry3d T_local = scene.T_local_scene() * T;
   const meam::DepthFit::Rendered right = fit.render(T_local);
   const meam::DepthFit::Rendered turned =
