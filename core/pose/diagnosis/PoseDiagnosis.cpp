@@ -207,19 +207,16 @@ void PoseDiagnosis::continueSurface(Diagnosis& diagnosis, const Eigen::Isometry3
   const SurfaceContinuation continuation(this->InScene, this->Model);
   const Points beyond = continuation.beyond(T_local_model);
   diagnosis.unexplained = inScene(beyond, this->InScene.T_local_scene());
-  const auto isExplained = [&](const Eigen::Vector3f& point)
+  std::vector<Eigen::Isometry3f> others;
+  for (const Pose& other : this->Trace.unlimited())
   {
-    const Poses& all = this->Trace.unlimited();
-    return std::any_of(all.begin(), all.end(),
-      [&](const Pose& other)
-      {
-        return claimOf(other, false) >= LikelyFound &&
-               !offsetBetween(other.T_scene_model, T_local_model, this->Model).within(this->tolerance()) &&
-               continuation.isOn(point, other.T_scene_model.inverse().cast<float>());
-      });
-  };
-  const auto left = std::count_if(beyond.begin(), beyond.end(), [&](const auto& point) { return !isExplained(point); });
-  diagnosis.continuing = static_cast<double>(left) * continuation.patchesOfPoint();
+    if (claimOf(other, false) >= LikelyFound &&
+        !offsetBetween(other.T_scene_model, T_local_model, this->Model).within(this->tolerance()))
+    {
+      others.push_back(other.T_scene_model.inverse().cast<float>());
+    }
+  }
+  diagnosis.continuing = continuation.unexplained(beyond, others);
 }
 
 void PoseDiagnosis::takeFound(Diagnosis& diagnosis, const Pose& found, int rank) const

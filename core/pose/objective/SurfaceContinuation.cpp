@@ -31,6 +31,13 @@ SurfaceContinuation::SurfaceContinuation(const Scene& scene, const TrainedModel&
   this->PatchesOfPoint = inPatch * inPatch;
 }
 
+double SurfaceContinuation::unexplained(const Points& beyond, const std::vector<Eigen::Isometry3f>& others) const
+{
+  const auto isLeft = [&](const Eigen::Vector3f& point)
+  { return std::none_of(others.begin(), others.end(), [&](const auto& other) { return this->isOn(point, other); }); };
+  return static_cast<double>(std::count_if(beyond.begin(), beyond.end(), isLeft)) * this->PatchesOfPoint;
+}
+
 bool SurfaceContinuation::isOfBin(const Eigen::Vector3f& point) const
 {
   const std::vector<Plane>& planes = this->InScene.enclosure;

@@ -19,23 +19,22 @@ public:
   /// Such surface no farther than 12 % of the diameter from where it begins, without the bin's floor and walls: the
   /// means of the depth map's cells.
   Points beyond(const Eigen::Isometry3d& T_scene_model) const;
-  /// What one of these points counts, in patches.
-  double patchesOfPoint() const { return this->PatchesOfPoint; }
-  /// Whether a point of the scene lies on the part at a pose.
+  /// How much of it lies on none of the parts at other poses, T_model_scene, in patches.
+  double unexplained(const Points& beyond, const std::vector<Eigen::Isometry3f>& others) const;
+
+private:
   bool isOn(const Eigen::Vector3f& point, const Eigen::Isometry3f& T_model_scene) const
   {
     return this->Model.surfaceDistance.at(T_model_scene * point) < this->Tolerance;
   }
-
-private:
   bool isOfBin(const Eigen::Vector3f& point) const;
   bool isSmooth(int from, int to) const;
 
   const Scene& InScene;
   const TrainedModel& Model;
-  float Tolerance; ///< mm
-  float Noise;     ///< mm, of a cell's mean
-  int Reach;       ///< cells
-  double PatchesOfPoint;
+  float Tolerance;       ///< mm
+  float Noise;           ///< mm, of a cell's mean
+  int Reach;             ///< cells
+  double PatchesOfPoint; ///< what one of these points counts
 };
 }

@@ -101,13 +101,7 @@ void allowForLookalikes(
         beside.push_back(other.pose.T_scene_model.inverse().cast<float>());
       }
     }
-    const auto isLeft = [&](const Eigen::Vector3f& point)
-    {
-      return std::none_of(beside.begin(), beside.end(),
-        [&](const Eigen::Isometry3f& T_model_scene) { return continuation.isOn(point, T_model_scene); });
-    };
-    const auto left = std::count_if(finished.beyond.begin(), finished.beyond.end(), isLeft);
-    pose.contradictions.continuing = static_cast<double>(left) * continuation.patchesOfPoint();
+    pose.contradictions.continuing = continuation.unexplained(finished.beyond, beside);
     contradictions.push_back(pose.contradictions);
     const bool counts = !finished.isLeft && pose.placeProbability >= Likely; // others are nothing at all
     places.push_back(counts ? pose.placeProbability : 0.0);

@@ -19,11 +19,10 @@ double besideTheBlock(const std::vector<scenes::Copy>& copies)
     scenes::prepared(scenes::withTangents(scenes::seenFromAbove(copies), model.diameter), model.diameter);
   const meam::SurfaceContinuation continuation(scene, model);
   const auto beyond = continuation.beyond(scene.T_local_scene());
-  for (const Eigen::Vector3f& point : beyond)
-  {
-    EXPECT_FALSE(continuation.isOn(point, scene.T_local_scene().inverse().cast<float>()));
-  }
-  return static_cast<double>(beyond.size()) * continuation.patchesOfPoint();
+  const double patches = continuation.unexplained(beyond, {});
+  const Eigen::Isometry3f T_model_scene = scene.T_local_scene().inverse().cast<float>();
+  EXPECT_EQ(continuation.unexplained(beyond, { T_model_scene }), patches) << "none lies on the block";
+  return patches;
 }
 }
 
