@@ -265,19 +265,18 @@ void setParts(
   output->GetFieldData()->AddArray(diameters);
 }
 
-std::vector<int> typesOf(vtkPolyData* poses, int meshes)
+std::vector<int> typesOf(vtkPolyData* poses, int connected)
 {
   std::vector<int> types(poses->GetNumberOfPoints(), 0);
   vtkDataArray* parts = pointArray(poses, "PartId", 1);
-  if (parts && !types.empty() && (meshes > 1 || parts->GetRange()[0] < parts->GetRange()[1]))
+  if (parts && !types.empty() && (connected > 1 || parts->GetRange()[0] < parts->GetRange()[1]))
   {
     const int most = static_cast<int>(parts->GetRange()[1]);
-    if (parts->GetRange()[0] < 0.0 || most >= meshes)
+    if (parts->GetRange()[0] < 0.0 || most >= connected)
     {
       throw meam::Error("The poses are of " + std::to_string(most + 1) +
-                        " types of part: connect to Part the mesh of each, in the "
-                        "order in which they were searched, not " +
-                        std::to_string(meshes) + ".");
+                        " types of part: connect all to Part, in the order in which they were searched, not " +
+                        std::to_string(connected) + ".");
     }
     for (std::size_t k = 0; k < types.size(); ++k)
     {

@@ -30,9 +30,9 @@ void fromPoses(const meam::Poses& poses, vtkPolyData* output);
 void setParts(
   const std::vector<meam::PartPose>& poses, const std::vector<const meam::TrainedModel*>& models, vtkPolyData* output);
 
-/// Of each pose the index of its type of part, by `PartId`; 0 where it is not there, and where there is one mesh and
-/// all are of one type. Throws Error where there are not so many meshes as types.
-std::vector<int> typesOf(vtkPolyData* poses, int meshes);
+/// Of each pose the index of its type of part, by `PartId`; 0 where it is not there, and where one is connected and
+/// all are of one type. Throws Error where there are fewer than types.
+std::vector<int> typesOf(vtkPolyData* poses, int connected);
 
 /// The pose at a position with the turns of a vtkProp3D: degrees about x, y and z, first about y, then x, then z.
 meam::Pose placedAt(const double position[3], const double rotation[3]);

@@ -128,23 +128,6 @@ void fromUnexplained(const meam::PrecisePoints& from, vtkPolyData* output)
   output->GetPointData()->SetScalars(residual);
 }
 
-/// Of each pose which of so many types of part it is of, where that is known.
-std::vector<int> typesOf(vtkPolyData* given, std::size_t count, int types)
-{
-  vtkDataArray* parts = given && types > 1 ? given->GetPointData()->GetArray("PartId") : nullptr;
-  std::vector<int> result(count, types > 1 ? meam::PartsDiagnosis::AnyPart : 0);
-  for (std::size_t k = 0; parts && k < count; ++k)
-  {
-    result[k] = static_cast<int>(parts->GetComponent(static_cast<vtkIdType>(k), 0));
-    if (result[k] < 0 || result[k] >= types)
-    {
-      throw meam::Error("The poses are of more types of part than the " + std::to_string(types) +
-                        " that are connected: connect all that were searched, in their order.");
-    }
-  }
-  return result;
-}
-
 /// The poses that came out of a search for the connected types of part: their probabilities are known.
 std::vector<meam::FoundPose> foundPoses(vtkPolyData* given, const meam::Poses& poses, const std::vector<int>& types)
 {
@@ -282,7 +265,12 @@ int vtkMEAMPoseDiagnosis::RequestData(
       const bool isRanked = this->Place == RankedPose;
       requireInputs(this, { "Part", "Scan", nullptr, nullptr, isRanked ? "Poses" : nullptr });
       const meam::Poses poses = given ? toPoses(given) : meam::Poses();
-      const std::vector<int> types = typesOf(given, poses.size(), inputVector[0]->GetNumberOfInformationObjects());
+      const int parts = inputVector[0]->GetNumberOfInformationObjects();
+      std::vector<int> types(poses.size(), parts > 1 ? meam::PartsDiagnosis::AnyPart : 0);
+      if (given && parts > 1 && given->GetPointData()->HasArray("PartId"))
+      {
+        types = typesOf(given, parts);
+      }
       const std::vector<meam::FoundPose> found = foundPoses(given, poses, types);
       if (isRanked && this->RankOfPose > static_cast<int>(poses.size()))
       {

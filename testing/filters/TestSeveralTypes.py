@@ -108,7 +108,7 @@ alone.SetPosition(on[parts.index(0)])
 check(answer(alone).startswith("Found as rank "), answer(alone))
 third = rows_of(found, lambda k: True)
 third.GetPointData().GetArray("PartId").SetComponent(0, 0, 2)
-fails(asked(vtkMEAMPoseDiagnosis(), found=third), "more types of part than the 2", "connect all")
+fails(asked(vtkMEAMPoseDiagnosis(), found=third), "The poses are of 3 types", "connect all to Part", "not 2")
 fails(asked(vtkMEAMPoseDiagnosis(), meshes[::-1], found), "another order")
 prints(alone, "PartId")
 
@@ -160,7 +160,7 @@ possible = [p for p, in tuples(picks, "Possible")]
 check(possible == sorted(possible, reverse=True) and {part for part, p in zip(of, possible) if p} == {0, 1}, f"possible of both: {possible}")
 check(f" of {len(parts)} copies can be picked" in picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0), "the report")
 for wrong in (planning(meshes[:1], held[:1]), connect(vtkMEAMPoseInstances(), found, meshes[0])):
-    fails(wrong, "The poses are of 2 types", "connect to Part the mesh of each", "not 1")
+    fails(wrong, "The poses are of 2 types", "connect all to Part", "not 1")
 fails(planning(meshes, held[:1]), "connect to Grasps the grasps of each type", "2 meshes and 1 sets of grasps")
 fails(planning(meshes, held, third), "The poses are of 3 types", "not 2")
 fails(planning(meshes[::-1], held[::-1]), "Mesh 1 of the input Part is not as large")
