@@ -38,6 +38,41 @@ void check(const Bin& bin, const Gripper& gripper, double margin)
                 std::to_string(std::lround(room)) + " mm: check their units.");
   }
 }
+
+/// Adds the picks of one pose by all grasps; `copy`: its index among those that are likely, -1: it is none of them.
+void addPicks(
+  const GraspSearch& search, const Pose& pose, int index, int copy, const PickSurroundings& around, Picks& picks)
+{
+  const PlanSettings& settings = search.settings();
+  const double covered = copy >= 0 ? coveredShare(pose, copy, search.surface(), around) : 0.0;
+  const bool free = copy >= 0 && 100.0 * covered <= settings.maximumCovered;
+  for (std::size_t g = 0; g < search.grasps().size(); ++g)
+  {
+    Pick pick;
+    pick.T_scene_grasp = pose.T_scene_model * search.grasps()[g].T_model_grasp;
+    pick.obstruction = copy >= 0 ? PickObstruction::Covered : PickObstruction::Uncertain;
+    pick.tilt = tiltOf(pick.T_scene_grasp, around.up);
+    const double probability = confidence(pose, search.needsRotation(g));
+    if (free && probability < settings.minimumProbability)
+    {
+      pick.obstruction = PickObstruction::Uncertain;
+    }
+    else if (free)
+    {
+      pick = search.pickAt(pose, copy, static_cast<int>(g), around);
+    }
+    pick.pose = index;
+    pick.grasp = static_cast<int>(g);
+    pick.covered = covered;
+    pick.reach = around.top - around.up.dot(pick.T_scene_grasp.translation());
+    if (pick.possible())
+    {
+      pick.score = probability * search.grasps()[g].quality * (1.0 - covered) *
+                   std::min(1.0, pick.clearance / ComfortableClearance);
+    }
+    picks.push_back(pick);
+  }
+}
 }
 
 PickPlanner::PickPlanner(const TriangleMesh& part, const Symmetries& symmetries, const Grasps& grasps,
@@ -59,13 +94,39 @@ Picks PickPlanner::planAll(const std::vector<PickPlanner*>& planners, const Pose
   const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress)
 {
   check(poses);
+  std::vector<const GraspSearch*> searches;
+  std::vector<const PartSurface*> surfaces;
+  for (const int part : parts)
+  {
+    searches.push_back(planners.at(part)->Search.get());
+    surfaces.push_back(&searches.back()->surface());
+  }
+  const GridScale scale = cloud.points.empty() ? GridScale{} : gridScale(cloud);
   Picks picks;
   for (std::size_t part = 0; part < planners.size(); ++part)
   {
+    GraspSearch& search = *planners[part]->Search;
     const double step = 1.0 / static_cast<double>(planners.size());
-    const double from = step * static_cast<double>(part);
-    planners[part]->add(
-      static_cast<int>(part), planners, poses, parts, cloud, bin, subProgress(progress, from, from + step), picks);
+    const Progress ofPart = subProgress(progress, step * static_cast<double>(part), step * (part + 1.0));
+    if (bin)
+    {
+      check(*bin, search.gripper(), search.settings().safetyMargin);
+    }
+    report(ofPart, 0.0);
+    const PickSurroundings around =
+      surroundingsOf(poses, surfaces, cloud, scale, bin, search.partSize(), search.settings());
+    search.setObstacles(poses, searches, bin, around);
+    int copies = 0;
+    for (int k = 0; k < static_cast<int>(poses.size()); ++k)
+    {
+      report(ofPart, 0.3 + 0.7 * k / static_cast<double>(poses.size()));
+      const bool likely = copies < static_cast<int>(around.copies.size()) && around.copies[copies] == k;
+      if (parts[k] == static_cast<int>(part))
+      {
+        addPicks(search, poses[k], k, likely ? copies : -1, around, picks);
+      }
+      copies += likely;
+    }
   }
   const auto order = [](const Pick& pick)
   { return std::make_tuple(-pick.score, -static_cast<int>(pick.obstruction), pick.tilt); };
@@ -73,67 +134,5 @@ Picks PickPlanner::planAll(const std::vector<PickPlanner*>& planners, const Pose
     [&](const Pick& a, const Pick& b) { return a.possible() != b.possible() ? a.possible() : order(a) < order(b); });
   report(progress, 1.0);
   return picks;
-}
-
-void PickPlanner::add(int part, const std::vector<PickPlanner*>& planners, const Poses& poses,
-  const std::vector<int>& parts, const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress,
-  Picks& picks)
-{
-  GraspSearch& search = *this->Search;
-  const PlanSettings& settings = search.settings();
-  if (bin)
-  {
-    check(*bin, search.gripper(), settings.safetyMargin);
-  }
-  report(progress, 0.0);
-  std::vector<const GraspSearch*> searches;
-  std::vector<const PartSurface*> surfaces;
-  for (const int of : parts)
-  {
-    searches.push_back(planners.at(of)->Search.get());
-    surfaces.push_back(&searches.back()->surface());
-  }
-  const PickSurroundings around = surroundingsOf(poses, surfaces, cloud, bin, search.partSize(), settings);
-  search.setObstacles(poses, searches, bin, around);
-  std::size_t copy = 0;
-  for (std::size_t k = 0; k < poses.size(); ++k)
-  {
-    report(progress, 0.3 + 0.7 * static_cast<double>(k) / static_cast<double>(poses.size()));
-    const bool likely = copy < around.copies.size() && around.copies[copy] == static_cast<int>(k);
-    if (parts[k] != part)
-    {
-      copy += likely;
-      continue;
-    }
-    const double covered = likely ? coveredShare(poses[k], static_cast<int>(copy), search.surface(), around) : 0.0;
-    const bool free = likely && 100.0 * covered <= settings.maximumCovered;
-    for (std::size_t g = 0; g < search.grasps().size(); ++g)
-    {
-      Pick pick;
-      pick.T_scene_grasp = poses[k].T_scene_model * search.grasps()[g].T_model_grasp;
-      pick.obstruction = likely ? PickObstruction::Covered : PickObstruction::Uncertain;
-      pick.tilt = tiltOf(pick.T_scene_grasp, around.up);
-      const double probability = confidence(poses[k], search.needsRotation(g));
-      if (free && probability < settings.minimumProbability)
-      {
-        pick.obstruction = PickObstruction::Uncertain;
-      }
-      else if (free)
-      {
-        pick = search.pickAt(poses[k], static_cast<int>(copy), static_cast<int>(g), around);
-      }
-      pick.pose = static_cast<int>(k);
-      pick.grasp = static_cast<int>(g);
-      pick.covered = covered;
-      pick.reach = around.top - around.up.dot(pick.T_scene_grasp.translation());
-      if (pick.possible())
-      {
-        pick.score = probability * search.grasps()[g].quality * (1.0 - covered) *
-                     std::min(1.0, pick.clearance / ComfortableClearance);
-      }
-      picks.push_back(pick);
-    }
-    copy += likely;
-  }
 }
 }

@@ -44,10 +44,6 @@ public:
     const OrganizedCloud& cloud, const std::optional<Bin>& bin = {}, const Progress& progress = {});
 
 private:
-  /// Adds the picks of this type, whose index is `part`, in no order.
-  void add(int part, const std::vector<PickPlanner*>& planners, const Poses& poses, const std::vector<int>& parts,
-    const OrganizedCloud& cloud, const std::optional<Bin>& bin, const Progress& progress, Picks& picks);
-
   std::unique_ptr<GraspSearch> Search;
 };
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/planning/PickSurroundings.h"
 
-#include "scene/edges/GridSurface.h"
-
 #include <algorithm>
 
 namespace meam
@@ -32,10 +30,10 @@ double confidence(const Pose& pose, bool needsRotation)
 }
 
 PickSurroundings surroundingsOf(const Poses& poses, const std::vector<const PartSurface*>& surfaces,
-  const OrganizedCloud& cloud, const std::optional<Bin>& bin, double partSize, const PlanSettings& settings)
+  const OrganizedCloud& cloud, const GridScale& scale, const std::optional<Bin>& bin, double partSize,
+  const PlanSettings& settings)
 {
   PickSurroundings around;
-  const GridScale scale = cloud.points.empty() ? GridScale{} : gridScale(cloud);
   const double ofPart = ToleranceOfPart * partSize;
   around.tolerance = settings.tolerance > 0.0 ? settings.tolerance : ofPart + NoiseInTolerance * scale.noise;
   around.tolerance = std::min(around.tolerance, MostTolerance * partSize);

@@ -6,6 +6,7 @@
 #include "pick/planning/PartSurface.h"
 #include "pose/Pose.h"
 #include "scene/OrganizedCloud.h"
+#include "scene/edges/GridSurface.h"
 
 #include <optional>
 #include <vector>
@@ -26,9 +27,10 @@ struct PickSurroundings
 };
 
 /// What lies around the copies of a part that is `partSize` mm large; `surfaces`: of each pose that of its part, which
-/// may be another one.
+/// may be another one; `scale`: of the cloud.
 PickSurroundings surroundingsOf(const Poses& poses, const std::vector<const PartSurface*>& surfaces,
-  const OrganizedCloud& cloud, const std::optional<Bin>& bin, double partSize, const PlanSettings& settings);
+  const OrganizedCloud& cloud, const GridScale& scale, const std::optional<Bin>& bin, double partSize,
+  const PlanSettings& settings);
 
 /// Share, [0, 1], of a pose, the `copy`th of the copies, that lies under something, from above.
 double coveredShare(const Pose& pose, int copy, const PartSurface& surface, const PickSurroundings& around);
