@@ -9,7 +9,6 @@
 #include "pose/PartsEstimation.h"
 #include "pose/ScanAdvice.h"
 #include "scene/preparation/ScanViewpoint.h"
-#include "scene/preparation/SearchRegion.h"
 
 #include <algorithm>
 #include <chrono>
@@ -52,53 +51,33 @@ Sensor sensorOf(const Scan& scan)
   return givenSensor(scan).value_or(scan.height == 1 ? fromAbove : Sensor());
 }
 
-/// A scene, with what was assumed of its scan.
-struct ScanScene
+ScanSource sourceOf(const Scan& scan, double largestDiameter, const DetectSettings& settings)
 {
-  SceneInput input;
-  std::shared_ptr<const SearchRegion> region;
-  std::string report;
-};
-
-ScanScene sceneOfScan(const Scan& scan, double partDiameter, const DetectSettings& settings, const Progress& progress)
-{
-  ScanScene scene;
+  ScanSource source;
   if (!scan.edges.empty())
   {
     requirePoints(scan.edges, "The scan's edge cloud");
     PointCloud edges;
     edges.points = scan.edges;
-    scene.input.edges = toLocalCloud(edges, settings.threads);
-    scene.input.sensor = sensorOf(scan);
-    scene.region = scan.region.isEverywhere() ? nullptr : std::make_shared<SearchRegion>(scan.region);
+    source.edges = toLocalCloud(edges, settings.threads);
+    source.sensor = sensorOf(scan);
   }
   else
   {
-    PreparedScan prepared = prepareScan(
-      { scan.width, scan.height, scan.points }, settings.imageEdges ? scan.image : Image(), givenSensor(scan));
-    if (!scan.region.isEverywhere())
-    {
-      scene.region = std::make_shared<SearchRegion>(scan.region, prepared);
-      scene.region->crop(prepared, partDiameter);
-    }
-    const SceneEdges found = findEdges(prepared, settings, scan.imageCamera, progress);
-    setFoundEdges(found, settings.threads, scene.input);
-    scene.input.sensor = prepared.sensor;
-    scene.input.isViewpointGuessed = prepared.isViewpointGuessed;
-    scene.report = prepared.report;
-    if (!prepared.isAsGiven)
-    {
-      scene.input.measured = toLocalPoints(prepared.measured(), scene.input.edges.T_local_scene, settings.threads);
-      return scene;
-    }
+    source.cloud = { scan.width, scan.height, scan.points };
+    source.image = settings.imageEdges ? scan.image : Image();
+    source.imageCamera = scan.imageCamera;
+    source.sensor = givenSensor(scan);
   }
-  scene.input.measured = toLocalPoints(scan.points, scene.input.edges.T_local_scene, settings.threads);
-  requirePoints(scan.points.size(), scene.input.measured.size(), "The scan");
-  if (scene.region)
+  source.region = scan.region;
+  source.measured = [&scan, threads = settings.threads](const LocalCloud& edges)
   {
-    scene.region->crop(scene.input.edges, scene.input.measured, partDiameter);
-  }
-  return scene;
+    Points measured = toLocalPoints(scan.points, edges.T_local_scene, threads);
+    requirePoints(scan.points.size(), measured.size(), "The scan");
+    return measured;
+  };
+  source.diameter = [=] { return largestDiameter; };
+  return source;
 }
 }
 
@@ -117,21 +96,23 @@ Detections detect(
   requireSettings(settings);
   requireGrid(scan);
   const Deadline deadline = settings.timeLimit > 0.0 ? Deadline(settings.timeLimit) : Deadline();
-  ScanScene scene;
+  ScanScene seen;
+  const SceneInput& scene = seen.scene;
   std::vector<PartPose> found;
   DetectionReport report;
   const auto search = [&]
   {
-    scene = sceneOfScan(scan, largest, settings, deadline.within(subProgress(progress, 0.0, AfterSceneEdges)));
+    seen = sceneOfScan(
+      sourceOf(scan, largest, settings), settings, deadline.within(subProgress(progress, 0.0, AfterSceneEdges)));
     DetectionSettings steps = detectionSettings(settings);
     steps.deadline = deadline;
-    steps.region = scene.region;
-    found = estimateParts(trained, scene.input, steps, &report, subProgress(progress, AfterSceneEdges, 1.0));
+    steps.region = seen.region;
+    found = estimateParts(trained, scene, steps, &report, subProgress(progress, AfterSceneEdges, 1.0));
   };
   Detections result;
   result.isCutShort = !isDoneBy(deadline, search) || report.isCutShort;
-  result.quality = scene.input.quality;
-  result.report = scene.report;
+  result.quality = scene.quality;
+  result.report = seen.report;
   Poses poses;
   for (const auto& [part, index, pose] : found)
   {
@@ -144,9 +125,9 @@ Detections detect(
     poses.push_back(pose);
   }
   appendSentence(result.report, untoldLengths(found));
-  result.advice = scanAdvice(scene.input.quality, report, poses, largest, scene.input.isViewpointGuessed);
+  result.advice = scanAdvice(scene.quality, report, poses, largest, scene.isViewpointGuessed);
   appendSentence(result.warning, result.isCutShort ? cutShort(settings.timeLimit) : "");
-  appendSentence(result.warning, doubtsOf(poses, scene.input, trained.front()->diameter));
+  appendSentence(result.warning, doubtsOf(poses, scene, trained.front()->diameter));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "scene/Units.h"
+#include "scene/preparation/SearchRegion.h"
 
 namespace meam
 {
@@ -33,6 +34,8 @@ SceneEdgeExtractionSettings sceneEdgeSettings(const DetectSettings& chosen)
   return settings;
 }
 
+namespace
+{
 SceneEdges findEdges(
   PreparedScan& scan, const DetectSettings& chosen, const std::optional<Camera>& imageCamera, const Progress& progress)
 {
@@ -58,12 +61,46 @@ SceneEdges findEdges(
   }
   return found;
 }
+}
 
-void setFoundEdges(const SceneEdges& found, int threads, SceneInput& scene)
+ScanScene sceneOfScan(ScanSource source, const DetectSettings& chosen, const Progress& progress)
 {
-  scene.edges = toLocalCloud(found.cloud, threads);
-  scene.edges.fromScan = true;
-  scene.quality = found.quality;
+  ScanScene result;
+  SceneInput& scene = result.scene;
+  const bool isEverywhere = source.region.isEverywhere();
+  if (source.edges)
+  {
+    scene.edges = std::move(*source.edges);
+    scene.sensor = source.sensor.value();
+    result.region = isEverywhere ? nullptr : std::make_shared<SearchRegion>(source.region);
+  }
+  else
+  {
+    PreparedScan prepared = prepareScan(std::move(source.cloud), std::move(source.image), source.sensor);
+    if (!isEverywhere)
+    {
+      result.region = std::make_shared<SearchRegion>(source.region, prepared);
+      result.region->crop(prepared, source.diameter());
+    }
+    result.found = findEdges(prepared, chosen, source.imageCamera, progress);
+    result.report = prepared.report;
+    scene.edges = toLocalCloud(result.found.cloud, chosen.threads);
+    scene.edges.fromScan = true;
+    scene.quality = result.found.quality;
+    scene.sensor = prepared.sensor;
+    scene.isViewpointGuessed = prepared.isViewpointGuessed;
+    if (!prepared.isAsGiven)
+    {
+      scene.measured = toLocalPoints(prepared.measured(), scene.edges.T_local_scene, chosen.threads);
+      return result;
+    }
+  }
+  scene.measured = source.measured(scene.edges);
+  if (result.region)
+  {
+    result.region->crop(scene.edges, scene.measured, source.diameter());
+  }
+  return result;
 }
 
 std::string doubtsOf(const Poses& poses, const SceneInput& scene, double partDiameter)

@@ -3,6 +3,7 @@
 
 #include "pose/DetectSettings.h"
 #include "pose/MEAMPoseEstimation.h"
+#include "scene/preparation/Region.h"
 #include "scene/preparation/ScanPreparation.h"
 
 namespace meam
@@ -13,14 +14,31 @@ DetectionSettings detectionSettings(const DetectSettings& chosen);
 /// Those of the step that finds the edge points in a scan; without the camera of its image.
 SceneEdgeExtractionSettings sceneEdgeSettings(const DetectSettings& chosen);
 
-/// The edge points of a scan: those of the cloud alone, which its report says then, where it has no image.
-/// `imageCamera` took the image; none: it is registered with the scan. Throws Error when edges of the image alone are
-/// asked for and there is none.
-SceneEdges findEdges(PreparedScan& scan, const DetectSettings& chosen, const std::optional<Camera>& imageCamera,
-  const Progress& progress = {});
+/// What a scan brings, in its own coordinates.
+struct ScanSource
+{
+  std::optional<LocalCloud> edges; ///< where they are given; otherwise they are looked for in cloud and image
+  OrganizedCloud cloud;
+  Image image;                                             ///< may be empty
+  std::optional<Camera> imageCamera;                       ///< that took it; none: it is registered with the cloud
+  std::optional<Sensor> sensor;                            ///< of given edges; otherwise none where it is not known
+  Region region;                                           ///< where parts are looked for
+  std::function<Points(const LocalCloud& edges)> measured; ///< all that was, in the frame of the edges
+  std::function<double()> diameter;                        ///< mm, of the largest part
+};
 
-/// Takes the edge points that were found in a scan, and how well it was measured, for the scene's.
-void setFoundEdges(const SceneEdges& found, int threads, SceneInput& scene);
+/// A scene, and what was made of its scan on the way.
+struct ScanScene
+{
+  SceneInput scene;
+  std::shared_ptr<const SearchRegion> region;
+  SceneEdges found;   ///< none where they were given
+  std::string report; ///< what was assumed
+};
+
+/// The scene of a scan; its edge points are those of the cloud alone, which the report says then, where it has no
+/// image. Throws Error when edges of the image alone are asked for and there is none.
+ScanScene sceneOfScan(ScanSource source, const DetectSettings& chosen, const Progress& progress = {});
 
 /// What may be wrong with the scan's unit or the part's, and that nothing sure was found; empty when all is well.
 std::string doubtsOf(const Poses& poses, const SceneInput& scene, double partDiameter);

@@ -2,8 +2,6 @@
 #include "vtkMEAMEstimationAlgorithm.h"
 
 #include "features/TrainSettings.h"
-#include "pose/DetectionSteps.h"
-#include "scene/preparation/SearchRegion.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMEstimationWork.h"
@@ -183,7 +181,6 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   meam::DetectSettings& settings = *this->Settings;
   settings.threads = this->NumberOfThreads;
   Work work;
-  std::shared_ptr<meam::SearchRegion> region;
   double last = vtkTimerLog::GetUniversalTime();
   const auto watch = [&last]
   {
@@ -194,6 +191,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
 
   const auto train = [&]
   {
+    work.secondsEdges += watch();
     if (work.parts.empty())
     {
       work.parts = this->Trained->partsOf(inputVector[0],
@@ -208,60 +206,39 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
     work.secondsTraining += watch();
     return largest;
   };
-  const meam::Region chosen = regionOf(this->Region, sceneInput);
 
   // What is wrong with the scene is told before any time goes into training.
   meam::requirePoints(sceneInput->GetNumberOfPoints(), sceneInput->GetNumberOfPoints(), "The scene");
-  meam::SceneInput& scene = work.scene;
-  bool isAsGiven = true;
+  meam::ScanSource source;
   if (boundary)
   {
-    scene.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
-    scene.edges = toLocalCloud(boundary, this->NumberOfThreads);
-    meam::requirePoints(scene.edges.cloud.points, "The scene's boundary cloud");
-    region = chosen.isEverywhere() ? nullptr : std::make_shared<meam::SearchRegion>(chosen);
+    source.sensor = sensorOf(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
+    source.edges = toLocalCloud(boundary, this->NumberOfThreads);
+    meam::requirePoints(source.edges->cloud.points, "The scene's boundary cloud");
   }
   else
   {
-    meam::OrganizedCloud cloud = toScanCloud(sceneInput, this->NumberOfThreads);
-    const std::optional<meam::Camera> camera = cameraOf(this->CameraFile, image, cloud);
-    meam::Image pixels;
+    source.cloud = toScanCloud(sceneInput, this->NumberOfThreads);
+    source.imageCamera = cameraOf(this->CameraFile, image, source.cloud);
     if (settings.imageEdges)
     {
-      pixels = image ? toImage(image) : imageOfCloud(sceneInput);
+      source.image = image ? toImage(image) : imageOfCloud(sceneInput);
     }
-    meam::PreparedScan prepared = meam::prepareScan(std::move(cloud), std::move(pixels),
-      givenSensor(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput));
-    if (!chosen.isEverywhere())
-    {
-      region = std::make_shared<meam::SearchRegion>(chosen, prepared);
-      work.secondsEdges = watch();
-      region->crop(prepared, train());
-    }
-    work.found = meam::findEdges(prepared, settings, camera, meam::subProgress(progress, 0.0, AfterSceneEdges));
-    meam::setFoundEdges(work.found, this->NumberOfThreads, scene);
-    scene.sensor = prepared.sensor;
-    scene.isViewpointGuessed = prepared.isViewpointGuessed;
-    isAsGiven = prepared.isAsGiven;
-    work.scanReport = prepared.report;
-    if (!isAsGiven)
-    {
-      scene.measured = meam::toLocalPoints(prepared.measured(), scene.edges.T_local_scene, this->NumberOfThreads);
-    }
+    source.sensor = givenSensor(this->Projection, this->ViewDirection, this->SensorPosition, sceneInput);
   }
-  work.secondsEdges += watch();
-  if (isAsGiven)
+  source.region = regionOf(this->Region, sceneInput);
+  source.measured = [&](const meam::LocalCloud& edges)
   {
-    scene.measured = surfaceOf(sceneInput, "The scene", scene.edges, this->NumberOfThreads);
-  }
-  work.secondsLoading = watch();
-  const double largest = train();
-  if (isAsGiven && region)
-  {
-    region->crop(scene.edges, scene.measured, largest);
-  }
+    work.secondsEdges += watch();
+    meam::Points measured = surfaceOf(sceneInput, "The scene", edges, this->NumberOfThreads);
+    work.secondsLoading = watch();
+    return measured;
+  };
+  source.diameter = train;
+  work.scan = meam::sceneOfScan(std::move(source), settings, meam::subProgress(progress, 0.0, AfterSceneEdges));
+  train();
   work.settings = meam::detectionSettings(settings);
-  work.settings.region = region;
+  work.settings.region = work.scan.region;
   for (int k = 0; k < inputVector[0]->GetNumberOfInformationObjects(); ++k)
   {
     work.names.push_back(nameOf(vtkDataObject::GetData(inputVector[0], k), k));

@@ -5,8 +5,7 @@
 #ifndef vtkMEAMEstimationWork_h
 #define vtkMEAMEstimationWork_h
 
-#include "pose/MEAMPoseEstimation.h"
-#include "scene/edges/SceneEdgeExtraction.h"
+#include "pose/DetectionSteps.h"
 #include "vtkMEAMEstimationAlgorithm.h"
 #include "vtkMEAMSharedData.h"
 
@@ -20,9 +19,7 @@ struct vtkMEAMEstimationAlgorithm::Work
 
   std::vector<std::shared_ptr<const vtkMEAMConversion::TrainedPart>> parts; ///< one of each connection to port 0
   std::vector<std::string> names; ///< of these: their files, or "part 1" and so on
-  meam::SceneInput scene;
-  meam::SceneEdges found; ///< of a scan, when no boundary came in
-  std::string scanReport; ///< what was assumed of it
+  meam::ScanScene scan;
   meam::DetectionSettings settings;
   double secondsEdges = 0.0;
   double secondsLoading = 0.0; ///< of the points measured

@@ -174,7 +174,7 @@ struct vtkMEAMPoseDiagnosis::Detection
   Detection(Work&& from, std::vector<double> madeOf, bool fit)
     : made(std::move(madeOf))
     , work(std::move(from))
-    , diagnosis(modelsOf(work), work.scene, work.settings, fit)
+    , diagnosis(modelsOf(work), work.scan.scene, work.settings, fit)
   {
   }
 

@@ -151,7 +151,7 @@ int vtkMEAMPoseEstimation::RequestData(
         models.push_back(part->model.get());
         shapes.push_back(part->shape);
       }
-      const meam::SceneInput& scene = work.scene;
+      const meam::SceneInput& scene = work.scan.scene;
       meam::DetectionReport report;
       const std::vector<meam::PartPose> partPoses = meam::estimateParts(
         models, scene, work.settings, &report, meam::subProgress(progressOf(this), Work::Prepared, 1.0));
@@ -179,7 +179,7 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       else
       {
-        fromSceneEdges(work.found, edges);
+        fromSceneEdges(work.scan.found, edges);
       }
       const std::vector<int> rankOfEdges = ranksOfEdges(scene, partPoses, models, this->GetNumberOfThreads());
       addRanks(rankOfEdges, edges);
@@ -222,7 +222,7 @@ int vtkMEAMPoseEstimation::RequestData(
       std::string told = meam::describe(poses);
       meam::appendSentence(told, meam::untoldLengths(partPoses));
       setFieldText(output, "Report", told);
-      setScanQuality(output, scene.quality, work.scanReport);
+      setScanQuality(output, scene.quality, work.scan.report);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
       if (report.rates)
       {

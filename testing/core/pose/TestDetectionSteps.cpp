@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/DetectionSteps.h"
 
+#include "TestGrids.h"
+
 #include <gtest/gtest.h>
 
 using meam::Features;
@@ -57,15 +59,20 @@ TEST(DetectionSteps, LimitsSeedAndThreadsReachTheSteps)
 
 TEST(DetectionSteps, FoundEdgesAreOfAScan)
 {
-  meam::SceneEdges found;
-  for (int i = 0; i < 10; ++i)
-  {
-    found.cloud.points.emplace_back(i, 0.1f * i * i, 0.0f);
-  }
-  found.quality.noise = 0.2;
-  meam::SceneInput scene;
-  meam::setFoundEdges(found, 1, scene);
+  meam::ScanSource source;
+  source.cloud = grids::surface(
+    40, 40, [](int column, int) { return column < 20 ? 500.0 : 480.0; }, 0.2);
+  const std::size_t count = source.cloud.points.size();
+  source.measured = [&](const meam::LocalCloud&) { return meam::Points(count, Eigen::Vector3f::Zero()); };
+  const auto [scene, region, found, report] = meam::sceneOfScan(source, {});
   EXPECT_TRUE(scene.edges.fromScan);
-  EXPECT_EQ(scene.edges.cloud.size(), 10u);
-  EXPECT_EQ(scene.quality.noise, 0.2);
+  EXPECT_GT(found.cloud.size(), 30u) << "the step";
+  EXPECT_EQ(scene.edges.cloud.size(), found.cloud.size());
+  EXPECT_NEAR(scene.quality.noise, 0.2, 0.05);
+  EXPECT_EQ(scene.measured.size(), count);
+  EXPECT_EQ(report.find("The scan has no image: "), 0u) << report;
+  source.edges = scene.edges;
+  source.edges->fromScan = false;
+  source.sensor = meam::Sensor();
+  EXPECT_FALSE(meam::sceneOfScan(source, {}).scene.edges.fromScan);
 }
