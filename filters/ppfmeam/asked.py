@@ -35,8 +35,7 @@ def parsed(parser):
     options.parts = options.model or options.cad or [options.part]
     if (options.part is None) == (not options.cad and not options.model):
         parser.error("give PART and SCAN, or SCAN and --cad, or --model, once for each type of part")
-    if options.cad and options.model and len(options.cad) != len(options.model):
-        parser.error("give a --cad for each --model, in the same order, or none")
+    scripting.require_shown(parser, options, getattr(options, "report", "pick holds it"))
     scripting.require_cad(parser, options, not all(api.is_model(part) or is_number(part) for part in options.cad or options.parts))
     if options.image and not options.image_edges and not getattr(options, "report", None):
         parser.error("--no-image leaves the image out: give one of --image and --no-image")

@@ -270,6 +270,14 @@ def require_cad(parser, options, cad):
             parser.error(f"--{name.replace('_', '-')} is of a CAD file: leave it out, trained models and datasets have their own")
 
 
+def require_shown(parser, options, *where):
+    """Ends the command where --cad does not go with --model, or nothing shows it."""
+    if options.cad and options.model and len(options.cad) != len(options.model):
+        parser.error("give a --cad for each --model, in the same order, or none")
+    if options.cad and options.model and not any(where):
+        parser.error("--cad beside --model is for what shows the part, as --report does: leave one of them out")
+
+
 def set_choice(algorithm, name, choice):
     """Sets an enumerated property: Preset, recommended calls SetPresetToRecommended()."""
     getattr(algorithm, f"Set{name}To{choice[0].upper()}{choice[1:]}")()

@@ -212,6 +212,8 @@ for arguments, words in ((("detect.py", "--cad", "part.stl", "--scene", "plain.p
                          (("evaluate.py", "bop", "bins", "--split", "a", "--split", "b"), "argument --split: it is given twice"),
                          (("evaluate.py", "bop", "bins", "--objects", "5-"), "argument --objects: it has to be whole numbers such as 1,5-7, not 5-"),
                          (("pick.py", "--model", "model.vtpc", "scan.pcd"), "give the --cad of each --model"),
+                         (("detect.py", "--model", "model.vtpc", "--cad", "part.stl", "--scene", "scan.pcd"), "--cad beside --model"),
+                         (("why.py", "--model", "model.vtpc", "--cad", "part.stl", "scan.pcd", "--at", "0", "0", "0"), "--cad beside --model"),
                          (("pick.py", "part.stl", "scan.pcd", "--opening", "60", "--cup", "20"), "--cup: not allowed with argument --opening")):
     result = script(*arguments)
     check(result.returncode == 2 and words in result.stderr and not os.path.exists("o.meam"), f"{arguments}: {result.stderr}")

@@ -14,7 +14,7 @@ def options_of_user():
     choices.add_options(parser, "read", "solid")
     parser.add_argument("--model", action="append", default=[],
                         help="trained model of `train`, instead of training, once for each type of part; --cad is then for "
-                             "the picture")
+                             "--picture and --report")
     scan = parser.add_mutually_exclusive_group(required=True)
     scan.add_argument("--scene", metavar="CLOUD",
                       help="scan: .pcd or .ply, organized or points alone, in mm; or the points of a .stl or .obj")
@@ -44,8 +44,7 @@ def options_of_user():
     options = parser.parse_args()
     if not options.cad and not options.model:
         parser.error("give the part: --cad, or --model of `train`")
-    if options.cad and options.model and len(options.cad) != len(options.model):
-        parser.error("give a --cad for each --model, in the same order, or none")
+    scripting.require_shown(parser, options, options.picture, options.report)
     if options.depth and not options.camera:
         parser.error("a depth image needs its --camera")
     if options.depth_scale and not options.depth:
