@@ -112,7 +112,7 @@ Detections detect(
   Detections result;
   result.isCutShort = !isDoneBy(deadline, search) || report.isCutShort;
   result.quality = scene.quality;
-  result.report = seen.report;
+  result.report = untoldLengths(found, seen.report);
   Poses poses;
   for (const auto& [part, index, pose] : found)
   {
@@ -124,7 +124,6 @@ Detections detect(
     }
     poses.push_back(pose);
   }
-  appendSentence(result.report, untoldLengths(found));
   result.advice = scanAdvice(scene.quality, report, poses, largest, scene.isViewpointGuessed);
   appendSentence(result.warning, result.isCutShort ? cutShort(settings.timeLimit) : "");
   appendSentence(result.warning, doubtsOf(poses, scene, trained.front()->diameter));

@@ -206,21 +206,19 @@ double largestDiameter(const std::vector<const TrainedModel*>& models)
   return largest;
 }
 
-std::string untoldLengths(const std::vector<PartPose>& poses)
+std::string untoldLengths(const std::vector<PartPose>& poses, std::string told)
 {
   std::map<int, Eigen::Vector3d> lengths;
   for (const PartPose& one : poses)
   {
     lengths.emplace(one.part, one.pose.contradictions.lengths);
   }
-  std::string sentences;
   for (const auto& [part, factors] : lengths)
   {
-    appendSentence(sentences, lengths.size() > 1
-                                ? untoldWords(factors, "the copies of part " + std::to_string(part + 1))
-                                : untoldWords(factors));
+    appendSentence(told, lengths.size() > 1 ? untoldWords(factors, "the copies of part " + std::to_string(part + 1))
+                                            : untoldWords(factors));
   }
-  return sentences;
+  return told;
 }
 
 std::vector<PartPose> estimateParts(const std::vector<const TrainedModel*>& models, const SceneInput& input,

@@ -219,9 +219,7 @@ int vtkMEAMPoseEstimation::RequestData(
         output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
         addNames(work.names, output);
       }
-      std::string told = meam::describe(poses);
-      meam::appendSentence(told, meam::untoldLengths(partPoses));
-      setFieldText(output, "Report", told);
+      setFieldText(output, "Report", meam::untoldLengths(partPoses, meam::describe(poses)));
       setScanQuality(output, scene.quality, work.scan.report);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
       if (report.rates)
