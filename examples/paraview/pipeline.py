@@ -4,7 +4,9 @@
 pvpython examples/paraview/pipeline.py [--picture found.png] [--state pipeline.pvsm]
 """
 import argparse
+from xml.etree import ElementTree
 
+from paraview import servermanager
 from paraview.simple import *  # noqa: F401,F403  as a trace of ParaView has it
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -47,3 +49,15 @@ if arguments.picture:
     SaveScreenshot(arguments.picture, view, ImageResolution=[1200, 900])
 if arguments.state:
     SaveState(arguments.state)
+    state, session = ElementTree.parse(arguments.state), servermanager.ActiveConnection.Session
+    for node in filter(lambda node: node.get("id"), state.iter("Proxy")):  # what differs from the defaults is enough
+        proxy = session.GetRemoteObject(int(node.get("id")))
+        for part in node.findall("Property"):
+            if not part.get("number_of_elements") or proxy.GetProperty(part.get("name")).IsValueDefault():
+                node.remove(part)
+    for node in state.iter("Property"):
+        for part in node.findall("Domain"):
+            if part.find("Proxy") is None:
+                node.remove(part)
+    ElementTree.indent(state)
+    state.write(arguments.state)
