@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 
-from ppfmeam import cellpicture, evaluation, filters, picture, scripting
+from ppfmeam import cellpicture, filters, picture, scripting
 
 import chains
 import scenes

@@ -117,10 +117,7 @@ def steps():
 
 def bins():
     """A bin, and what is done with a whole scan."""
-    source = vtkMEAMBinSceneSource()
-    source.SetCopies(2)
-    source.SetWidth(160)
-    source.SetHeight(120)
+    source = connect(vtkMEAMBinSceneSource(), Copies=2, Width=160, Height=120)
     scan = run(source)
     truth, mesh = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
     return [source, connect(vtkMEAMSceneEdgeExtraction(), scan), connect(vtkMEAMBackgroundRemoval(), scan),

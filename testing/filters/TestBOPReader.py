@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonCore import VTK_UNSIGNED_SHORT
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 from ppfmeam.filters import vtkMEAMBOPReader
-from meamtest import Errors, check, close, fails, field, is_empty, png, points, prints, run, tuples
+from meamtest import Errors, check, close, connect, fails, field, is_empty, png, points, prints, run, tuples
 
 folder = tempfile.TemporaryDirectory()
 CAMERA = {"cam_K": [100, 0, 1, 0, 200, 0.5, 0, 0, 1], "depth_scale": 0.1}
@@ -32,11 +32,7 @@ def image(name, rows, kind=None):
 
 
 def reader(path, **properties):
-    result = vtkMEAMBOPReader()
-    result.SetFileName(path)
-    for name, value in properties.items():
-        getattr(result, "Set" + name)(value)
-    return result
+    return connect(vtkMEAMBOPReader(), FileName=path, **properties)
 
 
 root = write("camera.json", {})

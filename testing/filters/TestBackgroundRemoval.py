@@ -28,10 +28,7 @@ def scan(part=30.0):
 
 
 def removal(*inputs, **properties):
-    filter = connect(vtkMEAMBackgroundRemoval(), *inputs)
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMBackgroundRemoval(), *inputs, **properties)
 
 
 def kept(filter):

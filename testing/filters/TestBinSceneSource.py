@@ -9,12 +9,7 @@ from meamtest import bracket, check, close, connect, fails, field, is_empty, poi
 
 
 def bin_of(part=None, **properties):
-    filter = vtkMEAMBinSceneSource()
-    if part:
-        filter.SetInputDataObject(part)
-    for name, value in {**dict(Copies=3, Width=160, Height=120, MatchingWindow=3), **properties}.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMBinSceneSource(), part, **{**dict(Copies=3, Width=160, Height=120, MatchingWindow=3), **properties})
 
 
 part = run(vtkMEAMSamplePartSource())

@@ -26,10 +26,7 @@ def grid(**more):
 
 
 def boundary(*pieces, **properties):
-    filter = connect(vtkMEAMBoundaryExtraction(), collection(*pieces, Diameter=14.1))
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMBoundaryExtraction(), collection(*pieces, Diameter=14.1), **properties)
 
 
 output = run(boundary(("left", grid()), ("right", grid())))
@@ -58,8 +55,7 @@ check(sorted(points(corners)) == [(0, 0, 0), (0, 10, 0), (10, 0, 0), (10, 10, 0)
 
 # Of a mesh: six views of a box, each with four straight edges.
 SIZE = (20, 20, 10)
-samples = connect(vtkMEAMSurfaceSampling(), box(*SIZE))
-samples.SetSpacing(0.7)
+samples = connect(vtkMEAMSurfaceSampling(), box(*SIZE), Spacing=0.7)
 views = connect(vtkMEAMVisibilityExtraction(), samples, box(*SIZE))
 views.SetMethodToMeshVisibility()
 edges = connect(vtkMEAMBoundaryExtraction(), views, box(*SIZE))
@@ -76,8 +72,7 @@ ids = {i for i, in tuples(partitions(run(views))[0][1], "PointId")}
 check({i for i, in tuples(top, "PointId")} <= ids, "points are identified by what the view shows")
 
 # The tangent step thins them and leaves the rest as it is.
-thin = connect(vtkMEAMTangentEstimation(), edges)
-thin.SetLeafSize(2)
+thin = connect(vtkMEAMTangentEstimation(), edges, LeafSize=2)
 for (_, dense), (_, sparse) in zip(found, partitions(run(thin))):
     check(0 < sparse.GetNumberOfPoints() < dense.GetNumberOfPoints(), "fewer points")
     known = dict(zip(points(dense), zip(tuples(dense, "Tangent"), tuples(dense, "EdgeType"), tuples(dense, "PointId"))))

@@ -29,8 +29,7 @@ def detect(preset, model, part, surface, boundary=None):
         sources = {source for source, in tuples(run(edges), "EdgeSource")}
         check(sources == ({0, 1, 2} if preset == "recommended" else {0}), f"{preset}: edges from {sources}")
     found = run(Detection(model, edges, surface, preset).selection)
-    box = connect(vtkMEAMPoseEstimation(), part, surface, *([boundary] if boundary else []))
-    box.SetMaximumNumberOfPoses(0)
+    box = connect(vtkMEAMPoseEstimation(), part, surface, *([boundary] if boundary else []), MaximumNumberOfPoses=0)
     scripting.set_preset(box, preset)
     for name in ("Transform", "Score", "Votes", "Probability", "Certainty", "VisibleFraction", "Covariance"):
         check(tuples(run(box), name) == tuples(found, name), f"{preset}: {name} of the chain and of the one filter differ")
@@ -38,10 +37,7 @@ def detect(preset, model, part, surface, boundary=None):
 
 
 # A scan of a bin of five sample parts.
-source = vtkMEAMBinSceneSource()
-source.SetCopies(5)
-source.SetWidth(320)
-source.SetHeight(240)
+source = connect(vtkMEAMBinSceneSource(), Copies=5, Width=320, Height=240)
 scan = run(source)
 truth, mesh = (source.GetOutputDataObject(port) for port in (1, 2))
 for preset in PRESETS:

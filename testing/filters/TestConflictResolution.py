@@ -48,8 +48,7 @@ places = [views[0].transform, shifted(views[1].transform, aside)]  # of the brac
 
 
 def verified(model, *transforms):
-    filter = connect(vtkMEAMPoseVerification(), poses(*transforms), model, edges, surface)
-    filter.SetViewDirection(looking)
+    filter = connect(vtkMEAMPoseVerification(), poses(*transforms), model, edges, surface, ViewDirection=looking)
     return run(filter)
 
 
@@ -58,12 +57,7 @@ def resolution(found, models, surface=surface, edges=edges, **properties):
     for port, inputs in enumerate((found, models)):
         for data in inputs:
             filter.AddInputDataObject(port, data)
-    filter.SetInputDataObject(2, edges)
-    if surface:
-        filter.SetInputDataObject(3, surface)
-    for name, value in {"ViewDirection": looking, **properties}.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(filter, None, None, edges, surface, **{"ViewDirection": looking, **properties})
 
 
 # Both parts were looked for in both places.
@@ -111,8 +105,7 @@ for part, mesh in enumerate(meshes):
     rank = part_ids(stay).index(part) + 1
     check({r for r, in tuples(copies, "Rank")} == {rank}, f"part {part} has rank {rank} of all")
 with tempfile.TemporaryDirectory() as folder:
-    writer = connect(vtkMEAMPoseWriter(), stay)
-    writer.SetFileName(os.path.join(folder, "poses.csv"))
+    writer = connect(vtkMEAMPoseWriter(), stay, FileName=os.path.join(folder, "poses.csv"))
     check(writer.Write() == 1, "Write() succeeds")
     with open(writer.GetFileName()) as file:
         numbers = [int(row.split(",")[2]) for row in file.readlines()[1:]]

@@ -7,7 +7,7 @@ import tempfile
 from vtkmodules.vtkCommonCore import VTK_UNSIGNED_SHORT
 
 from ppfmeam.filters import vtkMEAMDepthImageReader
-from meamtest import check, close, fails, png, points, prints, run, tuples
+from meamtest import check, close, connect, fails, png, points, prints, run, tuples
 
 folder = tempfile.TemporaryDirectory()
 
@@ -17,10 +17,7 @@ def file(name):
 
 
 def reader(**properties):
-    result = vtkMEAMDepthImageReader()
-    for name, value in properties.items():
-        getattr(result, "Set" + name)(*value if isinstance(value, tuple) else (value,))
-    return result
+    return connect(vtkMEAMDepthImageReader(), **properties)
 
 
 depth = png(file("depth.png"), [[(0,), (5000,), (65534,)], [(1,), (2,), (3,)]], VTK_UNSIGNED_SHORT)

@@ -10,9 +10,7 @@ from meamtest import box, bracket, check, close, connect, fails, field, image, m
 
 
 def edges(data, spacing=1.0, angle=30.0):
-    filter = connect(vtkMEAMFeatureEdges(), data)
-    filter.SetSpacing(spacing)
-    filter.SetAngle(angle)
+    filter = connect(vtkMEAMFeatureEdges(), data, Spacing=spacing, Angle=angle)
     return filter
 
 

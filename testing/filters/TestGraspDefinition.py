@@ -21,10 +21,7 @@ def path(name, text=None):
 
 
 def definition(*inputs, **properties):
-    result = connect(vtkMEAMGraspDefinition(), *inputs)
-    for key, value in properties.items():
-        getattr(result, "Set" + key)(value)
-    return result
+    return connect(vtkMEAMGraspDefinition(), *inputs, **properties)
 
 
 def names(data):

@@ -51,11 +51,7 @@ def close(a, b, tolerance):
 
 
 def calibration(name, **properties):
-    result = vtkMEAMHandEyeCalibration()
-    result.SetFileName(path(name))
-    for key, value in properties.items():
-        getattr(result, "Set" + key)(value)
-    return result
+    return connect(vtkMEAMHandEyeCalibration(), FileName=path(name), **properties)
 
 
 camera, target = placed(400, -250, 900, 160, 1, 0.2, -0.1), placed(15, -8, 120, 40, -0.3, 1, 0.5)
@@ -91,9 +87,8 @@ check(max(shifts) == shifts[3] > 3, f"pair 4 stands out: {shifts}")
 filter = calibration("beside.csv")
 for name in ("robot.json", "robot.yaml"):
     check(filter.WriteRobotFrame(path(name)) == 1, f"{name} is written")
-    writer = connect(vtkMEAMPoseWriter(), poses(tuple(flat(target))))
-    writer.SetFileName(path("poses.txt"))
-    writer.SetRobotFrameFile(path(name))
+    writer = connect(vtkMEAMPoseWriter(), poses(tuple(flat(target))),
+                     FileName=path("poses.txt"), RobotFrameFile=path(name))
     check(writer.Write() == 1, "the poses are written")
     reader = vtkMEAMPoseReader()
     reader.SetFileName(path("poses.txt"))

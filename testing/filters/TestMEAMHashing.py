@@ -18,12 +18,7 @@ def view(places=PLACES, tangents=TANGENTS, direction=(0, 0, 1)):
 
 
 def hashing(views, surface=None, **properties):
-    filter = connect(vtkMEAMHashing(), views)
-    if surface:
-        filter.SetInputDataObject(1, surface)
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMHashing(), views, surface, **properties)
 
 
 def values(data, name):

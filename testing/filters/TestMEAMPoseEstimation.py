@@ -27,19 +27,13 @@ STAGES = ["Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening
 
 plate = vtkMEAMSamplePartSource()  # soon trained
 plate.SetPartToHolePlate()
-source = connect(vtkMEAMBinSceneSource(), plate)
-source.SetCopies(4)
-source.SetWidth(640)
-source.SetHeight(480)
+source = connect(vtkMEAMBinSceneSource(), plate, Copies=4, Width=640, Height=480)
 scan = run(source)
 truth, part = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
 
 
 def estimation(*inputs, **properties):
-    filter = connect(vtkMEAMPoseEstimation(), *[i for i in inputs if i])
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMPoseEstimation(), *[i for i in inputs if i], **properties)
 
 
 def found(filter):
@@ -59,8 +53,7 @@ filter = estimation(part, scan, MaximumNumberOfPoses=2)
 poses = run(filter)
 expected = tuples(poses, "Transform")
 check(len(expected) == 2, f"{len(expected)} poses")
-evaluation = connect(vtkMEAMPoseEvaluation(), poses, truth)
-evaluation.SetPosesAskedFor(2)
+evaluation = connect(vtkMEAMPoseEvaluation(), poses, truth, PosesAskedFor=2)
 check(field(run(evaluation), "StrictRate") == [(100,)], "both poses are right")
 
 # How likely a part has to be to be shown is chosen afterwards: detection does not run again.
@@ -121,8 +114,7 @@ check(hidden and answer(all_poses) == f"{hidden} of {len(likely)} poses are not 
       "(ShownProbability).", answer(all_poses))
 check([r for r, in tuples(everything, "Rank")] == list(range(1, len(evidence) + 1)), "ranks")
 with tempfile.TemporaryDirectory() as folder:
-    writer = connect(vtkMEAMPoseWriter(), everything)
-    writer.SetFileName(os.path.join(folder, "poses.csv"))
+    writer = connect(vtkMEAMPoseWriter(), everything, FileName=os.path.join(folder, "poses.csv"))
     writer.Write()
     with open(writer.GetFileName()) as file:
         check([float(row.split(",")[3]) for row in file.readlines()[1:]] == [
@@ -180,8 +172,7 @@ few = found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=
 candidates = {}
 for name, edges in (("scan", ready), ("elsewhere", elsewhere)):
     edges = run(connect(vtkMEAMTangentEstimation(), edges, model))
-    detection = connect(vtkMEAMPoseDetection(), edges, model)
-    detection.SetFeatures(0)
+    detection = connect(vtkMEAMPoseDetection(), edges, model, Features=0)
     candidates[name] = run(detection).GetNumberOfPoints()
 check(100 <= candidates["elsewhere"] < 0.5 * candidates["scan"], f"{candidates}")
 share = (candidates["elsewhere"] - 0.5) / edges.GetNumberOfPoints()  # each is of one reference point

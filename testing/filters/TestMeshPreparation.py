@@ -36,10 +36,7 @@ def volume(data):
 
 
 def prepare(data, **properties):
-    filter = connect(vtkMEAMMeshPreparation(), data)
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMMeshPreparation(), data, **properties)
 
 
 def text(data):

@@ -152,8 +152,7 @@ with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     ppfmeam.train(stray, scale=10)
 check(any(words in str(warning.message) for warning in caught), [str(warning.message) for warning in caught])
-preparation = connect(vtkMEAMMeshPreparation(), reader(stray))
-preparation.SetScale(10)
+preparation = connect(vtkMEAMMeshPreparation(), reader(stray), Scale=10)
 told = run(preparation).GetFieldData().GetAbstractArray("Report").GetValue(0)
 check("1 triangle, far off the rest, 10 x 10 x 0 large at (1005, 5, 0) in mm" in told, told)
 

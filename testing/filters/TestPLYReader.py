@@ -5,7 +5,7 @@ import os
 import tempfile
 
 from ppfmeam.filters import vtkMEAMPLYReader
-from meamtest import check, close, fails, points, prints, run, tuples
+from meamtest import check, close, connect, fails, points, prints, run, tuples
 
 folder = tempfile.TemporaryDirectory()
 
@@ -23,11 +23,7 @@ def ply(rows, more="", name="cloud.ply"):
 
 
 def reader(path, **properties):
-    result = vtkMEAMPLYReader()
-    result.SetFileName(path)
-    for name, value in properties.items():
-        getattr(result, "Set" + name)(*value if isinstance(value, tuple) else (value,))
-    return result
+    return connect(vtkMEAMPLYReader(), FileName=path, **properties)
 
 
 CAMERA = {"FocalLength": (100, 100), "PrincipalPoint": (1, 1), "ImageSize": (4, 3)}
@@ -41,9 +37,7 @@ check(close(points(cloud)[2], (10, -5, 500), 1e-4), f"metres become millimetres:
 check(tuples(cloud, "Intensity") == [(10,), (20,), (40,)], "intensities")
 
 # With one: the same reader gives a grid.
-for name, value in CAMERA.items():
-    getattr(same, "Set" + name)(*value)
-grid = run(same)
+grid = run(connect(same, **CAMERA))
 check(grid.IsA("vtkStructuredGrid"), "with a camera the cloud is organized")
 size = [0, 0, 0]
 grid.GetDimensions(size)

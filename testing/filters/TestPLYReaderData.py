@@ -21,10 +21,7 @@ FOCAL, CENTRE, SIZE = 3567.5, (497.577, 405.57), (936, 778)
 
 def rings(step):
     """The scan on a grid that is `step` times coarser than the sensor's."""
-    reader = vtkMEAMPLYReader()
-    reader.SetFileName(RINGS)
-    reader.SetScale(1000)
-    reader.SetFocalLength(FOCAL / step, FOCAL / step)
+    reader = connect(vtkMEAMPLYReader(), FileName=RINGS, Scale=1000, FocalLength=(FOCAL / step, FOCAL / step))
     reader.SetPrincipalPoint(*((c + 0.5) / step - 0.5 for c in CENTRE))
     reader.SetImageSize(*(-(-size // step) for size in SIZE))
     return reader

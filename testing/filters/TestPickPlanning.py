@@ -3,7 +3,7 @@
 import os
 import tempfile
 
-from meamtest import box, check, close, cloud, connect, fails, field, image, points, poses, prints, run, set_fields, tuples
+from meamtest import box, check, close, cloud, connect, fails, poses, prints, run, set_fields, tuples
 
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
@@ -158,9 +158,8 @@ for name, value, *words in (("MaximumTilt", 500.0, "maximum tilt", "0 to 180 deg
                             ("WayIn", -80.0, "way in", "0 mm or more", "-80"),
                             ("TurnStep", 0.0, "turn step", "1 to 360 degrees", "not 0"),
                             ("Tolerance", -1.0, "tolerance", "0 mm or more", "-1")):
-    wrong = connect(vtkMEAMPickPlanning(), found, PART, above)
+    wrong = connect(vtkMEAMPickPlanning(), found, PART, above, **{name: value})
     wrong.SetBinToNone()
-    getattr(wrong, "Set" + name)(value)
     fails(wrong, *words)
 fails(connect(vtkMEAMPickPlanning(), found), "Part", "Grasps")
 fails(connect(vtkMEAMPickPlanning(), found, PART, above), "organized scan", "Bin")

@@ -37,8 +37,7 @@ check(outcomes(at(100, 0)) == (["holds nothing", "not tried"], [0, 0]), outcomes
 check(outcomes(at(0, 0), at(26, 0))[0][0] == "hits another part", "a neighbour that was not found")
 
 fails(connect(vtkMEAMPickTrial(), planning), "Part", "True poses")
-trial = connect(vtkMEAMPickTrial(), planning, PART, poses(at(0, 0)))
-trial.SetWayIn(-1)
+trial = connect(vtkMEAMPickTrial(), planning, PART, poses(at(0, 0)), WayIn=-1)
 fails(trial, "way in", "0 mm or more", "-1")
 # A gripper of any shape is not forgotten.
 finger = box(4, 4, 50, (-2, -2, -70))

@@ -13,10 +13,7 @@ diameter = field(model, "Diameter")[0][0]
 
 
 def detection(edges=edges, model=model, **properties):
-    filter = connect(vtkMEAMPoseDetection(), edges, model)
-    for name, value in {"ReferenceShare": 0.8, **properties}.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMPoseDetection(), edges, model, **{"ReferenceShare": 0.8, **properties})
 
 
 found = run(detection())

@@ -11,15 +11,10 @@ from meamtest import check, cloud, connect, fails, field, is_empty, points, prin
 
 plate = vtkMEAMSamplePartSource()
 plate.SetPartToHolePlate()
-source = connect(vtkMEAMBinSceneSource(), plate)
-source.SetCopies(12)
-source.SetWidth(640)
-source.SetHeight(480)
+source = connect(vtkMEAMBinSceneSource(), plate, Copies=12, Width=640, Height=480)
 scan = run(source)
 truth, mesh = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
-estimation = connect(vtkMEAMPoseEstimation(), mesh, scan)
-estimation.SetMaximumNumberOfPoses(0)
-estimation.SetMinimumProbability(0.5)
+estimation = connect(vtkMEAMPoseEstimation(), mesh, scan, MaximumNumberOfPoses=0, MinimumProbability=0.5)
 found = run(estimation)
 
 

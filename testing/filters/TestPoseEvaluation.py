@@ -13,11 +13,7 @@ def at(x, degrees=0.0):
 
 
 def evaluation(estimates, truths, diameter=50.0, **properties):
-    filter = connect(vtkMEAMPoseEvaluation(), estimates, truths)
-    filter.SetDiameter(diameter)
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMPoseEvaluation(), estimates, truths, Diameter=diameter, **properties)
 
 
 def column(table, name):

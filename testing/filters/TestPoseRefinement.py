@@ -24,12 +24,7 @@ def near(degrees, *mm):
 
 
 def refinement(candidates, surface=None, edges=edges, model=model, **properties):
-    filter = connect(vtkMEAMPoseRefinement(), candidates, model, edges)
-    if surface:
-        filter.SetInputDataObject(3, surface)
-    for name, value in {"ViewDirection": scene.looking, **properties}.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMPoseRefinement(), candidates, model, edges, surface, **{"ViewDirection": scene.looking, **properties})
 
 
 start = poses(near(2, 0.5, -0.6, 0.7), near(0, 0, 0, 0), near(-1.5, -0.4, 0.4, 0))

@@ -13,12 +13,7 @@ shifted = scene.shifted
 
 
 def screening(candidates, surface=scene.surface, **properties):
-    filter = connect(vtkMEAMPoseScreening(), candidates, model, edges)
-    if surface:
-        filter.SetInputDataObject(3, surface)
-    for name, value in {"ViewDirection": scene.looking, **properties}.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMPoseScreening(), candidates, model, edges, surface, **{"ViewDirection": scene.looking, **properties})
 
 
 def kept(*args, **properties):

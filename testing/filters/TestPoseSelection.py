@@ -13,16 +13,10 @@ shifted = scene.shifted
 
 
 def selection(candidates, surface=scene.surface, method="Instances", **properties):
-    scored = connect(vtkMEAMPoseVerification(), candidates, model, edges)
-    filter = connect(vtkMEAMPoseSelection(), scored, model, edges)
-    for step in (scored, filter):
-        step.SetViewDirection(scene.looking)
-        if surface:
-            step.SetInputDataObject(3, surface)
+    scored = connect(vtkMEAMPoseVerification(), candidates, model, edges, surface, ViewDirection=scene.looking)
+    filter = connect(vtkMEAMPoseSelection(), scored, model, edges, surface, ViewDirection=scene.looking)
     getattr(filter, "SetMethodTo" + method)()
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(filter, **properties)
 
 
 def count(*args, **properties):

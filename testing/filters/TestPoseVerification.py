@@ -15,12 +15,7 @@ shifted = scene.shifted
 
 
 def verification(candidates, surface=None, edges=edges, model=model, **properties):
-    filter = connect(vtkMEAMPoseVerification(), candidates, model, edges)
-    if surface:
-        filter.SetInputDataObject(3, surface)
-    for name, value in {"ViewDirection": scene.looking, **properties}.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMPoseVerification(), candidates, model, edges, surface, **{"ViewDirection": scene.looking, **properties})
 
 
 def grid(places, width, height):

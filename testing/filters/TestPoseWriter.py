@@ -5,7 +5,7 @@ import os
 import tempfile
 
 from ppfmeam.filters import vtkMEAMPoseReader, vtkMEAMPoseWriter
-from meamtest import Errors, box, check, cloud, poses, prints, run, set_fields, tuples
+from meamtest import Errors, box, check, cloud, connect, poses, prints, run, set_fields, tuples
 
 QUARTER = (0, -1, 0, 1.5, 1, 0, 0, -2, 0, 0, 1, 0.1, 0, 0, 0, 1)
 IDENTITY = (1, 0, 0, 7, 0, 1, 0, 8, 0, 0, 1, 9, 0, 0, 0, 1)
@@ -17,19 +17,11 @@ def path(name):
 
 
 def reader(name):
-    result = vtkMEAMPoseReader()
-    result.SetFileName(path(name))
-    return result
+    return connect(vtkMEAMPoseReader(), FileName=path(name))
 
 
 def writer(data, name, **properties):
-    result = vtkMEAMPoseWriter()
-    if data:
-        result.SetInputDataObject(data)
-    result.SetFileName(path(name))
-    for key, value in properties.items():
-        getattr(result, "Set" + key)(value)
-    return result
+    return connect(vtkMEAMPoseWriter(), data, FileName=path(name), **properties)
 
 
 def text(name):
@@ -138,8 +130,7 @@ refuses(writer(box(1, 1, 1), "poses.csv"), "Transform")
 refuses(writer(poses((2,) + QUARTER[1:]), "poses.csv"), "not a rotation")
 refuses(writer(data, "no/such/folder.csv"), "folder.csv")
 refuses(vtkMEAMPoseWriter())
-nameless = vtkMEAMPoseWriter()
-nameless.SetInputDataObject(data)
+nameless = connect(vtkMEAMPoseWriter(), data)
 refuses(nameless, "No file")
 check(sorted(os.listdir(folder.name)) == before, "no file was added")
 check(text("poses.csv").count("\n") == 3, "the old file is still there")

@@ -299,9 +299,8 @@ try:
     given = run(definition).GetPointData()
     check((vtk_to_numpy(given.GetArray("Transform")).reshape(-1, 4, 4) == grasps.transforms).all(), "other grasps")
     check(scripting.texts(definition.GetOutput(), "GraspName") == grasps.names, "grasps of other names")
-    planning = connect(vtkMEAMPickPlanning(), found.data, scripting.read_mesh("part.stl"), definition.GetOutput(), scan)
-    planning.SetOpening(60)
-    planning.SetCupDiameter(8)
+    planning = connect(vtkMEAMPickPlanning(), found.data, scripting.read_mesh("part.stl"), definition.GetOutput(), scan,
+                       Opening=60, CupDiameter=8)
     planned = run(planning).GetPointData()
     for name, column in (("Transform", picks.transforms.reshape(-1, 16)), ("Possible", picks.possible), ("Score", picks.scores),
                          ("Clearance", picks.clearances), ("Tilt", picks.tilts), ("Covered", picks.covered), ("Reach", picks.reaches),
@@ -348,8 +347,7 @@ try:
     reader.SetFileName("cut.meam")
     fails(reader, "cut off")
     fails(vtkMEAMModelReader(), "no file")
-    fails_to_write = connect(vtkMEAMModelWriter(), model.data)
-    fails_to_write.SetFileName("no/model.meam")
+    fails_to_write = connect(vtkMEAMModelWriter(), model.data, FileName="no/model.meam")
     check(fails_to_write.Write() == 0, "written to a folder that is not there")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

@@ -51,9 +51,8 @@ class Scene:
 
 
 def at_once(model, scene):
-    box = connect(vtkMEAMPoseEstimation(), model, scene.surface, scene.edges)
-    box.SetMaximumNumberOfPoses(0)
-    box.SetViewDirection(scene.looking)
+    box = connect(vtkMEAMPoseEstimation(), model, scene.surface, scene.edges,
+                  MaximumNumberOfPoses=0, ViewDirection=scene.looking)
     return run(box)
 
 

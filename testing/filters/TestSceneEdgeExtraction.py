@@ -51,10 +51,7 @@ def step(x, y):
 
 
 def edges_of(*inputs, **properties):
-    filter = connect(vtkMEAMSceneEdgeExtraction(), *inputs)
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMSceneEdgeExtraction(), *inputs, **properties)
 
 
 filter = edges_of(scan(step))

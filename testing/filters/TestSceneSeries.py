@@ -52,11 +52,7 @@ plate.SetPartToHolePlate()
 
 
 def bin_of(seed):
-    source = connect(vtkMEAMBinSceneSource(), plate)
-    source.SetCopies(3)
-    source.SetWidth(480)
-    source.SetHeight(360)
-    source.SetSeed(seed)
+    source = connect(vtkMEAMBinSceneSource(), plate, Copies=3, Width=480, Height=360, Seed=seed)
     run(source)
     return [source.GetOutputDataObject(port) for port in range(3)]
 
@@ -94,8 +90,7 @@ def rightly(poses, truth):
                (pose_error(found, true) for true in tuples(truth, "Transform")))
 
 
-estimation = vtkMEAMPoseEstimation()
-estimation.SetInputDataObject(0, model)
+estimation = connect(vtkMEAMPoseEstimation(), model)
 estimation.SetInputConnection(1, series.GetOutputPort(0))
 
 # The chain of single filters, the part's model first where a filter has it first.

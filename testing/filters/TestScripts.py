@@ -126,9 +126,7 @@ bins = {"1": connect(vtkMEAMBinSceneSource(), mesh), "2": connect(vtkMEAMBinScen
 halves = numpy.arange(W * H) % W < W // 2
 columns = []
 for half in bins.values():
-    for name, value in (("Copies", 6), ("Seed", 7), ("Width", W), ("Height", H), ("BinSize", 300), ("SensorHeight", 900)):
-        getattr(half, "Set" + name)(value)
-    data = run(half)
+    data = run(connect(half, Copies=6, Seed=7, Width=W, Height=H, BinSize=300, SensorHeight=900))
     columns.append(numpy.column_stack((vtk_to_numpy(data.GetPoints().GetData()),
                                        vtk_to_numpy(data.GetPointData().GetArray("Intensity")))))
 write_pcd("two.pcd", numpy.where(halves[:, None], *columns), W, H, "x y z intensity")

@@ -14,12 +14,7 @@ meshes, scan = two_types()
 def asked(filter, parts=meshes, found=None, **properties):
     for part in parts:
         filter.AddInputDataObject(0, part)
-    filter.SetInputDataObject(1, scan)
-    if found:
-        filter.SetInputDataObject(4, found)
-    for name, value in dict(MaximumNumberOfPoses=0, MinimumProbability=0.5, **properties).items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(filter, None, scan, None, None, found, MaximumNumberOfPoses=0, MinimumProbability=0.5, **properties)
 
 
 def answer(filter):
@@ -113,8 +108,7 @@ fails(asked(vtkMEAMPoseDiagnosis(), meshes[::-1], found), "another order")
 prints(alone, "PartId")
 
 # Each at its poses, the best of all.
-instances = vtkMEAMPoseInstances()
-instances.SetInputDataObject(0, found)
+instances = connect(vtkMEAMPoseInstances(), found)
 for mesh in meshes:
     instances.AddInputDataObject(1, mesh)
 for most in (0, 3):

@@ -11,9 +11,7 @@ SIZE = (10, 20, 30)
 
 
 def sample(data, spacing=0.0, seed=1):
-    filter = connect(vtkMEAMSurfaceSampling(), data)
-    filter.SetSpacing(spacing)
-    filter.SetSeed(seed)
+    filter = connect(vtkMEAMSurfaceSampling(), data, Spacing=spacing, Seed=seed)
     return filter
 
 

@@ -12,10 +12,8 @@ from meamtest import box, check, cloud, connect, fails, field, image, mesh, poin
 
 
 def detection(data, spacing=0.8):
-    sampling = connect(vtkMEAMSurfaceSampling(), data)
-    sampling.SetSpacing(spacing)
-    filter = vtkMEAMSymmetryDetection()
-    filter.SetInputConnection(sampling.GetOutputPort())
+    sampling = connect(vtkMEAMSurfaceSampling(), data, Spacing=spacing)
+    filter = connect(vtkMEAMSymmetryDetection(), sampling)
     return filter
 
 

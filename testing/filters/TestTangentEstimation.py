@@ -20,12 +20,7 @@ def scene(places=LINES + [LONE], **fields):
 
 
 def tangents(data, model=None, **properties):
-    filter = connect(vtkMEAMTangentEstimation(), data)
-    if model:
-        filter.SetInputDataObject(1, model)
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(value)
-    return filter
+    return connect(vtkMEAMTangentEstimation(), data, model, **properties)
 
 
 def follow(output):

@@ -20,8 +20,7 @@ def views(data, number=None):
     return filter
 
 
-sampling = connect(vtkMEAMSurfaceSampling(), box(*SIZE))
-sampling.SetSpacing(0.5)
+sampling = connect(vtkMEAMSurfaceSampling(), box(*SIZE), Spacing=0.5)
 samples = run(sampling)
 places, normals = points(samples), tuples(samples, "Normals")
 output = run(views(sampling))
@@ -54,8 +53,7 @@ check(field(view, "WholePart") == [(1,)] and field(view, "ViewDirection") == [(0
 check(view.GetFieldData().GetArray("Viewpoint") is None, "there is no viewpoint")
 check(field(whole.GetOutput(), "Diameter") == field(samples, "Diameter"), "the diameter travels along")
 for on_mesh in (0, 1):
-    boundary = connect(vtkMEAMBoundaryExtraction(), whole, box(*SIZE))
-    boundary.SetMethod(on_mesh)
+    boundary = connect(vtkMEAMBoundaryExtraction(), whole, box(*SIZE), Method=on_mesh)
     tangents = connect(vtkMEAMTangentEstimation(), boundary)
     (name, edges), = partitions(run(tangents))
     check(name == "Whole part" and field(edges, "WholePart") == [(1,)], f"{name}: still known as the whole part")

@@ -167,13 +167,15 @@ def scaled(data, factor):
     return run(filter)
 
 
-def connect(algorithm, *inputs):
-    """Connects the output of each input to the port of its place."""
+def connect(algorithm, *inputs, **properties):
+    """Connects the output of each input to the port of its place, where it is not None, and sets the properties."""
     for port, source in enumerate(inputs):
-        if source.IsA("vtkAlgorithm"):
+        if source is not None and source.IsA("vtkAlgorithm"):
             algorithm.SetInputConnection(port, source.GetOutputPort())
-        else:
+        elif source is not None:
             algorithm.SetInputDataObject(port, source)
+    for name, value in properties.items():
+        getattr(algorithm, "Set" + name)(value)
     return algorithm
 
 

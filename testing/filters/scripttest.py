@@ -76,9 +76,6 @@ def scan_of_bin():
     """Of three copies of the plate, which is trained in a third of the sample part's time: the scan, the true poses, the part."""
     plate = vtkMEAMSamplePartSource()
     plate.SetPartToHolePlate()
-    source = connect(vtkMEAMBinSceneSource(), plate)
-    source.SetCopies(3)
-    source.SetWidth(W)
-    source.SetHeight(H)
+    source = connect(vtkMEAMBinSceneSource(), plate, Copies=3, Width=W, Height=H)
     run(source)
     return [source.GetOutputDataObject(port) for port in range(3)]
