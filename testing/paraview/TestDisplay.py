@@ -5,8 +5,8 @@ import os
 import tempfile
 
 from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+from pictures import pixels, share
 
 # In the colours of RankColor.
 RANKS = {"red": (220, 30, 30), "green": (40, 170, 50), "blue": (40, 90, 220), "yellow": (245, 205, 30),
@@ -20,20 +20,8 @@ def check(condition, message):
         raise AssertionError(message)
 
 
-def pixels(view):
-    path = os.path.join(folder.name, "view.png")
-    simple.SaveScreenshot(path, view, ImageResolution=[400, 300])
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(float)
-
-
-def share(image, color):
-    """Share of the pixels whose hue is that of the colour."""
-    level = image.max(axis=1)
-    near = sum(abs(image[:, c] / level.clip(1) - color[c] / max(color)) for c in range(3)) < 0.35
-    return (near & (level - image.min(axis=1) > 40)).mean()
+def drawn(view):
+    return pixels(os.path.join(folder.name, "view.png"), view, [400, 300])
 
 
 def answers(view):
@@ -61,7 +49,7 @@ display = simple.Show(instances, view)
 check(list(display.ColorArrayName) == ["POINTS", "Rank"], f"coloured by {display.ColorArrayName}")
 check(part.Visibility == 0, "the part itself is still shown")
 simple.ResetCamera(view)
-picture = pixels(view)
+picture = drawn(view)
 for name, color in RANKS.items():
     check(share(picture, color) > 0.005, f"no {name}: {share(picture, color)}")
 grey = (abs(picture - picture.mean(axis=1, keepdims=True)).max(axis=1) < 3) & (picture[:, 0] > 50)
@@ -69,7 +57,7 @@ check(grey.mean() > 0.004, f"no grey: {grey.mean()}")
 
 # By cells the same; the colours are those of the array RankColor.
 simple.ColorBy(display, ("CELLS", "Rank"))
-picture = pixels(view)
+picture = drawn(view)
 check(all(share(picture, color) > 0.005 for color in RANKS.values()), "cells have other colours")
 table = simple.GetColorTransferFunction("Rank")
 colors = instances.GetClientSideObject().GetOutputDataObject(0).GetCellData().GetArray("RankColor")
@@ -104,7 +92,7 @@ check_camera()
 simple.Render(view)
 check_camera()
 view.Background, view.UseColorPaletteForBackground = [0.5, 0.5, 0.5], 0
-picture = pixels(view)
+picture = drawn(view)
 check((picture.max(axis=1) - picture.min(axis=1)).max() < 3, "the scan is not grey")
 check(picture.std() > 10, "the scan is not in sight")
 
@@ -124,7 +112,7 @@ simple.Show(found, view)
 check(tuple(view.CameraViewUp) == (0, 1, 0), "the camera is moved again")
 check(scan.Visibility == 1, "the scan is gone")
 check(found.SMProxy.GetHints().FindNestedElementByName("Visibility"), "inputs are hidden")
-check(max(share(pixels(view), RANKS[name]) for name in ("red", "green")) > 0.01, "no parts over the scan")
+check(max(share(drawn(view), RANKS[name]) for name in ("red", "green")) > 0.01, "no parts over the scan")
 
 # A step of poses takes the place of what it was made of, but not of the scan; edges and answers come over it.
 view = simple.CreateRenderView()
@@ -182,6 +170,6 @@ points.SetScalarBarVisibility(view, True)
 check(simple.GetScalarBar(table, view).ScalarBarLength < 0.3, "the legend is not small")
 points.SetScalarBarVisibility(view, False)
 simple.ResetCamera(view)
-picture = pixels(view)
+picture = drawn(view)
 for name, color in (("green", RANKS["green"]), ("yellow", RANKS["yellow"]), ("violet", (150, 60, 190)), ("red", RANKS["red"])):
     check(share(picture, color) > 0.0001, f"no {name} point: {share(picture, color)}")

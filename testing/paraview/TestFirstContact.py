@@ -101,17 +101,9 @@ def plain(path):
 
 
 def share(picture, color):
-    """Share of the pixels whose hue is that of the colour."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOImage import vtkPNGReader
+    import pictures
 
-    reader = vtkPNGReader()
-    reader.SetFileName(picture)
-    reader.Update()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(float)
-    level = pixels.max(axis=1)
-    near = sum(abs(pixels[:, c] / level.clip(1) - color[c] / max(color)) for c in range(3)) < 0.35
-    return (near & (level - pixels.min(axis=1) > 40)).mean()
+    return pictures.share(pictures.pixels(picture), color)
 
 
 def shown_in(view, hidden=False):

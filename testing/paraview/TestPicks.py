@@ -5,21 +5,15 @@ import os
 import tempfile
 
 from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+from pictures import pixels
+
+SIZE = [840, 650]  # of the pictures
 
 
 def check(condition, message):
     if not condition:
         raise AssertionError(message)
-
-
-def pixels(view, path):
-    simple.SaveScreenshot(path, view, ImageResolution=[840, 650])
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
 
 
 bin = simple.BinSceneSource(Copies=6, Width=640, Height=480)
@@ -54,12 +48,12 @@ simple.Render(view)
 simple.GetActiveCamera().Dolly(1.4)  # the bin fills the view
 with tempfile.TemporaryDirectory() as folder:
     path = os.environ.get("PPFMEAM_PICTURE") or os.path.join(folder, "picks.png")
-    with_labels = pixels(view, path if path.endswith(".png") else os.path.join(folder, "picks.png"))
+    with_labels = pixels(path if path.endswith(".png") else os.path.join(folder, "picks.png"), view, SIZE)
     if not path.endswith(".png"):
-        simple.SaveScreenshot(path, view, ImageResolution=[840, 650])
+        simple.SaveScreenshot(path, view, ImageResolution=SIZE)
     level, spread = with_labels.max(axis=1), with_labels.max(axis=1) - with_labels.min(axis=1)
     for name, channel in (("red", 0), ("green", 1)):
         share = ((with_labels[:, channel] == level) & (spread > 60)).mean()
         check(share > 0.002, f"no {name} gripper: {share}")
     simple.Hide(simple.OutputPort(picks, 0), view)
-    check((abs(pixels(view, os.path.join(folder, "without.png")) - with_labels).max(axis=1) > 60).sum() > 300, "no labels in the view")
+    check((abs(pixels(os.path.join(folder, "without.png"), view, SIZE) - with_labels).max(axis=1) > 60).sum() > 300, "no labels in the view")

@@ -10,8 +10,8 @@ import sys
 import tempfile
 
 from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+import pictures
 
 SEEN = 0.003  # share of the picture
 PLUGIN = os.path.join(os.environ["PV_PLUGIN_PATH"].split(os.pathsep)[0], "PPFMEAM", "PPFMEAM.so")
@@ -32,12 +32,7 @@ def red(view):
     """Share of the picture that is red."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "view.png")
-        simple.SaveScreenshot(path, view, ImageResolution=[320, 240])
-        reader = vtkPNGReader()
-        reader.SetFileName(path)
-        reader.Update()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
-    return ((pixels[:, 0] > 80) & (pixels[:, 1:].max(axis=1) < pixels[:, 0] // 2)).mean()
+        return pictures.red(pictures.pixels(path, view, [320, 240])).mean()
 
 
 def found():

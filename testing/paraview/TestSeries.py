@@ -7,8 +7,8 @@ import sys
 import tempfile
 
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+from pictures import pixels, red
 
 SCENES = 3
 root = sys.argv[1]
@@ -34,15 +34,6 @@ def positions(poses):
     transforms = poses.GetPointData().GetArray("Transform")
     return [[sum(t[4 * k + i] * middle[i] for i in range(3)) + t[4 * k + 3] for k in range(3)]
             for t in (transforms.GetTuple(i) for i in range(transforms.GetNumberOfTuples()))]
-
-
-def red(path):
-    """Where the picture is red: a set of pixels."""
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
-    return set(((pixels[:, 0] > 80) & (pixels[:, 1:].max(axis=1) < pixels[:, 0] // 2)).nonzero()[0].tolist())
 
 
 subprocess.run(["/usr/bin/python3", "-c", f"import batchtest; batchtest.dataset({bins!r}, {SCENES})"], check=True,
@@ -77,6 +68,6 @@ check(all(a != b for i, a in enumerate(seen) for b in seen[:i]), "the poses are 
 simple.SaveAnimation(os.path.join(folder.name, "played.png"), view, ImageResolution=[320, 240], FrameWindow=[0, SCENES - 1])
 pictures = sorted(name for name in os.listdir(folder.name) if name.endswith(".png"))
 check(len(pictures) == SCENES, f"pictures {pictures}")
-reds = [red(os.path.join(folder.name, name)) for name in pictures]
+reds = [set(red(pixels(os.path.join(folder.name, name))).nonzero()[0].tolist()) for name in pictures]
 check(all(len(r) > 100 for r in reds), f"red pixels: {[len(r) for r in reds]}")
 check(all(len(a & b) < 0.9 * len(a | b) for i, a in enumerate(reds) for b in reds[:i]), "the pictures are of the same scan")

@@ -7,8 +7,8 @@ import sys
 import tempfile
 
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+from pictures import pixels, red
 
 folder = tempfile.TemporaryDirectory()
 examples = sys.argv[1]
@@ -27,13 +27,6 @@ def pipeline():
     poses.UpdatePipeline()
     array = poses.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Transform")
     return sources, [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
-
-
-def pixels(name):
-    reader = vtkPNGReader()
-    reader.SetFileName(os.path.join(folder.name, name))
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
 
 
 sys.argv = ["pipeline.py", "--picture", os.path.join(folder.name, "trace.png")]
@@ -59,7 +52,6 @@ check(math.dist(view.CameraPosition, camera[0]) < 0.1 * math.dist(*camera[:2]) a
 view.CameraPosition, view.CameraFocalPoint, _ = camera  # that of the state is of the whole scan
 simple.Render(view)
 simple.SaveScreenshot(os.path.join(folder.name, "state.png"), view, ImageResolution=[1200, 900])
-trace, state = pixels("trace.png"), pixels("state.png")
-red = (trace[:, 0] > 80) & (trace[:, 1:].max(axis=1) < trace[:, 0] // 2)
-check(red.mean() > 0.005, "no red part in the trace's picture")
+trace, state = (pixels(os.path.join(folder.name, name)) for name in ("trace.png", "state.png"))
+check(red(trace).mean() > 0.005, "no red part in the trace's picture")
 check((abs(trace - state).max(axis=1) > 40).mean() < 0.01, "the state looks different")
