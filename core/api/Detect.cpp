@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <memory>
 
 namespace meam
 {

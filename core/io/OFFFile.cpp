@@ -5,7 +5,6 @@
 #include "io/parsing/TextLines.h"
 #include "mesh/PolygonTriangulation.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string_view>

@@ -6,7 +6,6 @@
 #include "model/BodyInterior.h"
 #include "model/MirrorImage.h"
 
-#include <algorithm>
 #include <cmath>
 #include <future>
 

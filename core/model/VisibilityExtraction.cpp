@@ -10,7 +10,6 @@
 #include "model/AppearanceModel.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace meam
 {

@@ -3,7 +3,6 @@
 
 #include "base/Error.h"
 
-#include <cmath>
 #include <map>
 
 namespace meam

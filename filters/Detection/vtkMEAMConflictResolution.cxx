@@ -2,7 +2,6 @@
 #include "vtkMEAMConflictResolution.h"
 
 #include "pose/search/ConflictResolution.h"
-#include "scene/Units.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMSceneConversion.h"

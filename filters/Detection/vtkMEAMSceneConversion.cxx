@@ -17,8 +17,6 @@
 #include "vtkPointSet.h"
 #include "vtkStructuredGrid.h"
 
-#include <string>
-
 namespace vtkMEAMConversion
 {
 namespace

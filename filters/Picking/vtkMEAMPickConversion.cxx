@@ -16,7 +16,6 @@
 
 #include <array>
 #include <set>
-#include <string>
 #include <utility>
 
 namespace vtkMEAMConversion

@@ -5,7 +5,6 @@
 
 #include "base/AllVectors.h"
 
-#include <numeric>
 #include <random>
 
 namespace

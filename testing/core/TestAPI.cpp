@@ -7,7 +7,6 @@
 #include "picks.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {

@@ -3,7 +3,6 @@
 #include "Trial.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 
 namespace

@@ -12,7 +12,6 @@
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
-#include <cmath>
 #include <vector>
 
 namespace meam

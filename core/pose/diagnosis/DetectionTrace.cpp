@@ -2,7 +2,6 @@
 #include "pose/diagnosis/DetectionTrace.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace meam
 {

@@ -8,7 +8,6 @@
 #include "pose/verification/PoseVerification.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace meam

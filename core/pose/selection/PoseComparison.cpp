@@ -4,7 +4,6 @@
 #include "pose/PoseTolerances.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace meam
 {

@@ -11,7 +11,6 @@
 #include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace meam

@@ -7,7 +7,6 @@
 #include "pose/verification/SheetSurface.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace meam
 {

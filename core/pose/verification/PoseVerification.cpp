@@ -7,7 +7,6 @@
 #include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace meam
 {

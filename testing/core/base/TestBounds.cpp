@@ -2,10 +2,7 @@
 #include "base/Bounds.h"
 
 #include "TestParts.h"
-#include "base/Error.h"
-#include "base/Frames.h"
 #include "base/PointCloud.h"
-#include "scene/Units.h"
 
 #include <gtest/gtest.h>
 

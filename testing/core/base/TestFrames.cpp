@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestParts.h"
-#include "base/Bounds.h"
-#include "base/Error.h"
 #include "base/Frames.h"
 #include "base/PointCloud.h"
-#include "scene/Units.h"
 
 #include <gtest/gtest.h>
 

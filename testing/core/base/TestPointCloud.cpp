@@ -2,9 +2,7 @@
 #include "TestParts.h"
 #include "base/Bounds.h"
 #include "base/Error.h"
-#include "base/Frames.h"
 #include "base/PointCloud.h"
-#include "scene/Units.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include "TestFiles.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace
 {

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
 
 TEST(ChildProcess, resultsAndErrorsComeBack)
 {

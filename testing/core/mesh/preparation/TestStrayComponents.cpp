@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace
 {
 void addQuad(meam::TriangleMesh& mesh, const meam::Points& corners)

@@ -3,8 +3,6 @@
 
 #include "TestFiles.h"
 
-#include <cmath>
-
 namespace
 {
 constexpr int FloorWidth = 120, FloorHeight = 90;
