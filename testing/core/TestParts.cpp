@@ -190,6 +190,18 @@ meam::PrecisePoints precise(const meam::Points& points)
   return result;
 }
 
+meam::PrecisePoints skewed(int count)
+{
+  std::mt19937 random(4);
+  std::gamma_distribution<double> distance(2.0, 1.0);
+  meam::PrecisePoints points;
+  for (int i = 0; i < count; ++i)
+  {
+    points.emplace_back(90.0 * distance(random), 40.0 * distance(random), 10.0 * distance(random));
+  }
+  return points;
+}
+
 meam::PointCloud withTangents(const meam::PointCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,
   const meam::TangentEstimationSettings& settings)
 {

@@ -4,6 +4,7 @@
 
 #include "features/TangentEstimation.h"
 #include "mesh/TriangleMesh.h"
+#include "scene/Sensor.h"
 
 #include <limits>
 #include <random>
@@ -51,6 +52,12 @@ meam::PointCloud moved(const meam::PointCloud& cloud, const Eigen::Isometry3d& T
 meam::PrecisePoints moved(const meam::PrecisePoints& points, const Eigen::Isometry3d& T);
 
 meam::PrecisePoints precise(const meam::Points& points);
+
+/// Points, skewed along each axis, so that the principal frame is clear.
+meam::PrecisePoints skewed(int count);
+
+/// An orthographic sensor that looks down.
+inline meam::Sensor fromAbove() { return { false, Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ() }; }
 
 /// Of the edge points those that stay, with tangents and weights.
 meam::PointCloud withTangents(const meam::PointCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,

@@ -34,8 +34,7 @@ Seen seenFromAbove(const std::vector<Copy>& copies)
   Seen seen;
   seen.surface = view.cloud.points;
   seen.edges.points = meam::extractBoundary({ view })[0].cloud.points;
-  seen.sensor.perspective = false;
-  seen.sensor.direction = -Eigen::Vector3d::UnitZ();
+  seen.sensor = parts::fromAbove();
   return seen;
 }
 

@@ -8,18 +8,7 @@
 
 namespace
 {
-/// Skewed along each axis, so that the principal frame is clear.
-meam::PrecisePoints skewed(int count)
-{
-  std::mt19937 random(4);
-  std::gamma_distribution<double> distance(2.0, 1.0);
-  meam::PrecisePoints points;
-  for (int i = 0; i < count; ++i)
-  {
-    points.emplace_back(90.0 * distance(random), 40.0 * distance(random), 10.0 * distance(random));
-  }
-  return points;
-}
+using parts::skewed;
 
 /// In their principal frame.
 meam::Points local(const meam::PrecisePoints& points, int threads = 1)

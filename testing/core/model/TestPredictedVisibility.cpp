@@ -15,13 +15,7 @@ Eigen::Isometry3d turned(double degrees)
   return Eigen::Isometry3d(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d(1, 2, 0).normalized()));
 }
 
-meam::Sensor fromAbove()
-{
-  meam::Sensor sensor;
-  sensor.perspective = false;
-  sensor.direction = -Eigen::Vector3d::UnitZ();
-  return sensor;
-}
+using parts::fromAbove;
 
 constexpr int CubeSteps = 20; // points along an edge of the cube, less one
 

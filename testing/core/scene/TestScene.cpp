@@ -12,18 +12,7 @@ namespace
 {
 constexpr double Diameter = 100.0;
 
-/// Skewed along each axis, so that the principal frame is clear.
-meam::PrecisePoints skewed(int count)
-{
-  std::mt19937 random(4);
-  std::gamma_distribution<double> distance(2.0, 1.0);
-  meam::PrecisePoints points;
-  for (int i = 0; i < count; ++i)
-  {
-    points.emplace_back(90.0 * distance(random), 40.0 * distance(random), 10.0 * distance(random));
-  }
-  return points;
-}
+using parts::skewed;
 
 /// What a sensor above has of edges along one direction and of a surface, all of it moved by T.
 meam::Scene moved(const Eigen::Isometry3d& T, bool withSurface = true)

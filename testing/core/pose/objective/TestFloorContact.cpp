@@ -16,8 +16,7 @@ double thicknessOf(float factor, const std::vector<float>& high, bool onFloor = 
   const meam::TrainedModel& model = scenes::trained<plate>();
   const auto cornerOf = [](std::size_t i) { return Eigen::Vector2f(90.0f * (i % 2), 90.0f * (i / 2)); };
   scenes::Seen seen;
-  seen.sensor.perspective = false;
-  seen.sensor.direction = -Eigen::Vector3d::UnitZ();
+  seen.sensor = parts::fromAbove();
   for (float x = -30.0f; x <= 180.0f; ++x)
   {
     for (float y = -30.0f; y <= 160.0f; ++y)

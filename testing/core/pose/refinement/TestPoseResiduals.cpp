@@ -22,10 +22,7 @@ meam::DepthMap plane()
       points.push_back({ 0.5f * x, 0.5f * y, 1.0f });
     }
   }
-  meam::Sensor sensor;
-  sensor.perspective = false;
-  sensor.direction = -Eigen::Vector3d::UnitZ();
-  return meam::DepthMap(points, sensor, 2.0);
+  return meam::DepthMap(points, parts::fromAbove(), 2.0);
 }
 
 meam::SoAOrientedPoints columns(const std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>>& points)
