@@ -24,6 +24,7 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace
@@ -40,8 +41,9 @@ constexpr double Opening = 60.0, FingerWidth = 8.0, FingerThickness = 5.0; // of
 constexpr double Probability = 0.5;                    // that a copy is there: less likely ones are not picked
 constexpr double WayIn = 80.0;                         // straight to the grasp, free of everything
 constexpr auto Quiet = std::chrono::milliseconds(200); // a file is whole when nothing was written to it for so long
-constexpr int Pause = 20;                              // ms between two looks at the folder
-constexpr std::size_t LongestRequest = 1024;           // bytes: who sends more without an end is no robot
+constexpr int LastPort = 65535;
+constexpr int Pause = 20;                    // ms between two looks at the folder
+constexpr std::size_t LongestRequest = 1024; // bytes: who sends more without an end is no robot
 
 // What the robot is told of a scan: a pick, or why there is none.
 struct Answer
@@ -79,12 +81,25 @@ struct Answer
   }
 };
 
+// A number that was given, 0 or more.
+double numberOf(const Options& options, const std::string& name)
+{
+  std::istringstream text(options.at(name));
+  double value = -1.0;
+  if (!(text >> value) || !text.eof() || value < 0.0)
+  {
+    throw meam::Error(name + " has to be a number, 0 or more, not " + options.at(name));
+  }
+  return value;
+}
+
 class Cell
 {
 public:
   Cell(const std::vector<Part>& parts, const Options& options)
     : Given(options)
   {
+    numberOf(options, "--time-limit"); // what is wrong shows now
     for (const Part& part : parts)
     {
       this->Models.push_back(meam::loadModel(part.model));
@@ -104,7 +119,7 @@ public:
     meam::DetectSettings settings;
     settings.maximumPoses = 0; // what is not picked stands in the way
     settings.minimumProbability = Probability;
-    settings.timeLimit = std::stod(this->Given.at("--time-limit"));        // the best that are found by then are used
+    settings.timeLimit = numberOf(this->Given, "--time-limit");            // the best that are found by then are used
     const meam::Scan scan = meam::loadScan(path, this->given("--camera")); // of depth images meam::loadDepthImage
     const meam::Detections found = meam::detect(this->Models, scan, settings);
     std::cerr << found.warning << (found.warning.empty() ? "" : "\n");
@@ -231,8 +246,12 @@ class Robot
 public:
   std::optional<std::string> request;
 
-  explicit Robot(int port)
+  explicit Robot(double port)
   {
+    if (port > LastPort || port != std::floor(port))
+    {
+      throw meam::Error("--port has to be a whole number up to " + std::to_string(LastPort));
+    }
     const int yes = 1;
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -240,7 +259,8 @@ public:
     if (setsockopt(this->Server, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
         bind(this->Server, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 || listen(this->Server, 1) != 0)
     {
-      throw meam::Error("Nobody can connect to port " + std::to_string(port) + ": " + std::strerror(errno));
+      throw meam::Error(
+        "Nobody can connect to port " + std::to_string(std::lround(port)) + ": " + std::strerror(errno));
     }
   }
   Robot(const Robot&) = delete;
@@ -393,27 +413,39 @@ try
 {
   std::vector<std::string> files;
   std::vector<Part> beside;
-  Options options{ { "--port", "5050" },
-    { "--time-limit", "2" } }; // and --robot-frame, --camera, --out, --log, as cell.py has them
+  Options options{ { "--port", "5050" }, { "--time-limit", "2" } };
+  const std::set<std::string> known{ "--watch", "--port", "--robot-frame", "--camera", "--time-limit", "--out", "--log",
+    "--replay" }; // as cell.py has them
+  std::string wrong;
   for (int k = 1; k < argc; ++k)
   {
-    if (std::strncmp(argv[k], "--", 2) != 0)
+    const std::string word = argv[k];
+    if (word.compare(0, 2, "--") != 0)
     {
-      files.push_back(argv[k]);
+      files.push_back(word);
     }
-    else if (std::strcmp(argv[k], "--beside") == 0 && k + 3 < argc)
+    else if (word == "--beside" && k + 3 < argc)
     {
       beside.push_back({ argv[k + 1], argv[k + 2], argv[k + 3] });
       k += 3;
     }
-    else if (++k < argc)
+    else if (known.count(word) != 0 && k + 1 < argc)
     {
-      options[argv[k - 1]] = argv[k];
+      options[word] = argv[++k];
+    }
+    else
+    {
+      wrong = "there is no option " + word + ", or a word is missing after it\n";
     }
   }
-  if (files.size() < 3)
+  if (files.size() == 3 && !options.count("--watch") && !options.count("--replay"))
   {
-    std::cerr << "usage: cell MODEL CAD GRASPS [--beside MODEL CAD GRASPS]... [SCAN...] [--watch FOLDER] [--port N] "
+    wrong += "give scans, --watch or --replay\n";
+  }
+  if (files.size() < 3 || !wrong.empty())
+  {
+    std::cerr << wrong
+              << "usage: cell MODEL CAD GRASPS [--beside MODEL CAD GRASPS]... [SCAN...] [--watch FOLDER] [--port N] "
                  "[--robot-frame FILE] [--camera FILE] "
                  "[--time-limit SECONDS] "
                  "[--out FILE] [--log FILE] [--replay LOG]\n";
@@ -436,7 +468,7 @@ try
   }
   if (options.count("--watch"))
   {
-    Robot robot(std::stoi(options["--port"]));
+    Robot robot(numberOf(options, "--port"));
     serve(cell, Folder(options["--watch"]), robot);
   }
 }

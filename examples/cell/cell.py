@@ -220,6 +220,10 @@ def main():
     parser.add_argument("--log", metavar="FILE", help="gets a line for each scan and for each answer that was sent")
     parser.add_argument("--replay", metavar="LOG", help="takes the scans of a log once more")
     options = parser.parse_intermixed_args()
+    if not options.scans and not options.watch and not options.replay:
+        parser.error("give scans, --watch or --replay")
+    if not options.time_limit >= 0 or not 0 <= options.port <= 65535:
+        parser.error("--time-limit has to be 0 or more, --port a whole number up to 65535")
     cell = Cell(options)
     if options.replay:
         return replay(cell, options.replay)

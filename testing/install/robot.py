@@ -123,6 +123,11 @@ def run(command):
     assert again.returncode == 1 and again.stdout.count("it was PICK 1") == 2, again
     one = subprocess.run([*command, *parts, "scan.pcd"], capture_output=True, text=True)
     assert one.stdout == f"SCAN scan.pcd {answers[0]}\n", one
+    # What is given is used or refused.
+    for wrong, words in ((["scan.pcd", "--robotframe", "robot.json"], "--robotframe"), (["--watch"], "--watch"), ([], "give scans, --watch or --replay"),
+                         (["scan.pcd", "--time-limit", "-1"], "--time-limit has to be"), (["--watch", "scans", "--port", "99999"], "--port")):
+        refused = subprocess.run([*command, *parts[:3], *wrong], capture_output=True, text=True, timeout=SECONDS)
+        assert refused.returncode != 0 and words in refused.stderr and not refused.stdout, (wrong, refused)
     # The same part as a second type: the pick is of one of them, and says of which.
     two = subprocess.run([*command, *parts, "--beside", *parts[:3], "scan.pcd"], capture_output=True, text=True)
     assert len(two.stdout.split()) == 17 and two.stdout.split()[-1] in ("1", "2"), two
