@@ -298,7 +298,7 @@ def models_of(part, cad_scale, settings, reading):
     return [part_of(each, cad_scale, settings, reading) for each in parts]
 
 
-def part_of(part, scale, settings, reading):
+def part_of(part, scale, settings, reading, offset=(0.0, 0.0, 0.0)):
     """The trained model."""
     if isinstance(part, Model):
         return part
@@ -308,7 +308,7 @@ def part_of(part, scale, settings, reading):
         return load(part)
     if not isinstance(part, vtkDataObject):
         inputs.name_of(part, "the part has to be a Model, a file, or a vtkPolyData")
-    return train(part, scale=scale, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
+    return train(part, scale=scale, offset=offset, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
 
 
 @takes(settings="detect", sensor="sensor", reading="read")

@@ -4,7 +4,8 @@ import os
 
 from . import api, choices, dataset, regions, scripting
 
-OF_DETECTION = ("probability", "rotation_counts", "features", "image_edges", "references", "threads")
+OF_SEARCH = ("poses", "probability", "rotation_counts", "features", "image_edges", "references", "preset")  # what decides which poses come out
+OF_DETECTION = (*(name for name in OF_SEARCH if name not in ("poses", "preset")), "threads")
 
 
 def add_options(parser):
@@ -13,7 +14,7 @@ def add_options(parser):
     parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
     parser.add_argument("--cad", action="append", default=[], metavar="PART", help="in place of PART, once for each type of part in the scan")
     parser.add_argument("--model", action="append", default=[], help="a trained model in place of PART, once for each type of part; its --cad, in the same order, has the faces that are shown and held")
-    choices.add_options(parser, "train", "scale")
+    choices.add_options(parser, "train", "offset", "scale")
     choices.add_options(parser, "read", "solid")
     parser.add_argument("--scale", "--scene-scale", type=choices.factor, default=1, metavar="F", help="factor that brings the scan and the boundary to mm (default: %(default)s)")
     parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
@@ -25,8 +26,7 @@ def add_options(parser):
     regions.add_option(parser)
     choices.add_options(parser, "sensor", "viewpoint")
     choices.add_options(parser, "detect", "poses", *OF_DETECTION)
-    parser.add_argument("--preset", choices=("paper", "recommended"), default="recommended",
-                        help="parameters of all steps (default: %(default)s)")
+    scripting.add_method_options(parser)
 
 
 def parsed(parser):
@@ -50,7 +50,7 @@ def is_number(part):
 
 
 class Asked:
-    """The parts and the scan of the options, as api.why() and api.detect() take them; of a BOP dataset as `evaluate bop` has them."""
+    """The parts' models and the scan of the options, as api.why() and api.detect() take them; of a BOP dataset as `evaluate bop` has them."""
 
     def __init__(self, options):
         self.scan, self.options = options.scan, options
@@ -64,7 +64,11 @@ class Asked:
                 self.beside.update(image=found[1].beside, image_camera=found[0].beside())
         if options.depth_scale:
             self.scan, self.beside["camera"] = scripting.read_depth(options.scan, options.camera, options.depth_scale), None
-        self.parts = [found[0].train(int(part), options.preset, options.features) if self.is_object(part) else part for part in options.parts]
+        if not found:
+            scripting.require_file(options.scan)  # before parts are trained
+        how, reading = (choices.of_options(group, options) for group in ("detect", "read"))
+        self.models = [api.part_of(found[0].train(int(part), options.preset, options.features) if self.is_object(part) else part,
+                                   options.cad_scale, how, reading, options.cad_offset) for part in options.parts]
 
     def is_object(self, part):
         """Whether the number of an object of the dataset names the part."""
@@ -72,8 +76,7 @@ class Asked:
 
     def inputs(self):
         """What goes with the scan, and how parts are looked for."""
-        of_cad = () if self.options.model else ("cad_scale", "solid")
-        names = ("scale", *of_cad, "viewpoint", "poses", "preset", *OF_DETECTION)
+        names = ("scale", "viewpoint", "poses", "preset", *OF_DETECTION)
         return {**{name: getattr(self.options, name) for name in names}, **self.beside, "region": self.options.roi}
 
     def shapes(self):
@@ -85,4 +88,4 @@ class Asked:
             return self.found[0].mesh(int(part))
         if api.is_model(part):
             return scripting.shape_of(scripting.read_model(part))
-        return scripting.read_mesh(part, scale=self.options.cad_scale, solid=self.options.solid)
+        return scripting.read_mesh(part, self.options.cad_offset, self.options.cad_scale, self.options.solid)

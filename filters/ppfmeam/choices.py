@@ -192,3 +192,13 @@ def add_options(parser, group, *names):
 def of_options(group, options):
     """What the options of a command chose; the default of what it has no option for."""
     return Chosen(group, {name: getattr(options, name) for name in TABLE[group] if hasattr(options, name)})
+
+
+def words_of(group, values):
+    """The words of a command that choose these values, by name, none of them a default."""
+    words = []
+    for name, value in values.items():
+        choice = TABLE[group][name]
+        is_method = name == "preset" and value != "paper"
+        words += [choice["option"]] if choice["type"] == "flag" else ["--method" if is_method else choice["option"], str(value)]
+    return words

@@ -69,7 +69,7 @@ check(numpy.allclose(data["parts"][0]["size"], numpy.ptp(points_of(data["parts"]
 check(len(re.findall('<tr data-rank', text)) == len(re.findall('<path data-rank', text)) == len(poses), "a row and an outline for each")
 for word in ("plate.stl in scan.pcd", "ppfmeam detect --cad plate.stl", "detection", "poses</td>"):
     check(word in text, f"the page has {word}")
-check(data["why"] == "ppfmeam why plate.stl scan.pcd --at {x} {y} {z}", data["why"])
+check(data["why"] == "ppfmeam why plate.stl scan.pcd --poses 0 --at {x} {y} {z}", data["why"])
 check(all("For it, in" in pose["why"] and "\nAgainst it: " in pose["why"] for pose in data["poses"]), data["poses"][0]["why"])
 
 # An outline is where the part is: around the pixels of its surface's points, no farther than they.
@@ -141,6 +141,14 @@ for scan_file, image, words in (("d.png", "i.png", "--image i.png --image-camera
                                 ("d.ply", "", "--cad-scale 25.4 --solid 1")):
     command = told.why_command(options, scan_file, image)
     check(command == f"ppfmeam why p.stl {scan_file} --camera c.json {words} --at {{x}} {{y}} {{z}}", command)
+# It searches as was searched; what is of the page alone is left out.
+vars(options).update(poses=0, probability=0.25, image_edges=False, features="edges", threads=1, preset="paper", cad_offset=[0.0, 0.0, 5.0], depth_scale=None, solid=0)
+searched = "--cad-offset 0.0 0.0 5.0 --poses 0 --probability 0.25 --no-image --preset paper --features edges"
+command = told.why_command(options, "d.ply", "i.png")
+check(command == f"ppfmeam why p.stl d.ply --camera c.json --cad-scale 25.4 {searched} --at {{x}} {{y}} {{z}}", command)
+options.preset = "ppf"
+check("--method ppf --features edges --at" in told.why_command(options, "d.ply"), told.why_command(options, "d.ply"))
+options = argparse.Namespace(model=[], cad=[], camera="c.json", image_camera=None, scene_scale=1, cad_scale=1, solid=0, roi=None, viewpoint=None, depth_scale=None)
 options.cad, options.objects = [], [3, 5]
 command = told.why_command(options, "set/test/000002/000007")
 check(command.startswith("ppfmeam why set/test/000002/000007 --cad 3 --cad 5 --camera"), command)
@@ -149,6 +157,7 @@ check(command.startswith("ppfmeam why set/test/000002/000007 --cad 3 --cad 5 --c
 printed = works("detect.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--poses", "2", "--method", "ppf", "--report", "ppf.html")
 text = read("ppf.html")
 check(not any(name in pose for pose in data_of(text)["poses"] for name in ("place", "probability", "certainty")), "no probabilities")
+works("why.py", *data_of(text)["why"].format(x=0, y=0, z=5).split()[2:])
 check(len(data_of(text)["poses"]) == 2 and text.count("came out; the method does not tell how likely a copy is there.") == 2, "on the page")
 check("likely there than not" not in printed + text and "2 poses came out; the method does not tell how likely" in printed, printed)
 
@@ -175,7 +184,7 @@ for most, place in (("2", "one"), ("0", "scans")):
     works("batch.py", place, "--model", "plate.meam", "--poses", most, "--out", "all.csv", "--report", "pages", *["--why"] * (most == "2"))
     data = data_of(read("pages/a b.pcd.html"))
     check(all(("For it, in" in pose["why"]) == (most == "2") for pose in data["poses"]), f"the reasons with --why alone: {data['poses'][0]['why']}")
-    check(data["why"] == f"ppfmeam why plate.meam '{place}/a b.pcd' --at {{x}} {{y}} {{z}}", data["why"])
+    check(data["why"] == f"ppfmeam why plate.meam '{place}/a b.pcd' --poses {most} --at {{x}} {{y}} {{z}}", data["why"])
 check(sorted(os.listdir("pages")) == ["a b.pcd.html", "coarse.pcd.html", "index.html"], f"{os.listdir('pages')}")
 check(numpy.allclose([pose["transform"] for pose in data["poses"]], poses, atol=1e-4), "the same poses")
 text, advice = read("pages/index.html"), [row["advice"] for row in csv.DictReader(read("all.scans.csv").splitlines())]
@@ -199,7 +208,7 @@ check(cell.count("<path data-rank") == cell.count("<tr data-rank") == len(found)
 found.save("python.html")
 data = data_of(read("python.html"))
 check(numpy.allclose([pose["transform"] for pose in data["poses"]], found.poses.reshape(-1, 16)), "the poses")
-check(data["why"] == "print(ppfmeam.why('plate.stl', 'scan.pcd', at=({x}, {y}, {z})))", data["why"])
+check(data["why"] == "print(ppfmeam.why('plate.stl', 'scan.pcd', poses=2, at=({x}, {y}, {z})))", data["why"])
 check("ppfmeam.detect(&#x27;plate.stl&#x27;, &#x27;scan.pcd&#x27;, poses=2)" in read("python.html"), "the call")
 check(data_of(html.unescape(notebook.Frame(read("python.html"))._repr_html_())) == data, "a frame holds the page")
 with warnings.catch_warnings(record=True):

@@ -5,9 +5,8 @@ import argparse
 import numpy
 
 import ppfmeam
-from ppfmeam import api, asked, choices, scripting
+from ppfmeam import asked, choices, scripting
 
-from ..choices import Chosen
 from ..report.told import names_of
 
 
@@ -38,10 +37,10 @@ def gripper_of(options):
     return "jaws" if options.cup is None else "cup", {**main, **dict(options.gripper)}
 
 
-def grasps_of(of, models, names, gripper, lengths):
+def grasps_of(of, names, gripper, lengths):
     """Of each type of part."""
     kind = "suction" if gripper == "cup" else "parallel"
-    sets = [ppfmeam.grasps(mesh, propose=kind, symmetries=model, **lengths) for mesh, model in zip(of.shapes(), models)]
+    sets = [ppfmeam.grasps(mesh, propose=kind, symmetries=model, **lengths) for mesh, model in zip(of.shapes(), of.models)]
     for name, found in zip(names, sets):
         if not len(found):
             raise scripting.Failure(f"no place of {name} is one for this gripper: give another --opening, or a smaller --cup")
@@ -52,6 +51,7 @@ def main():
     parser = scripting.Parser(description=__doc__)
     asked.add_options(parser)
     parser.set_defaults(poses=0, probability=0.5)  # all copies are in the way
+    choices.add_options(parser, "detect", "time_limit")
     add_gripper_options(parser)
     parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")
     parser.add_argument("--robot-frame", metavar="FILE", help="the camera in the robot's frame, of OpenCV or ROS: picks are printed in it")
@@ -62,10 +62,8 @@ def main():
     scripting.require_folder_of(options.json)
     gripper, lengths = gripper_of(options)
     of, names = asked.Asked(options), names_of(options.parts)
-    how, reading = Chosen("detect", {"preset": options.preset, "features": options.features}), Chosen("read", {"solid": options.solid})
-    models = [api.part_of(part, options.cad_scale, how, reading) for part in of.parts]
-    sets = grasps_of(of, models, names, gripper, lengths)
-    found = ppfmeam.detect(models, of.scan, **of.inputs())
+    sets = grasps_of(of, names, gripper, lengths)
+    found = ppfmeam.detect(of.models, of.scan, time_limit=options.time_limit, **of.inputs())
     picks = ppfmeam.pick(found, sets, of.scan, gripper=gripper, bin="none" if options.no_bin else "detected", robot_frame=options.robot_frame,
                          camera=of.beside["camera"], scale=options.scale)
     print(picks.report, picks.advice)

@@ -107,14 +107,14 @@ def main():
     of = asked.Asked(options)
     inputs = of.inputs()
     if options.truth is not None:
-        found = api.why(of.parts, of.scan, pose=true_transforms(of), **inputs)
+        found = api.why(of.models, of.scan, pose=true_transforms(of), **inputs)
         for row, diagnosis in enumerate(found, 1):
             print(f"{row:4d}  {diagnosis.lost_in or 'found':26s}{answer(diagnosis, options.parts)}")
         print(f"{sum(not diagnosis.lost_in for diagnosis in found)} of {len(found)} were found")
         told = [content(diagnosis) for diagnosis in found]
     else:
         place = {"at": options.at} if options.at else {"pose": chosen(options.pose), "fit": True}
-        diagnosis = api.why(of.parts, of.scan, **place, **inputs)
+        diagnosis = api.why(of.models, of.scan, **place, **inputs)
         print(answer(diagnosis, options.parts))
         if options.more:
             print_numbers(diagnosis)

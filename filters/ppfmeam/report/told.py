@@ -5,7 +5,7 @@ import re
 import shlex
 import sys
 
-from .. import api, choices, filters, regions, scripting
+from .. import api, asked, choices, filters, regions, scripting
 
 SAME = ("CADOffset", "CADScale", "CameraFile", "Projection", "Region", "SensorPosition", "ViewDirection")  # and the choices
 
@@ -86,7 +86,7 @@ class Told:
         said = [sentences(why) for why in api.why(found.models, pose=found.data, **found.inputs, **found.settings.values)]
         choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
         return cls([model.name for model in found.models], name, found.report.splitlines(), found.advice, {"total": found.seconds}, chosen,
-                   f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({part}, {scan}{words}, at=({{x}}, {{y}}, {{z}})))", said)
+                   f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({part}, {scan}{words}{choices_made}, at=({{x}}, {{y}}, {{z}})))", said)
 
 
 def names_of(parts):
@@ -134,14 +134,18 @@ def settings(options):
 
 def why_command(options, scan, image=None, boundary=None):
     """That of `why` for a scan, with {x} {y} {z} for the place; empty where the options name no part."""
+    image = image if getattr(options, "image_edges", True) else None  # it is then of the page alone
     beside = {"camera": options.camera, "image": image, "image-camera": image and options.image_camera, "boundary": boundary,
               "scale": options.scene_scale, "cad-scale": None if options.model else options.cad_scale}
     words = [text for name, value in beside.items() if value not in (None, "", 1) for text in ("--" + name, str(value))]
     words += ["--solid", str(options.solid)] if options.solid and not options.model else []
     if options.depth_scale and scan.lower().endswith(scripting.DEPTH_IMAGES):
         words += ["--depth-scale", str(options.depth_scale)]
-    for name, values in (("--roi", options.roi), ("--viewpoint", options.viewpoint)):
+    offset = None if options.model else getattr(options, "cad_offset", None)  # batch has none
+    for name, values in (("--roi", options.roi), ("--viewpoint", options.viewpoint), ("--cad-offset", offset and any(offset) and offset)):
         words += [name, *map(str, values)] if values else []
+    words += choices.words_of("detect", {name: value for name, value in choices.of_options("detect", options).differing().items()
+                                         if name in asked.OF_SEARCH})
     parts = options.model or options.cad or list(map(str, getattr(options, "objects", None) or ()))
     named = [parts[0], scan] if len(parts) == 1 else [scan, *(word for part in parts for word in ("--model" if options.model else "--cad", part))]
     return shlex.join(["ppfmeam", "why", *named, *words]) + " --at {x} {y} {z}" if parts else ""
