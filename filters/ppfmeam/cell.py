@@ -230,9 +230,20 @@ def picks_of(station, bin, film=None, strip=None):
             bin.scan_again()
 
 
+def can_draw():
+    """Whether pictures can be made here; says why not."""
+    from . import picture
+    try:
+        picture.require_display()
+    except scripting.Failure as failure:
+        print(f"no pictures are made: {failure}", file=sys.stderr)
+        return False
+    return True
+
+
 class Cell:
     """The picks in DIR/picks.csv, a row for each as it comes. Bins that are done are not picked again, one that was interrupted
-    starts anew. Of each bin DIR/NAME.pvd is a film and, with a display, DIR/NAME.png a strip of pictures."""
+    starts anew. Of each bin DIR/NAME.pvd is a film and, where there is a display or Xvfb, DIR/NAME.png a strip of pictures."""
 
     def __init__(self, folder):
         scripting.make_folder(folder)
@@ -249,6 +260,7 @@ class Cell:
         wanted, station, start = list(wanted), None, time.monotonic()
         todo = [each for each in wanted if each not in self.done]
         waiting = all_of_them = sum(int(copies) for *_, copies, _ in todo)
+        pictures = bool(todo) and can_draw()
         for each in todo:
             if station is None or known != each[:3]:
                 known, station = each[:3], station_of(*each[:3])
@@ -256,7 +268,7 @@ class Cell:
             waiting -= copies
             name = "_".join(each)
             film, strip = Film(self.folder, name, station), None
-            if os.environ.get("DISPLAY"):
+            if pictures:
                 from .cellpicture import Strip
                 strip = Strip(station)
             for row in picks_of(station, Bin(station, copies, seed, size), film, strip):

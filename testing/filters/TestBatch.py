@@ -70,8 +70,11 @@ check(lines and all(re.fullmatch(rf"[1-{SCENES}] of {SCENES} scans, 0 failed, \d
                     for line in lines) and lines[-1].endswith("\r\n"), f"{lines}")
 
 # The dataset's own objects, which are trained, and any number of threads.
-batch("bins", "--threads", "1", "--out", "own.csv")
+batch("bins", "--threads", "1", "--out", "own.csv", "--json", "own.json")
 check(content("own.csv") == content("poses.csv"), "another table with one thread and the dataset's own object")
+told = scripting.read_json("own.json")["scans"]
+check([each["scan"] for each in told] == names and [(each["scan"], pose["t"]) for each in told for pose in each["poses"]] ==
+      [(row["scan"], list(map(float, row["t"].split()))) for row in poses], "the same poses as JSON")
 
 # A killed run is taken up; with other options it is not.
 killed("killed.csv", lambda process: process, *command("bins", "--model", "plate.meam", "--out", "killed.csv"))

@@ -2,6 +2,7 @@
 """cell.py empties a small bin of a user's part: a row for each pick, a film and a strip of pictures that belong together; a run that is
 done, or was stopped, is gone on with and ends with the same rows; and the paper's Table 9 is made of such rows."""
 import csv
+import json
 import os
 import re
 import signal
@@ -43,13 +44,15 @@ def rows_of(text):
     return list(csv.DictReader(text.splitlines()))
 
 
-done = cell("--out", "out")
+done = cell("--out", "out", "--json", "out.json")
 check(done.returncode == 0, done.stderr)
 rows = rows_of(content("out/picks.csv"))
 tried = [row for row in rows if row["outcome"]]
 taken = sum(row["outcome"] == "success" for row in tried)
 check(taken == COPIES, f"discs that lie apart come out: {done.stderr}")
 left = COPIES
+told = json.loads(content("out.json"))
+check(told["parts_taken"] == taken and [pick["reason"] for pick in told["picks"]] == [row["reason"] for row in rows], f"{told}")
 for number, row in enumerate(rows, 1):
     check(int(row["pick"]) == number and int(row["left"]) == left, f"pick {number} of {rows}")
     left -= row["outcome"] == "success"

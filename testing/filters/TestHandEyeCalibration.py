@@ -115,6 +115,11 @@ check(result.returncode == 0 and "pair   8:" in result.stdout and "robot's base"
 with open(path("command.json")) as file:
     matrix = json.load(file)["T_robot_camera"]
 check(close([v for row in matrix for v in row], flat(camera), 1e-6), f"{matrix}")
+result = command(path("beside.csv"), "--json", path("told.json"))
+with open(path("told.json")) as file:
+    told = json.load(file)
+check(told["T_robot_camera"] == matrix and told["mount"] == "beside" and [pair["pair"] for pair in told["pairs"]] == list(range(1, 9)) and
+      told["report"] in result.stdout, f"{told}")
 result = command(path("off.csv"), "--limit", "1", "--out", path("off.json"))
 check(result.returncode == 1 and "larger than 1 mm" in result.stderr and not os.path.exists(path("off.json")), f"{result}")
 result = command(path("few.csv"))

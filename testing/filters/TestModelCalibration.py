@@ -2,6 +2,7 @@
 """A model that says too much, or turns its part wrongly, is told so by judged poses: by the filter, by the program from a
 table and from a dataset, and from Python; and says so in the next scan. Bad tables are told apart."""
 import csv
+import json
 import math
 import os
 
@@ -70,7 +71,10 @@ with open("judged.csv", "w", newline="") as file:
         writer.writerow((f"scan{scene}", 1, 1, 0.9, place_said, place_said * certainty, "", "", "", words[outcome]))
     writer.writerow(("scan0", 1, 5, 0.9, 0.1, 0.1, "", "", "", ""))
     writer.writerow(("scan11", "", "", "", "", "", "", "", "no edges", ""))
-text = works("calibrate.py", "judged.csv", "--model", "part.meam", "--out", "told.meam")
+text = works("calibrate.py", "judged.csv", "--model", "part.meam", "--out", "told.meam", "--json", "told.json")
+written = json.loads(read("told.json"))
+check(written["poses"] == 40 and [*written["places"], *written["rotations"]] == numbers[:4] and
+      sum(row["poses"] for row in written["classes"] if row["claim"] == "place") == 40, f"{written}")
 check("calibrated on 40 poses" in text and "75.0%" in text, text)
 check([value for value, in field(ppfmeam.load("told.meam").data, "Calibration")] == numbers, "as by the filter")
 for name, change in (("none", lambda text: text.replace(",right", "")), ("word", lambda text: text.replace(",turned", ",perhaps")),

@@ -12,14 +12,14 @@ from .apart import Ended, apart
 from .journal import Journal
 from .ranks import SERVICE_PAUSE, together
 
-ELSEWHERE = ("out", "threads", "watch", "form", "report", "why")  # options that change no pose
+ELSEWHERE = ("out", "threads", "watch", "form", "json", "report", "why")  # options that change no pose
 
 
 class Plan:
     """What the first process finds out for all: the scans, those that are left to do, and the parts."""
 
     def __init__(self, options, journal):
-        scripting.require_folder_of(options.out, table.path_of_scans(options.out))
+        scripting.require_folder_of(options.out, table.path_of_scans(options.out), options.json)
         pages.require(options.report)
         self.scans = scans.source(options).list()
         wanted = parts.parts_of(options)
@@ -118,6 +118,8 @@ def finish(options, plan, journal):
     """Writes the result and says what is in it."""
     lines, _ = journal.lines()
     table.write(options.out, plan.names(), lines)
+    if options.json:
+        scripting.write_json(options.json, table.content_of(plan.names(), lines))
     journal.remove()
     lines = [lines[name] for name in plan.names()]
     if options.report:

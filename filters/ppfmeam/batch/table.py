@@ -23,6 +23,18 @@ def rows_of(poses, objects):
     return rows
 
 
+def content_of(names, lines):
+    """The same for JSON."""
+    def pose(row):
+        told = dict(zip(POSES[1:], row))
+        return {**{name: float(told[name]) for name in POSES[3:6]}, **{name: list(map(float, told[name].split())) for name in ("R", "t")},
+                "obj_id": told["obj_id"], "rank": told["rank"]}
+
+    return {"scans": [{"scan": name, "read_s": float(lines[name]["read_s"]), "find_s": float(lines[name]["find_s"]),
+                       **{column: lines[name][column] for column in ("failure", "warning", "advice")},
+                       "poses": [pose(row) for row in lines[name]["rows"]]} for name in names]}
+
+
 def path_of_scans(path):
     """Where the second table goes: poses.csv has poses.scans.csv beside it."""
     name, extension = os.path.splitext(path)

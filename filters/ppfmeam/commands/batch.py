@@ -56,6 +56,7 @@ def options_of_user(arguments=None):
     scripting.add_method_options(parser)
     parser.add_argument("--out", metavar="CSV",
                         help="table to write; OUT.run beside it keeps what is done")
+    parser.add_argument("--json", metavar="FILE", help="write the poses of all scans as JSON, too, with times and failures")
     parser.add_argument("--report", metavar="FOLDER",
                         help="write a page for any browser of each scan to a folder, and index.html, which lists them")
     parser.add_argument("--why", action="store_true",
@@ -64,8 +65,8 @@ def options_of_user(arguments=None):
     options = parser.parse_args(arguments)
     if bool(options.watch) == bool(options.scans) or bool(options.watch) == bool(options.out):
         parser.error("give SCANS and --out, or --watch")
-    if options.watch and options.report:
-        parser.error("--report is of SCANS, not of --watch")
+    if options.watch and (options.report or options.json):
+        parser.error("--report and --json are of SCANS, not of --watch")
     if options.depth_scale and not options.camera:
         parser.error("--depth-scale is of depth images with their --camera")
     if options.viewpoint and options.camera:

@@ -20,6 +20,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from .. import dataset, evaluation, filters, scripting
 
 VERDICTS = {"1": (1, 0), "turned": (1, 2), "0": (0, 3)}  # CopyIsThere and PoseOutcome
+CLASSES = ("Claim", "Least", "Most", "Poses", "Right", "Before", "After")
 ARRAYS = ("PlaceProbability", "Certainty", "Scene", "CopyIsThere", "PoseOutcome")
 
 
@@ -69,12 +70,16 @@ def confirmed(path):
     return poses
 
 
-def print_classes(table):
-    columns = [table.GetColumnByName(name) for name in ("Claim", "Least", "Most", "Poses", "Right", "Before", "After")]
+def classes_of(table):
+    """Of each class of poses a row of CLASSES."""
+    columns = [table.GetColumnByName(name) for name in CLASSES]
+    return [[column.GetValue(row) for column in columns] for row in range(table.GetNumberOfRows())]
+
+
+def print_classes(classes):
     said = {"place": "that a copy is there", "pose": "that the pose is right, with its rotation"}
     last = None
-    for row in range(table.GetNumberOfRows()):
-        claim, least, most, poses, right, before, after = (column.GetValue(row) for column in columns)
+    for claim, least, most, poses, right, before, after in classes:
         if claim != last:
             print(f"\n{said[claim]:44} poses   right    said  calibrated")
             last = claim
@@ -95,12 +100,13 @@ def main():
     parser.add_argument("--object", type=scripting.count, help="of a dataset: the number of the model's object, where there are several")
     parser.add_argument("--split", default="test", help="of a dataset: folder of the scenes (default: %(default)s)")
     parser.add_argument("--scenes", type=evaluation.numbers, help="of a dataset: such as 0-4,7 (default: all)")
+    parser.add_argument("--json", metavar="FILE", help="write what is printed as JSON")
     parser.add_argument("--threads", type=scripting.count, default=0, help="0: all cores (default)")
     options = parser.parse_args()
     options.preset, options.features = "recommended", "both"
 
     scripting.require_model_name(options.out)
-    scripting.require_folder_of(options.out)
+    scripting.require_folder_of(options.out, options.json)
     if not os.path.isdir(options.scans):
         scripting.require_file(options.scans)
     model = scripting.read_model(options.model)
@@ -109,7 +115,8 @@ def main():
     calibration.SetInputDataObject(1, in_dataset(options, model) if os.path.isdir(options.scans) else confirmed(options.scans))
     calibrated = scripting.update(calibration).GetOutputDataObject(0)
     table = calibration.GetOutputDataObject(1)
-    print_classes(table)
+    classes = classes_of(table)
+    print_classes(classes)
     before, after = (scripting.field(table, name) for name in ("LossBefore", "LossAfter"))
     print(f"\nmean logarithmic loss of a pose: {before:.4f}, calibrated {after:.4f}")
     numbers = table.GetFieldData().GetArray("Calibration")
@@ -119,3 +126,8 @@ def main():
     scripting.write_model(calibrated, options.out)
     print(f"{options.out}: calibrated on {poses:.0f} poses; {line_words('places', constant, slope)}, "
           f"{line_words('rotations', turned_constant, turned_slope)}")
+    if options.json:
+        names = [name.lower() for name in CLASSES]
+        scripting.write_json(options.json, {
+            "model": options.out, "poses": int(poses), "loss_before": before, "loss_after": after, "places": [constant, slope],
+            "rotations": [turned_constant, turned_slope], "classes": [dict(zip(names, row)) for row in classes]})

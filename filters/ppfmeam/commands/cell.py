@@ -4,10 +4,9 @@ is found is played among the true parts, the part is taken away and the others c
 be picked, or three picks in a row fail. Prints each pick, and what was left and why.
 
 DIR gets picks.csv, a row for each pick, from which a run goes on that was stopped; of each bin a film that ParaView plays (.pvd),
-and with a display a strip of pictures (.png)."""
+and a strip of pictures (.png)."""
 import argparse
 import os
-import sys
 import zlib
 
 from .. import cell, choices, scripting, simulation
@@ -32,11 +31,28 @@ def options_of_user():
     parser.add_argument("--seed", type=scripting.count, default=1,
                         help="of the first bin, the next has the next one (default: %(default)s)")
     parser.add_argument("--threads", type=scripting.count, default=0, help="threads to work with; 0: all cores (default)")
+    parser.add_argument("--json", metavar="FILE", help="write what is printed as JSON")
     parser.add_argument("--out", default="cell", metavar="DIR", help="folder to write (default: %(default)s)")
     options = parser.parse_args()
     if options.bins < 1 or not 1 <= options.copies <= 10000:
         parser.error("--bins has to be 1 or more, --copies 1 to 10000")
     return options
+
+
+def tell(rows, path):
+    """Prints the picks, and writes them as JSON, if that is wanted."""
+    print_picks(rows)
+    if path:
+        counts = zip(("bins_done", "bins_emptied", "picks_tried", "parts_taken", "parts_left"), cell.summary(rows))
+        scripting.write_json(path, {**dict(counts), "picks": [{name: number_of(value) for name, value in row.items()} for row in rows]})
+
+
+def number_of(text):
+    """What a column of the table holds."""
+    try:
+        return float(text) if "." in text else int(text)
+    except ValueError:
+        return text
 
 
 def print_picks(rows):
@@ -55,6 +71,7 @@ def main():
     options = options_of_user()
     mesh = scripting.read_mesh(options.cad, scale=options.cad_scale, solid=options.solid)
     gripper, lengths = gripper_of(options)
+    scripting.require_folder_of(options.json)
     with open(options.cad, "rb") as file:  # another part under the same name is another cell
         digest = zlib.crc32(file.read() + repr((options.cad_scale, options.solid)).encode())
     known = (f"{os.path.splitext(os.path.basename(options.cad))[0]}-{digest:08x}", options.sensor,
@@ -66,8 +83,6 @@ def main():
         picks.run(wanted, lambda *_: cell.Station(options.cad, mesh, options.sensor, gripper, lambda diameter: lengths,
                                                   options.threads), options.bin)
     except KeyboardInterrupt:
-        print_picks(picks.rows(wanted))  # what is known
+        tell(picks.rows(wanted), options.json)  # what is known
         raise
-    print_picks(picks.rows(wanted))
-    if not os.environ.get("DISPLAY"):
-        print("no picture was made, there is no display: xvfb-run -a makes one", file=sys.stderr)
+    tell(picks.rows(wanted), options.json)

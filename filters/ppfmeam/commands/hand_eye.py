@@ -19,11 +19,12 @@ Twenty pairs, with the gripper turned by 30 degrees and more about several axes.
                              "the file says, or else beside)")
     parser.add_argument("--out", metavar="FILE",
                         help="write T_robot_camera: .json in mm, or .yaml, a transform of ROS in metres")
+    parser.add_argument("--json", metavar="FILE", help="write what is printed as JSON, mm and degrees")
     parser.add_argument("--limit", type=choices.factor, metavar="MM", help="fail when the residual is larger than this")
     options = parser.parse_args()
 
     scripting.require_file(options.pairs)
-    scripting.require_folder_of(options.out)
+    scripting.require_folder_of(options.out, options.json)
     calibration = filters.vtkMEAMHandEyeCalibration()
     calibration.SetFileName(options.pairs)
     if options.camera:
@@ -35,10 +36,15 @@ Twenty pairs, with the gripper turned by 30 degrees and more about several axes.
     for row in range(4):
         print("  " + " ".join(f"{value:12.6f}" for value in matrix[4 * row:4 * row + 4]))
     table = calibration.GetOutputDataObject(1)
-    for row in range(table.GetNumberOfRows()):
-        pair, shift, turn = (table.GetValue(row, column).ToDouble() for column in range(3))
+    pairs = [[table.GetValue(row, column).ToDouble() for column in range(3)] for row in range(table.GetNumberOfRows())]
+    for pair, shift, turn in pairs:
         print(f"pair {pair:3.0f}: {shift:8.3f} mm {turn:8.3f} degrees")
-    print(found.GetFieldData().GetAbstractArray("Report").GetValue(0))
+    report = found.GetFieldData().GetAbstractArray("Report").GetValue(0)
+    print(report)
+    if options.json:
+        scripting.write_json(options.json, {
+            "mount": "hand" if on_hand else "beside", "T_robot_camera": [matrix[4 * row:4 * row + 4] for row in range(4)], "report": report,
+            "pairs": [{"pair": int(pair), "mm": shift, "degrees": turn} for pair, shift, turn in pairs]})
     residual = scripting.field(found, "ResidualShift")
     if options.limit is not None and residual > options.limit:
         raise scripting.Failure(f"the residual of {residual:.2f} mm is larger than {options.limit:g} mm: leave out pairs that stand out, "
