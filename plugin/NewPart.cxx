@@ -22,6 +22,7 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QScrollArea>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -51,12 +52,11 @@ public:
       "Of a STEP or IGES file with several solids the one that is the part, by its number; all: they are one part. The "
       "answer tells how large each is.");
     this->Solid->setSpecialValueText("all");
+    this->CADUnit = this->addUnit("CADUnit", "CAD's unit", "The unit of a mesh. STEP and IGES files tell theirs.");
     this->Scan = this->addFile("Scan", "Scan", "Scan (*.pcd *.ply *.png *.tif *.tiff)",
       "One scan of the bin: a cloud (PCD, PLY), best organized, or a depth image (PNG, TIFF).");
-    this->Unit = this->add(new QComboBox, "Unit", "Scan's unit",
-      "The unit of the cloud's points. A depth image has its own in the calibration.");
-    this->Unit->addItem("mm", 1.0);
-    this->Unit->addItem("m", 1000.0);
+    this->Unit = this->addUnit(
+      "Unit", "Scan's unit", "The unit of the cloud's points. A depth image has its own in the calibration.");
     this->Calibration = this->addFile("Calibration", "Calibration", "Calibration (*.yaml *.yml *.json *.xml)",
       "The calibration of the sensor (OpenCV, ROS, BOP): of depth images, and of clouds that are not organized. An "
       "organized cloud needs none.");
@@ -138,6 +138,16 @@ private:
     return length;
   }
 
+  QComboBox* addUnit(const char* name, const char* label, const char* tip)
+  {
+    QComboBox* unit = this->add(new QComboBox, name, label, tip);
+    unit->addItem("mm", 1.0);
+    unit->addItem("cm", 10.0);
+    unit->addItem("m", 1000.0);
+    unit->addItem("inch", 25.4);
+    return unit;
+  }
+
   pqFileChooserWidget* addFile(const char* name, const char* label, const char* kinds, const char* tip)
   {
     pqFileChooserWidget* chooser = this->add(new pqFileChooserWidget(this), name, label, tip);
@@ -159,6 +169,7 @@ private:
     this->Folder->findChild<QLineEdit*>()->setPlaceholderText(this->ownFolder());
     this->Solid->setValue(0);
     this->Solid->setEnabled(this->files().hasSolids());
+    this->CADUnit->setEnabled(!this->files().hasSolids());
   }
 
   void showGripper()
@@ -179,6 +190,7 @@ private:
     PartFiles part;
     part.cad = this->CAD->singleFilename();
     part.solid = this->Solid->value();
+    part.cadScale = part.hasSolids() ? 1.0 : this->CADUnit->currentData().toDouble();
     part.scan = this->Scan->singleFilename();
     part.scanScale = part.isDepthImage() ? 1.0 : this->Unit->currentData().toDouble();
     part.calibration = this->Calibration->singleFilename();
@@ -219,6 +231,15 @@ private:
     }
   }
 
+  /// With the fields of this page in place of what filters and programs have for them.
+  static QString worded(QString text)
+  {
+    return text.replace("(CADScale)", "(CAD's unit)")
+      .replace("(Scale of its reader)", "(Scan's unit)")
+      .replace(QRegularExpression("Give the place and the size of the bin, or do without one \\(--no-bin;.*C\\+\\+\\)\\."),
+        "Say that the parts lie in no bin, or scan all of it.");
+  }
+
   void run()
   {
     PartFiles part = this->files();
@@ -229,7 +250,7 @@ private:
     try
     {
       require(part);
-      const QString found = this->Search.run(part);
+      const QString found = worded(this->Search.run(part));
       const QStringList programs = writePrograms(part, found);
       this->Answer->setText(found + "\n\nIn " + part.folder +
                             " are the trained model and programs that find it in any scan: " + programs.join(", ") +
@@ -237,14 +258,14 @@ private:
     }
     catch (const std::exception& error)
     {
-      this->Answer->setText(error.what());
+      this->Answer->setText(worded(error.what()));
     }
     this->Start->setEnabled(true);
   }
 
   QFormLayout* Form;
   pqFileChooserWidget *CAD, *Scan, *Calibration, *Image, *RobotFrame, *Folder;
-  QComboBox *Unit, *Gripper;
+  QComboBox *CADUnit, *Unit, *Gripper;
   QSpinBox* Solid;
   QDoubleSpinBox *Size, *FingerWide, *FingerThick;
   QCheckBox* Bin;

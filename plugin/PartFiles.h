@@ -15,6 +15,7 @@ struct PartFiles
 
   QString cad, scan;
   int solid = 0;                                   ///< of a CAD file with several, from 1; 0: all together
+  double cadScale = 1.0;                           ///< brings the lengths of a mesh to mm
   double scanScale = 1.0;                          ///< brings the scan's lengths to mm
   QString calibration;                             ///< of the sensor
   QString image;                                   ///< with a pixel for each of the scan's

@@ -26,7 +26,10 @@ QMap<QString, QString> wordsOf(const PartFiles& part, const QString& found)
 {
   return { { "NAME", part.name() }, { "SCAN_NAME", remark(QFileInfo(part.scan).fileName()) },
     { "FOUND", remark(found) }, { "CAD", quoted(part.cad) }, { "SCAN", quoted(part.scan) },
-    { "CHOSEN", part.solid > 0 ? QString(", solid=%1").arg(part.solid) : QString() },
+    { "CHOSEN", part.solid > 0          ? QString(", solid=%1").arg(part.solid)
+                : part.cadScale != 1.0 ? QString(", scale=%1").arg(part.cadScale)
+                                       : QString() },
+    { "CAD_SCALE", QString::number(part.cadScale) },
     { "SOLID", QString::number(part.solid) }, { "MODEL", quoted(part.modelFile()) }, { "GRASPS", quoted(part.graspFile()) },
     { "CALIBRATION", quoted(part.calibration) }, { "IMAGE", quoted(part.image) },
     { "ROBOT_FRAME", quoted(part.robotFrame) }, { "SCALE", QString::number(part.scanScale) },
@@ -41,7 +44,7 @@ QStringList conditionsOf(const PartFiles& part)
     { "cup", part.gripper == PartFiles::Cup }, { "bin", part.hasBin }, { "robot", !part.robotFrame.isEmpty() },
     { "calibration", !part.calibration.isEmpty() }, { "image", !part.image.isEmpty() },
     { "scale", part.scanScale != 1.0 }, { "depth", part.isDepthImage() }, { "solid", part.hasSolids() },
-    { "chosen", part.solid > 0 } };
+    { "chosen", part.solid > 0 }, { "unit", part.cadScale != 1.0 } };
   return all.keys(true);
 }
 

@@ -18,6 +18,7 @@
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
@@ -149,6 +150,20 @@ public:
     return cad;
   }
 
+  /// A CAD file of another unit.
+  pqPipelineSource* inMillimeters(pqPipelineSource* cad, double scale)
+  {
+    if (scale == 1.0)
+    {
+      return cad;
+    }
+    pqPipelineSource* mesh = this->filter("MeshPreparation", { { "Input", { cad->getOutputPort(0) } } });
+    set(mesh, "Scale", scale);
+    this->update(mesh);
+    leaveHidden(mesh);
+    return mesh;
+  }
+
   pqPipelineSource* openScan(const PartFiles& part)
   {
     const bool isPLY = part.scan.endsWith(".ply", Qt::CaseInsensitive);
@@ -188,7 +203,7 @@ public:
     return poses;
   }
 
-  /// Grasps, which are written, and picks of the likely poses.
+  /// Grasps, which are written, and picks of the likely poses; null where none is.
   pqPipelineSource* plan(pqPipelineSource* cad, pqPipelineSource* scan, pqPipelineSource* poses, const PartFiles& part)
   {
     const bool isCup = part.gripper == PartFiles::Cup;
@@ -199,8 +214,18 @@ public:
     set(grasps, "Propose", isCup ? 2 : 1); // suction or parallel jaws
     setLengths(grasps, part);
     this->update(grasps);
+    if (vtkPointSet::SafeDownCast(dataOf(grasps))->GetNumberOfPoints() == 0)
+    {
+      throw std::runtime_error(std::string("The part has no place for this gripper: give ") +
+                               (isCup ? "a smaller cup" : "another opening, thinner fingers, or a cup") +
+                               ", or None to find the part alone.");
+    }
     leaveHidden(grasps);
-    this->write("GraspWriter", grasps, 0, part.graspFile());
+    if (vtkDataSet::SafeDownCast(dataOf(poses))->GetNumberOfPoints() == 0)
+    {
+      this->write("GraspWriter", grasps, 0, part.graspFile());
+      return nullptr;
+    }
     pqPipelineSource* picks = this->filter(
       "PickPlanning", { { "Input", { poses->getOutputPort(0) } }, { "Mesh", { cad->getOutputPort(0) } },
                         { "Grasps", { grasps->getOutputPort(0) } }, { "Scan", { scan->getOutputPort(0) } } });
@@ -209,6 +234,7 @@ public:
     set(picks, "Bin", part.hasBin ? 0 : 2); // detected or none
     set(picks, "RobotFrameFile", part.robotFrame.toStdString().c_str());
     this->update(picks);
+    this->write("GraspWriter", grasps, 0, part.graspFile());
     applyAll();
     return picks;
   }
@@ -302,18 +328,20 @@ QString PartSearch::run(const PartFiles& part)
     Steps::leaveHidden(cad);
     pqPipelineSource* scan = steps.openScan(part);
     applyAll();
-    pqPipelineSource* poses = steps.find(cad, scan, part.image);
+    pqPipelineSource* mesh = steps.inMillimeters(cad, part.cadScale);
+    pqPipelineSource* poses = steps.find(mesh, scan, part.image);
     told = (fieldText(dataOf(cad), "CADReport") + "\n" + describePoses(dataOf(poses))).trimmed();
     if (!QDir().mkpath(part.folder))
     {
       throw std::runtime_error(("The folder " + part.folder + " cannot be made: choose another one.").toStdString());
     }
-    steps.write("ModelWriter", poses, ModelOutput, part.modelFile());
     if (part.gripper != PartFiles::NoGripper)
     {
-      vtkDataObject* picks = dataOf(steps.plan(cad, scan, poses, part));
-      told += "\n" + fieldText(picks, "PickReport"); // what to change stands in the view
+      pqPipelineSource* picks = steps.plan(mesh, scan, poses, part);
+      told += "\n" + (picks ? fieldText(dataOf(picks), "PickReport") // what to change stands in the view
+                            : QString("No picks are planned: no copy is more likely there than not."));
     }
+    steps.write("ModelWriter", poses, ModelOutput, part.modelFile()); // last: what an earlier run wrote belongs together
     if (!told.contains(steps.warning())) // one says the same as the report
     {
       told += "\n" + steps.warning();

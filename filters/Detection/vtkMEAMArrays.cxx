@@ -29,7 +29,7 @@ namespace
 {
 using meam::Error;
 
-constexpr std::size_t LineLength = 75; // letters, of an answer
+constexpr std::size_t LineLength = 66; // letters of an answer, as a view has room for beside the page New Part
 
 template <typename Scalar>
 using Vectors = std::vector<Eigen::Matrix<Scalar, 3, 1>>;

@@ -69,7 +69,7 @@ def answer():
 report, advice = said(picks, "PickReport"), said(picks, "PickAdvice")
 check(report == "0 of 2 copies can be picked, by 0 of 4 picks; the others: 2 too near to another copy.", report)
 check(advice.startswith("Copies too near to another copy: pick the other copies first"), advice)
-check(answer().replace("\n", " ") == f"{report} {advice}" and max(map(len, answer().split("\n"))) <= 75, answer())
+check(answer().replace("\n", " ") == f"{report} {advice}" and max(map(len, answer().split("\n"))) <= 66, answer())
 planning.SetMaximumTilt(0)
 planning.SetInputDataObject(2, cloud([(0, 0, 0)], Transform=[(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1)], Width=[20]))
 slanted = run(planning)

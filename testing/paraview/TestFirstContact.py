@@ -148,7 +148,7 @@ def look(folder):
     verdict = output(why).GetFieldData().GetAbstractArray("Verdict").GetValue(0)
     check(verdict.startswith("Hidden: something lies in front of"), verdict)
     text = output(why, 3).GetValueByName(0, "Text").ToString()
-    check(verdict in text.replace("\n", " ") and max(map(len, text.split("\n"))) <= 75, f"the answer in the view: {text}")
+    check(verdict in text.replace("\n", " ") and max(map(len, text.split("\n"))) <= 66, f"the answer in the view: {text}")
     look_at_charts(simple, found)
     look_at_pick(os.path.join(folder, "picked.pvsm"), output(simple.FindSource("camera.json")))
 

@@ -37,18 +37,29 @@ def solid(folder):
     """One of the solids of a STEP file, which has no other."""
     return [new_part_file("CAD", f"{folder}/rod.step"), new_part_file("Scan", f"{folder}/scan.pcd"), new_part_number("Solid", 2),
             *answer(f"The CAD file '{folder}/rod.step' holds 1 solid, no solid 2: choose 1, or 0 for all together."),
-            new_part_choice("Gripper", "Parallel jaws"), new_part_number("Solid", 1), START]
+            new_part_number("Solid", 1), new_part_choice("Gripper", "Suction cup"), new_part_length("Size", 500),
+            *answer("The part has no place for this gripper: give a smaller cup, or None to find the part alone."),
+            new_part_choice("Gripper", "Parallel jaws"), START]
+
+
+def metres(folder):
+    """A mesh in another unit."""
+    return [new_part_file("CAD", f"{folder}/metres.stl"), new_part_choice("CADUnit", "m"), START, new_part_choice("CADUnit", "mm")]
 
 
 def look_at_programs(folder):
-    """They take the solid that was chosen, and of another CAD all."""
+    """They take the solid and the unit that were chosen, and of another CAD all."""
+    with open(os.path.join(folder, "find_metres", "find_metres.py")) as file:
+        text = file.read()
+    size = re.search(r"The part is ([\d.]+) mm long", text)
+    check(size and float(size[1]) > 10 and f'"{folder}/metres.stl", scale=1000' in text, text)
     texts = {}
     for name in ("find_rod/find_rod.py", "find_rod/find_rod.cpp", "find_part/find_part.py"):
         with open(os.path.join(folder, name)) as file:
             texts[name] = file.read()
     python, cpp, other = texts.values()
     check(python.count(f'"{folder}/rod.step", solid=1') == 2 and f'meam::loadCAD("{folder}/rod.step", {{ 1 }});' in cpp, f"{python} {cpp}")
-    check("solid" not in other, other)
+    check("solid" not in other and "scale=" not in other, other)
 
 
 def right(folder):
@@ -89,15 +100,24 @@ def matrices(text):
 
 
 def main(paraview, pvpython, repository, build, long):
+    from vtkmodules.vtkIOGeometry import vtkSTLWriter
+
+    from ppfmeam import scripting
+
     here = os.path.dirname(os.path.abspath(__file__))
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.executable, os.path.join(repository, "testing", "install", "scan.py"), "make", folder], check=True)
         shutil.copy(os.path.join(repository, "testing", "fuzz", "corpus", "step", "rod.step"), folder)
         with open(os.path.join(folder, "part.stl"), "rb") as whole, open(os.path.join(folder, "cut.stl"), "wb") as cut:
             cut.write(whole.read(1000))
+        small = scripting.scaled(scripting.read(os.path.join(folder, "part.stl")), 0.001, "part.stl")
+        writer = vtkSTLWriter()
+        writer.SetInputData(small)
+        writer.SetFileName(os.path.join(folder, "metres.stl"))
+        writer.Write()
         if os.environ.get("PPFMEAM_PICTURE"):
             shoot(paraview, folder, [NEW_PART] + right(folder), os.path.join(os.environ["PPFMEAM_PICTURE"], "application_new_part.jpg"))
-        play(paraview, folder, [NEW_PART] + wrong(folder) + solid(folder) + right(folder) +
+        play(paraview, folder, [NEW_PART] + wrong(folder) + solid(folder) + metres(folder) + right(folder) +
              files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm"))
         look_at_programs(folder)
         subprocess.run([pvpython, os.path.join(here, "TestNewPart.py"), "--look", folder], check=True)
