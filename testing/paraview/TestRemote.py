@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A client and a server, of one process and of two, give the poses that ParaView alone gives, and the client shows them.
+"""A client and a server, of one process and of two, give the poses that ParaView alone gives, and the client shows them. A server
+of one process writes their page.
 
 Usage: TestRemote.py PVSERVER MPIRUN, under pvpython with a display.
 """
@@ -64,6 +65,11 @@ def by_server(*command):
         simple.Connect("localhost", port)
         simple.LoadPlugin(PLUGIN, remote=True, ns=vars(simple))
         poses = found()
+        if len(command) == len(pvserver) and os.path.exists("/usr/share/javascript/three"):
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "found.html")
+                simple.SaveData(path, simple.OutputPort(simple.GetActiveSource(), 0))
+                check(os.path.getsize(path) > 1e6, "the page of a server")
         processes = servermanager.ActiveConnection.GetNumberOfDataPartitions()
         simple.Disconnect()
         return poses, processes
