@@ -231,6 +231,12 @@ for path, words in (("other.html", "cannot read scan.pcd"), ("nowhere/other.html
         check(words in str(error), str(error))
 os.rename("gone.pcd", "scan.pcd")
 
+# A grid of which every second point is there, as in a thinned scan: numbers alone.
+thin = points.reshape(H, W, 3).copy()
+thin[:, 1::2] = numpy.nan
+spacing = content.Seen(ppfmeam._core.Scan(thin)).spacing
+check(0.5 < spacing / content.Seen(ppfmeam._core.Scan(points.reshape(H, W, 3))).spacing < 3, f"{spacing} mm between points")
+
 # Large data become small.
 large = numpy.zeros((1000, 1300, 3), numpy.float32)
 large[..., 0], large[..., 1] = numpy.meshgrid(numpy.arange(1300) * 0.2, numpy.arange(1000) * 0.2)

@@ -122,13 +122,14 @@ class Seen:
         low, high = numpy.percentile(kept, (1, 99), axis=0)
         room = FARTHEST * (high - low).max()
         near = ((kept > low - room) & (kept < high + room)).all(axis=1)
-        return kept[near], shades[near], self.distance(points[few] if self.is_grid else kept[near])
+        return kept[near], shades[near], self.distance(points[few], kept[near])
 
-    def distance(self, points):
-        if self.is_grid:
-            return float(numpy.nanmedian(numpy.linalg.norm(numpy.diff(points.astype(float), axis=1), axis=-1)))
-        across = points[:, :2].max(axis=0) - points[:, :2].min(axis=0)
-        return float((across.prod() / len(points)) ** 0.5)
+    def distance(self, points, kept):
+        steps = numpy.linalg.norm(numpy.diff(points.astype(float), axis=1), axis=-1) if self.is_grid else numpy.array([])
+        if numpy.isfinite(steps).any():
+            return float(numpy.nanmedian(steps))
+        across = kept[:, :2].max(axis=0) - kept[:, :2].min(axis=0)  # no two of them are neighbors of a grid
+        return float((across.prod() / len(kept)) ** 0.5)
 
     def bulk(self):
         """The box that is shown at first: of what lies in the bin, not of the floor around it, without a few stray points."""
