@@ -184,6 +184,10 @@ int vtkMEAMPoseEstimation::RequestData(
       const std::vector<int> rankOfEdges = ranksOfEdges(scene, partPoses, models, this->GetNumberOfThreads());
       addRanks(rankOfEdges, edges);
       fromPoses(poses, output);
+      for (const char* name : { "SceneId", "ImageId" }) // of a dataset
+      {
+        output->GetFieldData()->AddArray(vtkDataObject::GetData(inputVector[1])->GetFieldData()->GetArray(name));
+      }
       placeLabels(scene.edges, rankOfEdges, partPoses, models, output);
       output->GetPointData()->SetActiveScalars("Rank");
       InstanceSettings drawn;

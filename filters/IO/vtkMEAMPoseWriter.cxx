@@ -59,6 +59,19 @@ vtkMEAMPoseWriter::~vtkMEAMPoseWriter()
   this->SetRobotFrameFile(nullptr);
 }
 
+namespace
+{
+/// A number that a pose has, or all poses have; 0 where it is not known.
+int numberOf(vtkPolyData* poses, const char* name, vtkIdType pose)
+{
+  vtkDataArray* ofEach = poses->GetPointData()->GetArray(name);
+  vtkDataArray* ofAll = poses->GetFieldData()->GetArray(name);
+  return ofEach                                     ? static_cast<int>(ofEach->GetComponent(pose, 0))
+         : ofAll && ofAll->GetNumberOfValues() == 1 ? static_cast<int>(ofAll->GetComponent(0, 0))
+                                                    : 0;
+}
+}
+
 int vtkMEAMPoseWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
@@ -102,8 +115,8 @@ void vtkMEAMPoseWriter::WriteData()
       for (const meam::Pose& pose : poses)
       {
         meam::PoseRow row;
-        row.sceneId = this->SceneId;
-        row.imageId = this->ImageId;
+        row.sceneId = this->SceneId >= 0 ? this->SceneId : numberOf(input, "SceneId", rows.size());
+        row.imageId = this->ImageId >= 0 ? this->ImageId : numberOf(input, "ImageId", rows.size());
         row.objectId = this->ObjectId + (parts ? static_cast<int>(parts->GetComponent(rows.size(), 0)) : 0);
         row.T_scene_model = pose.T_scene_model;
         row.score = meam::probabilityOrScore(pose);

@@ -62,13 +62,15 @@ public:
   ///@}
 
   ///@{
-  /** Number of the scene in its dataset. Default: 0. */
+  /** Number of the scene in its dataset; -1: that of the poses, the array or the field data `SceneId`, or 0. Default:
+   * -1. */
   vtkSetMacro(SceneId, int);
   vtkGetMacro(SceneId, int);
   ///@}
 
   ///@{
-  /** Number of the image in its scene. Default: 0. */
+  /** Number of the image in its scene; -1: that of the poses, the array or the field data `ImageId`, or 0. Default: -1.
+   */
   vtkSetMacro(ImageId, int);
   vtkGetMacro(ImageId, int);
   ///@}
@@ -124,8 +126,8 @@ private:
   char* FileName = nullptr;
   int Format = BY_EXTENSION;
   int MaximumNumberOfPoses = 0;
-  int SceneId = 0;
-  int ImageId = 0;
+  int SceneId = -1;
+  int ImageId = -1;
   int ObjectId = 1;
   double Time = -1.0;
   char* RobotFrameFile = nullptr;

@@ -20,7 +20,7 @@ from ppfmeam.filters import (
     vtkMEAMTangentEstimation,
 )
 from meamtest import (Errors, Trained, Warnings, bracket, check, cloud, collection, connect, distance, fails, field, image, is_empty,
-                      points, pose_error, prints, run, scaled, tuples)
+                      points, pose_error, prints, run, scaled, set_fields, tuples)
 
 STAGES = ["Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total"]
@@ -77,6 +77,10 @@ check(field(poses, "Diameter") == field(truth, "Diameter"), "the diameter travel
 report = poses.GetFieldData().GetAbstractArray("Report").GetValue(0)
 check(report == "2 of 2 poses are more likely there than not. This scan does not tell how long the parts are along z: "
                 "a part that differs in that alone looks the same.", f"in words: {report}")
+numbered = type(scan)()
+numbered.ShallowCopy(scan)
+of = run(estimation(part, set_fields(numbered, SceneId=3, ImageId=7), MaximumNumberOfPoses=1))
+check([field(of, name) for name in ("SceneId", "ImageId")] == [[(3,)], [(7,)]] and not poses.GetFieldData().HasArray("SceneId"), "of which image")
 doubtful = estimation(part, scan, MinimumProbability=1.0)
 warnings = Warnings(doubtful)
 check(is_empty(run(doubtful)) and "No part was found." in str(warnings), f"no part without a word: {warnings}")

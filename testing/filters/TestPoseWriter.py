@@ -106,6 +106,13 @@ for name in ("all.bop", "all.json", "all.poses", "all.csv", "all.txt"):
 for key in ("Probability", "Certainty", "VisibleFraction", "Votes", "ViewId", "Rank"):
     check([v for v, in tuples(run(reader("all.json")), key)] == known[key], f"JSON loses {key}")
 
+# The scene and the image are those of the poses, each pose's or all poses', unless they are given.
+check(writer(run(reader("all.bop")), "same.bop").Write() == 1 and text("same.bop").splitlines()[1].startswith("3,4,1,"), text("same.bop"))
+check(writer(set_fields(data, SceneId=8, ImageId=9), "fields.bop").Write() == 1 and text("fields.bop").splitlines()[1].startswith("8,9,1,"),
+      text("fields.bop"))
+check(writer(set_fields(data, SceneId=8, ImageId=9), "given.bop", SceneId=0).Write() == 1 and
+      text("given.bop").splitlines()[1].startswith("0,9,1,"), text("given.bop"))
+
 # What a file does not know is not there, or is not a number where another pose of the file has it; the score then counts.
 UNKNOWN = ("PlaceProbability", "Probability", "Certainty", "VisibleFraction", "Votes", "Evidence")
 for name in ("all.bop", "all.txt"):
