@@ -20,12 +20,21 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from .filters import vtkMEAMPoseInstances
 from .scripting import Failure, bytes_of, shape_of, update, written
 
+EXTENSIONS = (".png", ".jpg", ".jpeg")
 WIDTH = 1600  # pixels
 JPEG_QUALITIES = range(85, 40, -5)
 STRIP = 56  # pixels above the scene, for the legend
 MARGIN = 14  # pixels
 TILT = 25  # degrees from the sensor's line of sight: shows depth
 BACKGROUND = (0.11, 0.12, 0.14)
+
+
+def require(path):
+    """Raises a Failure when a picture of this name cannot be made here; nothing without one."""
+    if path:
+        if not path.lower().endswith(EXTENSIONS):
+            raise Failure(f"{path}: the name of a picture ends in .png or .jpg")
+        require_display()
 
 
 def require_display():

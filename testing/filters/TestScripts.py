@@ -84,6 +84,14 @@ at, moved = (numpy.array([pick["transforms"] for pick in json.loads(read(name))[
 nearest = numpy.linalg.norm(at[:, None] - moved, axis=2).min(axis=1)
 check(nearest.max() < 2, f"the picks of the moved part are {nearest} mm off")
 refuses("no such file", "pick.py", "box.stl", "missing.pcd")
+refuses("the name of a picture ends in .png or .jpg", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--picture", "found.gif")
+# A scan without a part is none without a bin: nothing is picked, and what to look at is told.
+floor = numpy.zeros((W * H, 3))
+floor[:, 0], floor[:, 1], floor[:, 2] = numpy.arange(W * H) % W - W / 2, numpy.arange(W * H) // W - H / 2, 600
+write_pcd("floor.pcd", floor, W, H, "x y z")
+result = script("pick.py", "part.stl", "floor.pcd", "--cup", "8", "--json", "none.json")
+check(result.returncode == 0 and result.stdout.startswith("There is no copy to pick. ") and "The scan shows no edges" in result.stdout, f"{result}")
+check(json.loads(read("none.json"))["picks"] == [] and json.loads(read("none.json"))["advice"] in result.stdout, read("none.json"))
 refuses("a gripper has no length foo; it has opening", "pick.py", "box.stl", "scan.pcd", "--gripper", "foo=3")
 refuses("opening", "pick.py", "box.stl", "scan.pcd", "--opening", "-5")
 # The trained model, and the image as a file, give the same poses.

@@ -62,8 +62,7 @@ def options_of_user():
 def main():
     options = options_of_user()
     scripting.require_folder_of(options.out, options.json, options.matrices, options.picture, options.report)
-    if options.picture:
-        picture.require_display()
+    picture.require(options.picture)
     page.require(options.report)
     meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale, options.solid) for path in options.cad]
     parts = [scripting.read_model(path) for path in options.model] or meshes

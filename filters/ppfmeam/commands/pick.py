@@ -64,9 +64,11 @@ def main():
     of, names = asked.Asked(options), names_of(options.parts)
     sets = grasps_of(of, names, gripper, lengths)
     found = ppfmeam.detect(of.models, of.scan, time_limit=options.time_limit, **of.inputs())
-    picks = ppfmeam.pick(found, sets, of.scan, gripper=gripper, bin="none" if options.no_bin else "detected", robot_frame=options.robot_frame,
+    no_bin = options.no_bin or not len(found)  # without a copy it matters to none
+    picks = ppfmeam.pick(found, sets, of.scan, gripper=gripper, bin="none" if no_bin else "detected", robot_frame=options.robot_frame,
                          camera=of.beside["camera"], scale=options.scale)
-    print(picks.report, picks.advice)
+    advice = picks.advice if len(found) else found.advice
+    print(picks.report, advice)
     for k in numpy.flatnonzero(picks.possible):
         which = "part" if len(names) == 1 else names[picks.parts[k]]
         print(f"{which} {picks.instances[k] + 1} by {picks.names[k]}, clearance {picks.clearances[k]:.1f} mm")
@@ -76,4 +78,4 @@ def main():
         if options.robot_frame:
             columns["robot_transforms"] = picks.robot_transforms
         rows = [dict(zip(columns, row)) for row in zip(*columns.values())]
-        scripting.write_json(options.json, {"report": picks.report, "advice": picks.advice, "parts": names, "picks": rows})
+        scripting.write_json(options.json, {"report": picks.report, "advice": advice, "parts": names, "picks": rows})
