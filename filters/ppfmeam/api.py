@@ -12,7 +12,6 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPartitionedDataSetCo
 from . import Error, _core, dataset, filters, inputs, regions, scripting
 from .choices import checked_scale, takes, worded
 
-MODELS = (".meam", ".vtpc")
 WIDTHS = {"Quaternion": 4, "Covariance": 36}  # of arrays that have several values of a pose, also of none
 
 
@@ -286,7 +285,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
 def is_model(part):
     """Whether it is a trained model, or the name of the file of one."""
     return isinstance(part, (Model, vtkPartitionedDataSetCollection)) or \
-        isinstance(part, (str, os.PathLike)) and os.fspath(part).lower().endswith(MODELS)
+        isinstance(part, (str, os.PathLike)) and os.fspath(part).lower().endswith(scripting.MODELS)
 
 
 def models_of(part, cad_scale, settings, reading):

@@ -59,8 +59,7 @@ def mesh_of(cad, reading):
 def mesh_file(file, known=scripting.EXTENSIONS):
     """The name of a file that is there, and of a kind that has a mesh."""
     path = os.fspath(file)
-    if os.path.splitext(path)[1].lower() not in known:
-        raise Error(f"{path}: unknown kind of file; known are {', '.join(known)}")
+    scripting.require_kind(path, os.path.splitext(path)[1].lower() in known, known)
     return path_of(path)
 
 

@@ -27,6 +27,7 @@ from . import choices, filters
 
 EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj", ".step", ".stp", ".iges", ".igs")
 MESHES = EXTENSIONS[1:]
+MODELS = (".meam", ".vtpc")
 DEPTH_IMAGES = (".png", ".tif", ".tiff")
 AS_GOOD = 0.02  # share of the surface that near-symmetries may differ by and count as equally near
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
@@ -348,9 +349,7 @@ def read(path, scale=1.0, solid=0, known=EXTENSIONS):
     """The mesh or the cloud in a file of EXTENSIONS, its coordinates times a factor; of a STEP file `solid` alone, or all. `known`:
     what a message names."""
     extension = os.path.splitext(path)[1].lower()
-    if extension not in EXTENSIONS:
-        kind = "it is a folder" if os.path.isdir(path) else "unknown kind of file"
-        raise Failure(f"{path}: {kind}; known are {', '.join(known)}")
+    require_kind(path, extension in EXTENSIONS, known)
     reader = filters.vtkMEAMMeshReader()
     reader.SetSolid(solid)
     if extension == ".pcd":
@@ -359,6 +358,15 @@ def read(path, scale=1.0, solid=0, known=EXTENSIONS):
         reader = filters.vtkMEAMPLYReader()
     data = read_with(reader, path)
     return scaled(data, scale, path)
+
+
+def require_kind(path, is_known, known):
+    """Raises a Failure where a file of meshes or clouds is of no kind that is known."""
+    if not is_known:
+        kind = "it is a folder" if os.path.isdir(path) else "unknown kind of file"
+        if path.lower().endswith(MODELS):
+            kind = "it is a trained model" + (", which --model takes" if choices.is_command else "")
+        raise Failure(f"{path}: {kind}; known are {', '.join(known)}")
 
 
 def scaled(data, scale, what):

@@ -215,6 +215,7 @@ for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "jun
     refuses(name, "detect.py", "--cad", name, "--scene", "scan.pcd", *out)
 refuses("no faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
 refuses("mesh with faces", "detect.py", "--cad", "scan.pcd", "--scene", "scan.pcd", *out)
+refuses("it is a trained model, which --model takes", "detect.py", "--cad", "model.vtpc", "--scene", "scan.pcd", *out)
 refuses("unknown kind of file; known are .off", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
 refuses("is an image: give a depth image with --depth", "detect.py", "--cad", "part.stl", "--scene", "image.png", *out)
 refuses("it is a folder", "detect.py", "--cad", "part.stl", "--scene", "model", *out)
@@ -223,9 +224,10 @@ for arguments, words in ((("detect.py", "--cad", "part.stl", "--scene", "plain.p
                          (("train.py", "--cad", "part.stl", "--out", "o.meam", "--cad", "bracket.stl"), "argument --cad: it is given twice"),
                          (("evaluate.py", "bop", "bins", "--split", "a", "--split", "b"), "argument --split: it is given twice"),
                          (("evaluate.py", "bop", "bins", "--objects", "5-"), "argument --objects: it has to be whole numbers such as 1,5-7, not 5-"),
-                         (("pick.py", "--model", "model.vtpc", "scan.pcd"), "give the --cad of each --model"),
                          (("detect.py", "--model", "model.vtpc", "--cad", "part.stl", "--scene", "scan.pcd"), "--cad beside --model"),
                          (("why.py", "--model", "model.vtpc", "--cad", "part.stl", "scan.pcd", "--at", "0", "0", "0"), "--cad beside --model"),
+                         (("pick.py", "--model", "model.vtpc", "scan.pcd"), "give a trained model by --model, and its --cad"),
+                         (("pick.py", "model.vtpc", "scan.pcd"), "give a trained model by --model, and its --cad"),
                          (("pick.py", "part.stl", "scan.pcd", "--opening", "60", "--cup", "20"), "--cup: not allowed with argument --opening")):
     result = script(*arguments)
     check(result.returncode == 2 and words in result.stderr and not os.path.exists("o.meam"), f"{arguments}: {result.stderr}")

@@ -5,7 +5,7 @@ import argparse
 import numpy
 
 import ppfmeam
-from ppfmeam import asked, choices, scripting
+from ppfmeam import api, asked, choices, scripting
 
 from ..report.told import names_of
 
@@ -57,8 +57,8 @@ def main():
     parser.add_argument("--robot-frame", metavar="FILE", help="the camera in the robot's frame, of OpenCV or ROS: picks are printed in it")
     parser.add_argument("--json", metavar="FILE", help="write all picks as JSON, with what is against those that are not possible")
     options = asked.parsed(parser)
-    if options.model and not options.cad:
-        parser.error("give the --cad of each --model: grasps are places on its faces")
+    if not options.cad and any(map(api.is_model, options.parts)):
+        parser.error("give a trained model by --model, and its --cad: grasps are places on the faces of that")
     scripting.require_folder_of(options.json)
     gripper, lengths = gripper_of(options)
     of, names = asked.Asked(options), names_of(options.parts)
