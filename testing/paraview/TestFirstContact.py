@@ -206,7 +206,7 @@ def look_at_page(path):
     """File > Save Data of the poses is the page of `detect --report`."""
     with open(path) as file:
         text = file.read()
-    check("<title>obj_000001.ply in camera.json</title>" in text and "poses are more likely right than not" in text, text[:400])
+    check("<title>obj_000001.ply in camera.json</title>" in text and "poses are more likely there than not" in text, text[:400])
     check(text.count('"why":"For it, in the logarithm of the odds: ') >= 2, "the poses have no reasons")
 
 

@@ -93,7 +93,7 @@ def summary(rows):
     if "place" not in rows[0]:
         return f"{len(rows)} pose{'s' * (len(rows) > 1)} came out; the method does not tell how likely a copy is there."
     likely = [row for row in rows if row["place"] >= markup.LIKELY]
-    words = f"{len(likely)} of {len(rows)} poses {'is' if len(likely) == 1 else 'are'} more likely right than not"
+    words = f"{len(likely)} of {len(rows)} poses {'is' if len(likely) == 1 else 'are'} more likely there than not"
     unsure = [str(row["rank"]) for row in likely if row["certainty"] < markup.LIKELY]
     if unsure:
         of = f"at rank {', '.join(unsure)}" if len(unsure) <= FEW else f"for {len(unsure)} of them"
