@@ -22,6 +22,13 @@ bool isOf(pqPipelineSource* source, const char* className)
   return name && std::strcmp(name, className) == 0;
 }
 
+/// Points alone are one where they come from a file.
+bool isScan(pqOutputPort* port)
+{
+  const bool isCloud = isOf(port->getSource(), "vtkMEAMPCDReader") || isOf(port->getSource(), "vtkMEAMPLYReader");
+  return isCloud || isOrganized(port->getDataInformation());
+}
+
 bool isPart(pqOutputPort* port)
 {
   if (isOf(port->getSource(), "vtkMEAMHashing") || isOf(port->getSource(), "vtkMEAMModelReader"))
@@ -29,12 +36,10 @@ bool isPart(pqOutputPort* port)
     return true;
   }
   vtkPVDataInformation* data = port->getDataInformation();
-  return data->DataSetTypeIsA("vtkPolyData") && data->GetNumberOfCells() > 0 && !isInScene(data) &&
+  return data->DataSetTypeIsA("vtkPolyData") && data->GetNumberOfCells() > 0 && !isInScene(data) && !isScan(port) &&
          !comesFromScan(port->getSourceProxy(), port->getPortNumber()) &&
          !isOf(port->getSource(), "vtkMEAMGraspDefinition"); // its jaws
 }
-
-bool isScan(pqOutputPort* port) { return isOrganized(port->getDataInformation()); }
 
 bool isEstimation(pqOutputPort* port)
 {
