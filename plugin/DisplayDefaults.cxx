@@ -71,10 +71,13 @@ void lookFromSensor(vtkSMRenderViewProxy* view, const double bounds[6])
   view->SetAnnotation(SeenFromSensor, "1");
 }
 
-/// A scan: the gray values or colors of its image as they are, not through a color map and without light.
-void showScan(vtkSMProxy* representation, vtkPVDataInformation* data)
+/// A scan: the gray values or colors of its image as they are, not through a color map and without light. Points alone
+/// without these are gray, since labels are white.
+void showScan(vtkSMProxy* representation, const ShownData& shown)
 {
-  if (!isOrganized(data) || !representation->GetProperty("ShaderReplacements"))
+  vtkPVDataInformation* data = shown.data();
+  const bool isCloud = readsClouds(shown.source) && !isOrganized(data);
+  if ((!isCloud && !isOrganized(data)) || !representation->GetProperty("ShaderReplacements"))
   {
     return;
   }
@@ -86,6 +89,14 @@ void showScan(vtkSMProxy* representation, vtkPVDataInformation* data)
     vtkSMPropertyHelper(representation, "MapScalars").Set(0);
     vtkSMPropertyHelper(representation, "Ambient").Set(1.0);
     vtkSMPropertyHelper(representation, "Diffuse").Set(0.0);
+  }
+  else if (isCloud)
+  {
+    const double gray[3] = { 0.45, 0.45, 0.45 };
+    for (const char* color : { "AmbientColor", "DiffuseColor" })
+    {
+      vtkSMPropertyHelper(representation, color).Set(gray, 3);
+    }
   }
   representation->UpdateVTKObjects();
 }
@@ -298,7 +309,7 @@ private:
     }
     showInFront(representation, shown);
     showAnswer(view, shown);
-    showScan(representation, shown.data());
+    showScan(representation, shown);
     if (isInScene(shown.data()))
     {
       hidePart(view, shown.source);
@@ -308,8 +319,15 @@ private:
       {
         double bounds[6];
         shown.data()->GetBounds(bounds);
-        hideInFront(view, bounds[4]);
-        lookFromSensor(view, bounds);
+        if (bounds[4] > 0.0)
+        {
+          hideInFront(view, bounds[4]);
+          lookFromSensor(view, bounds);
+        }
+        else // not in the sensor's frame
+        {
+          view->ResetCamera(bounds);
+        }
       }
     }
   }

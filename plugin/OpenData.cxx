@@ -25,8 +25,7 @@ bool isOf(pqPipelineSource* source, const char* className)
 /// Points alone are one where they come from a file.
 bool isScan(pqOutputPort* port)
 {
-  const bool isCloud = isOf(port->getSource(), "vtkMEAMPCDReader") || isOf(port->getSource(), "vtkMEAMPLYReader");
-  return isCloud || isOrganized(port->getDataInformation());
+  return readsClouds(port->getSourceProxy()) || isOrganized(port->getDataInformation());
 }
 
 bool isPart(pqOutputPort* port)

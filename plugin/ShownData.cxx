@@ -39,9 +39,15 @@ bool isOrganized(vtkPVDataInformation* data)
          extent[5] == extent[4];
 }
 
+bool readsClouds(vtkSMSourceProxy* source)
+{
+  const char* name = source->GetVTKClassName();
+  return name && (std::strcmp(name, "vtkMEAMPCDReader") == 0 || std::strcmp(name, "vtkMEAMPLYReader") == 0);
+}
+
 bool comesFromScan(vtkSMSourceProxy* source, unsigned int port)
 {
-  if (isOrganized(source->GetDataInformation(port)))
+  if (readsClouds(source) || isOrganized(source->GetDataInformation(port)))
   {
     return true;
   }

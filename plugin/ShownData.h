@@ -20,7 +20,10 @@ struct ShownData
 bool isOurs(vtkSMSourceProxy* source);
 /// An organized cloud, which is in its sensor's frame.
 bool isOrganized(vtkPVDataInformation* data);
-/// Whether the output, or what it was made of, is an organized cloud.
+/// Whether it reads clouds, which may be points alone.
+bool readsClouds(vtkSMSourceProxy* source);
+
+/// Whether the output, or what it was made of, is a scan.
 bool comesFromScan(vtkSMSourceProxy* source, unsigned int port);
 /// Whether data of this plugin lie in the scene, not in the part's frame.
 bool isInScene(vtkPVDataInformation* data);

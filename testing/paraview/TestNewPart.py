@@ -16,7 +16,7 @@ import tempfile
 
 import numpy
 
-from clicks import NEW_PART, PAGE, START, check, expect, files, new_part_choice, new_part_file, new_part_length, new_part_number, play, shoot
+from clicks import APPLY, NEW_PART, PAGE, START, check, event, expect, files, new_part_choice, new_part_file, new_part_length, new_part_number, play, shoot
 
 
 def answer(text):
@@ -45,6 +45,23 @@ def solid(folder):
 def metres(folder):
     """A mesh in another unit."""
     return [new_part_file("CAD", f"{folder}/metres.stl"), new_part_choice("CADUnit", "m"), START, new_part_choice("CADUnit", "mm")]
+
+
+def search_points_alone(paraview, folder):
+    """The button of the toolbar takes points alone for a scan; the page of what it found is saved."""
+    with open(os.path.join(folder, "scan.pcd"), "rb") as file:
+        head, _, body = file.read().partition(b"DATA binary\n")
+    points = numpy.frombuffer(body, "<f4").reshape(-1, 4)
+    points = points[numpy.isfinite(points).all(axis=1)]
+    with open(os.path.join(folder, "alone.pcd"), "wb") as file:
+        sizes = re.sub(rb"(WIDTH|POINTS) \d+", rb"\1 %d" % len(points), re.sub(rb"HEIGHT \d+", b"HEIGHT 1", head))
+        file.write(sizes + b"DATA binary\n" + points.tobytes())
+    play(paraview, folder, [*files("actionFileOpen", "FileOpenDialog", f"{folder}/part.stl"), *files("actionFileOpen", "FileOpenDialog", f"{folder}/alone.pcd"),
+                            event("PoseEstimationToolbar/EstimatePoses", "activate"), APPLY,
+                            *files("actionFileSaveData", "FileSaveDialog", f"{folder}/alone.html")])
+    with open(os.path.join(folder, "alone.html")) as file:
+        text = file.read()
+    check("<title>part.stl in alone.pcd</title>" in text and "<tr data-rank" in text, text[:400])
 
 
 def look_at_programs(folder):
@@ -120,6 +137,8 @@ def main(paraview, pvpython, repository, build, long):
         play(paraview, folder, [NEW_PART] + wrong(folder) + solid(folder) + metres(folder) + right(folder) +
              files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/state.pvsm"))
         look_at_programs(folder)
+        if not long:
+            search_points_alone(paraview, folder)
         subprocess.run([pvpython, os.path.join(here, "TestNewPart.py"), "--look", folder], check=True)
         poses, picks = (numpy.load(os.path.join(folder, f"{kind}.npy")) for kind in ("MEAMPoseEstimation", "PickPlanning"))
         written = os.path.join(folder, "find_part")
