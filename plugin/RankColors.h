@@ -2,7 +2,7 @@
 #pragma once
 
 /// ParaView's color maps of our arrays, in ParaView's own form of settings. `Rank`: red, green, blue, yellow and pink for
-/// the ranks 1 to 5, gray for the others, the colors of vtkMEAMPoseInstances. `PartId`: the types of part, in colors that are those of no rank. `Residual`, of vtkMEAMPoseDiagnosis:
+/// the ranks 1 to 5, the same, dark, for 6 to 10, gray for the others, the colors of vtkMEAMPoseInstances. `PartId`: the types of part, in colors that are those of no rank. `Residual`, of vtkMEAMPoseDiagnosis:
 /// what the scan shows of a part at a pose and beside it, in colors that are neither those of ranks nor those of picks.
 /// `Possible` and `Obstruction`, of vtkMEAMPickPlanning: green
 /// where a pick is possible, red where it is not. `PoseOutcome`, of vtkMEAMPoseEvaluation: green where a pose is right, yellow where a
@@ -11,9 +11,11 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,
   "AnnotationsInitialized": 1,
-  "Annotations": [ "1", "1", "2", "2", "3", "3", "4", "4", "5", "5" ],
+  "Annotations": [ "1", "1", "2", "2", "3", "3", "4", "4", "5", "5",
+                   "6", "6", "7", "7", "8", "8", "9", "9", "10", "10" ],
   "IndexedColors": [ 0.863, 0.118, 0.118,  0.157, 0.667, 0.196,  0.157, 0.353, 0.863,  0.961, 0.804, 0.118,
-                     0.941, 0.471, 0.745 ],
+                     0.941, 0.471, 0.745,  0.490, 0.039, 0.078,  0.039, 0.353, 0.176,  0.059, 0.137, 0.431,
+                     0.529, 0.412, 0.000,  0.510, 0.137, 0.412 ],
   "NanColor": [ 0.588, 0.588, 0.588 ]
 } }, "PartId": { "PVLookupTable": {
   "IndexedLookup": 1,

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -31,14 +32,20 @@ namespace vtkMEAMConversion
 {
 namespace
 {
-constexpr unsigned char RankColors[6][3] = {
+constexpr unsigned char RankColors[][3] = {
   { 220, 30, 30 },   // 1 red
   { 40, 170, 50 },   // 2 green
   { 40, 90, 220 },   // 3 blue
   { 245, 205, 30 },  // 4 yellow
   { 240, 120, 190 }, // 5 pink
+  { 125, 10, 20 },   // 6 to 10: the same, dark
+  { 10, 90, 45 },    //
+  { 15, 35, 110 },   //
+  { 135, 105, 0 },   //
+  { 130, 35, 105 },  //
   { 150, 150, 150 }, // the others
 };
+constexpr int LastColor = static_cast<int>(std::size(RankColors));
 
 constexpr double Sure = 0.995; // of a rotation that rounds to 100 %
 
@@ -108,7 +115,7 @@ void describe(vtkDataSetAttributes* attributes, const std::vector<Drawn>& drawn,
   forEachRange(
     [&](const Drawn& one, vtkIdType begin, vtkIdType count)
     {
-      const unsigned char* color = RankColors[std::min(one.rank, 6) - 1];
+      const unsigned char* color = RankColors[std::min(one.rank, LastColor) - 1];
       for (vtkIdType i = begin; i < begin + count; ++i)
       {
         std::copy_n(color, 3, colors->GetPointer(3 * i));

@@ -12,7 +12,8 @@
  * - `Rank`, the active scalars: 1 for the best; that of the poses, so that those of one part (a threshold of `PartId`)
  *   keep theirs; of several meshes `PartId` is active;
  * - `Score`, `PlaceProbability`, `Probability`, `Certainty`, `VisibleFraction`: [0, 1], of the pose;
- * - `RankColor` (3, unsigned char): red, green, blue, yellow and pink for the ranks 1 to 5, grey for the others.
+ * - `RankColor` (3, unsigned char): red, green, blue, yellow and pink for the ranks 1 to 5, the
+ *   same, dark, for 6 to 10, grey for the others.
  *
  * Output port 1: with an UncertaintyScale the ellipsoids of how uncertain the place of each copy's middle is, a
  * vtkPolyData with the same arrays; empty otherwise. For it the poses need the arrays of vtkMEAMPoseRefinement and the

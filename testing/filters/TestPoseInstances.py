@@ -24,18 +24,20 @@ check(copies.GetPointData().GetScalars().GetName() == "Rank" == cells.GetScalars
 check(field(copies, "Diameter") == [(3.7,)], "field data travel along")
 check(points(part) == points(box(1, 2, 3)), "the mesh is not changed")
 
-# Red, green, blue, yellow, pink: told by which channels are strong. Then grey.
-many = cloud([(0, 0, 0)] * 7, Transform=[at(i) for i in range(7)], Score=[0.9 - 0.1 * i for i in range(7)])
+# Red, green, blue, yellow, pink: told by which channels are strong; the same, dark. Then grey.
+many = cloud([(0, 0, 0)] * 12, Transform=[at(i) for i in range(12)], Score=[0.9 - 0.05 * i for i in range(12)])
 filter = connect(vtkMEAMPoseInstances(), many, part)
 copies = run(filter)
-colors = [tuples(copies, "RankColor")[8 * i] for i in range(7)]
+colors = [tuples(copies, "RankColor")[8 * i] for i in range(12)]
 strong = [tuple(c > 160 for c in color) for color in colors[:5]]
 check(strong == [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1)], f"the colours are {colors}")
-check(len(set(colors[5])) == 1 and colors[5] == colors[6], f"later ranks are grey: {colors[5:]}")
-check(close(tuples(copies, "Score")[8 * 6], (0.3,)), "the score is there")
-ranked = cloud([(0, 0, 0)] * 2, Transform=[at(0), at(1)], Rank=[2, 9])
+check(all(max(dark) < 0.7 * max(color) for dark, color in zip(colors[5:10], colors)), f"the dark ones are {colors[5:10]}")
+check(len(set(colors[:11])) == 11, f"each rank has its own: {colors}")
+check(len(set(colors[10])) == 1 and colors[10] == colors[11], f"later ranks are grey: {colors[10:]}")
+check(close(tuples(copies, "Score")[8 * 6], (0.6,)), "the score is there")
+ranked = cloud([(0, 0, 0)] * 2, Transform=[at(0), at(1)], Rank=[2, 19])
 check([tuples(run(connect(vtkMEAMPoseInstances(), ranked, part)), name)[i] for i in (0, 8) for name in ("Rank", "RankColor")]
-      == [(2,), colors[1], (9,), colors[6]], "poses keep the ranks that they have")
+      == [(2,), colors[1], (19,), colors[10]], "poses keep the ranks that they have")
 filter.SetMaximumNumberOfInstances(3)
 check({r for r, in tuples(run(filter), "Rank")} == {1, 2, 3}, "only the best")
 

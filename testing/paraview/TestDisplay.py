@@ -10,7 +10,8 @@ from pictures import pixels, share
 
 # In the colours of RankColor.
 RANKS = {"red": (220, 30, 30), "green": (40, 170, 50), "blue": (40, 90, 220), "yellow": (245, 205, 30),
-         "pink": (240, 120, 190)}
+         "pink": (240, 120, 190), "dark red": (125, 10, 20), "dark green": (10, 90, 45), "dark blue": (15, 35, 110),
+         "dark yellow": (135, 105, 0), "dark pink": (130, 35, 105)}
 folder = tempfile.TemporaryDirectory()
 controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
 
@@ -35,11 +36,11 @@ def shown_by_default(source):
             if controller.ShowInPreferredView(source.SMProxy, port, view) is not None]
 
 
-# Seven poses in a row, red, green, blue, yellow, pink and grey twice.
+# Twelve poses in two rows, red, green, blue, yellow, pink, the same, dark, and grey twice.
 poses = os.path.join(folder.name, "poses.txt")
 with open(poses, "w") as file:
-    for i in range(7):
-        file.write(f"1 0 0 {1.2 * i - 3.6}  0 1 0 0  0 0 1 10  0 0 0 1\n")
+    for i in range(12):
+        file.write(f"1 0 0 {1.2 * (i % 6) - 3}  0 1 0 {1.2 * (i // 6) - 0.6}  0 0 1 10  0 0 0 1\n")
 view = simple.CreateRenderView()
 view.OrientationAxesVisibility = 0
 mesh = simple.Sphere(ThetaResolution=32, PhiResolution=32)
@@ -61,12 +62,12 @@ picture = drawn(view)
 check(all(share(picture, color) > 0.005 for color in RANKS.values()), "cells have other colours")
 table = simple.GetColorTransferFunction("Rank")
 colors = instances.GetClientSideObject().GetOutputDataObject(0).GetCellData().GetArray("RankColor")
-cells = colors.GetNumberOfTuples() // 7
-for rank in range(5):
+cells = colors.GetNumberOfTuples() // 12
+for rank in range(10):
     channels = [round(255 * c) for c in table.IndexedColors[3 * rank:3 * rank + 3]]
     check(channels == list(colors.GetTuple(cells * rank)), f"rank {rank + 1}: {channels}")
 
-# The legend has the five, and is small.
+# The legend has the ten, and is small.
 display.SetScalarBarVisibility(view, True)
 bar = simple.GetScalarBar(table, view)
 check(bar.Visibility == 1 and bar.ScalarBarLength < 0.3, "the legend of the ranks")
