@@ -25,6 +25,7 @@ WIDTH = 1600  # pixels
 JPEG_QUALITIES = range(85, 40, -5)
 STRIP = 56  # pixels above the scene, for the legend
 MARGIN = 14  # pixels
+LABELS = 10  # most of a picture, of the ranks that have colors of their own
 TILT = 25  # degrees from the sensor's line of sight: shows depth
 BACKGROUND = (0.11, 0.12, 0.14)
 
@@ -279,20 +280,22 @@ def posed(poses, parts):
 
 
 def legend(copies_made, poses):
-    """The best of the poses that are shown in a row: rank and score on the colour of the rank."""
+    """The best of the poses that are shown in a row: on the colour of the rank how likely the part is there, or the score of a
+    pose of which that is not known."""
     ranks = vtk_to_numpy(copies_made.GetPointData().GetArray("Rank")) if copies_made.GetNumberOfPoints() else ()
-    shown = [i for i in range(poses.GetNumberOfPoints()) if i + 1 in ranks][:6]
+    shown = [i for i in range(poses.GetNumberOfPoints()) if i + 1 in ranks][:LABELS]
     labels = []
-    for place, i in enumerate(shown or [None]):
+    for column, i in enumerate(shown or [None]):
         label = vtkTextActor()
-        label.SetPosition(MARGIN + place * WIDTH // 6, MARGIN)
+        label.SetPosition(MARGIN + column * WIDTH // LABELS, MARGIN)
         style = label.GetTextProperty()
         style.SetFontSize(26)
         if i is None:
             label.SetInput("nothing sure found" if poses.GetNumberOfPoints() else "no part found")
         else:
-            score = poses.GetPointData().GetArray("Score").GetValue(i)
-            label.SetInput(f" rank {i + 1}:  {score:.2f} ")
+            values = poses.GetPointData()
+            place = values.GetArray("PlaceProbability").GetValue(i) if values.HasArray("PlaceProbability") else 0
+            label.SetInput(f" {i + 1}: {100 * place:.0f} % " if place > 0 else f" {i + 1}: {values.GetArray('Score').GetValue(i):.2f} ")
             color = copies_made.GetPointData().GetArray("RankColor").GetTuple(int(numpy.argmax(ranks == i + 1)))
             style.SetBackgroundColor([c / 255 for c in color])
             style.SetBackgroundOpacity(1)
