@@ -158,6 +158,7 @@ MEAM_EXPORT Scan loadScan(const std::string& path, const std::string& cameraFile
 
 /// A scan of what a depth camera gave: distances along its z axis, one for each pixel, row by row from the top; NaN, 0
 /// and less are not measured. `scale` brings them to mm. The camera's pose does not matter, nor its size where it is 0.
+/// Throws Error for another number of depths, a camera of another size, and where nothing is nearer than 50 m.
 MEAM_EXPORT Scan scanOfDepths(
   const std::vector<float>& depths, int width, int height, const Camera& camera, double scale = 1.0);
 

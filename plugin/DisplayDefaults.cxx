@@ -30,7 +30,9 @@
 namespace
 {
 constexpr double SettingsPriority = 0.5;                     // above ParaView's own, below a user's
-constexpr const char* SeenFromSensor = "PPFMEAM.FromSensor"; // annotation of a view whose camera has been placed once
+// Annotations of views
+constexpr const char* SeenFromSensor = "PPFMEAM.FromSensor"; // whose camera has been placed where the sensor is
+constexpr const char* Placed = "PPFMEAM.CameraPlaced";       // whose camera has been placed once
 
 /// Draws a scan behind what lies on its surface, such as a part at its pose, by a shift of its depth alone: a share of
 /// what lies between the near and the far end of the view.
@@ -315,7 +317,7 @@ private:
       hidePart(view, shown.source);
       hideInputs(view, shown.source);
       hidePoses(view, shown);
-      if (!isSeenFromSensor(view) && comesFromScan(shown.source, shown.port))
+      if (!view->HasAnnotation(Placed) && comesFromScan(shown.source, shown.port))
       {
         double bounds[6];
         shown.data()->GetBounds(bounds);
@@ -328,6 +330,7 @@ private:
         {
           view->ResetCamera(bounds);
         }
+        view->SetAnnotation(Placed, "1");
       }
     }
   }

@@ -22,11 +22,10 @@ bool isOf(pqPipelineSource* source, const char* className)
   return name && std::strcmp(name, className) == 0;
 }
 
+bool isGrid(pqOutputPort* port) { return isOrganized(port->getDataInformation()); }
+
 /// Points alone are one where they come from a file.
-bool isScan(pqOutputPort* port)
-{
-  return readsClouds(port->getSourceProxy()) || isOrganized(port->getDataInformation());
-}
+bool isScan(pqOutputPort* port) { return readsClouds(port->getSourceProxy()) || isGrid(port); }
 
 bool isPart(pqOutputPort* port)
 {
@@ -83,7 +82,11 @@ QList<pqOutputPort*> openParts()
   return parts.empty() && last ? QList<pqOutputPort*>{ last } : parts;
 }
 
-pqOutputPort* openScan() { return choose(isScan); }
+pqOutputPort* openScan()
+{
+  pqOutputPort *scan = choose(isScan), *grid = choose(isGrid); // points alone beside a grid may be its edges
+  return grid && scan != pqActiveObjects::instance().activePort() ? grid : scan;
+}
 
 pqPipelineSource* openEstimation()
 {

@@ -21,10 +21,10 @@ struct ScanSource
   OrganizedCloud cloud;
   Image image;                                             ///< may be empty
   std::optional<Camera> imageCamera;                       ///< that took it; none: it is registered with the cloud
-  std::optional<Sensor> sensor;                            ///< of given edges; otherwise none where it is not known
+  std::optional<Sensor> sensor;                            ///< none where it is not known; given edges need it
   Region region;                                           ///< where parts are looked for
-  std::function<Points(const LocalCloud& edges)> measured; ///< all that was, in the frame of the edges
-  std::function<double()> diameter;                        ///< mm, of the largest part
+  std::function<Points(const LocalCloud& edges)> measured; ///< called once: in the frame of the edges
+  std::function<double()> diameter;                        ///< mm, of the largest part; called for a region
 };
 
 /// A scene, and what was made of its scan on the way.

@@ -17,11 +17,11 @@ constexpr std::size_t Growth = 2; // and then so many times as many, until enoug
 // Where few poses are asked for, of a bin full of parts, some of the reference points find enough that are sure: of all
 // of them so many vote first, others only where these do not do.
 constexpr double SharesOfReferences[] = { 0.06, 0.2, 1.0 };
-constexpr double VotingTime = 0.6; // of a time limit: up to refined poses
+constexpr double VotingTime = 0.6; // of a time limit: up to refined poses; the rest finishes them
 }
 
 void searchByShares(const DetectionSettings& settings, const Progress& progress,
-  const std::function<bool(double share, int wanted, const Deadline& ofVotes, const Progress& progress)>& isDone)
+  const std::function<bool(double share, int wanted, const Deadline& ofVotes, const Progress& progress)>& search)
 {
   // The order by votes, or by what fits of edges, does not tell what is sure.
   const int asked = settings.screening ? settings.selection.maximumPoses : 0;
@@ -31,7 +31,7 @@ void searchByShares(const DetectionSettings& settings, const Progress& progress,
   for (const double share : SharesOfReferences)
   {
     const bool isSkipped = share < 1.0 && wanted == 0 && !settings.deadline.isSet();
-    if (!isSkipped && isDone(share, wanted, ofVotes, subProgress(progress, from, share)))
+    if (!isSkipped && search(share, wanted, ofVotes, subProgress(progress, from, share)))
     {
       return;
     }

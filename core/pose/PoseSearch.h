@@ -50,8 +50,9 @@ private:
   std::map<PoseStage, Poses> Returned; ///< in the order of the stages
 };
 
-/// Searches by more and more of the reference points until `isDone`, which searches by this share of them, says that
-/// they were enough. `wanted`: copies that are to be sure before; 0: all vote. `ofVotes`: up to refined poses.
+/// Calls `search` with more and more of the reference points, as a share of all, until it returns that they were
+/// enough. `wanted`: so many copies that are sure are enough; 0: all points vote. `ofVotes`: when refined poses have to
+/// be there.
 void searchByShares(const DetectionSettings& settings, const Progress& progress,
-  const std::function<bool(double share, int wanted, const Deadline& ofVotes, const Progress& progress)>& isDone);
+  const std::function<bool(double share, int wanted, const Deadline& ofVotes, const Progress& progress)>& search);
 }

@@ -62,7 +62,7 @@ OrganizedCloud cloudOfDepths(const std::vector<float>& depths, int width, int he
     char told[128];
     std::snprintf(told, sizeof told, "%.4g m, with a depth scale of %.6g mm for a value of 1", nearest / Metre, scale);
     throw Error(what + " has nothing nearer than " + told +
-                ": correct depth_scale in its calibration, or the scale (--depth-scale).");
+                ": correct depth_scale in its calibration, or the depth scale that was given (--depth-scale).");
   }
   report(progress, 1.0);
   return cloud;

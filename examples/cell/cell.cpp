@@ -451,6 +451,8 @@ try
                  "[--out FILE] [--log FILE] [--replay LOG]\n";
     return 2;
   }
+  const double port = numberOf(options, "--port");
+  numberOf(options, "--time-limit"); // what is wrong shows now
   if (options.count("--replay"))
   {
     options["--time-limit"] = "0"; // none
@@ -468,7 +470,7 @@ try
   }
   if (options.count("--watch"))
   {
-    Robot robot(numberOf(options, "--port"));
+    Robot robot(port);
     serve(cell, Folder(options["--watch"]), robot);
   }
 }

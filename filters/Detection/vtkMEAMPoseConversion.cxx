@@ -274,9 +274,8 @@ std::vector<int> typesOf(vtkPolyData* poses, int connected)
     const int most = static_cast<int>(parts->GetRange()[1]);
     if (parts->GetRange()[0] < 0.0 || most >= connected)
     {
-      throw meam::Error("The poses are of " + std::to_string(most + 1) +
-                        " types of part: connect all to Part, in the order in which they were searched, not " +
-                        std::to_string(connected) + ".");
+      throw meam::Error("The poses are of " + std::to_string(most + 1) + " types of part, but not " +
+                        std::to_string(connected) + ": connect all to Part, in the order in which they were searched.");
     }
     for (std::size_t k = 0; k < types.size(); ++k)
     {

@@ -22,6 +22,7 @@
  * port 2), and those that vtkMEAMPoseRefinement adds; field data: `Diameter` (mm), `Report` (in a sentence whether
  * parts were found and how sure that is, and which lengths of the part the scan leaves open; where nothing is found, a
  * warning says so, too), `ScanReport` and `ScanQuality` (of an organized scan, as vtkMEAMSceneEdgeExtraction has them),
+ * `SceneId` and `ImageId` (of a scan that has them),
  * `EdgesFound` and `EdgesByChance` (share of the edge points of a part that a scene edge lies on, where the part is and
  * anywhere: how far this scan's edges can be trusted), `SecondsTraining`, `SecondsSceneEdges`, `SecondsScene`,
  * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,

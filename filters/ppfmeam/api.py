@@ -263,7 +263,7 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     Of poses that claim the same surface the best supported stays; parts that look alike are told apart only together.
     scan: a file (.pcd, .ply, or a depth image with its `camera`), an array H x W x 3 of points in the sensor's frame (x
     right, y down, z the way it looks; NaN: not measured), an array N x 3 with a `boundary`, an array H x W of depths with their
-    `camera` (0 and NaN: not measured), or VTK's data object. Points are taken in single precision.
+    `camera` (0, NaN, and 65535 of 16 bits: not measured), or VTK's data object. Points are taken in single precision.
     image: a file or an array H x W (grey) or H x W x 3 (colours) of bytes, from the top; where the scan has none. It has a
     pixel for each point, unless `image_camera`, a calibration file, says which other camera took it.
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.

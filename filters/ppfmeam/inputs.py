@@ -112,6 +112,8 @@ def cloud_of(scan, camera, scale):
     if isinstance(scan, numpy.ndarray):
         return _core.Scan(scaled(scan, scale, "scan"))
     path = name_of(scan, "the scan has to be a file, an array of points, or VTK's data object")
+    if camera is not None:
+        name_of(camera, "the camera of a file has to be a calibration file; a matrix is that of an array of depths")
     extension = os.path.splitext(path)[1].lower()
     if extension in scripting.DEPTH_IMAGES and camera is None:
         raise Error(f"{path}: a depth image needs the calibration of its camera")

@@ -58,7 +58,7 @@ def require_display():
 
 
 def save(path, scene, poses, *parts, looks=None):
-    """Writes a PNG. A part is the mesh, or the trained model; of several each stands at the poses with its `PartId`. The
+    """Writes a PNG or a JPEG. A part is the mesh, or the trained model; of several each stands at the poses with its `PartId`. The
     sensor `looks` along +z at an organized scene and from above, along -z, at any other."""
     require_display()
     if looks is None:

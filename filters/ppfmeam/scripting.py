@@ -365,7 +365,7 @@ def require_kind(path, is_known, known):
     if not is_known:
         kind = "it is a folder" if os.path.isdir(path) else "unknown kind of file"
         if path.lower().endswith(MODELS):
-            kind = "it is a trained model" + (", which --model takes" if choices.is_command else "")
+            kind = "it is a trained model" + (", for the --model of commands that take one" if choices.is_command else "")
         raise Failure(f"{path}: {kind}; known are {', '.join(known)}")
 
 

@@ -146,11 +146,13 @@ for array, camera, scale in ((depth, "camera.json", 1), (depth, matrix, SCALE), 
     seen = ppfmeam.detect(model, array, camera=camera, scale=scale, poses=2)
     check(len(seen) == 2 and all(min(pose_error(pose.ravel(), t)[0] for t in true) < 1 for pose in seen.poses), f"{seen.poses}")
     check(array.dtype != numpy.uint16 or numpy.array_equal(seen.poses, by_file.poses), f"the file's poses: {by_file.poses}")
+    seen.save("array.html")
+    check(os.path.getsize("array.html") > 100000, "the page of a depth image")
     told = ppfmeam.why(model, array, camera=camera, scale=scale, pose=seen.poses[0])
     check("rank 1" in str(told), told)
 for words, array, camera in (("needs its camera", depth, None), ("matrix of 3 x 3", depth, numpy.eye(4)), ("fx 0 cx", depth, matrix.T),
                              ("array of numbers", depth > 0, matrix), ("its camera has", depth[1:], "camera.json"),
-                             ("focal lengths", depth, numpy.diag((0, 0, 1)))):
+                             ("focal lengths", depth, numpy.diag((0, 0, 1))), ("of an array of depths", "depth.png", matrix)):
     try:
         ppfmeam.detect(model, array, camera=camera)
         check(False, f"{words} was not said")

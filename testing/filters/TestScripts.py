@@ -215,7 +215,7 @@ for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "jun
     refuses(name, "detect.py", "--cad", name, "--scene", "scan.pcd", *out)
 refuses("no faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
 refuses("mesh with faces", "detect.py", "--cad", "scan.pcd", "--scene", "scan.pcd", *out)
-refuses("it is a trained model, which --model takes", "detect.py", "--cad", "model.vtpc", "--scene", "scan.pcd", *out)
+refuses("it is a trained model, for the --model of commands that take one", "detect.py", "--cad", "model.vtpc", "--scene", "scan.pcd", *out)
 refuses("unknown kind of file; known are .off", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
 refuses("is an image: give a depth image with --depth", "detect.py", "--cad", "part.stl", "--scene", "image.png", *out)
 refuses("it is a folder", "detect.py", "--cad", "part.stl", "--scene", "model", *out)
@@ -228,6 +228,7 @@ for arguments, words in ((("detect.py", "--cad", "part.stl", "--scene", "plain.p
                          (("why.py", "--model", "model.vtpc", "--cad", "part.stl", "scan.pcd", "--at", "0", "0", "0"), "--cad beside --model"),
                          (("pick.py", "--model", "model.vtpc", "scan.pcd"), "give a trained model by --model, and its --cad"),
                          (("pick.py", "model.vtpc", "scan.pcd"), "give a trained model by --model, and its --cad"),
+                         (("pick.py", "scan.pcd", "--cad", "model.vtpc"), "give a trained model by --model, and its --cad"),
                          (("pick.py", "part.stl", "scan.pcd", "--opening", "60", "--cup", "20"), "--cup: not allowed with argument --opening")):
     result = script(*arguments)
     check(result.returncode == 2 and words in result.stderr and not os.path.exists("o.meam"), f"{arguments}: {result.stderr}")

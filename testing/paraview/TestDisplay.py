@@ -10,8 +10,7 @@ from pictures import pixels, share
 
 # In the colours of RankColor.
 RANKS = {"red": (220, 30, 30), "green": (40, 170, 50), "blue": (40, 90, 220), "yellow": (245, 205, 30),
-         "pink": (240, 120, 190), "dark red": (125, 10, 20), "dark green": (10, 90, 45), "dark blue": (15, 35, 110),
-         "dark yellow": (135, 105, 0), "dark pink": (130, 35, 105)}
+         "pink": (240, 120, 190)}
 folder = tempfile.TemporaryDirectory()
 controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
 

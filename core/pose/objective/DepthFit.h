@@ -12,7 +12,7 @@ namespace meam
 class DepthFit
 {
 public:
-  /// Keeps references to both.
+  /// Where tells() says so. Keeps references to both.
   DepthFit(const Scene& scene, const TrainedModel& model);
 
   /// Whether depth tells anything: the scan's noise is known, and the surface of both.

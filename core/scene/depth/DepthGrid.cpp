@@ -66,20 +66,21 @@ void lookAlong(const Lines& lines, const float* x, const float* y, const float* 
   }
 }
 
-/// Cells of a grid.
-struct Part
+/// Columns and rows of cells, the last ones not among them.
+struct CellRange
 {
   int left, top, right, bottom;
 };
 
-/// The cells of points, counted from a part's first, and -1 for those in none of its; their weights in their cells.
+/// The cells of points, counted from the first of a range, and -1 for those in none of it; their weights in their
+/// cells.
 MEAM_ALL_VECTORS
-void place(const ScanProjection::RunPoints& points, int count, const GridCells& grid, const Part& part, int* cellOf,
+void place(const ScanProjection::RunPoints& points, int count, const GridCells& grid, const CellRange& in, int* cellOf,
   float* weights)
 {
   const float lowU = grid.lowU, lowV = grid.lowV, scale = grid.inverseCell;
-  const float left = part.left, right = part.right, top = part.top, bottom = part.bottom;
-  const int width = part.right - part.left, first = part.top * width + part.left;
+  const float left = in.left, right = in.right, top = in.top, bottom = in.bottom;
+  const int width = in.right - in.left, first = in.top * width + in.left;
   constexpr float strip = static_cast<float>(BorderStrip);
 #pragma omp simd
   for (int k = 0; k < count; ++k)

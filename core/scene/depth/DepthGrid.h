@@ -4,6 +4,7 @@
 #include "base/SoAPoints.h"
 #include "scene/depth/ScanProjection.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -90,7 +91,7 @@ protected:
   {
     int left = 0, top = 0, right = 0, bottom = 0;
     int width() const { return this->right - this->left; }
-    int size() const { return this->width() * (this->bottom - this->top); }
+    int size() const { return std::max(this->width(), 0) * std::max(this->bottom - this->top, 0); }
   };
   /// What was measured in the cells of a rectangle.
   struct Layers

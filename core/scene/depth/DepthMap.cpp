@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/depth/DepthMap.h"
 
-#include "base/AllVectors.h"
-#include "base/Bounds.h"
-#include "base/Frames.h"
 #include "base/Parallel.h"
-#include "base/PointGrid.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace meam

@@ -12,7 +12,7 @@ class DepthMap : public DepthGrid
 public:
   /// `cellSize` as of the grid. The same for any number of threads.
   DepthMap(const ScanProjection& scan, double cellSize, int threads = 1);
-  /// Of a scan that nothing else looks at like this.
+  /// Of points that no other map is made of.
   DepthMap(const Points& scan, const Sensor& sensor, double cellSize, int threads = 1)
     : DepthMap(ScanProjection(scan, sensor, threads), cellSize, threads)
   {

@@ -7,46 +7,51 @@ namespace meam
 {
 namespace
 {
-/// Cells, the longer side of what half of the scan's runs come to, or more: a tile that is smaller would look at most
-/// of its points in vain, and one of a scan in no order is all of the map.
-float lengthOfRuns(const ScanProjection& scan, float inverseCell)
-{
-  std::vector<float> lengths;
-  for (const ScanProjection::Run& run : scan.runs())
-  {
-    const float length = (run.high - run.low).maxCoeff();
-    if (length >= 0.0f)
-    {
-      lengths.push_back(length);
-    }
-  }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return lengths.empty() ? 0.0f : *middle * inverseCell;
-}
+constexpr int SmallestTileBits = 4;   // 16 cells a side: smaller tiles take more memory than they save time
+constexpr std::size_t TilesOfRun = 2; // on average, at most: a tile looks at all points of its runs
 }
 
 FineDepth::FineDepth(const ScanProjection& scan, double cellSize)
   : DepthGrid(scan, cellSize)
   , Scan(scan)
 {
-  const int largest = std::max(this->Width, this->Height);
-  const float wanted = lengthOfRuns(scan, this->InverseCell);
-  while ((1 << this->TileBits) < largest && static_cast<float>(1 << this->TileBits) < wanted)
+  std::vector<Rectangle> cells;
+  cells.reserve(scan.runs().size());
+  for (const ScanProjection::Run& run : scan.runs())
+  {
+    cells.push_back(this->cellsOf(run));
+  }
+  /// Those that cells lie in.
+  const auto tilesOf = [&](const Rectangle& of) -> Rectangle
+  {
+    const auto last = [&](int cell) { return (cell + (1 << this->TileBits) - 1) >> this->TileBits; };
+    return { of.left >> this->TileBits, of.top >> this->TileBits, last(of.right), last(of.bottom) };
+  };
+  const auto isFine = [&]
+  {
+    std::size_t all = 0;
+    for (const Rectangle& of : cells)
+    {
+      all += tilesOf(of).size();
+    }
+    return all > TilesOfRun * cells.size();
+  };
+  this->TileBits = SmallestTileBits;
+  while ((1 << this->TileBits) < std::max(this->Width, this->Height) && isFine()) // of points in no order all is a tile
   {
     ++this->TileBits;
   }
   this->TileMask = (1 << this->TileBits) - 1;
-  const auto tiles = [&](int cells) { return (cells + this->TileMask) >> this->TileBits; };
-  this->TilesInRow = tiles(this->Width);
-  const std::size_t count = static_cast<std::size_t>(this->TilesInRow) * tiles(this->Height);
+  const Rectangle all = tilesOf({ 0, 0, this->Width, this->Height });
+  const std::size_t count = all.size();
+  this->TilesInRow = all.width();
   this->Runs.resize(count);
-  for (std::size_t k = 0; k < scan.runs().size(); ++k)
+  for (std::size_t k = 0; k < cells.size(); ++k)
   {
-    const Rectangle cells = this->cellsOf(scan.runs()[k]);
-    for (int down = cells.top >> this->TileBits; down < tiles(cells.bottom); ++down)
+    const Rectangle tiles = tilesOf(cells[k]);
+    for (int down = tiles.top; down < tiles.bottom; ++down)
     {
-      for (int right = cells.left >> this->TileBits; right < tiles(cells.right); ++right)
+      for (int right = tiles.left; right < tiles.right; ++right)
       {
         this->Runs[static_cast<std::size_t>(down) * this->TilesInRow + right].push_back(static_cast<int>(k));
       }

@@ -9,8 +9,8 @@
 
 namespace meam
 {
-/// What was measured in small cells across the lines of sight: found when it is first asked for, tile by tile, for few
-/// of a scan's are. Calls may run in parallel.
+/// What was measured in small cells across the lines of sight. A tile of cells is filled when one of them is first
+/// asked for: a search asks for few of them. Calls may run in parallel.
 class FineDepth : public DepthGrid
 {
 public:
@@ -51,11 +51,11 @@ private:
   const Eigen::Vector3f* fill(int right, int down) const;
 
   const ScanProjection& Scan;
-  int TileBits = 0, TileMask = 0; ///< of columns and rows, in their tile
+  int TileBits = 0, TileMask = 0; ///< of a column or row, its place in the tile
   int TilesInRow = 0;
   std::vector<std::vector<int>> Runs; ///< those that come to each tile
   mutable std::vector<std::mutex> Filling;
   mutable std::vector<Tile> Tiles;
-  mutable std::vector<std::atomic<const Eigen::Vector3f*>> Ready; ///< null for a tile that is not
+  mutable std::vector<std::atomic<const Eigen::Vector3f*>> Ready; ///< null for a tile that is not filled
 };
 }

@@ -35,17 +35,6 @@ public:
     float u[RunLength], v[RunLength], depth[RunLength];
   };
   void project(const Run& run, RunPoints& points) const;
-  /// The same of one point of space.
-  Eigen::Vector3f project(const Eigen::Vector3f& point) const
-  {
-    Eigen::Vector3f p = this->Axes * (point - this->Eye);
-    if (this->IsPerspective)
-    {
-      p.head<2>() /= p.z();
-    }
-    return p;
-  }
-
   const Points& scan() const { return this->Scan; }
   bool isPerspective() const { return this->IsPerspective; }
   const Eigen::Vector3f& eye() const { return this->Eye; }   ///< the sensor's position, or anywhere

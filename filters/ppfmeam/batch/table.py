@@ -24,7 +24,7 @@ def rows_of(poses, objects):
 
 
 def content_of(names, lines):
-    """The same for JSON."""
+    """All scans with their poses, for JSON."""
     def pose(row):
         told = dict(zip(POSES[1:], row))
         return {**{name: float(told[name]) for name in POSES[3:6]}, **{name: list(map(float, told[name].split())) for name in ("R", "t")},

@@ -38,7 +38,7 @@ def options_of_user():
     parser.add_argument("--out", metavar="CSV", help="write the poses as BOP results")
     parser.add_argument("--json", help="write the poses as JSON")
     parser.add_argument("--matrices", metavar="TXT", help="write the poses as 4x4 matrices")
-    parser.add_argument("--picture", metavar="PNG", help="write a picture of the scan with the part at each pose")
+    parser.add_argument("--picture", metavar="FILE", help="write a picture, PNG or JPEG, of the scan with the part at each pose")
     parser.add_argument("--report", metavar="HTML",
                         help="write a page for any browser, in one file: scan and parts in 3D, the image with their outlines, the poses and why")
     options = parser.parse_args()

@@ -57,7 +57,7 @@ def main():
     parser.add_argument("--robot-frame", metavar="FILE", help="the camera in the robot's frame, of OpenCV or ROS: picks are printed in it")
     parser.add_argument("--json", metavar="FILE", help="write all picks as JSON, with what is against those that are not possible")
     options = asked.parsed(parser)
-    if not options.cad and any(map(api.is_model, options.parts)):
+    if any(map(api.is_model, options.cad or options.parts)):
         parser.error("give a trained model by --model, and its --cad: grasps are places on the faces of that")
     scripting.require_folder_of(options.json)
     gripper, lengths = gripper_of(options)

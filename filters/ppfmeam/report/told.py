@@ -76,7 +76,7 @@ class Told:
     @classmethod
     def of_python(cls, found):
         """Of Detections."""
-        call = {name: value for name, value in {**found.inputs, **found.of_cad}.items() if name != "scan" and value not in (None, 1.0)}
+        call = {name: value for name, value in {**found.inputs, **found.of_cad}.items() if name != "scan" and is_given(value)}
         chosen = found.settings.differing()
         parts = [repr(model.file) if model.file else "model" for model in found.models]
         part = parts[0] if len(parts) == 1 else f"[{', '.join(parts)}]"
@@ -87,6 +87,11 @@ class Told:
         choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
         return cls([model.name for model in found.models], name, found.report.splitlines(), found.advice, {"total": found.seconds}, chosen,
                    f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({part}, {scan}{words}{choices_made}, at=({{x}}, {{y}}, {{z}})))", said)
+
+
+def is_given(value):
+    """Whether it is no default, None or a scale of 1; arrays are given."""
+    return value is not None and not (isinstance(value, (int, float)) and value == 1)
 
 
 def names_of(parts):

@@ -97,7 +97,7 @@ TEST(DepthImage, depthsBeyondAnySensor)
   EXPECT_EQ(meam::readDepthImage(path, camera(), 10.0).points[1].z(), 50000.0f);
   EXPECT_TRUE(files::contains(files::errorOf([&] { meam::readDepthImage(path, camera(), 1000.0); }),
     "has nothing nearer than 5000 m, with a depth scale of 1000 mm for a value of 1: correct depth_scale in its "
-    "calibration, or the scale (--depth-scale)."));
+    "calibration, or the depth scale that was given (--depth-scale)."));
 }
 
 TEST(DepthImage, theLensIsUndone)

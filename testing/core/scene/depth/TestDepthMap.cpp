@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/depth/DepthMap.h"
 
+#include "TestParts.h"
+
 #include <gtest/gtest.h>
 
 #include <map>
@@ -9,13 +11,7 @@
 
 namespace
 {
-meam::Sensor fromAbove()
-{
-  meam::Sensor sensor;
-  sensor.perspective = false;
-  sensor.direction = -Eigen::Vector3d::UnitZ();
-  return sensor;
-}
+using parts::fromAbove;
 
 /// Of one point.
 std::optional<Eigen::Vector3f> meanAt(const meam::DepthMap& map, const Eigen::Vector3f& point, float* inside = nullptr)

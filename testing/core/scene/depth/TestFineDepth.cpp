@@ -53,7 +53,7 @@ void expectSame(const meam::FineDepth& fine, const meam::DepthMap& map, int cell
 TEST(FineDepth, HasInEachTileWhatWasMeasuredThere)
 {
   meam::Points points = scan();
-  for (const bool isShuffled : { false, true }) // then a tile is the whole map
+  for (const bool isShuffled : { false, true })
   {
     if (isShuffled)
     {
@@ -99,6 +99,21 @@ TEST(FineDepth, TheSameForCallsInParallel)
   {
     expectSame(fine, map, cell);
   }
+}
+
+TEST(FineDepth, EqualPointsAndSomeFarOff)
+{
+  meam::Points points(64 * 300, Eigen::Vector3f(0, 0, 500)); // runs that come to one cell each
+  points.insert(points.end(), { { 900, 0, 500 }, { 0, 900, 500 } });
+  const meam::ScanProjection lines(points, sensorAt({ 0, 0, 0 }));
+  const meam::FineDepth fine(lines, 0.5);
+  const meam::DepthMap map(lines, 0.5);
+  for (const Eigen::Vector3f& point : { points.front(), points[points.size() - 2], points.back() })
+  {
+    ASSERT_GE(map.cellAt(point), 0);
+    expectSame(fine, map, map.cellAt(point));
+  }
+  expectSame(fine, map, map.cellCount() - 1);
 }
 
 TEST(FineDepth, NothingMeasuredHasNoCells)
