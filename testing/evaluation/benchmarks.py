@@ -9,15 +9,17 @@ import subprocess
 
 from ppfmeam import scripting
 
-PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "build", "release", "bin", "meamBenchmarks")
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1, "s": 1e3}
 
 
 def run(*arguments):
     """The runs that the program tells of."""
-    if not os.path.exists(PROGRAM):
-        raise scripting.Failure(f"there is no {os.path.normpath(PROGRAM)}: cmake/build.sh release meamBenchmarks")
-    done = subprocess.run([PROGRAM, *arguments, "--benchmark_format=json"], stdout=subprocess.PIPE, text=True, check=True)
+    build = [os.path.join(ROOT, "cmake", "build.sh"), "release", "meamBenchmarks"]  # which all else leaves as it was
+    if subprocess.run(build, stdout=subprocess.DEVNULL, check=False).returncode:
+        raise scripting.Failure(f"meamBenchmarks is not built: {' '.join(build)}")
+    program = os.path.join(ROOT, "build", "release", "bin", "meamBenchmarks")
+    done = subprocess.run([program, *arguments, "--benchmark_format=json"], stdout=subprocess.PIPE, text=True, check=True)
     return json.loads(done.stdout)["benchmarks"]
 
 

@@ -7,8 +7,8 @@ README.md and what decisions are worth in docs/parameters.md from these files.
 
 Tables that are not measured stay as they are. All together take hours: name them one at a time, or take the --quick ones; `--only
 none` writes the documents alone. Data are looked for in $PPFMEAM_DATA (tohoku/, cad/, rings/, scanner/, pipes/ and real/); bins
-are simulated once and kept in build/evaluation. `voting`, `slopes` and `scene-edges` need the target meamBenchmarks,
-`rivals` the build option PPFMEAM_BUILD_RIVALS, which adds them to `paper`, too."""
+are simulated once and kept in build/evaluation. `voting`, `slopes` and `scene-edges` build the target meamBenchmarks,
+`rivals` needs the build option PPFMEAM_BUILD_RIVALS, which adds them to `paper`, too."""
 import argparse
 import datetime
 import os
