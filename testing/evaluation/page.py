@@ -115,11 +115,6 @@ def of_rivals(rows):
                  lambda row: f"{number(row, 'strict', 0)} ({number(row, 'recall', 0)})")
 
 
-def of_resolution(rows):
-    return pivot(rows, ("pixels along the part", lambda row: row["pixels along the part"]), lambda row: row["sensor"],
-                 lambda row: number(row, "first", 0, " %"))
-
-
 def of_speed(tohoku, bins, edges, voting):
     def benchmark(rows, name):
         return next(row for row in rows if row["benchmark"] == name)
@@ -158,8 +153,6 @@ SECTIONS = {
              "The paper's Table 9, simulated: five bins of 12 parts each ([picking.md](picking.md#a-cell-simulated))."),
     "rivals": ("What others would use instead", ("rivals",), of_rivals,
                "Ten scenes of each part, processor time a scene. PCL returns one pose: 20 % is all."),
-    "resolution": ("How many pixels a part needs", ("resolution",), of_resolution,
-                   "A housing alone in a bin, ten bins each: the first pose is right."),
     "speed": ("Speed", ("tohoku", "bins", "scene-edges", "voting"), of_speed, ""),
 }
 
@@ -225,7 +218,7 @@ def with_worth(text, rows):
         if match["name"] == "none":
             sizes = ", ".join(f"{WORLDS[row['world']]} {row['copies'] or row['found']}" for row in by["none"])
             return f"{match['link']}: {sizes}."
-        return f"{match['link']}: {worth(by[match['name']]) if match['name'] in by else 'not measured'}."
+        return f"{match['link']}: {worth(by[match['name']]) if match['name'] in by else 'not measured on its own'}."
     return re.sub(r"(?P<link>\[(?P<name>[a-z0-9.-]+)\]\(evaluation\.md#ablation\)): [^|\n]*?\.(?=\s|$)", told, text)
 
 

@@ -200,8 +200,6 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
     "paper-reading": ("Readings of the paper's text", lambda: paper_reading.measure(TOHOKU), False),
     "rivals": ("What others would use instead", rivals, False),
     "cell": ("The picking cell", cell, False),
-    "cell-failures": ("The picking cell: picks that failed, and parts that were left", lambda: [
-        row for row in results.read(os.path.join(kept("cell"), "picks.csv")) if row["outcome"] != "success"], False),
     "models": ("Which model to train", lambda: models.measure(TOHOKU), False),
     "ablation": ("Each decision switched off, in several worlds", ablation, False),
     "voting": ("Speed of voting", lambda: benchmarks.medians(

@@ -184,11 +184,11 @@ check(math.isclose(slope["slope"], 2) and math.isclose(slope["ms to"], 3.2) and 
 
 # page.py: the page says what the files say, and leaves out tables that are not measured.
 os.makedirs("tables")
-results.write("tables/resolution.csv", [{"pitch, mm": 1.0, "pixels along the part": 24, "sensor": sensor, "first": first, "date": "2026-01-02", "commit": "abc"}
-                                        for sensor, first in (("eye", 70.0), ("nose", None))])
+results.write("tables/rings.csv", [{"edges": "image", "known": 10, "met": 9, "mm": 0.8063, "degrees": None, "met on average": 9.75, "least": 9, "most": 10,
+                                    "date": "2026-01-02", "commit": "abc"}])
 results.write("tables/slopes.csv", [{"benchmark": "x", "slope": 1.5, "date": "2026-01-03", "commit": "def"}])
-text = page.page("tables", {"resolution": "Pixels", "slopes": "Growth", "noise": "Noise"})
-check('<a id="resolution"></a>' in text and "| 24 | 70 % | - |" in text and "2026-01-02, commit abc" in text, text)
+text = page.page("tables", {"rings": "Rings", "slopes": "Growth", "noise": "Noise"})
+check('<a id="rings"></a>' in text and "| image | 9 of 10 | 0.81 mm, - degrees | 9.8 | 9 to 10 |" in text and "2026-01-02, commit abc" in text, text)
 check('<a id="slopes"></a>Growth: [slopes.csv](evaluation/slopes.csv), 2026-01-03, commit def' in text and "noise" not in text, text)
 
 # What a switch changes follows its links, but for what chance changes as well.
