@@ -321,7 +321,7 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
   }
   if (diagnosis.cause == LossCause::FewEdges)
   {
-    return std::string("Light the bin from another side") +
+    return std::string("Light the bin from another side, with DepthEdges and Creases on") +
            (canVoteMore ? ", or let the surface vote, too (Features: Both)." : ".");
   }
   return diagnosis.cause == LossCause::Outvoted && canVoteMore ? "Let edges and surface vote (Features: Both)." : "";
