@@ -198,7 +198,7 @@ switched = [{"world": world, "switch": switch, "copies": copies, **{name + end: 
                                                          ("pipes", "signs", "", ("9", "", ""), ("10", "", "")), ("bins", "shared", "412", ("401", "3", "10.1"), ("400", "3", "10")))]
 links = [f"[{name}](evaluation.md#ablation): " for name in ("none", "signs", "shared", "tiles")]
 told = page.with_worth("".join(f"{link}old. " for link in links), switched)
-check(told == "{}bins 412. {}bins -12 (-40), ×1.10. {}nothing. {}not measured. ".format(*links), told)
+check(told == "{}bins 412. {}bins -12 (-40), ×1.10. {}nothing. {}not measured on its own. ".format(*links), told)
 check(page.with_worth(told, switched) == told, "and again the same")
 
 # Bad input.
