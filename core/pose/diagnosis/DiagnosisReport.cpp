@@ -5,7 +5,6 @@
 #include "pose/objective/FloorContact.h"
 #include "pose/refinement/PartSize.h"
 #include "pose/search/Suppression.h"
-#include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +15,9 @@ namespace meam
 {
 namespace
 {
-constexpr double LogOdds = CalibrationWithSurface.slope; // of what adds one to the sum of evidence
-constexpr double Likely = 0.9;                           // of a rotation, or a place, that needs no word
-constexpr double LeastLess = 1.0;                        // log odds: more than places lose that nothing contradicts
-constexpr double LeastTold = 0.1;                        // of log odds, or patches: less changes nothing
+constexpr double Likely = 0.9;    // of a rotation, or a place, that needs no word
+constexpr double LeastLess = 1.0; // log odds: more than places lose that nothing contradicts
+constexpr double LeastTold = 0.1; // of log odds, or patches: less changes nothing
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
 
@@ -334,24 +332,24 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
   const auto listed = [&](bool speaksFor)
   {
     std::vector<EvidenceTerm> terms;
-    std::copy_if(diagnosis.terms.begin(), diagnosis.terms.end(), std::back_inserter(terms),
-      [&](const EvidenceTerm& term)
-      { return (term.adds > 0.0) == speaksFor && std::abs(LogOdds * term.adds) >= LeastTold; });
+    std::copy_if(diagnosis.odds.terms.begin(), diagnosis.odds.terms.end(), std::back_inserter(terms),
+      [&](const EvidenceTerm& term) { return (term.adds > 0.0) == speaksFor && std::abs(term.adds) >= LeastTold; });
     std::stable_sort(terms.begin(), terms.end(),
       [](const EvidenceTerm& a, const EvidenceTerm& b) { return std::abs(a.adds) > std::abs(b.adds); });
     std::string words;
     for (const EvidenceTerm& term : terms)
     {
       words += (words.empty() ? "" : "; ") + std::string(term.what) + ", " + decimal(term.amount) + " " + term.unit +
-               " (" + (speaksFor ? "+" : "") + decimal(LogOdds * term.adds) + ")";
+               " (" + (speaksFor ? "+" : "") + decimal(term.adds) + ")";
     }
     return words.empty() ? "nothing" : words;
   };
-  if (!diagnosis.terms.empty())
+  if (!diagnosis.odds.terms.empty())
   {
     add("For it, in the logarithm of the odds: " + listed(true) + ".");
-    add("Against it: " + listed(false) + ", and that little is right of what is anywhere (" +
-        decimal(CalibrationWithSurface.constant) + ").");
+    const double before = diagnosis.odds.before;
+    add("Against it: " + listed(false) +
+        (before < 0.0 ? ", and that little is right of what is anywhere (" + decimal(before) + ")." : "."));
   }
   const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
   if (diagnosis.continuing >= LeastTold && !(isDoubted(diagnosis) && words.find("goes on") != std::string::npos))

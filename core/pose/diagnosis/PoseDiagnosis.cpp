@@ -336,14 +336,14 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
     const EvidenceCollector collector(this->InScene, this->Model, evidence);
     const Eigen::Isometry3d& T = diagnosis.found ? diagnosis.found->T_scene_model : T_local_model;
     const EvidenceCounts counts = collector.collect(T).counts;
-    diagnosis.terms = termsOf(counts, *evidence.rates);
+    diagnosis.odds = collector.placeOdds(counts, *evidence.rates);
     if (diagnosis.found)
     {
       const double place = diagnosis.found->placeProbability;
       const double calibrated = std::log(place / (1.0 - place));
       const double logOdds = this->Model.calibration.place.countedOf(calibrated);
       diagnosis.moreByCalibration = calibrated - logOdds;
-      diagnosis.lessByOthers = collector.logOdds(counts, *evidence.rates) - logOdds;
+      diagnosis.lessByOthers = diagnosis.odds.sum() - logOdds;
       const auto cut = std::find_if(all.begin(), all.end(),
         [&](const Pose& other)
         {

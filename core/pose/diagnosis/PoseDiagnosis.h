@@ -61,17 +61,17 @@ struct Diagnosis
   double bestEvidence = 0.0;       ///< of these
   std::vector<PointVotes> votes;   ///< of points on the part
   std::vector<StageCount> stages;
-  int rank = 0;                    ///< of what came out here, from 1; 0: nothing did
-  PoseOffset offset{ 0.0, 0.0 };   ///< of what came out here, or of where refinement led to
-  double probability = 0.0;        ///< of a copy where it came out, or would without limits
-  std::optional<Pose> found;       ///< what came out here, or would without limits, local frame
-  bool isOfFound = false;          ///< it is asked about a pose that came out, right or wrong
-  std::vector<EvidenceTerm> terms; ///< what speaks for the place and against it; empty with the paper's verification
-  double moreByCalibration = 0.0;  ///< log odds by what the model's calibration has taught
-  double lessByOthers = 0.0;       ///< log odds that what came out has less than by these terms, for the set it is in
-  int cutsInto = 0;                ///< rank without limits of the likeliest pose whose body its own cuts into; 0: none
-  int otherRank = 0;               ///< without limits, from 1, of the nearest other pose of another place; 0: none near
-  double otherProbability = 0.0;   ///< of a copy there
+  int rank = 0;                   ///< of what came out here, from 1; 0: nothing did
+  PoseOffset offset{ 0.0, 0.0 };  ///< of what came out here, or of where refinement led to
+  double probability = 0.0;       ///< of a copy where it came out, or would without limits
+  std::optional<Pose> found;      ///< what came out here, or would without limits, local frame
+  bool isOfFound = false;         ///< it is asked about a pose that came out, right or wrong
+  PlaceOdds odds;                 ///< what speaks for it and against it; nothing with the paper's verification
+  double moreByCalibration = 0.0; ///< log odds by what the model's calibration has taught
+  double lessByOthers = 0.0;      ///< log odds that what came out has less than by these terms, for the set it is in
+  int cutsInto = 0;               ///< rank without limits of the likeliest pose whose body its own cuts into; 0: none
+  int otherRank = 0;              ///< without limits, from 1, of the nearest other pose of another place; 0: none near
+  double otherProbability = 0.0;  ///< of a copy there
   PoseOffset otherOffset{ 0.0, 0.0 }; ///< of it
   int rankWithoutLimits = 0;          ///< the same if all poses came out
   int takenBy = 0;            ///< rank without limits, from 1, of the pose that explains most of the place's points

@@ -6,6 +6,7 @@
 #include "pose/PoseTolerances.h"
 #include "pose/search/Suppression.h"
 #include "pose/verification/PoseVerification.h"
+#include "pose/verification/ProbabilityCalibration.h"
 
 #include <algorithm>
 #include <tuple>
@@ -16,6 +17,7 @@ namespace
 {
 constexpr double Resolved = 0.01;     // of the diameter, what the distance to a part's surface is known to
 constexpr double MostProbable = 0.99; // no pose is surer: 99 to 1
+constexpr double LeastByRates = 0.5;  // nor less sure for its counts alone, when it is surer by all else
 
 /// What a pose claims of the scene.
 struct Claim
@@ -42,7 +44,9 @@ Claim claimOf(const PartPose& pose, const PartDetections& part, const Scene& mea
   const PoseEvidence evidence = collector.collect(T);
   Claim claim{ pose, explainedPoints(measured, part.model, T, tolerance) };
   claim.pose.pose.viewId = viewOf(pose.pose, part.scene, part.model);
-  const double probability = std::min(placeOrScore(pose.pose), MostProbable);
+  // Rates of its own make a type of which little is seen likelier than by the usual ones, which are the same for all.
+  const double byUsualRates = std::max(probabilityOf(collector.logOdds(evidence.counts, {})), LeastByRates);
+  const double probability = std::min({ placeOrScore(pose.pose), byUsualRates, MostProbable });
   claim.support = probability / (1.0 - probability) * claim.points.size() *
                   soundShare(evidence.surface.empty() ? evidence.edgeStates : evidence.surfaceStates);
   return claim;

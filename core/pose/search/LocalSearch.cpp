@@ -197,7 +197,7 @@ LocalSearch::Result LocalSearch::best(Pose pose) const
   {
     other.T_scene_model = pose.T_scene_model * T_decided.inverse() * other.T_scene_model;
   }
-  return { pose, moved.evidence, moved.logOdds };
+  return { pose, moved.evidence, this->Collector.placeOdds(moved.evidence.counts, this->Rates).sum() };
 }
 
 void LocalSearch::restart(Pose& pose, Contender& current) const

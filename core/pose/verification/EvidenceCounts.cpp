@@ -33,9 +33,9 @@ constexpr int Steps = 4;              // of how likely the candidates are, and w
 constexpr double LeastGain = 0.02;    // that something is found more often where the part is
 constexpr double LeastEnds = 0.75;    // of a part's outline end: there may be none of the part
 
-/// A sum that beyond about `many` grows by its logarithm.
-double saturated(double sum, double many) { return std::copysign(many * std::log1p(std::abs(sum) / many), sum); }
 }
+
+double logSaturated(double sum, double many) { return std::copysign(many * std::log1p(std::abs(sum) / many), sum); }
 
 double EvidenceRate::logOf(double foundTimes, double missingTimes) const
 {
@@ -46,7 +46,7 @@ double EvidenceRate::logOf(double foundTimes, double missingTimes) const
 double EvidenceCounts::ofSurface() const
 {
   return There * this->there + Unclear * this->unclear + Turned * this->turned + Past * this->past +
-         FarPast * this->farPast + Hidden * saturated(this->hidden, ManyHidden) + Enclosed * this->enclosed +
+         FarPast * this->farPast + Hidden * logSaturated(this->hidden, ManyHidden) + Enclosed * this->enclosed +
          Unmeasured * this->unmeasured;
 }
 
@@ -57,30 +57,10 @@ double EvidenceCounts::ofEdges(const EvidenceRates& rates) const
 
 double EvidenceCounts::ofLines(const EvidenceRates& rates) const
 {
-  return saturated(this->ofEdges(rates) + Outline * rates.outline.logOf(this->ends, this->goesOn), ManyLines);
+  return logSaturated(this->ofEdges(rates) + Outline * rates.outline.logOf(this->ends, this->goesOn), ManyLines);
 }
 
 double EvidenceCounts::sum(const EvidenceRates& rates) const { return this->ofSurface() + this->ofLines(rates); }
-
-std::vector<EvidenceTerm> termsOf(const EvidenceCounts& counts, const EvidenceRates& rates)
-{
-  const double edges = counts.ofEdges(rates), outline = Outline * rates.outline.logOf(counts.ends, counts.goesOn);
-  const double lines = edges + outline;
-  const double counting = lines != 0.0 ? counts.ofLines(rates) / lines : 1.0;
-  std::vector<EvidenceTerm> terms{ { "surface where it should be", "patches", counts.there, There * counts.there },
-    { "surface too small to tell which way it faces", "patches", counts.unclear, Unclear * counts.unclear },
-    { "surface that faces elsewhere", "patches", counts.turned, Turned * counts.turned },
-    { "surface that the sensor saw just past", "patches", counts.past, Past * counts.past },
-    { "surface that the sensor saw far past", "patches", counts.farPast, FarPast * counts.farPast },
-    { "surface that is hidden", "patches", counts.hidden, Hidden * saturated(counts.hidden, ManyHidden) },
-    { "body behind the bin's floor or a wall", "patches", counts.enclosed, Enclosed * counts.enclosed },
-    { "surface that was not measured", "patches", counts.unmeasured, Unmeasured * counts.unmeasured },
-    { "edges", "points found", counts.edgesFound, counting * edges },
-    { "outline", "patches long where surface ends", counts.ends, counting * outline } };
-  terms.erase(
-    std::remove_if(terms.begin(), terms.end(), [](const EvidenceTerm& term) { return term.adds == 0.0; }), terms.end());
-  return terms;
-}
 
 EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates)
 {

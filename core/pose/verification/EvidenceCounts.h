@@ -26,8 +26,8 @@ struct EvidenceRates
   EvidenceRate outline{ 0.9, 0.55 }; ///< of a patch's side of outline, that the measured surface ends there
 };
 
-/// What was counted of a pose, and what it says for it: the logarithm of how much likelier it is with the part there
-/// than with anything else, up to a common factor.
+/// What was counted of a pose, and what it says for it, which poses are searched for by: the logarithm of how much
+/// likelier it is with the part there than with anything else, up to a common factor.
 struct EvidenceCounts
 {
   // Areas as the sensor sees them, in patches
@@ -48,17 +48,8 @@ struct EvidenceCounts
   double sum(const EvidenceRates& rates) const;
 };
 
-/// One kind of what was counted, and what it adds to EvidenceCounts::sum.
-struct EvidenceTerm
-{
-  const char* what; ///< "surface where it should be"
-  const char* unit; ///< "patches"
-  double amount;
-  double adds;
-};
-
-/// All kinds that add something; they sum up to EvidenceCounts::sum.
-std::vector<EvidenceTerm> termsOf(const EvidenceCounts& counts, const EvidenceRates& rates);
+/// A sum that beyond about `many` grows by its logarithm.
+double logSaturated(double sum, double many);
 
 /// The rates of a scan, from what was counted of its candidates, by expectation maximization: each tells how often
 /// something is found where the part is as far as it is likely to be right, from the sum of its evidence by the rates

@@ -66,6 +66,11 @@ bool EvidenceCollector::nearEdge(const Eigen::Vector3f& point) const
   return this->InScene.edgeGrid().nearest(point, this->Tolerance) >= 0;
 }
 
+PlaceOdds EvidenceCollector::placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const
+{
+  return meam::placeOdds(counts, rates, haveSurfaces(this->InScene, this->Model));
+}
+
 double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const
 {
   return haveSurfaces(this->InScene, this->Model) ? CalibrationWithSurface.logOdds(counts.sum(rates))

@@ -4,7 +4,7 @@
 #include "base/SoAPoints.h"
 #include "model/PredictedVisibility.h"
 #include "model/TrainedModel.h"
-#include "pose/verification/EvidenceCounts.h"
+#include "pose/verification/PlaceOdds.h"
 #include "scene/Scene.h"
 
 #include <memory>
@@ -65,7 +65,9 @@ public:
   EvidenceCollector(const Scene& scene, const TrainedModel& model, const EvidenceSettings& settings = {});
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
-  /// Logarithm of the odds that the part is where this was counted.
+  /// What is said of a final pose.
+  PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
+  /// What poses are searched for by: logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
   /// The same of what is counted at a pose.
   double logOdds(const Eigen::Isometry3d& T_scene_model, const EvidenceRates& rates, std::size_t stride = 1) const;

@@ -117,7 +117,8 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
 {
   meam::Diagnosis diagnosis = example(LossCause::None);
   EXPECT_TRUE(meam::reasonsOf(diagnosis).empty());
-  diagnosis.terms = { { "surface where it should be", "patches", 10.0, 10.0 },
+  diagnosis.odds.before = -6.3;
+  diagnosis.odds.terms = { { "surface where it should be", "patches", 10.0, 10.0 },
     { "surface that the sensor saw far past", "patches", 0.5, -4.0 }, { "edges", "points found", 30.0, 2.0 },
     { "outline", "patches long where surface ends", 8.0, 0.01 } };
   diagnosis.found.emplace();
@@ -129,12 +130,11 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   diagnosis.otherRank = 9;
   diagnosis.otherProbability = 0.12;
   diagnosis.otherOffset = { 14.0, 90.0 };
-  const std::vector<std::string> sentences{ // 0.64 of what adds to the sum
-    "For it, in the logarithm of the odds: surface where it should be, 10.0 patches (+6.4); edges, 30.0 points found "
-    "(+1.3).",
-    "Against it: surface that the sensor saw far past, 0.5 patches (-2.6), and that little is right of what is "
-    "anywhere "
-    "(-6.3).",
+  const std::vector<std::string> sentences{
+    "For it, in the logarithm of the odds: surface where it should be, 10.0 patches (+10.0); edges, 30.0 points found "
+    "(+2.0).",
+    "Against it: surface that the sensor saw far past, 0.5 patches (-4.0), and that little is right of what is "
+    "anywhere (-6.3).",
     "With all that the scan holds it is less likely, by 4.2: its body cuts into that of rank 5.",
     "Its rotation is 70 % sure; turned by 180.0 degrees it is 25 %.",
     "The nearest other pose is rank 9, 12 %, 14.0 mm and 90.0 degrees off."

@@ -78,7 +78,7 @@ TEST(PoseDiagnosis, WhatIsFoundIsFound)
   }
   ASSERT_TRUE(diagnosis.found);
   EXPECT_EQ(diagnosis.found->placeProbability, diagnosis.probability);
-  EXPECT_STREQ(diagnosis.terms.front().what, "surface where it should be");
+  EXPECT_STREQ(diagnosis.odds.terms.front().what, "surface where it should be");
   // The points are where the part is.
   for (const Eigen::Vector3d& point : diagnosis.surfacePoints)
   {
@@ -321,7 +321,7 @@ TEST(PoseDiagnosis, OfAPoseThatCameOutItIsToldWhyThatDid)
     EXPECT_EQ(of.probability, 0.95);
     ASSERT_TRUE(of.place && of.found);
     EXPECT_LT(meam::translationError(of.place->T_scene_model, wrong.T_scene_model), 1e-3);
-    EXPECT_FALSE(of.terms.empty());
+    EXPECT_FALSE(of.odds.terms.empty());
   };
   check(diagnosis.ofFound(wrong, 4));
   const Eigen::Vector3d on = wrong.T_scene_model * scenes::bracket().surface.points.front().cast<double>();
