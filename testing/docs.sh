@@ -36,7 +36,7 @@ done
 /usr/bin/python3 testing/evaluation/frames.py /dev/stdout | cmp -s - docs/images/frames.svg ||
   missing docs/robot.md "docs/images/frames.svg is not what testing/evaluation/frames.py draws"
 # The settings of docs/parameters.md: all fields of each struct that it names, with their defaults as the headers of core/
-# have them ("STRUCT FIELD DEFAULT"), but for threads and structs within; and its properties are those of xml/.
+# have them ("STRUCT FIELD DEFAULT"), but for threads and structs within; and its properties are those of xml/ and the table of choices.
 parameters=docs/parameters.md
 mapfile -t headers < <(find core -name '*.h')
 has=$(sed -nE 's/^\| `([a-z][A-Za-z]*)` \| ([^|]*[^| ]) \|.*/field \1 \2/p; s/^`([A-Z][A-Za-z]*)`.*/struct \1/p' "$parameters" |
@@ -75,5 +75,5 @@ differ=$(diff <(echo "$wanted") <(echo "$has") | sed -nE 's/^< /core has /p; s/^
 while read -r name; do
   missing "$parameters" "neither core/ nor xml/ knows $name"
 done < <(grep -oE '`[A-Z][A-Za-z]*`' "$parameters" | tr -d '`' | sort -u |
-  comm -23 - <(grep -rohE --include='*.h' --include='*.xml' '[A-Z][A-Za-z]*' core xml | sort -u))
+  comm -23 - <(grep -rohE --include='*.h' --include='*.xml' --include=choices.json '[A-Z][A-Za-z]*' core xml filters/ppfmeam | sort -u))
 exit $status

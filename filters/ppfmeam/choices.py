@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The user's choices. choices.json has their names, types, defaults, ranges and help: Python's arguments and the options of
-the commands are made from it, and the tests compare C++, the filters, their XML and the documents with it."""
+"""The user's choices. choices.json has their names, types, defaults, ranges and help: Python's arguments, the options of
+the commands and the filters' XML are made from it, and the tests compare C++, the filters and the documents with it."""
 import argparse
 import functools
 import inspect
