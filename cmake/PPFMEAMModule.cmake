@@ -21,11 +21,11 @@ endif()
 find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components} PATHS ${elsewhere})
 message(STATUS "VTK ${VTK_VERSION} from ${VTK_DIR}")
 
-# For filters/*/CMakeLists.txt: a module of these classes and of sources that are not wrapped, with one library of the core.
+# For filters/*/CMakeLists.txt: a module of these classes, of headers and sources that are not wrapped, and one library of the core.
 function(ppfmeam_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 module "" "CORE" "CLASSES;SOURCES")
+  cmake_parse_arguments(PARSE_ARGV 1 module "" "CORE" "CLASSES;HEADERS;SOURCES")
   set(module PPFMEAM::${name})
-  vtk_module_add_module(${module} CLASSES ${module_CLASSES} SOURCES ${module_SOURCES})
+  vtk_module_add_module(${module} CLASSES ${module_CLASSES} NOWRAP_HEADERS ${module_HEADERS} SOURCES ${module_SOURCES})
   vtk_module_link(${module} PRIVATE ${module_CORE})
   vtk_module_compile_options(${module} PRIVATE -Wall -Wextra)
   get_target_property(target ${module} ALIASED_TARGET)

@@ -20,6 +20,7 @@
 #define vtkMEAMBackgroundRemoval_h
 
 #include "ppfmeamDetectionModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkStructuredGridAlgorithm.h"
 
 #include <memory>
@@ -39,35 +40,23 @@ public:
   /** The mask. */
   void SetMaskConnection(vtkAlgorithmOutput* mask) { this->SetInputConnection(1, mask); }
 
-  ///@{
   /**
    * mm, scene coordinates: least and greatest x, y and z of the points to keep; an axis whose two values are
    * equal has no limits. Default: 0, 0, 0, 0, 0, 0.
    */
-  vtkSetVector6Macro(Region, double);
-  vtkGetVector6Macro(Region, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(Region, double, 6);
 
-  ///@{
   /** Planes that are removed at most, the largest first. Default: 1. */
-  virtual void SetNumberOfPlanes(int value);
-  virtual int GetNumberOfPlanes();
-  ///@}
+  vtkMEAMDeclareSettingMacro(NumberOfPlanes, int);
 
-  ///@{
   /**
    * mm: points nearer to a plane are on it; 0 for twice the distance of neighbouring points and three times the
    * noise. Default: 0.
    */
-  virtual void SetTolerance(double value);
-  virtual double GetTolerance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Tolerance, double);
 
-  ///@{
   /** % of the points that mask and region leave: a plane with fewer stays. Default: 10. */
-  virtual void SetLeastShare(double value);
-  virtual double GetLeastShare();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LeastShare, double);
 
 protected:
   vtkMEAMBackgroundRemoval();
@@ -78,9 +67,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMBackgroundRemoval(const vtkMEAMBackgroundRemoval&) = delete;
-  void operator=(const vtkMEAMBackgroundRemoval&) = delete;
-
   std::unique_ptr<meam::BackgroundRemovalSettings> Settings;
   double Region[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 };

@@ -42,17 +42,11 @@ public:
   /** Takes the models of all parts away; one is added by AddInputConnection(1, ...). */
   void RemoveAllModelConnections() { this->RemoveAllInputConnections(1); }
 
-  ///@{
   /** Poses that share more of what they explain, in [0, 1], are in conflict; 1: none are. Default: 0.5. */
-  virtual void SetMaximumShared(double value);
-  virtual double GetMaximumShared();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumShared, double);
 
-  ///@{
   /** Poses that come out, the best ones of all parts; 0: all that stay. Default: 0. */
-  virtual void SetMaximumNumberOfPoses(int value);
-  virtual int GetMaximumNumberOfPoses();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumNumberOfPoses, int);
 
 protected:
   vtkMEAMConflictResolution();
@@ -62,9 +56,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMConflictResolution(const vtkMEAMConflictResolution&) = delete;
-  void operator=(const vtkMEAMConflictResolution&) = delete;
-
   std::unique_ptr<meam::ConflictResolutionSettings> Settings;
 };
 

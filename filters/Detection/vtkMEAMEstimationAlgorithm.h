@@ -58,8 +58,7 @@ public:
    * surface points with normals (3, Drost et al. 2010), and pairs of points on line segments (4, Choi et al. 2012). The
    * last two rank poses by their votes. Default: Recommended.
    */
-  virtual void SetPreset(int value);
-  virtual int GetPreset();
+  vtkMEAMDeclareSettingMacro(Preset, int);
   void SetPresetToPaper() { this->SetPreset(Paper); }
   void SetPresetToRecommended() { this->SetPreset(Recommended); }
   void SetPresetToWithoutMEAM() { this->SetPreset(WithoutMEAM); }
@@ -80,102 +79,64 @@ public:
    * flat, thin and ribbed parts. Surface (1): surface points with normals, which carry smooth, round and thick ones.
    * Both (2). Of presets other than Recommended this has no effect: the method says it. Default: Both.
    */
-  virtual void SetFeatures(int value);
-  virtual int GetFeatures();
+  vtkMEAMDeclareSettingMacro(Features, int);
   void SetFeaturesToEdges() { this->SetFeatures(Edges); }
   void SetFeaturesToSurface() { this->SetFeatures(Surface); }
   void SetFeaturesToBoth() { this->SetFeatures(Both); }
   ///@}
 
-  ///@{
   /** Poses wanted, the best ones; 0 for all. Default: 5. */
-  virtual void SetMaximumNumberOfPoses(int value);
-  virtual int GetMaximumNumberOfPoses();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumNumberOfPoses, int);
 
-  ///@{
   /**
    * Of what comes out, poses are dropped where a copy is less likely to be there, however it is turned, in [0, 1].
    * Default: 0.
    */
-  virtual void SetMinimumProbability(double value);
-  virtual double GetMinimumProbability();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MinimumProbability, double);
 
-  ///@{
   /**
    * The minimum probability is that of the pose, its rotation included: poses of a nearly round part whose
    * rotation is unsure are dropped, too. Default: off.
    */
-  virtual void SetRotationCounts(bool value);
-  virtual bool GetRotationCounts();
-  vtkBooleanMacro(RotationCounts, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(RotationCounts);
 
-  ///@{
   /**
    * Share of the scene's edge points, and of its surface points, that are reference points, in [0, 1] (P_ref, Section
    * 5.1); 0: the preset's, as vtkMEAMPoseDetection has them. More finds more of the hidden copies and takes longer.
    * Default: 0.
    */
-  virtual void SetReferenceShare(double value);
-  virtual double GetReferenceShare();
-  ///@}
+  vtkMEAMDeclareSettingMacro(ReferenceShare, double);
 
-  ///@{
   /** Seconds from the scan to the poses, without training, after which the best come out that are found until then; 0:
    *  no limit. What is found by then depends on the machine. vtkMEAMPoseDiagnosis takes no heed of it. Default: 0. */
-  virtual void SetTimeLimit(double value);
-  virtual double GetTimeLimit();
-  ///@}
+  vtkMEAMDeclareSettingMacro(TimeLimit, double);
 
-  ///@{
   /** Of all random choices: the same seed gives the same result. Default: 1. */
-  virtual void SetSeed(int value);
-  virtual int GetSeed();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Seed, int);
 
   ///@{
   /** Which edges of the scene to look for, as in vtkMEAMSceneEdgeExtraction. Default: all; the preset Paper takes those
    * of the image alone. */
-  virtual void SetImageEdges(bool value);
-  virtual bool GetImageEdges();
-  vtkBooleanMacro(ImageEdges, bool);
-  virtual void SetDepthEdges(bool value);
-  virtual bool GetDepthEdges();
-  vtkBooleanMacro(DepthEdges, bool);
-  virtual void SetCreases(bool value);
-  virtual bool GetCreases();
-  vtkBooleanMacro(Creases, bool);
+  vtkMEAMDeclareFlagMacro(ImageEdges);
+  vtkMEAMDeclareFlagMacro(DepthEdges);
+  vtkMEAMDeclareFlagMacro(Creases);
   ///@}
 
-  ///@{
   /**
    * Where parts are looked for, mm: from and to along the x, y and z axes of the scan; parts whose middle lies
    * elsewhere are not looked for, and what is far from it is not looked at. All 0: everywhere. The scan may have a mask
    * besides, the point array `Region`, 0 for points that are left out. Default: 0.
    */
-  vtkSetVector6Macro(Region, double);
-  vtkGetVector6Macro(Region, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(Region, double, 6);
 
-  ///@{
   /** The calibration of a camera beside the sensor that took the image. Default: none. */
-  vtkSetFilePathMacro(CameraFile);
-  vtkGetFilePathMacro(CameraFile);
-  ///@}
+  vtkMEAMFileMemberMacro(CameraFile);
 
-  ///@{
   /** Factor on the CAD's coordinates, to bring them to mm. No meaning for a trained model. Default: 1. */
-  vtkSetMacro(CADScale, double);
-  vtkGetMacro(CADScale, double);
-  ///@}
+  vtkMEAMMemberMacro(CADScale, double);
 
-  ///@{
   /** mm, added to the CAD's coordinates after the scale. No meaning for a trained model. Default: 0, 0, 0. */
-  vtkSetVector3Macro(CADOffset, double);
-  vtkGetVector3Macro(CADOffset, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(CADOffset, double, 3);
 
 protected:
   vtkMEAMEstimationAlgorithm();
@@ -191,9 +152,6 @@ protected:
   Work Prepare(vtkInformationVector** inputVector);
 
 private:
-  vtkMEAMEstimationAlgorithm(const vtkMEAMEstimationAlgorithm&) = delete;
-  void operator=(const vtkMEAMEstimationAlgorithm&) = delete;
-
   class Training;
   std::unique_ptr<Training> Trained;
 

@@ -38,10 +38,6 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-
-private:
-  vtkMEAMModelCalibration(const vtkMEAMModelCalibration&) = delete;
-  void operator=(const vtkMEAMModelCalibration&) = delete;
 };
 
 #endif

@@ -43,10 +43,6 @@ public:
 protected:
   vtkMEAMPartTrainer() = default;
   ~vtkMEAMPartTrainer() override = default;
-
-private:
-  vtkMEAMPartTrainer(const vtkMEAMPartTrainer&) = delete;
-  void operator=(const vtkMEAMPartTrainer&) = delete;
 };
 
 #endif

@@ -41,9 +41,6 @@ protected:
   virtual void Process(Work& work) = 0;
 
 private:
-  vtkMEAMPoseAlgorithm(const vtkMEAMPoseAlgorithm&) = delete;
-  void operator=(const vtkMEAMPoseAlgorithm&) = delete;
-
   struct SharedData;
   std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
 };

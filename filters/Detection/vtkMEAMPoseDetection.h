@@ -49,14 +49,12 @@ public:
   /**
    * Which points of the scene vote, of those that the model holds pairs of (vtkMEAMHashing). Default: Both.
    */
-  virtual void SetFeatures(int value);
-  virtual int GetFeatures();
+  vtkMEAMDeclareSettingMacro(Features, int);
   void SetFeaturesToEdges() { this->SetFeatures(Edges); }
   void SetFeaturesToSurface() { this->SetFeatures(Surface); }
   void SetFeaturesToBoth() { this->SetFeatures(Both); }
   ///@}
 
-  ///@{
   /**
    * Share of the scene's edge points, and of its surface points, that are reference points, in [0, 1] (P_ref). More
    * finds more of the hidden copies and takes longer. 0: by how many copies the edges would make: in a scan (edges with
@@ -64,47 +62,28 @@ public:
    * boundary 10 for each copy, at least 100, and 0.01 of the surface beside it, at least 50.
    * Default: 0.
    */
-  virtual void SetReferenceShare(double value);
-  virtual double GetReferenceShare();
-  ///@}
+  vtkMEAMDeclareSettingMacro(ReferenceShare, double);
 
-  ///@{
   /**
    * Share of the scene's edge points that are referred points, in (0, 1] (P_referred); of those in a cube of the
    * model's LeafSize (vtkMEAMHashing) one. Default: 1. The paper: 0.2.
    */
-  virtual void SetReferredShare(double value);
-  virtual double GetReferredShare();
-  ///@}
+  vtkMEAMDeclareSettingMacro(ReferredShare, double);
 
-  ///@{
   /** Candidates of one reference point, 1 to 100: more find more hidden copies. Default: 1. */
-  virtual void SetPeaksPerReference(int value);
-  virtual int GetPeaksPerReference();
-  ///@}
+  vtkMEAMDeclareSettingMacro(PeaksPerReference, int);
 
-  ///@{
   /**
    * The sense in which a pair runs along its tangents tells which way round these lie; false: their stored signs are
    * taken for right, which is wrong for half of the reference points. For comparison. Default: true.
    */
-  virtual void SetSignedTangents(bool value);
-  virtual bool GetSignedTangents();
-  vtkBooleanMacro(SignedTangents, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(SignedTangents);
 
-  ///@{
   /** The peak of the votes is that of three neighbouring turns together; false: of single ones. Default: true. */
-  virtual void SetSmoothPeaks(bool value);
-  virtual bool GetSmoothPeaks();
-  vtkBooleanMacro(SmoothPeaks, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(SmoothPeaks);
 
-  ///@{
   /** Seed of the choice of both: the same seed gives the same poses. Default: 1. */
-  virtual void SetSeed(int value);
-  virtual int GetSeed();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Seed, int);
 
   /** The parameters of the paper, Section 6. The number of threads stays. */
   void SetParametersToPaper();
@@ -121,9 +100,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPoseDetection(const vtkMEAMPoseDetection&) = delete;
-  void operator=(const vtkMEAMPoseDetection&) = delete;
-
   struct SharedData;
   std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
   std::unique_ptr<meam::PoseDetectionSettings> Settings;

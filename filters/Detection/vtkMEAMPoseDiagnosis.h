@@ -56,57 +56,40 @@ public:
    * What gives the place: Position (Point, 0), PosePosition and PoseRotation (Pose, 1), or RankOfPose of the poses on
    * port 4 (RankedPose, 2). Default: Point.
    */
-  vtkSetClampMacro(Place, int, Point, RankedPose);
-  vtkGetMacro(Place, int);
+  vtkMEAMClampedMemberMacro(Place, int, Point, RankedPose);
   void SetPlaceToPoint() { this->SetPlace(Point); }
   void SetPlaceToPose() { this->SetPlace(Pose); }
   void SetPlaceToRankedPose() { this->SetPlace(RankedPose); }
   ///@}
 
-  ///@{
   /** Point: a point of the scan on the part, scene coordinates, mm. Default: 0, 0, 0. */
-  vtkSetVector3Macro(Position, double);
-  vtkGetVector3Macro(Position, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(Position, double, 3);
 
-  ///@{
   /** Pose: where the part's origin lies, scene coordinates, mm. Default: 0, 0, 0. */
-  vtkSetVector3Macro(PosePosition, double);
-  vtkGetVector3Macro(PosePosition, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(PosePosition, double, 3);
 
-  ///@{
   /**
    * Pose: turns about x, y and z in degrees, as vtkProp3D has them: first about y, then about x, then about z. Default:
    * 0, 0, 0.
    */
-  vtkSetVector3Macro(PoseRotation, double);
-  vtkGetVector3Macro(PoseRotation, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(PoseRotation, double, 3);
 
-  ///@{
   /** RankedPose: which of the poses on port 4, from 1, in their order. Default: 1. */
-  vtkSetClampMacro(RankOfPose, int, 1, VTK_INT_MAX);
-  vtkGetMacro(RankOfPose, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(RankOfPose, int, 1, VTK_INT_MAX);
 
-  ///@{
   /**
    * Of several types of part the one that is asked about, 0 the first on port 0; -1: that of the likely pose at the
    * place, or else the one that has most evidence there, for which all are searched. Of poses on port 4 their `PartId`
    * counts. Default: -1.
    */
-  vtkSetClampMacro(PartId, int, -1, VTK_INT_MAX);
-  vtkGetMacro(PartId, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(PartId, int, -1, VTK_INT_MAX);
 
   ///@{
   /**
    * A place that is given as a pose is first fitted to the scan, where that leaves it nearby: for poses laid by hand.
    * Default: true.
    */
-  vtkSetMacro(Fit, bool);
-  vtkGetMacro(Fit, bool);
+  vtkMEAMMemberMacro(Fit, bool);
   vtkBooleanMacro(Fit, bool);
   ///@}
 
@@ -119,9 +102,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPoseDiagnosis(const vtkMEAMPoseDiagnosis&) = delete;
-  void operator=(const vtkMEAMPoseDiagnosis&) = delete;
-
   struct Detection;
   std::unique_ptr<Detection> Detected; ///< the last one
   Detection& Detect(vtkInformationVector** inputVector);

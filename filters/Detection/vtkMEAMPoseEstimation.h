@@ -66,14 +66,11 @@ public:
   vtkTypeMacro(vtkMEAMPoseEstimation, vtkMEAMEstimationAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /**
    * Poses where a copy is less likely to be there, [0, 1], have neither a part on port 2 nor a `Label`; they stay among
    * the poses. Default: 0.5, those that are there more likely than not are shown.
    */
-  vtkSetClampMacro(ShownProbability, double, 0.0, 1.0);
-  vtkGetMacro(ShownProbability, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(ShownProbability, double, 0.0, 1.0);
 
 protected:
   vtkMEAMPoseEstimation();
@@ -83,9 +80,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPoseEstimation(const vtkMEAMPoseEstimation&) = delete;
-  void operator=(const vtkMEAMPoseEstimation&) = delete;
-
   double ShownProbability = 0.5;
   std::shared_ptr<const vtkMEAMConversion::TrainedPart> Given; ///< the part whose model GivenData is
   vtkSmartPointer<vtkPartitionedDataSetCollection> GivenData;

@@ -26,6 +26,7 @@
 #define vtkMEAMPoseInstances_h
 
 #include "ppfmeamDetectionModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>
@@ -48,26 +49,17 @@ public:
   /** The CAD mesh. */
   void SetMeshConnection(vtkAlgorithmOutput* mesh) { this->SetInputConnection(1, mesh); }
 
-  ///@{
   /** Copies made, the best poses; 0 for all. Default: 0. */
-  virtual void SetMaximumNumberOfInstances(int value);
-  virtual int GetMaximumNumberOfInstances();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumNumberOfInstances, int);
 
-  ///@{
   /**
    * Poses get no copy where one is less likely to be there, however it is turned; poses whose probability is not known
    * (0), such as true ones, do. Default: 0.5, those that are there more likely than not.
    */
-  virtual void SetMinimumProbability(double value);
-  virtual double GetMinimumProbability();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MinimumProbability, double);
 
-  ///@{
   /** Standard deviations that the ellipsoids on output port 1 reach to, such as 1000; 0: none. Default: 0. */
-  vtkSetClampMacro(UncertaintyScale, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(UncertaintyScale, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(UncertaintyScale, double, 0.0, VTK_DOUBLE_MAX);
 
 protected:
   vtkMEAMPoseInstances();
@@ -78,9 +70,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPoseInstances(const vtkMEAMPoseInstances&) = delete;
-  void operator=(const vtkMEAMPoseInstances&) = delete;
-
   std::unique_ptr<vtkMEAMConversion::InstanceSettings> Settings;
   double UncertaintyScale = 0.0;
 };

@@ -48,27 +48,20 @@ public:
   /**
    * PointToPoint (0, the paper's) or EdgesAndSurface (1). Default: EdgesAndSurface.
    */
-  virtual void SetMethod(int value);
-  virtual int GetMethod();
+  vtkMEAMDeclareSettingMacro(Method, int);
   void SetMethodToPointToPoint() { this->SetMethod(PointToPoint); }
   void SetMethodToEdgesAndSurface() { this->SetMethod(EdgesAndSurface); }
   ///@}
 
-  ///@{
   /**
    * Steps of each pose, at least 1. Default: 10. The paper: 50.
    */
-  virtual void SetNumberOfIterations(int value);
-  virtual int GetNumberOfIterations();
-  ///@}
+  vtkMEAMDeclareSettingMacro(NumberOfIterations, int);
 
-  ///@{
   /**
    * Between corresponding points at the start, in mm; 0: 10 % of the part's diameter, PointToPoint 4 %. Default: 0.
    */
-  virtual void SetMaximumDistance(double value);
-  virtual double GetMaximumDistance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumDistance, double);
 
   /** The parameters of the paper, Section 6. Sensor and number of threads stay. */
   void SetParametersToPaper();
@@ -81,9 +74,6 @@ protected:
   void Process(Work& work) override;
 
 private:
-  vtkMEAMPoseRefinement(const vtkMEAMPoseRefinement&) = delete;
-  void operator=(const vtkMEAMPoseRefinement&) = delete;
-
   std::unique_ptr<meam::PoseRefinementSettings> Settings;
 };
 

@@ -30,31 +30,21 @@ public:
   vtkTypeMacro(vtkMEAMPoseScreening, vtkMEAMPoseAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /**
    * Share of the surface towards the sensor that has to be there, in [0, 1]. Default: 0.5.
    */
-  virtual void SetLeastSurface(double value);
-  virtual double GetLeastSurface();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LeastSurface, double);
 
-  ///@{
   /**
    * Of so many candidates or fewer none has to go for want of surface. Default: 100.
    */
-  virtual void SetEnough(int value);
-  virtual int GetEnough();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Enough, int);
 
-  ///@{
   /**
    * Surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing was
    * measured. Default: true.
    */
-  virtual void SetFreeSpace(bool value);
-  virtual bool GetFreeSpace();
-  vtkBooleanMacro(FreeSpace, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(FreeSpace);
 
 protected:
   vtkMEAMPoseScreening();
@@ -62,9 +52,6 @@ protected:
   void Process(Work& work) override;
 
 private:
-  vtkMEAMPoseScreening(const vtkMEAMPoseScreening&) = delete;
-  void operator=(const vtkMEAMPoseScreening&) = delete;
-
   std::unique_ptr<meam::PoseScreeningSettings> Settings;
 };
 

@@ -42,76 +42,51 @@ public:
   /**
    * Clusters (0, the paper's), Alternatives (1) or Instances (2). Default: Instances.
    */
-  virtual void SetMethod(int value);
-  virtual int GetMethod();
+  vtkMEAMDeclareSettingMacro(Method, int);
   void SetMethodToClusters() { this->SetMethod(Clusters); }
   void SetMethodToAlternatives() { this->SetMethod(Alternatives); }
   void SetMethodToInstances() { this->SetMethod(Instances); }
   ///@}
 
-  ///@{
   /**
    * Poses nearer than this are of one instance, in mm; 0: 10 % of the part's diameter. Default: 0.
    */
-  virtual void SetClusterDistance(double value);
-  virtual double GetClusterDistance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(ClusterDistance, double);
 
-  ///@{
   /**
    * Alternatives: poses kept of one instance. Default: 4.
    */
-  virtual void SetPosesPerInstance(int value);
-  virtual int GetPosesPerInstance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(PosesPerInstance, int);
 
-  ///@{
   /**
    * Poses kept of all, the best ones; 0: no limit; of Alternatives the best 60, or all whose probability is above 3e-7
    * where these are more. Default: 0.
    */
-  virtual void SetMaximumNumberOfPoses(int value);
-  virtual int GetMaximumNumberOfPoses();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumNumberOfPoses, int);
 
-  ///@{
   /**
    * Of what comes out, poses are dropped where a copy is less likely to be there, however it is turned, in [0, 1].
    * Default: 0.
    */
-  virtual void SetMinimumProbability(double value);
-  virtual double GetMinimumProbability();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MinimumProbability, double);
 
-  ///@{
   /**
    * The minimum probability is that of the pose, its rotation included: poses of a nearly round part whose
    * rotation is unsure are dropped, too. Default: off.
    */
-  virtual void SetRotationCounts(bool value);
-  virtual bool GetRotationCounts();
-  vtkBooleanMacro(RotationCounts, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(RotationCounts);
 
-  ///@{
   /**
    * Instances: surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing
    * was measured. Default: true.
    */
-  virtual void SetFreeSpace(bool value);
-  virtual bool GetFreeSpace();
-  vtkBooleanMacro(FreeSpace, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(FreeSpace);
 
-  ///@{
   /**
    * Instances: poses that compete for an instance are compared on what one of them alone predicts; false: each on all
    * that it predicts, so that what it happens to be seen from decides, too. Default: true.
    */
-  virtual void SetSameVisibility(bool value);
-  virtual bool GetSameVisibility();
-  vtkBooleanMacro(SameVisibility, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(SameVisibility);
 
   /** The parameters of the paper, Section 6. Sensor and number of threads stay. */
   void SetParametersToPaper();
@@ -128,9 +103,6 @@ protected:
   void Process(Work& work) override;
 
 private:
-  vtkMEAMPoseSelection(const vtkMEAMPoseSelection&) = delete;
-  void operator=(const vtkMEAMPoseSelection&) = delete;
-
   std::unique_ptr<meam::PoseSelectionSettings> Settings;
 };
 

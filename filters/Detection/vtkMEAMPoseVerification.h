@@ -45,48 +45,34 @@ public:
    * EdgeCoverage (0, the paper's), VisibleEvidence (1), or Votes (2): those of all poses that agree with one, as a
    * share of the most, without a look at the scene, as methods before the paper rank poses. Default: VisibleEvidence.
    */
-  virtual void SetMethod(int value);
-  virtual int GetMethod();
+  vtkMEAMDeclareSettingMacro(Method, int);
   void SetMethodToEdgeCoverage() { this->SetMethod(EdgeCoverage); }
   void SetMethodToVisibleEvidence() { this->SetMethod(VisibleEvidence); }
   void SetMethodToVotes() { this->SetMethod(Votes); }
   ///@}
 
-  ///@{
   /**
    * A point of the model this near to the scene fits, in mm; 0: 3 % of the part's diameter. Default: 0.
    * The preset Paper: 1.5, which the text leaves open.
    */
-  virtual void SetTolerance(double value);
-  virtual double GetTolerance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Tolerance, double);
 
-  ///@{
   /**
    * Surface of a pose that the sensor saw past speaks against it; false: it says nothing, as where nothing was
    * measured. Default: true.
    */
-  virtual void SetFreeSpace(bool value);
-  virtual bool GetFreeSpace();
-  vtkBooleanMacro(FreeSpace, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(FreeSpace);
 
-  ///@{
   /**
    * Of the predicted points one of so many is looked at: 2 is enough for candidates. Default: 1.
    */
-  virtual void SetPointStride(int value);
-  virtual int GetPointStride();
-  ///@}
+  vtkMEAMDeclareSettingMacro(PointStride, int);
 
-  ///@{
   /**
    * Best poses kept for each appearance model (N_pv); 0: no limit. Default: 0. The paper: 5 in its picking cell;
    * its preset: 20.
    */
-  virtual void SetPosesPerView(int value);
-  virtual int GetPosesPerView();
-  ///@}
+  vtkMEAMDeclareSettingMacro(PosesPerView, int);
 
   /** The parameters of the paper, Section 6. Sensor and number of threads stay. */
   void SetParametersToPaper();
@@ -103,9 +89,6 @@ protected:
   void Process(Work& work) override;
 
 private:
-  vtkMEAMPoseVerification(const vtkMEAMPoseVerification&) = delete;
-  void operator=(const vtkMEAMPoseVerification&) = delete;
-
   std::unique_ptr<meam::PoseVerificationSettings> Settings;
 };
 

@@ -30,6 +30,7 @@
 #define vtkMEAMSceneEdgeExtraction_h
 
 #include "ppfmeamDetectionModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>
@@ -49,91 +50,51 @@ public:
   /** The image, when the cloud does not carry it. */
   void SetImageConnection(vtkAlgorithmOutput* image) { this->SetInputConnection(1, image); }
 
-  ///@{
   /** Edges of the image. Default: true. */
-  virtual void SetImageEdges(bool value);
-  virtual bool GetImageEdges();
-  vtkBooleanMacro(ImageEdges, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(ImageEdges);
 
-  ///@{
   /** Points at which the surface ends in front of another one, from the cloud alone. Default: true. */
-  virtual void SetDepthEdges(bool value);
-  virtual bool GetDepthEdges();
-  vtkBooleanMacro(DepthEdges, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(DepthEdges);
 
-  ///@{
   /** Points at which two pieces of the surface meet at an angle, from the cloud alone. Default: true. */
-  virtual void SetCreases(bool value);
-  virtual bool GetCreases();
-  vtkBooleanMacro(Creases, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(Creases);
 
-  ///@{
   /** Degrees: pieces of the surface that meet at less make no crease. Default: 30. */
-  virtual void SetCreaseAngle(double value);
-  virtual double GetCreaseAngle();
-  ///@}
+  vtkMEAMDeclareSettingMacro(CreaseAngle, double);
 
-  ///@{
   /**
    * Tangents from the direction of the edge in the image and the local surface, in place of those that
    * vtkMEAMTangentEstimation finds among the points. Default: true.
    */
-  virtual void SetImageTangents(bool value);
-  virtual bool GetImageTangents();
-  vtkBooleanMacro(ImageTangents, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(ImageTangents);
 
-  ///@{
   /**
    * The calibration of a camera beside the sensor that took the image, a file as meam::readCamera() knows it:
    * OpenCV's YAML, XML or JSON, or a BOP camera.json. None: the image's field data, or else the image is
    * registered with the scene. Default: none.
    */
-  vtkSetFilePathMacro(CameraFile);
-  vtkGetFilePathMacro(CameraFile);
-  ///@}
+  vtkMEAMFileMemberMacro(CameraFile);
 
-  ///@{
   /** Pixels: sigma of the Gaussian before Canny; 0 for none. Default: 1. */
-  virtual void SetSmoothing(double value);
-  virtual double GetSmoothing();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Smoothing, double);
 
-  ///@{
   /** Grey values (Sobel): where an edge ends; 0 for 40 % of the high threshold. Default: 0. */
-  virtual void SetLowThreshold(double value);
-  virtual double GetLowThreshold();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LowThreshold, double);
 
-  ///@{
   /** Grey values (Sobel): where an edge begins; 0 finds it from the image's gradients. Default: 0. */
-  virtual void SetHighThreshold(double value);
-  virtual double GetHighThreshold();
-  ///@}
+  vtkMEAMDeclareSettingMacro(HighThreshold, double);
 
-  ///@{
   /** Grid steps around an edge pixel in which its depth is looked for. Default: 1. */
-  virtual void SetSearchRadius(int value);
-  virtual int GetSearchRadius();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SearchRadius, int);
 
-  ///@{
   /**
    * mm: neighbours that differ by more in depth are of two surfaces; 0 for three times the distance of
    * neighbouring points and five times the noise. Default: 0.
    */
-  virtual void SetDepthJump(double value);
-  virtual double GetDepthJump();
-  ///@}
+  vtkMEAMDeclareSettingMacro(DepthJump, double);
 
-  ///@{
   /** Threads to work with; 0: one for each processor. The result does not depend on it. Default: 0. */
-  virtual void SetNumberOfThreads(int value);
-  virtual int GetNumberOfThreads();
-  ///@}
+  vtkMEAMDeclareSettingMacro(NumberOfThreads, int);
 
   /** The paper's: edges of the image alone, without tangents. CameraFile and the number of threads stay. */
   void SetParametersToPaper();
@@ -151,9 +112,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMSceneEdgeExtraction(const vtkMEAMSceneEdgeExtraction&) = delete;
-  void operator=(const vtkMEAMSceneEdgeExtraction&) = delete;
-
   void SetParameters(const meam::SceneEdgeExtractionSettings& settings);
 
   std::unique_ptr<meam::SceneEdgeExtractionSettings> Settings;

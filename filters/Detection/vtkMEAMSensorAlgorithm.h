@@ -10,6 +10,7 @@
 #define vtkMEAMSensorAlgorithm_h
 
 #include "ppfmeamDetectionModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 class PPFMEAMDETECTION_EXPORT vtkMEAMSensorAlgorithm : public vtkPolyDataAlgorithm
@@ -32,33 +33,23 @@ public:
    * found in a scan, its points tell, unless ViewDirection is given. Orthographic (1): along ViewDirection. Perspective
    * (2): from SensorPosition, looking along ViewDirection. Default: Automatic.
    */
-  vtkSetClampMacro(Projection, int, Automatic, Perspective);
-  vtkGetMacro(Projection, int);
+  vtkMEAMClampedMemberMacro(Projection, int, Automatic, Perspective);
   void SetProjectionToAutomatic() { this->SetProjection(Automatic); }
   void SetProjectionToOrthographic() { this->SetProjection(Orthographic); }
   void SetProjectionToPerspective() { this->SetProjection(Perspective); }
   ///@}
 
-  ///@{
   /**
    * The way the sensor looks, in scene coordinates; of any length. 0, 0, 0: a perspective one looks at the middle of
    * the scene's surface. Default: 0, 0, -1 (from above).
    */
-  vtkSetVector3Macro(ViewDirection, double);
-  vtkGetVector3Macro(ViewDirection, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(ViewDirection, double, 3);
 
-  ///@{
   /** Where a perspective sensor is, in scene coordinates, in mm. Default: 0, 0, 0. */
-  vtkSetVector3Macro(SensorPosition, double);
-  vtkGetVector3Macro(SensorPosition, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(SensorPosition, double, 3);
 
-  ///@{
   /** Threads to work with; 0: one for each processor. The result does not depend on it. Default: 0. */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
 
 protected:
   vtkMEAMSensorAlgorithm() = default;
@@ -68,10 +59,6 @@ protected:
   double ViewDirection[3] = { 0.0, 0.0, -1.0 };
   double SensorPosition[3] = { 0.0, 0.0, 0.0 };
   int NumberOfThreads = 0;
-
-private:
-  vtkMEAMSensorAlgorithm(const vtkMEAMSensorAlgorithm&) = delete;
-  void operator=(const vtkMEAMSensorAlgorithm&) = delete;
 };
 
 #endif

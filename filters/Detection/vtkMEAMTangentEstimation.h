@@ -24,6 +24,7 @@
 #define vtkMEAMTangentEstimation_h
 
 #include "ppfmeamDetectionModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPassInputTypeAlgorithm.h"
 
 #include <memory>
@@ -52,87 +53,56 @@ public:
    * Tiles (0, the paper's), RobustLine (1), or LineSegments (2): robust lines of those points alone that lie on line
    * segments, as the feature B2B has it (Choi et al. 2012, the paper's [23]). Default: RobustLine.
    */
-  virtual void SetMethod(int value);
-  virtual int GetMethod();
+  vtkMEAMDeclareSettingMacro(Method, int);
   void SetMethodToTiles() { this->SetMethod(Tiles); }
   void SetMethodToRobustLine() { this->SetMethod(RobustLine); }
   void SetMethodToLineSegments() { this->SetMethod(LineSegments); }
   ///@}
 
-  ///@{
   /**
    * One point is kept for each cube of this side, in mm; 0: 3 % of the part's diameter in a scene, 2 % in a model;
    * negative: all points are kept. Default: 0. The paper: 1.
    */
-  virtual void SetLeafSize(double value);
-  virtual double GetLeafSize();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LeafSize, double);
 
-  ///@{
   /**
    * RobustLine, LineSegments: radius of the sphere in mm; 0: 6 % of the part's diameter, up to 12 % where a scene's
    * points are noisy or sparse, and no less than the length of a segment. Default: 0.
    */
-  virtual void SetRadius(double value);
-  virtual double GetRadius();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Radius, double);
 
-  ///@{
   /**
    * RobustLine, LineSegments: points this near to the line are on it, in mm; 0: 1.2 % of the part's diameter, up to 3 %
    * where a scene's points are noisy. Default: 0.
    */
-  virtual void SetInlierDistance(double value);
-  virtual double GetInlierDistance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(InlierDistance, double);
 
-  ///@{
   /**
    * LineSegments: a run of points on a line that is shorter, in mm, is no segment; 0: 15 % of the part's diameter.
    * Default: 0.
    */
-  virtual void SetSegmentLength(double value);
-  virtual double GetSegmentLength();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SegmentLength, double);
 
-  ///@{
   /** Tiles: height and width of a tile in pixels of the projection plane. Default: 10. */
-  virtual void SetTilePixels(int value);
-  virtual int GetTilePixels();
-  ///@}
+  vtkMEAMDeclareSettingMacro(TilePixels, int);
 
-  ///@{
   /** Tiles: size of a pixel of the projection plane in mm; the paper does not say. Default: 0.5. */
-  virtual void SetPixelSize(double value);
-  virtual double GetPixelSize();
-  ///@}
+  vtkMEAMDeclareSettingMacro(PixelSize, double);
 
-  ///@{
   /** Tiles: points this near to the line support it, in mm (D_thresh). Default: 0.3. */
-  virtual void SetLineDistance(double value);
-  virtual double GetLineDistance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LineDistance, double);
 
-  ///@{
   /** Tiles: share of a tile's points that has to support a line, in [0, 1] (S_thresh). Default: 0.18. */
-  virtual void SetLineSupport(double value);
-  virtual double GetLineSupport();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LineSupport, double);
 
-  ///@{
   /**
    * Tiles: the way the sensor looks at the scene; tiles are cut on the plane across it. Each appearance
    * model uses its own direction instead. Default: 0, 0, -1 (from above).
    */
-  vtkSetVector3Macro(ViewDirection, double);
-  vtkGetVector3Macro(ViewDirection, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(ViewDirection, double, 3);
 
-  ///@{
   /** Threads to work with; 0: one for each processor. The tangents do not depend on it. Default: 0. */
-  virtual void SetNumberOfThreads(int value);
-  virtual int GetNumberOfThreads();
-  ///@}
+  vtkMEAMDeclareSettingMacro(NumberOfThreads, int);
 
   /** The parameters of the paper, Section 6. The view direction and the number of threads stay. */
   void SetParametersToPaper();
@@ -146,9 +116,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMTangentEstimation(const vtkMEAMTangentEstimation&) = delete;
-  void operator=(const vtkMEAMTangentEstimation&) = delete;
-
   void SetParameters(const meam::TangentEstimationSettings& settings);
 
   std::unique_ptr<meam::TangentEstimationSettings> Settings;

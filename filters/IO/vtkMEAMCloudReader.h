@@ -7,6 +7,7 @@
 #define vtkMEAMCloudReader_h
 
 #include "ppfmeamIOModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkMEAMCameraReader.h"
 
 #include <array>
@@ -23,17 +24,11 @@ public:
   vtkTypeMacro(vtkMEAMCloudReader, vtkMEAMCameraReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Factor on the coordinates, to bring them to mm: 1000 for a file in metres. Default: 1. */
-  vtkSetClampMacro(Scale, double, 1e-9, 1e9);
-  vtkGetMacro(Scale, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(Scale, double, 1e-9, 1e9);
 
-  ///@{
   /** Pixels of the camera, width and height; 0: those of the CameraFile. Default: 0, 0. */
-  vtkSetVector2Macro(ImageSize, int);
-  vtkGetVector2Macro(ImageSize, int);
-  ///@}
+  vtkMEAMVectorMemberMacro(ImageSize, int, 2);
 
 protected:
   vtkMEAMCloudReader() = default;
@@ -50,9 +45,6 @@ protected:
   virtual std::array<int, 2> GridSize() = 0;
 
 private:
-  vtkMEAMCloudReader(const vtkMEAMCloudReader&) = delete;
-  void operator=(const vtkMEAMCloudReader&) = delete;
-
   /** A camera is given. */
   bool HasCamera() const;
 

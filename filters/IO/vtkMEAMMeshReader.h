@@ -16,6 +16,7 @@
 #define vtkMEAMMeshReader_h
 
 #include "ppfmeamIOModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 class PPFMEAMIO_EXPORT vtkMEAMMeshReader : public vtkPolyDataAlgorithm
@@ -25,17 +26,11 @@ public:
   vtkTypeMacro(vtkMEAMMeshReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to read. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
-  ///@{
   /** Of a STEP or IGES file with several solids the one that is the part, from 1; 0: all together. Default: 0. */
-  vtkSetMacro(Solid, int);
-  vtkGetMacro(Solid, int);
-  ///@}
+  vtkMEAMMemberMacro(Solid, int);
 
 protected:
   vtkMEAMMeshReader();
@@ -43,9 +38,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMMeshReader(const vtkMEAMMeshReader&) = delete;
-  void operator=(const vtkMEAMMeshReader&) = delete;
-
   char* FileName = nullptr;
   int Solid = 0;
 };

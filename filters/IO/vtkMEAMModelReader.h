@@ -9,6 +9,7 @@
 #define vtkMEAMModelReader_h
 
 #include "ppfmeamIOModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 class PPFMEAMIO_EXPORT vtkMEAMModelReader : public vtkPartitionedDataSetCollectionAlgorithm
@@ -18,11 +19,8 @@ public:
   vtkTypeMacro(vtkMEAMModelReader, vtkPartitionedDataSetCollectionAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to read. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
   /** 1 when the file starts like a trained model. */
   int CanReadFile(const char* fileName);
@@ -33,9 +31,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMModelReader(const vtkMEAMModelReader&) = delete;
-  void operator=(const vtkMEAMModelReader&) = delete;
-
   char* FileName = nullptr;
 };
 

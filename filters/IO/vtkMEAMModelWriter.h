@@ -11,6 +11,7 @@
 #define vtkMEAMModelWriter_h
 
 #include "ppfmeamIOModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkWriter.h"
 
 class PPFMEAMIO_EXPORT vtkMEAMModelWriter : public vtkWriter
@@ -20,11 +21,8 @@ public:
   vtkTypeMacro(vtkMEAMModelWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to write. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
 protected:
   vtkMEAMModelWriter();
@@ -34,9 +32,6 @@ protected:
   void WriteData() override;
 
 private:
-  vtkMEAMModelWriter(const vtkMEAMModelWriter&) = delete;
-  void operator=(const vtkMEAMModelWriter&) = delete;
-
   char* FileName = nullptr;
 };
 

@@ -42,10 +42,6 @@ protected:
 
   meam::MeasuredCloud Read(const std::function<bool(double)>& progress) override;
   std::array<int, 2> GridSize() override;
-
-private:
-  vtkMEAMPCDReader(const vtkMEAMPCDReader&) = delete;
-  void operator=(const vtkMEAMPCDReader&) = delete;
 };
 
 #endif

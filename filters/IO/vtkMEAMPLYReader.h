@@ -37,10 +37,6 @@ protected:
 
   meam::MeasuredCloud Read(const std::function<bool(double)>& progress) override;
   std::array<int, 2> GridSize() override { return { 0, 0 }; }
-
-private:
-  vtkMEAMPLYReader(const vtkMEAMPLYReader&) = delete;
-  void operator=(const vtkMEAMPLYReader&) = delete;
 };
 
 #endif

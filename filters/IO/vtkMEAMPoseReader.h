@@ -18,6 +18,7 @@
 #define vtkMEAMPoseReader_h
 
 #include "ppfmeamIOModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 class PPFMEAMIO_EXPORT vtkMEAMPoseReader : public vtkPolyDataAlgorithm
@@ -27,11 +28,8 @@ public:
   vtkTypeMacro(vtkMEAMPoseReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to read. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
   /** 1 when the file can be read as poses. */
   int CanReadFile(const char* fileName);
@@ -43,9 +41,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPoseReader(const vtkMEAMPoseReader&) = delete;
-  void operator=(const vtkMEAMPoseReader&) = delete;
-
   char* FileName = nullptr;
 };
 

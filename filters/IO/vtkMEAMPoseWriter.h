@@ -17,6 +17,7 @@
 #define vtkMEAMPoseWriter_h
 
 #include "ppfmeamIOModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkWriter.h"
 
 class PPFMEAMIO_EXPORT vtkMEAMPoseWriter : public vtkWriter
@@ -26,11 +27,8 @@ public:
   vtkTypeMacro(vtkMEAMPoseWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to write. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
   enum FileFormat
   {
@@ -46,8 +44,7 @@ public:
    * scene_id,im_id,obj_id,score,R,t,time; 2: JSON with all that is known of a pose; 3: row-major 4x4 blocks; 4: JSON in
    * the shape of ROS 2's vision_msgs/Detection3DArray, lengths in metres. Default: 0.
    */
-  vtkSetClampMacro(Format, int, BY_EXTENSION, DETECTIONS);
-  vtkGetMacro(Format, int);
+  vtkMEAMClampedMemberMacro(Format, int, BY_EXTENSION, DETECTIONS);
   void SetFormatToByExtension() { this->SetFormat(BY_EXTENSION); }
   void SetFormatToBOPCSV() { this->SetFormat(BOP_CSV); }
   void SetFormatToJSON() { this->SetFormat(JSON); }
@@ -55,49 +52,31 @@ public:
   void SetFormatToDetections() { this->SetFormat(DETECTIONS); }
   ///@}
 
-  ///@{
   /** Poses written, the best ones; 0 for all. Default: 0. */
-  vtkSetClampMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
-  vtkGetMacro(MaximumNumberOfPoses, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(MaximumNumberOfPoses, int, 0, VTK_INT_MAX);
 
-  ///@{
   /** Number of the scene in its dataset; -1: that of the poses, the array or the field data `SceneId`, or 0. Default:
    * -1. */
-  vtkSetMacro(SceneId, int);
-  vtkGetMacro(SceneId, int);
-  ///@}
+  vtkMEAMMemberMacro(SceneId, int);
 
-  ///@{
   /** Number of the image in its scene; -1: that of the poses, the array or the field data `ImageId`, or 0. Default: -1.
    */
-  vtkSetMacro(ImageId, int);
-  vtkGetMacro(ImageId, int);
-  ///@}
+  vtkMEAMMemberMacro(ImageId, int);
 
-  ///@{
   /** Number of the part in its dataset; of several parts that of the first. Default: 1. */
-  vtkSetMacro(ObjectId, int);
-  vtkGetMacro(ObjectId, int);
-  ///@}
+  vtkMEAMMemberMacro(ObjectId, int);
 
-  ///@{
   /**
    * Seconds that the image took; -1: the field data `SecondsTotal` of the poses, or not known.
    * Default: -1.
    */
-  vtkSetMacro(Time, double);
-  vtkGetMacro(Time, double);
-  ///@}
+  vtkMEAMMemberMacro(Time, double);
 
-  ///@{
   /**
    * Where the camera is for the robot, T_robot_camera, as vtkMEAMHandEyeCalibration writes it or ROS has it: the poses
    * in the file are the robot's then. Default: none, the scan's frame.
    */
-  vtkSetFilePathMacro(RobotFrameFile);
-  vtkGetFilePathMacro(RobotFrameFile);
-  ///@}
+  vtkMEAMFileMemberMacro(RobotFrameFile);
 
   ///@{
   /** Detections: the name of the frame that the poses are in, the scan's or the robot's, in the robot's software.
@@ -106,11 +85,8 @@ public:
   vtkGetStringMacro(FrameId);
   ///@}
 
-  ///@{
   /** Detections: when the scan was taken, seconds since 1970; 0: not known. Default: 0. */
-  vtkSetMacro(Stamp, double);
-  vtkGetMacro(Stamp, double);
-  ///@}
+  vtkMEAMMemberMacro(Stamp, double);
 
 protected:
   vtkMEAMPoseWriter();
@@ -120,9 +96,6 @@ protected:
   void WriteData() override;
 
 private:
-  vtkMEAMPoseWriter(const vtkMEAMPoseWriter&) = delete;
-  void operator=(const vtkMEAMPoseWriter&) = delete;
-
   char* FileName = nullptr;
   int Format = BY_EXTENSION;
   int MaximumNumberOfPoses = 0;

@@ -18,6 +18,7 @@
 #define vtkMEAMBOPReader_h
 
 #include "ppfmeamIOImageModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkStructuredGridAlgorithm.h"
 
 #include <memory>
@@ -29,11 +30,8 @@ public:
   vtkTypeMacro(vtkMEAMBOPReader, vtkStructuredGridAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The folder to read, or a file in it. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
   ///@{
   /** The part of a whole dataset to read: the folder's name. Default: test. */
@@ -41,11 +39,8 @@ public:
   vtkGetStringMacro(Split);
   ///@}
 
-  ///@{
   /** The object whose true poses come out; 0 for all. Default: 0. */
-  vtkSetClampMacro(ObjectId, int, 0, VTK_INT_MAX);
-  vtkGetMacro(ObjectId, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(ObjectId, int, 0, VTK_INT_MAX);
 
   /** 1 when there is a scene with images in the folder. */
   int CanReadFile(const char* fileName);
@@ -59,9 +54,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMBOPReader(const vtkMEAMBOPReader&) = delete;
-  void operator=(const vtkMEAMBOPReader&) = delete;
-
   class Images;
   std::unique_ptr<Images> Listed;
 

@@ -13,6 +13,7 @@
 #define vtkMEAMDepthImageReader_h
 
 #include "ppfmeamIOImageModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkMEAMCameraReader.h"
 
 class PPFMEAMIOIMAGE_EXPORT vtkMEAMDepthImageReader : public vtkMEAMCameraReader
@@ -22,20 +23,14 @@ public:
   vtkTypeMacro(vtkMEAMDepthImageReader, vtkMEAMCameraReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The registered grey or colour image of the same size: PNG, JPEG, BMP or TIFF. Default: none. */
-  vtkSetFilePathMacro(ImageFileName);
-  vtkGetFilePathMacro(ImageFileName);
-  ///@}
+  vtkMEAMFileMemberMacro(ImageFileName);
 
-  ///@{
   /**
    * mm that a value of 1 in the depth image stands for; 0: the depth_scale of the CameraFile or, without, 1.
    * Default: 0.
    */
-  vtkSetClampMacro(DepthScale, double, 0.0, 1e9);
-  vtkGetMacro(DepthScale, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(DepthScale, double, 0.0, 1e9);
 
 protected:
   vtkMEAMDepthImageReader() = default;
@@ -47,9 +42,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMDepthImageReader(const vtkMEAMDepthImageReader&) = delete;
-  void operator=(const vtkMEAMDepthImageReader&) = delete;
-
   char* ImageFileName = nullptr;
   double DepthScale = 0.0;
 };

@@ -12,6 +12,7 @@
 #define vtkMEAMImageReader_h
 
 #include "ppfmeamIOImageModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkImageAlgorithm.h"
 
 class PPFMEAMIOIMAGE_EXPORT vtkMEAMImageReader : public vtkImageAlgorithm
@@ -21,11 +22,8 @@ public:
   vtkTypeMacro(vtkMEAMImageReader, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to read; its content, not its name, tells of what kind it is. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
   /** 1 when the file starts like an image whose size it can hold. */
   int CanReadFile(const char* fileName);
@@ -38,9 +36,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMImageReader(const vtkMEAMImageReader&) = delete;
-  void operator=(const vtkMEAMImageReader&) = delete;
-
   char* FileName = nullptr;
 };
 

@@ -12,6 +12,7 @@
 #define vtkMEAMGraspWriter_h
 
 #include "ppfmeamPickingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkWriter.h"
 
 class PPFMEAMPICKING_EXPORT vtkMEAMGraspWriter : public vtkWriter
@@ -21,11 +22,8 @@ public:
   vtkTypeMacro(vtkMEAMGraspWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to write. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
 protected:
   vtkMEAMGraspWriter();
@@ -35,9 +33,6 @@ protected:
   void WriteData() override;
 
 private:
-  vtkMEAMGraspWriter(const vtkMEAMGraspWriter&) = delete;
-  void operator=(const vtkMEAMGraspWriter&) = delete;
-
   char* FileName = nullptr;
 };
 

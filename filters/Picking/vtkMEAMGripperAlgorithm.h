@@ -7,6 +7,7 @@
 #define vtkMEAMGripperAlgorithm_h
 
 #include "ppfmeamPickingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>
@@ -22,75 +23,41 @@ public:
   vtkTypeMacro(vtkMEAMGripperAlgorithm, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** mm between the jaws, at most. Default: 60. */
-  void SetOpening(double opening);
-  double GetOpening();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Opening, double);
 
-  ///@{
   /** mm on either side between the part and a jaw on its way in. Default: 3. */
-  void SetJawClearance(double clearance);
-  double GetJawClearance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(JawClearance, double);
 
-  ///@{
   /** mm, a finger across the direction of closing. Default: 12. */
-  void SetFingerWidth(double width);
-  double GetFingerWidth();
-  ///@}
+  vtkMEAMDeclareSettingMacro(FingerWidth, double);
 
-  ///@{
   /** mm, a finger along the direction of closing. Default: 8. */
-  void SetFingerThickness(double thickness);
-  double GetFingerThickness();
-  ///@}
+  vtkMEAMDeclareSettingMacro(FingerThickness, double);
 
-  ///@{
   /** mm from the gripper's body to the tips of its fingers. Default: 50. */
-  void SetFingerLength(double length);
-  double GetFingerLength();
-  ///@}
+  vtkMEAMDeclareSettingMacro(FingerLength, double);
 
-  ///@{
   /** mm that the tips reach farther than the grasp's origin. Default: 6. */
-  void SetTipLength(double length);
-  double GetTipLength();
-  ///@}
+  vtkMEAMDeclareSettingMacro(TipLength, double);
 
-  ///@{
   /** mm, the body behind the fingers or the cup. Default: 100. */
-  void SetBodyLength(double length);
-  double GetBodyLength();
-  ///@}
+  vtkMEAMDeclareSettingMacro(BodyLength, double);
 
-  ///@{
   /** mm, the body across the direction of closing; behind a cup its diameter. Default: 60. */
-  void SetBodyWidth(double width);
-  double GetBodyWidth();
-  ///@}
+  vtkMEAMDeclareSettingMacro(BodyWidth, double);
 
-  ///@{
   /** mm, the suction cup. Default: 20. */
-  void SetCupDiameter(double diameter);
-  double GetCupDiameter();
-  ///@}
+  vtkMEAMDeclareSettingMacro(CupDiameter, double);
 
-  ///@{
   /** mm from the gripper's body to the cup's rim. Default: 30. */
-  void SetCupLength(double length);
-  double GetCupLength();
-  ///@}
+  vtkMEAMDeclareSettingMacro(CupLength, double);
 
 protected:
   vtkMEAMGripperAlgorithm();
   ~vtkMEAMGripperAlgorithm() override;
 
   const std::unique_ptr<meam::Gripper> Lengths;
-
-private:
-  vtkMEAMGripperAlgorithm(const vtkMEAMGripperAlgorithm&) = delete;
-  void operator=(const vtkMEAMGripperAlgorithm&) = delete;
 };
 
 #endif

@@ -85,8 +85,7 @@ public:
 
   ///@{
   /** What the gripper is, when its mesh is not given: two jaws, or a cup. Default: ParallelJaws. */
-  void SetGripper(int gripper);
-  int GetGripper();
+  vtkMEAMDeclareSettingMacro(Gripper, int);
   void SetGripperToParallelJaws() { this->SetGripper(ParallelJaws); }
   void SetGripperToSuctionCup() { this->SetGripper(SuctionCup); }
   ///@}
@@ -103,107 +102,66 @@ public:
    * Where the bin is: found in the scan by its rim, given by the next four, or none; then down is the way the sensor
    * looks and walls are what was measured of them. Default: DetectedBin.
    */
-  vtkSetClampMacro(Bin, int, DetectedBin, NoBin);
-  vtkGetMacro(Bin, int);
+  vtkMEAMClampedMemberMacro(Bin, int, DetectedBin, NoBin);
   void SetBinToDetected() { this->SetBin(DetectedBin); }
   void SetBinToGiven() { this->SetBin(GivenBin); }
   void SetBinToNone() { this->SetBin(NoBin); }
   ///@}
 
-  ///@{
   /** mm, scene coordinates: the middle of the bin's floor, when it is given. Default: 0, 0, 0. */
-  vtkSetVector3Macro(BinPosition, double);
-  vtkGetVector3Macro(BinPosition, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(BinPosition, double, 3);
 
-  ///@{
   /**
    * Degrees about x, y and z, first about y, then about x, then about z: turns the bin, whose z goes from its floor to
    * its rim. Default: 180, 0, 0, a bin under a sensor that looks down.
    */
-  vtkSetVector3Macro(BinRotation, double);
-  vtkGetVector3Macro(BinRotation, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(BinRotation, double, 3);
 
-  ///@{
   /** mm: inner length, inner width and height of the bin, when it is given. Default: 300, 200, 100. */
-  vtkSetVector3Macro(BinSize, double);
-  vtkGetVector3Macro(BinSize, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(BinSize, double, 3);
 
-  ///@{
   /** mm, thickness of the walls of a bin that is given. Default: 5. */
-  vtkSetMacro(BinWall, double);
-  vtkGetMacro(BinWall, double);
-  ///@}
+  vtkMEAMMemberMacro(BinWall, double);
 
-  ///@{
   /** mm that the gripper keeps from all but the part it takes. Default: 2. */
-  void SetSafetyMargin(double margin);
-  double GetSafetyMargin();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SafetyMargin, double);
 
-  ///@{
   /** mm straight along the grasp's z that have to be free. Default: 80. */
-  void SetWayIn(double length);
-  double GetWayIn();
-  ///@}
+  vtkMEAMDeclareSettingMacro(WayIn, double);
 
-  ///@{
   /**
    * [0, 1], of what is picked, that a copy is there, however it is turned; where the gripper would not find the part's
    * surface at each of the near-symmetric rotations, that the pose is right. Less likely copies do not stand in the
    * way. Default: 0.5.
    */
-  void SetMinimumProbability(double probability);
-  double GetMinimumProbability();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MinimumProbability, double);
 
-  ///@{
   /**
    * The minimum probability of a pick is that of the pose, its rotation included: for parts that have to be put down
    * turned right. Default: off.
    */
-  void SetRotationCounts(bool value);
-  bool GetRotationCounts();
-  vtkBooleanMacro(RotationCounts, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(RotationCounts);
 
-  ///@{
   /** Degrees between the way in and straight down, at most. Default: 60. */
-  void SetMaximumTilt(double degrees);
-  double GetMaximumTilt();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumTilt, double);
 
-  ///@{
   /** % of the part, from above, that may lie under something. Default: 20. */
-  void SetMaximumCovered(double percent);
-  double GetMaximumCovered();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumCovered, double);
 
-  ///@{
   /** Degrees between the turns that free and symmetric grasps are tried at, 1 to 360. Default: 30. */
-  void SetTurnStep(double degrees);
-  double GetTurnStep();
-  ///@}
+  vtkMEAMDeclareSettingMacro(TurnStep, double);
 
-  ///@{
   /**
    * mm: measured points so near to a copy or to the bin are of it; 0: 3 times the noise and 1 % of the part. Default:
    * 0.
    */
-  void SetTolerance(double tolerance);
-  double GetTolerance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Tolerance, double);
 
-  ///@{
   /**
    * A file with T_robot_camera, as vtkMEAMHandEyeCalibration writes it, OpenCV's or ROS's form: picks have the array
    * `RobotTransform`, too. Default: none.
    */
-  vtkSetFilePathMacro(RobotFrameFile);
-  vtkGetFilePathMacro(RobotFrameFile);
-  ///@}
+  vtkMEAMFileMemberMacro(RobotFrameFile);
 
   enum Shown
   {
@@ -212,11 +170,8 @@ public:
     AllPicks
   };
 
-  ///@{
   /** At which picks the gripper is shown by output port 1, with a label. Default: BestOfEachInstance. */
-  vtkSetClampMacro(ShownGrippers, int, BestOfEachInstance, AllPicks);
-  vtkGetMacro(ShownGrippers, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(ShownGrippers, int, BestOfEachInstance, AllPicks);
 
 protected:
   vtkMEAMPickPlanning();
@@ -228,9 +183,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPickPlanning(const vtkMEAMPickPlanning&) = delete;
-  void operator=(const vtkMEAMPickPlanning&) = delete;
-
   const std::unique_ptr<meam::PlanSettings> Settings;
   int Bin = DetectedBin;
   double BinPosition[3] = { 0.0, 0.0, 0.0 };

@@ -19,6 +19,7 @@
 #define vtkMEAMPickTrial_h
 
 #include "ppfmeamPickingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>
@@ -46,17 +47,11 @@ public:
     NotTried
   };
 
-  ///@{
   /** mm of the gripper's way in that are looked at. Default: 80. */
-  virtual void SetWayIn(double value);
-  virtual double GetWayIn();
-  ///@}
+  vtkMEAMDeclareSettingMacro(WayIn, double);
 
-  ///@{
   /** mm that a cup gives way, and that it may be off the surface. Default: 2. */
-  virtual void SetCupSlack(double value);
-  virtual double GetCupSlack();
-  ///@}
+  vtkMEAMDeclareSettingMacro(CupSlack, double);
 
 protected:
   vtkMEAMPickTrial();
@@ -66,9 +61,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPickTrial(const vtkMEAMPickTrial&) = delete;
-  void operator=(const vtkMEAMPickTrial&) = delete;
-
   std::unique_ptr<meam::PickTrialSettings> Settings;
 };
 

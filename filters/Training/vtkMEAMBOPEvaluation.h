@@ -50,10 +50,6 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-
-private:
-  vtkMEAMBOPEvaluation(const vtkMEAMBOPEvaluation&) = delete;
-  void operator=(const vtkMEAMBOPEvaluation&) = delete;
 };
 
 #endif

@@ -31,6 +31,7 @@
 #define vtkMEAMBinSceneSource_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkStructuredGridAlgorithm.h"
 
 #include <memory>
@@ -47,48 +48,26 @@ public:
   vtkTypeMacro(vtkMEAMBinSceneSource, vtkStructuredGridAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Copies of the part in the bin. Default: 20. */
-  virtual void SetCopies(int value);
-  virtual int GetCopies();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Copies, int);
 
-  ///@{
   /** Copies at the poses of input port 1 are let go and come to rest. Default: false. */
-  virtual void SetSettle(bool value);
-  virtual bool GetSettle();
-  vtkBooleanMacro(Settle, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(Settle);
 
-  ///@{
   /** The same seed gives the same scene. Default: 1. */
-  virtual void SetSeed(int value);
-  virtual int GetSeed();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Seed, int);
 
-  ///@{
   /** mm: inner side of the bin; 0 follows the part and the copies. Default: 0. */
-  virtual void SetBinSize(double value);
-  virtual double GetBinSize();
-  ///@}
+  vtkMEAMDeclareSettingMacro(BinSize, double);
 
-  ///@{
   /** mm: other inner side of the bin, along y; 0: the bin is a square. Default: 0. */
-  virtual void SetBinWidth(double value);
-  virtual double GetBinWidth();
-  ///@}
+  vtkMEAMDeclareSettingMacro(BinWidth, double);
 
-  ///@{
   /** mm: height of the bin's walls; 0 for 0.6 diameters of the part. Default: 0. */
-  virtual void SetWallHeight(double value);
-  virtual double GetWallHeight();
-  ///@}
+  vtkMEAMDeclareSettingMacro(WallHeight, double);
 
-  ///@{
   /** mm: sensor above the floor; 0 for three times the bin's longer side. Default: 0. */
-  virtual void SetSensorHeight(double value);
-  virtual double GetSensorHeight();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SensorHeight, double);
 
   enum Sensors
   {
@@ -103,178 +82,116 @@ public:
    * disparity, rounded edges, shadows on one side of each jump) or time of flight (noise, flying pixels, few pixels).
    * It decides all properties below that are negative. Default: StructuredLight.
    */
-  vtkSetClampMacro(Sensor, int, StructuredLight, TimeOfFlight);
-  vtkGetMacro(Sensor, int);
+  vtkMEAMClampedMemberMacro(Sensor, int, StructuredLight, TimeOfFlight);
   void SetSensorToStructuredLight() { this->SetSensor(StructuredLight); }
   void SetSensorToActiveStereo() { this->SetSensor(ActiveStereo); }
   void SetSensorToTimeOfFlight() { this->SetSensor(TimeOfFlight); }
   ///@}
 
-  ///@{
   /** Pixels of the sensor across, 16 to 8192; -1: the sensor's 960, 1280 or 640. Default: -1. */
-  vtkSetClampMacro(Width, int, -1, 8192);
-  vtkGetMacro(Width, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(Width, int, -1, 8192);
 
-  ///@{
   /** Pixels of the sensor down, 16 to 8192; -1: the sensor's 768, 720 or 480. Default: -1. */
-  vtkSetClampMacro(Height, int, -1, 8192);
-  vtkGetMacro(Height, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(Height, int, -1, 8192);
 
-  ///@{
   /** The image has red, green and blue, or grey alone. Default: false. */
-  virtual void SetColored(bool value);
-  virtual bool GetColored();
-  vtkBooleanMacro(Colored, bool);
-  ///@}
+  vtkMEAMDeclareFlagMacro(Colored);
 
-  ///@{
   /** mm: from the sensor to a camera beside it that takes the image; 0: the image is the sensor's. Default: 0. */
-  virtual void SetBaseline(double value);
-  virtual double GetBaseline();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Baseline, double);
 
-  ///@{
   /**
    * mm: standard deviation of the depth at a distance of 1 m; it grows with the distance's square. -1: the sensor's,
    * 0.3 of structured light, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(DepthNoise, double, -1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(DepthNoise, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(DepthNoise, double, -1.0, VTK_DOUBLE_MAX);
 
-  ///@{
   /**
    * mm: between depths that the sensor can tell apart; 0 for none. -1: the sensor's, 0.05 of structured light, 0 of
    * the others. Default: -1.
    */
-  vtkSetClampMacro(DepthStep, double, -1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(DepthStep, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(DepthStep, double, -1.0, VTK_DOUBLE_MAX);
 
-  ///@{
   /**
    * Share of the pixels without depth, in [0, 1], wherever they look. -1: the sensor's, 0.002, of active stereo 0.005.
    * Default: -1.
    */
-  vtkSetClampMacro(Dropout, double, -1.0, 1.0);
-  vtkGetMacro(Dropout, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(Dropout, double, -1.0, 1.0);
 
-  ///@{
   /**
    * Share of the pixels beside a depth jump that have no depth, in [0, 1]. -1: the sensor's, 0.5, of active stereo 0.
    * Default: -1.
    */
-  vtkSetClampMacro(JumpDropout, double, -1.0, 1.0);
-  vtkGetMacro(JumpDropout, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(JumpDropout, double, -1.0, 1.0);
 
-  ///@{
   /**
    * Pixels: a surface that fills less than half of so large a square, such as a ridge, has no depth; 1 for any. -1: the
    * sensor's 17, 7 or 1. Default: -1.
    */
-  vtkSetClampMacro(MatchingWindow, int, -1, 101);
-  vtkGetMacro(MatchingWindow, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(MatchingWindow, int, -1, 101);
 
-  ///@{
   /**
    * Degrees: surfaces that face the sensor to within this angle mirror its light and have no depth. -1: the sensor's, 2
    * of active stereo, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(GlareAngle, double, -1.0, 90.0);
-  vtkGetMacro(GlareAngle, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(GlareAngle, double, -1.0, 90.0);
 
-  ///@{
   /**
    * Pixels, odd: the noise of the depth is alike within so large a square; 1: each pixel has its own. -1: the sensor's,
    * 5 of active stereo, 1 of the others. Default: -1.
    */
-  vtkSetClampMacro(NoiseWindow, int, -1, 101);
-  vtkGetMacro(NoiseWindow, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(NoiseWindow, int, -1, 101);
 
-  ///@{
   /**
    * mm: from the sensor to its second eye, on the right, which does not see what is left of a jump; 0 for no stereo:
    * the next three have no effect. -1: the sensor's, 55 of active stereo, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(StereoBaseline, double, -1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(StereoBaseline, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(StereoBaseline, double, -1.0, VTK_DOUBLE_MAX);
 
-  ///@{
   /**
    * Pixels: standard deviation of the disparity. -1: the sensor's, 0.08 of active stereo, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(DisparityNoise, double, -1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(DisparityNoise, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(DisparityNoise, double, -1.0, VTK_DOUBLE_MAX);
 
-  ///@{
   /**
    * Pixels: between disparities that the sensor can tell apart, so that steps of the depth grow with the square of the
    * distance; 0 for none. -1: the sensor's, 1/32 of active stereo, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(DisparityStep, double, -1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(DisparityStep, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(DisparityStep, double, -1.0, VTK_DOUBLE_MAX);
 
-  ///@{
   /**
    * Pixels, odd: a disparity is the mean over so large a square, which rounds edges; 1 for its own. -1: the sensor's, 5
    * of active stereo, 1 of the others. Default: -1.
    */
-  vtkSetClampMacro(SmoothingWindow, int, -1, 101);
-  vtkGetMacro(SmoothingWindow, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(SmoothingWindow, int, -1, 101);
 
-  ///@{
   /**
    * mm: standard deviation along the line of sight at a distance of 1 m; it grows with the distance and where a surface
    * returns less light. -1: the sensor's, 1 of time of flight, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(RangeNoise, double, -1.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(RangeNoise, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(RangeNoise, double, -1.0, VTK_DOUBLE_MAX);
 
-  ///@{
   /**
    * Pixels: sigma within which light of neighbors mixes into the range, so that pixels at jumps lie between both
    * surfaces; 0 for none. -1: the sensor's, 0.7 of time of flight, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(PixelBlur, double, -1.0, 50.0);
-  vtkGetMacro(PixelBlur, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(PixelBlur, double, -1.0, 50.0);
 
-  ///@{
   /**
    * Share of its light that a surface throws on, in [0, 1], which makes concave corners seem deeper. -1: the sensor's,
    * 0.2 of time of flight, 0 of the others. Default: -1.
    */
-  vtkSetClampMacro(Multipath, double, -1.0, 1.0);
-  vtkGetMacro(Multipath, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(Multipath, double, -1.0, 1.0);
 
-  ///@{
   /**
    * Gray values: standard deviation of the image. -1: the sensor's 1.5. Default: -1.
    */
-  vtkSetClampMacro(ImageNoise, double, -1.0, 255.0);
-  vtkGetMacro(ImageNoise, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(ImageNoise, double, -1.0, 255.0);
 
-  ///@{
   /**
    * Pixels: sigma of the image's blur; 0 for none. -1: the sensor's 0.7. Default: -1.
    */
-  vtkSetClampMacro(ImageBlur, double, -1.0, 50.0);
-  vtkGetMacro(ImageBlur, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(ImageBlur, double, -1.0, 50.0);
 
 protected:
   vtkMEAMBinSceneSource();
@@ -286,9 +203,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMBinSceneSource(const vtkMEAMBinSceneSource&) = delete;
-  void operator=(const vtkMEAMBinSceneSource&) = delete;
-
   std::unique_ptr<meam::BinSceneSettings> Settings;
   int Sensor = StructuredLight;
   int Width = -1;

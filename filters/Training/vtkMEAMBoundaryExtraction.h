@@ -28,6 +28,7 @@
 #define vtkMEAMBoundaryExtraction_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 #include <memory>
@@ -55,30 +56,20 @@ public:
 
   ///@{
   /** PointBoundary (0, the paper's) or MeshEdges (1). Default: PointBoundary. */
-  virtual void SetMethod(int value);
-  virtual int GetMethod();
+  vtkMEAMDeclareSettingMacro(Method, int);
   void SetMethodToPointBoundary() { this->SetMethod(PointBoundary); }
   void SetMethodToMeshEdges() { this->SetMethod(MeshEdges); }
   ///@}
 
-  ///@{
   /** Point boundary: neighbourhood of a point in mm; 0: 2.5 times the distance between neighbouring points. Default: 0.
    */
-  virtual void SetRadius(double value);
-  virtual double GetRadius();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Radius, double);
 
-  ///@{
   /** Point boundary: a point with a wider gap between its neighbours is on it, in degrees. Default: 90. */
-  virtual void SetAngle(double value);
-  virtual double GetAngle();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Angle, double);
 
-  ///@{
   /** Mesh edges: faces that meet at more than this, in degrees, make a sharp edge. Default: 30. */
-  virtual void SetSharpAngle(double value);
-  virtual double GetSharpAngle();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SharpAngle, double);
 
 protected:
   vtkMEAMBoundaryExtraction();
@@ -87,9 +78,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMBoundaryExtraction(const vtkMEAMBoundaryExtraction&) = delete;
-  void operator=(const vtkMEAMBoundaryExtraction&) = delete;
-
   std::unique_ptr<meam::BoundaryExtractionSettings> Settings;
 };
 

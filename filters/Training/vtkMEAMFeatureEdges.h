@@ -18,6 +18,7 @@
 #define vtkMEAMFeatureEdges_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>
@@ -34,17 +35,11 @@ public:
   vtkTypeMacro(vtkMEAMFeatureEdges, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Faces that meet at more than this make a sharp edge, in degrees. Default: 30. */
-  virtual void SetAngle(double value);
-  virtual double GetAngle();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Angle, double);
 
-  ///@{
   /** Distance between neighbouring points along an edge in mm; 0: 1 % of the part's diameter. Default: 0. */
-  virtual void SetSpacing(double value);
-  virtual double GetSpacing();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Spacing, double);
 
 protected:
   vtkMEAMFeatureEdges();
@@ -52,9 +47,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMFeatureEdges(const vtkMEAMFeatureEdges&) = delete;
-  void operator=(const vtkMEAMFeatureEdges&) = delete;
-
   std::unique_ptr<meam::FeatureEdgesSettings> Settings;
 };
 

@@ -45,11 +45,8 @@ public:
   /** The open gripper. */
   void SetGripperMeshConnection(vtkAlgorithmOutput* gripper) { this->SetInputConnection(2, gripper); }
 
-  ///@{
   /** Grasps of the part, as vtkMEAMGraspWriter writes them (JSON). Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
   enum Proposals
   {
@@ -61,31 +58,21 @@ public:
 
   ///@{
   /** What is proposed from the mesh: nothing (Off, 0), grasps of jaws (1), of a cup (2), or of both (3). Default: 1. */
-  vtkSetClampMacro(Propose, int, Off, Both);
-  vtkGetMacro(Propose, int);
+  vtkMEAMClampedMemberMacro(Propose, int, Off, Both);
   void SetProposeToOff() { this->SetPropose(Off); }
   void SetProposeToParallelJaws() { this->SetPropose(ParallelJaws); }
   void SetProposeToSuction() { this->SetPropose(Suction); }
   void SetProposeToBoth() { this->SetPropose(Both); }
   ///@}
 
-  ///@{
   /** Grasps proposed of each kind, the best ones. Default: 20. */
-  void SetMaximumNumberOfGrasps(int count);
-  int GetMaximumNumberOfGrasps();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumNumberOfGrasps, int);
 
-  ///@{
   /** Degrees between the closing direction and the surface's normals: of 15, a friction of 0.27. Default: 15. */
-  void SetFrictionAngle(double angle);
-  double GetFrictionAngle();
-  ///@}
+  vtkMEAMDeclareSettingMacro(FrictionAngle, double);
 
-  ///@{
   /** mm: of proposals nearer than this that face the same way one comes out; 0: 10 % of the diameter. Default: 0. */
-  void SetSpread(double spread);
-  double GetSpread();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Spread, double);
 
   enum HandKinds
   {
@@ -96,36 +83,26 @@ public:
 
   ///@{
   /** Whether a grasp is laid by hand, and of what: none (0), jaws (1), a cup (2). Default: 0. */
-  vtkSetClampMacro(HandGrasp, int, NoHandGrasp, HandCup);
-  vtkGetMacro(HandGrasp, int);
+  vtkMEAMClampedMemberMacro(HandGrasp, int, NoHandGrasp, HandCup);
   void SetHandGraspToNone() { this->SetHandGrasp(NoHandGrasp); }
   void SetHandGraspToParallelJaws() { this->SetHandGrasp(HandJaws); }
   void SetHandGraspToSuction() { this->SetHandGrasp(HandCup); }
   ///@}
 
-  ///@{
   /** By hand: the origin of the grasp, mm, the part's coordinates. Default: 0, 0, 0. */
-  vtkSetVector3Macro(HandPosition, double);
-  vtkGetVector3Macro(HandPosition, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(HandPosition, double, 3);
 
-  ///@{
   /**
    * By hand: turns of the grasp's frame about x, y and z in degrees, as vtkProp3D has them: first about y, then about
    * x, then about z. Without any z, the way in, is the part's z. Default: 180, 0, 0, from above.
    */
-  vtkSetVector3Macro(HandRotation, double);
-  vtkGetVector3Macro(HandRotation, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(HandRotation, double, 3);
 
-  ///@{
   /**
    * By hand: mm of the part between the jaws; 0: they close from their opening until they touch, with the origin in the
    * middle; a cup goes along its approach until it touches. Default: 0.
    */
-  vtkSetMacro(HandWidth, double);
-  vtkGetMacro(HandWidth, double);
-  ///@}
+  vtkMEAMMemberMacro(HandWidth, double);
 
 protected:
   vtkMEAMGraspDefinition();
@@ -136,9 +113,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMGraspDefinition(const vtkMEAMGraspDefinition&) = delete;
-  void operator=(const vtkMEAMGraspDefinition&) = delete;
-
   meam::Grasp LaidByHand() const;
 
   std::unique_ptr<meam::ProposeSettings> Settings;

@@ -17,6 +17,7 @@
 #define vtkMEAMHandEyeCalibration_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 class PPFMEAMTRAINING_EXPORT vtkMEAMHandEyeCalibration : public vtkPolyDataAlgorithm
@@ -26,11 +27,8 @@ public:
   vtkTypeMacro(vtkMEAMHandEyeCalibration, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The pairs of poses: JSON, or CSV with 32 numbers in a row. Default: none. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  vtkMEAMFileMemberMacro(FileName);
 
   enum Mounts
   {
@@ -44,8 +42,7 @@ public:
    * Where the camera is: as the file says, or else beside the robot (AsInFile, 0); beside the robot, which holds the
    * target (1); on its gripper (2). Default: 0.
    */
-  vtkSetClampMacro(Mount, int, AsInFile, Hand);
-  vtkGetMacro(Mount, int);
+  vtkMEAMClampedMemberMacro(Mount, int, AsInFile, Hand);
   void SetMountToAsInFile() { this->SetMount(AsInFile); }
   void SetMountToBeside() { this->SetMount(Beside); }
   void SetMountToHand() { this->SetMount(Hand); }
@@ -65,9 +62,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMHandEyeCalibration(const vtkMEAMHandEyeCalibration&) = delete;
-  void operator=(const vtkMEAMHandEyeCalibration&) = delete;
-
   char* FileName = nullptr;
   int Mount = AsInFile;
 };

@@ -35,6 +35,7 @@
 #define vtkMEAMHashing_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 #include <memory>
@@ -77,56 +78,39 @@ public:
    * (1): surface points with normals, which carry smooth, round and thick ones; needs the samples of the surface. Both
    * (2). Default: Both.
    */
-  virtual void SetFeatures(int value);
-  virtual int GetFeatures();
+  vtkMEAMDeclareSettingMacro(Features, int);
   void SetFeaturesToEdges() { this->SetFeatures(Edges); }
   void SetFeaturesToSurface() { this->SetFeatures(Surface); }
   void SetFeaturesToBoth() { this->SetFeatures(Both); }
   ///@}
 
-  ///@{
   /** Of surface points: step of distances as a share of the part's diameter, in (0, 1]. Default: 0.05. */
-  virtual void SetSurfaceDistanceStep(double value);
-  virtual double GetSurfaceDistanceStep();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SurfaceDistanceStep, double);
 
-  ///@{
   /** Of surface points: step of angles in degrees, 1 to 90; also of the votes' turn about the normal. Default: 12. */
-  virtual void SetSurfaceAngleStep(double value);
-  virtual double GetSurfaceAngleStep();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SurfaceAngleStep, double);
 
-  ///@{
   /**
    * Of the surface points in a cube of this side, a share of the part's diameter, one makes pairs and votes, in the
    * model as in a scene. Default: 0.05.
    */
-  virtual void SetSurfaceLeafSize(double value);
-  virtual double GetSurfaceLeafSize();
-  ///@}
+  vtkMEAMDeclareSettingMacro(SurfaceLeafSize, double);
 
   ///@{
   /**
    * Of edge points. Paper (0): the distance and three acute angles, Equation (1). Oriented (1): both tangents are
    * turned along the pair, so the third angle is full and mirror images differ: fewer wrong votes. Default: Oriented.
    */
-  virtual void SetFeature(int value);
-  virtual int GetFeature();
+  vtkMEAMDeclareSettingMacro(Feature, int);
   void SetFeatureToPaper() { this->SetFeature(Paper); }
   void SetFeatureToOriented() { this->SetFeature(Oriented); }
   ///@}
 
-  ///@{
   /** Step of distances as a share of the part's diameter, in (0, 1]. Default: 0.07. */
-  virtual void SetDistanceStep(double value);
-  virtual double GetDistanceStep();
-  ///@}
+  vtkMEAMDeclareSettingMacro(DistanceStep, double);
 
-  ///@{
   /** Step of angles in degrees, 1 to 90; also of the votes' turn about the tangent. Default: 7.2. The paper: 3.6. */
-  virtual void SetAngleStep(double value);
-  virtual double GetAngleStep();
-  ///@}
+  vtkMEAMDeclareSettingMacro(AngleStep, double);
 
   ///@{
   /**
@@ -134,37 +118,27 @@ public:
    * (1): each view keeps its own, and a pair that several views show is stored once, by voxel code, Equation (2)
    * of the paper. None (2): all pairs of each view are stored, as many tables as views. Default: Points.
    */
-  virtual void SetViewMerging(int value);
-  virtual int GetViewMerging();
+  vtkMEAMDeclareSettingMacro(ViewMerging, int);
   void SetViewMergingToPoints() { this->SetViewMerging(Points); }
   void SetViewMergingToVoxelCodes() { this->SetViewMerging(VoxelCodes); }
   void SetViewMergingToNone() { this->SetViewMerging(None); }
   ///@}
 
-  ///@{
   /** Points of two views nearer than this are the same, in mm; 0: 1.5 % of the part's diameter. Default: 0. */
-  virtual void SetVoxelSize(double value);
-  virtual double GetVoxelSize();
-  ///@}
+  vtkMEAMDeclareSettingMacro(VoxelSize, double);
 
-  ///@{
   /**
    * With ViewMerging Points, of the edge points in a cube of this side, in mm, one makes pairs and votes, in the model
    * as in a scene; all of them judge and refine poses. 0: 4 % of the part's diameter. Otherwise every edge point makes
    * pairs. Default: 0.
    */
-  virtual void SetLeafSize(double value);
-  virtual double GetLeafSize();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LeafSize, double);
 
-  ///@{
   /**
    * Number of directions, up to 32, from which two points have to be visible together to make a pair;
    * 0: only the views themselves, as in the paper. Default: 26.
    */
-  virtual void SetCoVisibilityDirections(int value);
-  virtual int GetCoVisibilityDirections();
-  ///@}
+  vtkMEAMDeclareSettingMacro(CoVisibilityDirections, int);
 
   /** The parameters of the paper, Section 6. */
   void SetParametersToPaper();
@@ -178,9 +152,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMHashing(const vtkMEAMHashing&) = delete;
-  void operator=(const vtkMEAMHashing&) = delete;
-
   struct SharedData;
   std::unique_ptr<SharedData> Shared; ///< what other filters find as long as this one holds it
 

@@ -24,6 +24,7 @@
 #define vtkMEAMMeshPreparation_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>
@@ -40,17 +41,11 @@ public:
   vtkTypeMacro(vtkMEAMMeshPreparation, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Factor on the coordinates that brings them to mm: 1000 for a mesh in metres. Default: 1. */
-  virtual void SetScale(double value);
-  virtual double GetScale();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Scale, double);
 
-  ///@{
   /** Added to the coordinates after the scale, in mm. Default: 0, 0, 0. */
-  vtkSetVector3Macro(Offset, double);
-  vtkGetVector3Macro(Offset, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(Offset, double, 3);
 
   /** What is kept of a mesh of several connected components. */
   enum Components
@@ -61,35 +56,25 @@ public:
 
   ///@{
   /** Which connected components are kept. Default: All. */
-  virtual void SetKeptComponents(int value);
-  virtual int GetKeptComponents();
+  vtkMEAMDeclareSettingMacro(KeptComponents, int);
   void SetKeptComponentsToAll() { this->SetKeptComponents(All); }
   void SetKeptComponentsToLargest() { this->SetKeptComponents(Largest); }
   ///@}
 
-  ///@{
   /**
    * Holes are closed whose border, all the way round, is at most this long, in mm; 0: none. The outer border of a
    * sheet is not a hole. Default: 0.
    */
-  virtual void SetHoleSize(double value);
-  virtual double GetHoleSize();
-  ///@}
+  vtkMEAMDeclareSettingMacro(HoleSize, double);
 
-  ///@{
   /** The mesh is simplified as far as its surface moves by no more than this, in mm; 0: not at all. Default: 0. */
-  virtual void SetMaximumError(double value);
-  virtual double GetMaximumError();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MaximumError, double);
 
-  ///@{
   /**
    * The mesh is remade of even triangles with edges of this length in mm, after it is simplified; sharp edges and
    * borders stay where they are. 0: not at all. Default: 0.
    */
-  virtual void SetEdgeLength(double value);
-  virtual double GetEdgeLength();
-  ///@}
+  vtkMEAMDeclareSettingMacro(EdgeLength, double);
 
 protected:
   vtkMEAMMeshPreparation();
@@ -97,9 +82,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMMeshPreparation(const vtkMEAMMeshPreparation&) = delete;
-  void operator=(const vtkMEAMMeshPreparation&) = delete;
-
   std::unique_ptr<meam::MeshPreparationSettings> Settings;
   double Offset[3] = { 0.0, 0.0, 0.0 };
 };

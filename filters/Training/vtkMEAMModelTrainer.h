@@ -24,10 +24,6 @@ public:
 protected:
   vtkMEAMModelTrainer() = default;
   ~vtkMEAMModelTrainer() override = default;
-
-private:
-  vtkMEAMModelTrainer(const vtkMEAMModelTrainer&) = delete;
-  void operator=(const vtkMEAMModelTrainer&) = delete;
 };
 
 #endif

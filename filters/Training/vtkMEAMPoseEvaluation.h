@@ -42,6 +42,7 @@
 #define vtkMEAMPoseEvaluation_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkTableAlgorithm.h"
 
 #include <memory>
@@ -63,41 +64,23 @@ public:
   /** Takes the true poses of all scenes away. */
   void RemoveAllTrueConnections() { this->RemoveAllInputConnections(1); }
 
-  ///@{
   /** mm, the part's largest vertex distance; 0 takes it from the poses' field data. Default: 0. */
-  virtual void SetDiameter(double value);
-  virtual double GetDiameter();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Diameter, double);
 
-  ///@{
   /** % of the diameter: a right pose is nearer to a true one. Default: 10. */
-  virtual void SetTranslationTolerance(double value);
-  virtual double GetTranslationTolerance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(TranslationTolerance, double);
 
-  ///@{
   /** Degrees: a right pose is turned by less against a true one. Default: 5. */
-  virtual void SetRotationTolerance(double value);
-  virtual double GetRotationTolerance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(RotationTolerance, double);
 
-  ///@{
   /** Best poses of a scene that count; missing ones are wrong. 0: all there are. Default: 5. */
-  virtual void SetPosesAskedFor(int value);
-  virtual int GetPosesAskedFor();
-  ///@}
+  vtkMEAMDeclareSettingMacro(PosesAskedFor, int);
 
-  ///@{
   /** The part's axis in the model's frame, for the axis and roll errors. Default: 0, 0, 1. */
-  vtkSetVector3Macro(Axis, double);
-  vtkGetVector3Macro(Axis, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(Axis, double, 3);
 
-  ///@{
   /** Share of a true instance, in [0, 1], that has to be visible to count for the recall. Default: 0.5. */
-  virtual void SetMinimumVisibleFraction(double value);
-  virtual double GetMinimumVisibleFraction();
-  ///@}
+  vtkMEAMDeclareSettingMacro(MinimumVisibleFraction, double);
 
 protected:
   vtkMEAMPoseEvaluation();
@@ -109,9 +92,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMPoseEvaluation(const vtkMEAMPoseEvaluation&) = delete;
-  void operator=(const vtkMEAMPoseEvaluation&) = delete;
-
   std::unique_ptr<meam::PoseEvaluationSettings> Settings;
   double Axis[3] = { 0.0, 0.0, 1.0 };
 };

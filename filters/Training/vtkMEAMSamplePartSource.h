@@ -20,6 +20,7 @@
 #define vtkMEAMSamplePartSource_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 class PPFMEAMTRAINING_EXPORT vtkMEAMSamplePartSource : public vtkPolyDataAlgorithm
@@ -44,8 +45,7 @@ public:
 
   ///@{
   /** Which part. Default: RibbedFlange. */
-  vtkSetClampMacro(Part, int, RibbedFlange, Handle);
-  vtkGetMacro(Part, int);
+  vtkMEAMClampedMemberMacro(Part, int, RibbedFlange, Handle);
   void SetPartToRibbedFlange() { this->SetPart(RibbedFlange); }
   void SetPartToRidgedDisc() { this->SetPart(RidgedDisc); }
   void SetPartToArcLever() { this->SetPart(ArcLever); }
@@ -64,9 +64,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMSamplePartSource(const vtkMEAMSamplePartSource&) = delete;
-  void operator=(const vtkMEAMSamplePartSource&) = delete;
-
   int Part = RibbedFlange;
 };
 

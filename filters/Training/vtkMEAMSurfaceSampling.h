@@ -17,6 +17,7 @@
 #define vtkMEAMSurfaceSampling_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 class PPFMEAMTRAINING_EXPORT vtkMEAMSurfaceSampling : public vtkPolyDataAlgorithm
@@ -26,17 +27,11 @@ public:
   vtkTypeMacro(vtkMEAMSurfaceSampling, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Distance between neighbouring samples in mm; 0: 1 % of the part's diameter. Default: 0. */
-  vtkSetClampMacro(Spacing, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Spacing, double);
-  ///@}
+  vtkMEAMClampedMemberMacro(Spacing, double, 0.0, VTK_DOUBLE_MAX);
 
-  ///@{
   /** Seed of the random choice: the same seed gives the same samples. Default: 1. */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
-  vtkGetMacro(Seed, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(Seed, int, 0, VTK_INT_MAX);
 
 protected:
   vtkMEAMSurfaceSampling();
@@ -44,9 +39,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMSurfaceSampling(const vtkMEAMSurfaceSampling&) = delete;
-  void operator=(const vtkMEAMSurfaceSampling&) = delete;
-
   double Spacing;
   int Seed;
 };

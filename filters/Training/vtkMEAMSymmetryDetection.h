@@ -20,6 +20,7 @@
 #define vtkMEAMSymmetryDetection_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>
@@ -36,38 +37,23 @@ public:
   vtkTypeMacro(vtkMEAMSymmetryDetection, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Distance in mm that the turned surface may keep from itself; 0: 1 % of the diameter. Default: 0. */
-  virtual void SetTolerance(double value);
-  virtual double GetTolerance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(Tolerance, double);
 
-  ///@{
   /** Share of the surface that a near-symmetry has to map onto the surface, in [0, 1]. Default: 0.8. */
-  virtual void SetLeastOverlap(double value);
-  virtual double GetLeastOverlap();
-  ///@}
+  vtkMEAMDeclareSettingMacro(LeastOverlap, double);
 
-  ///@{
   /** The near-symmetry whose deviation the points show, counted from 0. Default: 0. */
-  vtkSetClampMacro(ShownNearSymmetry, int, 0, VTK_INT_MAX);
-  vtkGetMacro(ShownNearSymmetry, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(ShownNearSymmetry, int, 0, VTK_INT_MAX);
 
-  ///@{
   /**
    * A BOP dataset's models_info.json that names the exact symmetries; only the near ones are then looked for.
    * Default: none, all are found.
    */
-  vtkSetFilePathMacro(ModelsInfoFile);
-  vtkGetFilePathMacro(ModelsInfoFile);
-  ///@}
+  vtkMEAMFileMemberMacro(ModelsInfoFile);
 
-  ///@{
   /** The part's number in the ModelsInfoFile. Default: 1. */
-  vtkSetClampMacro(ObjectId, int, 0, VTK_INT_MAX);
-  vtkGetMacro(ObjectId, int);
-  ///@}
+  vtkMEAMClampedMemberMacro(ObjectId, int, 0, VTK_INT_MAX);
 
 protected:
   vtkMEAMSymmetryDetection();
@@ -75,9 +61,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMSymmetryDetection(const vtkMEAMSymmetryDetection&) = delete;
-  void operator=(const vtkMEAMSymmetryDetection&) = delete;
-
   std::unique_ptr<meam::SymmetryDetectionSettings> Settings;
   int ShownNearSymmetry = 0;
   char* ModelsInfoFile = nullptr;

@@ -27,6 +27,7 @@
 #define vtkMEAMVisibilityExtraction_h
 
 #include "ppfmeamTrainingModule.h"
+#include "vtkMEAMPropertyMacros.h"
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 #include <memory>
@@ -54,52 +55,36 @@ public:
 
   ///@{
   /** HiddenPointRemoval (0, the paper's) or MeshVisibility (1). Default: HiddenPointRemoval. */
-  virtual void SetMethod(int value);
-  virtual int GetMethod();
+  vtkMEAMDeclareSettingMacro(Method, int);
   void SetMethodToHiddenPointRemoval() { this->SetMethod(HiddenPointRemoval); }
   void SetMethodToMeshVisibility() { this->SetMethod(MeshVisibility); }
   ///@}
 
-  ///@{
   /**
    * Number of viewpoints. 1: above (+z); 2: above and below; 6: along the axes, as in the paper; 14: and
    * the cube's corners; 26: and the middles of its edges; any other number is spread over the sphere.
    * 0: the whole part, nothing hidden; method and cone play no part. A trained model takes up to 32.
    * Default: 6.
    */
-  virtual void SetNumberOfViewpoints(int value);
-  virtual int GetNumberOfViewpoints();
-  ///@}
+  vtkMEAMDeclareSettingMacro(NumberOfViewpoints, int);
 
-  ///@{
   /** The middle of the viewpoints: a direction of any length, from the part. Default: 0, 0, 1. */
-  vtkSetVector3Macro(ConeDirection, double);
-  vtkGetVector3Macro(ConeDirection, double);
-  ///@}
+  vtkMEAMVectorMemberMacro(ConeDirection, double, 3);
 
-  ///@{
   /**
    * Viewpoints that are farther from the cone's direction, in degrees, are left out; a number other than
    * 1, 2, 6, 14 and 26 is spread inside. 180: all around. Default: 180.
    */
-  virtual void SetConeAngle(double value);
-  virtual double GetConeAngle();
-  ///@}
+  vtkMEAMDeclareSettingMacro(ConeAngle, double);
 
-  ///@{
   /**
    * Hidden point removal: radius of the inversion sphere over the distance of the farthest point. Smaller loses the
    * rims of holes, larger lets the back side through. Default: 1000.
    */
-  virtual void SetRadiusFactor(double value);
-  virtual double GetRadiusFactor();
-  ///@}
+  vtkMEAMDeclareSettingMacro(RadiusFactor, double);
 
-  ///@{
   /** Distance of the viewpoints from the middle of the part, in part diameters. Default: 10. */
-  virtual void SetViewpointDistance(double value);
-  virtual double GetViewpointDistance();
-  ///@}
+  vtkMEAMDeclareSettingMacro(ViewpointDistance, double);
 
 protected:
   vtkMEAMVisibilityExtraction();
@@ -108,9 +93,6 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  vtkMEAMVisibilityExtraction(const vtkMEAMVisibilityExtraction&) = delete;
-  void operator=(const vtkMEAMVisibilityExtraction&) = delete;
-
   std::unique_ptr<meam::VisibilityExtractionSettings> Settings;
   double ConeDirection[3] = { 0.0, 0.0, 1.0 };
 };
