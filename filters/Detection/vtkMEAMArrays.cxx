@@ -18,6 +18,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -147,6 +148,18 @@ void addVertices(vtkPolyData* output)
   output->SetVerts(vertices);
 }
 
+void setVertices(const meam::PrecisePoints& points, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  for (const Eigen::Vector3d& point : points)
+  {
+    places->InsertNextPoint(point.data());
+  }
+  output->SetPoints(places);
+  addVertices(output);
+}
+
 double diameterOf(vtkDataObject* input)
 {
   vtkFieldData* fields = input ? input->GetFieldData() : nullptr;
@@ -159,18 +172,12 @@ void setDiameter(vtkDataObject* output, double diameter) { setFieldValue(output,
 
 void setFieldValue(vtkDataObject* output, const char* name, double value)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
+  output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>(name, std::array{ value }));
 }
 
 void setFieldText(vtkDataObject* output, const char* name, const std::string& text)
 {
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(text);
-  output->GetFieldData()->AddArray(array);
+  output->GetFieldData()->AddArray(arrayOf<vtkStringArray>(name, std::array{ text }));
 }
 
 void setNameOf(const std::string& file, vtkDataObject* output)
@@ -185,9 +192,6 @@ void fromAnswer(const std::vector<std::string>& paragraphs, vtkTable* output)
   {
     lines += (lines.empty() || paragraph.empty() ? "" : "\n") + inLines(paragraph, LineLength);
   }
-  vtkNew<vtkStringArray> text;
-  text->SetName("Text");
-  text->InsertNextValue(lines);
-  output->AddColumn(text);
+  output->AddColumn(arrayOf<vtkStringArray>("Text", std::array{ lines }));
 }
 }

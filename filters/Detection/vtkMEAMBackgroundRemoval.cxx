@@ -2,6 +2,7 @@
 #include "vtkMEAMBackgroundRemoval.h"
 
 #include "scene/preparation/BackgroundRemoval.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
 #include "vtkMEAMSceneRequests.h"
@@ -13,13 +14,11 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <limits>
 
 vtkStandardNewMacro(vtkMEAMBackgroundRemoval);
@@ -64,12 +63,9 @@ vtkMEAMClampedSettingMacro(vtkMEAMBackgroundRemoval, LeastShare, double, leastSh
 
 int vtkMEAMBackgroundRemoval::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkStructuredGrid" : "vtkImageData");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  using namespace vtkMEAMConversion;
+  return port == 0 ? fillInputPort(info, { "vtkStructuredGrid" }, Connections::One)
+                   : fillInputPort(info, { "vtkImageData" }, Connections::OneOrNone);
 }
 
 int vtkMEAMBackgroundRemoval::RequestUpdateExtent(
@@ -104,21 +100,13 @@ int vtkMEAMBackgroundRemoval::RequestData(
       output->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
       output->GetFieldData()->ShallowCopy(scene->GetFieldData());
       vtkMEAMConversion::fromOrganizedCloud(found.cloud, output);
-      vtkNew<vtkUnsignedCharArray> reasons;
-      reasons->SetName("Background");
-      reasons->SetNumberOfTuples(static_cast<vtkIdType>(found.reasons.size()));
-      std::transform(found.reasons.begin(), found.reasons.end(), reasons->GetPointer(0),
-        [](meam::Background reason) { return static_cast<unsigned char>(reason); });
-      output->GetPointData()->AddArray(reasons);
-      vtkNew<vtkDoubleArray> planes;
-      planes->SetName("Planes");
-      planes->SetNumberOfComponents(4);
+      output->GetPointData()->AddArray(vtkMEAMConversion::arrayOf<vtkUnsignedCharArray>("Background", found.reasons));
+      std::vector<double> planes;
       for (const auto& plane : found.planes)
       {
-        const Eigen::Vector4d numbers = plane.coeffs().cast<double>();
-        planes->InsertNextTuple(numbers.data());
+        planes.insert(planes.end(), plane.coeffs().data(), plane.coeffs().data() + 4);
       }
-      output->GetFieldData()->AddArray(planes);
+      output->GetFieldData()->AddArray(vtkMEAMConversion::arrayOf<vtkDoubleArray>("Planes", planes, 4));
     },
     output);
 }

@@ -18,7 +18,6 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -71,22 +70,16 @@ std::array<std::size_t, 3> checkedPoints(std::size_t count) { return { 0, count 
 
 void setLocalFrame(vtkPolyData* output, const Eigen::Isometry3d& T_local_scene, const meam::Points& points)
 {
-  vtkNew<vtkDoubleArray> frame, check;
-  frame->SetName("LocalFrame");
-  frame->SetNumberOfComponents(16);
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = T_local_scene.matrix();
-  frame->InsertNextTuple(matrix.data());
-  check->SetName("LocalFrameCheck");
-  check->SetNumberOfComponents(3);
+  std::vector<float> check;
   for (const std::size_t i : checkedPoints(points.size()))
   {
     if (i < points.size())
     {
-      check->InsertNextTuple3(points[i].x(), points[i].y(), points[i].z());
+      check.insert(check.end(), points[i].data(), points[i].data() + 3);
     }
   }
-  output->GetFieldData()->AddArray(frame);
-  output->GetFieldData()->AddArray(check);
+  output->GetFieldData()->AddArray(frameOf("LocalFrame", T_local_scene));
+  output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("LocalFrameCheck", check, 3));
 }
 
 /// The frame that the points were thinned in; none when they have been moved or chosen from since.
@@ -175,28 +168,16 @@ void fromCloud(const meam::PointCloud& cloud, vtkPolyData* output)
   }
   if (!cloud.pointIds.empty())
   {
-    vtkNew<vtkIntArray> ids;
-    ids->SetName("PointId");
-    ids->SetNumberOfTuples(static_cast<vtkIdType>(cloud.pointIds.size()));
-    std::copy(cloud.pointIds.begin(), cloud.pointIds.end(), ids->GetPointer(0));
-    output->GetPointData()->AddArray(ids);
+    output->GetPointData()->AddArray(arrayOf<vtkIntArray>("PointId", cloud.pointIds));
   }
   if (!cloud.edgeTypes.empty())
   {
-    vtkNew<vtkUnsignedCharArray> types;
-    types->SetName("EdgeType");
-    types->SetNumberOfTuples(static_cast<vtkIdType>(cloud.edgeTypes.size()));
-    std::transform(cloud.edgeTypes.begin(), cloud.edgeTypes.end(), types->GetPointer(0),
-      [](meam::EdgeType type) { return static_cast<unsigned char>(type); });
-    output->GetPointData()->SetScalars(types); // what a view colours by
+    output->GetPointData()->SetScalars( // what a view colours by
+      arrayOf<vtkUnsignedCharArray>("EdgeType", cloud.edgeTypes));
   }
   if (!cloud.weights.empty())
   {
-    vtkNew<vtkFloatArray> weights;
-    weights->SetName("Weight");
-    weights->SetNumberOfTuples(static_cast<vtkIdType>(cloud.weights.size()));
-    std::copy(cloud.weights.begin(), cloud.weights.end(), weights->GetPointer(0));
-    output->GetPointData()->AddArray(weights);
+    output->GetPointData()->AddArray(arrayOf<vtkFloatArray>("Weight", cloud.weights));
   }
 }
 

@@ -49,14 +49,9 @@ vtkMEAMClampedSettingMacro(vtkMEAMConflictResolution, MaximumNumberOfPoses, int,
 
 int vtkMEAMConflictResolution::FillInputPortInformation(int port, vtkInformation* info)
 {
+  using namespace vtkMEAMConversion;
   const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkPointSet" };
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
-  if (port < 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  return fillInputPort(info, { types[port] }, port < 2 ? Connections::Any : Connections::OneOrNone);
 }
 
 int vtkMEAMConflictResolution::RequestInformation(

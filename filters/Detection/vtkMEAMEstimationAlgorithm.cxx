@@ -138,22 +138,18 @@ vtkMEAMSettingMacro(vtkMEAMEstimationAlgorithm, Creases, bool, creases);
 
 int vtkMEAMEstimationAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  static const char* const types[4][2] = { { "vtkPolyData", "vtkPartitionedDataSetCollection" },
-    { "vtkStructuredGrid", "vtkPolyData" }, { "vtkPolyData", "vtkStructuredGrid" }, { "vtkImageData", nullptr } };
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  for (const char* type : types[port])
+  using namespace vtkMEAMConversion;
+  switch (port)
   {
-    if (type)
-    {
-      info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-    }
+    case 0:
+      return fillInputPort(info, { "vtkPolyData", "vtkPartitionedDataSetCollection" }, Connections::Any);
+    case 1:
+      return fillInputPort(info, { "vtkStructuredGrid", "vtkPolyData" }, Connections::OneOrNone);
+    case 2:
+      return fillInputPort(info, { "vtkPolyData", "vtkStructuredGrid" }, Connections::OneOrNone);
+    default:
+      return fillInputPort(info, { "vtkImageData" }, Connections::OneOrNone);
   }
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
 }
 
 int vtkMEAMEstimationAlgorithm::RequestInformation(

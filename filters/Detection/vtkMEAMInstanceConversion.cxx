@@ -3,6 +3,7 @@
 
 #include "pose/PartsEstimation.h"
 #include "pose/Pose.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 
 #include "vtkAppendPolyData.h"
@@ -23,7 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,27 +66,15 @@ struct Drawn
 /// one kind stand together.
 void describe(vtkDataSetAttributes* attributes, const std::vector<Drawn>& drawn, const std::vector<vtkIdType>& kinds)
 {
-  const vtkIdType size =
-    static_cast<vtkIdType>(drawn.size()) * std::accumulate(kinds.begin(), kinds.end(), vtkIdType(0));
-  /// Calls fill(drawn, begin, count) for all ranges.
-  const auto forEachRange = [&](const auto& fill)
+  std::vector<const Drawn*> ofEach;
+  for (const vtkIdType count : kinds)
   {
-    vtkIdType begin = 0;
-    for (const vtkIdType count : kinds)
+    for (const Drawn& one : drawn)
     {
-      for (const Drawn& one : drawn)
-      {
-        fill(one, begin, count);
-        begin += count;
-      }
+      ofEach.insert(ofEach.end(), count, &one);
     }
-  };
-  vtkNew<vtkIntArray> ranks;
-  ranks->SetName("Rank");
-  ranks->SetNumberOfTuples(size);
-  forEachRange([&](const Drawn& one, vtkIdType begin, vtkIdType count)
-    { std::fill_n(ranks->GetPointer(begin), count, one.rank); });
-  attributes->SetScalars(ranks);
+  }
+  attributes->SetScalars(columnOf<vtkIntArray>("Rank", ofEach, &Drawn::rank));
 
   const std::pair<const char*, double meam::Pose::*> values[] = { { "Score", &meam::Pose::score },
     { "PlaceProbability", &meam::Pose::placeProbability }, { "Probability", &meam::Pose::probability },
@@ -96,32 +84,20 @@ void describe(vtkDataSetAttributes* attributes, const std::vector<Drawn>& drawn,
     std::any_of(drawn.begin(), drawn.end(), [](const Drawn& one) { return meam::claimOf(*one.pose, false) > 0.0; });
   for (const auto& [name, value] : values)
   {
-    if (value != &meam::Pose::score && !isJudged)
+    if (value == &meam::Pose::score || isJudged)
     {
-      continue;
+      attributes->AddArray(
+        columnOf<vtkDoubleArray>(name, ofEach, [value = value](const Drawn* one) { return one->pose->*value; }));
     }
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(name);
-    array->SetNumberOfTuples(size);
-    forEachRange([&, value = value](const Drawn& one, vtkIdType begin, vtkIdType count)
-      { std::fill_n(array->GetPointer(begin), count, one.pose->*value); });
-    attributes->AddArray(array);
   }
-
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetName("RankColor");
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(size);
-  forEachRange(
-    [&](const Drawn& one, vtkIdType begin, vtkIdType count)
-    {
-      const unsigned char* color = RankColors[std::min(one.rank, LastColor) - 1];
-      for (vtkIdType i = begin; i < begin + count; ++i)
-      {
-        std::copy_n(color, 3, colors->GetPointer(3 * i));
-      }
-    });
-  attributes->AddArray(colors);
+  std::vector<unsigned char> colors;
+  colors.reserve(3 * ofEach.size());
+  for (const Drawn* one : ofEach)
+  {
+    const unsigned char* color = RankColors[std::min(one->rank, LastColor) - 1];
+    colors.insert(colors.end(), color, color + 3);
+  }
+  attributes->AddArray(arrayOf<vtkUnsignedCharArray>("RankColor", colors, 3));
 }
 
 /// The cells so many times, each time of the next `points` points.
@@ -255,8 +231,7 @@ void fromUncertainties(const meam::Poses& poses, const meam::PartExtent& part, d
 void addLabels(
   const meam::Poses& poses, const std::vector<std::string>& names, double minimumProbability, vtkPolyData* output)
 {
-  vtkNew<vtkStringArray> labels;
-  labels->SetName("Label");
+  std::vector<std::string> labels;
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     std::string label = isDrawn(poses[k], minimumProbability) ? std::to_string(k + 1) : "";
@@ -267,9 +242,9 @@ void addLabels(
       label += ": " + percent(meam::claimOf(poses[k], false));
       label += poses[k].certainty < Sure ? ", rotation " + percent(poses[k].certainty) : "";
     }
-    labels->InsertNextValue(label);
+    labels.push_back(label);
   }
-  output->GetPointData()->AddArray(labels);
+  output->GetPointData()->AddArray(arrayOf<vtkStringArray>("Label", labels));
 }
 
 std::string describeHidden(const meam::Poses& poses, double minimumProbability, const std::string& property)

@@ -10,7 +10,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
@@ -53,34 +52,19 @@ std::vector<meam::JudgedPose> toJudgedPoses(vtkPolyData* input)
 
 void fromReport(const meam::CalibrationReport& report, vtkTable* output)
 {
-  vtkNew<vtkStringArray> claim;
-  claim->SetName("Claim");
-  vtkNew<vtkIntArray> poses;
-  poses->SetName("Poses");
-  vtkNew<vtkDoubleArray> least, most, right, before, after;
-  least->SetName("Least");
-  most->SetName("Most");
-  right->SetName("Right");
-  before->SetName("Before");
-  after->SetName("After");
-  for (const meam::ClaimClass& one : report.classes)
-  {
-    claim->InsertNextValue(one.withRotation ? "pose" : "place");
-    least->InsertNextValue(one.least);
-    most->InsertNextValue(one.most);
-    poses->InsertNextValue(one.poses);
-    right->InsertNextValue(one.right);
-    before->InsertNextValue(one.before);
-    after->InsertNextValue(one.after);
-  }
-  for (vtkAbstractArray* column :
-    std::initializer_list<vtkAbstractArray*>{ claim, least, most, poses, right, before, after })
-  {
-    output->AddColumn(column);
-  }
-  vtkMEAMConversion::setFieldValue(output, "LossBefore", report.lossBefore);
-  vtkMEAMConversion::setFieldValue(output, "LossAfter", report.lossAfter);
-  vtkMEAMConversion::setCalibration(output, report.calibration);
+  using namespace vtkMEAMConversion;
+  using meam::ClaimClass;
+  const auto claimOf = [](const ClaimClass& one) { return one.withRotation ? "pose" : "place"; };
+  output->AddColumn(columnOf<vtkStringArray>("Claim", report.classes, claimOf));
+  output->AddColumn(columnOf<vtkDoubleArray>("Least", report.classes, &ClaimClass::least));
+  output->AddColumn(columnOf<vtkDoubleArray>("Most", report.classes, &ClaimClass::most));
+  output->AddColumn(columnOf<vtkIntArray>("Poses", report.classes, &ClaimClass::poses));
+  output->AddColumn(columnOf<vtkDoubleArray>("Right", report.classes, &ClaimClass::right));
+  output->AddColumn(columnOf<vtkDoubleArray>("Before", report.classes, &ClaimClass::before));
+  output->AddColumn(columnOf<vtkDoubleArray>("After", report.classes, &ClaimClass::after));
+  setFieldValue(output, "LossBefore", report.lossBefore);
+  setFieldValue(output, "LossAfter", report.lossAfter);
+  setCalibration(output, report.calibration);
 }
 }
 
@@ -90,13 +74,10 @@ vtkMEAMModelCalibration::vtkMEAMModelCalibration()
   this->SetNumberOfOutputPorts(2);
 }
 
-vtkMEAMModelCalibration::~vtkMEAMModelCalibration() = default;
-
 int vtkMEAMModelCalibration::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  const char* type = port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData";
+  return vtkMEAMConversion::fillInputPort(info, { type }, vtkMEAMConversion::Connections::OneOrNone);
 }
 
 int vtkMEAMModelCalibration::FillOutputPortInformation(int port, vtkInformation* info)

@@ -34,7 +34,7 @@ public:
 
 protected:
   vtkMEAMModelCalibration();
-  ~vtkMEAMModelCalibration() override;
+  ~vtkMEAMModelCalibration() override = default;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;

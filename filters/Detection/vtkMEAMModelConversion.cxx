@@ -23,6 +23,7 @@
 #include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -60,22 +61,17 @@ void addPartition(vtkPartitionedDataSetCollection* output, const std::string& na
 
 void setFieldVectors(vtkDataObject* output, const char* name, const meam::Points& values)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(3);
+  std::vector<float> numbers;
   for (const auto& value : values)
   {
-    array->InsertNextTuple3(value.x(), value.y(), value.z());
+    numbers.insert(numbers.end(), value.data(), value.data() + 3);
   }
-  output->GetFieldData()->AddArray(array);
+  output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>(name, numbers, 3));
 }
 
 void setFieldInteger(vtkDataObject* output, const char* name, std::size_t value)
 {
-  vtkNew<vtkIntArray> array;
-  array->SetName(name);
-  array->InsertNextValue(static_cast<int>(value));
-  output->GetFieldData()->AddArray(array);
+  output->GetFieldData()->AddArray(arrayOf<vtkIntArray>(name, std::array{ value }));
 }
 
 std::string fieldText(vtkDataObject* input, const char* name)
@@ -124,24 +120,6 @@ void setView(vtkPolyData* output, const Eigen::Vector3f& direction, std::size_t 
 {
   setFieldVectors(output, "ViewDirection", { direction });
   setFieldInteger(output, "ViewIndex", index);
-}
-
-vtkSmartPointer<vtkDataArray> fromValues(const char* name, const std::vector<std::uint32_t>& values)
-{
-  auto array = vtkSmartPointer<vtkUnsignedIntArray>::New();
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
-}
-
-vtkSmartPointer<vtkDataArray> fromValues(const char* name, const std::vector<float>& values)
-{
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
 }
 
 std::string viewName(std::size_t index) { return "View " + std::to_string(index); }
@@ -471,13 +449,8 @@ void setCalibration(vtkDataObject* output, const meam::ModelCalibration& calibra
   {
     return;
   }
-  vtkNew<vtkDoubleArray> numbers;
-  numbers->SetName("Calibration");
-  for (const double number : { place.constant, place.slope, rotation.constant, rotation.slope, double(poses) })
-  {
-    numbers->InsertNextValue(number);
-  }
-  output->GetFieldData()->AddArray(numbers);
+  const std::array numbers{ place.constant, place.slope, rotation.constant, rotation.slope, double(poses) };
+  output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("Calibration", numbers));
 }
 
 meam::TrainedModel toTrainedModel(vtkPartitionedDataSetCollection* input) { return ModelReader(input).read(); }
@@ -503,8 +476,8 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
 
   vtkNew<vtkPolyData> edges;
   fromCloud(model.edges, edges);
-  edges->GetPointData()->AddArray(fromValues("ViewBits", model.edgeViews));
-  edges->GetPointData()->AddArray(fromValues("VisibleBits", model.edgeVisible));
+  edges->GetPointData()->AddArray(arrayOf<vtkUnsignedIntArray>("ViewBits", model.edgeViews));
+  edges->GetPointData()->AddArray(arrayOf<vtkUnsignedIntArray>("VisibleBits", model.edgeVisible));
   vtkNew<vtkPolyData> surface;
   fromCloud(model.surface, surface);
   vtkNew<vtkPolyData> surfacePairPoints;
@@ -523,13 +496,13 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
   const auto addTable = [&](const std::string& table, const meam::PairTable& pairs)
   {
     const auto buckets = newRow(pairs.offsets.size(), model.edges.points.front(), model.diameter);
-    buckets->GetPointData()->AddArray(fromValues("Offset", pairs.offsets));
+    buckets->GetPointData()->AddArray(arrayOf<vtkUnsignedIntArray>("Offset", pairs.offsets));
     add(table + "PairTableBuckets", buckets);
     const auto entries = newRow(pairs.size(), model.edges.points.front(), model.diameter);
-    entries->GetPointData()->AddArray(fromValues("Reference", pairs.references));
-    entries->GetPointData()->AddArray(fromValues("Referred", pairs.referreds));
-    entries->GetPointData()->AddArray(fromValues("Angle", pairs.angles));
-    entries->GetPointData()->AddArray(fromValues("ViewBits", pairs.viewBits));
+    entries->GetPointData()->AddArray(arrayOf<vtkUnsignedIntArray>("Reference", pairs.references));
+    entries->GetPointData()->AddArray(arrayOf<vtkUnsignedIntArray>("Referred", pairs.referreds));
+    entries->GetPointData()->AddArray(arrayOf<vtkFloatArray>("Angle", pairs.angles));
+    entries->GetPointData()->AddArray(arrayOf<vtkUnsignedIntArray>("ViewBits", pairs.viewBits));
     add(table + "PairTableEntries", entries);
   };
   addTable("", model.table);

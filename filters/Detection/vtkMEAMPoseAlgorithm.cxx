@@ -31,9 +31,7 @@ vtkMEAMPoseAlgorithm::~vtkMEAMPoseAlgorithm() = default;
 int vtkMEAMPoseAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkPointSet" };
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  return vtkMEAMConversion::fillInputPort(info, { types[port] }, vtkMEAMConversion::Connections::OneOrNone);
 }
 
 int vtkMEAMPoseAlgorithm::RequestInformation(

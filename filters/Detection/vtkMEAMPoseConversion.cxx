@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -203,15 +204,10 @@ void setPartExtent(vtkDataObject* output, const meam::TrainedModel& model)
 {
   const Eigen::AlignedBox3f box = meam::bounds(model.surface.points);
   const Eigen::Vector3f& middle = model.visibility->middle();
-  vtkNew<vtkDoubleArray> bounds, middles;
-  bounds->SetName("PartBounds");
-  bounds->SetNumberOfComponents(6);
-  bounds->InsertNextTuple6(box.min().x(), box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z());
-  middles->SetName("PartMiddle");
-  middles->SetNumberOfComponents(3);
-  middles->InsertNextTuple3(middle.x(), middle.y(), middle.z());
-  output->GetFieldData()->AddArray(bounds);
-  output->GetFieldData()->AddArray(middles);
+  const std::array ends{ box.min().x(), box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z() };
+  const std::array place{ middle.x(), middle.y(), middle.z() };
+  output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("PartBounds", ends, 6));
+  output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("PartMiddle", place, 3));
 }
 
 std::optional<meam::EvidenceRates> evidenceRatesOf(vtkDataObject* input)
@@ -238,31 +234,15 @@ void setEvidenceRates(vtkDataObject* output, const std::optional<meam::EvidenceR
   if (rates)
   {
     const double values[] = { rates->edges.found, rates->edges.chance, rates->outline.found, rates->outline.chance };
-    vtkNew<vtkDoubleArray> array;
-    array->SetName("EvidenceRates");
-    array->SetNumberOfComponents(4);
-    array->InsertNextTuple(values);
-    output->GetFieldData()->AddArray(array);
+    output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("EvidenceRates", values, 4));
   }
 }
 
 void setParts(
   const std::vector<meam::PartPose>& poses, const std::vector<const meam::TrainedModel*>& models, vtkPolyData* output)
 {
-  vtkNew<vtkIntArray> ids;
-  ids->SetName("PartId");
-  for (const meam::PartPose& pose : poses)
-  {
-    ids->InsertNextValue(pose.part);
-  }
-  output->GetPointData()->AddArray(ids);
-  vtkNew<vtkDoubleArray> diameters;
-  diameters->SetName("Diameter");
-  for (const meam::TrainedModel* model : models)
-  {
-    diameters->InsertNextValue(model->diameter);
-  }
-  output->GetFieldData()->AddArray(diameters);
+  output->GetPointData()->AddArray(columnOf<vtkIntArray>("PartId", poses, &meam::PartPose::part));
+  output->GetFieldData()->AddArray(columnOf<vtkDoubleArray>("Diameter", models, &meam::TrainedModel::diameter));
 }
 
 std::vector<int> typesOf(vtkPolyData* poses, int connected)

@@ -42,31 +42,14 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, PeaksPerReference, int, peaksPe
 vtkMEAMSettingMacro(vtkMEAMPoseDetection, SignedTangents, bool, signedTangents)
 vtkMEAMSettingMacro(vtkMEAMPoseDetection, SmoothPeaks, bool, smoothPeaks)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, Seed, int, seed, 0, VTK_INT_MAX)
+vtkMEAMParametersMacro(vtkMEAMPoseDetection, Paper, meam::paperDetectionSettings())
+  vtkMEAMParametersMacro(vtkMEAMPoseDetection, Recommended, {})
+    vtkMEAMParametersMacro(vtkMEAMPoseDetection, OriginalPPF, meam::originalDetectionSettings())
 
-void vtkMEAMPoseDetection::SetParametersToPaper()
-{
-  *this->Settings = meam::paperDetectionSettings();
-  this->Modified();
-}
-
-void vtkMEAMPoseDetection::SetParametersToRecommended()
-{
-  *this->Settings = {};
-  this->Modified();
-}
-
-void vtkMEAMPoseDetection::SetParametersToOriginalPPF()
-{
-  *this->Settings = meam::originalDetectionSettings();
-  this->Modified();
-}
-
-int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* info)
+      int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* info)
 {
   const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPointSet" };
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  return vtkMEAMConversion::fillInputPort(info, { types[port] }, vtkMEAMConversion::Connections::OneOrNone);
 }
 
 int vtkMEAMPoseDetection::RequestInformation(

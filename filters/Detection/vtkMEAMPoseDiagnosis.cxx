@@ -16,7 +16,6 @@
 #include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -36,13 +35,6 @@ const char* const StateNames[] = { "matched", "turned", "hidden", "not measured"
 /// As the array `Residual` has them: those of states, of edge points of which there is no edge, and of the scan beside
 /// the part.
 constexpr int Missing = 5, Unexplained = 6;
-
-vtkSmartPointer<vtkIntArray> newResidual()
-{
-  auto residual = vtkSmartPointer<vtkIntArray>::New();
-  residual->SetName("Residual");
-  return residual;
-}
 
 /// Throws Error where the poses' types of part, by their diameters, are not those that are connected.
 void requireOrder(vtkPolyData* poses, const std::vector<const meam::TrainedModel*>& models)
@@ -82,50 +74,41 @@ int stateId(meam::PointState state)
 
 void fromEvidence(const meam::Diagnosis& diagnosis, vtkPolyData* output)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkIntArray> states, edges;
-  const auto residual = newResidual();
-  vtkNew<vtkStringArray> names;
-  states->SetName("State");
-  names->SetName("StateName");
-  edges->SetName("IsEdge");
-  const auto add = [&](const meam::PrecisePoints& from, const std::vector<meam::PointState>& stateOf, int isEdge)
+  using namespace vtkMEAMConversion;
+  struct State
   {
+    int id;
+    bool isEdge;
+  };
+  meam::PrecisePoints points;
+  std::vector<State> states;
+  const auto add = [&](const meam::PrecisePoints& from, const std::vector<meam::PointState>& stateOf, bool isEdge)
+  {
+    points.insert(points.end(), from.begin(), from.end());
     for (std::size_t k = 0; k < from.size(); ++k)
     {
-      const int state = stateId(stateOf[k]);
-      points->InsertNextPoint(from[k].data());
-      states->InsertNextValue(state);
-      names->InsertNextValue(StateNames[state]);
-      edges->InsertNextValue(isEdge);
-      residual->InsertNextValue(isEdge != 0 && stateOf[k] == meam::PointState::Violated ? Missing : state);
+      states.push_back({ stateId(stateOf[k]), isEdge });
     }
   };
-  add(diagnosis.surfacePoints, diagnosis.evidence.points.surfaceStates, 0);
-  add(diagnosis.edgePoints, diagnosis.evidence.points.edgeStates, 1);
-  output->SetPoints(points);
-  vtkMEAMConversion::addVertices(output);
-  output->GetPointData()->AddArray(states);
-  output->GetPointData()->AddArray(names);
-  output->GetPointData()->AddArray(edges);
-  output->GetPointData()->AddArray(residual);
-  output->GetPointData()->SetActiveScalars("Residual");
+  add(diagnosis.surfacePoints, diagnosis.evidence.points.surfaceStates, false);
+  add(diagnosis.edgePoints, diagnosis.evidence.points.edgeStates, true);
+  setVertices(points, output);
+  vtkPointData* arrays = output->GetPointData();
+  arrays->AddArray(columnOf<vtkIntArray>("State", states, &State::id));
+  arrays->AddArray(
+    columnOf<vtkStringArray>("StateName", states, [](const State& state) { return StateNames[state.id]; }));
+  arrays->AddArray(columnOf<vtkIntArray>("IsEdge", states, &State::isEdge));
+  const int violated = stateId(meam::PointState::Violated);
+  arrays->AddArray(columnOf<vtkIntArray>("Residual", states,
+    [violated](const State& state) { return state.isEdge && state.id == violated ? Missing : state.id; }));
+  arrays->SetActiveScalars("Residual");
 }
 
-void fromUnexplained(const meam::PrecisePoints& from, vtkPolyData* output)
+void fromUnexplained(const meam::PrecisePoints& points, vtkPolyData* output)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  const auto residual = newResidual();
-  for (const Eigen::Vector3d& point : from)
-  {
-    points->InsertNextPoint(point.data());
-    residual->InsertNextValue(Unexplained);
-  }
-  output->SetPoints(points);
-  vtkMEAMConversion::addVertices(output);
-  output->GetPointData()->SetScalars(residual);
+  vtkMEAMConversion::setVertices(points, output);
+  output->GetPointData()->SetScalars(
+    vtkMEAMConversion::arrayOf<vtkIntArray>("Residual", std::vector<int>(points.size(), Unexplained)));
 }
 
 /// The poses that came out of a search for the connected types of part: their probabilities are known.
@@ -147,24 +130,12 @@ std::vector<meam::FoundPose> foundPoses(vtkPolyData* given, const meam::Poses& p
 
 void fromNumbers(const std::vector<meam::DiagnosisNumber>& numbers, vtkTable* output)
 {
-  vtkNew<vtkStringArray> steps, quantities;
-  vtkNew<vtkDoubleArray> values, of;
-  steps->SetName("Step");
-  quantities->SetName("Quantity");
-  values->SetName("Value");
-  of->SetName("Of");
-  for (const meam::DiagnosisNumber& number : numbers)
-  {
-    steps->InsertNextValue(number.step);
-    quantities->InsertNextValue(number.what);
-    values->InsertNextValue(number.value);
-    of->InsertNextValue(number.of);
-  }
-  for (vtkAbstractArray* column : { static_cast<vtkAbstractArray*>(steps), static_cast<vtkAbstractArray*>(quantities),
-         static_cast<vtkAbstractArray*>(values), static_cast<vtkAbstractArray*>(of) })
-  {
-    output->AddColumn(column);
-  }
+  using namespace vtkMEAMConversion;
+  using meam::DiagnosisNumber;
+  output->AddColumn(columnOf<vtkStringArray>("Step", numbers, &DiagnosisNumber::step));
+  output->AddColumn(columnOf<vtkStringArray>("Quantity", numbers, &DiagnosisNumber::what));
+  output->AddColumn(columnOf<vtkDoubleArray>("Value", numbers, &DiagnosisNumber::value));
+  output->AddColumn(columnOf<vtkDoubleArray>("Of", numbers, &DiagnosisNumber::of));
 }
 }
 
@@ -203,13 +174,9 @@ vtkMEAMPoseDiagnosis::~vtkMEAMPoseDiagnosis() = default;
 
 int vtkMEAMPoseDiagnosis::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port < 4)
-  {
-    return this->Superclass::FillInputPortInformation(port, info);
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
+  using namespace vtkMEAMConversion;
+  return port < 4 ? this->Superclass::FillInputPortInformation(port, info)
+                  : fillInputPort(info, { "vtkPolyData" }, Connections::OneOrNone);
 }
 
 int vtkMEAMPoseDiagnosis::FillOutputPortInformation(int port, vtkInformation* info)
@@ -327,13 +294,7 @@ int vtkMEAMPoseDiagnosis::RequestData(
       if (diagnosis.place)
       {
         meam::Pose place = *diagnosis.place;
-        vtkNew<vtkDoubleArray> transform;
-        transform->SetName("Transform");
-        transform->SetNumberOfComponents(16);
-        transform->SetNumberOfTuples(1);
-        Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(transform->GetPointer(0)) =
-          place.T_scene_model.matrix();
-        output->GetFieldData()->AddArray(transform);
+        output->GetFieldData()->AddArray(frameOf("Transform", place.T_scene_model));
         InstanceSettings drawn;
         drawn.minimumProbability = 0.0;
         fromInstances(

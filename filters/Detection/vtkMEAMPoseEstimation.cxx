@@ -19,7 +19,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
@@ -86,26 +85,6 @@ void placeLabels(const meam::LocalCloud& edges, const std::vector<int>& rankOf,
   }
 }
 
-void addRanks(const std::vector<int>& rankOf, vtkPolyData* edges)
-{
-  vtkNew<vtkIntArray> ranks;
-  ranks->SetName("Rank");
-  ranks->SetNumberOfTuples(static_cast<vtkIdType>(rankOf.size()));
-  std::copy(rankOf.begin(), rankOf.end(), ranks->GetPointer(0));
-  edges->GetPointData()->AddArray(ranks);
-  edges->GetPointData()->SetActiveScalars("Rank");
-}
-
-void addNames(const std::vector<std::string>& names, vtkPolyData* output)
-{
-  vtkNew<vtkStringArray> array;
-  array->SetName("PartName");
-  for (const std::string& name : names)
-  {
-    array->InsertNextValue(name);
-  }
-  output->GetFieldData()->AddArray(array);
-}
 }
 
 vtkMEAMPoseEstimation::vtkMEAMPoseEstimation() { this->SetNumberOfOutputPorts(7); }
@@ -182,7 +161,8 @@ int vtkMEAMPoseEstimation::RequestData(
         fromSceneEdges(work.scan.found, edges);
       }
       const std::vector<int> rankOfEdges = ranksOfEdges(scene, partPoses, models, this->GetNumberOfThreads());
-      addRanks(rankOfEdges, edges);
+      edges->GetPointData()->AddArray(arrayOf<vtkIntArray>("Rank", rankOfEdges));
+      edges->GetPointData()->SetActiveScalars("Rank");
       fromPoses(poses, output);
       for (const char* name : { "SceneId", "ImageId" }) // of a dataset
       {
@@ -221,7 +201,7 @@ int vtkMEAMPoseEstimation::RequestData(
           shapes, partPoses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
         setParts(partPoses, models, output);
         output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
-        addNames(work.names, output);
+        output->GetFieldData()->AddArray(arrayOf<vtkStringArray>("PartName", work.names));
       }
       setFieldText(output, "Report", meam::untoldLengths(partPoses, meam::describe(poses)));
       setScanQuality(output, scene.quality, work.scan.report);
@@ -233,30 +213,18 @@ int vtkMEAMPoseEstimation::RequestData(
       }
       const meam::StageTimes& times = report.times;
       const double filled = vtkTimerLog::GetUniversalTime(); // but for the tables
-      const std::pair<const char*, double> seconds[] = { { "Training", work.secondsTraining },
-        { "SceneEdges", work.secondsEdges }, { "Scene", work.secondsLoading + times.scene },
-        { "Tangents", times.tangents }, { "Detection", times.detection }, { "Screening", times.screening },
-        { "Verification", times.verification }, { "Refinement", times.refinement }, { "Selection", times.selection },
-        { "Output", filled - found } };
-      vtkNew<vtkStringArray> stageNames;
-      stageNames->SetName("Stage");
-      vtkNew<vtkDoubleArray> durations;
-      durations->SetName("Seconds");
+      using Stage = std::pair<const char*, double>;
+      const Stage seconds[] = { { "Training", work.secondsTraining }, { "SceneEdges", work.secondsEdges },
+        { "Scene", work.secondsLoading + times.scene }, { "Tangents", times.tangents },
+        { "Detection", times.detection }, { "Screening", times.screening }, { "Verification", times.verification },
+        { "Refinement", times.refinement }, { "Selection", times.selection }, { "Output", filled - found } };
       for (const auto& [name, duration] : seconds)
       {
         setFieldValue(output, (std::string("Seconds") + name).c_str(), duration);
-        stageNames->InsertNextValue(name);
-        durations->InsertNextValue(duration);
       }
-      stages->AddColumn(stageNames);
-      stages->AddColumn(durations);
-      vtkNew<vtkIntArray> ranks;
-      ranks->SetName("Pose");
-      for (std::size_t k = 1; k <= poses.size(); ++k)
-      {
-        ranks->InsertNextValue(static_cast<int>(k));
-      }
-      scores->AddColumn(ranks);
+      stages->AddColumn(columnOf<vtkStringArray>("Stage", seconds, &Stage::first));
+      stages->AddColumn(columnOf<vtkDoubleArray>("Seconds", seconds, &Stage::second));
+      scores->AddColumn(columnOf<vtkIntArray>("Pose", poses, [rank = 0](const meam::Pose&) mutable { return ++rank; }));
       for (const char* name : { "PlaceProbability", "Probability", "Score", "VisibleFraction", "Certainty" })
       {
         scores->AddColumn(output->GetPointData()->GetArray(name));

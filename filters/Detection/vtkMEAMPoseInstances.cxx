@@ -34,13 +34,8 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseInstances, MinimumProbability, double, min
 
 int vtkMEAMPoseInstances::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  using namespace vtkMEAMConversion;
+  return fillInputPort(info, { "vtkPolyData" }, port == 1 ? Connections::Any : Connections::OneOrNone);
 }
 
 int vtkMEAMPoseInstances::FillOutputPortInformation(int port, vtkInformation* info)

@@ -37,31 +37,12 @@ void vtkMEAMPoseSelection::SetFreeSpace(bool value)
 
 bool vtkMEAMPoseSelection::GetFreeSpace() { return this->Settings->evidence.freeSpace; }
 
-void vtkMEAMPoseSelection::SetParametersToPaper()
-{
-  *this->Settings = meam::paperSelectionSettings();
-  this->Modified();
-}
+vtkMEAMParametersMacro(vtkMEAMPoseSelection, Paper, meam::paperSelectionSettings())
+  vtkMEAMParametersMacro(vtkMEAMPoseSelection, Recommended, {})
+    vtkMEAMParametersMacro(vtkMEAMPoseSelection, Candidates, meam::candidateSelectionSettings())
+      vtkMEAMParametersMacro(vtkMEAMPoseSelection, Votes, meam::votesSelectionSettings())
 
-void vtkMEAMPoseSelection::SetParametersToRecommended()
-{
-  *this->Settings = {};
-  this->Modified();
-}
-
-void vtkMEAMPoseSelection::SetParametersToCandidates()
-{
-  *this->Settings = meam::candidateSelectionSettings();
-  this->Modified();
-}
-
-void vtkMEAMPoseSelection::SetParametersToVotes()
-{
-  *this->Settings = meam::votesSelectionSettings();
-  this->Modified();
-}
-
-void vtkMEAMPoseSelection::Process(Work& work)
+        void vtkMEAMPoseSelection::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;
   meam::PoseSelectionSettings settings = *this->Settings;

@@ -22,32 +22,12 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Tolerance, double, evidence.
 vtkMEAMSettingMacro(vtkMEAMPoseVerification, FreeSpace, bool, evidence.freeSpace)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PointStride, int, pointStride, 1, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PosesPerView, int, posesPerView, 0, VTK_INT_MAX)
+vtkMEAMParametersMacro(vtkMEAMPoseVerification, Paper, meam::paperVerificationSettings())
+  vtkMEAMParametersMacro(vtkMEAMPoseVerification, Recommended, {})
+    vtkMEAMParametersMacro(vtkMEAMPoseVerification, Candidates, meam::candidateVerificationSettings())
+      vtkMEAMParametersMacro(vtkMEAMPoseVerification, Votes, meam::votesVerificationSettings())
 
-void vtkMEAMPoseVerification::SetParametersToPaper()
-{
-  *this->Settings = meam::paperVerificationSettings();
-  this->Modified();
-}
-
-void vtkMEAMPoseVerification::SetParametersToRecommended()
-{
-  *this->Settings = {};
-  this->Modified();
-}
-
-void vtkMEAMPoseVerification::SetParametersToCandidates()
-{
-  *this->Settings = meam::candidateVerificationSettings();
-  this->Modified();
-}
-
-void vtkMEAMPoseVerification::SetParametersToVotes()
-{
-  *this->Settings = meam::votesVerificationSettings();
-  this->Modified();
-}
-
-void vtkMEAMPoseVerification::Process(Work& work)
+        void vtkMEAMPoseVerification::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;
   meam::PoseVerificationSettings settings = *this->Settings;

@@ -52,6 +52,18 @@ bool isLaterPiece(vtkAlgorithm* filter)
   return false;
 }
 
+int fillInputPort(vtkInformation* info, std::initializer_list<const char*> types, Connections connections)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  for (const char* type : types)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), connections == Connections::One ? 0 : 1);
+  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), connections == Connections::Any ? 1 : 0);
+  return 1;
+}
+
 void requireInputs(vtkAlgorithm* filter, std::initializer_list<const char*> names)
 {
   std::string missing;
@@ -67,6 +79,14 @@ void requireInputs(vtkAlgorithm* filter, std::initializer_list<const char*> name
   if (!missing.empty())
   {
     throw meam::Error("Nothing is connected to the input " + missing + ": choose what it gets (change the input).");
+  }
+}
+
+void requireFileName(const char* name, const char* wanted)
+{
+  if (!name || !*name)
+  {
+    throw meam::Error(std::string("No file is given: set FileName to ") + wanted + ".");
   }
 }
 

@@ -21,10 +21,24 @@ meam::Progress progressOf(vtkAlgorithm* filter);
 /// the data of the others are empty.
 bool isLaterPiece(vtkAlgorithm* filter);
 
+/// What may be connected to an input port. To VTK those that requireInputs() asks for are open, too.
+enum class Connections
+{
+  One,
+  OneOrNone,
+  Any
+};
+
+/// Says in the information of an input port which types of data it takes. Returns 1.
+int fillInputPort(vtkInformation* info, std::initializer_list<const char*> types, Connections connections);
+
 /// Throws Error, which names the inputs that are not connected, of those that the filter cannot do without: of each
 /// port its name, null where it may stay open. To VTK all of them are optional, because its own errors do not say what
 /// to do.
 void requireInputs(vtkAlgorithm* filter, std::initializer_list<const char*> names);
+
+/// Throws Error without the name of a file: set FileName to `wanted`.
+void requireFileName(const char* name, const char* wanted);
 
 /// An error on VTK's channel. Where a request fails by it, the executive's own error about that is left out: it says no
 /// more.

@@ -92,47 +92,23 @@ meam::Points toGrid(const Scalar* xyz, std::size_t count, const unsigned char* f
   return points;
 }
 
-vtkSmartPointer<vtkUnsignedCharArray> newBytes(const char* name, int components, std::size_t tuples)
-{
-  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return array;
-}
-
 void addIntensity(const std::vector<float>& intensities, const std::vector<int>& kept, vtkDataSet* output)
 {
   const std::vector<std::uint8_t> values = meam::greyValues(intensities);
-  const auto array = newBytes("Intensity", 1, kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    *array->GetPointer(static_cast<vtkIdType>(i)) = values[kept[i]];
-  }
-  output->GetPointData()->SetScalars(array);
+  output->GetPointData()->SetScalars(
+    columnOf<vtkUnsignedCharArray>("Intensity", kept, [&](int i) { return values[i]; }));
 }
 
 void addColors(const std::vector<std::uint8_t>& colors, const std::vector<int>& kept, vtkDataSet* output)
 {
-  const auto array = newBytes("RGB", 3, kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i)
+  std::vector<std::uint8_t> values;
+  values.reserve(3 * kept.size());
+  for (const int i : kept)
   {
-    std::copy_n(&colors[3 * static_cast<std::size_t>(kept[i])], 3, array->GetPointer(3 * static_cast<vtkIdType>(i)));
+    const auto color = colors.begin() + 3 * static_cast<std::ptrdiff_t>(i);
+    values.insert(values.end(), color, color + 3);
   }
-  output->GetPointData()->SetScalars(array);
-}
-
-void addNormals(const meam::Points& normals, vtkDataSet* output)
-{
-  const auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName("Normals");
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(normals.size()));
-  for (std::size_t i = 0; i < normals.size(); ++i)
-  {
-    std::copy_n(normals[i].data(), 3, array->GetPointer(3 * static_cast<vtkIdType>(i)));
-  }
-  output->GetPointData()->SetNormals(array);
+  output->GetPointData()->SetScalars(arrayOf<vtkUnsignedCharArray>("RGB", values, 3));
 }
 }
 
@@ -303,7 +279,7 @@ void fromMeasuredCloud(const meam::MeasuredCloud& measured, vtkPointSet* output)
     fromOrganizedCloud(measured.cloud, grid);
     if (!measured.normals.empty())
     {
-      addNormals(measured.normals, grid);
+      grid->GetPointData()->SetNormals(fromVectors(measured.normals, "Normals"));
     }
   }
   else
@@ -325,10 +301,8 @@ void fromMeasuredCloud(const meam::MeasuredCloud& measured, vtkPointSet* output)
 
 void addRegisteredImage(const meam::Image& image, vtkStructuredGrid* output)
 {
-  const auto array =
-    newBytes(image.channels == 1 ? "Intensity" : "RGB", image.channels, image.pixels.size() / image.channels);
-  std::copy(image.pixels.begin(), image.pixels.end(), array->GetPointer(0));
-  output->GetPointData()->SetScalars(array);
+  output->GetPointData()->SetScalars(
+    arrayOf<vtkUnsignedCharArray>(image.channels == 1 ? "Intensity" : "RGB", image.pixels, image.channels));
 }
 
 meam::CameraFile calibrationOf(const char* file, const double focalLength[2], const double principalPoint[2])

@@ -75,13 +75,9 @@ void fromSensor(const std::optional<meam::Sensor>& sensor, vtkDataObject* output
   output->GetFieldData()->RemoveArray("Sensor");
   if (sensor)
   {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName("Sensor");
-    array->SetNumberOfComponents(6);
-    array->SetNumberOfTuples(1);
-    Eigen::Map<Eigen::Vector3d>(array->GetPointer(0)) = sensor->position;
-    Eigen::Map<Eigen::Vector3d>(array->GetPointer(3)) = sensor->direction;
-    output->GetFieldData()->AddArray(array);
+    Eigen::Matrix<double, 6, 1> numbers;
+    numbers << sensor->position, sensor->direction;
+    output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("Sensor", numbers, 6));
   }
 }
 

@@ -10,12 +10,10 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <string>
 
 namespace vtkMEAMConversion
@@ -92,12 +90,8 @@ std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, cons
 void fromSceneEdges(const meam::SceneEdges& edges, vtkPolyData* output)
 {
   fromCloud(edges.cloud, output);
-  vtkNew<vtkUnsignedCharArray> sources;
-  sources->SetName(EdgeSourceName);
-  sources->SetNumberOfTuples(static_cast<vtkIdType>(edges.sources.size()));
-  std::transform(edges.sources.begin(), edges.sources.end(), sources->GetPointer(0),
-    [](meam::EdgeSource source) { return static_cast<unsigned char>(source); });
-  output->GetPointData()->SetScalars(sources); // what a view colours by
+  output->GetPointData()->SetScalars( // what a view colours by
+    arrayOf<vtkUnsignedCharArray>(EdgeSourceName, edges.sources));
   setScanQuality(output, edges.quality);
 }
 
@@ -111,14 +105,11 @@ void setScanQuality(vtkDataObject* output, const meam::ScanQuality& quality, con
     }
     return;
   }
-  vtkNew<vtkDoubleArray> numbers;
-  numbers->SetName(ScanQualityName);
-  numbers->SetNumberOfComponents(QualityFieldCount);
-  numbers->SetNumberOfTuples(1);
+  const auto valueOf = [&](const QualityField& field) { return quality.*field.value; };
+  const auto numbers = columnOf<vtkDoubleArray>(ScanQualityName, QualityFields, valueOf, QualityFieldCount);
   for (int i = 0; i < QualityFieldCount; ++i)
   {
     numbers->SetComponentName(i, QualityFields[i].name);
-    numbers->SetComponent(0, i, quality.*QualityFields[i].value);
   }
   output->GetFieldData()->AddArray(numbers);
   setFieldText(output, "ScanReport", assumed + (assumed.empty() ? "" : " ") + meam::describe(quality));

@@ -60,12 +60,9 @@ void vtkMEAMSceneEdgeExtraction::SetParameters(const meam::SceneEdgeExtractionSe
 
 int vtkMEAMSceneEdgeExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkStructuredGrid" : "vtkImageData");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  using namespace vtkMEAMConversion;
+  return port == 0 ? fillInputPort(info, { "vtkStructuredGrid" }, Connections::One)
+                   : fillInputPort(info, { "vtkImageData" }, Connections::OneOrNone);
 }
 
 int vtkMEAMSceneEdgeExtraction::FillOutputPortInformation(int port, vtkInformation* info)

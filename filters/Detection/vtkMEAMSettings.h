@@ -36,4 +36,12 @@
   }                                                                                                                    \
   type thisClass::Get##name() { return this->Settings->field; }
 
+/// Defines SetParametersToNAME, which sets all of them.
+#define vtkMEAMParametersMacro(thisClass, name, settings)                                                              \
+  void thisClass::SetParametersTo##name()                                                                              \
+  {                                                                                                                    \
+    *this->Settings = settings;                                                                                        \
+    this->Modified();                                                                                                  \
+  }
+
 #endif

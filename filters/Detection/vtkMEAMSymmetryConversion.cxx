@@ -2,12 +2,11 @@
 #include "vtkMEAMSymmetryConversion.h"
 
 #include "base/Error.h"
-
 #include "base/Frames.h"
+#include "vtkMEAMArrays.h"
+
 #include "vtkDataObject.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkNew.h"
 
 #include <string>
 
@@ -15,8 +14,6 @@ namespace vtkMEAMConversion
 {
 namespace
 {
-using Row = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-
 /// The values of a field data array, whose shape a file may have changed; none when it is not there.
 std::vector<double> fieldValues(vtkDataObject* input, const char* name, std::size_t perTuple)
 {
@@ -56,22 +53,6 @@ std::vector<Eigen::Isometry3d> fieldTransforms(vtkDataObject* input, const char*
   }
   return transforms;
 }
-
-void addField(vtkDataObject* output, const char* name, int components, const std::vector<double>& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  output->GetFieldData()->AddArray(array);
-}
-
-void append(std::vector<double>& values, const Eigen::Isometry3d& T)
-{
-  const Row rows = T.matrix();
-  values.insert(values.end(), rows.data(), rows.data() + 16);
-}
 }
 
 meam::Symmetries symmetriesOf(vtkDataObject* input)
@@ -108,26 +89,17 @@ meam::Symmetries symmetriesOf(vtkDataObject* input)
 
 void setSymmetries(vtkDataObject* output, const meam::Symmetries& symmetries)
 {
-  std::vector<double> discrete, continuous, near, overlap, deviation;
-  for (const Eigen::Isometry3d& T : symmetries.discrete)
-  {
-    append(discrete, T);
-  }
+  std::vector<double> axes;
   for (const meam::ContinuousSymmetry& symmetry : symmetries.continuous)
   {
-    continuous.insert(continuous.end(), symmetry.axis.data(), symmetry.axis.data() + 3);
-    continuous.insert(continuous.end(), symmetry.point.data(), symmetry.point.data() + 3);
+    axes.insert(axes.end(), symmetry.axis.data(), symmetry.axis.data() + 3);
+    axes.insert(axes.end(), symmetry.point.data(), symmetry.point.data() + 3);
   }
-  for (const meam::NearSymmetry& symmetry : symmetries.near)
-  {
-    append(near, symmetry.T);
-    overlap.push_back(symmetry.overlap);
-    deviation.push_back(symmetry.deviation);
-  }
-  addField(output, "SymmetriesDiscrete", 16, discrete);
-  addField(output, "SymmetriesContinuous", 6, continuous);
-  addField(output, "NearSymmetries", 16, near);
-  addField(output, "NearSymmetryOverlap", 1, overlap);
-  addField(output, "NearSymmetryDeviation", 1, deviation);
+  vtkFieldData* fields = output->GetFieldData();
+  fields->AddArray(framesOf("SymmetriesDiscrete", symmetries.discrete, [](const Eigen::Isometry3d& T) { return T; }));
+  fields->AddArray(arrayOf<vtkDoubleArray>("SymmetriesContinuous", axes, 6));
+  fields->AddArray(framesOf("NearSymmetries", symmetries.near, &meam::NearSymmetry::T));
+  fields->AddArray(columnOf<vtkDoubleArray>("NearSymmetryOverlap", symmetries.near, &meam::NearSymmetry::overlap));
+  fields->AddArray(columnOf<vtkDoubleArray>("NearSymmetryDeviation", symmetries.near, &meam::NearSymmetry::deviation));
 }
 }

@@ -51,16 +51,9 @@ void vtkMEAMTangentEstimation::SetParameters(const meam::TangentEstimationSettin
 
 int vtkMEAMTangentEstimation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
-  return 1;
+  using namespace vtkMEAMConversion;
+  return port == 0 ? fillInputPort(info, { "vtkPolyData", "vtkPartitionedDataSetCollection" }, Connections::One)
+                   : fillInputPort(info, { "vtkDataObject" }, Connections::OneOrNone);
 }
 
 int vtkMEAMTangentEstimation::RequestData(

@@ -92,10 +92,7 @@ int vtkMEAMCloudReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
   auto* output = vtkPointSet::GetData(outputVector);
   const auto work = [&]
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw meam::Error("No file is given: set FileName to the name of a cloud's file.");
-    }
+    vtkMEAMConversion::requireFileName(this->FileName, "the name of a cloud's file");
     const meam::Progress progress = vtkMEAMConversion::progressOf(this);
     meam::MeasuredCloud measured = this->Read(meam::subProgress(progress, 0.0, this->HasCamera() ? 0.5 : 1.0));
     meam::requirePoints(measured.cloud.points, std::string("The file '") + this->FileName + "'");

@@ -24,10 +24,7 @@ int vtkMEAMMeshReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const auto work = [&]
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw meam::Error("No file is given: set FileName to the name of a .step, .iges, .stl, .obj, .ply or .off file.");
-    }
+    vtkMEAMConversion::requireFileName(this->FileName, "the name of a .step, .iges, .stl, .obj, .ply or .off file");
     const meam::Progress progress = vtkMEAMConversion::progressOf(this);
     if (meam::isBRepFile(this->FileName) || this->Solid != 0)
     {

@@ -23,10 +23,7 @@ int vtkMEAMModelReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
   auto* output = vtkPartitionedDataSetCollection::GetData(outputVector);
   const auto work = [&]
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw meam::Error("No file is given: set FileName to the name of a trained model's file.");
-    }
+    vtkMEAMConversion::requireFileName(this->FileName, "the name of a trained model's file");
     vtkMEAMConversion::fromTrainedModel(meam::readModel(this->FileName), output);
     vtkMEAMConversion::setNameOf(this->FileName, output);
   };

@@ -12,8 +12,6 @@
 
 vtkStandardNewMacro(vtkMEAMModelWriter);
 
-vtkMEAMModelWriter::vtkMEAMModelWriter() = default;
-
 vtkMEAMModelWriter::~vtkMEAMModelWriter() { this->SetFileName(nullptr); }
 
 int vtkMEAMModelWriter::FillInputPortInformation(int, vtkInformation* info)
@@ -27,10 +25,7 @@ void vtkMEAMModelWriter::WriteData()
   const int done = vtkMEAMRun(this,
     [&]
     {
-      if (!this->FileName || !*this->FileName)
-      {
-        throw meam::Error("No file is given: set FileName to the name of the file to write.");
-      }
+      vtkMEAMConversion::requireFileName(this->FileName, "the name of the file to write");
       meam::writeModel(this->FileName,
         vtkMEAMConversion::toTrainedModel(vtkPartitionedDataSetCollection::SafeDownCast(this->GetInput())));
     });

@@ -25,7 +25,7 @@ public:
   vtkMEAMFileMemberMacro(FileName);
 
 protected:
-  vtkMEAMModelWriter();
+  vtkMEAMModelWriter() = default;
   ~vtkMEAMModelWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;

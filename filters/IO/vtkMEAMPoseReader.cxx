@@ -2,12 +2,12 @@
 #include "vtkMEAMPoseReader.h"
 
 #include "io/PoseFile.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -24,15 +24,7 @@ namespace
 void addIds(const std::vector<meam::PoseRow>& rows, vtkPolyData* output)
 {
   const auto array = [&](const char* name, int meam::PoseRow::*number)
-  {
-    vtkNew<vtkIntArray> values;
-    values->SetName(name);
-    for (const meam::PoseRow& row : rows)
-    {
-      values->InsertNextValue(row.*number);
-    }
-    output->GetPointData()->AddArray(values);
-  };
+  { output->GetPointData()->AddArray(vtkMEAMConversion::columnOf<vtkIntArray>(name, rows, number)); };
   array("SceneId", &meam::PoseRow::sceneId);
   array("ImageId", &meam::PoseRow::imageId);
   array("ObjectId", &meam::PoseRow::objectId);
@@ -90,10 +82,7 @@ int vtkMEAMPoseReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
     this,
     [&]
     {
-      if (!this->FileName || !*this->FileName)
-      {
-        throw meam::Error("No file is given: set FileName to the name of a pose file.");
-      }
+      vtkMEAMConversion::requireFileName(this->FileName, "the name of a pose file");
       const std::vector<meam::PoseRow> rows = meam::readPoses(this->FileName);
       meam::Poses poses;
       for (const meam::PoseRow& row : rows)

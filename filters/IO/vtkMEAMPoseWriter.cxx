@@ -84,10 +84,7 @@ void vtkMEAMPoseWriter::WriteData()
   const int done = vtkMEAMRun(this,
     [&]
     {
-      if (!this->FileName || !*this->FileName)
-      {
-        throw meam::Error("No file is given: set FileName to the name of the file to write.");
-      }
+      vtkMEAMConversion::requireFileName(this->FileName, "the name of the file to write");
       const int format = this->Format == BY_EXTENSION ? formatOf(this->FileName) : this->Format;
       vtkDataArray* seconds = input->GetFieldData()->GetArray("SecondsTotal");
       const double measured = seconds && seconds->GetNumberOfValues() == 1 ? seconds->GetComponent(0, 0) : -1.0;

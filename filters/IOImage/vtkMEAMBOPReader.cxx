@@ -10,7 +10,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -36,18 +35,17 @@ namespace
 void fromTruth(const std::vector<meam::BOPInstance>& instances, int objectId, vtkPolyData* output)
 {
   meam::Poses poses;
-  vtkNew<vtkIntArray> objects;
-  objects->SetName("ObjectId");
+  std::vector<int> objects;
   for (const meam::BOPInstance& instance : instances)
   {
     if (objectId == 0 || instance.objectId == objectId)
     {
       poses.push_back(instance.pose);
-      objects->InsertNextValue(instance.objectId);
+      objects.push_back(instance.objectId);
     }
   }
   vtkMEAMConversion::fromPoses(poses, output);
-  output->GetPointData()->AddArray(objects);
+  output->GetPointData()->AddArray(vtkMEAMConversion::arrayOf<vtkIntArray>("ObjectId", objects));
 }
 }
 
@@ -90,10 +88,7 @@ int vtkMEAMBOPReader::RequestInformation(vtkInformation*, vtkInformationVector**
   *this->Listed = {};
   try
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw meam::Error("No file is given: set FileName to the folder of a BOP dataset or of one of its scenes.");
-    }
+    vtkMEAMConversion::requireFileName(this->FileName, "the folder of a BOP dataset or of one of its scenes");
     this->Listed->all = meam::listBOPImages(this->FileName, this->Split ? this->Split : "");
     this->Listed->size = meam::readBOPSize(this->Listed->all.front());
   }

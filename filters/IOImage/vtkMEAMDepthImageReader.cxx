@@ -57,10 +57,7 @@ int vtkMEAMDepthImageReader::RequestData(vtkInformation*, vtkInformationVector**
   auto* output = vtkStructuredGrid::GetData(outputVector);
   const auto work = [&]
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw meam::Error("No file is given: set FileName to the name of a depth image.");
-    }
+    vtkMEAMConversion::requireFileName(this->FileName, "the name of a depth image");
     const meam::CameraFile calibration =
       vtkMEAMConversion::calibrationOf(this->CameraFile, this->FocalLength, this->PrincipalPoint);
     const double scale = this->DepthScale != 0.0 ? this->DepthScale : calibration.depthScale;

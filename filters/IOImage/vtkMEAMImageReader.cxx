@@ -56,10 +56,7 @@ int vtkMEAMImageReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
   auto* output = vtkImageData::GetData(outputVector);
   const auto work = [&]
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw meam::Error("No file is given: set FileName to the name of a PNG, JPEG, BMP or TIFF image.");
-    }
+    vtkMEAMConversion::requireFileName(this->FileName, "the name of a PNG, JPEG, BMP or TIFF image");
     vtkMEAMConversion::fromImage(meam::readImage(this->FileName), output);
   };
   return vtkMEAMRun(this, work, output);

@@ -8,9 +8,7 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
@@ -88,48 +86,21 @@ meam::Grasps toGrasps(vtkPolyData* input)
 
 void fromGrasps(const meam::Grasps& grasps, vtkPolyData* output)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> transforms, widths, qualities;
-  vtkNew<vtkIntArray> kinds, turns;
-  vtkNew<vtkStringArray> names;
-  transforms->SetName("Transform");
-  transforms->SetNumberOfComponents(16);
-  kinds->SetName("Kind");
-  widths->SetName("Width");
-  turns->SetName("FreeTurn");
-  qualities->SetName("Quality");
-  names->SetName("GraspName");
-  for (const meam::Grasp& grasp : grasps)
-  {
-    points->InsertNextPoint(grasp.T_model_grasp.translation().data());
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = grasp.T_model_grasp.matrix();
-    transforms->InsertNextTuple(matrix.data());
-    kinds->InsertNextValue(grasp.kind == meam::GraspKind::Suction ? 1 : 0);
-    widths->InsertNextValue(grasp.width);
-    turns->InsertNextValue(static_cast<int>(grasp.freeTurn));
-    qualities->InsertNextValue(grasp.quality);
-    names->InsertNextValue(grasp.name);
-  }
-  output->SetPoints(points);
-  addVertices(output);
-  for (vtkAbstractArray* array : { static_cast<vtkAbstractArray*>(transforms), static_cast<vtkAbstractArray*>(kinds),
-         static_cast<vtkAbstractArray*>(widths), static_cast<vtkAbstractArray*>(turns),
-         static_cast<vtkAbstractArray*>(qualities), static_cast<vtkAbstractArray*>(names) })
-  {
-    output->GetPointData()->AddArray(array);
-  }
-  output->GetPointData()->SetActiveScalars("Quality");
+  using meam::Grasp;
+  setFrames(grasps, &Grasp::T_model_grasp, output);
+  vtkPointData* arrays = output->GetPointData();
+  arrays->AddArray(columnOf<vtkIntArray>("Kind", grasps, &Grasp::kind));
+  arrays->AddArray(columnOf<vtkDoubleArray>("Width", grasps, &Grasp::width));
+  arrays->AddArray(columnOf<vtkIntArray>("FreeTurn", grasps, &Grasp::freeTurn));
+  arrays->AddArray(columnOf<vtkDoubleArray>("Quality", grasps, &Grasp::quality));
+  arrays->AddArray(columnOf<vtkStringArray>("GraspName", grasps, &Grasp::name));
+  arrays->SetActiveScalars("Quality");
 }
 
 void fromGraspGlyphs(const meam::Grasps& grasps, const meam::Gripper& gripper, vtkPolyData* output)
 {
   meam::TriangleMesh all;
-  vtkNew<vtkDoubleArray> qualities;
-  vtkNew<vtkIntArray> kinds, numbers;
-  qualities->SetName("Quality");
-  kinds->SetName("Kind");
-  numbers->SetName("Grasp");
+  std::vector<int> graspOf; // of each triangle
   for (std::size_t k = 0; k < grasps.size(); ++k)
   {
     const meam::TriangleMesh glyph = meam::meshOf(glyphOf(gripper, grasps[k]), grasps[k]);
@@ -141,14 +112,13 @@ void fromGraspGlyphs(const meam::Grasps& grasps, const meam::Gripper& gripper, v
     for (const auto& triangle : glyph.triangles)
     {
       all.triangles.push_back(triangle + first);
-      qualities->InsertNextValue(grasps[k].quality);
-      kinds->InsertNextValue(grasps[k].kind == meam::GraspKind::Suction ? 1 : 0);
-      numbers->InsertNextValue(static_cast<int>(k) + 1);
+      graspOf.push_back(static_cast<int>(k));
     }
   }
   fromMesh(all, output);
-  output->GetCellData()->AddArray(kinds);
-  output->GetCellData()->AddArray(numbers);
-  output->GetCellData()->SetScalars(qualities);
+  vtkCellData* arrays = output->GetCellData();
+  arrays->AddArray(columnOf<vtkIntArray>("Kind", graspOf, [&](int k) { return grasps[k].kind; }));
+  arrays->AddArray(columnOf<vtkIntArray>("Grasp", graspOf, [](int k) { return k + 1; }));
+  arrays->SetScalars(columnOf<vtkDoubleArray>("Quality", graspOf, [&](int k) { return grasps[k].quality; }));
 }
 }

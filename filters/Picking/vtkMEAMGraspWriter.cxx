@@ -12,8 +12,6 @@
 
 vtkStandardNewMacro(vtkMEAMGraspWriter);
 
-vtkMEAMGraspWriter::vtkMEAMGraspWriter() = default;
-
 vtkMEAMGraspWriter::~vtkMEAMGraspWriter() { this->SetFileName(nullptr); }
 
 int vtkMEAMGraspWriter::FillInputPortInformation(int, vtkInformation* info)
@@ -27,10 +25,7 @@ void vtkMEAMGraspWriter::WriteData()
   const int done = vtkMEAMRun(this,
     [this]
     {
-      if (!this->FileName || !*this->FileName)
-      {
-        throw meam::Error("No file is given: set FileName to the name of the file to write.");
-      }
+      vtkMEAMConversion::requireFileName(this->FileName, "the name of the file to write");
       meam::writeGrasps(this->FileName, vtkMEAMConversion::toGrasps(vtkPolyData::SafeDownCast(this->GetInput())));
     });
   this->SetErrorCode(done ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError);

@@ -26,7 +26,7 @@ public:
   vtkMEAMFileMemberMacro(FileName);
 
 protected:
-  vtkMEAMGraspWriter();
+  vtkMEAMGraspWriter() = default;
   ~vtkMEAMGraspWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;

@@ -10,7 +10,6 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
@@ -38,19 +37,6 @@ constexpr std::array<GripperLength, 10> GripperLengths{ { { "Opening", &meam::Gr
   { "BodyWidth", &meam::Gripper::bodyWidth }, { "CupDiameter", &meam::Gripper::cupDiameter },
   { "CupLength", &meam::Gripper::cupLength } } };
 
-/// An array with a value for each pick.
-template <typename Array, typename Value>
-void addColumn(const meam::Picks& picks, const char* name, Value&& valueOf, vtkPolyData* output)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  for (const meam::Pick& pick : picks)
-  {
-    array->InsertNextValue(valueOf(pick));
-  }
-  output->GetPointData()->AddArray(array);
-}
-
 /// Which of the picks get a gripper.
 std::vector<bool> drawnOf(const meam::Picks& picks, ShownPicks shown)
 {
@@ -62,19 +48,6 @@ std::vector<bool> drawnOf(const meam::Picks& picks, ShownPicks shown)
                     (shown == ShownPicks::BestOfEachCopy && done.insert(pick.pose).second));
   }
   return drawn;
-}
-
-/// The text `Label` of those that get a gripper: the rank, or in a word why the pick is not possible.
-void addLabels(const meam::Picks& picks, ShownPicks shown, vtkPolyData* output)
-{
-  const std::vector<bool> drawn = drawnOf(picks, shown);
-  vtkNew<vtkStringArray> labels;
-  labels->SetName("Label");
-  for (std::size_t k = 0; k < picks.size(); ++k)
-  {
-    labels->InsertNextValue(drawn[k] ? meam::labelOf(picks[k], static_cast<int>(k) + 1) : "");
-  }
-  output->GetPointData()->AddArray(labels);
 }
 
 /// Faces one after the other, with a value of each array for all cells of a piece.
@@ -109,13 +82,7 @@ public:
     fromMesh(this->Mesh, output);
     for (std::size_t k = 0; k < this->Names.size(); ++k)
     {
-      vtkNew<vtkIntArray> array;
-      array->SetName(this->Names[k]);
-      for (const int value : this->Values[k])
-      {
-        array->InsertNextValue(value);
-      }
-      output->GetCellData()->AddArray(array);
+      output->GetCellData()->AddArray(arrayOf<vtkIntArray>(this->Names[k], this->Values[k]));
     }
     if (!this->Names.empty())
     {
@@ -132,77 +99,54 @@ private:
 
 void fromPicks(const meam::Picks& picks, const GraspOf& graspOf, ShownPicks shown, vtkPolyData* output)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> transforms, quaternions;
-  transforms->SetName("Transform");
-  transforms->SetNumberOfComponents(16);
-  quaternions->SetName("Quaternion");
-  quaternions->SetNumberOfComponents(4);
-  for (const meam::Pick& pick : picks)
+  using meam::Pick;
+  setFrames(picks, &Pick::T_scene_grasp, output);
+  vtkPointData* arrays = output->GetPointData();
+  std::vector<double> quaternions;
+  std::vector<std::string> labels; // of those that get a gripper the rank, or in a word why the pick is not possible
+  const std::vector<bool> drawn = drawnOf(picks, shown);
+  for (std::size_t k = 0; k < picks.size(); ++k)
   {
-    points->InsertNextPoint(pick.T_scene_grasp.translation().data());
-    const RowMajor matrix = pick.T_scene_grasp.matrix();
-    transforms->InsertNextTuple(matrix.data());
-    const Eigen::Quaterniond turn(pick.T_scene_grasp.linear());
-    quaternions->InsertNextTuple(turn.coeffs().data());
+    const Eigen::Quaterniond turn(picks[k].T_scene_grasp.linear());
+    quaternions.insert(quaternions.end(), turn.coeffs().data(), turn.coeffs().data() + 4);
+    labels.push_back(drawn[k] ? meam::labelOf(picks[k], static_cast<int>(k) + 1) : "");
   }
-  output->SetPoints(points);
-  addVertices(output);
-  output->GetPointData()->AddArray(transforms);
-  output->GetPointData()->AddArray(quaternions);
-  int rank = 0;
-  addColumn<vtkIntArray>(
-    picks, "Rank", [&](const meam::Pick&) { return ++rank; }, output);
-  addColumn<vtkIntArray>(
-    picks, "Possible", [](const meam::Pick& pick) { return pick.possible() ? 1 : 0; }, output);
-  addColumn<vtkIntArray>(
-    picks, "Obstruction", [](const meam::Pick& pick) { return static_cast<int>(pick.obstruction); }, output);
-  addColumn<vtkStringArray>(
-    picks, "Reason", [](const meam::Pick& pick) { return meam::describe(pick); }, output);
-  addLabels(picks, shown, output);
-  addColumn<vtkIntArray>(
-    picks, "Instance", [](const meam::Pick& pick) { return pick.pose + 1; }, output);
-  addColumn<vtkIntArray>(
-    picks, "Grasp", [](const meam::Pick& pick) { return pick.grasp + 1; }, output);
-  addColumn<vtkStringArray>(
-    picks, "GraspName", [&](const meam::Pick& pick) { return graspOf(pick).name; }, output);
-  addColumn<vtkIntArray>(
-    picks, "Kind", [&](const meam::Pick& pick) { return static_cast<int>(graspOf(pick).kind); }, output);
-  addColumn<vtkDoubleArray>(
-    picks, "Width", [&](const meam::Pick& pick) { return graspOf(pick).width; }, output);
-  addColumn<vtkIntArray>(
-    picks, "Obstacle", [](const meam::Pick& pick) { return pick.obstacle + 1; }, output);
-  addColumn<vtkDoubleArray>(
-    picks, "Clearance", [](const meam::Pick& pick) { return pick.clearance; }, output);
-  addColumn<vtkDoubleArray>(
-    picks, "Reach", [](const meam::Pick& pick) { return pick.reach; }, output);
-  addColumn<vtkDoubleArray>(
-    picks, "Tilt", [](const meam::Pick& pick) { return pick.tilt; }, output);
-  addColumn<vtkDoubleArray>(
-    picks, "Covered", [](const meam::Pick& pick) { return pick.covered; }, output);
-  addColumn<vtkDoubleArray>(
-    picks, "Score", [](const meam::Pick& pick) { return pick.score; }, output);
-  output->GetPointData()->SetActiveScalars("Possible");
+  const auto integers = [&](const char* name, auto&& valueOf)
+  { arrays->AddArray(columnOf<vtkIntArray>(name, picks, valueOf)); };
+  const auto numbers = [&](const char* name, auto&& valueOf)
+  { arrays->AddArray(columnOf<vtkDoubleArray>(name, picks, valueOf)); };
+  const auto texts = [&](const char* name, auto&& valueOf)
+  { arrays->AddArray(columnOf<vtkStringArray>(name, picks, valueOf)); };
+  arrays->AddArray(arrayOf<vtkDoubleArray>("Quaternion", quaternions, 4));
+  integers("Rank", [rank = 0](const Pick&) mutable { return ++rank; });
+  integers("Possible", &Pick::possible);
+  integers("Obstruction", &Pick::obstruction);
+  texts("Reason", [](const Pick& pick) { return meam::describe(pick); });
+  arrays->AddArray(arrayOf<vtkStringArray>("Label", labels));
+  integers("Instance", [](const Pick& pick) { return pick.pose + 1; });
+  integers("Grasp", [](const Pick& pick) { return pick.grasp + 1; });
+  texts("GraspName", [&](const Pick& pick) { return graspOf(pick).name; });
+  integers("Kind", [&](const Pick& pick) { return graspOf(pick).kind; });
+  numbers("Width", [&](const Pick& pick) { return graspOf(pick).width; });
+  integers("Obstacle", [](const Pick& pick) { return pick.obstacle + 1; });
+  numbers("Clearance", &Pick::clearance);
+  numbers("Reach", &Pick::reach);
+  numbers("Tilt", &Pick::tilt);
+  numbers("Covered", &Pick::covered);
+  numbers("Score", &Pick::score);
+  arrays->SetActiveScalars("Possible");
 }
 
 void addParts(const meam::Picks& picks, const std::vector<int>& parts, vtkPolyData* output)
 {
-  addColumn<vtkIntArray>(
-    picks, "PartId", [&](const meam::Pick& pick) { return parts[pick.pose]; }, output);
+  output->GetPointData()->AddArray(
+    columnOf<vtkIntArray>("PartId", picks, [&](const meam::Pick& pick) { return parts[pick.pose]; }));
 }
 
 void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* name, vtkPolyData* output)
 {
-  vtkNew<vtkDoubleArray> transforms;
-  transforms->SetName(name);
-  transforms->SetNumberOfComponents(16);
-  for (const meam::Pick& pick : picks)
-  {
-    const RowMajor matrix = (frame.T_scene_model * pick.T_scene_grasp).matrix();
-    transforms->InsertNextTuple(matrix.data());
-  }
-  output->GetPointData()->AddArray(transforms);
+  output->GetPointData()->AddArray(
+    framesOf(name, picks, [&](const meam::Pick& pick) { return frame.T_scene_model * pick.T_scene_grasp; }));
 }
 
 void fromGrippers(
@@ -234,14 +178,11 @@ void fromBin(const meam::Bin& bin, vtkPolyData* output)
 
 void setBin(vtkDataObject* output, const meam::Bin& bin)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName("Bin");
-  array->SetNumberOfComponents(BinNumbers);
-  array->SetNumberOfTuples(1);
-  Eigen::Map<RowMajor>(array->GetPointer(0)) = bin.T_scene_bin.matrix();
-  Eigen::Map<Eigen::Vector3d>(array->GetPointer(16)) = bin.size;
-  array->SetComponent(0, 19, bin.wall);
-  output->GetFieldData()->AddArray(array);
+  double values[BinNumbers];
+  Eigen::Map<RowMajor>{ values } = bin.T_scene_bin.matrix();
+  Eigen::Map<Eigen::Vector3d>{ values + 16 } = bin.size;
+  values[19] = bin.wall;
+  output->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("Bin", values, BinNumbers));
 }
 
 std::optional<meam::Bin> binOf(vtkDataObject* input)

@@ -82,13 +82,10 @@ vtkMEAMPickPlanning::~vtkMEAMPickPlanning() { this->SetRobotFrameFile(nullptr); 
 
 int vtkMEAMPickPlanning::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 3 ? "vtkPointSet" : "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  if (port == 1 || port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
+  using namespace vtkMEAMConversion;
+  const bool isOfTypes = port == 1 || port == 2;
+  return fillInputPort(
+    info, { port == 3 ? "vtkPointSet" : "vtkPolyData" }, isOfTypes ? Connections::Any : Connections::OneOrNone);
 }
 
 int vtkMEAMPickPlanning::FillOutputPortInformation(int port, vtkInformation* info)

@@ -2,6 +2,7 @@
 #include "vtkMEAMPickTrial.h"
 
 #include "pick/PickTrial.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMGraspConversion.h"
 #include "vtkMEAMMeshConversion.h"
 #include "vtkMEAMPickConversion.h"
@@ -12,7 +13,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -36,9 +36,7 @@ vtkMEAMSettingMacro(vtkMEAMPickTrial, CupSlack, double, cupSlack)
 
 int vtkMEAMPickTrial::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  return vtkMEAMConversion::fillInputPort(info, { "vtkPolyData" }, vtkMEAMConversion::Connections::OneOrNone);
 }
 
 int vtkMEAMPickTrial::RequestData(
@@ -87,23 +85,20 @@ int vtkMEAMPickTrial::RequestData(
       const std::vector<meam::PickTrial> trials =
         meam::tryPicks(mesh, *gripper, tried, truths, bin ? &*bin : nullptr, *this->Settings, progress);
 
-      vtkNew<vtkIntArray> outcomes, instances;
-      vtkNew<vtkStringArray> names;
-      outcomes->SetName("Outcome");
-      names->SetName("OutcomeName");
-      instances->SetName("TrueInstance");
-      auto trial = trials.begin();
+      std::vector<const meam::PickTrial*> trialOf; // null of a pick that is not tried
+      auto trial = trials.data();
       for (const bool isTried : possible)
       {
-        outcomes->InsertNextValue(isTried ? static_cast<int>(trial->outcome) : NotTried);
-        names->InsertNextValue(isTried ? meam::describe(trial->outcome) : "not tried");
-        instances->InsertNextValue(isTried ? trial->instance + 1 : 0);
-        trial += isTried;
+        trialOf.push_back(isTried ? trial++ : nullptr);
       }
       output->ShallowCopy(picksInput);
-      output->GetPointData()->AddArray(outcomes);
-      output->GetPointData()->AddArray(names);
-      output->GetPointData()->AddArray(instances);
+      vtkPointData* arrays = output->GetPointData();
+      arrays->AddArray(columnOf<vtkIntArray>("Outcome", trialOf,
+        [](const meam::PickTrial* one) { return one ? static_cast<int>(one->outcome) : NotTried; }));
+      arrays->AddArray(columnOf<vtkStringArray>("OutcomeName", trialOf,
+        [](const meam::PickTrial* one) { return one ? meam::describe(one->outcome) : "not tried"; }));
+      arrays->AddArray(columnOf<vtkIntArray>(
+        "TrueInstance", trialOf, [](const meam::PickTrial* one) { return one ? one->instance + 1 : 0; }));
     },
     output);
 }

@@ -13,7 +13,6 @@
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkStructuredGrid.h"
@@ -28,17 +27,6 @@ namespace
 {
 constexpr int AtATenth = 1; // the threshold of 10 %
 
-void addColumn(const char* name, const meam::BOPRecall::Counts& counts, vtkTable* table)
-{
-  vtkNew<vtkDoubleArray> column;
-  column->SetName(name);
-  for (const double count : counts)
-  {
-    column->InsertNextValue(count);
-  }
-  table->AddColumn(column);
-}
-
 double meanOf(const meam::BOPRecall::Counts& counts)
 {
   return std::accumulate(counts.begin(), counts.end(), 0.0) / counts.size();
@@ -49,11 +37,8 @@ vtkMEAMBOPEvaluation::vtkMEAMBOPEvaluation() { this->SetNumberOfInputPorts(5); }
 
 int vtkMEAMBOPEvaluation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port < 3    ? "vtkPolyData"
-                                                      : port == 3 ? "vtkStructuredGrid"
-                                                                  : "vtkDataObject");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  const char* type = port < 3 ? "vtkPolyData" : port == 3 ? "vtkStructuredGrid" : "vtkDataObject";
+  return vtkMEAMConversion::fillInputPort(info, { type }, vtkMEAMConversion::Connections::OneOrNone);
 }
 
 int vtkMEAMBOPEvaluation::RequestInformation(
@@ -84,12 +69,12 @@ int vtkMEAMBOPEvaluation::RequestData(
       {
         thresholds[k] = meam::bopThreshold(k);
       }
-      addColumn("Threshold", thresholds, output);
-      addColumn("ADD", recall.add, output);
-      addColumn("ADI", recall.adi, output);
-      addColumn("MSSD", recall.mssd, output);
-      addColumn("MSPD", recall.mspd, output);
-      addColumn("VSD", recall.vsd, output);
+      output->AddColumn(arrayOf<vtkDoubleArray>("Threshold", thresholds));
+      output->AddColumn(arrayOf<vtkDoubleArray>("ADD", recall.add));
+      output->AddColumn(arrayOf<vtkDoubleArray>("ADI", recall.adi));
+      output->AddColumn(arrayOf<vtkDoubleArray>("MSSD", recall.mssd));
+      output->AddColumn(arrayOf<vtkDoubleArray>("MSPD", recall.mspd));
+      output->AddColumn(arrayOf<vtkDoubleArray>("VSD", recall.vsd));
       const double share = 100.0 / recall.targets * (recall.targets > 0 ? 1.0 : std::nan(""));
       setFieldValue(output, "Targets", recall.targets);
       setFieldValue(output, "ADDRecall", share * recall.add[AtATenth]);
@@ -102,5 +87,3 @@ int vtkMEAMBOPEvaluation::RequestData(
     },
     output);
 }
-
-void vtkMEAMBOPEvaluation::PrintSelf(ostream& os, vtkIndent indent) { this->Superclass::PrintSelf(os, indent); }

@@ -33,7 +33,6 @@ class PPFMEAMTRAINING_EXPORT vtkMEAMBOPEvaluation : public vtkTableAlgorithm
 public:
   static vtkMEAMBOPEvaluation* New();
   vtkTypeMacro(vtkMEAMBOPEvaluation, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /** What each port takes. */

@@ -19,7 +19,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -27,7 +26,6 @@
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -35,17 +33,7 @@ vtkStandardNewMacro(vtkMEAMBinSceneSource);
 
 namespace
 {
-/// An array of `components` numbers for each tuple, with all its values.
-template <typename Array, typename Values>
-vtkNew<Array> arrayOf(const char* name, int components, const Values& values)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
-}
+using vtkMEAMConversion::arrayOf;
 
 /// The truth in the image: where each copy is seen.
 void addMasks(const std::vector<meam::BinInstance>& copies, vtkPolyData* truth)
@@ -62,10 +50,10 @@ void addMasks(const std::vector<meam::BinInstance>& copies, vtkPolyData* truth)
     boxes.insert(boxes.end(), { mask.left, mask.top, mask.width, mask.height });
     silhouettes.insert(silhouettes.end(), mask.pixels.begin(), mask.pixels.end());
   }
-  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("Pixels", 1, pixels));
-  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("VisiblePixels", 1, visible));
-  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("Box", 4, boxes));
-  truth->GetFieldData()->AddArray(arrayOf<vtkUnsignedCharArray>("Silhouettes", 1, silhouettes));
+  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("Pixels", pixels));
+  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("VisiblePixels", visible));
+  truth->GetPointData()->AddArray(arrayOf<vtkIntArray>("Box", boxes, 4));
+  truth->GetFieldData()->AddArray(arrayOf<vtkUnsignedCharArray>("Silhouettes", silhouettes));
 }
 
 /// A value of the user's in place of the sensor's, unless it is negative.
@@ -78,10 +66,8 @@ void choose(Value chosen, Value& value)
 void addCamera(const meam::Camera& camera, vtkDataObject* data)
 {
   const std::array<double, 9> matrix{ camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0 };
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> pose = camera.T_camera_scene.matrix();
-  data->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("CameraMatrix", 9, matrix));
-  data->GetFieldData()->AddArray(
-    arrayOf<vtkDoubleArray>("CameraPose", 16, std::vector<double>(pose.data(), pose.data() + 16)));
+  data->GetFieldData()->AddArray(arrayOf<vtkDoubleArray>("CameraMatrix", matrix, 9));
+  data->GetFieldData()->AddArray(vtkMEAMConversion::frameOf("CameraPose", camera.T_camera_scene));
 }
 }
 
@@ -106,9 +92,7 @@ vtkMEAMClampedSettingMacro(vtkMEAMBinSceneSource, Baseline, double, baseline, 0.
 
 int vtkMEAMBinSceneSource::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
+  return vtkMEAMConversion::fillInputPort(info, { "vtkPolyData" }, vtkMEAMConversion::Connections::OneOrNone);
 }
 
 int vtkMEAMBinSceneSource::FillOutputPortInformation(int port, vtkInformation* info)
@@ -188,9 +172,9 @@ int vtkMEAMBinSceneSource::RequestData(
       if (settings.baseline == 0.0)
       {
         scan->GetPointData()->SetScalars(arrayOf<vtkUnsignedCharArray>(
-          settings.colored ? "RGB" : "Intensity", scene.image.channels, scene.image.pixels));
+          settings.colored ? "RGB" : "Intensity", scene.image.pixels, scene.image.channels));
       }
-      scan->GetPointData()->AddArray(arrayOf<vtkIntArray>("Instance", 1, scene.instanceOfPixel));
+      scan->GetPointData()->AddArray(arrayOf<vtkIntArray>("Instance", scene.instanceOfPixel));
       addCamera(scene.sensor, scan);
       setFieldValue(scan, "BinSize", scene.binSize);
       fromImage(scene.image, picture);

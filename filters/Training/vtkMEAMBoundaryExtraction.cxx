@@ -31,12 +31,9 @@ vtkMEAMClampedSettingMacro(vtkMEAMBoundaryExtraction, SharpAngle, double, sharpA
 
 int vtkMEAMBoundaryExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  using namespace vtkMEAMConversion;
+  return port == 0 ? fillInputPort(info, { "vtkPartitionedDataSetCollection" }, Connections::One)
+                   : fillInputPort(info, { "vtkPolyData" }, Connections::OneOrNone);
 }
 
 int vtkMEAMBoundaryExtraction::RequestData(

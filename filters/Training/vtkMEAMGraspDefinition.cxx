@@ -53,9 +53,8 @@ vtkMEAMGraspDefinition::~vtkMEAMGraspDefinition() { this->SetFileName(nullptr); 
 
 int vtkMEAMGraspDefinition::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkDataObject" : "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  const char* type = port == 1 ? "vtkDataObject" : "vtkPolyData";
+  return vtkMEAMConversion::fillInputPort(info, { type }, vtkMEAMConversion::Connections::OneOrNone);
 }
 
 int vtkMEAMGraspDefinition::FillOutputPortInformation(int, vtkInformation* info)

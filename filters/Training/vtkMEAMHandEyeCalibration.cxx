@@ -11,10 +11,8 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
@@ -25,36 +23,17 @@ namespace
 void fromCalibration(
   const meam::HandEyeCalibration& calibration, meam::CameraMount mount, vtkPolyData* output, vtkTable* table)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->InsertNextPoint(calibration.T_robot_camera.translation().data());
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = calibration.T_robot_camera.matrix();
-  vtkNew<vtkDoubleArray> transform;
-  transform->SetName("Transform");
-  transform->SetNumberOfComponents(16);
-  transform->InsertNextTuple(matrix.data());
-  output->SetPoints(points);
-  vtkMEAMConversion::addVertices(output);
-  output->GetPointData()->AddArray(transform);
-  vtkMEAMConversion::setFieldValue(output, "ResidualShift", calibration.shift);
-  vtkMEAMConversion::setFieldValue(output, "ResidualTurn", calibration.turn);
-  vtkMEAMConversion::setFieldText(output, "Method", calibration.method);
-  vtkMEAMConversion::setFieldText(output, "CameraMount", mount == meam::CameraMount::Hand ? "hand" : "beside");
-  vtkMEAMConversion::setFieldText(output, "Report", meam::describe(calibration));
-  vtkNew<vtkIntArray> pairs;
-  vtkNew<vtkDoubleArray> shifts, turns;
-  pairs->SetName("Pair");
-  shifts->SetName("Shift");
-  turns->SetName("Turn");
-  for (std::size_t k = 0; k < calibration.shifts.size(); ++k)
-  {
-    pairs->InsertNextValue(static_cast<int>(k) + 1);
-    shifts->InsertNextValue(calibration.shifts[k]);
-    turns->InsertNextValue(calibration.turns[k]);
-  }
-  table->AddColumn(pairs);
-  table->AddColumn(shifts);
-  table->AddColumn(turns);
+  using namespace vtkMEAMConversion;
+  setVertices({ calibration.T_robot_camera.translation() }, output);
+  output->GetPointData()->AddArray(frameOf("Transform", calibration.T_robot_camera));
+  setFieldValue(output, "ResidualShift", calibration.shift);
+  setFieldValue(output, "ResidualTurn", calibration.turn);
+  setFieldText(output, "Method", calibration.method);
+  setFieldText(output, "CameraMount", mount == meam::CameraMount::Hand ? "hand" : "beside");
+  setFieldText(output, "Report", meam::describe(calibration));
+  table->AddColumn(columnOf<vtkIntArray>("Pair", calibration.shifts, [pair = 0](double) mutable { return ++pair; }));
+  table->AddColumn(arrayOf<vtkDoubleArray>("Shift", calibration.shifts));
+  table->AddColumn(arrayOf<vtkDoubleArray>("Turn", calibration.turns));
 }
 }
 
@@ -80,10 +59,7 @@ int vtkMEAMHandEyeCalibration::RequestData(vtkInformation*, vtkInformationVector
     this,
     [&]
     {
-      if (!this->FileName || !*this->FileName)
-      {
-        throw meam::Error("No file is given: set FileName to the name of a file with pairs of poses.");
-      }
+      vtkMEAMConversion::requireFileName(this->FileName, "the name of a file with pairs of poses");
       const meam::HandEyeFile file = meam::readHandEye(this->FileName);
       const meam::CameraMount mount = this->Mount == Hand     ? meam::CameraMount::Hand
                                       : this->Mount == Beside ? meam::CameraMount::Beside

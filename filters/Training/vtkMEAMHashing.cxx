@@ -43,27 +43,14 @@ vtkMEAMClampedSettingMacro(vtkMEAMHashing, ViewMerging, int, merging, Points, No
 vtkMEAMClampedSettingMacro(vtkMEAMHashing, VoxelSize, double, voxelSize, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMHashing, LeafSize, double, leafSize, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMHashing, CoVisibilityDirections, int, coVisibilityDirections, 0, 32)
+vtkMEAMParametersMacro(vtkMEAMHashing, Paper, meam::paperHashingSettings())
+  vtkMEAMParametersMacro(vtkMEAMHashing, Recommended, {})
 
-void vtkMEAMHashing::SetParametersToPaper()
+    int vtkMEAMHashing::FillInputPortInformation(int port, vtkInformation* info)
 {
-  *this->Settings = meam::paperHashingSettings();
-  this->Modified();
-}
-
-void vtkMEAMHashing::SetParametersToRecommended()
-{
-  *this->Settings = {};
-  this->Modified();
-}
-
-int vtkMEAMHashing::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  using namespace vtkMEAMConversion;
+  return port == 0 ? fillInputPort(info, { "vtkPartitionedDataSetCollection" }, Connections::One)
+                   : fillInputPort(info, { "vtkPolyData" }, Connections::OneOrNone);
 }
 
 int vtkMEAMHashing::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)

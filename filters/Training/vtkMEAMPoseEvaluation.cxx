@@ -90,16 +90,9 @@ int vtkMEAMPoseEvaluation::FillOutputPortInformation(int port, vtkInformation* i
 
 int vtkMEAMPoseEvaluation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port >= 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataObject" : "vtkPolyData");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // requireInputs
-  return 1;
+  using namespace vtkMEAMConversion;
+  return fillInputPort(
+    info, { port == 2 ? "vtkDataObject" : "vtkPolyData" }, port < 2 ? Connections::Any : Connections::OneOrNone);
 }
 
 int vtkMEAMPoseEvaluation::RequestInformation(

@@ -11,15 +11,11 @@
 #include "vtkMEAMSettings.h"
 #include "vtkMEAMSymmetryConversion.h"
 
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-
-#include <algorithm>
 
 vtkStandardNewMacro(vtkMEAMSymmetryDetection);
 
@@ -63,11 +59,7 @@ int vtkMEAMSymmetryDetection::RequestData(
       deviation = meam::surfaceDeviation(
         surface, found.near[this->ShownNearSymmetry].T, ReachShare * meam::diameter(surface.points));
     }
-    vtkNew<vtkFloatArray> shown;
-    shown->SetName("Deviation");
-    shown->SetNumberOfTuples(static_cast<vtkIdType>(deviation.size()));
-    std::copy(deviation.begin(), deviation.end(), shown->GetPointer(0));
-    output->GetPointData()->SetScalars(shown);
+    output->GetPointData()->SetScalars(arrayOf<vtkFloatArray>("Deviation", deviation));
   };
   return vtkMEAMRun(this, work, output);
 }

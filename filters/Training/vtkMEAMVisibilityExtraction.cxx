@@ -34,12 +34,9 @@ vtkMEAMClampedSettingMacro(
 
 int vtkMEAMVisibilityExtraction::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  using namespace vtkMEAMConversion;
+  return port == 0 ? fillInputPort(info, { "vtkPolyData" }, Connections::One)
+                   : fillInputPort(info, { "vtkPolyData" }, Connections::OneOrNone);
 }
 
 int vtkMEAMVisibilityExtraction::RequestData(
