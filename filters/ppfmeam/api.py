@@ -6,7 +6,7 @@ import os
 import warnings
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPartitionedDataSetCollection, vtkPolyData
 
 from . import Error, _core, dataset, filters, inputs, regions, scripting
@@ -148,13 +148,13 @@ class Detections(Rows):
         columns["Covariance"] = [pose.covariance.ravel("F") for pose in self]  # as the filters write it
         for name, values in columns.items():
             width = numpy.size(values) // len(self) if len(self) else WIDTHS.get(name, 1)
-            add_array(data.GetPointData(), name, numpy.array(values).reshape(len(self), width))
+            data.GetPointData().AddArray(scripting.vtk_array(numpy.array(values).reshape(len(self), width), name))
         low, high = self.model.core.bounds
         fields = {"SecondsTotal": [self.seconds], "Diameter": [[model.diameter] for model in self.models]}
         if len(self.models) == 1:
             fields.update(PartBounds=[numpy.column_stack((low, high)).ravel()], PartMiddle=[self.model.core.middle])
         for name, values in fields.items():
-            add_array(data.GetFieldData(), name, numpy.array(values).reshape(len(values), -1))
+            data.GetFieldData().AddArray(scripting.vtk_array(numpy.array(values).reshape(len(values), -1), name))
         return data
 
     def save(self, path):
@@ -180,12 +180,6 @@ class Detections(Rows):
     def notebook():
         from .report import notebook  # only now: it needs api.py
         return notebook
-
-
-def add_array(attributes, name, values):
-    array = numpy_to_vtk(values, deep=True)
-    array.SetName(name)
-    attributes.AddArray(array)
 
 
 def calibrate(model, judged):

@@ -4,8 +4,7 @@ import json
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 
@@ -25,12 +24,8 @@ def write_json(path, data):
 def write_png(path, pixels):
     """H x W or H x W x 3 values of 8 or 16 bits, from the top left."""
     scripting.make_folder(os.path.dirname(path))
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    values = numpy.ascontiguousarray(pixels[::-1]).reshape(pixels.shape[0] * pixels.shape[1], -1)
-    image.GetPointData().SetScalars(numpy_to_vtk(values, deep=True))
     writer = vtkPNGWriter()
-    writer.SetInputData(image)
+    writer.SetInputData(scripting.vtk_image(pixels[::-1]))
     scripting.write_by(writer, path)
 
 

@@ -5,11 +5,10 @@ import os
 import tempfile
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
-from . import filters, picture, scripting
+from . import picture, scripting
 
 POSSIBLE, NOT = (0.16, 0.67, 0.2), (0.86, 0.12, 0.12)
 TILE = (420, 420)
@@ -33,10 +32,7 @@ def actors(scan, found, mesh, gripper):
     """What a picture of picks shows."""
     points = vtk_to_numpy(scan.GetPoints().GetData())
     valid = numpy.isfinite(points).all(axis=1)
-    instances = filters.vtkMEAMPoseInstances()
-    instances.SetInputDataObject(0, found)
-    instances.SetInputDataObject(1, mesh)
-    scripting.update(instances)
+    instances = picture.posed(found, [mesh])
     return [picture.scan(scan, points, valid, (0, 0, 1)), picture.copies(instances), *gripper_actors(gripper)]
 
 
@@ -74,9 +70,6 @@ class Strip:
             row, column = divmod(place, TILES_IN_ROW)
             low = height - TILE[1] * (row + 1)  # VTK's images start at the lower left
             pixels[low:low + TILE[1], TILE[0] * column:TILE[0] * (column + 1)] = image[:, :, :3]
-        data = vtkImageData()
-        data.SetDimensions(width, height, 1)
-        data.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
         writer = vtkPNGWriter()
-        writer.SetInputData(data)
+        writer.SetInputData(scripting.vtk_image(pixels))
         scripting.write_by(writer, path)

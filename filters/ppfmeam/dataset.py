@@ -4,8 +4,7 @@ import csv
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkFiltersCore import vtkThresholdPoints
@@ -171,12 +170,6 @@ class BOPFigures:
                 "AP2-20": f"{precision:.2f}"}
 
 
-def pose_array(name, values):
-    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
-    array.SetName(name)
-    return array
-
-
 def stored_poses(path):
     """The poses of a scene that another program has left in a file, best first; none where there is no file, or an empty
     one. Where they have no scores, the first of every scene are the likeliest."""
@@ -184,7 +177,7 @@ def stored_poses(path):
         return vtkPolyData()
     poses = scripting.read_with(filters.vtkMEAMPoseReader(), path)
     if not poses.GetPointData().HasArray("Score"):
-        poses.GetPointData().AddArray(pose_array("Score", 1 / numpy.arange(1.0, poses.GetNumberOfPoints() + 1)))
+        poses.GetPointData().AddArray(scripting.vtk_array(1 / numpy.arange(1.0, poses.GetNumberOfPoints() + 1), "Score"))
     return poses
 
 
@@ -195,10 +188,9 @@ def by_score(poses):
         return poses
     order = numpy.argsort(-vtk_to_numpy(arrays.GetArray("Score")), kind="stable")
     result = vtkPolyData()
-    result.SetPoints(vtkPoints())
-    result.GetPoints().SetData(numpy_to_vtk(vtk_to_numpy(poses.GetPoints().GetData())[order], deep=True))
+    result.SetPoints(scripting.vtk_points(vtk_to_numpy(poses.GetPoints().GetData())[order]))
     for k in range(arrays.GetNumberOfArrays()):
-        result.GetPointData().AddArray(pose_array(arrays.GetArrayName(k), vtk_to_numpy(arrays.GetArray(k))[order]))
+        result.GetPointData().AddArray(scripting.vtk_array(vtk_to_numpy(arrays.GetArray(k))[order], arrays.GetArrayName(k)))
     return result
 
 

@@ -5,9 +5,8 @@ import tempfile
 import warnings
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData, vtkStructuredGrid
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkDataSetAttributes, vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from . import Error, _core, regions, scripting
@@ -216,33 +215,21 @@ def to_vtk(scan):
     data = vtkStructuredGrid() if points.ndim == 3 else vtkPolyData()
     if points.ndim == 3:
         data.SetDimensions(points.shape[1], points.shape[0], 1)
-    data.SetPoints(vtk_points(points))
+    data.SetPoints(scripting.vtk_points(points))
     if scan.region_mask.size:
         data = regions.masked(data, scan.region_mask.reshape(points.shape[:-1]))
     edges = image = None
     if len(scan.edges):
         edges = vtkPolyData()
-        edges.SetPoints(vtk_points(scan.edges))
+        edges.SetPoints(scripting.vtk_points(scan.edges))
     if scan.image is not None:
-        pixels, image = scan.image[::-1], vtkImageData()  # VTK's rows go upwards
-        image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-        image.GetPointData().SetScalars(vtk_array(pixels.reshape(pixels.shape[0] * pixels.shape[1], -1)))
+        image = scripting.vtk_image(scan.image[::-1])  # VTK's rows go upwards
     return data, edges, image
 
 
 def vtk_mesh(corners, triangles):
     data, cells = vtkPolyData(), vtkCellArray()
     cells.SetData(3, numpy_to_vtkIdTypeArray(numpy.ascontiguousarray(triangles, numpy.int64).ravel(), deep=True))
-    data.SetPoints(vtk_points(corners))
+    data.SetPoints(scripting.vtk_points(corners))
     data.SetPolys(cells)
     return data
-
-
-def vtk_points(points):
-    result = vtkPoints()
-    result.SetData(vtk_array(points.reshape(-1, 3)))
-    return result
-
-
-def vtk_array(values):
-    return numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)

@@ -6,8 +6,8 @@ import shutil
 import subprocess
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
@@ -18,7 +18,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401  the legend's letters
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
 from .filters import vtkMEAMPoseInstances
-from .scripting import Failure, bytes_of, shape_of, update, written
+from .scripting import Failure, bytes_of, shape_of, update, vtk_array, vtk_points, written
 
 EXTENSIONS = (".png", ".jpg", ".jpeg")
 WIDTH = 1600  # pixels
@@ -80,13 +80,18 @@ def save(path, scene, poses, *parts, looks=None):
     share = height / (height + STRIP)
     renderer.SetViewport(0, 0, 1, share)
     strip.SetViewport(0, share, 1, 1)
+    write(window_of((WIDTH, height + STRIP), renderer, strip), path)
+
+
+def window_of(size, *renderers):
+    """A window that nobody sees."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(8)
-    window.SetSize(WIDTH, height + STRIP)
-    window.AddRenderer(renderer)
-    window.AddRenderer(strip)
-    write(window, path)
+    window.SetSize(*size)
+    for renderer in renderers:
+        window.AddRenderer(renderer)
+    return window
 
 
 def write(window, path, most_bytes=None):
@@ -127,12 +132,7 @@ def save_actors(path, actors, frame, size, labels=(), most_bytes=None):
         style.SetBackgroundColor(color or (1, 1, 1))
         style.SetBackgroundOpacity(1)
         renderer.AddActor2D(label)
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetMultiSamples(8)
-    window.SetSize(*size)
-    window.AddRenderer(renderer)
-    write(window, path, most_bytes)
+    write(window_of(size, renderer), path, most_bytes)
 
 
 def frame_of(points, towards, size, up=(0, 0, 1), margin=1.08):
@@ -176,11 +176,10 @@ def solid(mesh, color=(0.93, 0.93, 0.93), edges=False):
 
 def bare(points, values=None):
     """The points alone, a vertex each, and what they are coloured by."""
-    data, coordinates = vtkPolyData(), vtkPoints()
-    coordinates.SetData(numpy_to_vtk(numpy.ascontiguousarray(points), deep=True))
-    data.SetPoints(coordinates)
+    data = vtkPolyData()
+    data.SetPoints(vtk_points(points))
     if values is not None:
-        data.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(values), deep=True))
+        data.GetPointData().SetScalars(vtk_array(values))
     vertices = vtkVertexGlyphFilter()
     vertices.SetInputData(data)
     return update(vertices).GetOutput()
@@ -199,15 +198,14 @@ def dots(points, colors, size=4):
 
 def strokes(starts, ends, color, width=2.0, opacity=1.0):
     """Lines from point to point; one colour (0 to 1) or one for each line (0 to 255)."""
-    data, coordinates, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    data, cells = vtkPolyData(), vtkCellArray()
     count = len(starts)
-    coordinates.SetData(numpy_to_vtk(numpy.concatenate((starts, ends)), deep=True))
     pairs = numpy.stack((numpy.arange(count), numpy.arange(count) + count), axis=1).ravel()
     cells.SetData(2, numpy_to_vtkIdTypeArray(pairs, deep=True))
-    data.SetPoints(coordinates)
+    data.SetPoints(vtk_points(numpy.concatenate((starts, ends))))
     data.SetLines(cells)
     if not isinstance(color, tuple):
-        data.GetCellData().SetScalars(numpy_to_vtk(numpy.asarray(color, dtype=numpy.uint8), deep=True))
+        data.GetCellData().SetScalars(vtk_array(numpy.asarray(color, dtype=numpy.uint8)))
     actor = flat(data)
     if isinstance(color, tuple):
         actor.GetProperty().SetColor(color)

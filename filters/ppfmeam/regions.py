@@ -3,7 +3,7 @@
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from . import Error, scripting
 
@@ -55,7 +55,5 @@ def masked(scan, mask):
                     f"{scan.GetNumberOfPoints()} points: give one of the scan's size")
     result = scan.NewInstance()
     result.ShallowCopy(scan)
-    array = numpy_to_vtk(mask.ravel(), deep=True)
-    array.SetName("Region")
-    result.GetPointData().AddArray(array)
+    result.GetPointData().AddArray(scripting.vtk_array(mask.ravel(), "Region"))
     return result

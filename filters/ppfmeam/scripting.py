@@ -14,7 +14,7 @@ import warnings
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints, vtkStringOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
@@ -579,14 +579,33 @@ def tuples(data, name):
     return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
 
 
+def vtk_array(values, name=None):
+    """VTK's array of a copy of these values; a row has those of a tuple."""
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    return array
+
+
+def vtk_points(points):
+    """VTK's points of a copy of these, ... x 3."""
+    result = vtkPoints()
+    result.SetData(vtk_array(points.reshape(-1, 3)))
+    return result
+
+
+def vtk_image(pixels):
+    """A vtkImageData of H x W or H x W x C pixels, the lowest row first."""
+    image = vtkImageData()
+    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
+    image.GetPointData().SetScalars(vtk_array(pixels.reshape(pixels.shape[0] * pixels.shape[1], -1)))
+    return image
+
+
 def poses_of(transforms):
     """Poses, N x 4 x 4, as the filters take them."""
-    data, origins = vtkPolyData(), vtkPoints()
-    origins.SetData(numpy_to_vtk(numpy.ascontiguousarray(transforms[:, :3, 3]), deep=True))
-    data.SetPoints(origins)
-    array = numpy_to_vtk(numpy.ascontiguousarray(transforms).reshape(-1, 16), deep=True)
-    array.SetName("Transform")
-    data.GetPointData().AddArray(array)
+    data = vtkPolyData()
+    data.SetPoints(vtk_points(transforms[:, :3, 3]))
+    data.GetPointData().AddArray(vtk_array(transforms.reshape(-1, 16), "Transform"))
     return data
 
 

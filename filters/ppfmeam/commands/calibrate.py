@@ -15,7 +15,6 @@ import math
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk
 
 from .. import dataset, evaluation, filters, scripting
 
@@ -64,9 +63,7 @@ def confirmed(path):
     values = numpy.array(rows, float).reshape(-1, len(ARRAYS))
     poses = scripting.poses_of(numpy.tile(numpy.eye(4), (len(rows), 1, 1)))
     for name, column in zip(ARRAYS, values.T):
-        array = numpy_to_vtk(numpy.ascontiguousarray(column), deep=True)
-        array.SetName(name)
-        poses.GetPointData().AddArray(array)
+        poses.GetPointData().AddArray(scripting.vtk_array(column, name))
     return poses
 
 

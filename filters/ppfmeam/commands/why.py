@@ -95,7 +95,7 @@ def write_page(of, inputs, diagnosis):
     seen = scans.scan_of(of.scan, inputs["camera"], options.scale, inputs["image"], image_camera=inputs["image_camera"])
     place = numpy.zeros((0, 4, 4)) if diagnosis.pose is None else diagnosis.pose[None]
     poses = scripting.poses_of(place)
-    api.add_array(poses.GetPointData(), "PartId", numpy.full(len(place), diagnosis.part))
+    poses.GetPointData().AddArray(scripting.vtk_array(numpy.full(len(place), diagnosis.part), "PartId"))
     told = Told.of_why(options, inputs, diagnosis)
     page.write(options.report, page.html(seen, poses, list(map(Part, told.names, of.shapes())), told))
 

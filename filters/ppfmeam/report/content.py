@@ -4,8 +4,8 @@ JPEG, both in base64."""
 import base64
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals, vtkQuadricDecimation, vtkTriangleFilter
 from vtkmodules.vtkIOImage import vtkJPEGWriter
 
@@ -187,10 +187,8 @@ def jpeg(pixels, most):
     height, width = (size // step for size in pixels.shape[:2])
     cut = pixels[:height * step, :width * step].reshape(height, step, width, step, -1)
     small = cut.mean(axis=(1, 3)).astype(numpy.uint8)[::-1, :, :3]  # VTK's rows go upwards
-    image, writer = vtkImageData(), vtkJPEGWriter()
-    image.SetDimensions(width, height, 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(small.reshape(height * width, -1)), deep=True))
-    writer.SetInputData(image)
+    writer = vtkJPEGWriter()
+    writer.SetInputData(scripting.vtk_image(small))
     writer.SetQuality(QUALITY)
     return base64.b64encode(scripting.bytes_of(writer)).decode()
 

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The outlines of the parts in an image: which pixel shows which pose, by a depth buffer, and the borders of these regions."""
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges2D, vtkStripper
 
 from .. import scripting
@@ -53,10 +52,8 @@ class Buffer:
         high = numpy.array((columns.max(), rows.max())) + 2
         mask = numpy.zeros((high[1] - low[1], high[0] - low[0]), numpy.float32)
         mask[rows - low[1], columns - low[0]] = 1
-        image, contour, lines = vtkImageData(), vtkFlyingEdges2D(), vtkStripper()
-        image.SetDimensions(mask.shape[1], mask.shape[0], 1)
-        image.GetPointData().SetScalars(numpy_to_vtk(smooth(mask).ravel(), deep=True))
-        contour.SetInputData(image)
+        contour, lines = vtkFlyingEdges2D(), vtkStripper()
+        contour.SetInputData(scripting.vtk_image(smooth(mask)))
         contour.SetValue(0, 0.5)
         lines.SetInputConnection(contour.GetOutputPort())
         lines.SetMaximumLength(100000)
