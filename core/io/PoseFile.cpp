@@ -12,15 +12,20 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace meam
 {
 namespace
 {
-// The entries of a rotation that was printed with few digits.
 constexpr double MostIds = 1e9; // of scenes, images, objects, ranks
 constexpr const char* JSONFormat = "meam-poses";
 constexpr int JSONVersion = 1;
+
+/// What is not known of every pose, by its name in JSON.
+constexpr std::pair<const char*, double PoseRow::*> Judgements[] = { { "visible_fraction", &PoseRow::visibleFraction },
+  { "place_probability", &PoseRow::placeProbability }, { "probability", &PoseRow::probability },
+  { "certainty", &PoseRow::certainty } };
 
 /// The shortest text that reads back as the same number, in any locale.
 std::string number(double value)
@@ -175,10 +180,10 @@ std::vector<PoseRow> readJSON(const std::string& bytes, const std::string& path,
     row.viewId = idIn(value("view", row.viewId), what);
     row.score = value("score", row.score);
     row.time = value("time", row.time);
-    row.visibleFraction = value("visible_fraction", row.visibleFraction);
-    row.placeProbability = value("place_probability", row.placeProbability);
-    row.probability = value("probability", row.probability);
-    row.certainty = value("certainty", row.certainty);
+    for (const auto& [name, judgement] : Judgements)
+    {
+      row.*judgement = value(name, row.*judgement);
+    }
     poses.push_back(row);
   }
   return poses;
@@ -309,21 +314,12 @@ void writeJSON(const std::string& path, const std::vector<PoseRow>& poses)
     {
       json["view"] = row.viewId;
     }
-    if (std::isfinite(row.visibleFraction))
+    for (const auto& [name, judgement] : Judgements)
     {
-      json["visible_fraction"] = row.visibleFraction;
-    }
-    if (std::isfinite(row.placeProbability))
-    {
-      json["place_probability"] = row.placeProbability;
-    }
-    if (std::isfinite(row.probability))
-    {
-      json["probability"] = row.probability;
-    }
-    if (std::isfinite(row.certainty))
-    {
-      json["certainty"] = row.certainty;
+      if (std::isfinite(row.*judgement))
+      {
+        json[name] = row.*judgement;
+      }
     }
     if (row.time >= 0.0)
     {
