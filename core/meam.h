@@ -185,8 +185,8 @@ MEAM_EXPORT double loadDepthScale(const std::string& path);
 /// Reads a PNG, JPEG, BMP or TIFF image, for Scan::image.
 MEAM_EXPORT Image loadImage(const std::string& path);
 
-/// Reads a depth image of 16 bits, PNG or TIFF, or of real numbers, TIFF, with the calibration of its camera, whose
-/// `depth_scale` brings it to mm; `scale` is a factor beside it.
+/// Reads a depth image of 16 bits, PNG, TIFF or PGM, or of real numbers, TIFF or PFM, with the calibration of its
+/// camera, whose `depth_scale` brings it to mm; `scale` is a factor beside it.
 MEAM_EXPORT Scan loadDepthImage(const std::string& path, const std::string& cameraFile, double scale = 1.0);
 
 // ----------------------------------------------------------------------------------------------------------- training

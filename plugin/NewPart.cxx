@@ -53,8 +53,8 @@ public:
       "answer tells how large each is.");
     this->Solid->setSpecialValueText("all");
     this->CADUnit = this->addUnit("CADUnit", "CAD's unit", "The unit of a mesh. STEP and IGES files tell theirs.");
-    this->Scan = this->addFile("Scan", "Scan", "Scan (*.pcd *.ply *.png *.tif *.tiff)",
-      "One scan of the bin: a cloud (PCD, PLY), best organized, or a depth image (PNG, TIFF).");
+    this->Scan = this->addFile("Scan", "Scan", "Scan (*.pcd *.ply *.png *.tif *.tiff *.pgm *.pfm)",
+      "One scan of the bin: a cloud (PCD, PLY), best organized, or a depth image (PNG, TIFF, PGM, PFM).");
     this->Unit = this->addUnit(
       "Unit", "Scan's unit", "The unit of the cloud's points. A depth image has its own in the calibration.");
     this->Calibration = this->addFile("Calibration", "Calibration", "Calibration (*.yaml *.yml *.json *.xml)",
@@ -227,7 +227,7 @@ private:
     const QString kind = QFileInfo(part.scan).suffix().toLower();
     if (kind != "pcd" && kind != "ply" && !part.isDepthImage())
     {
-      fail(part.scan + " is no scan: choose a PCD, a PLY, or a depth image as PNG or TIFF.");
+      fail(part.scan + " is no scan: choose a PCD, a PLY, or a depth image as PNG, TIFF, PGM or PFM.");
     }
   }
 

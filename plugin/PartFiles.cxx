@@ -18,7 +18,7 @@ bool PartFiles::hasSolids() const
 
 bool PartFiles::isDepthImage() const
 {
-  return QStringList{ "png", "tif", "tiff" }.contains(QFileInfo(this->scan).suffix().toLower());
+  return QStringList{ "png", "tif", "tiff", "pgm", "pfm" }.contains(QFileInfo(this->scan).suffix().toLower());
 }
 
 QString PartFiles::modelFile() const { return QDir(this->folder).filePath(this->name() + ".meam"); }

@@ -154,7 +154,7 @@ std::string fileOf(
 
 std::string depthFileOf(const BOPImage& image)
 {
-  std::string path = fileOf(image, { "depth" }, { ".png", ".tif", ".tiff" });
+  std::string path = fileOf(image, { "depth" }, { ".png", ".tif", ".tiff", ".pgm", ".pfm" });
   if (path.empty())
   {
     throw Error("The scene '" + image.folder + "' has no depth image number " + std::to_string(image.imageId) +

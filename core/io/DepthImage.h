@@ -9,11 +9,11 @@
 
 namespace meam
 {
-/// Reads a depth image, one channel of 16 bits (PNG or TIFF) or of real numbers (TIFF), as the cloud that the camera
-/// measured: a point for each pixel, in the camera's frame; a pixel times `depthScale` is the distance along its z axis
-/// in mm; 0, less, and the largest value of 16 bits are no depth. Where the camera is in the scene does not matter.
-/// Throws Error for a file that is no depth image, one of another size than the camera's, where that is known, and a
-/// scale that is not positive.
+/// Reads a depth image, one channel of whole numbers (PNG, TIFF or PGM) or of real ones (TIFF or PFM), as the cloud
+/// that the camera measured: a point for each pixel, in the camera's frame; a pixel times `depthScale` is the distance
+/// along its z axis in mm; 0, less, and the largest value of 8 or 16 bits are no depth. Where the camera is in the
+/// scene does not matter. Throws Error for a file that is no depth image, one of another size than the camera's, where
+/// that is known, and a scale that is not positive.
 OrganizedCloud readDepthImage(
   const std::string& path, const Camera& camera, double depthScale = 1.0, const Progress& progress = {});
 }

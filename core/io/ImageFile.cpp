@@ -2,6 +2,7 @@
 #include "io/ImageFile.h"
 
 #include "base/Error.h"
+#include "io/PortableMap.h"
 #include "io/parsing/FileBytes.h"
 
 #include <opencv2/imgcodecs.hpp>
@@ -26,6 +27,8 @@ std::uint64_t mostPixels(std::uint64_t length)
 {
   return std::min<std::uint64_t>(MostPixels, MostPixelsOfByte * length);
 }
+
+constexpr float NoDepth = std::numeric_limits<float>::quiet_NaN();
 
 // Of a value: of an image, and of real numbers of a depth image.
 constexpr std::uint64_t MostImageBits = 16;
@@ -178,7 +181,17 @@ Size sizeOf(const std::string& path, const std::string& bytes)
   {
     return tiff::sizeOf(bytes);
   }
-  failImage(path, "is not a PNG, JPEG, BMP or TIFF image: save images as PNG, depth as PNG or TIFF");
+  if (isPortableMap(bytes))
+  {
+    const auto [width, height] = portableMapSize(bytes);
+    return { width, height };
+  }
+  if (starts("\x76\x2f\x31\x01"))
+  {
+    failImage(path, "is an OpenEXR image, which is not read: save depth as PFM, or as TIFF of real numbers");
+  }
+  failImage(
+    path, "is not a PNG, JPEG, BMP or TIFF image: save images as PNG, depth as PNG, TIFF, PGM or PFM of one channel");
 }
 
 /// The size that a file's first bytes tell, once it is sure that a file of that length can have it.
@@ -293,10 +306,9 @@ bool isWhole(const std::string& bytes, const Size& size)
   return bytes[0] == '\x89' ? isWholePNG(bytes) : bytes[0] != 'B' || isWholeBMP(bytes, size);
 }
 
-/// What OpenCV makes of the file, channels and depth as they are.
-cv::Mat decode(const std::string& path, std::uint64_t mostBits = MostImageBits)
+/// What OpenCV makes of the bytes of a file, channels and depth as they are.
+cv::Mat decode(const std::string& path, std::string bytes, std::uint64_t mostBits)
 {
-  std::string bytes = readFile(path);
   const Size size = checkedSize(path, bytes, bytes.size());
   if (bytes[0] == 'I' || bytes[0] == 'M')
   {
@@ -327,6 +339,34 @@ cv::Mat decode(const std::string& path, std::uint64_t mostBits = MostImageBits)
   }
   return pixels;
 }
+
+/// The values of a depth image; those that stand for what was too far are none.
+DepthPixels decodeDepth(const std::string& path, std::string bytes)
+{
+  if (isPortableMap(bytes))
+  {
+    checkedSize(path, bytes, bytes.size());
+    return readPortableMap(path, bytes);
+  }
+  cv::Mat pixels = decode(path, std::move(bytes), MostDepthBits);
+  const int depth = pixels.depth();
+  if (pixels.channels() != 1 || pixels.elemSize1() < 2)
+  {
+    failImage(path, "has " + std::to_string(pixels.channels()) + " channels of " +
+                      std::to_string(8 * pixels.elemSize1()) +
+                      " bits: a depth image has one of whole numbers of 16 "
+                      "or 32 bits, or of real ones");
+  }
+  const float saturated = depth == CV_16U   ? std::numeric_limits<std::uint16_t>::max()
+                          : depth == CV_16S ? std::numeric_limits<std::int16_t>::max()
+                                            : std::numeric_limits<float>::infinity();
+  pixels.convertTo(pixels, CV_32F);
+  DepthPixels image{ pixels.cols, pixels.rows, {} };
+  image.pixels.assign(pixels.begin<float>(), pixels.end<float>());
+  std::replace_if(
+    image.pixels.begin(), image.pixels.end(), [&](float value) { return value >= saturated; }, NoDepth);
+  return image;
+}
 }
 
 std::array<int, 2> readImageSize(const std::string& path)
@@ -349,7 +389,12 @@ std::array<int, 2> readImageSize(const std::string& path)
 
 Image readImage(const std::string& path)
 {
-  cv::Mat pixels = decode(path);
+  std::string bytes = readFile(path);
+  if (isPortableMap(bytes))
+  {
+    failImage(path, "is a PGM or PFM image, which is read as a depth image alone: save images as PNG");
+  }
+  cv::Mat pixels = decode(path, std::move(bytes), MostImageBits);
   if (pixels.depth() == CV_16U)
   {
     pixels.convertTo(pixels, CV_8U, 1.0 / 257.0);
@@ -382,25 +427,10 @@ void requireRegistered(const Image& image, const OrganizedCloud& cloud, const st
 
 DepthPixels readDepthPixels(const std::string& path)
 {
-  cv::Mat pixels = decode(path, MostDepthBits);
-  const int depth = pixels.depth();
-  if (pixels.channels() != 1 || pixels.elemSize1() < 2)
-  {
-    failImage(path, "has " + std::to_string(pixels.channels()) + " channels of " +
-                      std::to_string(8 * pixels.elemSize1()) +
-                      " bits: a depth image has one of whole numbers of 16 "
-                      "or 32 bits, or of real ones");
-  }
-  const float saturated = depth == CV_16U   ? std::numeric_limits<std::uint16_t>::max()
-                          : depth == CV_16S ? std::numeric_limits<std::int16_t>::max()
-                                            : std::numeric_limits<float>::infinity();
-  pixels.convertTo(pixels, CV_32F);
-  DepthPixels image{ pixels.cols, pixels.rows, {} };
-  image.pixels.assign(pixels.begin<float>(), pixels.end<float>());
-  for (float& value : image.pixels)
-  {
-    value = value > 0.0f && value < saturated ? value : std::numeric_limits<float>::quiet_NaN();
-  }
+  DepthPixels image = decodeDepth(path, readFile(path));
+  std::replace_if(
+    image.pixels.begin(), image.pixels.end(), [](float value) { return !(value > 0.0f && std::isfinite(value)); },
+    NoDepth);
   return image;
 }
 }

@@ -8,8 +8,8 @@
 
 namespace meam
 {
-/// Width and height of a PNG, JPEG, BMP or TIFF image, as its header promises them. Throws Error, naming the file,
-/// for another kind of file and for a size that its bytes cannot hold.
+/// Width and height of a PNG, JPEG, BMP, TIFF, PGM or PFM image, as its header promises them. Throws Error, naming the
+/// file, for another kind of file and for a size that its bytes cannot hold.
 std::array<int, 2> readImageSize(const std::string& path);
 
 /// Reads a grey or colour image: PNG, JPEG, BMP or TIFF. An alpha channel is dropped; 16 bit images use their
@@ -25,10 +25,10 @@ struct DepthPixels
 {
   int width = 0;
   int height = 0;
-  std::vector<float> pixels; ///< NaN where there is no depth: 0 and less, the largest value of 16 bits, NaN
+  std::vector<float> pixels; ///< NaN where there is no depth: 0 and less, the largest value of 8 or 16 bits, NaN
 };
 
-/// Reads an image of one channel (PNG or TIFF), as depth images are: whole numbers of 16 bits or, in TIFF, 32, or real
-/// ones of 32 or 64. Throws Error as readImage().
+/// Reads an image of one channel, as depth images are: whole numbers of 16 bits (PNG, TIFF, PGM), of 8 (PGM) or of 32
+/// (TIFF), or real ones of 32 (TIFF, PFM) or 64 (TIFF). Throws Error as readImage().
 DepthPixels readDepthPixels(const std::string& path);
 }

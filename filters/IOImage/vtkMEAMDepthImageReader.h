@@ -3,7 +3,8 @@
  * @class vtkMEAMDepthImageReader
  * @brief Reads a depth image as the organized cloud that its camera measured.
  *
- * The depth image has one channel of 16 bits (PNG or TIFF); 0 stands for no depth. The lens is undone.
+ * The depth image has one channel of 16 bits (PNG, TIFF or PGM) or of real numbers (TIFF or PFM); 0 stands for no
+ * depth. The lens is undone.
  *
  * Output port 0: a vtkStructuredGrid of W x H x 1 points, row by row from the top left, in mm in the camera's
  * frame (x right, y down, z the way it looks); points without depth are NaN and blanked. With an image the

@@ -28,7 +28,7 @@ from . import choices, filters
 EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj", ".step", ".stp", ".iges", ".igs")
 MESHES = EXTENSIONS[1:]
 MODELS = (".meam", ".vtpc")
-DEPTH_IMAGES = (".png", ".tif", ".tiff")
+DEPTH_IMAGES = (".png", ".tif", ".tiff", ".pgm", ".pfm", ".exr")  # their reader says what to do with the last
 AS_GOOD = 0.02  # share of the surface that near-symmetries may differ by and count as equally near
 STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total")

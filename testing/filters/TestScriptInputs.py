@@ -89,6 +89,21 @@ for name, writer in (("image.tif", vtkTIFFWriter), ("image.bmp", vtkBMPWriter)):
           "--image", name, "--matrices", "b.txt")
     check(matrices("b.txt") == matrices("a.txt"), f"with {name} and OpenCV's calibration the poses differ")
 
+# The same as PGM, and in metres as PFM, whose rows stand from the bottom.
+with open("depth.pgm", "wb") as file:
+    file.write(b"P5\n%d %d\n65535\n" % (W, H) + depth.astype(">u2").tobytes())
+with open("metres.pfm", "wb") as file:
+    file.write(b"Pf\n%d %d\n-1.0\n" % (W, H) + (depth[::-1] * SCALE / 1000).astype("<f4").tobytes())
+works("detect.py", *MODEL, "--depth", "depth.pgm", "--camera", "camera.json", "--image", "image.png", "--matrices", "b.txt")
+check(matrices("b.txt") == matrices("a.txt"), "with a PGM the poses differ")
+works("detect.py", *MODEL, "--depth", "metres.pfm", "--camera", "camera.yaml", "--depth-scale", "1000", "--image", "image.png",
+      "--matrices", "b.txt")
+check(numpy.allclose(matrices("b.txt"), matrices("a.txt"), atol=1e-3), "with a PFM in metres the poses differ")
+refuses("1000", "detect.py", *MODEL, "--depth", "metres.pfm", "--camera", "camera.yaml")
+with open("depth.exr", "wb") as file:
+    file.write(b"\x76\x2f\x31\x01")
+refuses("OpenEXR image, which is not read", "detect.py", *MODEL, "--depth", "depth.exr", "--camera", "camera.json")
+
 # A PLY cloud, in any order, comes back onto the grid of its camera.
 order = numpy.random.default_rng(1).permutation(numpy.flatnonzero(valid))
 write_ply("scan.ply", points[order], grey[order])
@@ -140,7 +155,7 @@ filter.SetViewDirection(0, 0, 0)
 check(tuples(run(filter), "Transform") == matrices("v.txt"), "the filter finds other poses")
 
 # A depth image as an array, with a calibration file or a camera matrix.
-by_file = ppfmeam.detect(model, "depth.png", camera="camera.json", poses=2)
+by_file = ppfmeam.detect(model, "depth.pgm", camera="camera.json", poses=2)
 matrix = numpy.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
 for array, camera, scale in ((depth, "camera.json", 1), (depth, matrix, SCALE), (depth / 1000, matrix.tolist(), 1000 * SCALE)):
     seen = ppfmeam.detect(model, array, camera=camera, scale=scale, poses=2)
@@ -207,14 +222,16 @@ for name, scene in (("detect.py", (*MODEL, "--scene", "scan.ply")), ("why.py", (
 refuses("--depth-scale is of a depth image", "why.py", "part.vtpc", "scan.ply", "--depth-scale", "0.1", "--at", "0", "0", "600", status=2)
 os.makedirs("depths")
 os.rename("depth.png", "depths/0.png")
+os.rename("depth.pgm", "depths/1.pgm")
 BATCH = ("batch.py", "depths", *MODEL, "--camera", "camera.json", "--out", "depths.csv")
 works(*BATCH, "--no-image")
 with open("depths.csv", encoding="utf-8") as file:
     rows = list(csv.DictReader(file))
-check([row["scan"] for row in rows] == ["0.png"] * 2 and not any(row["failure"] for row in rows), f"{rows}")
-all_true([(*r[0:3], t[0], *r[3:6], t[1], *r[6:9], t[2], 0, 0, 0, 1)
-          for r, t in (([float(x) for x in row["R"].split()], [float(x) for x in row["t"].split()]) for row in rows)],
-         "a folder of depth images")
+check([row["scan"] for row in rows] == ["0.png"] * 2 + ["1.pgm"] * 2 and not any(row["failure"] for row in rows), f"{rows}")
+for scan in ("0.png", "1.pgm"):
+    all_true([(*r[0:3], t[0], *r[3:6], t[1], *r[6:9], t[2], 0, 0, 0, 1)
+              for r, t in (([float(x) for x in row["R"].split()], [float(x) for x in row["t"].split()]) for row in rows if row["scan"] == scan)],
+             "a folder of depth images")
 os.remove("depths.csv")
 works(*BATCH)
 with open("depths.csv", encoding="utf-8") as file:

@@ -18,7 +18,8 @@ def options_of_user():
     scan = parser.add_mutually_exclusive_group(required=True)
     scan.add_argument("--scene", metavar="CLOUD",
                       help="scan: .pcd or .ply, organized or points alone, in mm; or the points of a .stl or .obj")
-    scan.add_argument("--depth", metavar="PNG", help="scan: a depth image of 16 bits, or of real numbers (TIFF), with --camera")
+    scan.add_argument("--depth", metavar="FILE",
+                      help="scan: a depth image of 16 bits (.png, .tif or .pgm), or of real numbers (.tif or .pfm), with --camera")
     parser.add_argument("--camera", metavar="FILE",
                         help="calibration of the sensor (docs/inputs.md): of the depth image, or of a scan whose points are not "
                              "organized, which it brings back onto its pixels")

@@ -86,7 +86,9 @@ TEST(DepthImage, wholeNumbersOfOtherKinds)
   half[half.find(tag) + tag.size()] = 3;
   EXPECT_TRUE(
     files::contains(files::errorOf([&] { depthsOf(half); }), "has real numbers of 16 bits, which are not read"));
-  EXPECT_TRUE(files::contains(files::errorOf([&] { depthsOf("P5 4 1 65535\n01234567"); }), "depth as PNG or TIFF"));
+  EXPECT_TRUE(files::contains(files::errorOf([&] { depthsOf("P6 1 1 255\n012"); }), "depth as PNG, TIFF, PGM or PFM"));
+  EXPECT_TRUE(
+    files::contains(files::errorOf([&] { depthsOf("\x76\x2f\x31\x01"); }), "OpenEXR image, which is not read"));
 }
 
 TEST(DepthImage, depthsBeyondAnySensor)
