@@ -30,6 +30,9 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -65,9 +68,52 @@ double diagonalOf(const TopoDS_Shape& shape)
   return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
 }
 
+/// What Open CASCADE, which takes a byte order mark for damage, reads of a file: of one with it the bytes behind it, in
+/// a file in memory.
+class FileWithoutMark
+{
+public:
+  explicit FileWithoutMark(const std::string& path)
+    : Path(path)
+  {
+    const std::string bytes = readFile(path);
+    const std::string_view text = withoutMark(bytes);
+    if (text.size() == bytes.size())
+    {
+      return;
+    }
+    this->Memory = memfd_create("CAD", MFD_CLOEXEC);
+    this->Path = "/proc/self/fd/" + std::to_string(this->Memory);
+    for (std::size_t at = 0; at < text.size();)
+    {
+      const ssize_t written = write(this->Memory, text.data() + at, text.size() - at);
+      if (written <= 0)
+      {
+        failBRep(path, "begins with a byte order mark and cannot be copied without it: remove the mark");
+      }
+      at += static_cast<std::size_t>(written);
+    }
+  }
+  ~FileWithoutMark()
+  {
+    if (this->Memory >= 0)
+    {
+      close(this->Memory);
+    }
+  }
+  FileWithoutMark(const FileWithoutMark&) = delete;
+  FileWithoutMark& operator=(const FileWithoutMark&) = delete;
+
+  const std::string& path() const { return this->Path; }
+
+private:
+  std::string Path;
+  int Memory = -1;
+};
+
 void load(const std::string& path, XSControl_Reader& reader)
 {
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+  if (reader.ReadFile(FileWithoutMark(path).path().c_str()) != IFSelect_RetDone)
   {
     failBRep(path, "is cut off or damaged, or is of another kind than its name says");
   }
@@ -173,7 +219,8 @@ TopoDS_Shape readSTEP(const std::string& path)
 /// The first line is of the start section, the last of the terminate section, which has the number of lines of each.
 void requireSections(const std::string& path)
 {
-  const std::string text = readFile(path);
+  const std::string bytes = readFile(path);
+  const std::string_view text = withoutMark(bytes);
   const auto isOf = [&](char section, std::size_t line)
   { return text.size() > line + IGESSection && text[line + IGESSection] == section; };
   if (!isOf('S', 0))
@@ -193,11 +240,11 @@ void requireSections(const std::string& path)
   }
   for (std::size_t at = last; at < last + IGESSection; at += IGESCount)
   {
-    const std::string number = text.substr(at + 1, IGESCount - 1);
+    const std::string_view number = text.substr(at + 1, IGESCount - 1);
     const std::size_t first = std::min(number.find_first_not_of(' '), number.size());
     int count = 0;
     const bool isSection = std::string_view("SGDP").find(text[at]) != std::string_view::npos;
-    if (isSection && parseNumber(std::string_view(number).substr(first), count) && lines[text[at]] != count)
+    if (isSection && parseNumber(number.substr(first), count) && lines[text[at]] != count)
     {
       failBRep(path, "has " + std::to_string(lines[text[at]]) + " lines of the section " + text[at] + " instead of " +
                        std::to_string(count) + ": it is damaged");

@@ -294,6 +294,17 @@ TEST(CADFile, whatIsMissingIsASentence)
   EXPECT_TRUE(files::contains(surface, "in an entity IGESGeom_TrimmedSurface of it, of which")) << surface;
 }
 
+TEST(CADFile, aByteOrderMarkIsSkipped)
+{
+  const files::Folder folder;
+  for (const std::string& path : { stepOf(folder, box(30, 20, 10)), igesOf(folder, box(30, 20, 10), "MM") })
+  {
+    const meam::TriangleMesh mesh = meam::readCAD(path).mesh;
+    folder.write(std::filesystem::path(path).filename(), "\xef\xbb\xbf" + meam::readFile(path));
+    EXPECT_EQ(meam::readCAD(path).mesh.vertices, mesh.vertices) << path;
+  }
+}
+
 TEST(CADFile, otherFilesAreReadAsMeshes)
 {
   const files::Folder folder;
