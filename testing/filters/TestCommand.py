@@ -32,10 +32,12 @@ for arguments, word in (((), "COMMAND"), (("fly",), "invalid choice: 'fly'")):
     result = script(COMMAND, *arguments)
     check(result.returncode == 2 and word in result.stderr, f"{arguments}: {result.stderr}")
 
-# Options and output are those of the scripts, but for the name.
+# Options and output are those of the scripts, but for the name; what is printed is to be had as JSON.
 for name in SUMMARIES:
     own, of_script = works(COMMAND, name, "--help"), works(module_of(name), "--help")
     check(own.startswith(f"usage: ppfmeam {name} ") and own.split()[3:] == of_script.split()[2:], f"{name}: {own}")
+    own = works(COMMAND, name, "bop", "--help") if name == "evaluate" else own
+    check("--json" in own, f"{name}: {own}")
 write_stl("box.stl", box(30, 20, 10))
 own = works(COMMAND, "train", "--cad", "box.stl", "--out", "a.meam")
 of_script = works("train.py", "--cad", "box.stl", "--out", "b.meam")

@@ -45,8 +45,11 @@ def pixels(*path):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[::-1]
 
 
-done = simulate("--cad", PART, "--copies", str(COPIES), "--scenes", "2", "--seed", "5", "--out", "plates")
+done = simulate("--cad", PART, "--copies", str(COPIES), "--scenes", "2", "--seed", "5", "--out", "plates", "--json", "told.json")
 check(done.returncode == 0, done.stderr)
+told = load("told.json")["scenes"]
+check("".join("scene {scene}: {half_visible} of {copies} copies are at least half visible\n".format(**row) for row in told) == done.stdout
+      and [row["copies"] for row in told] == [COPIES, COPIES], f"{told} of {done.stdout}")
 check(sorted(os.listdir("plates")) == ["camera.json", "models", "test"], f"{os.listdir('plates')}")
 check(sorted(os.listdir("plates/test")) == ["000000", "000001"], "two scenes")
 

@@ -24,6 +24,7 @@ def options_of_user():
     parser.add_argument("--baseline", type=float, default=150, metavar="MM",
                         help="from the sensor to the camera beside it (default: %(default)s)")
     parser.add_argument("--colored", action="store_true", help="images of red, green and blue instead of grey ones")
+    parser.add_argument("--json", metavar="FILE", help="write what is printed as JSON")
     parser.add_argument("--out", required=True, metavar="DIR", help="folder to write, new or empty")
     options = parser.parse_args()
     if options.copies < 1 or options.scenes < 1:
@@ -35,6 +36,7 @@ def options_of_user():
 
 def main():
     options = options_of_user()
+    scripting.require_folder_of(options.json)
     if os.path.exists(options.out) and (not os.path.isdir(options.out) or os.listdir(options.out)):
         raise scripting.Failure(f"cannot write {options.out}: it is there and not an empty folder")
     mesh = scripting.read_mesh(options.cad, scale=options.cad_scale, solid=options.solid)
@@ -48,6 +50,7 @@ def main():
     simulation.set_sensor(source, options.sensor)
     if options.noise is not None:
         source.SetDepthNoise(options.noise)
+    rows = []
     for scene in range(options.scenes):
         source.SetSeed(options.seed + scene)
         scripting.update(source)
@@ -59,4 +62,7 @@ def main():
         bop.write_scene(options.out, scene, scan, truth, image)
         seen = truth.GetPointData().GetArray("VisibleFraction")
         half = sum(seen.GetValue(i) >= 0.5 for i in range(truth.GetNumberOfPoints()))
-        print(f"scene {scene}: {half} of {truth.GetNumberOfPoints()} copies are at least half visible")
+        rows.append({"scene": scene, "copies": truth.GetNumberOfPoints(), "half_visible": half})
+        print("scene {scene}: {half_visible} of {copies} copies are at least half visible".format(**rows[-1]))
+    if options.json:
+        scripting.write_json(options.json, {"scenes": rows})
