@@ -4,6 +4,7 @@
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
 #include "vtkSetGet.h"
@@ -62,6 +63,17 @@ int fillInputPort(vtkInformation* info, std::initializer_list<const char*> types
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), connections == Connections::One ? 0 : 1);
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), connections == Connections::Any ? 1 : 0);
   return 1;
+}
+
+void requestPiece(vtkInformation* request, vtkInformationVector** inputs, int piece, int pieces)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* input = inputs[0]->GetInformationObject(0);
+  if (input && request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
+  }
 }
 
 void requireInputs(vtkAlgorithm* filter, std::initializer_list<const char*> names)

@@ -32,6 +32,10 @@ enum class Connections
 /// Says in the information of an input port which types of data it takes. Returns 1.
 int fillInputPort(vtkInformation* info, std::initializer_list<const char*> types, Connections connections);
 
+/// What a writer does of each request: it asks for a piece of as many as there are processes, of which the first has
+/// all. Otherwise each process would do all the work.
+void requestPiece(vtkInformation* request, vtkInformationVector** inputs, int piece, int pieces);
+
 /// Throws Error, which names the inputs that are not connected, of those that the filter cannot do without: of each
 /// port its name, null where it may stay open. To VTK all of them are optional, because its own errors do not say what
 /// to do.

@@ -20,8 +20,19 @@ int vtkMEAMModelWriter::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+vtkTypeBool vtkMEAMModelWriter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMConversion::requestPiece(request, inputVector, this->Piece, this->NumberOfPieces);
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 void vtkMEAMModelWriter::WriteData()
 {
+  if (this->Piece > 0)
+  {
+    return;
+  }
   const int done = vtkMEAMRun(this,
     [&]
     {
@@ -38,5 +49,7 @@ void vtkMEAMModelWriter::WriteData()
 void vtkMEAMModelWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
+  os << indent << "Piece: " << this->Piece << "\n";
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
 }

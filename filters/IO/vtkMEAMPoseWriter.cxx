@@ -78,8 +78,19 @@ int vtkMEAMPoseWriter::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+vtkTypeBool vtkMEAMPoseWriter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMConversion::requestPiece(request, inputVector, this->Piece, this->NumberOfPieces);
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 void vtkMEAMPoseWriter::WriteData()
 {
+  if (this->Piece > 0)
+  {
+    return;
+  }
   auto* input = vtkPolyData::SafeDownCast(this->GetInput());
   const int done = vtkMEAMRun(this,
     [&]
@@ -173,6 +184,8 @@ void vtkMEAMPoseWriter::WriteData()
 void vtkMEAMPoseWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
+  os << indent << "Piece: " << this->Piece << "\n";
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "MaximumNumberOfPoses: " << this->MaximumNumberOfPoses << "\n";

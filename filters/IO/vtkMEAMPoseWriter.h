@@ -88,6 +88,17 @@ public:
   /** Detections: when the scan was taken, seconds since 1970; 0: not known. Default: 0. */
   vtkMEAMMemberMacro(Stamp, double);
 
+  ///@{
+  /** Of a server of several processes, each of which writes, how many they are and which this one is; the first has all
+   * data and writes the file. Default: 1, and 0, the first. */
+  vtkSetClampMacro(NumberOfPieces, int, 1, VTK_INT_MAX);
+  vtkGetMacro(NumberOfPieces, int);
+  vtkSetClampMacro(Piece, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Piece, int);
+  ///@}
+
+  vtkTypeBool ProcessRequest(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
 protected:
   vtkMEAMPoseWriter();
   ~vtkMEAMPoseWriter() override;
@@ -96,6 +107,8 @@ protected:
   void WriteData() override;
 
 private:
+  int NumberOfPieces = 1;
+  int Piece = 0;
   char* FileName = nullptr;
   int Format = BY_EXTENSION;
   int MaximumNumberOfPoses = 0;

@@ -20,8 +20,19 @@ int vtkMEAMGraspWriter::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+vtkTypeBool vtkMEAMGraspWriter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMEAMConversion::requestPiece(request, inputVector, this->Piece, this->NumberOfPieces);
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 void vtkMEAMGraspWriter::WriteData()
 {
+  if (this->Piece > 0)
+  {
+    return;
+  }
   const int done = vtkMEAMRun(this,
     [this]
     {
@@ -34,5 +45,7 @@ void vtkMEAMGraspWriter::WriteData()
 void vtkMEAMGraspWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
+  os << indent << "Piece: " << this->Piece << "\n";
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
 }

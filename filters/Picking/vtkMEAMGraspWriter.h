@@ -25,6 +25,17 @@ public:
   /** The file to write. Default: none. */
   vtkMEAMFileMemberMacro(FileName);
 
+  ///@{
+  /** Of a server of several processes, each of which writes, how many they are and which this one is; the first has all
+   * data and writes the file. Default: 1, and 0, the first. */
+  vtkSetClampMacro(NumberOfPieces, int, 1, VTK_INT_MAX);
+  vtkGetMacro(NumberOfPieces, int);
+  vtkSetClampMacro(Piece, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Piece, int);
+  ///@}
+
+  vtkTypeBool ProcessRequest(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
 protected:
   vtkMEAMGraspWriter() = default;
   ~vtkMEAMGraspWriter() override;
@@ -33,6 +44,8 @@ protected:
   void WriteData() override;
 
 private:
+  int NumberOfPieces = 1;
+  int Piece = 0;
   char* FileName = nullptr;
 };
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Several processes give what one gives: nothing comes out twice, and a process without data is no error. Started by mpirun
-under pvbatch; the first process compares and ends with the status."""
+"""Several processes give what one gives: nothing comes out twice, a process without data is no error, and what is saved is
+written once. Started by mpirun under pvbatch; the first process compares and ends with the status."""
+import json
 import os
 import sys
+import tempfile
 
 from paraview import simple
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -20,10 +22,30 @@ view = simple.GetActiveViewOrCreate("RenderView")
 for source, port in ((scene, 0), (found, 0), (found, 2)):
     simple.Show(simple.OutputPort(source, port), view)
 simple.Render(view)
+MODEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "model", "small.meam")
+grasps = simple.GraspDefinition(Input=plate)
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def is_saved():
+    """Whether poses, grasps and a trained model are in their files."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, source in (("poses.json", found), ("part.grasps", grasps), ("part.meam", simple.TrainedModelReader(FileName=MODEL))):
+            simple.SaveData(os.path.join(folder, name), simple.OutputPort(source, 0))
+        counts = [len(json.loads(content(os.path.join(folder, name)))[key]) for name, key in (("poses.json", "poses"), ("part.grasps", "grasps"))]
+        print("saved:", counts)
+        return counts == [2, grasps.GetDataInformation(0).GetNumberOfPoints()] and counts[1] > 0 \
+            and content(os.path.join(folder, "part.meam")) == content(MODEL)
+
+
 if rank == 0:
     expected = {"scan": WIDTH * HEIGHT, "true poses": 2, "poses": 2}
     print(processes, "processes:", counts)
-    if processes < 2 or counts != expected:
+    if processes < 2 or counts != expected or not is_saved():
         print("expected", expected, file=sys.stderr)
         sys.stderr.flush()
         os._exit(1)

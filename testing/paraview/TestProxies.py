@@ -99,7 +99,9 @@ def check_proxy(group, element):
     if len([p for p in element if p.tag.endswith("VectorProperty")]) >= MANY or name.startswith("BinScene"):
         check(proxy.GetNumberOfPropertyGroups() >= 2 or group == "writers", f"{name}: its properties are in no groups")
     check(declared <= found, f"{name}: not made: {declared - found}")
-    # And the other way round: what can be set on an instance of ours can be set in the panel.
+    # And the other way round: what can be set on an instance of ours can be set in the panel, or is set by ParaView.
+    if group == "writers":
+        commands |= {"SetNumberOfPieces", "SetPiece"}
     ours = {m for kind in type(instance).__mro__ if kind.__name__.startswith("vtkMEAM") for m in vars(kind)}
     for setter in sorted(m for m in ours if m.startswith("Set") and "Get" + m[3:] in ours):
         check(setter in commands, f"{name}: no property for {setter}")
