@@ -4,6 +4,7 @@ sensor, and nothing in front; of a chain's steps the last, over the scan."""
 import os
 import tempfile
 
+import numpy
 from paraview import servermanager, simple
 
 from pictures import pixels, share
@@ -113,6 +114,31 @@ check(tuple(view.CameraViewUp) == (0, 1, 0), "the camera is moved again")
 check(scan.Visibility == 1, "the scan is gone")
 check(found.SMProxy.GetHints().FindNestedElementByName("Visibility"), "inputs are hidden")
 check(max(share(drawn(view), RANKS[name]) for name in ("red", "green")) > 0.01, "no parts over the scan")
+
+# Points alone without colors: gray, and behind a part whose surface they are on.
+with open(os.path.join(folder.name, "cloud.ply"), "w") as file:
+    places = [(x, y, 499.9) for x in range(-60, 61) for y in range(-60, 61)]
+    file.write(f"ply\nformat ascii 1.0\nelement vertex {len(places)}\nproperty float x\nproperty float y\nproperty float z\nend_header\n")
+    file.writelines(f"{x} {y} {z}\n" for x, y, z in places)
+with open(os.path.join(folder.name, "pose.txt"), "w") as file:
+    file.write("1 0 0 0  0 1 0 0  0 0 1 500  0 0 0 1\n")
+view = simple.CreateRenderView()
+view.OrientationAxesVisibility = 0
+cloud = simple.Show(simple.PLYCloudReader(FileName=os.path.join(folder.name, "cloud.ply")), view)
+cloud.PointSize = 5
+view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 0], [0, 0, 500], [0, -1, 0]
+view.Background, view.UseColorPaletteForBackground = [0, 0, 0], 0
+picture = drawn(view)
+check((picture.max(axis=1) - picture.min(axis=1)).max() < 3 and 60 < numpy.median(picture[picture.max(axis=1) > 20]) < 180,
+      "points alone are not gray")
+box = simple.Box(XLength=80.0, YLength=80.0, ZLength=20.0, Center=[0, 0, 10])
+simple.Show(simple.PoseInstances(Input=simple.PoseReader(FileName=os.path.join(folder.name, "pose.txt")), Mesh=box), view)
+over = share(drawn(view), RANKS["red"])
+cloud.Visibility = 0
+alone = share(drawn(view), RANKS["red"])
+check(over > 0.95 * alone > 0.05, f"{over} of the picture is the part over points, {alone} without them")
+cloud.Visibility, cloud.UseShaderReplacements = 1, 0
+check(share(drawn(view), RANKS["red"]) < 0.5 * alone, "the points would not hide the part anyhow")
 
 # A step of poses takes the place of what it was made of, but not of the scan; edges and answers come over it.
 view = simple.CreateRenderView()
