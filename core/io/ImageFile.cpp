@@ -340,6 +340,37 @@ cv::Mat decode(const std::string& path, std::string bytes, std::uint64_t mostBit
   return pixels;
 }
 
+/// Whether neighbouring values of two bytes would be far nearer to each other with these in the other order, as some
+/// programs write them.
+bool isSwapped(const std::vector<float>& values)
+{
+  constexpr float Most = std::numeric_limits<std::uint16_t>::max();
+  constexpr std::uint64_t FarNearer = 8; // times
+  std::uint64_t steps = 0, stepsSwapped = 0;
+  bool hasLowerBytes = false; // without, they may be of one byte, in the higher one
+  const auto stepOf = [](std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; };
+  const auto swapped = [](std::uint32_t value) { return (value & 0xff) << 8 | value >> 8; };
+  for (std::size_t i = 1; i < values.size(); ++i)
+  {
+    const float before = values[i - 1], value = values[i];
+    if (value > Most || value != std::floor(value))
+    {
+      if (!std::isnan(value))
+      {
+        return false; // not of two bytes
+      }
+    }
+    else if (before > 0.0f && value > 0.0f)
+    {
+      const auto a = static_cast<std::uint32_t>(before), b = static_cast<std::uint32_t>(value);
+      hasLowerBytes = hasLowerBytes || (b & 0xff) != 0;
+      steps += stepOf(a, b);
+      stepsSwapped += stepOf(swapped(a), swapped(b));
+    }
+  }
+  return hasLowerBytes && steps > FarNearer * stepsSwapped;
+}
+
 /// The values of a depth image; those that stand for what was too far are none.
 DepthPixels decodeDepth(const std::string& path, std::string bytes)
 {
@@ -431,6 +462,12 @@ DepthPixels readDepthPixels(const std::string& path)
   std::replace_if(
     image.pixels.begin(), image.pixels.end(), [](float value) { return !(value > 0.0f && std::isfinite(value)); },
     NoDepth);
+  if (isSwapped(image.pixels))
+  {
+    failImage(path,
+      "has the two bytes of its values in the wrong order, for with the other one neighbouring pixels are "
+      "far nearer to each other: swap them (PNG and PGM have the higher byte first)");
+  }
   return image;
 }
 }

@@ -91,6 +91,29 @@ TEST(DepthImage, wholeNumbersOfOtherKinds)
     files::contains(files::errorOf([&] { depthsOf("\x76\x2f\x31\x01"); }), "OpenEXR image, which is not read"));
 }
 
+TEST(DepthImage, bytesInTheWrongOrderAreNamed)
+{
+  const files::Folder folder;
+  const auto errorOf = [&](const char* name, const cv::Mat& pixels) {
+    return files::errorOf([&] { meam::readDepthImage(folder.write(name, images::encoded(name, pixels)), camera()); });
+  };
+  cv::Mat depth(20, 30, CV_16UC1), wrong(20, 30, CV_16UC1);
+  for (int i = 0; i < 600; ++i)
+  {
+    const auto value = static_cast<std::uint16_t>(i % 7 == 0 ? 0 : 500 + 10 * (i % 30));
+    depth.at<std::uint16_t>(i / 30, i % 30) = value;
+    wrong.at<std::uint16_t>(i / 30, i % 30) = static_cast<std::uint16_t>(value << 8 | value >> 8);
+  }
+  for (const char* name : { "depth.png", "depth.tiff", "depth.pgm" })
+  {
+    EXPECT_EQ(errorOf(name, depth), "");
+    EXPECT_TRUE(files::contains(errorOf(name, wrong), "bytes of its values in the wrong order")) << name;
+  }
+  cv::Mat real;
+  depth.convertTo(real, CV_32F, 0.001);
+  EXPECT_EQ(errorOf("depth.pfm", real), "");
+}
+
 TEST(DepthImage, depthsBeyondAnySensor)
 {
   const files::Folder folder;
