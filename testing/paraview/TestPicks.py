@@ -44,6 +44,8 @@ data = picks.GetClientSideObject().GetOutputDataObject(0).GetPointData()
 texts = [data.GetAbstractArray("Label").GetValue(k) for k in range(data.GetNumberOfTuples())]
 check(texts[0] == "pick 1" and any(text.endswith("covered") for text in texts), f"labels {set(texts)}")
 check(sum(map(bool, texts)) == 6, "a label for each part")
+most = labels.MaximumNumberOfPoseLabels
+check(most >= 10000 and len(texts) > 100, f"of {len(texts)} picks {most} have labels, at random")
 simple.Render(view)
 simple.GetActiveCamera().Dolly(1.4)  # the bin fills the view
 with tempfile.TemporaryDirectory() as folder:
