@@ -81,6 +81,33 @@ TEST(FineDepth, HasInEachTileWhatWasMeasuredThere)
   }
 }
 
+TEST(FineDepth, ShuffledPointsAreOneTile)
+{
+  // Of more tiles each would look at all points again.
+  meam::Points points = scan();
+  for (const bool isShuffled : { false, true })
+  {
+    if (isShuffled)
+    {
+      std::shuffle(points.begin(), points.end(), std::mt19937(5));
+    }
+    const meam::ScanProjection lines(points, sensorAt({ 70, 60, 0 }));
+    const meam::FineDepth fine(lines, 1.3);
+    const meam::DepthMap map(lines, 1.3);
+    const int row = map.cellAt({ 70, 60, 500 }) / map.columns();
+    std::vector<const Eigen::Vector3f*> starts; // where the row would start in memory, by each of its cells
+    for (int column = 0; column < map.columns(); ++column)
+    {
+      if (const Eigen::Vector3f* mean = fine.meanIn(column, row))
+      {
+        starts.push_back(mean - column);
+      }
+    }
+    ASSERT_GT(starts.size(), 80u);
+    EXPECT_EQ(std::equal(starts.begin() + 1, starts.end(), starts.begin()), isShuffled);
+  }
+}
+
 TEST(FineDepth, TheSameForCallsInParallel)
 {
   const meam::Points points = scan();
