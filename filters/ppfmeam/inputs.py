@@ -129,8 +129,9 @@ def cloud_of(scan, camera, scale):
 def depths_seen(depths, camera, scale):
     """The scan of depths H x W, whose camera is a calibration file, or a camera matrix."""
     if camera is None:
-        raise Error(f"a depth image needs its camera, a calibration file or a matrix of 3 x 3; an array of {depths.shape[0]} x "
-                    f"{depths.shape[1]} numbers is no points, which are H x W x 3 or N x 3")
+        points = "array[:, :3] of points with more columns" if 3 < depths.shape[1] < 12 else "array.T of 3 x N" if depths.shape[0] == 3 else None
+        raise Error(f"an array of {depths.shape[0]} x {depths.shape[1]} numbers is no points, which are H x W x 3 or N x 3" +
+                    (f": give {points}" if points else "") + "; a depth image needs its camera, a calibration file or a matrix of 3 x 3")
     if depths.dtype.kind not in "fui" or not depths.size:
         raise Error(f"the depth image has to be an array of numbers, H x W, not {depths.dtype} with the shape {depths.shape}")
     values = depths.astype(numpy.float32)

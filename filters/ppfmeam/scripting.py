@@ -387,6 +387,8 @@ def read_mesh(path, offset=(0, 0, 0), scale=1.0, solid=0):
     data = read(path, solid=solid, known=MESHES)
     if not data.IsA("vtkPolyData"):
         raise Failure(f"{path} is an organized scan: the part has to be a mesh with faces (.step, .iges, .stl, .obj, .ply or .off)")
+    if data.GetNumberOfPoints() and not data.GetNumberOfPolys() + data.GetNumberOfStrips():
+        raise Failure(f"{path} holds points alone: the part has to be a mesh with faces; is it the scan?")
     report = data.GetFieldData().GetAbstractArray("CADReport")
     if report:
         print("cad: " + report.GetValue(0))

@@ -115,6 +115,9 @@ all_true(matrices("c.txt"), "a PLY cloud without its camera")
 refuses("1000", "detect.py", *MODEL, "--scene", "scan.ply", "--camera", "camera.json")
 refuses("only a .pcd or .ply", "detect.py", *MODEL, "--scene", "part.stl", "--camera", "camera.json")
 refuses("--camera", "detect.py", *MODEL, "--depth", "depth.png", status=2)
+for option, name, other in (("--out", "poses.json", "--json"), ("--json", "poses.csv", "--out"), ("--matrices", "found.html", "--report")):
+    refuses(f"give {other} {name}", "detect.py", *MODEL, "--scene", "scan.ply", option, name, status=2)
+refuses("scan.ply holds points alone: the part has to be a mesh", "detect.py", "--cad", "scan.ply", "--scene", "scan.ply")
 refuses("not allowed with", "detect.py", *MODEL, "--depth", "depth.png", "--scene", "scan.ply", status=2)
 refuses("a number from 0 to 1, not 2", "detect.py", *MODEL, "--scene", "scan.ply", "--references", "2", status=2)
 refuses("a whole number, 0 or more, not few", "detect.py", *MODEL, "--scene", "scan.ply", "--poses", "few", status=2)
@@ -165,7 +168,7 @@ for array, camera, scale in ((depth, "camera.json", 1), (depth, matrix, SCALE), 
     check(os.path.getsize("array.html") > 100000, "the page of a depth image")
     told = ppfmeam.why(model, array, camera=camera, scale=scale, pose=seen.poses[0])
     check("rank 1" in str(told), told)
-for words, array, camera in (("needs its camera", depth, None), ("matrix of 3 x 3", depth, numpy.eye(4)), ("fx 0 cx", depth, matrix.T),
+for words, array, camera in (("needs its camera", depth, None), ("give array[:, :3]", numpy.zeros((50, 6)), None), ("give array.T", numpy.zeros((3, 50)), None), ("matrix of 3 x 3", depth, numpy.eye(4)), ("fx 0 cx", depth, matrix.T),
                              ("array of numbers", depth > 0, matrix), ("its camera has", depth[1:], "camera.json"),
                              ("focal lengths", depth, numpy.diag((0, 0, 1))), ("of an array of depths", "depth.png", matrix)):
     try:

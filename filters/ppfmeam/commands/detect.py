@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finds the copies of a part, or of several parts, in a scan: prints the poses, best first, and the time of every stage."""
+import os
+
 from .. import choices, finding, inputs, picture, regions, scripting
 from ..report import page
 from ..report.content import Part
 from ..report.told import Told
+
+FILES = {".csv": "out", ".json": "json", ".html": "report", ".htm": "report", ".png": "picture", ".jpg": "picture", ".jpeg": "picture"}
 
 
 def options_of_user():
@@ -57,6 +61,11 @@ def options_of_user():
         parser.error("--no-image leaves the image out: give one of --image and --no-image")
     if options.image_camera and not options.image:
         parser.error("--image-camera is of an --image")
+    for name in ("out", "json", "matrices"):
+        path = getattr(options, name)
+        other = path and FILES.get(os.path.splitext(path)[1].lower(), name)
+        if other and other != name:
+            parser.error(f"--{name} does not write such a file as {path}: give --{other} {path}, or another name")
     return options
 
 
