@@ -5,6 +5,7 @@
 #include "scene/preparation/GridRecovery.h"
 #include "scene/preparation/ScanViewpoint.h"
 #include "scene/preparation/UnmeasuredPoints.h"
+#include "scene/preparation/ViewpointSearch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,14 @@ struct FoundView
   bool isGuessed = false;
 };
 
+Sensor sensorOf(const ScanViewpoint& viewpoint)
+{
+  const Eigen::Isometry3d T_scan_sensor = viewpoint.T_sensor_scan.inverse();
+  return { viewpoint.perspective,
+    viewpoint.perspective ? T_scan_sensor.translation().eval() : Eigen::Vector3d::Zero().eval(),
+    T_scan_sensor.linear().col(2) };
+}
+
 std::string placeOf(const Sensor& sensor)
 {
   const auto number = [&](int k) { return textOfNumber("%.0f", sensor.position[k]); };
@@ -119,10 +128,21 @@ FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std:
                              (sensor ? given : found->viewpoint.report) + ": it was found again.");
     return *found;
   }
-  const ScanViewpoint& likeliest = viewpoints.front();
+  ScanViewpoint likeliest = viewpoints.front();
+  const std::optional<Sensor> better = searchViewpoint(scan, sensorOf(likeliest));
+  if (better && !sensor)
+  {
+    likeliest = viewpointOf(*better);
+    likeliest.report = "at" + placeOf(*better) + ", from where the fewest points hide others";
+  }
   appendSentence(report, "The points are not organized, and lie on no grid: they are looked at by a virtual camera, " +
                            (sensor ? given : likeliest.report) + ", with pixels that they fill." +
                            (sensor ? "" : " Where the sensor stood elsewhere, give its viewpoint."));
+  if (better && sensor)
+  {
+    appendSentence(report, "From the given viewpoint many points hide others, and few from" + placeOf(*better) +
+                             ": check the unit of the viewpoint, and its frame.");
+  }
   return { likeliest, viewThatPointsFill(moved(scan, likeliest.T_sensor_scan), likeliest.perspective), !sensor };
 }
 
@@ -245,10 +265,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   }
   requireSurface(raster, scan.points);
   result.isAsGiven &= step == 1;
-  const Eigen::Isometry3d T_scan_sensor = viewpoint.T_sensor_scan.inverse();
-  result.sensor.perspective = viewpoint.perspective;
-  result.sensor.position = viewpoint.perspective ? T_scan_sensor.translation().eval() : Eigen::Vector3d::Zero().eval();
-  result.sensor.direction = T_scan_sensor.linear().col(2);
+  result.sensor = sensorOf(viewpoint);
   if (isOrganized && step == 1)
   {
     result.cloud = std::move(scan);

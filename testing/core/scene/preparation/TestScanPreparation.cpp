@@ -337,6 +337,37 @@ TEST(ScanPreparation, pointsOnNoGridAreLookedAtWithPixelsThatTheyFill)
   EXPECT_LT(offOutline(edges.cloud.points, scan.T_sensor_scan), 7.0);
 }
 
+TEST(ScanPreparation, thePlaceFromWhereTheFewestPointsHideOthersIsFound)
+{
+  meam::OrganizedCloud points = shuffled(boxOnFloor());
+  meam::Random random(7);
+  for (Eigen::Vector3f& point : points.points)
+  {
+    point += Eigen::Vector3f(random.normal(), random.normal(), 0.0f) * 0.4f; // on no lattice
+  }
+  for (const double degrees : { 125.0, 145.0 }) // of the sensor about x, in a robot's frame with z up
+  {
+    Eigen::Isometry3d T_scan_sensor = Eigen::Isometry3d::Identity();
+    T_scan_sensor.rotate(Eigen::AngleAxisd(degrees / 180.0 * M_PI, Eigen::Vector3d::UnitX()));
+    T_scan_sensor.pretranslate(Eigen::Vector3d(900, -300, 400));
+    meam::OrganizedCloud turned = points;
+    turned.points = meam::moved(points.points, T_scan_sensor);
+    const meam::PreparedScan scan = prepared(turned);
+    EXPECT_TRUE(says(scan, "from where the fewest points hide others") && scan.isViewpointGuessed) << scan.report;
+    const Eigen::Vector3d middle = T_scan_sensor * Eigen::Vector3d(0, 0, 600);
+    const Eigen::Vector3d found = (scan.sensor.position - middle).normalized();
+    EXPECT_GT(found.dot((T_scan_sensor.translation() - middle).normalized()), std::cos(10.0 / 180.0 * M_PI)) << degrees;
+    EXPECT_EQ(prepared(turned).sensor.position, scan.sensor.position);
+    meam::Sensor sensor;
+    sensor.position = T_scan_sensor.translation();
+    sensor.direction = (middle - sensor.position).normalized();
+    EXPECT_FALSE(files::contains(meam::prepareScan(turned, {}, sensor).report, "check the unit of the viewpoint"));
+    sensor.position = T_scan_sensor * Eigen::Vector3d(560, 0, 400); // 70 degrees beside it
+    sensor.direction = (middle - sensor.position).normalized();
+    EXPECT_TRUE(files::contains(meam::prepareScan(turned, {}, sensor).report, "check the unit of the viewpoint"));
+  }
+}
+
 TEST(ScanPreparation, aGivenViewpointIsTaken)
 {
   // The sensor stands at (100, 0, 900) and looks down; z goes up.

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/PointCloud.h"
+#include "scene/Sensor.h"
+
+#include <optional>
+
+namespace meam
+{
+/// Where points alone were most likely seen from: a sensor measures what nothing hides, so that from its place the
+/// fewest points lie behind others. A perspective sensor that looks at their middle; none where hardly more do for
+/// `guess`, and where many do from everywhere, as of several views.
+std::optional<Sensor> searchViewpoint(const Points& points, const Sensor& guess);
+}
