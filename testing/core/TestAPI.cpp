@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What meam.h declares, through the shared libraries; the core beside them makes the scenes.
-#include "TestFiles.h"
+#include "TestAPI.h"
+#include "TestGrids.h"
 #include "TestImages.h"
-#include "TestScene.h"
-#include "meam.h"
+#include "TestSteps.h"
 #include "picks.h"
 
 #include <algorithm>
 
 namespace
 {
-meam::Model bracketModel() { return meam::Model(std::make_shared<const meam::TrainedModel>(scenes::bracket())); }
-
-meam::Mesh bracketMesh()
-{
-  const meam::TriangleMesh mesh = parts::lBracket();
-  return { mesh.vertices, mesh.triangles };
-}
+using namespace api;
 
 /// Three brackets seen from above, with their edges.
 meam::Scan scanOfThree()
@@ -30,27 +24,28 @@ meam::Scan scanOfThree()
 }
 
 /// A step of 20 mm between two planes, 500 mm in front of the sensor.
-meam::Scan step(int width = 60, int height = 40)
+meam::Scan step()
 {
-  meam::Scan scan;
-  scan.width = width;
-  scan.height = height;
-  for (int y = 0; y < height; ++y)
-  {
-    for (int x = 0; x < width; ++x)
-    {
-      scan.points.emplace_back(x - width / 2, y - height / 2, x < width / 2 ? 500 : 520);
-    }
-  }
-  return scan;
+  return scanOf(grids::centered(60, 40, [](double x, double) { return x < 0.0 ? 500.0 : 520.0; }));
+}
+
+meam::Detections detect(const meam::Scan& scan, const meam::DetectSettings& settings = {})
+{
+  return meam::detect(bracketModel(), scan, settings);
+}
+
+/// So many poses.
+meam::DetectSettings atMost(int poses)
+{
+  meam::DetectSettings settings;
+  settings.maximumPoses = poses;
+  return settings;
 }
 }
 
 TEST(API, FindsWhatTheCoreFinds)
 {
-  meam::DetectSettings settings;
-  settings.maximumPoses = 3;
-  const meam::Detections found = meam::detect(bracketModel(), scanOfThree(), settings);
+  const meam::Detections found = detect(scanOfThree(), atMost(3));
   const meam::Poses poses = scenes::estimatePoses(scenes::bracket(), scenes::seenFromAbove(scenes::threeCopies()),
     meam::detectionSettings(meam::Preset::Recommended, 3));
   ASSERT_EQ(found.poses.size(), 3u);
@@ -74,10 +69,8 @@ TEST(API, FindsWhatTheCoreFinds)
 TEST(API, OfSeveralTypesOfPartOneClaimsASurface)
 {
   // Each type by itself finds the brackets; together the one that is listed first has each place.
-  meam::DetectSettings settings;
-  settings.maximumPoses = 3;
-  const meam::Detections alone = meam::detect(bracketModel(), scanOfThree(), settings);
-  const meam::Detections twice = meam::detect({ bracketModel(), bracketModel() }, scanOfThree(), settings);
+  const meam::Detections alone = detect(scanOfThree(), atMost(3));
+  const meam::Detections twice = meam::detect({ bracketModel(), bracketModel() }, scanOfThree(), atMost(3));
   ASSERT_EQ(twice.poses.size(), 3u);
   for (const meam::DetectedPose& pose : twice.poses)
   {
@@ -94,26 +87,21 @@ TEST(API, ATimeLimitIsKept)
 {
   meam::DetectSettings settings;
   settings.timeLimit = 1000.0;
-  EXPECT_FALSE(meam::detect(bracketModel(), scanOfThree(), settings).isCutShort);
+  EXPECT_FALSE(detect(scanOfThree(), settings).isCutShort);
   settings.timeLimit = 1e-6;
-  const meam::Detections nothing = meam::detect(bracketModel(), scanOfThree(), settings);
+  const meam::Detections nothing = detect(scanOfThree(), settings);
   EXPECT_TRUE(nothing.isCutShort);
   EXPECT_TRUE(nothing.poses.empty());
   EXPECT_TRUE(files::contains(nothing.warning, "time limit")) << nothing.warning;
-  settings.timeLimit = -1.0;
-  EXPECT_TRUE(
-    files::contains(files::errorOf([&] { meam::detect(bracketModel(), scanOfThree(), settings); }), "timeLimit"));
 }
 
 TEST(API, OfARegionThePartsThatLieInIt)
 {
-  meam::DetectSettings settings;
-  settings.maximumPoses = 0;
   meam::Scan scan = scanOfThree();
   const auto sure = [&]
   {
     std::vector<Eigen::Vector3d> middles;
-    for (const meam::DetectedPose& pose : meam::detect(bracketModel(), scan, settings).poses)
+    for (const meam::DetectedPose& pose : detect(scan, atMost(0)).poses)
     {
       if (pose.placeProbability > 0.5)
       {
@@ -135,22 +123,20 @@ TEST(API, OfARegionThePartsThatLieInIt)
 
 TEST(API, SettingsReachTheSteps)
 {
-  meam::DetectSettings settings;
-  settings.maximumPoses = 1;
-  EXPECT_EQ(meam::detect(bracketModel(), scanOfThree(), settings).poses.size(), 1u);
-  settings.maximumPoses = 0;
+  EXPECT_EQ(detect(scanOfThree(), atMost(1)).poses.size(), 1u);
+  meam::DetectSettings settings = atMost(0);
   settings.minimumProbability = 1.0;
-  EXPECT_TRUE(meam::detect(bracketModel(), scanOfThree(), settings).poses.empty());
+  EXPECT_TRUE(detect(scanOfThree(), settings).poses.empty());
   settings = {};
-  const meam::Detections usual = meam::detect(bracketModel(), scanOfThree());
+  const meam::Detections usual = detect(scanOfThree());
   settings.threads = 1;
-  const meam::Detections oneThread = meam::detect(bracketModel(), scanOfThree(), settings);
+  const meam::Detections oneThread = detect(scanOfThree(), settings);
   ASSERT_EQ(usual.poses.size(), oneThread.poses.size());
   EXPECT_EQ(usual.poses[0].T_scan_part.matrix(), oneThread.poses[0].T_scan_part.matrix());
   // To a sensor that looks from below the same points are other faces.
   meam::Scan below = scanOfThree();
   below.sensor = meam::Sensor{ false, { 0, 0, 0 }, { 0, 0, 2 } };
-  const meam::Detections wrong = meam::detect(bracketModel(), below);
+  const meam::Detections wrong = detect(below);
   EXPECT_TRUE(std::none_of(wrong.poses.begin(), wrong.poses.end(),
     [&](const meam::DetectedPose& pose)
     { return pose.probability > 0.5 && pose.T_scan_part.isApprox(usual.poses[0].T_scan_part, 1e-2); }));
@@ -160,13 +146,10 @@ TEST(API, SettingsReachTheSteps)
   {
     meam::Scan scan = three;
     scan.sensor = meam::Sensor{ true, { 0, 0, height }, direction };
-    return meam::detect(bracketModel(), scan).poses;
+    return detect(scan).poses;
   };
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& point : three.points)
-  {
-    sum += point.cast<double>();
-  }
+  const Eigen::Vector3d sum = std::accumulate(three.points.begin(), three.points.end(), Eigen::Vector3d(0, 0, 0),
+    [](const Eigen::Vector3d& part, const Eigen::Vector3f& point) { return part + point.cast<double>(); });
   const Eigen::Vector3d middle = sum / static_cast<double>(three.points.size());
   const auto given = fromAbove(900.0, middle - Eigen::Vector3d(0, 0, 900)), found = fromAbove(900.0, { 0, 0, 0 });
   ASSERT_EQ(given.size(), found.size());
@@ -180,21 +163,13 @@ TEST(API, SettingsReachTheSteps)
       point /= 10.0f;
     }
   }
-  EXPECT_TRUE(files::contains(meam::detect(bracketModel(), centimetres).warning, "factor is 10 (centimetres)"));
+  EXPECT_TRUE(files::contains(detect(centimetres).warning, "factor is 10 (centimetres)"));
 }
 
 TEST(API, TrainsSavesAndLoads)
 {
   const files::Folder folder;
-  double done = 0.0;
-  const meam::Model model = meam::train(bracketMesh(), {},
-    [&](double share)
-    {
-      EXPECT_GE(share, done);
-      done = share;
-      return true;
-    });
-  EXPECT_DOUBLE_EQ(done, 1.0);
+  const meam::Model model = meam::train(bracketMesh());
   EXPECT_NEAR(model.diameter(), scenes::bracket().diameter, 1e-3);
   EXPECT_TRUE(model.bounds().contains(model.middle()));
   EXPECT_LE(model.bounds().sizes().maxCoeff(), model.diameter());
@@ -206,63 +181,47 @@ TEST(API, TrainsSavesAndLoads)
   EXPECT_EQ(a.poses[0].T_scan_part.matrix(), b.poses[0].T_scan_part.matrix());
   EXPECT_GT(a.poses[0].probability, 0.5);
 
-  meam::Mesh metres = bracketMesh();
-  for (auto& vertex : metres.vertices)
-  {
-    vertex /= 1000.0f;
-  }
   meam::TrainSettings settings;
   settings.scale = 1000.0;
-  EXPECT_NEAR(meam::train(metres, settings).diameter(), model.diameter(), 1e-3);
+  EXPECT_NEAR(meam::train(bracketMesh(0.001f), settings).diameter(), model.diameter(), 1e-3);
 }
 
 TEST(API, CanBeStopped)
 {
-  const auto stop = [](double) { return false; };
-  EXPECT_THROW(meam::train(bracketMesh(), {}, stop), meam::Aborted);
-  EXPECT_THROW(meam::detect(bracketModel(), scanOfThree(), {}, stop), meam::Aborted);
+  steps::expectProgress([](const meam::Progress& progress) { meam::train(bracketMesh(), {}, progress); }, { 0.0 });
+  steps::expectStops([](const meam::Progress& progress) { meam::detect(bracketModel(), scanOfThree(), {}, progress); });
 }
 
 TEST(API, WhatIsWrongWithAScan)
 {
-  const meam::Model model = bracketModel();
-  const auto errorOf = [&](const meam::Scan& scan, const meam::DetectSettings& settings = {})
-  { return files::errorOf([&] { meam::detect(model, scan, settings); }); };
   EXPECT_TRUE(files::contains(files::errorOf([] { meam::detect(meam::Model(), scanOfThree()); }), "model is empty"));
-  EXPECT_TRUE(files::contains(errorOf({}), "0 points"));
-  meam::Scan scan = scanOfThree();
-  scan.width -= 1;
-  EXPECT_TRUE(files::contains(errorOf(scan), "a point for each"));
-  scan = scanOfThree();
-  scan.sensor = meam::Sensor{ false, { 0, 0, 0 }, { 0, 0, 0 } };
-  EXPECT_TRUE(files::contains(errorOf(scan), "direction is zero"));
+  const auto take = [](const meam::Scan& scan) { detect(scan); };
+  steps::expectRefused<meam::Scan>(take,
+    { { [](auto& s) { s = {}; }, "0 points" }, { [](auto& s) { s.width -= 1; }, "a point for each" },
+      { [](auto& s) {
+         s.sensor = meam::Sensor{ false, { 0, 0, 0 }, { 0, 0, 0 } };
+       },
+        "direction is zero" } },
+    scanOfThree());
+  steps::expectRefused<meam::Scan>(take,
+    { { [](auto& s) {
+         s.image = { 3, 2, 1, std::vector<std::uint8_t>(6) };
+       },
+        "3 x 2" },
+      { [](auto& s) { s.points.assign(s.points.size(), Eigen::Vector3f::Constant(NAN)); } } },
+    step());
   meam::DetectSettings paper;
   paper.preset = meam::Preset::Paper;
-  EXPECT_TRUE(files::contains(errorOf(step(), paper), "no image"));
-  scan = step();
-  scan.image = { 3, 2, 1, std::vector<std::uint8_t>(6) };
-  EXPECT_TRUE(files::contains(errorOf(scan), "3 x 2"));
-  scan = step();
-  for (auto& point : scan.points)
-  {
-    point.setConstant(NAN);
-  }
-  EXPECT_NE(errorOf(scan), "");
+  EXPECT_TRUE(files::contains(files::errorOf([&] { detect(step(), paper); }), "no image"));
 }
 
 TEST(API, SettingsOutOfRangeAreNamed)
 {
-  const auto errorOf = [](const meam::DetectSettings& settings)
-  { return files::errorOf([&] { meam::detect(bracketModel(), scanOfThree(), settings); }); };
-  meam::DetectSettings settings;
-  settings.maximumPoses = -1;
-  EXPECT_TRUE(files::contains(errorOf(settings), "maximumPoses"));
-  settings = {};
-  settings.minimumProbability = 1.5;
-  EXPECT_TRUE(files::contains(errorOf(settings), "minimumProbability"));
-  settings = {};
-  settings.referenceShare = NAN;
-  EXPECT_TRUE(files::contains(errorOf(settings), "referenceShare"));
+  steps::expectRefused<meam::DetectSettings>([](const auto& settings) { detect(scanOfThree(), settings); },
+    { { [](auto& s) { s.maximumPoses = -1; }, "maximumPoses" },
+      { [](auto& s) { s.minimumProbability = 1.5; }, "minimumProbability" },
+      { [](auto& s) { s.referenceShare = NAN; }, "referenceShare" },
+      { [](auto& s) { s.timeLimit = -1.0; }, "timeLimit" } });
 }
 
 TEST(API, PartWithoutAModel)
@@ -276,15 +235,15 @@ TEST(API, EdgesOfTheCloudAlone)
   meam::DetectSettings settings;
   settings.imageEdges = false;
   settings.depthEdges = true;
-  EXPECT_NO_THROW(meam::detect(bracketModel(), step(), settings)); // no image is asked for
+  EXPECT_NO_THROW(detect(step(), settings)); // no image is asked for
 }
 
 TEST(API, FindsPartsInPointsAlone)
 {
   meam::Scan scan = scanOfThree();
-  const meam::Detections known = meam::detect(bracketModel(), scan);
+  const meam::Detections known = detect(scan);
   scan.edges.clear();
-  const meam::Detections found = meam::detect(bracketModel(), scan);
+  const meam::Detections found = detect(scan);
   EXPECT_TRUE(files::contains(found.report, "not organized") && files::contains(found.report, "along -z"))
     << found.report;
   ASSERT_GE(found.poses.size(), 3u);
@@ -304,12 +263,8 @@ TEST(API, FindsPartsInPointsAlone)
 
 TEST(API, AScanWithNothingInItHasNothing)
 {
-  meam::Scan floor = step(200, 150);
-  for (auto& point : floor.points)
-  {
-    point.z() = 500.0f + 0.1f * point.x();
-  }
-  const meam::Detections found = meam::detect(bracketModel(), floor);
+  const meam::Detections found =
+    detect(scanOf(grids::centered(200, 150, [](double x, double) { return 500.0 + 0.1 * x; })));
   EXPECT_TRUE(found.poses.empty());
   EXPECT_TRUE(files::contains(found.warning, "No part was found")) << found.warning;
   EXPECT_TRUE(files::contains(found.report, "no image")) << found.report;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "TestParts.h"
+#include "pick/Bin.h"
+#include "pick/Grasp.h"
 #include "pick/Gripper.h"
 
 namespace grippers
@@ -22,5 +24,25 @@ inline meam::Gripper jaws(double opening = 40.0)
   gripper.tipLength = 6.0;
   gripper.bodyWidth = 20.0;
   return gripper;
+}
+
+/// Under a sensor that looks along z, its floor 500 mm away; along x, along y and high.
+inline meam::Bin bin(double length, double width, double height)
+{
+  meam::Bin result;
+  result.T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  result.T_scene_bin.translation().z() = 500.0;
+  result.size = { length, width, height };
+  return result;
+}
+
+/// From above, across the block.
+inline meam::Grasp fromAbove(double y = 0.0)
+{
+  meam::Grasp grasp;
+  grasp.name = "above";
+  grasp.T_model_grasp = meam::graspFrame({ 0, y, 0 }, { 0, 0, 1 }, { 1, 0, 0 });
+  grasp.width = 20.0;
+  return grasp;
 }
 }

@@ -6,6 +6,9 @@
 #include "mesh/TriangleMesh.h"
 #include "scene/Sensor.h"
 
+#include <gtest/gtest.h>
+
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -26,6 +29,34 @@ meam::TriangleMesh regularPrism(int corners, double radius, float height);
 /// From the origin along x and y in the plane z = 0, facing up.
 meam::TriangleMesh rectangle(float width, float height);
 
+/// A square sheet about the origin in the plane z = 0, facing up, with a square opening; half of their sides.
+meam::TriangleMesh frame(float outer, float inner);
+
+/// A rectangular plate on the plane z = 0 with a rectangular hole; corners 4 to 7 are the hole's below.
+meam::TriangleMesh holedPlate(const Eigen::AlignedBox2f& outer, const Eigen::AlignedBox2f& hole, float height);
+
+/// What is to the left of a closed profile (distance from the z axis, z), once around the axis.
+meam::TriangleMesh revolved(const std::vector<Eigen::Vector2d>& profile, int sides);
+
+/// About the origin, of 8 * 4^divisions triangles.
+meam::TriangleMesh sphere(float radius, int divisions);
+
+/// Every triangle becomes four, so many times.
+meam::TriangleMesh divided(meam::TriangleMesh mesh, int times = 1);
+
+meam::TriangleMesh joined(meam::TriangleMesh mesh, const meam::TriangleMesh& other);
+
+/// As an STL reader gives it: triangles share no vertices, only their places.
+meam::TriangleMesh soup(const meam::TriangleMesh& mesh);
+
+double area(const meam::TriangleMesh& mesh);
+
+/// Of a closed mesh; negative, where it faces inwards.
+double volume(const meam::TriangleMesh& mesh);
+
+/// Points so many mm apart.
+meam::PointCloud sampled(const meam::TriangleMesh& mesh, double spacing);
+
 /// An L of unequal legs, 60 x 40 x 15 mm: no rotation maps it onto itself. The first corner is the
 /// inner one, from which all others are seen.
 meam::TriangleMesh lBracket();
@@ -45,11 +76,21 @@ meam::TriangleMesh cutPlate();
 
 Eigen::Isometry3d motion(std::mt19937& random, double reach);
 
-meam::Points moved(const meam::Points& points, const Eigen::Isometry3d& T);
-
 meam::PointCloud moved(const meam::PointCloud& cloud, const Eigen::Isometry3d& T);
 
 meam::PrecisePoints moved(const meam::PrecisePoints& points, const Eigen::Isometry3d& T);
+
+/// Every so many mm of a rectangle; z by a function of x and y, or the same everywhere.
+meam::Points lattice(
+  const Eigen::Vector2f& low, const Eigen::Vector2f& high, float step, const std::function<float(float, float)>& z);
+meam::Points lattice(const Eigen::Vector2f& low, const Eigen::Vector2f& high, float step, float z);
+
+/// They all look the same way.
+meam::PointCloud facing(const meam::Points& points, const Eigen::Vector3f& normal);
+
+/// About the origin; with tangents.
+meam::Points scattered(int count, double reach);
+meam::PointCloud scatteredEdges(int count, double reach);
 
 meam::PrecisePoints precise(const meam::Points& points);
 

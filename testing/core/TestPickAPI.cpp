@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What picks.h declares, through the shared libraries; the core beside them says what is right.
+#include "TestAPI.h"
 #include "TestFiles.h"
+#include "TestGrids.h"
+#include "TestGrippers.h"
 #include "TestScene.h"
 #include "calibration/RobotFrameFile.h"
 #include "mesh/preparation/MeshPreparation.h"
@@ -13,16 +16,8 @@
 
 namespace
 {
+using namespace api;
 using Eigen::Vector3d;
-
-meam::Model bracketModel() { return meam::Model(std::make_shared<const meam::TrainedModel>(scenes::bracket())); }
-
-/// 60 x 40 x 15 mm; its longer leg is 12 mm wide.
-meam::Mesh bracketMesh()
-{
-  const meam::TriangleMesh mesh = parts::lBracket();
-  return { mesh.vertices, mesh.triangles };
-}
 
 meam::Grasp acrossTheLeg()
 {
@@ -30,6 +25,8 @@ meam::Grasp acrossTheLeg()
   grasp.name = "leg";
   return grasp;
 }
+
+meam::Grasp onTheLeg() { return meam::graspAt(meam::GraspKind::Suction, { 40, 6, 0 }, { 0, 0, 1 }); }
 
 /// On a floor 500 mm below the sensor.
 meam::Detections twoBrackets()
@@ -45,31 +42,17 @@ meam::Detections twoBrackets()
   return found;
 }
 
-meam::Bin bin()
-{
-  meam::Bin result;
-  result.T_scene_bin.linear() = Vector3d(1, -1, -1).asDiagonal();
-  result.T_scene_bin.translation().z() = 500.0;
-  result.size = Vector3d(300, 200, 100);
-  return result;
-}
+meam::Bin bin() { return grippers::bin(300, 200, 100); }
 
 /// A point each mm of a floor, with a rim 60 mm above it around 160 x 120 mm.
 meam::Scan scanOfBin()
 {
-  meam::Scan scan;
-  scan.width = 240;
-  scan.height = 200;
-  for (int row = 0; row < scan.height; ++row)
-  {
-    for (int column = 0; column < scan.width; ++column)
+  return api::scanOf(grids::centered(240, 200,
+    [](double x, double y)
     {
-      const float x = static_cast<float>(column) - 119.5f, y = static_cast<float>(row) - 99.5f;
-      const float u = std::abs(x), v = std::abs(y);
-      scan.points.emplace_back(x, y, u < 85 && v < 65 && (u > 80 || v > 60) ? 440.0f : 500.0f);
-    }
-  }
-  return scan;
+      const double u = std::abs(x), v = std::abs(y);
+      return u < 85 && v < 65 && (u > 80 || v > 60) ? 440.0 : 500.0;
+    }));
 }
 
 meam::Workplace given()
@@ -94,8 +77,7 @@ TEST(PickAPI, PlansWhatTheCorePlans)
 {
   meam::PlanSettings settings;
   settings.minimumProbability = 0.5;
-  const meam::Grasp leg = acrossTheLeg();
-  const meam::Grasp cup = meam::graspAt(meam::GraspKind::Suction, { 40, 6, 0 }, { 0, 0, 1 });
+  const meam::Grasp leg = acrossTheLeg(), cup = onTheLeg();
   const meam::Picker picker(bracketModel(), bracketMesh(), { leg, cup }, slim(), settings);
   meam::Workplace place = given();
   place.T_robot_camera = Eigen::Translation3d(100, 200, 300) * Eigen::AngleAxisd(M_PI, Vector3d::UnitX());
@@ -140,8 +122,7 @@ TEST(PickAPI, PlansWhatTheCorePlans)
 
 TEST(PickAPI, PlansPicksOfSeveralTypesOfPart)
 {
-  const meam::Grasp leg = acrossTheLeg();
-  const meam::Grasp cup = meam::graspAt(meam::GraspKind::Suction, { 40, 6, 0 }, { 0, 0, 1 });
+  const meam::Grasp leg = acrossTheLeg(), cup = onTheLeg();
   meam::PlanSettings settings;
   settings.minimumProbability = 0.2;
   const meam::Picker first(bracketModel(), bracketMesh(), { cup, leg }, slim(), settings);
@@ -227,40 +208,38 @@ TEST(PickAPI, TakesAGripperOfAnyShape)
 TEST(PickAPI, ReadsTheRobotsFrame)
 {
   const files::Folder folder;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translation() = Vector3d(1, 2, 3);
+  const Eigen::Isometry3d T(Eigen::Translation3d(1, 2, 3));
   meam::writeRobotFrame(folder.path("robot.json"), T);
   EXPECT_TRUE(meam::loadRobotFrame(folder.path("robot.json")).isApprox(T));
 }
 
 TEST(PickAPI, WrongInputIsOneSentence)
 {
-  const auto errorOf = [](const std::function<void()>& act) { return files::errorOf(act); };
-  meam::Mesh metres = bracketMesh();
-  for (auto& vertex : metres.vertices)
-  {
-    vertex /= 1000.0f;
-  }
+  const meam::Mesh metres = bracketMesh(0.001f);
   const meam::Grasps leg{ acrossTheLeg() };
   meam::PlanSettings steep;
   steep.maximumTilt = 500.0;
   const meam::Model model = bracketModel();
   EXPECT_NO_THROW(meam::Picker({}, bracketMesh(), leg, slim())); // a part without symmetries
-  EXPECT_TRUE(files::contains(errorOf([&] { meam::Picker(model, metres, leg, slim()); }), "in mm"));
-  EXPECT_TRUE(files::contains(errorOf([&] { meam::Picker(model, {}, leg, slim()); }), "no faces"));
-  EXPECT_TRUE(files::contains(errorOf([&] { meam::Picker(model, bracketMesh(), {}, slim()); }), "no grasp"));
-  EXPECT_TRUE(files::contains(
-    errorOf([&] { meam::Picker(model, bracketMesh(), leg, slim(), steep); }), "tilt has to be 0 to 180"));
-  EXPECT_TRUE(files::contains(errorOf([&] { meam::proposeGrasps(model, metres, slim()); }), "in mm"));
   const meam::Picker picker(model, bracketMesh(), leg, slim());
-  EXPECT_TRUE(files::contains(errorOf([&] { picker.plan(twoBrackets(), {}); }), "organized scan"));
   meam::Scan torn = scanOfBin();
   torn.points.pop_back();
-  EXPECT_TRUE(files::contains(errorOf([&] { picker.plan(twoBrackets(), torn, given()); }), "a point for each"));
-  EXPECT_TRUE(files::contains(errorOf([&] { meam::loadGrasps("none.json"); }), "none.json"));
-  EXPECT_TRUE(files::contains(errorOf(
-                                [] {
-                                  meam::graspAt(meam::GraspKind::Parallel, { 0, 0, 0 }, { 0, 0, 1 }, { 0, 0, 1 }, 5.0);
-                                }),
-    "not parallel"));
+  const std::pair<std::function<void()>, const char*> cases[] = { { [&] { meam::Picker(model, metres, leg, slim()); },
+                                                                    "in mm" },
+    { [&] { meam::Picker(model, {}, leg, slim()); }, "no faces" },
+    { [&] { meam::Picker(model, bracketMesh(), {}, slim()); }, "no grasp" },
+    { [&] { meam::Picker(model, bracketMesh(), leg, slim(), steep); }, "tilt has to be 0 to 180" },
+    { [&] { meam::proposeGrasps(model, metres, slim()); }, "in mm" },
+    { [&] { picker.plan(twoBrackets(), {}); }, "organized scan" },
+    { [&] { picker.plan(twoBrackets(), torn, given()); }, "a point for each" },
+    { [&] { meam::loadGrasps("none.json"); }, "none.json" },
+    { [&] {
+       meam::graspAt(meam::GraspKind::Parallel, { 0, 0, 0 }, { 0, 0, 1 }, { 0, 0, 1 }, 5.0);
+     },
+      "not parallel" } };
+  for (const auto& [act, words] : cases)
+  {
+    const std::string error = files::errorOf(act);
+    EXPECT_TRUE(files::contains(error, words)) << words << ": " << error;
+  }
 }

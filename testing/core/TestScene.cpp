@@ -3,6 +3,7 @@
 
 #include "pose/refinement/FinalAlignment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -38,15 +39,17 @@ Seen seenFromAbove(const std::vector<Copy>& copies)
   return seen;
 }
 
-Seen seenFromAbove(const std::vector<Eigen::Isometry3d>& poses)
+std::vector<Copy> brackets(const std::vector<Eigen::Isometry3d>& poses)
 {
   std::vector<Copy> copies;
   for (const auto& T : poses)
   {
     copies.push_back({ parts::lBracket(), T });
   }
-  return seenFromAbove(copies);
+  return copies;
 }
+
+Seen seenFromAbove(const std::vector<Eigen::Isometry3d>& poses) { return seenFromAbove(brackets(poses)); }
 
 Seen withTangents(Seen seen, double partDiameter)
 {
@@ -74,6 +77,45 @@ bool areSame(const meam::Poses& a, const meam::Poses& b)
       return one.T_scene_model.matrix() == other.T_scene_model.matrix() && one.votes == other.votes &&
              one.score == other.score && one.evidence == other.evidence;
     });
+}
+
+testing::AssertionResult areNear(
+  const Eigen::Isometry3d& T, const Eigen::Isometry3d& other, double millimetres, double degrees)
+{
+  const double apart = meam::translationError(T, other), turned = meam::rotationError(T, other);
+  return (apart < millimetres && turned < degrees ? testing::AssertionSuccess() : testing::AssertionFailure())
+         << apart << " mm and " << turned << " degrees apart";
+}
+
+bool isNearOne(const meam::Pose& pose, const std::vector<Eigen::Isometry3d>& places, double millimetres, double degrees)
+{
+  return std::any_of(
+    places.begin(), places.end(), [&](const auto& T) { return areNear(pose.T_scene_model, T, millimetres, degrees); });
+}
+
+int copiesFound(
+  const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& copies, double millimetres, double degrees)
+{
+  return static_cast<int>(std::count_if(copies.begin(), copies.end(),
+    [&](const auto& T)
+    {
+      return std::any_of(poses.begin(), poses.end(),
+        [&](const auto& pose) { return areNear(pose.T_scene_model, T, millimetres, degrees); });
+    }));
+}
+
+meam::SceneInput inputOf(const Seen& seen)
+{
+  meam::SceneInput input{ meam::toLocalCloud(seen.edges), {}, seen.sensor };
+  input.measured = meam::toLocalPoints(seen.surface, input.edges.T_local_scene);
+  return input;
+}
+
+meam::PoseDetectionSettings withShare(double referenceShare)
+{
+  meam::PoseDetectionSettings settings;
+  settings.referenceShare = referenceShare;
+  return settings;
 }
 
 meam::Poses detect(const meam::PointCloud& edges, const meam::TrainedModel& model,

@@ -39,10 +39,13 @@ struct Copy
   Eigen::Isometry3d T_scene_model;
 };
 
+/// Brackets at the given poses.
+std::vector<Copy> brackets(const std::vector<Eigen::Isometry3d>& poses);
+
 /// What a sensor far above sees of copies of any parts: surface and edge points, no tangents.
 Seen seenFromAbove(const std::vector<Copy>& copies);
 
-/// The same of brackets at the given poses.
+/// The same of brackets.
 Seen seenFromAbove(const std::vector<Eigen::Isometry3d>& poses);
 
 /// Its edges thinned as for a part of this diameter, with tangents.
@@ -51,11 +54,24 @@ Seen withTangents(Seen seen, double partDiameter = bracket().diameter);
 /// A scene whose edges have tangents, for parts of this diameter.
 meam::Scene prepared(const Seen& seen, double partDiameter = bracket().diameter);
 
+/// What is given of it to the whole online phase.
+meam::SceneInput inputOf(const Seen& seen);
+
 /// The scene of one part at T, seen from above.
 meam::Scene alone(const meam::TriangleMesh& part, const meam::TrainedModel& model, const Eigen::Isometry3d& T);
 
 /// Whether poses, votes, scores and evidence are equal to the last bit, in the same order.
 bool areSame(const meam::Poses& a, const meam::Poses& b);
+
+/// Within so many mm and degrees.
+testing::AssertionResult areNear(
+  const Eigen::Isometry3d& T, const Eigen::Isometry3d& other, double millimetres, double degrees);
+bool isNearOne(
+  const meam::Pose& pose, const std::vector<Eigen::Isometry3d>& places, double millimetres, double degrees);
+
+/// How many of the copies have a pose near them.
+int copiesFound(
+  const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& copies, double millimetres, double degrees);
 
 /// Calls step(poses) with poses in the scene's local frame, and takes those that come back from there.
 template <typename Step>
@@ -65,6 +81,8 @@ meam::Poses inLocalFrame(
   const Eigen::Isometry3d& T = scene.T_local_scene();
   return meam::toSceneFrame(step(meam::toLocalFrame(poses, T, model.symmetries)), T, model.symmetries);
 }
+
+meam::PoseDetectionSettings withShare(double referenceShare);
 
 meam::Poses detect(const meam::PointCloud& edges, const meam::TrainedModel& model,
   const meam::PoseDetectionSettings& settings = {}, const meam::Progress& progress = {});

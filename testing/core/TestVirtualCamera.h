@@ -2,6 +2,7 @@
 // What the tests of the simulated sensor look at.
 #pragma once
 #include "mesh/TriangleMesh.h"
+#include "TestGrids.h"
 #include "simulation/Rasterizer.h"
 
 namespace meam::test
@@ -9,11 +10,8 @@ namespace meam::test
 /// A plate of 100 mm by `height` around the origin, facing the sensor.
 inline TriangleMesh plate(float height = 100.0f)
 {
-  TriangleMesh mesh;
   const float y = 0.5f * height;
-  mesh.vertices = { { -50, -y, 0 }, { 50, -y, 0 }, { 50, y, 0 }, { -50, y, 0 } };
-  mesh.triangles = { { 0, 2, 1 }, { 0, 3, 2 } };
-  return mesh;
+  return { { { -50, -y, 0 }, { 50, -y, 0 }, { 50, y, 0 }, { -50, y, 0 } }, { { 0, 2, 1 }, { 0, 3, 2 } } };
 }
 
 inline Body at(const TriangleMesh& mesh, double x, double z, double tilt = 0.0)
@@ -26,14 +24,7 @@ inline Body at(const TriangleMesh& mesh, double x, double z, double tilt = 0.0)
 }
 
 /// 101 x 101 pixels; a millimetre is 100 / z of them.
-inline Camera camera()
-{
-  Camera result;
-  result.width = result.height = 101;
-  result.fx = result.fy = 100.0;
-  result.cx = result.cy = 50.0;
-  return result;
-}
+inline Camera camera() { return grids::camera(101, 101, 100.0, 50.0, 50.0); }
 
 constexpr double Floor = 1000.0;
 constexpr int Middle = 50 * 101 + 50;

@@ -3,25 +3,12 @@
 
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <numeric>
 
 namespace
 {
 constexpr int Size = meam::BlockedPoints::Size;
-
-meam::Points spreadOut(int count)
-{
-  std::mt19937 random(9);
-  meam::Points points;
-  for (int i = 0; i < count; ++i)
-  {
-    points.push_back(parts::motion(random, 20.0).translation().cast<float>());
-  }
-  return points;
-}
 
 /// Indices of all points of the blocks within a radius.
 std::vector<int> within(const meam::BlockedPoints& blocks, const Eigen::Vector3f& centre, double radius)
@@ -40,7 +27,7 @@ TEST(BlockedPoints, HaveEveryPointOnce)
 {
   for (const int count : { 1, 15, 16, 17, 500, 4097 })
   {
-    const meam::BlockedPoints blocks(spreadOut(count));
+    const meam::BlockedPoints blocks(parts::scattered(count, 20.0));
     std::vector<int> order = blocks.order();
     std::sort(order.begin(), order.end());
     std::vector<int> expected(count);
@@ -51,13 +38,13 @@ TEST(BlockedPoints, HaveEveryPointOnce)
 
 TEST(BlockedPoints, AreTheSameForAnyNumberOfThreads)
 {
-  const meam::Points points = spreadOut(4097);
+  const meam::Points points = parts::scattered(4097, 20.0);
   EXPECT_EQ(meam::BlockedPoints(points, 4).order(), meam::BlockedPoints(points).order());
 }
 
 TEST(BlockedPoints, MissNoPointWithinTheRadius)
 {
-  const meam::Points points = spreadOut(6000); // more blocks than are looked at together
+  const meam::Points points = parts::scattered(6000, 20.0); // more blocks than are looked at together
   const meam::BlockedPoints blocks(points);
   for (const double radius : { 0.0, 0.5, 6.0, 100.0 })
   {
@@ -80,7 +67,7 @@ TEST(BlockedPoints, MissNoPointWithinTheRadius)
 
 TEST(BlockedPoints, LeaveOutWhatIsFar)
 {
-  const meam::Points points = spreadOut(6000);
+  const meam::Points points = parts::scattered(6000, 20.0);
   const meam::BlockedPoints blocks(points);
   const double inside =
     std::count_if(points.begin(), points.end(), [](const auto& point) { return point.norm() <= 15.0f; });
@@ -96,7 +83,7 @@ TEST(BlockedPoints, ManyEqualPointsAreSplitToo)
 
 TEST(BlockedPoints, PointsThatAreNotFiniteAreLeftOut)
 {
-  meam::Points points = spreadOut(40);
+  meam::Points points = parts::scattered(40, 20.0);
   points[3].y() = NAN;
   points[20].z() = INFINITY;
   const meam::BlockedPoints blocks(points);

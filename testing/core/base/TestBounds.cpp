@@ -4,8 +4,6 @@
 #include "TestParts.h"
 #include "base/PointCloud.h"
 
-#include <gtest/gtest.h>
-
 TEST(Bounds, BoundsOfAnyNumberOfPointsSomeOfWhichAreInvalid)
 {
   EXPECT_TRUE(meam::bounds({}).isEmpty());

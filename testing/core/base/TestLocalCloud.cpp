@@ -4,8 +4,6 @@
 #include "TestParts.h"
 #include "base/Frames.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 using parts::skewed;

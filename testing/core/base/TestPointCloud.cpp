@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestParts.h"
-#include "base/Bounds.h"
 #include "base/Error.h"
 #include "base/PointCloud.h"
-
-#include <gtest/gtest.h>
 
 TEST(PointCloud, SubsetTakesEveryArrayThatIsThere)
 {
@@ -31,7 +28,4 @@ TEST(PointCloud, InvalidPointsAreLeftOut)
   cloud.points = { { 1, 2, 3 }, { 0, parts::NaN, 0 }, { -1, 5, 3 } };
   cloud.pointIds = { 0, 1, 2 };
   EXPECT_EQ(meam::finitePoints(cloud).pointIds, std::vector<int>({ 0, 2 }));
-  const Eigen::AlignedBox3f box = meam::bounds(cloud.points);
-  EXPECT_EQ(box.min(), Eigen::Vector3f(-1, 2, 3));
-  EXPECT_EQ(box.max(), Eigen::Vector3f(1, 5, 3));
 }

@@ -4,8 +4,6 @@
 #include "TestParts.h"
 #include "base/Error.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,16 +12,7 @@
 
 namespace
 {
-meam::Points scattered(int count, double reach)
-{
-  std::mt19937 random(9);
-  meam::Points points;
-  for (int i = 0; i < count; ++i)
-  {
-    points.push_back(parts::motion(random, reach).translation().cast<float>());
-  }
-  return points;
-}
+using parts::scattered;
 
 std::set<int> within(const meam::PointGrid& grid, const Eigen::Vector3f& centre, double radius)
 {

@@ -4,8 +4,6 @@
 #include "baselines/BaselineSettings.h"
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 double coverageAtOrigin(const meam::Scene& scene, const meam::PoseVerificationSettings& settings)

@@ -4,8 +4,6 @@
 #include "baselines/BaselineSettings.h"
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 TEST(PointToPointICP, ADisturbedPoseComesBack)
 {
   const meam::Poses refined = scenes::refine(

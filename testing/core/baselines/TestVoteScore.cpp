@@ -4,8 +4,6 @@
 #include "baselines/BaselineSettings.h"
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 /// Three poses of one place, of which one is turned by 20 degrees, and one elsewhere: 5 + 3, 3 + 5, 4 and 6 votes.
 TEST(VoteScore, VotesOfPosesThatAgreeAddUp)
 {

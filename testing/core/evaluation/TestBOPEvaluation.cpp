@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/BOPEvaluation.h"
 
+#include "TestGrids.h"
 #include "TestParts.h"
 #include "mesh/TriangleMesh.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 
 namespace
 {
-constexpr int Width = 320, Height = 240;
 constexpr double Focal = 300.0, CX = 150.0, CY = 110.0;
 
 /// What a camera sees of a wall across its view.
 meam::OrganizedCloud wall(double depth)
 {
-  meam::OrganizedCloud scan{ Width, Height, {} };
-  for (int i = 0; i < Width * Height; ++i)
-  {
-    scan.points.emplace_back((i % Width - CX) / Focal * depth, (i / Width - CY) / Focal * depth, depth);
-  }
-  return scan;
+  return grids::measured(grids::camera(320, 240, Focal, CX, CY), [=](int, int) { return depth; });
 }
 
 Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }

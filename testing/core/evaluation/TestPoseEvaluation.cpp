@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/PoseEvaluation.h"
 
-#include <gtest/gtest.h>
+#include "TestSteps.h"
 
 #include <cmath>
-#include <limits>
 
 namespace
 {
@@ -274,20 +273,11 @@ TEST(PoseEvaluation, thePartsMiddleIsWhatMoves)
 
 TEST(PoseEvaluation, badInput)
 {
-  EXPECT_THROW(meam::evaluatePoses({}, {}, {}), meam::Error);
-  meam::PoseEvaluationSettings with = settings();
-  with.axis.setZero();
-  EXPECT_THROW(meam::evaluatePoses({}, {}, with), meam::Error);
-  with = settings();
-  with.middle.x() = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(meam::evaluatePoses({}, {}, with), meam::Error);
-  with = settings();
-  with.posesAskedFor = -1;
-  EXPECT_THROW(meam::evaluatePoses({}, {}, with), meam::Error);
-  with = settings();
-  with.rotationTolerance = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(meam::evaluatePoses({}, {}, with), meam::Error);
-  meam::Pose broken = poseAt(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_THROW(meam::evaluatePoses({ broken }, {}, settings()), meam::Error);
-  EXPECT_THROW(meam::evaluatePoses({}, { broken }, settings()), meam::Error);
+  steps::expectRefused<meam::PoseEvaluationSettings>([](const auto& with) { meam::evaluatePoses({}, {}, with); },
+    { { [](auto& with) { with.diameter = 0.0; } }, { [](auto& with) { with.axis.setZero(); } },
+      { [](auto& with) { with.middle.x() = INFINITY; } }, { [](auto& with) { with.posesAskedFor = -1; } },
+      { [](auto& with) { with.rotationTolerance = NAN; } } },
+    settings());
+  EXPECT_THROW(meam::evaluatePoses({ poseAt(NAN) }, {}, settings()), meam::Error);
+  EXPECT_THROW(meam::evaluatePoses({}, { poseAt(NAN) }, settings()), meam::Error);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "features/NormalEstimation.h"
 
-#include <gtest/gtest.h>
+#include "TestParts.h"
 
 #include <numeric>
 #include <random>
@@ -23,15 +23,7 @@ meam::Points normalsOf(const meam::Points& points, const meam::Sensor& sensor, i
 /// Every mm of z = slope * x.
 meam::Points plane(float slope)
 {
-  meam::Points points;
-  for (int x = -20; x <= 20; ++x)
-  {
-    for (int y = -20; y <= 20; ++y)
-    {
-      points.emplace_back(x, y, slope * x + 500.0f);
-    }
-  }
-  return points;
+  return parts::lattice({ -20, -20 }, { 20, 20 }, 1.0f, [slope](float x, float) { return slope * x + 500.0f; });
 }
 }
 

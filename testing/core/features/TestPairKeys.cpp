@@ -3,26 +3,8 @@
 
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <numeric>
-
-namespace
-{
-meam::PointCloud cloud(int count)
-{
-  std::mt19937 random(11);
-  meam::PointCloud result;
-  for (int i = 0; i < count; ++i)
-  {
-    const Eigen::Isometry3d T = parts::motion(random, 60.0);
-    result.points.push_back(T.translation().cast<float>());
-    result.tangents.push_back(T.linear().col(0).cast<float>());
-  }
-  return result;
-}
-}
 
 TEST(PairKeys, AnglesOfCosines)
 {
@@ -37,7 +19,7 @@ TEST(PairKeys, AnglesOfCosines)
 
 TEST(PairKeys, AreThoseOfTheFeatures)
 {
-  const meam::PointCloud points = cloud(501); // no multiple of any vector's width
+  const meam::PointCloud points = parts::scatteredEdges(501, 60.0); // no multiple of any vector's width
   for (const auto kind :
     { meam::PairFeatureKind::Paper, meam::PairFeatureKind::Oriented, meam::PairFeatureKind::Surface })
   {
@@ -78,7 +60,7 @@ TEST(PairKeys, AreThoseOfTheFeatures)
 
 TEST(PairKeys, BlocksAreComputedInAnyOrder)
 {
-  const meam::PointCloud points = cloud(97);
+  const meam::PointCloud points = parts::scatteredEdges(97, 60.0);
   const meam::PairFeatureQuantizer quantizer(meam::PairFeatureKind::Oriented, 7.0, 0.1, 200.0);
   const meam::PairKeys pairs(points.points, points.tangents, quantizer);
   const meam::PairFrame frame(points.points[5], points.tangents[5]);

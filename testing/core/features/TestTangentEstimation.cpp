@@ -3,8 +3,6 @@
 
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 meam::PointCloud line(const Eigen::Vector3f& direction, int points, float step)
@@ -124,11 +122,13 @@ TEST(TangentEstimation, ItMovesWithThePoints)
 
 TEST(TangentEstimation, TheNumberOfThreadsDoesNotMatter)
 {
-  meam::TangentEstimationSettings settings;
-  settings.threads = 1;
-  const meam::PointCloud one = parts::withTangents(circle(20.0f, 2000), 50.0, Down, settings);
-  settings.threads = 4;
-  const meam::PointCloud four = parts::withTangents(circle(20.0f, 2000), 50.0, Down, settings);
+  const auto found = [](int threads)
+  {
+    meam::TangentEstimationSettings settings;
+    settings.threads = threads;
+    return parts::withTangents(circle(20.0f, 2000), 50.0, Down, settings);
+  };
+  const meam::PointCloud one = found(1), four = found(4);
   EXPECT_EQ(one.points, four.points);
   EXPECT_EQ(one.tangents, four.tangents);
   EXPECT_EQ(one.weights, four.weights);

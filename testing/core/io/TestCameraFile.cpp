@@ -54,73 +54,52 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 }
 
-TEST(CameraFile, yamlOfOpenCV)
+TEST(CameraFile, everyForm)
 {
-  const meam::CameraFile file = readCamera(yaml);
-  EXPECT_EQ(file.camera.width, 1280);
-  EXPECT_EQ(file.camera.height, 1024);
-  EXPECT_EQ(file.camera.fx, 1200.5);
-  EXPECT_EQ(file.camera.fy, 1190.0);
-  EXPECT_EQ(file.camera.cx, 640.25);
-  EXPECT_EQ(file.camera.cy, 511.5);
-  EXPECT_EQ(file.camera.distortion, (std::array<double, 8>{ -0.21, 0.13, 0.0011, -0.0007, -0.035 }));
-  EXPECT_EQ(file.camera.T_camera_scene * Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(397, 2, -99));
-  EXPECT_EQ(file.depthScale, 1.0);
-}
-
-TEST(CameraFile, xmlOfOpenCV)
-{
-  const meam::CameraFile file = readCamera(xml);
-  EXPECT_EQ(file.camera.width, 0) << "not known";
-  EXPECT_EQ(file.camera.fy, 801.0);
-  EXPECT_EQ(file.camera.distortion, (std::array<double, 8>{ 0.1, 0.2, 0.3, 0.4, 0 }));
-  EXPECT_TRUE(file.camera.T_camera_scene.isApprox(Eigen::Isometry3d::Identity()));
-  EXPECT_EQ(file.depthScale, 0.1);
-  EXPECT_EQ(readCamera("\xef\xbb\xbf" + xml).camera.fy, 801.0);
-}
-
-TEST(CameraFile, jsonOfOpenCV)
-{
-  const meam::CameraFile file = readCamera(json);
-  EXPECT_EQ(file.camera.width, 640);
-  EXPECT_EQ(file.camera.fx, 800.0);
-  EXPECT_EQ(file.camera.distortion, (std::array<double, 8>{}));
-  EXPECT_EQ(Eigen::Vector3d(file.camera.T_camera_scene.translation()), Eigen::Vector3d(5, 6, 7));
-}
-
-TEST(CameraFile, yamlWithoutOpenCVsTypes)
-{
-  const meam::CameraFile file =
-    readCamera("image_width: 640 # pixels\ncamera_name: left\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
-               "  data: [800, 0, 320,\n         0, 801, 240,\n         0, 0, 1]\n"
-               "rectification_matrix:\n  data: [1, 2]\nT_camera_scene: [[1, 0, 0, 5],\n"
-               "  [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]\nimage_height: 480\n");
-  EXPECT_EQ(file.camera.fy, 801.0);
-  EXPECT_EQ(file.camera.height, 480);
-  EXPECT_EQ(Eigen::Vector3d(file.camera.T_camera_scene.translation()), Eigen::Vector3d(5, 6, 7));
-}
-
-TEST(CameraFile, cameraOfBOP)
-{
-  const meam::CameraFile file = readCamera(bop);
-  EXPECT_EQ(file.camera.width, 640);
-  EXPECT_EQ(file.camera.height, 480);
-  EXPECT_EQ(file.camera.fx, 572.41);
-  EXPECT_EQ(file.camera.fy, 573.57);
-  EXPECT_EQ(file.camera.cx, 325.26);
-  EXPECT_EQ(file.camera.cy, 242.05);
-  EXPECT_EQ(file.depthScale, 0.1);
-}
-
-TEST(CameraFile, yamlOfAnyForm)
-{
-  const std::string text =
-    "image_width: 640\nimage_height: 480\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data:\n  - 800\n"
-    "  - 0.0\n  - 320\n  - 0\n  - 801.0\n  - 240\n  - 0\n  - 0\n  - 1\ndistortion_coefficients:\n"
-    "  data:\n    - -0.3\n    - 1.0e-1\n    - 0\n    - +0.002\n    - 0\n";
-  const meam::Camera camera = readCamera(text).camera;
-  EXPECT_EQ(camera.fy, 801.0);
-  EXPECT_EQ(camera.distortion, (std::array<double, 8>{ -0.3, 0.1, 0, 0.002, 0 }));
+  using Lens = std::array<double, 8>;
+  const Lens none{};
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity(), beside(Eigen::Translation3d(5, 6, 7));
+  Eigen::Isometry3d turned(Eigen::Translation3d(400, 0, -100));
+  turned.linear() << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  const struct
+  {
+    const char* name;
+    std::string text;
+    std::array<int, 2> size;
+    std::array<double, 4> matrix;
+    Lens lens;
+    Eigen::Isometry3d T;
+    double scale;
+  } forms[] = { { "YAML of OpenCV", yaml, { 1280, 1024 }, { 1200.5, 1190.0, 640.25, 511.5 },
+                  { -0.21, 0.13, 0.0011, -0.0007, -0.035 }, turned, 1.0 },
+    { "XML of OpenCV, whose size is not known", xml, { 0, 0 }, { 800, 801, 320, 240 }, { 0.1, 0.2, 0.3, 0.4 }, identity,
+      0.1 },
+    { "with a mark of its order of bytes", "\xef\xbb\xbf" + xml, { 0, 0 }, { 800, 801, 320, 240 },
+      { 0.1, 0.2, 0.3, 0.4 }, identity, 0.1 },
+    { "JSON of OpenCV", json, { 640, 480 }, { 800, 801, 320, 240 }, none, beside, 1.0 },
+    { "YAML without OpenCV's types",
+      "image_width: 640 # pixels\ncamera_name: left\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+      "  data: [800, 0, 320,\n         0, 801, 240,\n         0, 0, 1]\n"
+      "rectification_matrix:\n  data: [1, 2]\nT_camera_scene: [[1, 0, 0, 5],\n"
+      "  [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]\nimage_height: 480\n",
+      { 640, 480 }, { 800, 801, 320, 240 }, none, beside, 1.0 },
+    { "YAML of lists by lines",
+      "image_width: 640\nimage_height: 480\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data:\n  - 800\n"
+      "  - 0.0\n  - 320\n  - 0\n  - 801.0\n  - 240\n  - 0\n  - 0\n  - 1\ndistortion_coefficients:\n"
+      "  data:\n    - -0.3\n    - 1.0e-1\n    - 0\n    - +0.002\n    - 0\n",
+      { 640, 480 }, { 800, 801, 320, 240 }, { -0.3, 0.1, 0, 0.002, 0 }, identity, 1.0 },
+    { "BOP", bop, { 640, 480 }, { 572.41, 573.57, 325.26, 242.05 }, none, identity, 0.1 } };
+  for (const auto& [name, text, size, matrix, lens, T, scale] : forms)
+  {
+    SCOPED_TRACE(name);
+    const meam::CameraFile file = readCamera(text);
+    const meam::Camera& camera = file.camera;
+    EXPECT_EQ((std::array<int, 2>{ camera.width, camera.height }), size);
+    EXPECT_EQ((std::array<double, 4>{ camera.fx, camera.fy, camera.cx, camera.cy }), matrix);
+    EXPECT_EQ(camera.distortion, lens);
+    EXPECT_EQ(camera.T_camera_scene.matrix(), T.matrix());
+    EXPECT_EQ(file.depthScale, scale);
+  }
 }
 
 TEST(CameraFile, lensesOfROS)

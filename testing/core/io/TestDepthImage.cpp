@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestFiles.h"
+#include "TestGrids.h"
 #include "TestImages.h"
 #include "io/DepthImage.h"
 #include "io/ImageFile.h"
@@ -12,11 +13,8 @@ const cv::Mat depths = (cv::Mat_<std::uint16_t>(2, 3) << 0, 5000, 65534, 1, 2, 3
 
 meam::Camera camera()
 {
-  meam::Camera result;
-  result.fx = 100.0;
+  meam::Camera result = grids::camera(0, 0, 100.0, 1.0, 0.5);
   result.fy = 200.0;
-  result.cx = 1.0;
-  result.cy = 0.5;
   return result;
 }
 }

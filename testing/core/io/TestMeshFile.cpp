@@ -129,74 +129,68 @@ std::string off(const meam::TriangleMesh& mesh)
   }
   return text.str();
 }
+
+using Forms = std::vector<std::pair<std::string, std::string>>;
+
+/// The name and the bytes of a file of each form.
+Forms formsOf(const meam::TriangleMesh& mesh)
+{
+  return { { "text.stl", asciiSTL(mesh) }, { "binary.STL", binarySTL(mesh) }, { "a.obj", obj(mesh) },
+    { "text.ply", asciiPLY(mesh) }, { "binary.ply", binaryPLY(mesh) }, { "a.off", off(mesh) } };
+}
+
+meam::TriangleMesh read(const std::string& name, const std::string& bytes)
+{
+  const files::Folder folder;
+  return meam::readMesh(folder.write(name, bytes));
+}
+
+/// What reading says; it names the file.
+void expectError(const std::string& name, const std::string& bytes, const std::string& words)
+{
+  const std::string error = files::errorOf([&] { read(name, bytes); });
+  EXPECT_TRUE(error != "" && files::contains(error, name) && files::contains(error, words)) << name << ": " << error;
+}
 }
 
 TEST(MeshFile, TheSameMeshInEveryForm)
 {
-  const files::Folder folder;
   const meam::TriangleMesh part = parts::lBracket();
-  const std::vector<std::pair<std::string, std::string>> forms = { { "text.stl", asciiSTL(part) },
-    { "binary.STL", binarySTL(part) }, { "a.obj", obj(part) }, { "text.ply", asciiPLY(part) },
-    { "binary.ply", binaryPLY(part) }, { "a.off", off(part) } };
+  Forms forms = formsOf(part);
+  forms.emplace_back("solid.stl", binarySTL(part).replace(0, 10, "solid part")); // as some programs write it
   for (const auto& [name, bytes] : forms)
   {
-    EXPECT_EQ(corners(meam::readMesh(folder.write(name, bytes))), corners(part)) << name;
+    EXPECT_EQ(corners(read(name, bytes)), corners(part)) << name;
   }
 }
 
 TEST(MeshFile, TrianglesOfAnSTLShareTheirVertices)
 {
-  meam::TriangleMesh mesh;
-  mesh.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { -0.0f, 0, 0 } };
-  mesh.triangles = { { 2, 0, 1 }, { 2, 1, 3 }, { 4, 3, 1 } };
-  const files::Folder folder;
+  const meam::TriangleMesh mesh{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { -0.0f, 0, 0 } },
+    { { 2, 0, 1 }, { 2, 1, 3 }, { 4, 3, 1 } } };
   for (const std::string& bytes : { asciiSTL(mesh), binarySTL(mesh) })
   {
-    const meam::TriangleMesh found = meam::readMesh(folder.write("part.stl", bytes));
+    const meam::TriangleMesh found = read("part.stl", bytes);
     EXPECT_EQ(found.vertices, (meam::Points{ { 0, 1, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }));
     EXPECT_EQ(found.triangles, (std::vector<Eigen::Vector3i>{ { 0, 1, 2 }, { 0, 2, 3 }, { 1, 3, 2 } }));
   }
 }
 
-TEST(MeshFile, ASolidWordDoesNotMakeTheFileText)
-{
-  const files::Folder folder;
-  const meam::TriangleMesh part = parts::lBracket();
-  std::string bytes = binarySTL(part);
-  bytes.replace(0, 10, "solid part"); // as some programs write it
-  EXPECT_EQ(corners(meam::readMesh(folder.write("a.stl", bytes))), corners(part));
-}
-
 TEST(MeshFile, TrianglesThatShareAnEdgeWithTwoOthersStay)
 {
-  const files::Folder folder;
-  meam::TriangleMesh fan;
-  fan.vertices = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { -1, 1, 0 }, { -1, -1, 0 } };
-  fan.triangles = { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 } };
-  for (const auto& [name, bytes] :
-    { std::pair("a.stl", binarySTL(fan)), std::pair("a.obj", obj(fan)), std::pair("a.ply", binaryPLY(fan)) })
+  const meam::TriangleMesh fan{ { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { -1, 1, 0 }, { -1, -1, 0 } },
+    { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 } } };
+  for (const auto& [name, bytes] : formsOf(fan))
   {
-    EXPECT_EQ(corners(meam::readMesh(folder.write(name, bytes))), corners(fan)) << name;
+    EXPECT_EQ(corners(read(name, bytes)), corners(fan)) << name;
   }
-}
-
-TEST(MeshFile, PolygonsBecomeTriangles)
-{
-  const files::Folder folder;
-  const std::string path = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
-  EXPECT_EQ(meam::readMesh(path).triangles.size(), 2u);
 }
 
 TEST(MeshFile, ReadingTellsItsProgressAndCanBeStopped)
 {
   const files::Folder folder;
-  meam::TriangleMesh mesh;
-  mesh.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
-  mesh.triangles.assign(70000, { 0, 1, 2 });
-  const std::vector<std::pair<std::string, std::string>> forms = { { "text.stl", asciiSTL(mesh) },
-    { "binary.stl", binarySTL(mesh) }, { "a.obj", obj(mesh) }, { "text.ply", asciiPLY(mesh) },
-    { "binary.ply", binaryPLY(mesh) }, { "a.off", off(mesh) } };
-  for (const auto& [name, bytes] : forms)
+  const meam::TriangleMesh mesh{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { 70000, { 0, 1, 2 } } };
+  for (const auto& [name, bytes] : formsOf(mesh))
   {
     const std::string path = folder.write(name, bytes);
     std::vector<double> shares;
@@ -212,25 +206,38 @@ TEST(MeshFile, ReadingTellsItsProgressAndCanBeStopped)
 
 TEST(MeshFile, WhatIsWrongWithAFile)
 {
-  const files::Folder folder;
   const meam::TriangleMesh part = parts::lBracket();
-  const auto errorOf = [&](const std::string& name, const std::string& bytes)
+  const std::string corner = "vertex 0 1 2\n", two = corner + corner;
+  const std::string ply = binaryPLY(part), count = "face " + std::to_string(part.triangles.size());
+  const std::tuple<const char*, std::string, const char*> cases[] = { { "a.vrml", "#VRML", ".stl, .obj, .ply or .off" },
+    { "a.STEP", "ISO-10303-21;", "loadCAD" }, { "a.stl", "", "cut off" },
+    { "a.stl", binarySTL(part).substr(0, 500), "cut off" },
+    { "a.stl", "solid part\nfacet\nendsolid part\n", "no faces" }, { "a.ply", "no mesh at all", "" },
+    { "a.ply", asciiPLY({}) /* cannot have faces */, "" }, { "a.obj", "v 0 0 0\nv 1 0 0\n", "no faces" },
+    { "a.stl", "solid\nfacet normal 0 0 0\nouter loop\nvertex 1,5 0 0\n", "decimal comma" },
+    { "a.stl",
+      "solid\nouter loop\n" + two + two + "endloop\nouter loop\n" + two + "endloop\nouter loop\n" + two + corner +
+        "endloop\nendsolid\n", // nine corners
+      "has a facet of 4 corners: export it as triangles, or as OBJ" },
+    { "a.stl", "solid\nouter loop\n" + two + "endloop\nendsolid\n", "has a facet of 2 corners" },
+    // A header that contradicts the file.
+    { "a.stl", binarySTL(part).replace(80, 1, "\3"), "promises 3 triangles and has room for" },
+    { "a.off", off(part) + "3 0 1 2\n", "goes on after" }, { "a.ply", asciiPLY(part) + "3 0 1 2\n", "goes on after" },
+    { "a.ply", std::string(ply).replace(ply.find(count), count.size(), "face 3"), "goes on after" },
+    { "a.ply",
+      "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n",
+      "has its faces before its points" } };
+  for (const auto& [name, bytes, words] : cases)
   {
-    const std::string path = folder.write(name, bytes);
-    const std::string error = files::errorOf([&] { meam::readMesh(path); });
-    EXPECT_TRUE(files::contains(error, path)) << name << ": " << error;
-    return error;
-  };
-  EXPECT_TRUE(files::contains(errorOf("a.vrml", "#VRML"), ".stl, .obj, .ply or .off"));
-  EXPECT_TRUE(files::contains(errorOf("a.STEP", "ISO-10303-21;"), "loadCAD"));
-  EXPECT_TRUE(files::contains(errorOf("a.stl", ""), "cut off"));
-  EXPECT_TRUE(files::contains(errorOf("a.stl", binarySTL(part).substr(0, 500)), "cut off"));
-  EXPECT_TRUE(files::contains(errorOf("a.stl", "solid part\nfacet\nendsolid part\n"), "no faces"));
-  EXPECT_NE(errorOf("a.ply", "no mesh at all"), "");
-  EXPECT_NE(errorOf("a.ply", asciiPLY({}) /* cannot have faces */), "");
-  EXPECT_TRUE(files::contains(errorOf("a.obj", "v 0 0 0\nv 1 0 0\n"), "no faces"));
-  EXPECT_NE(files::errorOf([&] { meam::readMesh(folder.path("missing.obj")); }), "");
-  EXPECT_NE(files::errorOf([&] { meam::readMesh(folder.path("missing.stl")); }), "");
+    expectError(name, bytes, words);
+  }
+  EXPECT_NO_THROW(read("a.ply", ply + "\n"));
+  for (const char* missing : { "missing.obj", "missing.stl" })
+  {
+    EXPECT_THROW(meam::readMesh(missing), meam::Error);
+  }
 }
 
 TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
@@ -248,57 +255,24 @@ TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
   };
   std::string upper = text, returns = replaced("\n", "\r");
   std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char letter) { return std::toupper(letter); });
-  const files::Folder folder;
   for (const std::string& form : { upper, replaced("solid", "Solid"), replaced("endsolid", "end solid"), returns,
          "\xef\xbb\xbf" + text, text + "\x1a", "\r\n " + text, text + "made by hand\n", replaced("\nouter", " outer"),
          replaced("\nvertex", " vertex"), replaced("endloop\nendfacet\n", "end loop end facet ") })
   {
-    EXPECT_EQ(corners(meam::readMesh(folder.write("a.stl", form))), corners(part)) << form.substr(0, 20);
+    EXPECT_EQ(corners(read("a.stl", form)), corners(part)) << form.substr(0, 20);
   }
-  const auto error = [&](const std::string& form)
-  { return files::errorOf([&] { meam::readMesh(folder.write("a.stl", form)); }); };
-  EXPECT_TRUE(files::contains(error("solid\nfacet normal 0 0 0\nouter loop\nvertex 1,5 0 0\n"), "decimal comma"));
-  // Nine corners, but no three triangles.
-  const std::string corner = "vertex 0 1 2\n", two = corner + corner;
-  EXPECT_TRUE(files::contains(error("solid\nouter loop\n" + two + two + "endloop\nouter loop\n" + two +
-                                    "endloop\nouter loop\n" + two + corner + "endloop\nendsolid\n"),
-    "has a facet of 4 corners: export it as triangles, or as OBJ"));
-  EXPECT_TRUE(files::contains(error("solid\nouter loop\n" + two + "endloop\nendsolid\n"), "has a facet of 2 corners"));
 }
 
 TEST(MeshFile, CommentsOfOBJAreNotContinued)
 {
-  const files::Folder folder;
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", mark = "\xef\xbb\xbf";
   for (const std::string& text : { mark + "# of C:\\parts\\\n" + points + "f 1 2 3 # \\\nf 2 3 4\n",
          points + "f 1 2 \\\n3\r\nf 2 \\\r\n3 4 # or \\ so \\\r\n" })
   {
-    const meam::TriangleMesh mesh = meam::readMesh(folder.write("a.obj", text));
+    const meam::TriangleMesh mesh = read("a.obj", text);
     EXPECT_EQ(mesh.vertices.size(), 4u) << text;
     EXPECT_EQ(mesh.triangles.size(), 2u) << text;
   }
-}
-
-TEST(MeshFile, AHeaderThatContradictsTheFileIsAnError)
-{
-  const files::Folder folder;
-  const auto error = [&](const std::string& name, const std::string& bytes)
-  { return files::errorOf([&] { meam::readMesh(folder.write(name, bytes)); }); };
-  std::string stl = binarySTL(parts::lBracket());
-  stl[80] = 3;
-  EXPECT_TRUE(files::contains(error("a.stl", stl), "promises 3 triangles and has room for"));
-  EXPECT_TRUE(files::contains(error("a.off", off(parts::lBracket()) + "3 0 1 2\n"), "goes on after"));
-  EXPECT_TRUE(files::contains(error("a.ply", asciiPLY(parts::lBracket()) + "3 0 1 2\n"), "goes on after"));
-  const std::string ply = binaryPLY(parts::lBracket()),
-                    count = "face " + std::to_string(parts::lBracket().triangles.size());
-  EXPECT_TRUE(files::contains(
-    error("a.ply", std::string(ply).replace(ply.find(count), count.size(), "face 3")), "goes on after"));
-  EXPECT_EQ(error("a.ply", ply + "\n"), "");
-  EXPECT_TRUE(
-    files::contains(error("a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                   "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                                   "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n"),
-      "has its faces before its points"));
 }
 
 TEST(MeshFile, FacesOfManyCornersAreCutInside)
@@ -315,19 +289,12 @@ TEST(MeshFile, FacesOfManyCornersAreCutInside)
     ply += vertex + "\n";
     off += vertex + "\n";
   }
-  const files::Folder folder;
   for (const auto& [name, bytes] : { std::pair<std::string, std::string>{ "a.obj", obj + "f 1 2 3 \\\n 4 5 6\n" },
          { "b.obj", obj + "f 1/1 2/2 3/3 \\\r\n4/4 5/5 6/6\r\n" }, { "a.ply", ply + "6 0 1 2 3 4 5\n" },
          { "a.off", off + "6 0 1 2 3 4 5\n" } })
   {
-    const meam::TriangleMesh mesh = meam::readMesh(folder.write(name, bytes));
+    const meam::TriangleMesh mesh = read(name, bytes);
     EXPECT_EQ(mesh.triangles.size(), 4u) << name;
-    double area = 0.0;
-    for (const Eigen::Vector3i& t : mesh.triangles)
-    {
-      const Eigen::Vector3f a = mesh.vertices[t[0]];
-      area += 0.5 * std::abs((mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).z());
-    }
-    EXPECT_NEAR(area, 5.0, 1e-6) << name;
+    EXPECT_NEAR(parts::area(mesh), 5.0, 1e-6) << name;
   }
 }

@@ -54,23 +54,14 @@ TEST(PoseFile, readsBlocks)
 TEST(PoseFile, badMatrices)
 {
   EXPECT_THROW(meam::readMatrices("/no/such/file.txt"), meam::Error);
-  EXPECT_THROW(readMatrices("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0"), meam::Error);
-  EXPECT_THROW(readMatrices("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 5"), meam::Error);
-  EXPECT_THROW(readMatrices("1 0 0 nan 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
-  EXPECT_THROW(readMatrices("1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);
-  EXPECT_THROW(readMatrices("2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error);  // scale
-  EXPECT_THROW(readMatrices("-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), meam::Error); // mirror
-  EXPECT_THROW(readMatrices("1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1"), meam::Error);  // column-major
-}
-
-TEST(PoseFile, matricesKeepEveryDigit)
-{
-  const Poses folder;
-  meam::writeMatrices(folder.file(), { quarterTurn(), {} });
-  const auto poses = meam::readMatrices(folder.file());
-  ASSERT_EQ(poses.size(), 2u);
-  EXPECT_EQ(poses[0].matrix(), quarterTurn().T_scene_model.matrix());
-  EXPECT_EQ(folder.files(), 1);
+  for (const char* text : { "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 5",
+         "1 0 0 nan 0 1 0 0 0 0 1 0 0 0 0 1", "1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1",
+         "2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",  // scale
+         "-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", // mirror
+         "1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1" })
+  { // column-major
+    EXPECT_THROW(readMatrices(text), meam::Error) << text;
+  }
 }
 
 TEST(PoseFile, bopRows)
@@ -139,38 +130,32 @@ TEST(PoseFile, whatIsWrittenIsReadAgain)
   row.placeProbability = 0.875;
   row.probability = 0.75;
   row.certainty = 0.125;
-  const auto expectRow = [&](const meam::PoseRow& read)
-  {
-    EXPECT_EQ(read.T_scene_model.matrix(), row.T_scene_model.matrix());
-    EXPECT_EQ(read.sceneId, 3);
-    EXPECT_EQ(read.imageId, 7);
-    EXPECT_EQ(read.objectId, 2);
-    EXPECT_EQ(read.score, 0.75);
-    EXPECT_EQ(read.time, 0.5);
+  // Scene, image, object, score and time of both forms; and what JSON has beside.
+  const auto numbers = [](const meam::PoseRow& r) {
+    return std::vector<double>{ 1.0 * r.sceneId, 1.0 * r.imageId, 1.0 * r.objectId, r.score, r.time };
   };
-  meam::writeBOP(folder.file(), { row, {} });
-  std::vector<meam::PoseRow> poses = meam::readPoses(folder.file());
-  ASSERT_EQ(poses.size(), 2u);
-  expectRow(poses[0]);
+  const auto more = [](const meam::PoseRow& r)
+  {
+    return std::vector<double>{ 1.0 * r.rank, 1.0 * r.votes, 1.0 * r.viewId, r.visibleFraction, r.placeProbability,
+      r.probability, r.certainty };
+  };
+  const auto again = [&](const auto& write)
+  {
+    write(folder.file(), std::vector<meam::PoseRow>{ row, {} });
+    EXPECT_EQ(folder.files(), 1);
+    const std::vector<meam::PoseRow> poses = meam::readPoses(folder.file());
+    EXPECT_EQ(poses.size(), 2u);
+    EXPECT_EQ(poses.at(0).T_scene_model.matrix(), row.T_scene_model.matrix());
+    return poses;
+  };
+  std::vector<meam::PoseRow> poses = again(meam::writeBOP);
+  EXPECT_EQ(numbers(poses[0]), numbers(row));
   EXPECT_EQ(poses[1].time, -1.0);
-
-  meam::writeJSON(folder.file(), { row, {} });
-  poses = meam::readPoses(folder.file());
-  ASSERT_EQ(poses.size(), 2u);
-  expectRow(poses[0]);
-  EXPECT_EQ(poses[0].rank, 4);
-  EXPECT_EQ(poses[0].votes, 120);
-  EXPECT_EQ(poses[0].viewId, 5);
-  EXPECT_EQ(poses[0].visibleFraction, 0.25);
-  EXPECT_EQ(poses[0].placeProbability, 0.875);
-  EXPECT_EQ(poses[0].probability, 0.75);
-  EXPECT_EQ(poses[0].certainty, 0.125);
+  poses = again(meam::writeJSON);
+  EXPECT_EQ(numbers(poses[0]), numbers(row));
+  EXPECT_EQ(more(poses[0]), more(row));
   EXPECT_TRUE(std::isnan(poses[1].probability));
-
-  meam::writeMatrices(folder.file(), { row });
-  poses = meam::readPoses(folder.file());
-  ASSERT_EQ(poses.size(), 1u);
-  EXPECT_EQ(poses[0].T_scene_model.matrix(), row.T_scene_model.matrix());
+  again(meam::writeMatrices);
   meam::writeBOP(folder.file(), {});
   EXPECT_TRUE(meam::readPoses(folder.file()).empty());
 }

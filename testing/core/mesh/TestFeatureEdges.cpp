@@ -3,8 +3,6 @@
 #include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 meam::PointCloud extract(const meam::TriangleMesh& mesh, double spacing, double angle = 30.0)
@@ -138,35 +136,8 @@ TEST(FeatureEdges, edgeOfThreeFacesIsSharp)
 
 TEST(FeatureEdges, smoothMeshHasNone)
 {
-  // A ball of 40 x 20 faces turns by less than 10 degrees at each edge.
-  meam::TriangleMesh ball;
-  constexpr int around = 40;
-  constexpr int rings = 19;
-  ball.vertices = { { 0, 0, 10 }, { 0, 0, -10 } };
-  for (int i = 1; i <= rings; ++i)
-  {
-    for (int k = 0; k < around; ++k)
-    {
-      const double t = M_PI * i / (rings + 1);
-      const double p = 2.0 * M_PI * k / around;
-      ball.vertices.emplace_back(10 * std::sin(t) * std::cos(p), 10 * std::sin(t) * std::sin(p), 10 * std::cos(t));
-    }
-  }
-  for (int k = 0; k < around; ++k)
-  {
-    const int next = (k + 1) % around;
-    ball.triangles.emplace_back(0, 2 + k, 2 + next);
-    for (int i = 0; i + 1 < rings; ++i)
-    {
-      const int above = 2 + i * around;
-      const int below = above + around;
-      ball.triangles.emplace_back(above + k, below + k, below + next);
-      ball.triangles.emplace_back(above + k, below + next, above + next);
-    }
-    const int last = 2 + (rings - 1) * around;
-    ball.triangles.emplace_back(1, last + next, last + k);
-  }
-  EXPECT_TRUE(extract(ball, 1.0).empty());
+  // Which turns by less than 10 degrees at each edge.
+  EXPECT_TRUE(extract(parts::sphere(10, 4), 1.0).empty());
 }
 
 TEST(FeatureEdges, badInput)

@@ -4,8 +4,6 @@
 #include "mesh/MeshEdges.h"
 #include "mesh/TriangleMesh.h"
 
-#include <gtest/gtest.h>
-
 TEST(MeshEdges, edgesAndTheirFaces)
 {
   // Three triangles at the edge 0-1, one of which has a neighbour.

@@ -3,8 +3,6 @@
 #include "TestParts.h"
 #include "base/Error.h"
 
-#include <gtest/gtest.h>
-
 TEST(MeshRays, hitsInTheirOrder)
 {
   // Through the middles of two faces, where the diagonals run: one hit each.

@@ -3,8 +3,6 @@
 #include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 
@@ -49,9 +47,7 @@ TEST(SurfaceSampling, sizeOfTrianglesDoesNotMatter)
 TEST(SurfaceSampling, bothSidesOfAThinPlateAndItsRimAreSampled)
 {
   const meam::PointCloud samples = meam::sampleSurface(parts::box({ 0, 0, 0 }, { 20, 20, 0.2f }), { 1.0, 1 });
-  int top = 0;
-  int bottom = 0;
-  int rim = 0;
+  int top = 0, bottom = 0, rim = 0;
   for (const auto& normal : samples.normals)
   {
     top += normal.z() > 0.5f;
@@ -89,20 +85,16 @@ TEST(SurfaceSampling, theSeedDecides)
   EXPECT_NE(one.points, meam::sampleSurface(parts::rectangle(10, 10), { 1.0, 2 }).points);
 }
 
-TEST(SurfaceSampling, stopsOnRequest)
-{
-  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { 0.1, 1 }, [](double) { return false; }), meam::Aborted);
-}
-
 TEST(SurfaceSampling, badInput)
 {
-  EXPECT_THROW(meam::sampleSurface({}), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(parts::rectangle(0, 10)), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(parts::rectangle(std::nanf(""), 10)), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { -1.0, 1 }), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { std::nan(""), 1 }), meam::Error);
-  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { 1e-6, 1 }), meam::Error);
-  meam::TriangleMesh mesh = parts::rectangle(10, 10);
-  mesh.triangles.emplace_back(0, 1, 4);
-  EXPECT_THROW(meam::sampleSurface(mesh), meam::Error);
+  for (const meam::TriangleMesh& mesh : { meam::TriangleMesh(), parts::rectangle(0, 10), parts::rectangle(NAN, 10),
+         meam::TriangleMesh{ parts::rectangle(10, 10).vertices, { { 0, 1, 4 } } } })
+  {
+    EXPECT_THROW(meam::sampleSurface(mesh), meam::Error);
+  }
+  for (const double spacing : { -1.0, std::nan(""), 1e-6 })
+  {
+    EXPECT_THROW(parts::sampled(parts::rectangle(10, 10), spacing), meam::Error) << spacing;
+  }
+  EXPECT_THROW(meam::sampleSurface(parts::rectangle(10, 10), { 0.1, 1 }, [](double) { return false; }), meam::Aborted);
 }

@@ -5,7 +5,6 @@
 #include "io/ModelsInfo.h"
 #include "pose/Pose.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace

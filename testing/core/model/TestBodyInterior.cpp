@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 meam::TriangleMesh block() { return parts::box({ 0, 0, 0 }, { 60, 40, 20 }); }

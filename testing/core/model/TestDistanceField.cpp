@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/DistanceField.h"
 
+#include "TestParts.h"
 #include "base/SoAPoints.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +13,7 @@ namespace
 /// 21 x 21 samples of a square of 20 mm at z = 0.
 meam::PointCloud square()
 {
-  meam::PointCloud result;
-  for (int x = 0; x <= 20; ++x)
-  {
-    for (int y = 0; y <= 20; ++y)
-    {
-      result.points.emplace_back(x, y, 0);
-      result.normals.push_back(Eigen::Vector3f::UnitZ());
-    }
-  }
-  return result;
+  return parts::facing(parts::lattice({ 0, 0 }, { 20, 20 }, 1.0f, 0.0f), Eigen::Vector3f::UnitZ());
 }
 
 constexpr double Cell = 0.2;

@@ -2,9 +2,8 @@
 #include "model/MEAMHashing.h"
 
 #include "TestScene.h"
+#include "TestSteps.h"
 #include "model/AppearanceModel.h"
-
-#include <gtest/gtest.h>
 
 #include <map>
 #include <set>
@@ -19,7 +18,6 @@ AppearanceModel view(const std::string& name, const meam::Points& points)
   AppearanceModel model;
   model.name = name;
   model.cloud.points = points;
-  std::mt19937 random(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     // A tangent of its own for each place, so that equal places have equal tangents.
@@ -93,15 +91,8 @@ TEST(MEAMHashing, PairsThatOnlyADirectionShowsAreNotTakenForOneAnother)
 {
   // Two views of one plate, its edge points in both, told apart by voxel code: a point pairs with itself
   // in the other view at distance 0, which is no pair.
-  meam::PointCloud surface;
-  for (int x = 0; x <= 20; ++x)
-  {
-    for (int y = 0; y <= 20; ++y)
-    {
-      surface.points.emplace_back(x, y, 0);
-      surface.normals.push_back(Eigen::Vector3f::UnitZ());
-    }
-  }
+  const meam::PointCloud surface =
+    parts::facing(parts::lattice({ 0, 0 }, { 20, 20 }, 1.0f, 0.0f), Eigen::Vector3f::UnitZ());
   const meam::Points corners = { { 0, 0, 0 }, { 20, 0, 0 }, { 0, 20, 0 } };
   MEAMHashingSettings both = settings(false);
   both.coVisibilityDirections = 26;
@@ -122,13 +113,10 @@ TEST(MEAMHashing, SurfacePairsAreThoseThatADirectionShowsTogether)
   meam::PointCloud surface;
   for (const float side : { 1.0f, -1.0f })
   {
-    for (int x = 0; x <= 20; ++x)
+    for (const Eigen::Vector3f& point : parts::lattice({ 0, 0 }, { 20, 20 }, 1.0f, side))
     {
-      for (int y = 0; y <= 20; ++y)
-      {
-        surface.points.emplace_back(x, y, side);
-        surface.normals.push_back(side * Eigen::Vector3f::UnitZ());
-      }
+      surface.points.push_back(point);
+      surface.normals.push_back(side * Eigen::Vector3f::UnitZ());
     }
   }
   const meam::Points corners = { { 0, 0, 1 }, { 20, 0, 1 }, { 0, 20, 1 } };
@@ -312,6 +300,8 @@ TEST(MEAMHashing, BadInput)
   MEAMHashingSettings none;
   none.angleStep = 0.0;
   EXPECT_THROW(meam::hashModels({ view("front", Front) }, {}, none), meam::Error);
-  EXPECT_THROW(
-    meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, {}, [](double) { return false; }), meam::Aborted);
+  steps::expectStops(
+    [](const meam::Progress& progress) {
+      meam::hashModels({ view("front", Front) }, { {}, 40.0, {} }, {}, progress);
+    });
 }

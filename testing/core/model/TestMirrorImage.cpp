@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 /// A plate with a block on one of its corners: no rotation takes it to its mirror image.

@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 #include <set>
 
 namespace
@@ -198,14 +196,11 @@ TEST(PredictedVisibility, TheRimOfACubeOnAPlateFallsOff)
 {
   meam::TrainedModel model = cube();
   const std::size_t ofCube = model.surface.size();
-  for (float x = -19.5f; x < 20.0f; ++x)
+  for (const Eigen::Vector3f& point : parts::lattice({ -19.5f, -19.5f }, { 19.5f, 19.5f }, 1.0f, -10.0f))
   {
-    for (float y = -19.5f; y < 20.0f; ++y)
-    {
-      model.verificationPoints.push_back(static_cast<int>(model.surface.size()));
-      model.surface.points.push_back({ x, y, -10.0f });
-      model.surface.normals.push_back(Eigen::Vector3f::UnitZ());
-    }
+    model.verificationPoints.push_back(static_cast<int>(model.surface.size()));
+    model.surface.points.push_back(point);
+    model.surface.normals.push_back(Eigen::Vector3f::UnitZ());
   }
   model.diameter = 60.0;
   const meam::PredictedVisibility visibility(model);

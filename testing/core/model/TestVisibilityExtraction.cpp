@@ -3,22 +3,14 @@
 
 #include "TestParts.h"
 #include "mesh/LineOfSight.h"
-#include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
 namespace
 {
-meam::PointCloud sampled(const meam::TriangleMesh& mesh)
-{
-  meam::SurfaceSamplingSettings settings;
-  settings.spacing = 1.0;
-  return meam::sampleSurface(mesh, settings);
-}
+meam::PointCloud sampled(const meam::TriangleMesh& mesh) { return parts::sampled(mesh, 1.0); }
 
 meam::TriangleMesh box() { return parts::box({ 0, 0, 0 }, { 20, 20, 10 }); }
 
@@ -74,14 +66,7 @@ TEST(VisibilityExtraction, PointsKeepTheirIdentityAndTheInputIsUntouched)
 TEST(VisibilityExtraction, APointInFrontHidesTheOneBehindADenseSurface)
 {
   // A 21 x 21 plate at z = 10 above one point at z = 0.
-  meam::Points points;
-  for (int x = -10; x <= 10; ++x)
-  {
-    for (int y = -10; y <= 10; ++y)
-    {
-      points.emplace_back(x * 0.5f, y * 0.5f, 10.0f);
-    }
-  }
+  meam::Points points = parts::lattice({ -5, -5 }, { 5, 5 }, 0.5f, 10.0f);
   points.emplace_back(0.0f, 0.0f, 0.0f);
   const std::vector<int> fromAbove = meam::visiblePoints(points, { 0, 0, 100 }, 1000.0);
   EXPECT_EQ(fromAbove.size(), points.size() - 1);
@@ -112,13 +97,8 @@ TEST(VisibilityExtraction, AgainstTheMeshItIsExact)
 TEST(VisibilityExtraction, OneBoxHidesAnother)
 {
   // From far above the upper box hides the square below it, to within its perspective.
-  meam::TriangleMesh mesh = parts::box({ 0, 0, 0 }, { 20, 20, 2 });
-  const meam::TriangleMesh upper = parts::box({ 5, 5, 8 }, { 15, 15, 10 });
-  for (const auto& triangle : upper.triangles)
-  {
-    mesh.triangles.push_back(triangle + Eigen::Vector3i::Constant(static_cast<int>(mesh.vertices.size())));
-  }
-  mesh.vertices.insert(mesh.vertices.end(), upper.vertices.begin(), upper.vertices.end());
+  const meam::TriangleMesh mesh =
+    parts::joined(parts::box({ 0, 0, 0 }, { 20, 20, 2 }), parts::box({ 5, 5, 8 }, { 15, 15, 10 }));
   const meam::PointCloud surface = sampled(mesh);
   const std::vector<int> seen = meam::visiblePoints(surface, { 10, 10, 1000 }, meam::LineOfSight(mesh));
   const float shadow = 5.0f * 998.0f / 990.0f; // of the upper box's top, on the lower box's
@@ -137,9 +117,7 @@ TEST(VisibilityExtraction, OneBoxHidesAnother)
 
 TEST(VisibilityExtraction, AnOpenSheetIsSeenFromBothSides)
 {
-  meam::TriangleMesh sheet;
-  sheet.vertices = { { 0, 0, 0 }, { 20, 0, 0 }, { 20, 20, 0 }, { 0, 20, 0 } };
-  sheet.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  const meam::TriangleMesh sheet = parts::rectangle(20, 20);
   const meam::PointCloud surface = sampled(sheet);
   const auto models = meam::extractVisibility(surface, meshVisibility(6), &sheet);
   ASSERT_EQ(models.size(), 2u); // from its sides there is nothing to see
@@ -163,7 +141,7 @@ TEST(VisibilityExtraction, MovingMeshSamplesAndViewpointChangesNothing)
     EXPECT_GT(expected.size(), surface.size() / 5);
     EXPECT_LT(expected.size(), 2 * surface.size() / 3);
     const Eigen::Isometry3d T = parts::motion(random, 300.0);
-    const meam::TriangleMesh moved{ parts::moved(mesh.vertices, T), mesh.triangles };
+    const meam::TriangleMesh moved{ meam::moved(mesh.vertices, T), mesh.triangles };
     EXPECT_EQ(meam::visiblePoints(parts::moved(surface, T), T * viewpoint, meam::LineOfSight(moved)), expected);
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/BinDetection.h"
 
+#include "TestFiles.h"
+#include "TestGrids.h"
 #include "TestScale.h"
 #include "simulation/BinScene.h"
 #include "simulation/parts/SamplePart.h"
-
-#include <gtest/gtest.h>
 
 #include <random>
 
@@ -17,31 +17,14 @@ meam::OrganizedCloud scanOf(double angle, float noise, bool withBin = true)
 {
   std::mt19937 random(1);
   std::normal_distribution<float> error(0.0f, noise > 0.0f ? noise : 1e-6f);
-  meam::OrganizedCloud cloud;
-  cloud.width = 400;
-  cloud.height = 300;
-  for (int row = 0; row < cloud.height; ++row)
-  {
-    for (int column = 0; column < cloud.width; ++column)
+  return grids::centered(400, 300,
+    [&](double x, double y)
     {
-      const double x = column - 199.5 - 10.0;
-      const double y = row - 149.5 + 5.0;
-      const double u = std::abs(std::cos(angle) * x + std::sin(angle) * y);
-      const double v = std::abs(std::cos(angle) * y - std::sin(angle) * x);
-      double z = 500.0;
-      if (withBin && u < 105.0 && v < 65.0 && (u > 100.0 || v > 60.0))
-      {
-        z = 440.0;
-      }
-      if (u < 20.0 && v < 30.0)
-      {
-        z = 430.0;
-      }
-      cloud.points.emplace_back(
-        static_cast<float>(column) - 199.5f, static_cast<float>(row) - 149.5f, static_cast<float>(z) + error(random));
-    }
-  }
-  return cloud;
+      const double u = std::abs(std::cos(angle) * (x - 10.0) + std::sin(angle) * (y + 5.0));
+      const double v = std::abs(std::cos(angle) * (y + 5.0) - std::sin(angle) * (x - 10.0));
+      const bool onRim = withBin && u < 105.0 && v < 65.0 && (u > 100.0 || v > 60.0);
+      return (u < 20.0 && v < 30.0 ? 430.0 : onRim ? 440.0 : 500.0) + error(random);
+    });
 }
 }
 
@@ -86,14 +69,7 @@ TEST(BinDetection, PointsAloneAreRefusedWithTheOptionToChange)
 {
   for (const meam::OrganizedCloud& cloud : { meam::OrganizedCloud(), meam::OrganizedCloud{ 1, 1, { { 0, 0, 500 } } } })
   {
-    try
-    {
-      meam::detectBin(cloud);
-      FAIL() << "it is no grid";
-    }
-    catch (const meam::Error& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("--no-bin"), std::string::npos) << error.what();
-    }
+    const std::string error = files::errorOf([&] { meam::detectBin(cloud); });
+    EXPECT_TRUE(files::contains(error, "--no-bin")) << error;
   }
 }

@@ -2,8 +2,6 @@
 #include "pick/GraspProposal.h"
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -19,42 +17,8 @@ constexpr int Sides = 96; // of what is round
 /// A ring around z, or with an inner radius of 0 a disc.
 meam::TriangleMesh ring(double inner, double outer, double height)
 {
-  meam::TriangleMesh mesh;
-  const bool hole = inner > 0.0;
-  for (int k = 0; k < Sides; ++k)
-  {
-    const double angle = 2.0 * M_PI * k / Sides;
-    for (const double radius : { inner, outer })
-    {
-      for (const double z : { -0.5 * height, 0.5 * height })
-      {
-        mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-      }
-    }
-  }
-  const auto quad = [&](int a, int b, int c, int d)
-  {
-    mesh.triangles.emplace_back(a, b, c);
-    mesh.triangles.emplace_back(a, c, d);
-  };
-  for (int k = 0; k < Sides; ++k)
-  {
-    // 0 inner below, 1 inner above, 2 outer below, 3 outer above
-    const int a = 4 * k, b = 4 * ((k + 1) % Sides);
-    quad(a + 2, b + 2, b + 3, a + 3);
-    if (hole)
-    {
-      quad(a, a + 1, b + 1, b);
-      quad(a + 1, a + 3, b + 3, b + 1);
-      quad(a, b, b + 2, a + 2);
-    }
-    else
-    {
-      mesh.triangles.emplace_back(a + 1, a + 3, b + 3);
-      mesh.triangles.emplace_back(a, b + 2, a + 2);
-    }
-  }
-  return mesh;
+  const double half = 0.5 * height;
+  return parts::revolved({ { inner, -half }, { outer, -half }, { outer, half }, { inner, half } }, Sides);
 }
 
 /// Any turn about z, and half a turn about x.

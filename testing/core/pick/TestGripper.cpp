@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/Gripper.h"
 
+#include "TestGrippers.h"
 #include "base/Bounds.h"
 #include "base/Error.h"
 
-#include <gtest/gtest.h>
-
 TEST(Gripper, JawsStandOpenAroundThePart)
 {
-  meam::Gripper gripper;
-  gripper.fingerThickness = 8.0;
-  gripper.jawClearance = 3.0;
-  gripper.tipLength = 6.0;
-  gripper.fingerLength = 50.0;
-  gripper.bodyLength = 100.0;
+  const meam::Gripper gripper = grippers::jaws();
   meam::Grasp grasp;
   grasp.width = 20.0;
   const auto pieces = meam::piecesOf(gripper, grasp);
@@ -52,15 +46,8 @@ TEST(Gripper, ItsFacesAreThoseOfItsPieces)
   EXPECT_NEAR(box.min().z(), -130.0, 1e-5);
   EXPECT_NEAR(box.max().x(), 30.0, 1e-5);
   // Outward: the volume that the faces enclose is positive, that of the two prisms.
-  double volume = 0.0;
-  for (const auto& t : mesh.triangles)
-  {
-    volume += mesh.vertices[t[0]].cast<double>().dot(
-                mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>())) /
-              6.0;
-  }
   const double prism = 0.5 * 24 * std::sin(2.0 * M_PI / 24); // of a circle with radius 1
-  EXPECT_NEAR(volume, prism * (100.0 * 30.0 + 900.0 * 100.0), 1.0);
+  EXPECT_NEAR(parts::volume(mesh), prism * (100.0 * 30.0 + 900.0 * 100.0), 1.0);
 }
 
 TEST(Gripper, RefusesLengthsThatAreNone)

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/PickCollisions.h"
 
-#include "TestParts.h"
-
-#include <gtest/gtest.h>
+#include "TestGrippers.h"
 
 namespace
 {
 using Eigen::Translation3d;
-using Eigen::Vector3d;
 
 /// A gripper that is one square finger 10 mm wide, seen as a mesh or by the lengths of jaws that stand 20 mm apart.
 meam::Gripper finger()
 {
-  meam::Gripper gripper;
-  gripper.opening = 40.0;
-  gripper.jawClearance = 5.0;
-  gripper.fingerWidth = 10.0;
+  meam::Gripper gripper = grippers::jaws();
+  gripper.jawClearance = gripper.tipLength = 5.0;
   gripper.fingerThickness = 10.0;
-  gripper.fingerLength = 50.0;
-  gripper.tipLength = 5.0;
-  gripper.bodyWidth = 20.0;
   return gripper;
 }
 
@@ -88,11 +80,9 @@ TEST(PickCollisions, WhatIsBetweenTheJawsIsPressed)
 TEST(PickCollisions, TheBinsWallsAndFloor)
 {
   meam::PickCollisions world(cube(), finger());
-  meam::Bin bin;
-  bin.size = Vector3d(56.0, 200.0, 300.0);
+  meam::Bin bin = grippers::bin(56.0, 200.0, 300.0);
   // Up is against the way in, z; the floor is 12 mm beyond the origin, 7 from the tips. The body is 40 + 2 * 10 wide:
   // wider than the bin.
-  bin.T_scene_bin.linear() = Eigen::AngleAxisd(M_PI, Vector3d::UnitX()).matrix();
   bin.T_scene_bin.translation().z() = 12.0;
   world.setBin(&bin);
   EXPECT_EQ(clearance(world).obstacle, meam::Obstacle::Bin);

@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/PickPlanning.h"
 
-#include "TestFiles.h"
+#include "TestGrids.h"
 #include "TestGrippers.h"
-
-#include <gtest/gtest.h>
+#include "TestSteps.h"
 
 namespace
 {
 using Eigen::Vector3d;
-
-/// From above, across the block.
-meam::Grasp fromAbove(double y = 0.0)
-{
-  meam::Grasp grasp;
-  grasp.name = "above";
-  grasp.T_model_grasp = meam::graspFrame({ 0, y, 0 }, { 0, 0, 1 }, { 1, 0, 0 });
-  grasp.width = 20.0;
-  return grasp;
-}
+using grippers::fromAbove;
 
 meam::Pose poseAt(double x, double y, double probability = 1.0)
 {
@@ -29,34 +19,23 @@ meam::Pose poseAt(double x, double y, double probability = 1.0)
 }
 
 /// 300 x 300 mm and 100 high under the sensor.
-meam::Bin bin()
+meam::Bin bin() { return grippers::bin(300, 300, 100); }
+
+/// What a sensor straight above measures of a height z(x, y), a point each mm.
+meam::OrganizedCloud scan(const std::function<double(double, double)>& height)
 {
-  meam::Bin result;
-  result.T_scene_bin.linear() = Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  result.T_scene_bin.translation().z() = 500.0;
-  result.size = Vector3d(300.0, 300.0, 100.0);
-  return result;
+  return grids::centered(200, 200, height);
 }
 
-/// What a sensor straight above measures of a height z(x, y), a point each mm; NaN: nothing.
-template <typename Height>
-meam::OrganizedCloud scan(Height&& height)
+/// Across the block, too.
+meam::Grasp fromTheSide()
 {
-  meam::OrganizedCloud cloud;
-  cloud.width = cloud.height = 200;
-  for (int row = 0; row < cloud.height; ++row)
-  {
-    for (int column = 0; column < cloud.width; ++column)
-    {
-      const float x = static_cast<float>(column) - 99.5f;
-      const float y = static_cast<float>(row) - 99.5f;
-      cloud.points.emplace_back(x, y, height(x, y));
-    }
-  }
-  return cloud;
+  meam::Grasp side = fromAbove();
+  side.T_model_grasp = meam::graspFrame({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 });
+  return side;
 }
 
-float blockOnFloor(float x, float y) { return std::abs(x) < 10.0f && std::abs(y) < 20.0f ? 480.0f : 500.0f; }
+double blockOnFloor(double x, double y) { return std::abs(x) < 10.0 && std::abs(y) < 20.0 ? 480.0 : 500.0; }
 
 meam::Pick onlyPick(const meam::Poses& poses, const meam::OrganizedCloud& cloud = {},
   const meam::Grasp& grasp = fromAbove(), const meam::PlanSettings& settings = {},
@@ -113,7 +92,7 @@ TEST(PickPlanning, TheNeighbourThatIsInTheWayIsNamed)
 TEST(PickPlanning, SomethingMeasuredThatIsNoKnownCopy)
 {
   const auto cloud =
-    scan([](float x, float y) { return x > 20.0f && x < 40.0f && std::abs(y) < 20.0f ? 480.0f : blockOnFloor(x, y); });
+    scan([](double x, double y) { return x > 20.0 && x < 40.0 && std::abs(y) < 20.0 ? 480.0 : blockOnFloor(x, y); });
   const meam::Pick pick = onlyPick({ poseAt(0, 0) }, cloud);
   EXPECT_EQ(pick.obstruction, meam::PickObstruction::Measured) << meam::describe(pick);
   EXPECT_TRUE(onlyPick({ poseAt(0, 0), poseAt(-60, 0) }, scan(blockOnFloor)).possible());
@@ -122,13 +101,11 @@ TEST(PickPlanning, SomethingMeasuredThatIsNoKnownCopy)
 TEST(PickPlanning, WhatIsCoveredStays)
 {
   // A plate over a third of the block.
-  const auto cloud = scan([](float x, float y) { return y > 7.0f && y < 60.0f ? 470.0f : blockOnFloor(x, y); });
+  const auto cloud = scan([](double x, double y) { return y > 7.0 && y < 60.0 ? 470.0 : blockOnFloor(x, y); });
   const meam::Pick pick = onlyPick({ poseAt(0, 0) }, cloud);
   EXPECT_EQ(pick.obstruction, meam::PickObstruction::Covered);
   EXPECT_NEAR(pick.covered, 13.0 / 40.0, 0.05);
-  meam::Grasp side = fromAbove();
-  side.T_model_grasp = meam::graspFrame({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 });
-  meam::PickPlanner planner(grippers::block(), {}, { side, fromAbove() }, grippers::jaws());
+  meam::PickPlanner planner(grippers::block(), {}, { fromTheSide(), fromAbove() }, grippers::jaws());
   const meam::Picks picks = planner.plan({ poseAt(0, 0) }, cloud, bin());
   EXPECT_EQ(picks[0].grasp, 1) << "what is shown of it is the grasp that comes from above";
   EXPECT_NEAR(picks[1].tilt, 90.0, 1e-6);
@@ -139,22 +116,18 @@ TEST(PickPlanning, WhatIsCoveredStays)
 
 TEST(PickPlanning, TiltUncertaintyWidthAndKind)
 {
-  meam::Grasp side = fromAbove();
-  side.T_model_grasp = meam::graspFrame({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 });
-  const meam::Pick tilted = onlyPick({ poseAt(0, 0) }, {}, side);
+  const meam::Pick tilted = onlyPick({ poseAt(0, 0) }, {}, fromTheSide());
   EXPECT_EQ(tilted.obstruction, meam::PickObstruction::Tilted);
   EXPECT_EQ(meam::describe(tilted), "tilted by 90 degrees");
   EXPECT_EQ(meam::labelOf(tilted, 7), "tilted");
   EXPECT_EQ(onlyPick({ poseAt(0, 0, 0.2) }).obstruction, meam::PickObstruction::Uncertain);
-  meam::Grasp wide = fromAbove();
-  wide.width = 35.0; // and 3 mm on either side
-  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, wide).obstruction, meam::PickObstruction::TooWide);
-  meam::Grasp cup = fromAbove();
-  cup.kind = meam::GraspKind::Suction;
-  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, cup).obstruction, meam::PickObstruction::WrongKind);
-  meam::Grasp narrow = fromAbove();
-  narrow.width = 10.0; // the jaws come down on the block
-  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, narrow).obstruction, meam::PickObstruction::PartItself);
+  meam::Grasp grasp = fromAbove();
+  grasp.width = 35.0; // and 3 mm on either side
+  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, grasp).obstruction, meam::PickObstruction::TooWide);
+  grasp.width = 10.0; // the jaws come down on the block
+  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, grasp).obstruction, meam::PickObstruction::PartItself);
+  grasp.kind = meam::GraspKind::Suction;
+  EXPECT_EQ(onlyPick({ poseAt(0, 0) }, {}, grasp).obstruction, meam::PickObstruction::WrongKind);
 }
 
 TEST(PickPlanning, ACupMayLieOnThePart)
@@ -230,7 +203,7 @@ TEST(PickPlanning, SeveralTypesEachWithItsGraspsAreInEachOthersWay)
   const auto planned = [&](double x)
   {
     const auto cloud =
-      scan([x](float u, float v) { return std::abs(u - x) < 5.0 && std::abs(v) < 5.0f ? 460.0f : blockOnFloor(u, v); });
+      scan([x](double u, double v) { return std::abs(u - x) < 5.0 && std::abs(v) < 5.0 ? 460.0 : blockOnFloor(u, v); });
     return meam::PickPlanner::planAll({ &first, &second }, { poseAt(x, 0), poseAt(0, 0) }, { 1, 0 }, cloud, bin());
   };
   const meam::Picks near = planned(27.0);
@@ -273,25 +246,23 @@ TEST(PickPlanning, MovesWithTheScene)
 
 TEST(PickPlanning, WrongInputIsOneSentence)
 {
-  const auto plan = [](
-                      const meam::Grasps& grasps, const meam::Gripper& gripper, const meam::PlanSettings& settings = {})
-  { meam::PickPlanner(grippers::block(), {}, grasps, gripper, settings).plan({ poseAt(0, 0) }, {}, bin()); };
-  EXPECT_NE(files::errorOf([&] { plan({}, grippers::jaws()); }).find("no grasp"), std::string::npos);
-  EXPECT_NE(
-    files::errorOf([&] { plan({ fromAbove(500.0) }, grippers::jaws()); }).find("outside the part"), std::string::npos);
-  meam::Gripper huge = grippers::jaws();
-  huge.fingerWidth = 400.0;
-  EXPECT_NE(files::errorOf([&] { plan({ fromAbove() }, huge); }).find("does not go into the bin"), std::string::npos);
-  meam::PlanSettings settings;
-  settings.maximumTilt = 200.0;
-  EXPECT_EQ(files::errorOf([&] { plan({ fromAbove() }, grippers::jaws(), settings); }),
-    "The maximum tilt has to be 0 to 180 degrees, not 200.");
-  settings.maximumTilt = 60.0;
-  settings.wayIn = NAN;
-  EXPECT_EQ(files::errorOf([&] { plan({ fromAbove() }, grippers::jaws(), settings); }),
-    "The way in has to be 0 mm or more, not nan.");
-  meam::Pose nowhere = poseAt(0, 0);
-  nowhere.T_scene_model.translation().x() = NAN;
-  meam::PickPlanner planner(grippers::block(), {}, { fromAbove() }, grippers::jaws());
-  EXPECT_THROW(planner.plan({ nowhere }, {}, bin()), meam::Error);
+  struct Given
+  {
+    meam::Grasps grasps{ fromAbove() };
+    meam::Gripper gripper = grippers::jaws();
+    meam::PlanSettings settings;
+    meam::Pose pose = poseAt(0, 0);
+  };
+  const auto plan = [](const Given& given)
+  {
+    meam::PickPlanner(grippers::block(), {}, given.grasps, given.gripper, given.settings)
+      .plan({ given.pose }, {}, bin());
+  };
+  steps::expectRefused<Given>(plan,
+    { { [](auto& g) { g.grasps.clear(); }, "no grasp" },
+      { [](auto& g) { g.grasps = { fromAbove(500.0) }; }, "outside the part" },
+      { [](auto& g) { g.gripper.fingerWidth = 400.0; }, "does not go into the bin" },
+      { [](auto& g) { g.settings.maximumTilt = 200.0; }, "The maximum tilt has to be 0 to 180 degrees, not 200." },
+      { [](auto& g) { g.settings.wayIn = NAN; }, "The way in has to be 0 mm or more, not nan." },
+      { [](auto& g) { g.pose.T_scene_model.translation().x() = NAN; } } });
 }

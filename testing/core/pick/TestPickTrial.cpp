@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/PickTrial.h"
 
-#include "TestParts.h"
-
-#include <gtest/gtest.h>
+#include "TestGrippers.h"
 
 namespace
 {
@@ -18,10 +16,8 @@ meam::PickTrial pick(const Eigen::Isometry3d& where, const std::vector<Eigen::Is
   gripper.jawClearance = 1.5;
   meam::Grasp grasp;
   grasp.width = 20.0;
-  meam::Bin bin;
-  bin.T_scene_bin.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  meam::Bin bin = grippers::bin(300.0, 300.0, 60.0);
   bin.T_scene_bin.translation().z() = 20.0;
-  bin.size << 300.0, 300.0, 60.0;
   grasp.T_model_grasp = where;
   return meam::tryPicks(smallCube(), gripper, { grasp }, truths, &bin).front();
 }

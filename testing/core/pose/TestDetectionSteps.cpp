@@ -3,8 +3,6 @@
 
 #include "TestGrids.h"
 
-#include <gtest/gtest.h>
-
 using meam::Features;
 using meam::Preset;
 

@@ -3,33 +3,14 @@
 
 #include "TestScale.h"
 #include "TestScene.h"
+#include "TestSteps.h"
 #include "base/Frames.h"
 #include "base/Random.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 
 namespace
 {
-int instancesFound(
-  const meam::Poses& poses, const std::vector<Eigen::Isometry3d>& copies, double millimetres, double degrees)
-{
-  int found = 0;
-  for (const auto& T : copies)
-  {
-    found += std::any_of(poses.begin(), poses.end(),
-               [&](const meam::Pose& pose)
-               {
-                 return meam::translationError(pose.T_scene_model, T) < millimetres &&
-                        meam::rotationError(pose.T_scene_model, T) < degrees;
-               })
-               ? 1
-               : 0;
-  }
-  return found;
-}
-
 /// The three best poses of the bracket.
 meam::Poses found(const scenes::Seen& scene, int threads = 0)
 {
@@ -42,23 +23,35 @@ void expectNear(const meam::Poses& poses, const meam::Poses& others)
   ASSERT_EQ(poses.size(), others.size());
   for (std::size_t i = 0; i < poses.size(); ++i)
   {
-    EXPECT_LT(meam::translationError(poses[i].T_scene_model, others[i].T_scene_model), 1e-3) << i;
-    EXPECT_LT(meam::rotationError(poses[i].T_scene_model, others[i].T_scene_model), 1e-3) << i;
+    EXPECT_TRUE(scenes::areNear(poses[i].T_scene_model, others[i].T_scene_model, 1e-3, 1e-3)) << i;
   }
 }
 
 int instancesFound(const meam::Poses& poses, double millimetres, double degrees)
 {
-  return instancesFound(poses, scenes::threeCopies(), millimetres, degrees);
+  return scenes::copiesFound(poses, scenes::threeCopies(), millimetres, degrees);
+}
+
+/// Three brackets, their edges without tangents.
+const scenes::Seen& threeSeen()
+{
+  static const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
+  return scene;
+}
+
+meam::DetectionSettings recommended(int poses) { return meam::detectionSettings(meam::Preset::Recommended, poses); }
+
+/// The three best poses of another model of the bracket.
+meam::Poses foundBy(const meam::TrainedModel& model, const scenes::Seen& scene = threeSeen())
+{
+  return scenes::estimatePoses(model, scene, recommended(3));
 }
 }
 
 TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
   meam::DetectionReport report;
-  const meam::Poses poses =
-    scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 3), &report);
+  const meam::Poses poses = scenes::estimatePoses(scenes::bracket(), threeSeen(), recommended(3), &report);
   ASSERT_EQ(poses.size(), 3u);
   EXPECT_EQ(instancesFound(poses, 0.2, 0.3), 3);
   const meam::StageTimes& times = report.times;
@@ -73,31 +66,28 @@ TEST(MEAMPoseEstimation, FindsEveryCopyOnce)
 /// a plate's thickness away, and its back like its front.
 TEST(MEAMPoseEstimation, EveryPresetFindsCopiesOfABracket)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
   const std::pair<meam::Preset, int> least[] = { { meam::Preset::Paper, 3 }, { meam::Preset::Recommended, 3 },
     { meam::Preset::WithoutMEAM, 1 }, { meam::Preset::OriginalPPF, 1 }, { meam::Preset::B2B, 2 } };
   for (const auto& [preset, copies] : least)
   {
-    const meam::Poses poses = scenes::estimatePoses(scenes::bracket(preset), scene, meam::detectionSettings(preset, 8));
+    const meam::Poses poses =
+      scenes::estimatePoses(scenes::bracket(preset), threeSeen(), meam::detectionSettings(preset, 8));
     EXPECT_GE(instancesFound(poses, 0.5, 1.5), copies) << meam::nameOf(preset);
   }
 }
 
 TEST(MEAMPoseEstimation, TheOrderOfPointsDoesNotMatter)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  scenes::Seen shuffled = scene;
+  scenes::Seen shuffled = threeSeen();
   meam::Random random(3);
   random.shuffle(shuffled.edges.points);
   random.shuffle(shuffled.surface);
-  const meam::Poses one = found(scene);
-  const meam::Poses other = found(shuffled);
-  expectNear(one, other);
+  expectNear(found(threeSeen()), found(shuffled));
 }
 
 TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
+  const scenes::Seen& scene = threeSeen();
   const meam::Poses before = found(scene);
   const meam::PrecisePoints edges = parts::precise(scene.edges.points), measured = parts::precise(scene.surface);
   std::mt19937 random(8);
@@ -109,13 +99,11 @@ TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
     const meam::SceneInput input{ meam::toLocalCloud(movedEdges, {}, {}, frame),
       meam::toLocalPoints(meam::ScanPoints<double>{ movedMeasured.front().data(), movedMeasured.size() }, frame),
       { false, T * scene.sensor.position, T.linear() * scene.sensor.direction } };
-    const meam::Poses after =
-      meam::estimatePoses(scenes::bracket(), input, meam::detectionSettings(meam::Preset::Recommended, 3));
+    const meam::Poses after = meam::estimatePoses(scenes::bracket(), input, recommended(3));
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < before.size(); ++i)
     {
-      EXPECT_LT(meam::translationError(T * before[i].T_scene_model, after[i].T_scene_model), 1e-3) << i;
-      EXPECT_LT(meam::rotationError(T * before[i].T_scene_model, after[i].T_scene_model), 1e-3) << i;
+      EXPECT_TRUE(scenes::areNear(T * before[i].T_scene_model, after[i].T_scene_model, 1e-3, 1e-3)) << i;
       EXPECT_NEAR(after[i].probability, before[i].probability, 1e-4) << i;
       EXPECT_TRUE(meam::moved(before[i], T).fit.covariance.isApprox(after[i].fit.covariance, 1e-3)) << i;
     }
@@ -124,7 +112,7 @@ TEST(MEAMPoseEstimation, AMotionInDoublePrecisionMovesThePosesAndNothingElse)
 
 TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
+  const scenes::Seen& scene = threeSeen();
   const meam::Poses before = found(scene);
   std::mt19937 random(8);
   for (int trial = 0; trial < 3; ++trial)
@@ -136,17 +124,13 @@ TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
     turned.sensor.direction = T.linear() * scene.sensor.direction;
     const meam::Poses after = found(turned);
     ASSERT_EQ(after.size(), before.size());
+    // Rounding to single precision moves a point over the border of its cube now and then; nothing more may change.
+    std::vector<Eigen::Isometry3d> expected;
     for (const meam::Pose& pose : before)
     {
-      // Rounding to single precision moves a point over the border of its cube now and then; nothing more may change.
-      EXPECT_TRUE(std::any_of(after.begin(), after.end(),
-        [&](const meam::Pose& other)
-        {
-          return meam::translationError(T * pose.T_scene_model, other.T_scene_model) < 0.02 &&
-                 meam::rotationError(T * pose.T_scene_model, other.T_scene_model) < 0.05;
-        }))
-        << trial;
+      expected.push_back(T * pose.T_scene_model);
     }
+    EXPECT_EQ(scenes::copiesFound(after, expected, 0.02, 0.05), static_cast<int>(before.size())) << trial;
   }
 }
 
@@ -155,10 +139,7 @@ TEST(MEAMPoseEstimation, AModelOfTheMeshesEdgesFindsThemToo)
   meam::TrainingSettings training = meam::trainingSettings(meam::Preset::Recommended);
   training.visibility.method = meam::VisibilityMethod::MeshVisibility;
   training.boundary.method = meam::BoundaryMethod::MeshEdges;
-  const meam::TrainedModel model = meam::trainModel(parts::lBracket(), training);
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
-  EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
+  EXPECT_EQ(instancesFound(foundBy(meam::trainModel(parts::lBracket(), training)), 1.0, 1.0), 3);
 }
 
 TEST(MEAMPoseEstimation, AModelOfTheWholePartWithoutVisibilityFindsThemToo)
@@ -169,38 +150,32 @@ TEST(MEAMPoseEstimation, AModelOfTheWholePartWithoutVisibilityFindsThemToo)
   EXPECT_EQ(model.edgeViews, std::vector<std::uint32_t>(model.edges.size(), 1u));
   // Every pair that the table reaches is there: also of points that are never seen together.
   EXPECT_EQ(static_cast<int>(model.table.size()), model.table.votingPoints * (model.table.votingPoints - 1));
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const meam::Poses poses = scenes::estimatePoses(model, scene, meam::detectionSettings(meam::Preset::Recommended, 3));
-  EXPECT_EQ(instancesFound(poses, 1.0, 1.0), 3);
+  EXPECT_EQ(instancesFound(foundBy(model), 1.0, 1.0), 3);
 }
 
 TEST(MEAMPoseEstimation, AnEdgeCloudAloneIsEnough)
 {
-  scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
+  scenes::Seen scene = threeSeen();
   scene.surface.clear();
-  const meam::Poses poses = found(scene);
-  EXPECT_EQ(instancesFound(poses, 2.0, 3.0), 3);
+  EXPECT_EQ(instancesFound(found(scene), 2.0, 3.0), 3);
 }
 
 TEST(MEAMPoseEstimation, TheSignsOfTangentsDoNotMatter)
 {
-  scenes::Seen scene = scenes::seenCopies();
-  scenes::Seen turned = scene;
+  scenes::Seen turned = scenes::seenCopies();
   std::mt19937 random(6);
   for (Eigen::Vector3f& tangent : turned.edges.tangents)
   {
     tangent *= random() % 2 == 0 ? 1.0f : -1.0f;
   }
-  const meam::Poses one = found(scene);
-  const meam::Poses other = found(turned);
+  const meam::Poses one = found(scenes::seenCopies());
   EXPECT_EQ(instancesFound(one, 0.3, 0.4), 3);
-  expectNear(one, other);
+  expectNear(one, found(turned));
 }
 
 TEST(MEAMPoseEstimation, TangentsThatAreNoneAreLeftOut)
 {
-  const scenes::Seen scene = scenes::seenCopies();
-  scenes::Seen broken = scene;
+  scenes::Seen broken = scenes::seenCopies();
   broken.edges.tangents[7].y() = NAN;
   broken.edges.tangents[20].x() = INFINITY;
   broken.edges.tangents[33].setZero();
@@ -213,24 +188,19 @@ TEST(MEAMPoseEstimation, TangentsThatAreNoneAreLeftOut)
 
 TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  scenes::Seen one = scene;
+  scenes::Seen one = threeSeen(), many = one;
   one.surface.push_back({ 1e12f, 0.0f, 0.0f });
   one.edges.points.push_back({ 0.0f, 1e9f, 0.0f });
   EXPECT_EQ(instancesFound(found(one), 0.3, 0.4), 3);
-  scenes::Seen many = scene;
-  for (std::size_t i = 0; i < scene.surface.size() / 9; ++i)
-  {
-    many.surface.push_back({ 1e10f, 1e10f, -1e10f }); // what some sensors write where they measured nothing
-  }
+  // What some sensors write where they measured nothing.
+  many.surface.insert(many.surface.end(), many.surface.size() / 9, { 1e10f, 1e10f, -1e10f });
   for (const bool perspective : { false, true })
   {
     many.sensor.perspective = perspective;
     many.sensor.position = { 40.0, 40.0, 2000.0 };
     // Seen in parallel the cells of the depth map are too large for any surface: edges alone tell, and not which is
     // best.
-    const meam::Poses poses = scenes::estimatePoses(
-      scenes::bracket(), many, meam::detectionSettings(meam::Preset::Recommended, perspective ? 3 : 5));
+    const meam::Poses poses = scenes::estimatePoses(scenes::bracket(), many, recommended(perspective ? 3 : 5));
     EXPECT_EQ(instancesFound(poses, 0.5, 0.6), 3) << perspective;
   }
 }
@@ -247,35 +217,26 @@ TEST(MEAMPoseEstimation, MoreThanAHundredCopiesComeOut)
   const meam::Poses poses =
     scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5));
   // Of the nine of the small data one has no reference point that elects it.
-  EXPECT_GE(instancesFound(poses, copies, 1.0, 1.0), copies.size() - (SmallData ? 1 : 0));
+  EXPECT_GE(scenes::copiesFound(poses, copies, 1.0, 1.0), copies.size() - (SmallData ? 1 : 0));
   EXPECT_LE(poses.size(), copies.size());
 }
 
 TEST(MEAMPoseEstimation, ThreadsDoNotMatter)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  const meam::Poses one = found(scene, 1);
-  const meam::Poses three = found(scene, 3);
-  EXPECT_TRUE(scenes::areSame(one, three));
+  EXPECT_TRUE(scenes::areSame(found(threeSeen(), 1), found(threeSeen(), 3)));
 }
 
 TEST(MEAMPoseEstimation, ProgressRisesAndAbortStops)
 {
-  const scenes::Seen scene = scenes::seenFromAbove(scenes::threeCopies());
-  double last = 0.0;
-  scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended), nullptr,
-    [&](double share)
+  steps::expectProgress(
+    [](const meam::Progress& progress)
     {
-      EXPECT_GE(share, last - 1e-9);
-      EXPECT_LE(share, 1.0);
-      last = share;
-      return true;
-    });
-  EXPECT_DOUBLE_EQ(last, 1.0);
-  EXPECT_THROW(scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended),
-                 nullptr, [](double share) { return share < 0.4; }),
-    meam::Aborted);
-  EXPECT_THROW(meam::trainModel(parts::lBracket(), {}, [](double share) { return share < 0.3; }), meam::Aborted);
+      scenes::estimatePoses(
+        scenes::bracket(), threeSeen(), meam::detectionSettings(meam::Preset::Recommended), nullptr, progress);
+    },
+    { 0.4 });
+  steps::expectStops(
+    [](const meam::Progress& progress) { meam::trainModel(parts::lBracket(), {}, progress); }, { 0.3 });
 }
 
 TEST(MEAMPoseEstimation, BadInput)
@@ -288,7 +249,7 @@ TEST(MEAMPoseEstimation, AnObserverSeesWhatEachStageReturns)
 {
   const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket();
-  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 0);
+  const meam::DetectionSettings settings = recommended(0);
   std::vector<std::pair<meam::PoseStage, meam::Poses>> seenStages;
   const meam::Poses ranked = meam::findPoses(scene, model, settings, nullptr, {},
     [&](meam::PoseStage stage, const meam::Poses& poses) { seenStages.emplace_back(stage, poses); });
@@ -311,7 +272,7 @@ TEST(MEAMPoseEstimation, ASearchForAFewPosesEndsWithThoseThatAreSure)
   const auto votersFor = [&](int asked, meam::Poses& found)
   {
     std::size_t voters = 0;
-    meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, asked);
+    meam::DetectionSettings settings = recommended(asked);
     settings.detection.referenceShare = 1.0;
     found = meam::findPoses(scene, model, settings, nullptr, {},
       [&](meam::PoseStage stage, const meam::Poses& poses)
@@ -334,7 +295,7 @@ TEST(MEAMPoseEstimation, AtADeadlineWhatIsFoundComesOut)
 {
   const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket();
-  meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 3);
+  meam::DetectionSettings settings = recommended(3);
   meam::DetectionReport report;
   settings.deadline = meam::Deadline(1000.0);
   const meam::Poses unhurried = meam::findPoses(scene, model, settings, &report);
@@ -354,7 +315,7 @@ TEST(MEAMPoseEstimation, InstancesThatADeadlineLeavesUnfinishedComeOutAsTheyAre)
   const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket();
   meam::Poses verified;
-  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 0);
+  const meam::DetectionSettings settings = recommended(0);
   const meam::Poses finished = meam::findPoses(scene, model, settings, nullptr, {},
     [&](meam::PoseStage stage, const meam::Poses& poses)
     {

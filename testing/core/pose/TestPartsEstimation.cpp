@@ -2,21 +2,11 @@
 #include "pose/PartsEstimation.h"
 
 #include "TestScene.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "TestSteps.h"
 
 namespace
 {
 meam::TriangleMesh blockOnCorner() { return parts::blockOnPlate(false); }
-
-meam::SceneInput inputOf(const scenes::Seen& seen)
-{
-  meam::SceneInput input{ meam::toLocalCloud(seen.edges), {}, seen.sensor };
-  input.measured = meam::toLocalPoints(seen.surface, input.edges.T_local_scene);
-  return input;
-}
 
 meam::WorkCounts workOf(const meam::TrainedModel& model, const meam::SceneInput& input, int asked)
 {
@@ -29,7 +19,7 @@ meam::WorkCounts workOf(const meam::TrainedModel& model, const meam::SceneInput&
 TEST(PartsEstimation, TwoTypesTakeTheWorkOfEachWhereAllCopiesAreFewerThanAsked)
 {
   const meam::TrainedModel &bracket = scenes::bracket(), &plate = scenes::trained<blockOnCorner>();
-  const meam::SceneInput input = inputOf(scenes::seenFromAbove(
+  const meam::SceneInput input = scenes::inputOf(scenes::seenFromAbove(
     { { parts::lBracket(), scenes::lying(0, 0, 20) }, { blockOnCorner(), scenes::lying(90, 10, 131) } }));
   meam::DetectionReport report;
   const std::vector<meam::PartPose> found =
@@ -54,18 +44,16 @@ TEST(PartsEstimation, TwoTypesEndTheirSearchTogetherWhereTheyHaveEnough)
     copies.push_back({ parts::lBracket(), scenes::lying(0, y, 20 + y) });
     copies.push_back({ blockOnCorner(), scenes::lying(90, y + 10, 131 - y) });
   }
-  const meam::SceneInput input = inputOf(scenes::seenFromAbove(copies));
+  const meam::SceneInput input = scenes::inputOf(scenes::seenFromAbove(copies));
   const int asked = 3; // and two more: of each type alone there are too few
   meam::DetectionReport report;
-  std::vector<double> shares;
-  const std::vector<meam::PartPose> found =
-    meam::estimateParts({ &bracket, &plate }, input, meam::detectionSettings(meam::Preset::Recommended, asked), &report,
-      [&](double share)
-      {
-        shares.push_back(share);
-        return true;
-      });
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  std::vector<meam::PartPose> found;
+  steps::expectProgress(
+    [&](const meam::Progress& progress)
+    {
+      found = meam::estimateParts(
+        { &bracket, &plate }, input, meam::detectionSettings(meam::Preset::Recommended, asked), &report, progress);
+    });
   ASSERT_EQ(found.size(), 3u);
   for (const meam::PartPose& one : found)
   {
@@ -76,7 +64,7 @@ TEST(PartsEstimation, TwoTypesEndTheirSearchTogetherWhereTheyHaveEnough)
 
 TEST(PartsEstimation, ATypeOfWhichTheScanShowsNothingIsLeftOut)
 {
-  meam::SceneInput input = inputOf(scenes::seenFromAbove({ { parts::lBracket(), scenes::lying(0, 0, 20) } }));
+  meam::SceneInput input = scenes::inputOf(scenes::seenFromAbove({ { parts::lBracket(), scenes::lying(0, 0, 20) } }));
   input.edges.fromScan = true;
   const double farAway = 2000.0; // mm: the scan is large enough for the other type
   input.measured.emplace_back(farAway, 0.0f, 0.0f);
@@ -93,28 +81,20 @@ TEST(PartsEstimation, WhatOneTypeLosesToAnotherIsSearchedForFurther)
 {
   // The same part twice: each claims all that the other has, so that no type may end its search with its share.
   const meam::TrainedModel& bracket = scenes::bracket();
-  std::vector<scenes::Copy> copies;
-  for (const double y : { -70.0, 0.0, 70.0 })
+  const std::vector<Eigen::Isometry3d> places{ scenes::lying(0, -70, -50), scenes::lying(0, 0, 20),
+    scenes::lying(0, 70, 90) };
+  const meam::SceneInput input = scenes::inputOf(scenes::seenFromAbove(scenes::brackets(places)));
+  const auto find = [&](const meam::Progress& progress)
   {
-    copies.push_back({ parts::lBracket(), scenes::lying(0, y, 20 + y) });
-  }
-  const meam::SceneInput input = inputOf(scenes::seenFromAbove(copies));
-  const meam::DetectionSettings settings = meam::detectionSettings(meam::Preset::Recommended, 3);
-  std::vector<double> shares;
-  const std::vector<meam::PartPose> found = meam::estimateParts({ &bracket, &bracket }, input, settings, nullptr,
-    [&](double share)
-    {
-      shares.push_back(share);
-      return true;
-    });
+    return meam::estimateParts(
+      { &bracket, &bracket }, input, meam::detectionSettings(meam::Preset::Recommended, 3), nullptr, progress);
+  };
+  std::vector<meam::PartPose> found;
+  steps::expectProgress([&](const meam::Progress& progress) { found = find(progress); });
+  steps::expectStops(find, { 1.0 });
   ASSERT_EQ(found.size(), 3u);
   for (const meam::PartPose& one : found)
   {
     EXPECT_GT(one.pose.placeProbability, 0.9);
   }
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_EQ(shares.back(), 1.0);
-  EXPECT_THROW(
-    meam::estimateParts({ &bracket, &bracket }, input, settings, nullptr, [](double share) { return share < 1.0; }),
-    meam::Aborted);
 }

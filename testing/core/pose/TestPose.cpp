@@ -4,8 +4,6 @@
 #include "TestParts.h"
 #include "base/Error.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 /// Half turns about an axis beside the middle.

@@ -3,23 +3,8 @@
 
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
-meam::PointCloud scattered(int count)
-{
-  std::mt19937 random(21);
-  meam::PointCloud edges;
-  for (int k = 0; k < count; ++k)
-  {
-    const Eigen::Isometry3d T = parts::motion(random, 20.0);
-    edges.points.push_back(T.translation().cast<float>());
-    edges.tangents.push_back(T.linear().col(0).cast<float>());
-  }
-  return edges;
-}
-
 struct Mean
 {
   Eigen::Vector3f offset;
@@ -51,7 +36,7 @@ struct Lines
 /// Points to ask about, beside those of the lines.
 meam::PointCloud asked(int count)
 {
-  meam::PointCloud result = scattered(count);
+  meam::PointCloud result = parts::scatteredEdges(count, 20.0);
   for (auto& point : result.points)
   {
     point += Eigen::Vector3f(0.3f, -0.2f, 0.1f);
@@ -62,7 +47,7 @@ meam::PointCloud asked(int count)
 
 TEST(EdgeIndex, FindsWhatAskingEveryLineFinds)
 {
-  const Lines among(scattered(2000));
+  const Lines among(parts::scatteredEdges(2000, 20.0));
   const meam::PointCloud& edges = among.edges;
   const meam::PointCloud asked = ::asked(200);
   int found = 0;
@@ -128,7 +113,7 @@ TEST(EdgeIndex, MeansTakeEdgePointsByTheirWeights)
 
 TEST(EdgeIndex, MeanIsThatOfAllEdgePointsAround)
 {
-  const Lines among(scattered(2000));
+  const Lines among(parts::scatteredEdges(2000, 20.0));
   const meam::PointCloud& edges = among.edges;
   const meam::PointCloud asked = ::asked(100);
   int found = 0;
@@ -184,7 +169,7 @@ TEST(EdgeIndex, TheMeanByHand)
 
 TEST(EdgeIndex, NeighboursServeUntilAPointHasMovedByTheMargin)
 {
-  const Lines among(scattered(2000));
+  const Lines among(parts::scatteredEdges(2000, 20.0));
   const meam::PointCloud points = asked(100);
   constexpr double Radius = 6.0, Across = 2.0, Margin = 0.4;
   const Eigen::Vector3f step = 0.99f * Margin * Eigen::Vector3f(0.6f, 0.0f, -0.8f);

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Error.h"
-#include "base/Random.h"
-#include "scene/OrganizedCloud.h"
+#include "TestGrids.h"
 #include "scene/ScanQuality.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
@@ -17,15 +14,8 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN();
 template <typename Depth>
 meam::OrganizedCloud scan(int width, int height, Depth&& depth)
 {
-  meam::OrganizedCloud cloud{ width, height, {} };
-  for (int row = 0; row < height; ++row)
-  {
-    for (int column = 0; column < width; ++column)
-    {
-      cloud.points.emplace_back(0.5f * column, 0.5f * row, depth(row, column));
-    }
-  }
-  return cloud;
+  return grids::grid(
+    width, height, [&](int column, int row) { return Eigen::Vector3d(0.5 * column, 0.5 * row, depth(row, column)); });
 }
 
 float wave(int column) { return 600.0f + 8.0f * std::sin(0.02f * column); } // a radius of 78 mm

@@ -6,8 +6,6 @@
 #include "base/Error.h"
 #include "base/Frames.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 constexpr double Diameter = 100.0;

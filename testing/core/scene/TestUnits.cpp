@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/Units.h"
 
-#include "base/Error.h"
-
-#include <gtest/gtest.h>
+#include "TestFiles.h"
 
 TEST(Units, MetresAgainstMillimetresIsAnError)
 {
@@ -33,17 +31,8 @@ TEST(Units, AnUnlikelyExtentIsAWarningThatNamesTheFactor)
 
 TEST(Units, AnErrorNamesTheFactor)
 {
-  const auto says = [](float extent, double diameter)
-  {
-    try
-    {
-      meam::requireSameUnits({ { 0, 0, 0 }, { extent, 0, 0 } }, diameter);
-    }
-    catch (const meam::Error& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
+  const auto says = [](float extent, double diameter) {
+    return files::errorOf([&] { meam::requireSameUnits({ { 0, 0, 0 }, { extent, 0, 0 } }, diameter); });
   };
   EXPECT_EQ(says(0.3f, 60.0), "The scene spans 0.3 but the part's diameter is 60: their units differ, and the likely "
                               "factor is 1000 (metres). Scale the scene to the part's unit (Scale of its reader).");

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/BinScene.h"
 
+#include "TestSteps.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/parts/SamplePart.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -202,24 +201,13 @@ TEST(BinScene, theSeedDecides)
 TEST(BinScene, badInput)
 {
   EXPECT_THROW(meam::simulateBin({}), meam::Error);
-  meam::TriangleMesh point = tetrahedron();
-  point.vertices.assign(4, Eigen::Vector3f(1, 2, 3));
-  EXPECT_THROW(meam::simulateBin(point), meam::Error);
-  const auto fails = [](const auto& change)
-  {
-    meam::BinSceneSettings settings = small(2);
-    change(settings);
-    EXPECT_THROW(meam::simulateBin(tetrahedron(), settings), meam::Error);
-  };
-  fails([](auto& s) { s.copies = 0; });
-  fails([](auto& s) { s.width = 0; });
-  fails([](auto& s) { s.height = 100000; });
-  fails([](auto& s) { s.binSize = 10.0; });
-  fails([](auto& s) { s.binSize = 1e9; });
-  fails([](auto& s) { s.binWidth = 1e9; });
-  fails([](auto& s) { s.wallHeight = -1.0; });
-  fails([](auto& s) { s.sensorHeight = 20.0; });
-  fails([](auto& s) { s.baseline = -1.0; });
-  fails([](auto& s) { s.quality.dropout = 1.5; });
-  EXPECT_THROW(meam::simulateBin(tetrahedron(), small(2), [](double) { return false; }), meam::Aborted);
+  EXPECT_THROW(meam::simulateBin({ meam::Points(4, { 1, 2, 3 }), tetrahedron().triangles }), meam::Error);
+  steps::expectRefused<meam::BinSceneSettings>([](const auto& settings) { meam::simulateBin(tetrahedron(), settings); },
+    { { [](auto& s) { s.copies = 0; } }, { [](auto& s) { s.width = 0; } }, { [](auto& s) { s.height = 100000; } },
+      { [](auto& s) { s.binSize = 10.0; } }, { [](auto& s) { s.binSize = 1e9; } },
+      { [](auto& s) { s.binWidth = 1e9; } }, { [](auto& s) { s.wallHeight = -1.0; } },
+      { [](auto& s) { s.sensorHeight = 20.0; } }, { [](auto& s) { s.baseline = -1.0; } },
+      { [](auto& s) { s.quality.dropout = 1.5; } } },
+    small(2));
+  steps::expectStops([](const meam::Progress& progress) { meam::simulateBin(tetrahedron(), small(2), progress); });
 }

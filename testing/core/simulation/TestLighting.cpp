@@ -3,8 +3,6 @@
 #include "mesh/TriangleMesh.h"
 #include "simulation/Lighting.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 

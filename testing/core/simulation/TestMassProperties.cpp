@@ -3,8 +3,6 @@
 #include "simulation/MassProperties.h"
 #include "mesh/TriangleMesh.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
 namespace

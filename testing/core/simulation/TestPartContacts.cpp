@@ -3,8 +3,6 @@
 
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 

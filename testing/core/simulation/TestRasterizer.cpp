@@ -4,8 +4,6 @@
 #include "base/Error.h"
 #include "mesh/TriangleMesh.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 using namespace meam::test;

@@ -5,8 +5,6 @@
 #include "base/Random.h"
 #include "mesh/TriangleMesh.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 

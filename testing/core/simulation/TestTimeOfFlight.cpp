@@ -2,8 +2,6 @@
 #include "TestVirtualCamera.h"
 #include "simulation/TimeOfFlight.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 using namespace meam::test;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestSteps.h"
 #include "TestVirtualCamera.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/VirtualSensor.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
@@ -29,29 +28,27 @@ meam::OrganizedCloud measure(const std::vector<meam::Body>& bodies, const meam::
   return meam::measureDepth(meam::rasterize(meam::facetsOf(bodies), Floor, camera()), camera(), quality, random);
 }
 
-/// The standard deviation of the depth of a plate at z.
-double noiseAt(double z, double depthNoise)
-{
-  const meam::TriangleMesh mesh = plate(1e5f);
-  meam::SensorQuality quality = perfect();
-  quality.depthNoise = depthNoise;
-  meam::Body body = at(mesh, 0.0, z);
-  body.T_scene_model.linear() *= 100.0; // fills the view
-  double squares = 0.0;
-  const meam::OrganizedCloud cloud = measure({ body }, quality);
-  for (const auto& point : cloud.points)
-  {
-    squares += (point.z() - z) * (point.z() - z);
-  }
-  return std::sqrt(squares / cloud.size());
-}
-
 /// A plate that fills the view, tilted about the vertical axis.
 meam::Body wall(const meam::TriangleMesh& mesh, double z, double tilt = 0.0)
 {
   meam::Body body = at(mesh, 0.0, z, tilt);
   body.T_scene_model.linear() *= 10.0;
   return body;
+}
+
+/// The standard deviation of the depth of a plate at z.
+double noiseAt(double z, double depthNoise)
+{
+  const meam::TriangleMesh mesh = plate(1e5f);
+  meam::SensorQuality quality = perfect();
+  quality.depthNoise = depthNoise;
+  double squares = 0.0;
+  const meam::OrganizedCloud cloud = measure({ wall(mesh, z) }, quality);
+  for (const auto& point : cloud.points)
+  {
+    squares += (point.z() - z) * (point.z() - z);
+  }
+  return std::sqrt(squares / cloud.size());
 }
 
 /// A sensor with a second eye that makes no errors.
@@ -225,8 +222,7 @@ TEST(VirtualSensor, disparityNoiseIsAlikeNearbyAndGrowsWithTheSquareOfTheDistanc
   meam::SensorQuality quality = stereo(50.0);
   quality.disparityNoise = 0.02;
   quality.noiseWindow = 5;
-  double squares = 0.0;
-  double products = 0.0;
+  double squares = 0.0, products = 0.0;
   const meam::OrganizedCloud cloud = measure({ wall(mesh, 900.0) }, quality);
   for (std::size_t i = 1; i < cloud.size(); ++i)
   {
@@ -341,27 +337,15 @@ TEST(VirtualSensor, anImageIsNoisyAndBlurred)
 
 TEST(VirtualSensor, badInput)
 {
-  const auto fails = [](const auto& change)
-  {
-    meam::SensorQuality quality;
-    meam::requireQuality(quality);
-    change(quality);
-    EXPECT_THROW(meam::requireQuality(quality), meam::Error);
-  };
-  fails([](auto& q) { q.depthNoise = -1.0; });
-  fails([](auto& q) { q.depthStep = std::nan(""); });
-  fails([](auto& q) { q.dropout = 1.5; });
-  fails([](auto& q) { q.jumpDropout = -0.1; });
-  fails([](auto& q) { q.matchingWindow = 0; });
-  fails([](auto& q) { q.imageBlur = 1e9; });
-  fails([](auto& q) { q.stereoBaseline = -1.0; });
-  fails([](auto& q) { q.disparityNoise = std::nan(""); });
-  fails([](auto& q) { q.smoothingWindow = 4; });
-  fails([](auto& q) { q.noiseWindow = 0; });
-  fails([](auto& q) { q.multipath = 1.5; });
-  fails([](auto& q) { q.pixelBlur = -0.1; });
-  const meam::View view = meam::rasterize({}, Floor, camera());
+  EXPECT_NO_THROW(meam::requireQuality({}));
+  steps::expectRefused<meam::SensorQuality>([](const auto& quality) { meam::requireQuality(quality); },
+    { { [](auto& q) { q.depthNoise = -1.0; } }, { [](auto& q) { q.depthStep = NAN; } },
+      { [](auto& q) { q.dropout = 1.5; } }, { [](auto& q) { q.jumpDropout = -0.1; } },
+      { [](auto& q) { q.matchingWindow = 0; } }, { [](auto& q) { q.imageBlur = 1e9; } },
+      { [](auto& q) { q.stereoBaseline = -1.0; } }, { [](auto& q) { q.disparityNoise = NAN; } },
+      { [](auto& q) { q.smoothingWindow = 4; } }, { [](auto& q) { q.noiseWindow = 0; } },
+      { [](auto& q) { q.multipath = 1.5; } }, { [](auto& q) { q.pixelBlur = -0.1; } } });
   meam::Random random(1);
-  EXPECT_THROW(
-    meam::measureDepth(view, camera(), meam::SensorQuality(), random, [](double) { return false; }), meam::Aborted);
+  steps::expectStops([&](const meam::Progress& progress)
+    { meam::measureDepth(meam::rasterize({}, Floor, camera()), camera(), meam::SensorQuality(), random, progress); });
 }

@@ -3,6 +3,8 @@
 
 #include "TestClosedMesh.h"
 #include "TestFiles.h"
+#include "TestParts.h"
+#include "base/Bounds.h"
 #include "io/cad/ChildProcess.h"
 #include "mesh/FeatureEdges.h"
 #include "mesh/preparation/MeshPreparation.h"
@@ -71,41 +73,34 @@ std::string igesOf(const files::Folder& folder, const TopoDS_Shape& shape, const
     });
 }
 
-Eigen::Vector3f sizes(const meam::TriangleMesh& mesh)
-{
-  Eigen::AlignedBox3f bounds;
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-  {
-    bounds.extend(vertex);
-  }
-  return bounds.sizes();
-}
-
-/// Of a closed mesh that looks outwards.
-double volume(const meam::TriangleMesh& mesh)
-{
-  double six = 0.0;
-  for (const Eigen::Vector3i& t : mesh.triangles)
-  {
-    six += mesh.vertices[t[0]].cast<double>().dot(
-      mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>()));
-  }
-  return six / 6.0;
-}
-
 void expectSizes(const meam::TriangleMesh& mesh, double x, double y, double z)
 {
   constexpr float close = 0.01f; // mm
-  EXPECT_TRUE(sizes(mesh).isApprox(Eigen::Vector3d(x, y, z).cast<float>(), close / static_cast<float>(x)))
-    << sizes(mesh).transpose();
+  const Eigen::Vector3f sizes = meam::bounds(mesh.vertices).sizes();
+  EXPECT_TRUE(sizes.isApprox(Eigen::Vector3d(x, y, z).cast<float>(), close / static_cast<float>(x)))
+    << sizes.transpose();
 }
 
-std::string errorOfCAD(const std::string& path)
+/// The file of a damaged or missing part says so in these words.
+void expectError(const std::string& path, const std::string& words = "")
 {
   const std::string error = files::errorOf([&] { meam::readCAD(path); });
-  EXPECT_TRUE(files::contains(error, path)) << error;
-  return error;
+  EXPECT_TRUE(files::contains(error, path) && files::contains(error, words)) << error;
 }
+
+TopoDS_Compound compoundOf(const TopoDS_Shape& one, const TopoDS_Shape& other)
+{
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, one);
+  builder.Add(both, other);
+  return both;
+}
+
+TopoDS_Shape rod() { return BRepPrimAPI_MakeCylinder(10, 30).Shape(); }
+constexpr double RodVolume = M_PI * 1e2 * 30;
+
 }
 
 TEST(CADFile, lengthsComeInMmWhateverTheUnitOfTheFileIs)
@@ -116,7 +111,7 @@ TEST(CADFile, lengthsComeInMmWhateverTheUnitOfTheFileIs)
   {
     const meam::CADPart part = meam::readCAD(stepOf(folder, shape, unit, "part.STP"));
     expectSizes(part.mesh, 254, 508, 762);
-    EXPECT_NEAR(volume(part.mesh), 254.0 * 508 * 762, 1e3);
+    EXPECT_NEAR(parts::volume(part.mesh), 254.0 * 508 * 762, 1e3);
     EXPECT_EQ(part.mesh.vertices.size(), 8u);
     EXPECT_EQ(part.mesh.triangles.size(), 12u);
     EXPECT_EQ(part.report, "");
@@ -126,13 +121,13 @@ TEST(CADFile, lengthsComeInMmWhateverTheUnitOfTheFileIs)
 TEST(CADFile, curvedFacesAreClosedAndLookOutwards)
 {
   const files::Folder folder;
-  const double ball = 4.0 / 3.0 * M_PI * 1e3, rod = M_PI * 1e2 * 30, tip = rod / 3.0;
-  for (const auto& [shape, expected] : { std::pair(BRepPrimAPI_MakeCylinder(10, 30).Shape(), rod),
+  const double ball = 4.0 / 3.0 * M_PI * 1e3, tip = RodVolume / 3.0;
+  for (const auto& [shape, expected] : { std::pair(rod(), RodVolume),
          std::pair(BRepPrimAPI_MakeSphere(10).Shape(), ball), std::pair(BRepPrimAPI_MakeCone(10, 0, 30).Shape(), tip) })
   {
     const meam::TriangleMesh mesh = meam::readCAD(stepOf(folder, shape)).mesh;
     parts::expectTwoFacesAtEachEdge(mesh, 0.0f);
-    EXPECT_NEAR(volume(mesh) / expected, 1.0, 0.01);
+    EXPECT_NEAR(parts::volume(mesh) / expected, 1.0, 0.01);
   }
 }
 
@@ -146,7 +141,7 @@ TEST(CADFile, sharpEdgesOfTheMeshAreThoseOfTheSurfaces)
     const meam::TriangleMesh mesh = meam::readCAD(stepOf(folder, shape)).mesh;
     return settings.spacing * static_cast<double>(meam::extractFeatureEdges(mesh, settings).points.size());
   };
-  EXPECT_NEAR(lengthOf(BRepPrimAPI_MakeCylinder(10, 30).Shape()), 2 * 2 * M_PI * 10, 0.5); // not its seam
+  EXPECT_NEAR(lengthOf(rod()), 2 * 2 * M_PI * 10, 0.5); // not its seam
   EXPECT_EQ(lengthOf(BRepPrimAPI_MakeSphere(10).Shape()), 0.0);
 }
 
@@ -157,15 +152,11 @@ TEST(CADFile, allSolidsAreOnePartWhereTheyArePlaced)
   place.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), M_PI / 2.0);
   place.SetTranslationPart(gp_Vec(100, 0, 0));
   const TopoDS_Shape shape = box(10, 20, 30);
-  TopoDS_Compound both;
-  BRep_Builder builder;
-  builder.MakeCompound(both);
-  builder.Add(both, shape);
-  builder.Add(both, shape.Moved(place)); // the same shape again, as in an assembly
-  const meam::CADPart part = meam::readCAD(stepOf(folder, both));
+  // The same shape again, as in an assembly.
+  const meam::CADPart part = meam::readCAD(stepOf(folder, compoundOf(shape, shape.Moved(place))));
   expectSizes(part.mesh, 100, 20, 30);
   parts::expectTwoFacesAtEachEdge(part.mesh, 0.0f);
-  EXPECT_NEAR(volume(part.mesh), 2 * 6000.0, 0.1);
+  EXPECT_NEAR(parts::volume(part.mesh), 2 * 6000.0, 0.1);
   EXPECT_TRUE(files::contains(part.report, "2 solids")) << part.report;
   EXPECT_TRUE(files::contains(part.report, "(solid): 1 is 10 x 20 x 30 mm, 2 is 20 x 10 x 30 mm.")) << part.report;
   EXPECT_TRUE(files::contains(part.report, "12 triangles, far off the rest")) << part.report;
@@ -176,17 +167,12 @@ TEST(CADFile, oneSolidIsChosen)
   const files::Folder folder;
   gp_Trsf place;
   place.SetTranslation(gp_Vec(100, 0, 0));
-  TopoDS_Compound both;
-  BRep_Builder builder;
-  builder.MakeCompound(both);
-  builder.Add(both, box(10, 20, 30));
-  builder.Add(both, BRepPrimAPI_MakeCylinder(10, 30).Shape().Moved(place));
-  const std::string path = stepOf(folder, both);
+  const std::string path = stepOf(folder, compoundOf(box(10, 20, 30), rod().Moved(place)));
   const meam::CADPart first = meam::readCAD(path, { 1 }), second = meam::readCAD(path, { 2 });
   expectSizes(first.mesh, 10, 20, 30);
   EXPECT_EQ(first.report, "");
   parts::expectTwoFacesAtEachEdge(second.mesh, 0.0f);
-  EXPECT_NEAR(volume(second.mesh) / (M_PI * 1e2 * 30), 1.0, 0.01);
+  EXPECT_NEAR(parts::volume(second.mesh) / RodVolume, 1.0, 0.01);
   EXPECT_NEAR(second.mesh.vertices.front().x(), 100.0f, 10.01f); // where the file puts it
   const auto error = [](const std::string& file, int solid)
   { return files::errorOf([&] { meam::readCAD(file, { solid }); }); };
@@ -224,11 +210,10 @@ TEST(CADFile, facesOfIGESAreSewn)
     expectSizes(mesh, 10, 20, 30);
     EXPECT_EQ(mesh.vertices.size(), 8u);
   }
-  const meam::PreparedMesh rod =
-    meam::prepareMesh(meam::readCAD(igesOf(folder, BRepPrimAPI_MakeCylinder(10, 30).Shape(), "MM")).mesh);
-  EXPECT_EQ(rod.report.nearVertices + rod.report.mergedVertices, 0);
-  EXPECT_TRUE(rod.report.closed);
-  EXPECT_NEAR(rod.report.volume / (M_PI * 1e2 * 30), 1.0, 0.01);
+  const meam::MeshReport report = meam::prepareMesh(meam::readCAD(igesOf(folder, rod(), "MM")).mesh).report;
+  EXPECT_EQ(report.nearVertices + report.mergedVertices, 0);
+  EXPECT_TRUE(report.closed);
+  EXPECT_NEAR(report.volume / RodVolume, 1.0, 0.01);
 }
 
 TEST(CADFile, whatIsDamagedIsASentence)
@@ -237,22 +222,22 @@ TEST(CADFile, whatIsDamagedIsASentence)
   const std::string whole = meam::readFile(stepOf(folder, box(10, 20, 30)));
   for (const char* name : { "empty.step", "empty.igs" })
   {
-    EXPECT_NE(errorOfCAD(folder.write(name, "")), "");
-    EXPECT_NE(errorOfCAD(folder.write(name, "solid part\n")), "");
-    EXPECT_NE(errorOfCAD(folder.path("no.step")), "");
+    expectError(folder.write(name, ""));
+    expectError(folder.write(name, "solid part\n"));
+    expectError(folder.path("no.step"));
   }
-  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("cut.step", whole.substr(0, whole.size() / 2))), "cut off"));
+  expectError(folder.write("cut.step", whole.substr(0, whole.size() / 2)), "cut off");
   const std::string iges = meam::readFile(igesOf(folder, box(10, 20, 30), "MM"));
-  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("cut.igs", iges.substr(0, iges.size() * 9 / 10))), "cut off"));
+  expectError(folder.write("cut.igs", iges.substr(0, iges.size() * 9 / 10)), "cut off");
 
   // A face whose surface is no surface.
   std::string other = whole;
   const std::size_t face = other.find("ADVANCED_FACE");
   const std::size_t surface = other.find(",#", face) + 2;
   other.replace(surface, other.find(',', surface) - surface, "1");
-  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("other.step", other)), "damaged"));
+  expectError(folder.write("other.step", other), "damaged");
   const TopoDS_Shape line = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Shape();
-  EXPECT_TRUE(files::contains(errorOfCAD(stepOf(folder, line)), "no surface"));
+  expectError(stepOf(folder, line), "no surface");
 }
 
 TEST(CADFile, whatIsMissingIsASentence)
@@ -264,18 +249,18 @@ TEST(CADFile, whatIsMissingIsASentence)
   const std::size_t edge = text.rfind('#', text.find("ORIENTED_EDGE"));
   const std::string name = text.substr(edge, text.find(' ', edge) - edge);
   text.erase(edge, text.find(';', edge) + 1 - edge);
-  EXPECT_TRUE(files::contains(errorOfCAD(folder.write("edge.step", text)), "refers to " + name + ", which"));
+  expectError(folder.write("edge.step", text), "refers to " + name + ", which");
   text = whole;
   text.insert(text.find("DATA;"), "/* #7 of 'it */");
   text.insert(text.find("'", text.find("DATA;")) + 1, "it''s #9");
   EXPECT_EQ(meam::readCAD(folder.write("quoted.step", text)).mesh.triangles.size(), 12u);
   // A cylinder that is none.
-  const std::string rod = meam::readFile(stepOf(folder, BRepPrimAPI_MakeCylinder(10, 30).Shape()));
-  const std::size_t radius = rod.find(",10.)", rod.find("CYLINDRICAL_SURFACE")) + 1;
-  const std::string thin = errorOfCAD(folder.write("thin.step", std::string(rod).replace(radius, 3, "0.")));
-  EXPECT_TRUE(files::contains(thin, "has 1 of its 3 faces damaged: they cannot be triangulated")) << thin;
-  const std::string negative = errorOfCAD(folder.write("negative.step", std::string(rod).insert(radius, "-")));
-  EXPECT_TRUE(files::contains(negative, "in an entity StepGeom_CylindricalSurface of it, of which")) << negative;
+  const std::string cylinder = meam::readFile(stepOf(folder, rod()));
+  const std::size_t radius = cylinder.find(",10.)", cylinder.find("CYLINDRICAL_SURFACE")) + 1;
+  expectError(folder.write("thin.step", std::string(cylinder).replace(radius, 3, "0.")),
+    "has 1 of its 3 faces damaged: they cannot be triangulated");
+  expectError(folder.write("negative.step", std::string(cylinder).insert(radius, "-")),
+    "in an entity StepGeom_CylindricalSurface of it, of which");
 
   const std::string iges = meam::readFile(igesOf(folder, box(10, 20, 30), "MM"));
   constexpr std::size_t length = 81; // of a line with its end
@@ -284,14 +269,11 @@ TEST(CADFile, whatIsMissingIsASentence)
     std::string result = iges;
     return result.erase(result.find(line) / length * length, length);
   };
-  const std::string line = errorOfCAD(folder.write("line.igs", without("P0000005")));
-  EXPECT_TRUE(files::contains(line, "lines of the section P instead of")) << line;
-  const std::string entity = errorOfCAD(folder.write("entity.igs", without("D0000003")));
-  EXPECT_TRUE(files::contains(entity, "lines of the section D instead of")) << entity;
+  expectError(folder.write("line.igs", without("P0000005")), "lines of the section P instead of");
+  expectError(folder.write("entity.igs", without("D0000003")), "lines of the section D instead of");
   text = iges;
   text.replace(text.find("\n144,") + 5, 2, "99"); // a face of another surface
-  const std::string surface = errorOfCAD(folder.write("surface.igs", text));
-  EXPECT_TRUE(files::contains(surface, "in an entity IGESGeom_TrimmedSurface of it, of which")) << surface;
+  expectError(folder.write("surface.igs", text), "in an entity IGESGeom_TrimmedSurface of it, of which");
 }
 
 TEST(CADFile, aByteOrderMarkIsSkipped)
@@ -303,11 +285,4 @@ TEST(CADFile, aByteOrderMarkIsSkipped)
     folder.write(std::filesystem::path(path).filename(), "\xef\xbb\xbf" + meam::readFile(path));
     EXPECT_EQ(meam::readCAD(path).mesh.vertices, mesh.vertices) << path;
   }
-}
-
-TEST(CADFile, otherFilesAreReadAsMeshes)
-{
-  const files::Folder folder;
-  const std::string path = folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  EXPECT_EQ(meam::readCAD(path).mesh.triangles.size(), 1u);
 }

@@ -4,8 +4,6 @@
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshRemeshing.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 /// Total length of the edges where faces meet at more than 30 degrees.
@@ -48,10 +46,7 @@ TEST(MeshRemeshing, cubeKeepsItsEdges)
 
 TEST(MeshRemeshing, borderStays)
 {
-  meam::TriangleMesh sheet;
-  sheet.vertices = { { 0, 0, 0 }, { 30, 0, 0 }, { 30, 20, 0 }, { 0, 20, 0 } };
-  sheet.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  const meam::TriangleMesh result = meam::remesh(sheet, 2.0);
+  const meam::TriangleMesh result = meam::remesh(parts::rectangle(30, 20), 2.0);
   double border = 0.0;
   for (const auto& edge : meam::edgesOf(result))
   {

@@ -2,12 +2,9 @@
 #include "TestParts.h"
 #include "TestScale.h"
 #include "base/Bounds.h"
-#include "mesh/MeshEdges.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshDistance.h"
 #include "mesh/preparation/MeshSimplification.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {
@@ -38,81 +35,22 @@ meam::TriangleMesh sheet(int n, Missing&& missing)
   return mesh;
 }
 
-/// Every triangle becomes four.
-meam::TriangleMesh divided(const meam::TriangleMesh& mesh)
-{
-  meam::TriangleMesh result;
-  result.vertices = mesh.vertices;
-  const std::vector<meam::MeshEdge> edges = meam::edgesOf(mesh);
-  for (const auto& edge : edges)
-  {
-    result.vertices.push_back(0.5f * (mesh.vertices[edge.vertices[0]] + mesh.vertices[edge.vertices[1]]));
-  }
-  const auto middle = [&](int a, int b)
-  {
-    const std::array<int, 2> wanted = { std::min(a, b), std::max(a, b) };
-    const auto at = std::lower_bound(edges.begin(), edges.end(), wanted,
-      [](const meam::MeshEdge& edge, const std::array<int, 2>& other) { return edge.vertices < other; });
-    return static_cast<int>(mesh.vertices.size() + (at - edges.begin()));
-  };
-  for (const auto& t : mesh.triangles)
-  {
-    const Eigen::Vector3i m(middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0]));
-    result.triangles.emplace_back(t[0], m[0], m[2]);
-    result.triangles.emplace_back(m[0], t[1], m[1]);
-    result.triangles.emplace_back(m[2], m[1], t[2]);
-    result.triangles.push_back(m);
-  }
-  return result;
-}
-
-meam::TriangleMesh sphere(float radius)
-{
-  meam::TriangleMesh mesh;
-  mesh.vertices = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
-  mesh.triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 },
-    { 0, 3, 5 } };
-  for (int i = 0; i < (SmallData ? 4 : 5); ++i)
-  {
-    mesh = divided(mesh);
-  }
-  for (auto& vertex : mesh.vertices)
-  {
-    vertex = radius * vertex.normalized();
-  }
-  return mesh;
-}
-
-double area(const meam::TriangleMesh& mesh)
-{
-  double sum = 0.0;
-  for (const auto& t : mesh.triangles)
-  {
-    const Eigen::Vector3f a = mesh.vertices[t[0]];
-    sum += 0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm();
-  }
-  return sum;
-}
 }
 
 TEST(MeshSimplification, fineBoxGoesToTwelveTriangles)
 {
   const meam::TriangleMesh coarse = parts::box({ 0, 0, 0 }, { 16, 32, 64 });
-  meam::TriangleMesh fine = coarse;
-  for (int i = 0; i < 4; ++i)
-  {
-    fine = divided(fine);
-  }
+  const meam::TriangleMesh fine = parts::divided(coarse, 4);
   ASSERT_EQ(fine.triangles.size(), 3072u);
   const meam::TriangleMesh result = meam::simplifyMesh(fine, 0.01);
   EXPECT_EQ(result.triangles.size(), 12u);
   EXPECT_EQ(result.vertices.size(), 8u);
-  EXPECT_NEAR(area(result), area(coarse), 1e-3);
+  EXPECT_NEAR(parts::area(result), parts::area(coarse), 1e-3);
 }
 
 TEST(MeshSimplification, boundHoldsOnASphere)
 {
-  const meam::TriangleMesh fine = sphere(50);
+  const meam::TriangleMesh fine = parts::sphere(50, SmallData ? 4 : 5);
   ASSERT_EQ(fine.triangles.size(), SmallData ? 2048u : 8192u);
   const double sagitta = SmallData ? 0.2 : 0.05; // of the fine mesh itself
   std::size_t before = fine.triangles.size();
@@ -134,22 +72,16 @@ TEST(MeshSimplification, boundHoldsOnASphere)
 
 TEST(MeshSimplification, smallBoundKeepsTheMesh)
 {
-  const meam::TriangleMesh fine = sphere(50);
+  const meam::TriangleMesh fine = parts::sphere(50, SmallData ? 4 : 5);
   EXPECT_EQ(meam::simplifyMesh(fine, 1e-4).triangles.size(), fine.triangles.size());
 }
 
 TEST(MeshSimplification, edgesStaySharp)
 {
-  meam::TriangleMesh fine = parts::lBracket();
-  const double expected = area(fine);
-  for (int i = 0; i < 3; ++i)
-  {
-    fine = divided(fine);
-  }
-  const meam::TriangleMesh result = meam::simplifyMesh(fine, 0.5);
+  const meam::TriangleMesh result = meam::simplifyMesh(parts::divided(parts::lBracket(), 3), 0.5);
   EXPECT_EQ(result.vertices.size(), 12u);
   EXPECT_EQ(result.triangles.size(), 20u);
-  EXPECT_NEAR(area(result), expected, 1e-2);
+  EXPECT_NEAR(parts::area(result), parts::area(parts::lBracket()), 1e-2);
 }
 
 TEST(MeshSimplification, notchesAndHolesOfASheetStay)
@@ -158,7 +90,7 @@ TEST(MeshSimplification, notchesAndHolesOfASheetStay)
   const meam::TriangleMesh fine =
     sheet(12, [](int x, int y) { return (x >= 4 && x < 8 && y < 2) || (x >= 5 && x < 8 && y >= 6 && y < 9); });
   const meam::TriangleMesh result = meam::simplifyMesh(fine, 0.5);
-  EXPECT_NEAR(area(result), 144.0 - 8.0 - 9.0, 1e-4);
+  EXPECT_NEAR(parts::area(result), 144.0 - 8.0 - 9.0, 1e-4);
   EXPECT_LT(result.triangles.size(), 20u);
   EXPECT_LE(meam::meshDistance(fine, result), 1e-5);
 }
@@ -166,7 +98,7 @@ TEST(MeshSimplification, notchesAndHolesOfASheetStay)
 TEST(MeshSimplification, thinSpikeStays)
 {
   // 10 mm high and 0.2 mm wide, within the bound of all of its own planes.
-  const meam::TriangleMesh spike = divided(divided(parts::prism({ { -5, 0 }, { 5, -0.1f }, { 5, 0.1f } }, 0.2f)));
+  const meam::TriangleMesh spike = parts::divided(parts::prism({ { -5, 0 }, { 5, -0.1f }, { 5, 0.1f } }, 0.2f), 2);
   const meam::TriangleMesh result = meam::simplifyMesh(spike, 0.5);
   EXPECT_LE(meam::meshDistance(spike, result), 0.5);
   EXPECT_GT(meam::bounds(result.vertices).sizes().x(), 9.0f);
@@ -174,7 +106,7 @@ TEST(MeshSimplification, thinSpikeStays)
 
 TEST(MeshSimplification, sameResultAgain)
 {
-  const meam::TriangleMesh fine = sphere(50);
+  const meam::TriangleMesh fine = parts::sphere(50, SmallData ? 4 : 5);
   const meam::TriangleMesh first = meam::simplifyMesh(fine, 1.0);
   const meam::TriangleMesh second = meam::simplifyMesh(fine, 1.0);
   EXPECT_EQ(first.vertices, second.vertices);

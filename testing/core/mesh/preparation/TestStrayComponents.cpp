@@ -2,45 +2,23 @@
 #include "mesh/preparation/StrayComponents.h"
 
 #include "TestFiles.h"
-
-#include <gtest/gtest.h>
+#include "TestParts.h"
 
 namespace
 {
-void addQuad(meam::TriangleMesh& mesh, const meam::Points& corners)
-{
-  const int first = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
-  mesh.triangles.emplace_back(first, first + 1, first + 2);
-  mesh.triangles.emplace_back(first, first + 2, first + 3);
-}
-
 /// A box whose faces share no vertices, only their places.
 void addBox(meam::TriangleMesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& size)
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    Eigen::Vector3f u = Eigen::Vector3f::Zero(), v = u, w = u;
-    u[axis] = size[axis];
-    v[(axis + 1) % 3] = size[(axis + 1) % 3];
-    w[(axis + 2) % 3] = size[(axis + 2) % 3];
-    addQuad(mesh, { low, low + w, low + v + w, low + v });
-    addQuad(mesh, { low + u, low + u + v, low + u + v + w, low + u + w });
-  }
+  mesh = parts::joined(mesh, parts::soup(parts::box(low, low + size)));
 }
 
 /// A plane across the direction in which it has no size.
 void addPlane(meam::TriangleMesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& u, const Eigen::Vector3f& v)
 {
-  addQuad(mesh, { low, low + u, low + u + v, low + v });
+  mesh = parts::joined(mesh, { { low, low + u, low + u + v, low + v }, { { 0, 1, 2 }, { 0, 2, 3 } } });
 }
 
-meam::TriangleMesh strayPart()
-{
-  meam::TriangleMesh mesh;
-  addBox(mesh, { 0, 0, 0 }, { 50, 40, 20 });
-  return mesh;
-}
+meam::TriangleMesh strayPart() { return parts::soup(parts::box({ 0, 0, 0 }, { 50, 40, 20 })); }
 
 std::vector<std::string> strayIn(const meam::TriangleMesh& mesh) { return meam::strayComponents(mesh, "mm"); }
 }
@@ -49,8 +27,7 @@ TEST(StrayComponents, aTriangleFarOff)
 {
   meam::TriangleMesh mesh = strayPart();
   const int first = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), { { 1000, 0, 0 }, { 1002, 0, 0 }, { 1000, 1, 0 } });
-  mesh.triangles.emplace_back(first, first + 1, first + 2);
+  mesh = parts::joined(mesh, { { { 1000, 0, 0 }, { 1002, 0, 0 }, { 1000, 1, 0 } }, { { 0, 1, 2 } } });
   const auto stray = strayIn(mesh);
   ASSERT_EQ(stray.size(), 1u);
   EXPECT_EQ(stray[0], "a component of 1 triangle, far off the rest, 2 x 1 x 0 large at (1001, 0.5, 0) in mm");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/symmetry/SampleIndex.h"
 
-#include <gtest/gtest.h>
+#include "TestParts.h"
 
 #include <random>
 
@@ -13,13 +13,10 @@ meam::PointCloud plate()
   meam::PointCloud result;
   for (const float side : { -1.0f, 1.0f })
   {
-    for (int x = 0; x < 10; ++x)
+    for (const Eigen::Vector3f& point : parts::lattice({ 0, 0 }, { 9, 9 }, 1.0f, 0.5f * side))
     {
-      for (int y = 0; y < 10; ++y)
-      {
-        result.points.emplace_back(x, y, 0.5f * side);
-        result.normals.emplace_back(0.0f, 0.0f, side);
-      }
+      result.points.push_back(point);
+      result.normals.emplace_back(0.0f, 0.0f, side);
     }
   }
   return result;

@@ -4,20 +4,15 @@
 #include "TestParts.h"
 #include "TestScale.h"
 #include "mesh/ConvexHull.h"
-#include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
 #include "pose/Pose.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {
 /// By points so far from each other, in diameters.
 meam::PointCloud sampled(const meam::TriangleMesh& mesh, double spacing = SmallData ? 0.03 : 0.02)
 {
-  meam::SurfaceSamplingSettings settings;
-  settings.spacing = spacing * meam::diameter(mesh.vertices);
-  return meam::sampleSurface(mesh, settings);
+  return parts::sampled(mesh, spacing * meam::diameter(mesh.vertices));
 }
 
 bool contains(const std::vector<Eigen::Isometry3d>& turns, const Eigen::Vector3d& axis, double degrees)

@@ -2,23 +2,10 @@
 #include "pick/planning/GraspSearch.h"
 
 #include "TestGrippers.h"
-#include "pick/Grasp.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {
 using Eigen::Vector3d;
-
-/// Along the part's z, across it.
-meam::Grasp across()
-{
-  meam::Grasp grasp;
-  grasp.name = "across";
-  grasp.T_model_grasp = meam::graspFrame({ 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 });
-  grasp.width = 20.0;
-  return grasp;
-}
 
 /// The grasp's way in goes down, along the scene's z; tilted about its y.
 meam::Pose lying(double x, double tilt = 0.0)
@@ -30,8 +17,8 @@ meam::Pose lying(double x, double tilt = 0.0)
 }
 
 /// Picks the first of the poses, all of which stand in the way.
-meam::Pick pickFirst(
-  const meam::Poses& poses, const meam::Gripper& gripper = grippers::jaws(), const meam::Grasp& grasp = across())
+meam::Pick pickFirst(const meam::Poses& poses, const meam::Gripper& gripper = grippers::jaws(),
+  const meam::Grasp& grasp = grippers::fromAbove())
 {
   meam::GraspSearch search(grippers::block(), {}, { grasp }, gripper, {});
   meam::PickSurroundings around;
@@ -62,14 +49,16 @@ TEST(GraspSearch, ARotationIsNeededWhereTheJawsDoNotTouchThePartAtEachNearSymmet
   {
     meam::Symmetries symmetries;
     symmetries.near.push_back({ meam::turnAbout(Vector3d::UnitZ(), degrees * M_PI / 180.0, Vector3d::Zero()) });
-    return meam::GraspSearch(grippers::block(), symmetries, { across() }, grippers::jaws(), settings).needsRotation(0);
+    return meam::GraspSearch(grippers::block(), symmetries, { grippers::fromAbove() }, grippers::jaws(), settings)
+      .needsRotation(0);
   };
   EXPECT_FALSE(needsRotation(180.0)) << "the jaws are on the other faces";
   EXPECT_TRUE(needsRotation(90.0)) << "10 mm inside the block";
   meam::PlanSettings counts;
   counts.rotationCounts = true;
   EXPECT_TRUE(needsRotation(180.0, counts));
-  EXPECT_TRUE(meam::GraspSearch(grippers::block(), {}, { across() }, grippers::jaws(), {}).needsRotation(0))
+  EXPECT_TRUE(
+    meam::GraspSearch(grippers::block(), {}, { grippers::fromAbove() }, grippers::jaws(), {}).needsRotation(0))
     << "nothing is known";
 }
 
@@ -109,7 +98,7 @@ TEST(GraspSearch, WhatTheGripperCannotDo)
 
 TEST(GraspSearch, GraspsAreCheckedBefore)
 {
-  meam::Grasp far = across();
+  meam::Grasp far = grippers::fromAbove();
   far.T_model_grasp.translation().x() += 100.0;
   EXPECT_THROW(meam::GraspSearch(grippers::block(), {}, { far }, grippers::jaws(), {}), meam::Error);
   EXPECT_THROW(meam::GraspSearch(grippers::block(), {}, {}, grippers::jaws(), {}), meam::Error);

@@ -4,25 +4,12 @@
 #include "TestParts.h"
 #include "base/Error.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 meam::PartSurface slab() { return { parts::box({ -20, -10, -5 }, { 20, 10, 5 }), 1.0, 3.0 }; }
 
-/// Points of a plate 2 mm apart at a height.
-meam::Points plate(float fromX, float toX, float z)
-{
-  meam::Points points;
-  for (float x = fromX; x <= toX; x += 1.0f)
-  {
-    for (float y = -30.0f; y <= 30.0f; y += 1.0f)
-    {
-      points.emplace_back(x, y, z);
-    }
-  }
-  return points;
-}
+/// Points of a plate 1 mm apart at a height.
+meam::Points plate(float fromX, float toX, float z) { return parts::lattice({ fromX, -30 }, { toX, 30 }, 1.0f, z); }
 }
 
 TEST(PartSurface, KnowsThePointsOnIt)

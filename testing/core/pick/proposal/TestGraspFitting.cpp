@@ -3,8 +3,6 @@
 #include "TestFiles.h"
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 meam::Grasp at(const Eigen::Vector3d& position)

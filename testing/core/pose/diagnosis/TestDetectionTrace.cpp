@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 TEST(DetectionTrace, HoldsEveryStageAndWhatLimitsKeptBack)
 {
   const meam::Scene& scene = scenes::copiesScene();

@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 using Eigen::Vector3d;
@@ -19,10 +17,9 @@ struct Both
 {
   Both()
     : seen(scenes::withTangents(scenes::seenFromAbove({ { parts::lBracket(), BracketAt }, { thickBlock(), BlockAt } })))
-    , input{ meam::toLocalCloud(seen.edges), {}, seen.sensor }
+    , input(scenes::inputOf(seen))
     , settings(meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5))
   {
-    input.measured = meam::toLocalPoints(seen.surface, input.edges.T_local_scene);
   }
 
   scenes::Seen seen;

@@ -2,9 +2,8 @@
 #include "pose/diagnosis/PoseDiagnosis.h"
 
 #include "TestScene.h"
+#include "TestSteps.h"
 #include "base/Bounds.h"
-
-#include <gtest/gtest.h>
 
 using meam::LossCause;
 using meam::PoseStage;
@@ -16,11 +15,7 @@ const Eigen::Isometry3d Here = scenes::lying(90, 10, 131, false); // the second 
 /// A large plate at a height above the second copy, from `y` on.
 scenes::Seen covered(double y)
 {
-  std::vector<scenes::Copy> copies;
-  for (const Eigen::Isometry3d& T : scenes::threeCopies())
-  {
-    copies.push_back({ parts::lBracket(), T });
-  }
+  std::vector<scenes::Copy> copies = scenes::brackets(scenes::threeCopies());
   copies.push_back({ parts::box({ 40, static_cast<float>(y), 60 }, { 140, 70, 64 }), Eigen::Isometry3d::Identity() });
   return scenes::withTangents(scenes::seenFromAbove(copies));
 }
@@ -46,6 +41,37 @@ void removeEdges(scenes::Seen& seen, Predicate&& isRemoved)
     }
   }
   seen.edges = seen.edges.subset(kept);
+}
+
+/// Of how many of the three copies the cause is this one, lost in this stage.
+int lostBy(const meam::DetectionSettings& detection, LossCause cause, PoseStage stage)
+{
+  meam::PoseDiagnosis diagnosis(scenes::copiesScene(), scenes::bracket(), detection);
+  return static_cast<int>(std::count_if(scenes::threeCopies().begin(), scenes::threeCopies().end(),
+    [&](const Eigen::Isometry3d& T)
+    {
+      const meam::Diagnosis of = diagnosis.atPose(T);
+      return of.cause == cause && of.lostIn == stage;
+    }));
+}
+
+meam::DetectionSettings recommended(int poses = 0) { return meam::detectionSettings(meam::Preset::Recommended, poses); }
+
+/// Adds a grid of points at a height, so many mm apart.
+void addPlane(meam::Points& points, const Eigen::AlignedBox2f& box, float z, float step = 1.0f)
+{
+  for (float x = box.min().x(); x < box.max().x(); x += step)
+  {
+    for (float y = box.min().y(); y < box.max().y(); y += step)
+    {
+      points.emplace_back(x, y, z);
+    }
+  }
+}
+
+Eigen::AlignedBox2f region(float x0, float x1, float y0, float y1)
+{
+  return { Eigen::Vector2f(x0, y0), Eigen::Vector2f(x1, y1) };
 }
 
 /// Whether a point is near the second copy.
@@ -126,13 +152,7 @@ TEST(PoseDiagnosis, APartUnderAnotherIsHidden)
 TEST(PoseDiagnosis, NoPartLiesInTheFloor)
 {
   scenes::Seen seen = scenes::seenCopies();
-  for (float x = -160.0f; x < 260.0f; x += 1.0f)
-  {
-    for (float y = -160.0f; y < 260.0f; y += 1.0f)
-    {
-      seen.surface.emplace_back(x, y, -1.0f);
-    }
-  }
+  addPlane(seen.surface, region(-160, 260, -160, 260), -1.0f);
   // Beside the copies, with its upper side in the floor.
   Eigen::Isometry3d in = scenes::lying(50, 200, 0);
   const Eigen::AlignedBox3f part = meam::bounds(meam::moved(scenes::bracket().surface.points, in));
@@ -149,13 +169,7 @@ TEST(PoseDiagnosis, WhereNothingIsTheSensorSawPastThePart)
 {
   // On the floor of a scene there is one; a pose above it.
   scenes::Seen seen = scenes::seenCopies();
-  for (float x = -60.0f; x < 160.0f; x += 1.0f)
-  {
-    for (float y = 110.0f; y < 260.0f; y += 1.0f)
-    {
-      seen.surface.emplace_back(x, y, 0.0f);
-    }
-  }
+  addPlane(seen.surface, region(-60, 160, 110, 260), 0.0f);
   Eigen::Isometry3d above = scenes::lying(50, 180, 0);
   above.pretranslate(Eigen::Vector3d(0, 0, 40));
   EXPECT_EQ(diagnose(seen, above).cause, LossCause::NotThere);
@@ -175,8 +189,8 @@ TEST(PoseDiagnosis, LimitsAreNamed)
 {
   const scenes::Seen seen = scenes::seenCopies();
   const meam::Scene scene = scenes::prepared(seen);
-  meam::PoseDiagnosis all(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 0));
-  meam::PoseDiagnosis one(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 1));
+  meam::PoseDiagnosis all(scene, scenes::bracket(), recommended());
+  meam::PoseDiagnosis one(scene, scenes::bracket(), recommended(1));
   for (const Eigen::Isometry3d& T : scenes::threeCopies())
   {
     const int rank = all.atPose(T).rank;
@@ -192,17 +206,11 @@ TEST(PoseDiagnosis, WithoutReferencePointsOnThePartItIsTheirShare)
 {
   // A hundred reference points among many edges elsewhere: most copies have none.
   scenes::Seen seen = scenes::seenCopies();
-  for (float x = 400.0f; x < 1900.0f; x += 5.0f)
-  {
-    for (float y = 0.0f; y < 1500.0f; y += 5.0f)
-    {
-      seen.edges.points.emplace_back(x, y, 0.0f);
-      seen.edges.tangents.push_back(Eigen::Vector3f::UnitZ());
-    }
-  }
+  addPlane(seen.edges.points, region(400, 1900, 0, 1500), 0.0f, 5.0f);
+  seen.edges.tangents.resize(seen.edges.size(), Eigen::Vector3f::UnitZ());
   seen.edges.weights.resize(seen.edges.size(), 1.0f);
   const meam::Scene scene = scenes::prepared(seen);
-  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
+  meam::DetectionSettings detection = recommended();
   detection.detection.features = meam::Features::Edges;
   detection.detection.referenceShare = 1e-6;
   meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), detection);
@@ -218,7 +226,7 @@ TEST(PoseDiagnosis, WithoutReferencePointsOnThePartItIsTheirShare)
 
 TEST(PoseDiagnosis, ScreeningOfTooLittleSurface)
 {
-  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
+  meam::DetectionSettings detection = recommended();
   detection.screening->enough = 0;
   detection.screening->leastSurface = 1.01; // none has so much
   const meam::Diagnosis diagnosis = diagnose(scenes::seenCopies(), Here, detection);
@@ -230,31 +238,16 @@ TEST(PoseDiagnosis, ScreeningOfTooLittleSurface)
 
 TEST(PoseDiagnosis, ScoresThatAreTooLow)
 {
-  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
-  detection.candidateVerification.posesPerView = 1;
-  meam::PoseDiagnosis diagnosis(scenes::copiesScene(), scenes::bracket(), detection);
-  int lost = 0; // of two copies that are seen from the same side one
-  for (const Eigen::Isometry3d& T : scenes::threeCopies())
-  {
-    const meam::Diagnosis of = diagnosis.atPose(T);
-    lost += of.cause == LossCause::LowScore && of.lostIn == PoseStage::CandidateVerification ? 1 : 0;
-  }
-  EXPECT_EQ(lost, 1);
+  meam::DetectionSettings detection = recommended();
+  detection.candidateVerification.posesPerView = 1; // of two copies that are seen from the same side one
+  EXPECT_EQ(lostBy(detection, LossCause::LowScore, PoseStage::CandidateVerification), 1);
 }
 
 TEST(PoseDiagnosis, CandidatesThatAreNotRefined)
 {
-  meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 0);
+  meam::DetectionSettings detection = recommended();
   detection.candidateSelection.maximumPoses = 1;
-  const meam::Scene& scene = scenes::copiesScene();
-  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), detection);
-  int lost = 0;
-  for (const Eigen::Isometry3d& T : scenes::threeCopies())
-  {
-    const meam::Diagnosis of = diagnosis.atPose(T);
-    lost += of.cause == LossCause::NotRefined && of.lostIn == PoseStage::CandidateSelection ? 1 : 0;
-  }
-  EXPECT_EQ(lost, 2);
+  EXPECT_EQ(lostBy(detection, LossCause::NotRefined, PoseStage::CandidateSelection), 2);
 }
 
 TEST(PoseDiagnosis, APoseInThePlaceOfAnother)
@@ -262,8 +255,7 @@ TEST(PoseDiagnosis, APoseInThePlaceOfAnother)
   // The same part turned about its own middle so that it shares most of the surface: one instance.
   const Eigen::Vector3d middle = scenes::bracket().visibility->middle().cast<double>();
   const Eigen::Isometry3d other = Here * meam::turnAbout(Eigen::Vector3d::UnitZ(), M_PI_2, middle);
-  const meam::Diagnosis diagnosis =
-    diagnose(scenes::seenCopies(), other, meam::detectionSettings(meam::Preset::Recommended, 0), false);
+  const meam::Diagnosis diagnosis = diagnose(scenes::seenCopies(), other, recommended(), false);
   EXPECT_NE(diagnosis.cause, LossCause::None);
   EXPECT_GE(diagnosis.takenBy, 1);
   EXPECT_GT(diagnosis.takenShare, 0.5);
@@ -272,8 +264,7 @@ TEST(PoseDiagnosis, APoseInThePlaceOfAnother)
 
 TEST(PoseDiagnosis, APickedPointIsThatOfThePoseOnIt)
 {
-  const meam::Scene& scene = scenes::copiesScene();
-  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 0));
+  meam::PoseDiagnosis diagnosis(scenes::copiesScene(), scenes::bracket(), recommended());
   const auto topOf = [](const Eigen::Isometry3d& T) // some point of its surface towards the sensor
   {
     const meam::PointCloud& surface = scenes::bracket().surface;
@@ -293,7 +284,7 @@ TEST(PoseDiagnosis, APickedPointIsThatOfThePoseOnIt)
   EXPECT_FALSE(nothing.place);
 
   // A part that did not come out is found where the point is.
-  meam::PoseDiagnosis one(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 1));
+  meam::PoseDiagnosis one(scenes::copiesScene(), scenes::bracket(), recommended(1));
   int lost = 0;
   for (const Eigen::Isometry3d& T : scenes::threeCopies())
   {
@@ -308,8 +299,7 @@ TEST(PoseDiagnosis, APickedPointIsThatOfThePoseOnIt)
 TEST(PoseDiagnosis, OfAPoseThatCameOutItIsToldWhyThatDid)
 {
   // Wrong, beside a copy, with its surface in the air: what another search would make of it does not count.
-  const meam::Scene& scene = scenes::copiesScene();
-  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended, 0));
+  meam::PoseDiagnosis diagnosis(scenes::copiesScene(), scenes::bracket(), recommended());
   meam::Pose wrong;
   wrong.T_scene_model = Eigen::Translation3d(7, 4, 9) * Here;
   wrong.placeProbability = 0.95;
@@ -337,9 +327,8 @@ TEST(PoseDiagnosis, OfAPoseThatCameOutItIsToldWhyThatDid)
 
 TEST(PoseDiagnosis, ThePaperPresetIsToldOfToo)
 {
-  const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket(meam::Preset::Paper);
-  meam::PoseDiagnosis diagnosis(scene, model, meam::detectionSettings(meam::Preset::Paper, 0));
+  meam::PoseDiagnosis diagnosis(scenes::copiesScene(), model, meam::detectionSettings(meam::Preset::Paper, 0));
   for (const Eigen::Isometry3d& T : scenes::threeCopies())
   {
     const meam::Diagnosis of = diagnosis.atPose(T);
@@ -350,18 +339,9 @@ TEST(PoseDiagnosis, ThePaperPresetIsToldOfToo)
 
 TEST(PoseDiagnosis, ProgressRisesAndAbortStops)
 {
-  const meam::Scene& scene = scenes::copiesScene();
-  meam::PoseDiagnosis diagnosis(scene, scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended));
-  double last = 0.0;
-  diagnosis.atPose(Here,
-    [&](double share)
-    {
-      EXPECT_GE(share, last - 1e-9);
-      last = share;
-      return true;
-    });
-  EXPECT_DOUBLE_EQ(last, 1.0);
-  EXPECT_THROW(diagnosis.atPose(Here, [](double share) { return share < 0.2; }), meam::Aborted);
+  meam::PoseDiagnosis diagnosis(
+    scenes::copiesScene(), scenes::bracket(), meam::detectionSettings(meam::Preset::Recommended));
+  steps::expectProgress([&](const meam::Progress& progress) { diagnosis.atPose(Here, progress); }, { 0.2 });
   Eigen::Isometry3d broken = Here;
   broken.translation().x() = NAN;
   EXPECT_THROW(diagnosis.atPose(broken), meam::Error);

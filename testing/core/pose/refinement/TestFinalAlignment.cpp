@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
 namespace
@@ -31,11 +29,9 @@ TEST(FinalAlignment, APoseComesToOnePlaceWhereverItComesFrom)
     EXPECT_EQ(aligned.score, near[i].score);
     EXPECT_EQ(aligned.fit.constrained, 6);
     const Eigen::Isometry3d other = scenes::align(right[i], scenes::copiesScene(), scenes::bracket()).T_scene_model;
-    EXPECT_LT(meam::translationError(aligned.T_scene_model, other), 1e-3);
-    EXPECT_LT(meam::rotationError(aligned.T_scene_model, other), 1e-3);
+    EXPECT_TRUE(scenes::areNear(aligned.T_scene_model, other, 1e-3, 1e-3));
     const Eigen::Isometry3d& truth = scenes::threeCopies()[i];
-    EXPECT_LT(meam::translationError(aligned.T_scene_model, truth), 0.15) << i;
-    EXPECT_LT(meam::rotationError(aligned.T_scene_model, truth), 0.25) << i;
+    EXPECT_TRUE(scenes::areNear(aligned.T_scene_model, truth, 0.15, 0.25)) << i;
     EXPECT_NEAR(aligned.T_scene_model.linear().determinant(), 1.0, 1e-9);
   }
 }
@@ -51,7 +47,7 @@ TEST(FinalAlignment, APoseComesToTheSamePlaceOfASceneThatIsMoved)
     const Eigen::Isometry3d T = parts::motion(random, 200.0);
     scenes::Seen moved = scenes::seenCopies();
     moved.edges = parts::moved(scenes::seenCopies().edges, T);
-    moved.surface = parts::moved(scenes::seenCopies().surface, T);
+    moved.surface = meam::moved(scenes::seenCopies().surface, T);
     moved.sensor.position = T * moved.sensor.position;
     moved.sensor.direction = T.linear() * moved.sensor.direction;
     const meam::Scene elsewhere = scenes::prepared(moved);
@@ -87,8 +83,7 @@ TEST(FinalAlignment, WhereTheSceneFixesAPoseWeaklyItIsAligned)
     const meam::Pose one = scenes::align(scenes::disturbedCopies(0.1, 0.2)[i], face, scenes::bracket());
     const meam::Pose other = scenes::align(scenes::disturbedCopies(0.05, 0.1)[i], face, scenes::bracket());
     EXPECT_EQ(one.fit.constrained, 5) << "less than a hundredth of what corresponds speaks for the sixth";
-    EXPECT_LT(meam::translationError(one.T_scene_model, other.T_scene_model), 1e-3);
-    EXPECT_LT(meam::rotationError(one.T_scene_model, other.T_scene_model), 1e-3);
+    EXPECT_TRUE(scenes::areNear(one.T_scene_model, other.T_scene_model, 1e-3, 1e-3));
   }
 }
 

@@ -5,8 +5,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 namespace

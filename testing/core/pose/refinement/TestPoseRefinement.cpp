@@ -3,8 +3,7 @@
 
 #include "baselines/BaselineSettings.h"
 #include "TestScene.h"
-
-#include <gtest/gtest.h>
+#include "TestSteps.h"
 
 #include <algorithm>
 
@@ -22,21 +21,19 @@ void expectNear(const meam::Poses& poses, double millimetres, double degrees)
   ASSERT_EQ(poses.size(), 3u);
   for (std::size_t i = 0; i < poses.size(); ++i)
   {
-    EXPECT_LT(meam::translationError(poses[i].T_scene_model, scenes::threeCopies()[i]), millimetres) << i;
-    EXPECT_LT(meam::rotationError(poses[i].T_scene_model, scenes::threeCopies()[i]), degrees) << i;
+    EXPECT_TRUE(scenes::areNear(poses[i].T_scene_model, scenes::threeCopies()[i], millimetres, degrees)) << i;
     EXPECT_NEAR(poses[i].T_scene_model.linear().determinant(), 1.0, 1e-9);
   }
 }
 }
 
-TEST(PoseRefinement, ADisturbedPoseComesBack)
+TEST(PoseRefinement, ADisturbedPoseComesBackAndTheTrueOneStays)
 {
-  expectNear(scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket()), 0.15, 0.25);
-}
-
-TEST(PoseRefinement, TheTruePoseStays)
-{
-  expectNear(scenes::refine(scenes::disturbedCopies(0.0, 0.0), scenes::copiesScene(), scenes::bracket()), 0.15, 0.25);
+  for (const auto& [millimetres, degrees] : { std::pair(1.5, 2.0), { 0.0, 0.0 } })
+  {
+    expectNear(scenes::refine(scenes::disturbedCopies(millimetres, degrees), scenes::copiesScene(), scenes::bracket()),
+      0.15, 0.25);
+  }
 }
 
 TEST(PoseRefinement, EdgesAlone)
@@ -47,14 +44,14 @@ TEST(PoseRefinement, EdgesAlone)
 
 TEST(PoseRefinement, ScoresAndOrderStayAndThreadsDoNotMatter)
 {
-  meam::PoseRefinementSettings settings;
-  settings.threads = 1;
-  const meam::Poses one =
-    scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket(), settings);
-  settings.threads = 3;
-  const meam::Poses three =
-    scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket(), settings);
-  EXPECT_TRUE(scenes::areSame(one, three));
+  const auto refined = [](int threads)
+  {
+    meam::PoseRefinementSettings settings;
+    settings.threads = threads;
+    return scenes::refine(scenes::disturbedCopies(1.5, 2.0), scenes::copiesScene(), scenes::bracket(), settings);
+  };
+  const meam::Poses one = refined(1);
+  EXPECT_TRUE(scenes::areSame(one, refined(3)));
   for (const meam::Pose& pose : one)
   {
     EXPECT_EQ(pose.score, 0.5);
@@ -146,7 +143,6 @@ TEST(PoseRefinement, BadInput)
   scenes::Seen weighted = scenes::seenCopies();
   weighted.edges.weights.assign(weighted.edges.size(), 1.0f);
   EXPECT_NO_THROW(scenes::refine(scenes::disturbedCopies(0, 0), scenes::prepared(weighted), scenes::bracket()));
-  EXPECT_THROW(scenes::refine(scenes::disturbedCopies(0, 0), scenes::copiesScene(), scenes::bracket(), {},
-                 [](double) { return false; }),
-    meam::Aborted);
+  steps::expectStops([](const meam::Progress& progress)
+    { scenes::refine(scenes::disturbedCopies(0, 0), scenes::copiesScene(), scenes::bracket(), {}, progress); });
 }

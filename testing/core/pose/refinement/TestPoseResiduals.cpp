@@ -3,8 +3,6 @@
 
 #include "TestParts.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 
 namespace
@@ -12,18 +10,7 @@ namespace
 constexpr float AnyDistance = std::numeric_limits<float>::infinity();
 
 /// A plane z = 1, seen from above in cells of 2.
-meam::DepthMap plane()
-{
-  meam::Points points;
-  for (int x = 0; x < 40; ++x)
-  {
-    for (int y = 0; y < 40; ++y)
-    {
-      points.push_back({ 0.5f * x, 0.5f * y, 1.0f });
-    }
-  }
-  return meam::DepthMap(points, parts::fromAbove(), 2.0);
-}
+meam::DepthMap plane() { return { parts::lattice({ 0, 0 }, { 19.5f, 19.5f }, 0.5f, 1.0f), parts::fromAbove(), 2.0 }; }
 
 meam::SoAOrientedPoints columns(const std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>>& points)
 {

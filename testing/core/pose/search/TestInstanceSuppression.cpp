@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 using Indices = std::vector<int>;

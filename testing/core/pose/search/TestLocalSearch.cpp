@@ -4,8 +4,6 @@
 #include "TestScale.h"
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <vector>
 

@@ -6,8 +6,6 @@
 #include "pose/selection/PoseSelection.h"
 #include "pose/verification/PoseVerification.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 /// 20 mm wide and 12 mm high on its face z = 0.

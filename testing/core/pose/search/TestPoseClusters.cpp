@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 namespace
 {
 /// With the middle of the part at x (mm), turned by so many degrees about it.

@@ -3,8 +3,6 @@
 
 #include "TestScene.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 
 namespace

@@ -4,8 +4,6 @@
 #include "TestScene.h"
 #include "pose/voting/VoteAccumulator.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
 
@@ -19,13 +17,6 @@ meam::LocalCloud asScene(const meam::TrainedModel& model, const Eigen::Isometry3
   return scene;
 }
 
-meam::PoseDetectionSettings withShare(double share)
-{
-  meam::PoseDetectionSettings settings;
-  settings.referenceShare = share;
-  return settings;
-}
-
 Eigen::Isometry3d someMotion()
 {
   std::mt19937 random(5);
@@ -37,7 +28,7 @@ TEST(PairVoting, PointsOfAPartElectItsPose)
 {
   const meam::TrainedModel& model = scenes::bracket();
   const Eigen::Isometry3d T = someMotion();
-  const meam::PoseDetectionSettings settings = withShare(1.0);
+  const meam::PoseDetectionSettings settings = scenes::withShare(1.0);
   const meam::VotingRound round = meam::edgeRound(asScene(model, T), model, settings);
   ASSERT_EQ(round.points.points.size(), model.edges.size());
   const meam::PairVoting voting(round, settings);
@@ -65,9 +56,9 @@ TEST(PairVoting, ASingleScenePointHasNoPair)
 {
   const meam::TrainedModel& model = scenes::bracket();
   meam::LocalCloud scene = asScene(model, Eigen::Isometry3d::Identity());
-  meam::VotingRound round = meam::edgeRound(scene, model, withShare(1.0));
+  meam::VotingRound round = meam::edgeRound(scene, model, scenes::withShare(1.0));
   round.referred = round.points.subset({ 0 });
-  const meam::PairVoting voting(round, withShare(1.0));
+  const meam::PairVoting voting(round, scenes::withShare(1.0));
   meam::VoteAccumulator accumulator(model.table.votingPoints, round.part.angleStep);
   voting.vote(meam::PairFrame(round.points.points[0], round.points.directions[0]), accumulator);
   EXPECT_TRUE(accumulator.peaks(1).empty());
@@ -78,12 +69,12 @@ TEST(PairVoting, ReferencesAreTheShareThatIsAskedFor)
   const meam::TrainedModel& model = scenes::bracket();
   const meam::LocalCloud scene = asScene(model, Eigen::Isometry3d::Identity());
   const std::size_t all = scene.cloud.size();
-  const meam::VotingRound half = meam::edgeRound(scene, model, withShare(0.5));
+  const meam::VotingRound half = meam::edgeRound(scene, model, scenes::withShare(0.5));
   ASSERT_GT(all, 200u); // no less than 100 vote
   EXPECT_EQ(half.references.size(), (all + 1) / 2);
   EXPECT_EQ(std::set<int>(half.references.begin(), half.references.end()).size(), half.references.size());
   // The first of them are those of a smaller share.
-  const meam::VotingRound quarter = meam::edgeRound(scene, model, withShare(0.25));
+  const meam::VotingRound quarter = meam::edgeRound(scene, model, scenes::withShare(0.25));
   EXPECT_TRUE(std::equal(quarter.references.begin(), quarter.references.end(), half.references.begin()));
 }
 
@@ -93,7 +84,7 @@ TEST(PairVoting, ReferencesDoNotDependOnTheOrderOfThePoints)
   meam::LocalCloud scene = asScene(model, Eigen::Isometry3d::Identity());
   const auto placesOf = [&]
   {
-    const meam::VotingRound round = meam::edgeRound(scene, model, withShare(0.5));
+    const meam::VotingRound round = meam::edgeRound(scene, model, scenes::withShare(0.5));
     std::vector<std::array<float, 3>> places;
     for (const int i : round.references)
     {
@@ -113,8 +104,8 @@ TEST(PairVoting, WhatCannotVoteIsRefused)
 {
   const meam::TrainedModel& model = scenes::bracket();
   meam::LocalCloud scene = asScene(model, Eigen::Isometry3d::Identity());
-  EXPECT_THROW(meam::edgeRound(scene, model, withShare(1.5)), meam::Error);
+  EXPECT_THROW(meam::edgeRound(scene, model, scenes::withShare(1.5)), meam::Error);
   scene.cloud.tangents.clear();
-  EXPECT_THROW(meam::edgeRound(scene, model, withShare(1.0)), meam::Error);
-  EXPECT_THROW(meam::edgeRound({}, model, withShare(1.0)), meam::Error);
+  EXPECT_THROW(meam::edgeRound(scene, model, scenes::withShare(1.0)), meam::Error);
+  EXPECT_THROW(meam::edgeRound({}, model, scenes::withShare(1.0)), meam::Error);
 }

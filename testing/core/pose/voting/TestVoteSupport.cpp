@@ -4,8 +4,6 @@
 #include "TestScene.h"
 #include "pose/PoseTolerances.h"
 
-#include <gtest/gtest.h>
-
 #include <numeric>
 
 namespace
@@ -32,8 +30,7 @@ TEST(VoteSupport, PointsThatElectAPoseAreItsCandidates)
 {
   const meam::Scene& scene = scenes::copiesScene();
   const meam::TrainedModel& model = scenes::bracket();
-  meam::PoseDetectionSettings detection;
-  detection.referenceShare = 1.0;
+  const meam::PoseDetectionSettings detection = scenes::withShare(1.0);
   const meam::Poses candidates = meam::detectPoses(scene, model, detection);
   for (const Eigen::Isometry3d& T : scenes::threeCopies())
   {

@@ -2,8 +2,6 @@
 #include "TestGrids.h"
 #include "scene/edges/CloudEdges.h"
 
-#include <gtest/gtest.h>
-
 #include <set>
 
 namespace

@@ -3,8 +3,6 @@
 
 #include "TestGrids.h"
 
-#include <gtest/gtest.h>
-
 TEST(CoarseGrid, halvesToMeans)
 {
   const auto cloud = grids::surface(5, 4, [](int x, int y) { return 500.0 + x + 10.0 * y; });

@@ -2,8 +2,6 @@
 #include "TestGrids.h"
 #include "scene/edges/GridSurface.h"
 
-#include <gtest/gtest.h>
-
 TEST(GridSurface, distanceAndNoiseAreMeasured)
 {
   for (const double noise : { 0.0, 0.1, 1.0 })

@@ -2,40 +2,21 @@
 #include "TestGrids.h"
 #include "scene/edges/PixelMap.h"
 
-#include <gtest/gtest.h>
-
 #include <numeric>
 
 namespace
 {
-/// A pinhole sensor at the origin: 100 pixels focal length, the middle of the image at (10, 10); what it measures
-/// of a scene whose depth is known along each ray. 21 x 21 points.
-meam::OrganizedCloud measured(const std::function<double(int, int)>& depth)
-{
-  meam::OrganizedCloud cloud;
-  cloud.width = 21;
-  cloud.height = 21;
-  for (int row = 0; row < 21; ++row)
-  {
-    for (int column = 0; column < 21; ++column)
-    {
-      const double z = depth(column, row);
-      cloud.points.emplace_back((column - 10) / 100.0 * z, (row - 10) / 100.0 * z, z);
-    }
-  }
-  return cloud;
-}
-
-/// The sensor's own camera, moved by x mm.
+/// Of a sensor at the origin with 21 x 21 points, whose camera is moved by x mm.
 meam::Camera cameraAt(double x)
 {
-  meam::Camera camera;
-  camera.width = 21;
-  camera.height = 21;
-  camera.fx = camera.fy = 100.0;
-  camera.cx = camera.cy = 10.0;
+  meam::Camera camera = grids::camera(21, 21, 100.0, 10.0, 10.0);
   camera.T_camera_scene.translation().x() = -x;
   return camera;
+}
+
+meam::OrganizedCloud measured(const std::function<double(int, int)>& depth)
+{
+  return grids::measured(cameraAt(0.0), depth);
 }
 }
 
@@ -76,10 +57,8 @@ TEST(PixelMap, nothingShowsThroughHolesOfTheNearerSurface)
     [](int column, int row) { return column == 10 && row == 10     ? NAN
                                      : column >= 6 && column <= 14 ? 400.0
                                                                    : 500.0; });
-  meam::Camera camera = cameraAt(20.0);
-  camera.width = camera.height = 41;
-  camera.fx = camera.fy = 200.0;
-  camera.cx = camera.cy = 20.0;
+  meam::Camera camera = grids::camera(41, 41, 200.0, 20.0, 20.0);
+  camera.T_camera_scene.translation().x() = -20.0;
   const meam::PixelMap map = meam::projectedPixels(cloud, camera, 10.0);
   EXPECT_NEAR(map.pixelsPerPoint, 2.0, 0.01);
   // The block is seen in columns 2 (6 - 10) + 20 - 10 = 2 to 18, and everything there is the block or unknown.
@@ -100,10 +79,7 @@ TEST(PixelMap, theLensIsNotAskedForWhatTheImageDoesNotHave)
   // Barrel distortion folds rays of more than 0.58 back; at 0.9 they would come out within the image.
   meam::Camera camera = cameraAt(0.0);
   camera.distortion = { -1.0, 0.0, 0.0, 0.0, 0.0 };
-  meam::OrganizedCloud cloud;
-  cloud.width = 2;
-  cloud.height = 2;
-  cloud.points = { { 0, 0, 500 }, { 470, 0, 500 }, { 0, 5, 500 }, { 470, 5, 500 } };
+  const meam::OrganizedCloud cloud{ 2, 2, { { 0, 0, 500 }, { 470, 0, 500 }, { 0, 5, 500 }, { 470, 5, 500 } } };
   const meam::PixelMap map = meam::projectedPixels(cloud, camera, 10.0);
   for (const int point : map.points)
   {

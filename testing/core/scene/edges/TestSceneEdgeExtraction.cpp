@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TestFiles.h"
 #include "TestGrids.h"
-#include "base/Random.h"
+#include "TestSteps.h"
 #include "scene/edges/SceneEdgeExtraction.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,22 +10,10 @@
 
 namespace
 {
-const float NaN = std::numeric_limits<float>::quiet_NaN();
-
 /// A plane at z = 500, points 1 mm apart, x = column and y = row.
-meam::OrganizedCloud plane(int width, int height)
+meam::OrganizedCloud plane(int width = 40, int height = 30)
 {
-  meam::OrganizedCloud cloud;
-  cloud.width = width;
-  cloud.height = height;
-  for (int row = 0; row < height; ++row)
-  {
-    for (int column = 0; column < width; ++column)
-    {
-      cloud.points.emplace_back(column, row, 500);
-    }
-  }
-  return cloud;
+  return grids::surface(width, height, [](int, int) { return 500.0; });
 }
 
 meam::Image greyImage(int width, int height, std::uint8_t value)
@@ -37,7 +22,7 @@ meam::Image greyImage(int width, int height, std::uint8_t value)
 }
 
 /// Dark on the left, bright from column `edge` on.
-meam::Image step(int width, int height, int edge)
+meam::Image step(int width = 40, int height = 30, int edge = 20)
 {
   meam::Image image = greyImage(width, height, 50);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -47,15 +32,16 @@ meam::Image step(int width, int height, int edge)
   return image;
 }
 
-std::string errorOf(const meam::OrganizedCloud& cloud, const meam::Image& image)
+meam::PointCloud edgesOf(const meam::OrganizedCloud& cloud, const meam::Image& image = step(),
+  const meam::SceneEdgeExtractionSettings& settings = {})
 {
-  return files::errorOf([&] { meam::extractSceneEdges(cloud, image); });
+  return meam::extractSceneEdges(cloud, image, settings).cloud;
 }
 }
 
 TEST(SceneEdgeExtraction, aStepOfBrightnessIsALineOfPoints)
 {
-  const meam::PointCloud edges = meam::extractSceneEdges(plane(40, 30), step(40, 30, 20)).cloud;
+  const meam::PointCloud edges = edgesOf(plane());
   ASSERT_EQ(edges.size(), edges.pointIds.size());
   std::set<int> rows;
   for (std::size_t i = 0; i < edges.size(); ++i)
@@ -73,15 +59,8 @@ TEST(SceneEdgeExtraction, theEdgeBelongsToTheNearerSurface)
 {
   for (const bool nearIsLeft : { true, false })
   {
-    meam::OrganizedCloud cloud = plane(40, 30);
-    for (auto& point : cloud.points)
-    {
-      if ((point.x() < 20) == nearIsLeft)
-      {
-        point.z() = 450;
-      }
-    }
-    const meam::PointCloud edges = meam::extractSceneEdges(cloud, step(40, 30, 20)).cloud;
+    const meam::PointCloud edges =
+      edgesOf(grids::surface(40, 30, [&](int x, int) { return (x < 20) == nearIsLeft ? 450.0 : 500.0; }));
     EXPECT_GE(edges.size(), 28u);
     for (const auto& point : edges.points)
     {
@@ -93,18 +72,12 @@ TEST(SceneEdgeExtraction, theEdgeBelongsToTheNearerSurface)
 
 TEST(SceneEdgeExtraction, aSlopeIsNotAJump)
 {
-  meam::OrganizedCloud flat = plane(40, 30);
-  meam::OrganizedCloud slope = flat;
-  for (auto& point : slope.points)
-  {
-    point.z() += 2.0f * point.x(); // 63 degrees
-  }
-  EXPECT_EQ(meam::extractSceneEdges(slope, step(40, 30, 20)).cloud.pointIds,
-    meam::extractSceneEdges(flat, step(40, 30, 20)).cloud.pointIds);
+  const meam::OrganizedCloud slope = grids::surface(40, 30, [](int x, int) { return 500.0 + 2.0 * x; }); // 63 degrees
+  EXPECT_EQ(edgesOf(slope).pointIds, edgesOf(plane()).pointIds);
   // Told that 1 mm is a jump, the edge moves to the nearer neighbour.
   meam::SceneEdgeExtractionSettings settings;
   settings.depthJump = 1.0;
-  for (const auto& point : meam::extractSceneEdges(slope, step(40, 30, 20), settings).cloud.points)
+  for (const auto& point : edgesOf(slope, step(), settings).points)
   {
     EXPECT_LT(point.x(), 19.5f);
   }
@@ -112,33 +85,25 @@ TEST(SceneEdgeExtraction, aSlopeIsNotAJump)
 
 TEST(SceneEdgeExtraction, aPixelWithoutDepthTakesItsNeighbours)
 {
-  meam::OrganizedCloud cloud = plane(40, 30);
-  for (auto& point : cloud.points)
-  {
-    if (point.x() == 19 || point.x() == 20)
-    {
-      point.setConstant(NaN);
-    }
-  }
-  for (const auto& point : meam::extractSceneEdges(cloud, step(40, 30, 20)).cloud.points)
+  const meam::OrganizedCloud cloud =
+    grids::surface(40, 30, [](int x, int) { return x == 19 || x == 20 ? NAN : 500.0; });
+  for (const auto& point : edgesOf(cloud).points)
   {
     EXPECT_TRUE(point.x() == 18.0f || point.x() == 21.0f);
   }
   meam::SceneEdgeExtractionSettings settings;
   settings.searchRadius = 0;
-  EXPECT_TRUE(meam::extractSceneEdges(cloud, step(40, 30, 20), settings).cloud.empty());
+  EXPECT_TRUE(edgesOf(cloud, step(), settings).empty());
 }
 
 TEST(SceneEdgeExtraction, colourImagesAreTurnedGrey)
 {
-  const meam::Image grey = step(40, 30, 20);
   meam::Image colour{ 40, 30, 3, {} };
-  for (const std::uint8_t value : grey.pixels)
+  for (const std::uint8_t value : step().pixels)
   {
     colour.pixels.insert(colour.pixels.end(), 3, value);
   }
-  const auto expected = meam::extractSceneEdges(plane(40, 30), grey).cloud.pointIds;
-  EXPECT_EQ(meam::extractSceneEdges(plane(40, 30), colour).cloud.pointIds, expected);
+  EXPECT_EQ(edgesOf(plane(), colour).pointIds, edgesOf(plane()).pointIds);
 }
 
 TEST(SceneEdgeExtraction, thresholdsCanBeSet)
@@ -146,66 +111,23 @@ TEST(SceneEdgeExtraction, thresholdsCanBeSet)
   meam::SceneEdgeExtractionSettings settings;
   settings.image.smoothing = 0.0;
   settings.image.highThreshold = 601.0; // Sobel answers a step of 150 with 600
-  EXPECT_TRUE(meam::extractSceneEdges(plane(40, 30), step(40, 30, 20), settings).cloud.empty());
+  EXPECT_TRUE(edgesOf(plane(), step(), settings).empty());
   settings.image.highThreshold = 599.0;
-  EXPECT_FALSE(meam::extractSceneEdges(plane(40, 30), step(40, 30, 20), settings).cloud.empty());
-}
-
-TEST(SceneEdgeExtraction, oneColourHasNoEdges)
-{
-  for (const int value : { 0, 128, 255 })
-  {
-    EXPECT_TRUE(
-      meam::extractSceneEdges(plane(40, 30), greyImage(40, 30, static_cast<std::uint8_t>(value))).cloud.empty());
-  }
-}
-
-TEST(SceneEdgeExtraction, noiseIsNoEdge)
-{
-  meam::Image noisy = step(200, 150, 100);
-  meam::Random random(1);
-  for (auto& value : noisy.pixels)
-  {
-    value = static_cast<std::uint8_t>(value + 5.0 * random.normal());
-  }
-  const meam::PointCloud edges = meam::extractSceneEdges(plane(200, 150), noisy).cloud;
-  EXPECT_GE(edges.size(), 145u);
-  int elsewhere = 0;
-  for (const auto& point : edges.points)
-  {
-    elsewhere += std::abs(point.x() - 99.5f) > 2.0f;
-  }
-  EXPECT_LE(elsewhere, 30); // one pixel in a thousand
+  EXPECT_FALSE(edgesOf(plane(), step(), settings).empty());
 }
 
 /// A box, 80 x 60 mm and 100 mm high, on a floor 1000 mm below the sensor, as the sensor measures it: 500 pixels
 /// focal length, 161 x 121 points.
 meam::OrganizedCloud boxOnFloor()
 {
-  meam::OrganizedCloud cloud;
-  cloud.width = 161;
-  cloud.height = 121;
-  for (int row = 0; row < cloud.height; ++row)
-  {
-    for (int column = 0; column < cloud.width; ++column)
-    {
-      const Eigen::Vector3f ray((column - 80) / 500.0f, (row - 60) / 500.0f, 1.0f);
-      const Eigen::Vector3f top = 900.0f * ray;
-      cloud.points.push_back(std::abs(top.x()) <= 40.0f && std::abs(top.y()) <= 30.0f ? top : 1000.0f * ray);
-    }
-  }
-  return cloud;
+  return grids::measured(grids::camera(161, 121, 500.0, 80.0, 60.0), [](int column, int row)
+    { return std::abs(column - 80) * 900 <= 40 * 500 && std::abs(row - 60) * 900 <= 30 * 500 ? 900.0 : 1000.0; });
 }
 
 /// A camera 60 mm to the right of the sensor, with a little distortion.
 meam::Camera cameraBeside()
 {
-  meam::Camera camera;
-  camera.width = 240;
-  camera.height = 150;
-  camera.fx = camera.fy = 600.0;
-  camera.cx = 150.0;
-  camera.cy = 75.0;
+  meam::Camera camera = grids::camera(240, 150, 600.0, 150.0, 75.0);
   camera.distortion = { -0.05, 0.01, 0.001, -0.001, 0.0 };
   camera.T_camera_scene.translation().x() = -60.0;
   return camera;
@@ -286,10 +208,7 @@ TEST(SceneEdgeExtraction, onlyTheCamerasPlaceBesideTheSceneCounts)
   const Eigen::Isometry3d T =
     Eigen::Translation3d(30.0, -20.0, 55.0) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ());
   meam::OrganizedCloud cloud = boxOnFloor();
-  for (auto& point : cloud.points)
-  {
-    point = (T * point.cast<double>()).cast<float>();
-  }
+  cloud.points = meam::moved(cloud.points, T);
   settings.camera->T_camera_scene = settings.camera->T_camera_scene * T.inverse();
   const meam::SceneEdges after = meam::extractSceneEdges(cloud, image, settings);
   // A point may be rounded to another pixel.
@@ -378,40 +297,34 @@ TEST(SceneEdgeExtraction, theNumberOfThreadsDoesNotMatter)
 
 TEST(SceneEdgeExtraction, badInput)
 {
-  const meam::Image image = step(40, 30, 20);
-  EXPECT_NE(errorOf({}, image).find("no points"), std::string::npos);
-  EXPECT_NE(errorOf(plane(1200, 1), image).find("not organized"), std::string::npos);
-  const std::string sizes = errorOf(plane(30, 40), image);
-  EXPECT_NE(sizes.find("40 x 30"), std::string::npos);
-  EXPECT_NE(sizes.find("30 x 40"), std::string::npos);
-  meam::OrganizedCloud cloud = plane(40, 30);
-  cloud.points.pop_back();
-  EXPECT_NE(errorOf(cloud, image).find("not organized"), std::string::npos);
-  cloud.points.assign(40 * 30, Eigen::Vector3f::Constant(NaN));
-  EXPECT_NE(errorOf(cloud, image).find("NaN"), std::string::npos);
-  meam::Image broken = image;
-  broken.channels = 2;
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), broken), meam::Error);
-  broken.channels = 3;
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), broken), meam::Error);
-  meam::SceneEdgeExtractionSettings settings;
-  settings.searchRadius = -1;
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), image, settings), meam::Error);
-  settings = {};
-  settings.imageEdges = false;
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), image, settings), meam::Error); // nothing is asked for
-  settings = {};
-  settings.creaseAngle = 0.0;
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), image, settings), meam::Error);
-  settings = {};
-  settings.camera = cameraBeside();
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), image, settings), meam::Error); // its image is of another size
-  settings.camera->width = settings.camera->height = 0;
-  settings.camera->fx = 0.0;
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), image, settings), meam::Error);
-  settings = {};
-  settings.image.smoothing = std::nan("");
-  EXPECT_THROW(meam::extractSceneEdges(plane(40, 30), image, settings), meam::Error);
+  const meam::Image image = step();
+  const auto expectError =
+    [](const meam::OrganizedCloud& cloud, const meam::Image& of, const std::vector<std::string>& words)
+  {
+    const std::string error = files::errorOf([&] { edgesOf(cloud, of); });
+    for (const std::string& word : words)
+    {
+      EXPECT_TRUE(files::contains(error, word)) << error;
+    }
+  };
+  expectError({}, image, { "no points" });
+  expectError(plane(1200, 1), image, { "not organized" });
+  expectError(plane(30, 40), image, { "40 x 30", "30 x 40" });
+  expectError(grids::surface(40, 30, [](int, int) { return NAN; }), image, { "NaN" });
+  meam::OrganizedCloud torn = plane();
+  torn.points.pop_back();
+  expectError(torn, image, { "not organized" });
+  for (const int channels : { 2, 3 })
+  {
+    EXPECT_THROW(edgesOf(plane(), { 40, 30, channels, image.pixels }), meam::Error) << channels;
+  }
+  steps::expectRefused<meam::SceneEdgeExtractionSettings>([](const auto& settings)
+    { edgesOf(plane(), step(), settings); },
+    { { [](auto& s) { s.searchRadius = -1; } }, { [](auto& s) { s.imageEdges = false; } }, // nothing is asked for
+      { [](auto& s) { s.creaseAngle = 0.0; } },
+      { [](auto& s) { s.camera = cameraBeside(); } }, // its image is of another size
+      { [](auto& s) { s.camera = grids::camera(0, 0, 0.0, 0.0, 0.0); } },
+      { [](auto& s) { s.image.smoothing = NAN; } } });
 }
 
 TEST(SceneEdgeExtraction, aCreaseIsFoundWhereNoiseTakesHalfTheResolution)

@@ -2,8 +2,6 @@
 #include "TestGrids.h"
 #include "scene/preparation/BackgroundRemoval.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
 namespace

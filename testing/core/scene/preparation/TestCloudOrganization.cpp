@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TestFiles.h"
 #include "scene/preparation/CloudOrganization.h"
 
+#include "TestGrids.h"
+#include "TestSteps.h"
 #include <cmath>
 
 namespace
 {
 /// 4 x 3 pixels; the middle of column 1 and row 1 looks straight ahead.
-meam::Camera camera()
-{
-  meam::Camera result;
-  result.width = 4;
-  result.height = 3;
-  result.fx = result.fy = 100.0;
-  result.cx = result.cy = 1.0;
-  return result;
-}
+meam::Camera camera() { return grids::camera(4, 3, 100.0, 1.0, 1.0); }
 
 meam::MeasuredCloud cloudOf(const meam::Points& points)
 {
   meam::MeasuredCloud result;
-  result.cloud.width = static_cast<int>(points.size());
-  result.cloud.height = 1;
-  result.cloud.points = points;
+  result.cloud = { static_cast<int>(points.size()), 1, points };
   return result;
 }
 }
@@ -64,23 +55,18 @@ TEST(CloudOrganization, aScanInTheWorldComesIntoTheCamerasFrame)
 
 TEST(CloudOrganization, badInput)
 {
-  const meam::MeasuredCloud points = cloudOf({ { 0, 0, 500 } });
-  const auto errorOf = [&](const meam::Camera& bad)
-  { return files::errorOf([&] { meam::organizeCloud(points, bad); }); };
-  meam::Camera bad = camera();
-  bad.width = 0;
-  EXPECT_TRUE(files::contains(errorOf(bad), "width and height"));
-  bad.width = bad.height = 2000000000;
-  EXPECT_TRUE(files::contains(errorOf(bad), "width and height"));
-  bad = camera();
-  bad.fx = 0;
-  EXPECT_TRUE(files::contains(errorOf(bad), "focal lengths"));
-  bad = camera();
-  bad.cx = -100;
-  EXPECT_TRUE(files::contains(errorOf(bad), "sees no point"));
+  const auto organize = [](const meam::Camera& camera) { meam::organizeCloud(cloudOf({ { 0, 0, 500 } }), camera); };
+  steps::expectRefused<meam::Camera>(organize,
+    { { [](auto& c) { c.width = 0; }, "width and height" },
+      { [](auto& c) { c.width = c.height = 2000000000; }, "width and height" },
+      { [](auto& c) { c.fx = 0; }, "focal lengths" }, { [](auto& c) { c.cx = -100; }, "sees no point" } },
+    camera());
 }
 
 TEST(CloudOrganization, stopsWhenAsked)
 {
-  EXPECT_THROW(meam::organizeCloud(cloudOf({ { 0, 0, 500 } }), camera(), [](double) { return false; }), meam::Aborted);
+  steps::expectStops(
+    [](const meam::Progress& progress) {
+      meam::organizeCloud(cloudOf({ { 0, 0, 500 } }), camera(), progress);
+    });
 }

@@ -2,8 +2,8 @@
 #include "scene/preparation/ScanPreparation.h"
 
 #include "TestFiles.h"
+#include "TestGrids.h"
 #include "base/Random.h"
-#include "scene/Camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,49 +11,53 @@
 namespace
 {
 constexpr int GridWidth = 120, GridHeight = 90;
-constexpr float Nothing = std::numeric_limits<float>::quiet_NaN();
-
-meam::Camera boxCamera()
-{
-  meam::Camera result;
-  result.width = GridWidth;
-  result.height = GridHeight;
-  result.fx = result.fy = 300.0;
-  result.cx = 61.3;
-  result.cy = 44.2;
-  return result;
-}
 
 /// A box of 60 x 40 mm, 30 mm high, on a floor 600 mm from the sensor.
 meam::OrganizedCloud boxOnFloor()
 {
-  meam::OrganizedCloud cloud{ GridWidth, GridHeight, {} };
-  for (int row = 0; row < GridHeight; ++row)
-  {
-    for (int column = 0; column < GridWidth; ++column)
+  static const meam::Camera sensor = grids::camera(GridWidth, GridHeight, 300.0, 61.3, 44.2);
+  return grids::measured(sensor,
+    [](int column, int row)
     {
-      const Eigen::Vector3d top = meam::unproject(boxCamera(), Eigen::Vector2d(column, row), 570.0);
-      const bool onBox = std::abs(top.x()) < 30.0 && std::abs(top.y()) < 20.0;
-      cloud.points.push_back(
-        meam::unproject(boxCamera(), Eigen::Vector2d(column, row), onBox ? 570.0 : 600.0 + 0.02 * column)
-          .cast<float>());
-    }
+      const Eigen::Vector3d top = meam::unproject(sensor, Eigen::Vector2d(column, row), 570.0);
+      return std::abs(top.x()) < 30.0 && std::abs(top.y()) < 20.0 ? 570.0 : 600.0 + 0.02 * column;
+    });
+}
+
+/// The cloud with each point changed, or every so manyth.
+template <typename Change>
+meam::OrganizedCloud with(meam::OrganizedCloud cloud, Change&& change, std::size_t step = 1)
+{
+  for (std::size_t i = 0; i < cloud.size(); i += step)
+  {
+    change(cloud.points[i]);
   }
   return cloud;
+}
+
+auto turnedBy(const Eigen::Matrix3f& R)
+{
+  return [R](Eigen::Vector3f& point) { point = R * point; };
+}
+
+/// x goes right, y up and z backwards; or the sensor looks along x, with z up.
+const Eigen::Matrix3f OpenGL = Eigen::Vector3f(1, -1, -1).asDiagonal();
+const Eigen::Matrix3f AlongX = (Eigen::Matrix3f() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished();
+
+/// Of a sensor that looks down, where z goes up.
+Eigen::Isometry3d above(const Eigen::Vector3d& position)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = OpenGL.cast<double>();
+  T.translation() = position;
+  return T;
 }
 
 /// The same points without their grid, in another order.
 meam::OrganizedCloud shuffled(meam::OrganizedCloud cloud)
 {
   meam::Random random(5);
-  meam::Points points;
-  for (const Eigen::Vector3f& point : cloud.points)
-  {
-    if (point.allFinite())
-    {
-      points.push_back(point);
-    }
-  }
+  meam::Points points = meam::everyNth(cloud, 1);
   for (std::size_t i = points.size(); i > 1; --i)
   {
     std::swap(points[i - 1], points[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
@@ -65,11 +69,7 @@ meam::PreparedScan prepared(const meam::OrganizedCloud& cloud) { return meam::pr
 
 bool says(const meam::PreparedScan& scan, const std::string& words) { return files::contains(scan.report, words); }
 
-std::size_t measuredCount(const meam::OrganizedCloud& cloud)
-{
-  return static_cast<std::size_t>(std::count_if(
-    cloud.points.begin(), cloud.points.end(), [](const Eigen::Vector3f& point) { return point.allFinite(); }));
-}
+std::size_t measuredCount(const meam::OrganizedCloud& cloud) { return meam::everyNth(cloud, 1).size(); }
 
 meam::SceneEdges edgesOf(const meam::PreparedScan& scan)
 {
@@ -104,15 +104,18 @@ TEST(ScanPreparation, aUsualScanStaysAsItIs)
 
 TEST(ScanPreparation, whatWasNotMeasuredIsLeftOutAndSaid)
 {
-  const std::pair<Eigen::Vector3f, const char*> values[] = { { { 0, 0, 0 }, "(0, 0, 0)" },
-    { { 12, 4, 65535 }, "the depth 65535" }, { { 1, 1, -10000 }, "the depth -10000" }, { { 0, 0, 5 }, "the depth 5" } };
+  const auto all = [](const Eigen::Vector3f& value) { return [value](Eigen::Vector3f& point) { point = value; }; };
+  const auto endOfRange = [](Eigen::Vector3f& point)
+  {
+    point *= 800.0f / point.z();
+    point.z() = 800.0f;
+  };
+  const std::pair<std::function<void(Eigen::Vector3f&)>, const char*> values[] = { { all({ 0, 0, 0 }), "(0, 0, 0)" },
+    { all({ 12, 4, 65535 }), "the depth 65535" }, { all({ 1, 1, -10000 }), "the depth -10000" },
+    { all({ 0, 0, 5 }), "the depth 5" }, { endOfRange, "12 % of the points have the depth 800" } };
   for (const auto& [value, words] : values)
   {
-    meam::OrganizedCloud cloud = boxOnFloor();
-    for (std::size_t i = 0; i < cloud.size(); i += 8)
-    {
-      cloud.points[i] = value;
-    }
+    const meam::OrganizedCloud cloud = with(boxOnFloor(), value, 8);
     const meam::PreparedScan scan = prepared(cloud);
     EXPECT_FALSE(scan.isAsGiven);
     EXPECT_TRUE(says(scan, words) && says(scan, "12 % of the points") && says(scan, "not measured")) << scan.report;
@@ -121,59 +124,33 @@ TEST(ScanPreparation, whatWasNotMeasuredIsLeftOutAndSaid)
   }
 }
 
-TEST(ScanPreparation, theEndOfASensorsRangeIsNotMeasured)
-{
-  meam::OrganizedCloud cloud = boxOnFloor();
-  for (std::size_t i = 0; i < cloud.size(); i += 8)
-  {
-    cloud.points[i] *= 800.0f / cloud.points[i].z();
-    cloud.points[i].z() = 800.0f;
-  }
-  const meam::PreparedScan scan = prepared(cloud);
-  EXPECT_TRUE(says(scan, "12 % of the points have the depth 800")) << scan.report;
-  EXPECT_EQ(scan.measured().size(), cloud.size() - cloud.size() / 8);
-}
-
 TEST(ScanPreparation, aFloorOfOneDepthIsMeasured)
 {
-  meam::OrganizedCloud cloud = boxOnFloor();
-  for (Eigen::Vector3f& point : cloud.points)
-  {
-    point.z() = 600.0f;
-  }
+  meam::OrganizedCloud cloud = with(boxOnFloor(), [](Eigen::Vector3f& point) { point.z() = 600.0f; });
   EXPECT_TRUE(prepared(cloud).isAsGiven);
   cloud.points[3 * GridWidth + 7].z() = 580.0f;
   EXPECT_TRUE(prepared(cloud).isAsGiven);
-  for (int row = 30; row < 60; ++row) // a tall box
-  {
-    for (int column = 40; column < 80; ++column)
+  const meam::OrganizedCloud tall = with(cloud,
+    [](Eigen::Vector3f& point)
     {
-      cloud.points[row * GridWidth + column] =
-        meam::unproject(boxCamera(), Eigen::Vector2d(column, row), 400.0).cast<float>();
-    }
-  }
-  EXPECT_TRUE(prepared(cloud).isAsGiven) << prepared(cloud).report;
+      point = std::abs(point.x()) < 40.0f && std::abs(point.y()) < 30.0f ? Eigen::Vector3f(point * 400.0f / point.z())
+                                                                         : point;
+    });
+  EXPECT_TRUE(prepared(tall).isAsGiven) << prepared(tall).report;
 }
 
 TEST(ScanPreparation, axesAreTurnedAndEdgesComeBackInTheScansOwn)
 {
-  const struct
-  {
-    Eigen::Matrix3d R_scan_sensor;
-    const char* words;
-  } axes[] = { { Eigen::Vector3d(1, -1, -1).asDiagonal(), "OpenGL" },
-    { (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(), "lies along +x of its axes, with +z up" } };
+  const std::pair<Eigen::Matrix3f, const char*> axes[] = { { OpenGL, "OpenGL" },
+    { AlongX, "lies along +x of its axes, with +z up" } };
   for (const auto& [R, words] : axes)
   {
-    meam::OrganizedCloud cloud = boxOnFloor();
-    for (Eigen::Vector3f& point : cloud.points)
-    {
-      point = R.cast<float>() * point;
-    }
+    const meam::OrganizedCloud cloud = with(boxOnFloor(), turnedBy(R));
     const meam::PreparedScan scan = prepared(cloud);
     EXPECT_TRUE(says(scan, words)) << scan.report;
-    EXPECT_TRUE(scan.T_sensor_scan.linear().isApprox(R.transpose(), 1e-12)) << scan.T_sensor_scan.matrix();
-    EXPECT_EQ(scan.sensor.direction, R.col(2));
+    EXPECT_TRUE(scan.T_sensor_scan.linear().isApprox(R.transpose().cast<double>(), 1e-12))
+      << scan.T_sensor_scan.matrix();
+    EXPECT_EQ(scan.sensor.direction, R.col(2).cast<double>());
     EXPECT_EQ(scan.measured(), cloud.points);
     const meam::SceneEdges edges = edgesOf(scan);
     EXPECT_GT(edges.cloud.size(), 60u);
@@ -199,9 +176,7 @@ TEST(ScanPreparation, theSensorAboveAFloorIsFoundFromAnyOriginBelowIt)
   // z goes up: seen from the origin, below the floor, the grid is mirrored.
   for (const double height : { 600.0, 700.0, 1000.0, 3000.0 })
   {
-    Eigen::Isometry3d T_floor_sensor = Eigen::Isometry3d::Identity();
-    T_floor_sensor.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
-    T_floor_sensor.translation() << 0, 0, height;
+    const Eigen::Isometry3d T_floor_sensor = above({ 0, 0, height });
     meam::OrganizedCloud cloud = boxOnFloor();
     cloud.points = meam::moved(cloud.points, T_floor_sensor);
     const meam::PreparedScan scan = prepared(cloud);
@@ -214,36 +189,29 @@ TEST(ScanPreparation, theSensorAboveAFloorIsFoundFromAnyOriginBelowIt)
 
 TEST(ScanPreparation, whatIsBehindTheSensorIsAskedInItsFrame)
 {
-  const Eigen::Matrix3f R_robot_sensor = (Eigen::Matrix3f() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(); // z goes up
-  meam::OrganizedCloud cloud = boxOnFloor();
-  cloud.height = 60; // two thirds of it above the sensor
+  meam::OrganizedCloud cloud = with(boxOnFloor(), turnedBy(AlongX)); // z goes up
+  cloud.height = 60;                                                 // two thirds of it above the sensor
   cloud.points.resize(static_cast<std::size_t>(GridWidth) * 60);
-  for (Eigen::Vector3f& point : cloud.points)
-  {
-    point = R_robot_sensor * point;
-  }
   EXPECT_EQ(prepared(cloud).measured(), cloud.points);
-  for (std::size_t i = 0; i < cloud.size(); i += 8)
-  {
-    cloud.points[i].x() = -1.0f - 0.01f * static_cast<float>(i);
-  }
-  const meam::PreparedScan scan = prepared(cloud);
+  float depth = -1.0f;
+  const meam::PreparedScan scan = prepared(with(
+    cloud, [&](Eigen::Vector3f& point) { point.x() = depth -= 0.08f; }, 8));
   EXPECT_TRUE(says(scan, "along +x") && says(scan, "12 % of the points have a depth of 0 or less")) << scan.report;
 }
 
 TEST(ScanPreparation, aHeightMapIsSeenFromAbove)
 {
-  for (const float alongRows : { 0.9f, -0.9f })
+  for (const double alongRows : { 0.9, -0.9 })
   {
-    for (const float corner : { -45.0f, 0.0f, 400.0f })
+    for (const double corner : { -45.0, 0.0, 400.0 })
     {
-      meam::OrganizedCloud cloud{ GridWidth, GridHeight, {} };
-      for (int i = 0; i < GridWidth * GridHeight; ++i)
-      {
-        const float x = 0.7f * static_cast<float>(i % GridWidth), y = alongRows * static_cast<float>(i / GridWidth);
-        const float height = std::hypot(x - 40.0f, std::abs(y) - 35.0f) < 20.0f ? 25.0f : 0.01f * x;
-        cloud.points.emplace_back(corner + x, corner + y, height - 5.0f);
-      }
+      const meam::OrganizedCloud cloud = grids::grid(GridWidth, GridHeight,
+        [&](int column, int row)
+        {
+          const double x = 0.7 * column, y = alongRows * row;
+          const double height = std::hypot(x - 40.0, std::abs(y) - 35.0) < 20.0 ? 25.0 : 0.01 * x;
+          return Eigen::Vector3d(corner + x, corner + y, height - 5.0);
+        });
       const meam::PreparedScan scan = prepared(cloud);
       EXPECT_TRUE(says(scan, "orthographic") && !says(scan, "not measured")) << scan.report;
       EXPECT_FALSE(scan.sensor.perspective);
@@ -256,12 +224,7 @@ TEST(ScanPreparation, aHeightMapIsSeenFromAbove)
 
 TEST(ScanPreparation, leftHandedAxesAreNamed)
 {
-  meam::OrganizedCloud cloud = boxOnFloor();
-  for (Eigen::Vector3f& point : cloud.points)
-  {
-    point.y() = -point.y();
-  }
-  const meam::PreparedScan scan = prepared(cloud);
+  const meam::PreparedScan scan = prepared(with(boxOnFloor(), [](Eigen::Vector3f& point) { point.y() = -point.y(); }));
   EXPECT_TRUE(scan.isAsGiven);
   EXPECT_TRUE(says(scan, "left-handed")) << scan.report;
 }
@@ -283,18 +246,11 @@ TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgain)
 
 TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgainAlongAnyAxis)
 {
-  const Eigen::Matrix3f rotations[] = { Eigen::Vector3f(1, -1, -1).asDiagonal().toDenseMatrix(),
-    (Eigen::Matrix3f() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(),
-    (Eigen::Matrix3f() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished(),
-    (Eigen::Matrix3f() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished() };
-  for (const Eigen::Matrix3f& R_scan_sensor : rotations)
+  for (const Eigen::Matrix3f& R_scan_sensor :
+    { OpenGL, AlongX, (Eigen::Matrix3f() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished(),
+      (Eigen::Matrix3f() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished() })
   {
-    meam::OrganizedCloud points = shuffled(boxOnFloor());
-    for (Eigen::Vector3f& point : points.points)
-    {
-      point = R_scan_sensor * point;
-    }
-    const meam::PreparedScan scan = prepared(points);
+    const meam::PreparedScan scan = prepared(with(shuffled(boxOnFloor()), turnedBy(R_scan_sensor)));
     EXPECT_TRUE(says(scan, "the grid of a pinhole camera (300.0 pixels")) << scan.report;
     EXPECT_EQ(scan.sensor.direction, R_scan_sensor.col(2).cast<double>());
     EXPECT_FALSE(scan.isViewpointGuessed);
@@ -303,14 +259,15 @@ TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgainAlongAnyAxis)
 
 TEST(ScanPreparation, anOrthographicGridIsSeenFromAbove)
 {
-  for (const double floor : { 0.0, 300.0 }) // which lies ahead of the origin, too
-  {
-    meam::OrganizedCloud cloud{ GridWidth * GridHeight, 1, {} };
-    for (int i = 0; i < GridWidth * GridHeight; ++i)
-    {
-      const double x = 0.7 * (i % GridWidth) - 40.0, y = 0.9 * (i / GridWidth) - 35.0;
-      cloud.points.push_back(Eigen::Vector3d(x, y, floor + (std::hypot(x, y) < 20.0 ? 25.0 : 0.01 * x)).cast<float>());
-    }
+  for (const double floor : { 0.0, 300.0 })
+  { // which lies ahead of the origin, too
+    meam::OrganizedCloud cloud = grids::grid(GridWidth, GridHeight,
+      [&](int column, int row)
+      {
+        const double x = 0.7 * column - 40.0, y = 0.9 * row - 35.0;
+        return Eigen::Vector3d(x, y, floor + (std::hypot(x, y) < 20.0 ? 25.0 : 0.01 * x));
+      });
+    cloud = { static_cast<int>(cloud.size()), 1, cloud.points };
     const meam::PreparedScan scan = prepared(cloud);
     EXPECT_TRUE(says(scan, "orthographic camera") && says(scan, "along -z")) << scan.report;
     EXPECT_FALSE(scan.sensor.perspective);
@@ -322,12 +279,9 @@ TEST(ScanPreparation, anOrthographicGridIsSeenFromAbove)
 
 TEST(ScanPreparation, pointsOnNoGridAreLookedAtWithPixelsThatTheyFill)
 {
-  meam::OrganizedCloud points = shuffled(boxOnFloor());
   meam::Random random(7);
-  for (Eigen::Vector3f& point : points.points)
-  {
-    point += Eigen::Vector3f(random.normal(), random.normal(), 0.0f) * 0.8f; // a pixel is 2 mm
-  }
+  const meam::OrganizedCloud points = with(shuffled(boxOnFloor()), // a pixel is 2 mm
+    [&](Eigen::Vector3f& point) { point += Eigen::Vector3f(random.normal(), random.normal(), 0.0f) * 0.8f; });
   const meam::PreparedScan scan = prepared(points);
   EXPECT_TRUE(says(scan, "virtual camera") && says(scan, "from the origin along +z")) << scan.report;
   EXPECT_TRUE(says(scan, "give its viewpoint") && scan.isViewpointGuessed) << scan.report;
@@ -374,9 +328,7 @@ TEST(ScanPreparation, aGivenViewpointIsTaken)
   meam::Sensor sensor;
   sensor.position = { 100, 0, 900 };
   sensor.direction = -Eigen::Vector3d::UnitZ();
-  Eigen::Isometry3d T_scan_sensor = Eigen::Isometry3d::Identity();
-  T_scan_sensor.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
-  T_scan_sensor.translation() = sensor.position;
+  const Eigen::Isometry3d T_scan_sensor = above(sensor.position);
   meam::OrganizedCloud points = shuffled(boxOnFloor());
   points.points = meam::moved(points.points, T_scan_sensor);
   const meam::PreparedScan scan = meam::prepareScan(points, {}, sensor);
@@ -395,9 +347,7 @@ TEST(ScanPreparation, theViewpointOfAFileIsTakenWherePointsAreNotInItsFrame)
     measured.T_cloud_sensor = T_cloud_sensor;
     return meam::sensorOfFile(measured);
   };
-  Eigen::Isometry3d T_robot_sensor = Eigen::Isometry3d::Identity();
-  T_robot_sensor.translation() << 450, -120, 600;
-  T_robot_sensor.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  const Eigen::Isometry3d T_robot_sensor = above({ 450, -120, 600 });
   const auto above = sensorOf(T_robot_sensor, T_robot_sensor);
   ASSERT_TRUE(above);
   EXPECT_EQ(above->position, T_robot_sensor.translation());
@@ -421,7 +371,7 @@ TEST(ScanPreparation, aGridWithFewPointsBecomesCoarser)
   {
     if (i % GridWidth % 3 || i / GridWidth % 3)
     {
-      cloud.points[i].setConstant(Nothing);
+      cloud.points[i].setConstant(NAN);
     }
     image.pixels.push_back(static_cast<std::uint8_t>(i % 251));
   }
@@ -443,17 +393,8 @@ TEST(ScanPreparation, withoutPointsItIsAnError)
 
 TEST(ScanPreparation, tooFewPointsAndThoseOnALineAreNamed)
 {
-  const auto errorOf = [](const meam::Points& points)
-  {
-    try
-    {
-      prepared({ static_cast<int>(points.size()), 1, points });
-      return std::string("none");
-    }
-    catch (const meam::Error& error)
-    {
-      return std::string(error.what());
-    }
+  const auto errorOf = [](const meam::Points& points) {
+    return files::errorOf([&] { prepared({ static_cast<int>(points.size()), 1, points }); });
   };
   const meam::Points some{ { 3, 8, 500 }, { -20, 5, 510 }, { 9, -30, 490 }, { 40, 31, 505 } };
   for (std::size_t count = 1; count <= some.size(); ++count)

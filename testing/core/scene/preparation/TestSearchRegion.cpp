@@ -2,6 +2,7 @@
 #include "scene/preparation/SearchRegion.h"
 
 #include "TestFiles.h"
+#include "TestGrids.h"
 
 namespace
 {
@@ -10,17 +11,13 @@ constexpr int FloorWidth = 120, FloorHeight = 90;
 /// A floor with a point for each mm, seen from above at its middle; values of the image count the pixels.
 meam::PreparedScan floorOfMillimetres()
 {
-  meam::OrganizedCloud cloud{ FloorWidth, FloorHeight, {} };
   meam::Image image{ FloorWidth, FloorHeight, 1, {} };
-  for (int row = 0; row < FloorHeight; ++row)
+  for (int i = 0; i < FloorWidth * FloorHeight; ++i)
   {
-    for (int column = 0; column < FloorWidth; ++column)
-    {
-      cloud.points.emplace_back(column - 59.5f, row - 44.5f, 300.0f);
-      image.pixels.push_back(static_cast<std::uint8_t>((row * FloorWidth + column) % 251));
-    }
+    image.pixels.push_back(static_cast<std::uint8_t>(i % 251));
   }
-  return meam::prepareScan(std::move(cloud), std::move(image), meam::Sensor{});
+  return meam::prepareScan(
+    grids::centered(FloorWidth, FloorHeight, [](double, double) { return 300.0; }), std::move(image), meam::Sensor{});
 }
 
 meam::Region boxOf(double x0, double x1, double y0, double y1)

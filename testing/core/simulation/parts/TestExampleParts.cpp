@@ -4,8 +4,6 @@
 #include "mesh/TriangleMesh.h"
 #include "simulation/parts/ExampleParts.h"
 
-#include <gtest/gtest.h>
-
 class ExampleParts : public testing::TestWithParam<int>
 {
 };

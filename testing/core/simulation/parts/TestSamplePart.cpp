@@ -6,8 +6,6 @@
 #include "mesh/preparation/MeshPreparation.h"
 #include "simulation/parts/SamplePart.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
