@@ -3,12 +3,10 @@
 import math
 
 import numpy
-from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
-from vtkmodules.util.numpy_support import numpy_to_vtk
 
 from ppfmeam.filters import vtkMEAMBOPEvaluation
-from meamtest import box, check, connect, fails, field, poses, prints, run
+from meamtest import box, check, connect, fails, field, grid, poses, run
 
 
 def at(x, y):
@@ -19,12 +17,7 @@ def wall(depth=600.0, width=320, height=240, focal=300.0):
     """What a camera sees of a wall across its view."""
     v, u = numpy.mgrid[0:height, 0:width].reshape(2, -1)
     z = numpy.full(u.shape, depth)
-    points = numpy.stack(((u - 150) / focal * z, (v - 110) / focal * z, z), axis=1).astype(numpy.float32)
-    grid, coordinates = vtkStructuredGrid(), vtkPoints()
-    coordinates.SetData(numpy_to_vtk(points, deep=True))
-    grid.SetDimensions(width, height, 1)
-    grid.SetPoints(coordinates)
-    return grid
+    return grid(width, height, numpy.stack(((u - 150) / focal * z, (v - 110) / focal * z, z), axis=1))
 
 
 mesh = box(40, 40, 10)
@@ -53,4 +46,3 @@ points = vtkPolyData()
 points.SetPoints(mesh.GetPoints())
 filter.SetInputDataObject(2, points)
 fails(filter, "no triangles")
-prints(filter)

@@ -2,11 +2,11 @@
 """The floor, what is outside a region and what a mask hides are blanked; the rest and its arrays stay."""
 import math
 
-from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkStructuredGrid
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkStructuredGrid
 
 from ppfmeam.filters import vtkMEAMBackgroundRemoval, vtkMEAMSceneEdgeExtraction
-from meamtest import box, check, close, connect, fails, field, image, points, prints, run, tuples
+from meamtest import box, check, close, connect, fails, field, grid, image, picture, points, run, tuples
 
 W, H = 60, 40
 PART = {(x, y) for x in range(10, 25) for y in range(10, 30)}
@@ -14,17 +14,14 @@ PART = {(x, y) for x in range(10, 25) for y in range(10, 30)}
 
 def scan(part=30.0):
     """A floor at 800 mm, points 1 mm apart, with a block on it; grey values that count the points."""
-    grid, places, grey = vtkStructuredGrid(), vtkPoints(), vtkUnsignedCharArray()
+    pixels = [(x, y) for y in range(H) for x in range(W)]
+    data = grid(W, H, [(math.nan,) * 3] + [(x, y, 800.0 - part * ((x, y) in PART)) for x, y in pixels[1:]])
+    grey = vtkUnsignedCharArray()
     grey.SetName("Intensity")
-    for y in range(H):
-        for x in range(W):
-            lost = (x, y) == (0, 0)
-            places.InsertNextPoint((math.nan,) * 3 if lost else (x, y, 800.0 - part * ((x, y) in PART)))
-            grey.InsertNextValue(200 if (x, y) in PART else 50)
-    grid.SetDimensions(W, H, 1)
-    grid.SetPoints(places)
-    grid.GetPointData().AddArray(grey)
-    return grid
+    for pixel in pixels:
+        grey.InsertNextValue(200 if pixel in PART else 50)
+    data.GetPointData().AddArray(grey)
+    return data
 
 
 def removal(*inputs, **properties):
@@ -58,11 +55,7 @@ check(len(kept(removal(scan(), LeastShare=95))) == everything, "the floor is sma
 inside = {(x, y) for x in range(12, 21) for y in range(H)}
 check(kept(removal(scan(), NumberOfPlanes=0, Region=(12, 20, 0, 0, 0, 0))) == inside, "between x = 12 and 20")
 check(kept(removal(scan(), NumberOfPlanes=0, Region=(12, 20, 0, 0, 0, 790))) == inside & PART, "and above the floor")
-mask, black = vtkImageData(), vtkUnsignedCharArray()
-mask.SetDimensions(W, H, 1)
-for i in range(W * H):  # from the lower left: the upper three rows stay
-    black.InsertNextValue(255 if i >= (H - 3) * W else 0)
-mask.GetPointData().SetScalars(black)
+mask = picture([[255] * W] * 3 + [[0] * W] * (H - 3))
 filter = removal(scan(), mask, NumberOfPlanes=0)
 check(kept(filter) == {(x, y) for x in range(W) for y in range(3)} - {(0, 0)}, "the mask's upper rows")
 check(tuples(filter.GetOutput(), "Background")[-1] == (1,), "the rest is masked")
@@ -74,4 +67,3 @@ fails(removal(scan(), image(3, 4)), "no pixels")
 mask.SetDimensions(H, W, 1)
 fails(removal(scan(), mask), f"{H} x {W}", f"{W} x {H}")
 fails(removal(scan(), Region=(3, 2, 0, 0, 0, 0)), "region")
-prints(filter, "Region", "NumberOfPlanes", "Tolerance", "LeastShare")

@@ -17,8 +17,8 @@ from unittest import mock
 from ppfmeam import scripting
 from ppfmeam.batch import progress
 from ppfmeam.batch.apart import Ended, apart
-from batchtest import H, W, command, content, dataset, deadly, killed, rows, survives
-from meamtest import check
+from batchtest import H, W, command, content, dataset, deadly, killed, survives
+from meamtest import check, rows_of, write
 from scripttest import refuses, script, works, write_pcd
 from vtkmodules.util.numpy_support import vtk_to_numpy
 import numpy
@@ -41,7 +41,7 @@ terminal = os.openpty()
 text = subprocess.run(command("bins", "--model", "plate.meam", "--out", "poses.csv"), stdout=subprocess.PIPE, stderr=terminal[1],
                       text=True, check=True).stdout
 check(text.startswith(f"poses.csv: {SCENES} scans, 0 failed, "), text)
-poses = rows("poses.csv")
+poses = rows_of("poses.csv")
 check(list(dict.fromkeys(row["scan"] for row in poses)) == names, "the scans in their order")
 check(all(row["obj_id"] == "1" and not row["failure"] for row in poses), "rows of object 1")
 check([int(row["rank"]) for row in poses if row["scan"] == names[0]] == list(range(1, 1 + sum(
@@ -51,8 +51,8 @@ works("detect.py", "--model", "plate.meam", "--depth", f"{place}/depth/000000.pn
       "--depth-scale", str(scripting.read_json(f"{place}/scene_camera.json")["0"]["depth_scale"]),
       "--image", f"{place}/gray/000000.png", "--out", "one.csv")
 ours = [(row["probability"], row["R"], row["t"]) for row in poses if row["scan"] == names[2]]
-check([(row["score"], row["R"], row["t"]) for row in rows("one.csv")] == ours, "the poses are not those of detect")
-of_scans = rows("poses.scans.csv")
+check([(row["score"], row["R"], row["t"]) for row in rows_of("one.csv")] == ours, "the poses are not those of detect")
+of_scans = rows_of("poses.scans.csv")
 check([row["scan"] for row in of_scans] == names and all(float(row["find_s"]) > 0 for row in of_scans), "the times")
 check(not os.path.exists("poses.csv.run"), "what is done is left behind")
 
@@ -88,9 +88,9 @@ check(content("killed.csv") == content("poses.csv"), "another table after a kill
 
 # A scan that ends the process, as a crash in a library does, is a row when the run is taken up; the others are as they were.
 survives("deadly.csv", *deadly("bins", "--model", "plate.meam", "--threads", "2", "--out", "deadly.csv"))
-check([row for row in rows("deadly.csv") if not row["failure"]] == [row for row in poses if row["scan"] != names[2]],
+check([row for row in rows_of("deadly.csv") if not row["failure"]] == [row for row in poses if row["scan"] != names[2]],
       "the others are not as they were")
-check([row["scan"] for row in rows("deadly.scans.csv")] == names, "the scans in their order")
+check([row["scan"] for row in rows_of("deadly.scans.csv")] == names, "the scans in their order")
 for number, word in ((signal.SIGKILL, "SIGKILL"), (signal.SIGRTMIN + 6, f"signal {signal.SIGRTMIN + 6}")):
     try:
         apart(lambda: os.kill(os.getpid(), number))
@@ -134,14 +134,13 @@ check(content("endless.csv") == content("poses.csv"), "another table after a sca
 # A scan that cannot be read, and a scene, is a row with its reason.
 with open(f"bins/test/{names[1][:6]}/depth/000000.png", "r+b") as file:
     file.truncate(1000)
-with open(f"bins/test/{names[3][:6]}/scene_camera.json", "w", encoding="utf-8") as file:
-    file.write("{")
+write(f"bins/test/{names[3][:6]}/scene_camera.json", "{")
 text = batch("bins", "--model", "plate.meam", "--out", "broken.csv")
 check(", 2 failed, " in text, text)
-broken = {row["scan"]: row["failure"] for row in rows("broken.csv") if row["failure"]}
+broken = {row["scan"]: row["failure"] for row in rows_of("broken.csv") if row["failure"]}
 check(list(broken) == [names[1], "000003"] and "000000.png" in broken[names[1]] and "JSON" in broken["000003"],
       f"{broken}")
-check([row for row in rows("broken.csv") if not row["failure"]]
+check([row for row in rows_of("broken.csv") if not row["failure"]]
       == [row for row in poses if row["scan"] not in (names[1], names[3])], "the others are not as they were")
 
 # A folder and a list, with images beside; a scan without any copy of the part has an empty row.
@@ -156,33 +155,28 @@ flat[numpy.isnan(points).any(axis=1)] = numpy.nan
 write_pcd("folder/c.pcd", numpy.column_stack((flat, 0 * grey)), W, H, "x y z intensity")
 batch("folder", "--model", "plate.meam", "--probability", "0.3", "--out", "folder.csv")
 found = {}
-for row in rows("folder.csv"):
+for row in rows_of("folder.csv"):
     found.setdefault(row["scan"], []).append(row["R"] + row["t"])
 check(list(found) == ["a.pcd", "b.pcd", "c.pcd"], f"the folder's scans by name: {list(found)}")
 check(found["a.pcd"] == found["b.pcd"] != [""] and found["c.pcd"] == [""], f"{found}")
 write_pcd("bare.pcd", points, W, H, "x y z")
-with open("list.txt", "w", encoding="utf-8") as file:
-    file.write("# scan and image\nbare.pcd\tfolder/image.png\nnone.pcd\nfolder/a.pcd\n")
+write("list.txt", "# scan and image\nbare.pcd\tfolder/image.png\nnone.pcd\nfolder/a.pcd\n")
 batch("list.txt", "--model", "plate.meam", "--probability", "0.3", "--out", "list.csv")
-found = {row["scan"]: row for row in rows("list.csv")}
+found = {row["scan"]: row for row in rows_of("list.csv")}
 check(list(found) == ["bare.pcd", "none.pcd", "folder/a.pcd"], f"the list's scans in its order: {list(found)}")
 check(found["none.pcd"]["failure"].startswith("cannot read none.pcd"), f"{found}")
 check(found["bare.pcd"]["R"] and found["folder/a.pcd"]["R"], f"{found}")
 
 # Two parts: no two poses explain the same surface.
-with open("one.txt", "w", encoding="utf-8") as file:
-    file.write("bare.pcd\n")
+write("one.txt", "bare.pcd\n")
 batch("one.txt", "--model", "plate.meam", "--model", "plate.meam", "--out", "two.csv")
-check({row["obj_id"] for row in rows("two.csv")} <= {"1", "2", ""}, "the numbers of two parts")
+check({row["obj_id"] for row in rows_of("two.csv")} <= {"1", "2", ""}, "the numbers of two parts")
 
 # What cannot be read or written is a sentence, and nothing is left behind.
 os.makedirs("empty")
-with open("cut.meam", "wb") as file:
-    file.write(content("plate.meam")[:5000])
-with open("old.meam", "wb") as file:
-    file.write(content("plate.meam")[:8] + b"\x63\0\0\0" + content("plate.meam")[12:])
-with open("twice.txt", "w", encoding="utf-8") as file:
-    file.write("bare.pcd\nbare.pcd\n")
+write("cut.meam", content("plate.meam")[:5000])
+write("old.meam", content("plate.meam")[:8] + b"\x63\0\0\0" + content("plate.meam")[12:])
+write("twice.txt", "bare.pcd\nbare.pcd\n")
 for word, name in (("has no scans", "empty"), ("cannot read none", "none"), ("twice", "twice.txt"),
                    ("not a list", "plate.meam")):
     refuses(word, "batch.py", name, "--model", "plate.meam", "--out", "x.csv")

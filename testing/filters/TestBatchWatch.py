@@ -11,8 +11,8 @@ import time
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from batchtest import children, command, dataset, deadly, rows
-from meamtest import check
+from batchtest import children, command, dataset, deadly
+from meamtest import check, read, rows_of, write
 from ppfmeam import scripting
 from scripttest import refuses, script, works
 
@@ -26,10 +26,9 @@ grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).astype(numpy.floa
 HEAD = (f"VERSION .7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH {W}\nHEIGHT {H}\n"
         f"POINTS {W * H}\nDATA binary\n")
 whole = HEAD.encode() + numpy.ascontiguousarray(numpy.column_stack((points, grey)), dtype="<f4").tobytes()
-with open("scans/one.pcd", "wb") as file:
-    file.write(whole)
+write("scans/one.pcd", whole)
 works("batch.py", "scans", "--model", "plate.meam", "--out", "poses.csv")
-expected = [[float(word) for word in row["t"].split()] for row in rows("poses.csv")]
+expected = [[float(word) for word in row["t"].split()] for row in rows_of("poses.csv")]
 check(len(expected) > 1, "no poses to compare with")
 
 
@@ -58,8 +57,7 @@ def end(process, *words):
 
 
 def right(name):
-    with open(f"cell/{name}.poses.json", encoding="utf-8") as file:
-        poses = json.load(file)["poses"]
+    poses = json.loads(read(f"cell/{name}.poses.json"))["poses"]
     check([pose["translation"] for pose in poses] == expected, f"{name}: {poses}")
 
 
@@ -83,12 +81,10 @@ while "poses;" not in (text := process.stdout.readline()):
 right("b")
 
 # A damaged one has a reason beside it, until it is replaced.
-with open("cell/c.part", "wb") as file:
-    file.write(whole[:9000])
+write("cell/c.part", whole[:9000])
 os.rename("cell/c.part", "cell/c.pcd")
 line(process, "c.pcd: ", "c.pcd", " s\n")
-with open("cell/c.poses.failed", encoding="utf-8") as file:
-    check("c.pcd" in file.read() and not os.path.exists("cell/c.poses.json"), "the reason")
+check("c.pcd" in read("cell/c.poses.failed") and not os.path.exists("cell/c.poses.json"), "the reason")
 arrives("c")
 line(process, f"c.pcd: {len(expected)} poses; ")
 right("c")
@@ -108,7 +104,7 @@ process = start("--form", "csv")
 line(process, "watching cell")
 for name in "abc":
     line(process, f"{name}.pcd: {len(expected)} poses")
-    check([[float(word) for word in row["t"].split()] for row in rows(f"cell/{name}.poses.csv")] == expected, "CSV")
+    check([[float(word) for word in row["t"].split()] for row in rows_of(f"cell/{name}.poses.csv")] == expected, "CSV")
 end(process, "3 scans, 0 failed")
 
 # A scan that crashes the process which searches it has the reason beside it, and the next one its poses; so has one that
@@ -120,8 +116,7 @@ line(process, "watching cell")
 for name, words in (("a", "poses; "), ("deadly", "it ended the process that searched it: SIGSEGV; "), ("b", "poses; ")):
     arrives(name)
     line(process, f"{name}.pcd: ", words)
-with open("cell/deadly.poses.failed", encoding="utf-8") as file:
-    check(file.read() == "it ended the process that searched it: SIGSEGV\n", "the reason")
+check(read("cell/deadly.poses.failed") == "it ended the process that searched it: SIGSEGV\n", "the reason")
 os.kill(*children(process.pid), signal.SIGKILL)
 arrives("c")
 line(process, f"c.pcd: {len(expected)} poses; ")

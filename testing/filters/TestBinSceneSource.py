@@ -5,7 +5,7 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMSamplePartSource
-from meamtest import bracket, check, close, connect, fails, field, is_empty, points, prints, run, tuples
+from meamtest import bracket, check, close, connect, fails, field, is_empty, points, run, tuples
 
 
 def bin_of(part=None, **properties):
@@ -96,9 +96,6 @@ source.SetBinSize(5)
 fails(source, "fit")
 check(is_empty(truth) and is_empty(mesh), "no truth without a scene")
 fails(bin_of(part, SensorHeight=10), "raise")
-prints(source, "Copies", "Seed", "BinSize", "BinWidth", "WallHeight", "SensorHeight", "Sensor", "Width", "Height", "Colored", "Baseline", "DepthNoise",
-       "DepthStep", "Dropout", "JumpDropout", "MatchingWindow", "GlareAngle", "NoiseWindow", "StereoBaseline",
-       "DisparityNoise", "DisparityStep", "SmoothingWindow", "RangeNoise", "PixelBlur", "Multipath", "ImageNoise", "ImageBlur")
 
 
 # Kinds of sensors: the same bin, and what is chosen wins over what the kind has.

@@ -2,14 +2,8 @@
 """The boundary of a grid of points is its outermost row; of a box from above the mesh gives the rim of its top."""
 import math
 
-from ppfmeam.filters import (
-    vtkMEAMBoundaryExtraction,
-    vtkMEAMMeshPreparation,
-    vtkMEAMSurfaceSampling,
-    vtkMEAMTangentEstimation,
-    vtkMEAMVisibilityExtraction,
-)
-from meamtest import (box, check, close, cloud, collection, connect, fails, field, image, partitions, points, prints, run,
+from ppfmeam import filters
+from meamtest import (box, check, close, cloud, collection, connect, fails, field, image, partitions, points, run,
                       set_fields, tuples)
 
 N = 11
@@ -26,7 +20,7 @@ def grid(**more):
 
 
 def boundary(*pieces, **properties):
-    return connect(vtkMEAMBoundaryExtraction(), collection(*pieces, Diameter=14.1), **properties)
+    return connect(filters.vtkMEAMBoundaryExtraction(), collection(*pieces, Diameter=14.1), **properties)
 
 
 output = run(boundary(("left", grid()), ("right", grid())))
@@ -55,10 +49,10 @@ check(sorted(points(corners)) == [(0, 0, 0), (0, 10, 0), (10, 0, 0), (10, 10, 0)
 
 # Of a mesh: six views of a box, each with four straight edges.
 SIZE = (20, 20, 10)
-samples = connect(vtkMEAMSurfaceSampling(), box(*SIZE), Spacing=0.7)
-views = connect(vtkMEAMVisibilityExtraction(), samples, box(*SIZE))
+samples = connect(filters.vtkMEAMSurfaceSampling(), box(*SIZE), Spacing=0.7)
+views = connect(filters.vtkMEAMVisibilityExtraction(), samples, box(*SIZE))
 views.SetMethodToMeshVisibility()
-edges = connect(vtkMEAMBoundaryExtraction(), views, box(*SIZE))
+edges = connect(filters.vtkMEAMBoundaryExtraction(), views, box(*SIZE))
 check(edges.GetMethod() == 0, "the paper's method by default")
 edges.SetMethodToMeshEdges()
 found = partitions(run(edges))
@@ -72,7 +66,7 @@ ids = {i for i, in tuples(partitions(run(views))[0][1], "PointId")}
 check({i for i, in tuples(top, "PointId")} <= ids, "points are identified by what the view shows")
 
 # The tangent step thins them and leaves the rest as it is.
-thin = connect(vtkMEAMTangentEstimation(), edges, LeafSize=2)
+thin = connect(filters.vtkMEAMTangentEstimation(), edges, LeafSize=2)
 for (_, dense), (_, sparse) in zip(found, partitions(run(thin))):
     check(0 < sparse.GetNumberOfPoints() < dense.GetNumberOfPoints(), "fewer points")
     known = dict(zip(points(dense), zip(tuples(dense, "Tangent"), tuples(dense, "EdgeType"), tuples(dense, "PointId"))))
@@ -80,16 +74,14 @@ for (_, dense), (_, sparse) in zip(found, partitions(run(thin))):
     check([known[p] for p in points(sparse)] == list(kept), "with their tangents, types and identities")
     check(sparse.GetPointData().GetScalars().GetName() == "EdgeType", "a view colours by the type")
 
-without = connect(vtkMEAMBoundaryExtraction(), views)
-without.SetMethodToMeshEdges()
+without = connect(filters.vtkMEAMBoundaryExtraction(), views, Method=filters.vtkMEAMBoundaryExtraction.MeshEdges)
 fails(without, "need the mesh", "connect")
-prepared = connect(vtkMEAMMeshPreparation(), box(*SIZE))
+prepared = connect(filters.vtkMEAMMeshPreparation(), box(*SIZE))
 without.SetMeshConnection(prepared.GetOutputPort())
 check(len(partitions(run(without))) == 6, "the mesh comes by connection")
 without.SetMethodToPointBoundary()
 check(len(partitions(run(without))) == 6, "the boundary of the points leaves the mesh alone")
-wrong = connect(vtkMEAMBoundaryExtraction(), views, box(5, 5, 5))
-wrong.SetMethodToMeshEdges()
+wrong = connect(filters.vtkMEAMBoundaryExtraction(), views, box(5, 5, 5), Method=filters.vtkMEAMBoundaryExtraction.MeshEdges)
 fails(wrong, "not of this mesh")
 
 typed = boundary(("a", view(GRID, Normals=[(0, 0, 1)] * len(GRID), EdgeType=[7] * len(GRID))))
@@ -102,5 +94,4 @@ fails(boundary(("a", cloud(GRID, Normals=[(0, 0, 1)] * len(GRID)))), "ViewDirect
 fails(boundary(("a", view(GRID, direction=(0, 0, 0), Normals=[(0, 0, 1)] * len(GRID)))), "ViewDirection")
 fails(boundary(("a", view(GRID, Normals=[(0, 1)] * len(GRID)))), "Normals", "3 components")
 fails(boundary(("a", image())), "not an appearance model")
-fails(connect(vtkMEAMBoundaryExtraction(), cloud(GRID)), "vtkPartitionedDataSetCollection")
-prints(vtkMEAMBoundaryExtraction(), "Method", "Radius", "Angle", "SharpAngle")
+fails(connect(filters.vtkMEAMBoundaryExtraction(), cloud(GRID)), "vtkPartitionedDataSetCollection")

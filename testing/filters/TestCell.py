@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """cell.py empties a small bin of a user's part: a row for each pick, a film and a strip of pictures that belong together; a run that is
 done, or was stopped, is gone on with and ends with the same rows; and the paper's Table 9 is made of such rows."""
-import csv
 import json
 import os
 import re
@@ -14,7 +13,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from ppfmeam import cell as cells_of_users
-from meamtest import check, run, skip
+from meamtest import check, connect, read, rows_of, run, skip, write
 import cells
 
 if not os.environ.get("DISPLAY"):
@@ -35,23 +34,14 @@ def cell(*arguments):
     return subprocess.run(command(*arguments), capture_output=True, text=True)
 
 
-def content(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
-
-
-def rows_of(text):
-    return list(csv.DictReader(text.splitlines()))
-
-
 done = cell("--out", "out", "--json", "out.json")
 check(done.returncode == 0, done.stderr)
-rows = rows_of(content("out/picks.csv"))
+rows = rows_of("out/picks.csv")
 tried = [row for row in rows if row["outcome"]]
 taken = sum(row["outcome"] == "success" for row in tried)
 check(taken == COPIES, f"discs that lie apart come out: {done.stderr}")
 left = COPIES
-told = json.loads(content("out.json"))
+told = json.loads(read("out.json"))
 check(told["parts_taken"] == taken and [pick["reason"] for pick in told["picks"]] == [row["reason"] for row in rows], f"{told}")
 for number, row in enumerate(rows, 1):
     check(int(row["pick"]) == number and int(row["left"]) == left, f"pick {number} of {rows}")
@@ -61,7 +51,7 @@ check(done.stdout.count("\n") == len(rows) + 2 and rows[-1]["reason"] in done.st
 check(re.search(rf"bin 1: 1 of {COPIES} left, pick 2: .*; \S+ \S+ left", done.stderr), done.stderr)
 
 name, = (entry.removesuffix(".pvd") for entry in os.listdir("out") if entry.endswith(".pvd"))
-steps = re.findall(r'timestep="(\d+)".*name="(\w+)" file="(.*)"', content(f"out/{name}.pvd"))
+steps = re.findall(r'timestep="(\d+)".*name="(\w+)" file="(.*)"', read(f"out/{name}.pvd"))
 check(len(steps) == 2 * len(tried), f"{steps}")
 reader = vtkXMLPolyDataReader()
 sizes = []
@@ -70,18 +60,17 @@ for step, kind, path in steps:
     sizes.append(run(reader).GetNumberOfPoints())
     check(sizes[-1] > 0, f"step {step} has {kind}")
 check(sizes[0] % COPIES == 0 and sizes[2] == sizes[0] // COPIES * int(rows[1]["left"]), "the film has as many parts as are left")
-picture = vtkPNGReader()
-picture.SetFileName(f"out/{name}.png")
+picture = connect(vtkPNGReader(), FileName=f"out/{name}.png")
 check(run(picture).GetDimensions() == (420 * len(tried), 420, 1), "a tile for each pick")
 
-whole = content("out/picks.csv")
+whole = read("out/picks.csv")
 again = cell("--out", "out")
 check(again.returncode == 0 and again.stderr == "" and again.stdout == done.stdout, f"nothing is left to do: {again.stderr}")
-check(content("out/picks.csv") == whole, "and nothing is changed")
+check(read("out/picks.csv") == whole, "and nothing is changed")
 
 
-def without_times(text):
-    return [{name: value for name, value in row.items() if not name.endswith("_ms")} for row in rows_of(text)]
+def without_times(path):
+    return [{name: value for name, value in row.items() if not name.endswith("_ms")} for row in rows_of(path)]
 
 
 # Ctrl-C after the first pick tells what is known; a bin that was interrupted starts anew and is the same.
@@ -91,13 +80,13 @@ process.send_signal(signal.SIGINT)
 told, errors = process.communicate()
 check(process.returncode == 130 and errors.endswith("cell.py: stopped\n"), f"{process.returncode}: {errors}")
 check(told.splitlines()[1].split()[:3] == ["1", "1", str(COPIES)] and "no bin is done; " in told, told)
-check(without_times(content("stopped/picks.csv")) == without_times(whole)[:told.count("\n") - 2], "the picks that were made")
-check(cell("--out", "stopped").returncode == 0 and without_times(content("stopped/picks.csv")) == without_times(whole), "the same picks")
+check(without_times("stopped/picks.csv") == without_times("out/picks.csv")[:told.count("\n") - 2], "the picks that were made")
+check(cell("--out", "stopped").returncode == 0 and without_times("stopped/picks.csv") == without_times("out/picks.csv"), "the same picks")
 
 # A bin of another size is another one, and as large as it has to be; a gripper of other lengths, too.
 other = cell("--bin", "300", "200", "60", "--gripper", "cup_length=70", "--out", "out")
-check(other.returncode == 0 and len(rows_of(content("out/picks.csv"))) > len(rows), other.stderr)
-row = rows_of(content("out/picks.csv"))[-1]
+check(other.returncode == 0 and len(rows_of("out/picks.csv")) > len(rows), other.stderr)
+row = rows_of("out/picks.csv")[-1]
 check(row["bin"] == "300x200x60" and row["gripper"] == "cup-cup_diameter=8-cup_length=70", f"{row}")
 source = cells_of_users.Bin(type("Station", (), {"mesh": None, "sensor": "structured-light"}), 1, 1, (300, 200, 60))
 check(source.truth.GetFieldData().GetArray("Bin").GetTuple(0)[16:19] == (300, 200, 60), "the size of the bin")
@@ -113,8 +102,7 @@ check(cells.failures(picks) == ["- disc, eye, bin 2, trial 1: holds nothing (why
                                 "- disc, eye, bin 2, trial 3: 1 left: why"], f"{cells.failures(picks)}")
 
 os.mkdir("old")
-with open("old/picks.csv", "w", encoding="utf-8") as file:
-    file.write(whole.replace(",copies", ""))
+write("old/picks.csv", whole.replace(",copies", ""))
 old = cell("--out", "old")
 check(old.returncode != 0 and "is not of this version" in old.stderr, f"columns of another version: {old.stderr}")
 for word, arguments in (("1 or more", ("--bins", "0")), ("10000", ("--copies", "10001")), ("cannot write", ("--out", "/proc/no")),

@@ -6,14 +6,7 @@ import sys
 
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 
-from ppfmeam import scripting
-from ppfmeam.filters import (
-    vtkMEAMBinSceneSource,
-    vtkMEAMPCDReader,
-    vtkMEAMPoseEstimation,
-    vtkMEAMPoseReader,
-    vtkMEAMSceneEdgeExtraction,
-)
+from ppfmeam import filters, scripting
 from meamtest import Trained, check, connect, field, pose_error, run, tuples
 from chains import Detection, set_preset
 
@@ -24,12 +17,12 @@ def detect(preset, model, part, surface, boundary=None):
     """By the single filters, and by all in one: the same poses to the last bit."""
     edges = boundary
     if not boundary:
-        edges = connect(vtkMEAMSceneEdgeExtraction(), surface)
+        edges = connect(filters.vtkMEAMSceneEdgeExtraction(), surface)
         set_preset(edges, "recommended" if preset == "recommended" else "paper")
         sources = {source for source, in tuples(run(edges), "EdgeSource")}
         check(sources == ({0, 1, 2} if preset == "recommended" else {0}), f"{preset}: edges from {sources}")
     found = run(Detection(model, edges, surface, preset).selection)
-    box = connect(vtkMEAMPoseEstimation(), part, surface, *([boundary] if boundary else []), MaximumNumberOfPoses=0)
+    box = connect(filters.vtkMEAMPoseEstimation(), part, surface, *([boundary] if boundary else []), MaximumNumberOfPoses=0)
     scripting.set_preset(box, preset)
     for name in ("Transform", "Score", "Votes", "Probability", "Certainty", "VisibleFraction", "Covariance"):
         check(tuples(run(box), name) == tuples(found, name), f"{preset}: {name} of the chain and of the one filter differ")
@@ -37,7 +30,7 @@ def detect(preset, model, part, surface, boundary=None):
 
 
 # A scan of a bin of five sample parts.
-source = connect(vtkMEAMBinSceneSource(), Copies=5, Width=320, Height=240)
+source = connect(filters.vtkMEAMBinSceneSource(), Copies=5, Width=320, Height=240)
 scan = run(source)
 truth, mesh = (source.GetOutputDataObject(port) for port in (1, 2))
 for preset in PRESETS:
@@ -55,18 +48,16 @@ if not os.path.isdir(folder):
 
 
 def reader(kind, *path):
-    result = kind()
-    result.SetFileName(os.path.join(folder, *path))
-    return result
+    return connect(kind(), FileName=os.path.join(folder, *path))
 
 
 # The STL is in another frame than the published poses.
 trained = Trained(reader(vtkSTLReader, "Part_3.STL"))
 trained.prepared.SetOffset(-20.9645, -17.4974, -9.3144)
 run(trained.model)
-boundary = reader(vtkMEAMPCDReader, "Scenes", "Scene_boundary0.pcd")
-surface = reader(vtkMEAMPCDReader, "Scenes", "Scene0.pcd")
-published = tuples(run(reader(vtkMEAMPoseReader, "Results", "trans0.txt")), "Transform")
+boundary = reader(filters.vtkMEAMPCDReader, "Scenes", "Scene_boundary0.pcd")
+surface = reader(filters.vtkMEAMPCDReader, "Scenes", "Scene0.pcd")
+published = tuples(run(reader(filters.vtkMEAMPoseReader, "Results", "trans0.txt")), "Transform")
 check(len(published) == 20, f"{len(published)} published poses")
 
 for paper in (False, True):

@@ -6,7 +6,7 @@ import os
 import re
 
 import ppfmeam
-from meamtest import check
+from meamtest import check, read
 from ppfmeam import _core, choices, filters
 from ppfmeam.choices import TABLE
 
@@ -68,8 +68,7 @@ for group, (struct, kinds, functions) in GROUPS.items():
             check(choice["help"] in function.__doc__, f"{where}: help({function.__name__})")
 
 # The table of one call.
-with open(os.path.join(SOURCES, "docs", "parameters.md"), encoding="utf-8") as file:
-    rows = re.findall(r"^\| `(\w+)` \| `(\w+)` \| `(\w+)` \| ([^|]+) \|", file.read(), re.MULTILINE)
+rows = re.findall(r"^\| `(\w+)` \| `(\w+)` \| `(\w+)` \| ([^|]+) \|", read(os.path.join(SOURCES, "docs", "parameters.md")), re.MULTILINE)
 words = {True: "on", False: "off"}
 check({row[1]: row for row in rows} == {
     name: (choice["property"], name, choice["field"],
@@ -103,4 +102,29 @@ for group, function, arguments in (("detect", ppfmeam.detect, (None, None)), ("t
                 check(str(error).startswith(f"{name} has to be ") and str(error).endswith(f", not {value!r}"), f"{error}")
             else:
                 check(False, f"{group}.{name} takes {value!r}")
+# What the single filters set at once, one after the other; the number of threads stays.
+SETS = {
+    filters.vtkMEAMHashing: {
+        "Paper": {"Feature": 0, "AngleStep": 3.6, "ViewMerging": 1, "VoxelSize": 1.0, "CoVisibilityDirections": 0},
+        "Recommended": {"Feature": 1, "ViewMerging": 0}},
+    filters.vtkMEAMTangentEstimation: {"Paper": {"Method": 0, "LeafSize": 1.0}, "Recommended": {"Method": 1, "LeafSize": 0.0}},
+    filters.vtkMEAMPoseDetection: {"Paper": {"ReferenceShare": 0.2, "ReferredShare": 0.2}},
+    filters.vtkMEAMPoseVerification: {"Paper": {"Method": 0, "Tolerance": 1.5, "PosesPerView": 20}, "Votes": {"Method": 2, "PosesPerView": 0},
+                                      "Candidates": {"Method": 1, "PointStride": 2}},
+    filters.vtkMEAMPoseSelection: {"Paper": {"Method": 0}, "Votes": {"Method": 0, "MaximumNumberOfPoses": 30},
+                                   "Candidates": {"Method": 1, "MaximumNumberOfPoses": 0}},
+    filters.vtkMEAMPoseRefinement: {"Paper": {"Method": 0}, "Recommended": {"Method": 1}},
+    filters.vtkMEAMSceneEdgeExtraction: {
+        "Paper": {"ImageEdges": True, "DepthEdges": False, "Creases": False, "ImageTangents": False},
+        "Recommended": {"DepthEdges": True, "Creases": True, "ImageTangents": True}},
+}
+for kind, sets in SETS.items():
+    filter = kind()
+    for name, values in sets.items():
+        if hasattr(filter, "SetNumberOfThreads"):
+            filter.SetNumberOfThreads(2)
+            values["NumberOfThreads"] = 2
+        getattr(filter, "SetParametersTo" + name)()
+        found = {key: getattr(filter, "Get" + key)() for key in values}
+        check(found == values, f"{kind.__name__}, {name}: {found}")
 print(f"{sum(map(len, TABLE.values()))} choices")

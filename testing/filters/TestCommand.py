@@ -6,8 +6,8 @@ import sys
 
 import ppfmeam
 from ppfmeam.commands import SUMMARIES
-from meamtest import box, check
-from scripttest import EXAMPLES, read, script, works, write_stl
+from meamtest import box, check, read
+from scripttest import EXAMPLES, script, works, write_stl
 
 COMMAND = os.path.join(EXAMPLES, "..", "filters", "command", "ppfmeam")
 MODULES = os.path.join(EXAMPLES, "..", "filters", "ppfmeam", "commands")

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Two types of part in one scene: each place goes to the part that is there; arrays, numbers and bad input."""
 import math
-import os
-import tempfile
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkThreshold
@@ -10,8 +8,8 @@ from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 
 from ppfmeam.filters import (vtkMEAMConflictResolution, vtkMEAMPoseInstances, vtkMEAMPoseVerification,
                              vtkMEAMPoseWriter, vtkMEAMTangentEstimation)
-from meamtest import (MovedView, Trained, box, bracket, check, close, cloud, connect, fails, field, image, is_empty,
-                      points, poses, prints, run, tuples)
+from meamtest import (Folder, MovedView, Trained, box, bracket, check, close, cloud, connect, fails, field, image, is_empty,
+                      points, poses, run, tuples)
 
 meshes = (bracket(), box(40, 25, 15))  # an L, and the block that it was cut from
 trained = [Trained(mesh) for mesh in meshes]
@@ -48,8 +46,7 @@ places = [views[0].transform, shifted(views[1].transform, aside)]  # of the brac
 
 
 def verified(model, *transforms):
-    filter = connect(vtkMEAMPoseVerification(), poses(*transforms), model, edges, surface, ViewDirection=looking)
-    return run(filter)
+    return run(connect(vtkMEAMPoseVerification(), poses(*transforms), model, edges, surface, ViewDirection=looking))
 
 
 def resolution(found, models, surface=surface, edges=edges, **properties):
@@ -93,22 +90,18 @@ check(set(part_ids(run(resolution([vtkPolyData(), found[1]], models)))) == {1}, 
 
 # Each part's mesh at its poses, and its number in a file.
 for part, mesh in enumerate(meshes):
-    of_part = vtkThreshold()
-    of_part.SetInputDataObject(stay)
+    of_part = connect(vtkThreshold(), stay)
     of_part.SetInputArrayToProcess(0, 0, 0, 0, "PartId")
     of_part.SetLowerThreshold(part)
     of_part.SetUpperThreshold(part)
-    as_poses = vtkGeometryFilter()
-    as_poses.SetInputConnection(of_part.GetOutputPort())
+    as_poses = connect(vtkGeometryFilter(), of_part)
     copies = run(connect(vtkMEAMPoseInstances(), as_poses, mesh))
     check(copies.GetNumberOfPoints() == mesh.GetNumberOfPoints(), f"one copy of part {part}")
     rank = part_ids(stay).index(part) + 1
     check({r for r, in tuples(copies, "Rank")} == {rank}, f"part {part} has rank {rank} of all")
-with tempfile.TemporaryDirectory() as folder:
-    writer = connect(vtkMEAMPoseWriter(), stay, FileName=os.path.join(folder, "poses.csv"))
-    check(writer.Write() == 1, "Write() succeeds")
-    with open(writer.GetFileName()) as file:
-        numbers = [int(row.split(",")[2]) for row in file.readlines()[1:]]
+folder = Folder()
+check(connect(vtkMEAMPoseWriter(), stay, FileName=folder("poses.csv")).Write() == 1, "Write() succeeds")
+numbers = [int(row.split(",")[2]) for row in folder.text("poses.csv").splitlines()[1:]]
 check(numbers == [part + 1 for part in part_ids(stay)], f"the parts are numbered from 1: {numbers}")
 
 fails(resolution(found, models[:1]), "poses of 2 parts", "models of 1")
@@ -125,5 +118,3 @@ filter = vtkMEAMConflictResolution()
 filter.AddInputDataObject(1, models[0])
 filter.RemoveAllModelConnections()
 check(filter.GetNumberOfInputConnections(1) == 0, "no model is left")
-prints(filter, "MaximumShared", "MaximumNumberOfPoses",
-       "Projection", "ViewDirection", "SensorPosition", "NumberOfThreads")

@@ -6,13 +6,12 @@ import os
 import shutil
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkBMPWriter, vtkJPEGWriter, vtkPNGWriter, vtkTIFFWriter
 
 from ppfmeam import scripting
-from batchtest import H, W, command, content, dataset, finished, rows
-from meamtest import check, connect
+from batchtest import H, W, command, content, dataset, finished
+from meamtest import check, picture, rows_of, write, written
 from scripttest import refuses, write_pcd
 
 WRITERS = {"png": vtkPNGWriter, "jpg": vtkJPEGWriter, "bmp": vtkBMPWriter, "tif": vtkTIFFWriter}
@@ -22,31 +21,23 @@ model, scan = dataset("bins", 1)
 scripting.write_model(model, "plate.meam")
 points = vtk_to_numpy(scan.GetPoints().GetData())
 write_pcd("scan.pcd", points, W, H, "x y z")
-image = vtkImageData()
-image.SetDimensions(W, H, 1)
-grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).reshape(H, W)
-image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(grey[::-1]).ravel(), deep=True))
+image = picture(vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).reshape(H, W))
 
 random = numpy.random.default_rng(1)
 good, cut, flipped = [], [], []
 for extension, kind in WRITERS.items():
     path = f"whole.{extension}"
-    writer = connect(kind(), image)
-    writer.SetFileName(path)
-    writer.Write()
-    good.append(path)
+    good.append(written(path, image, kind))
     whole = content(path)
     for k, share in enumerate((0.01, 0.3, 0.6, 0.95)):
         cut.append(f"cut{k}.{extension}")
-        with open(cut[-1], "wb") as file:
-            file.write(whole[:int(share * len(whole))])
+        write(cut[-1], whole[:int(share * len(whole))])
     for k in range(6):
         flipped.append(f"flipped{k}.{extension}")
         damaged = bytearray(whole)
         for place in random.integers(0, (60, 400, len(whole))[k % 3], 3):
             damaged[place] ^= 1 << random.integers(8)
-        with open(flipped[-1], "wb") as file:
-            file.write(damaged)
+        write(flipped[-1], damaged)
 kept = []
 for path in sorted(glob.glob(os.path.join(CORPUS, "*image", "*"))):
     kept.append("kept_" + os.path.basename(path))
@@ -64,7 +55,7 @@ for k, _ in enumerate(images):
 with open("list.txt", "w", encoding="utf-8") as file:
     file.writelines(f"{k}.pcd\t{name}\n" for k, name in enumerate(images))
 finished(*command("list.txt", "--model", "plate.meam", "--poses", "1", "--features", "edges", "--out", "list.csv"))
-found = {images[int(row["scan"][:-4])]: row for row in rows("list.csv")}
+found = {images[int(row["scan"][:-4])]: row for row in rows_of("list.csv")}
 check(list(found) == images, "a row for each scan")
 check(all(found[name]["R"] for name in good), f"whole images are searched: {[found[name] for name in good]}")
 for name in cut:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The programs that measure, on a dataset of one scene or on simulated bins: tohoku.py, models.py, calibration.py, world.py,
 robustness.py; and the page of their tables. With --long more of their choices."""
-import csv
 import math
 import os
 import shutil
@@ -11,13 +10,13 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from ppfmeam import evaluation, scripting
 from ppfmeam.filters import vtkMEAMPoseWriter
-from meamtest import LONG, Trained, check, connect, points, poses, run, tuples
+from meamtest import LONG, Trained, check, points, poses, read, rows_of, run, tuples, write, written
 import benchmarks
 import page
 import results
 import scenes
 import world
-from scripttest import EXAMPLES, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
+from scripttest import EXAMPLES, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
 scan, truth, mesh = scan_of_bin()
 places = vtk_to_numpy(scan.GetPoints().GetData())
@@ -49,9 +48,7 @@ surface = places[numpy.isfinite(places).all(axis=1)][::5] @ up[:3, :3]
 write_pcd("data/Part_1/Scenes/Scene0.pcd", surface, len(surface), 1, "x y z")
 outline = numpy.array(points(edges)) @ up[:3, :3]
 write_pcd("data/Part_1/Scenes/Scene_boundary0.pcd", outline, len(outline), 1, "x y z")
-writer = connect(vtkMEAMPoseWriter(), poses(*[tuple((up @ t).ravel()) for t in true]))
-writer.SetFileName("data/Part_1/Results/trans0.txt")
-writer.Write()
+written("data/Part_1/Results/trans0.txt", poses(*[tuple((up @ t).ravel()) for t in true]), vtkMEAMPoseWriter)
 TOHOKU = ("tohoku.py", "data", "--parts", "1", "--poses", "2")
 text = works(*TOHOKU, "--scenes", "0", "--matrices", "result", "--out", "result.csv")
 check(len(read("result/Part_1/trans0.txt").split()) == 32, "two matrices are written")
@@ -70,9 +67,7 @@ for name in ("Scene", "Scene_boundary"):
     shutil.copy(f"data/Part_1/Scenes/{name}0.pcd", f"data/Part_1/Scenes/{name}1.pcd")
 away = up @ true
 away[:, :3, 3] += (40, 40, 20)
-writer = connect(vtkMEAMPoseWriter(), poses(*[tuple(t.ravel()) for t in away]))
-writer.SetFileName("data/Part_1/Results/trans1.txt")
-writer.Write()
+written("data/Part_1/Results/trans1.txt", poses(*[tuple(t.ravel()) for t in away]), vtkMEAMPoseWriter)
 os.makedirs("away/Part_1")
 shutil.copy("data/Part_1/Results/trans1.txt", "away/Part_1")
 result = script(*TOHOKU, "--scenes", "1", "--found", "away", "--out", "away.csv")
@@ -83,11 +78,9 @@ check(results.read("again.csv")[0]["strict"] == row["strict"], "our own poses, j
 # --why: a row for each true instance, with the reason of one that is not there.
 for name in ("Scene", "Scene_boundary"):
     shutil.copy(f"data/Part_1/Scenes/{name}0.pcd", f"data/Part_1/Scenes/{name}2.pcd")
-writer = connect(vtkMEAMPoseWriter(), poses(*[tuple(t.ravel()) for t in (*(up @ true), away[0])]))
-writer.SetFileName("data/Part_1/Results/trans2.txt")
-writer.Write()
+written("data/Part_1/Results/trans2.txt", poses(*[tuple(t.ravel()) for t in (*(up @ true), away[0])]), vtkMEAMPoseWriter)
 works(*TOHOKU, "--scenes", "2", "--why", "why.csv")
-*rows, missed = csv.DictReader(read("why.csv").splitlines())
+*rows, missed = rows_of("why.csv")
 check(len(rows) == len(true) and all((row["found by"] == "") == (row["why"] != "") for row in (*rows, missed)), f"{rows} {missed}")
 check(missed["lost in"] == "voting" and "lost in voting" in missed["why"] and missed["found by"] == "", f"{missed}")
 refuses("leave --found out", *TOHOKU, "--found", "result", "--why", "w.csv")
@@ -122,14 +115,14 @@ WORLD = ("world.py", "world", "--parts", "hole_plate", "--sensors", "time-of-fli
          "--poses", "2", "--features", "both", "--scenes", "bins", "--out", "table.csv")
 result = script(*WORLD)
 check(result.returncode == 0 and "2 of 2: recommended by both, hole_plate" in result.stderr, result.stderr)
-table, rows = result.stdout, list(csv.DictReader(read("world/world.csv").splitlines()))
+table, rows = result.stdout, rows_of("world/world.csv")
 line, = results.read("table.csv")
 check([line[name] for name in world.KIND] == ["hole_plate", "time-of-flight", "both"] and "| hole_plate | time-of-flight | both |" in table, table)
 check([row["bin"] for row in rows] == ["hole_plate", "pipe_elbow"] and all(row["failure"] == "" for row in rows), f"{rows}")
 check(int(rows[0]["right"]) >= 1 and float(rows[0]["ms"]) > 0 and rows[1]["right"] == "0", f"{rows}")
 check(50 < float(rows[0]["AR"]) <= 100 and 50 < float(rows[0]["AP2-20"]) <= 100 and rows[1]["targets"] == "0", f"{rows}")
 check(0 < int(rows[0]["half_visible_found"]) <= int(rows[0]["half_visible"]) <= 3 and rows[1]["half_visible"] == "0", f"{rows}")
-found = list(csv.DictReader(read("world/poses.csv").splitlines()))
+found = rows_of("world/poses.csv")
 check(sum(row["found"] == "1" for row in found) == int(rows[0]["half_visible_found"]), "half visible ones that were found")
 check(0 < float(line["R@99"]) <= 100 and 0 < float(line["mm"]) < 5 and math.isclose(float(line["strict"]), 50 * int(rows[0]["right"])), f"{line}")
 likely = [{"probability": f"{0.9 - k / 1000}", "found": "1"} for k in range(150)] + [{"probability": "0.05", "found": "1"}]
@@ -149,8 +142,7 @@ check([[line[name] for name in world.KIND] for line in lines] == [["hole_plate",
                                                                   ["all", "eye", "both"], ["all", "nose", "both"], ["all", "all", "both"]], f"{lines}")
 
 whole = read("world/world.csv")
-with open("world/world.csv", "w") as file:
-    file.write(whole[:-3])
+write("world/world.csv", whole[:-3])
 before = read("world/poses.csv")
 result = script(*WORLD)
 check(result.returncode == 0 and "2 of 2" in result.stderr and "1 of 2" not in result.stderr, result.stderr)
@@ -161,10 +153,9 @@ result = script(*WORLD)
 check(result.returncode == 0 and " of 2: " not in result.stderr and result.stdout == table, "nothing is left to do")
 if LONG:
     for extension in (".vts", ".vtp"):  # a bin that cannot be read
-        with open("bins/hole_plate_time-of-flight_3_1" + extension, "w") as file:
-            file.write("nothing")
+        write("bins/hole_plate_time-of-flight_3_1" + extension, "nothing")
     result = script(WORLD[0], "broken", *WORLD[2:])
-    failed, absent = csv.DictReader(read("broken/world.csv").splitlines())
+    failed, absent = rows_of("broken/world.csv")
     check(result.returncode == 1 and "1 failed" in result.stderr, result.stderr)
     check("hole_plate" in failed["failure"] and failed["right"] == "" and absent["failure"] == "", f"{failed}")
 
@@ -173,7 +164,7 @@ PART = os.path.join(EXAMPLES, "parts", "hole_plate.stl")
 if LONG:
     result = script("robustness.py", PART, "--copies", "3", "--scenes", "1", "--poses", "3", "--out", "curve.csv")
     check(result.returncode == 0, result.stderr)
-    rows = list(csv.DictReader(read("curve.csv").splitlines()))
+    rows = rows_of("curve.csv")
     check(len(rows) == 17, "a row for each level")
     check(float(rows[0]["strict"]) == 100, f"three of three where the depth has no noise: {rows[0]}")
 

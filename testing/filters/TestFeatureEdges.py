@@ -6,12 +6,11 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 from ppfmeam.filters import vtkMEAMFeatureEdges, vtkMEAMMeshPreparation, vtkMEAMTangentEstimation
-from meamtest import box, bracket, check, close, connect, fails, field, image, mesh, points, prints, run, tuples
+from meamtest import box, bracket, check, close, connect, fails, field, image, mesh, points, run, tuples
 
 
 def edges(data, spacing=1.0, angle=30.0):
-    filter = connect(vtkMEAMFeatureEdges(), data, Spacing=spacing, Angle=angle)
-    return filter
+    return connect(vtkMEAMFeatureEdges(), data, Spacing=spacing, Angle=angle)
 
 
 part = run(edges(box(10, 20, 30)))
@@ -36,9 +35,7 @@ ell = run(edges(connect(vtkMEAMMeshPreparation(), bracket())))
 check(ell.GetNumberOfPoints() == 2 * 130 + 6 * 15, f"{ell.GetNumberOfPoints()} points on the bracket")
 check(run(edges(bracket(), 1.0, 91.0)).GetNumberOfPoints() == 0, "no edge is sharper than a right angle")
 
-ball = vtkSphereSource()
-ball.SetThetaResolution(60)
-ball.SetPhiResolution(60)
+ball = connect(vtkSphereSource(), ThetaResolution=60, PhiResolution=60)
 check(run(edges(connect(vtkMEAMMeshPreparation(), ball))).GetNumberOfPoints() == 0, "a ball has no edges")
 
 # What is estimated on the edge points of the box agrees with what is known.
@@ -54,4 +51,3 @@ fails(edges(vtkPolyData()), "no faces")
 fails(edges(mesh([(0, 0, 0), (1, 0, math.nan), (0, 1, 0)], [(0, 1, 2)])), "not a number")
 fails(edges(box(1, 1, 1), 1e-9), "spacing")
 fails(edges(image()), "vtkPolyData")
-prints(vtkMEAMFeatureEdges(), "Angle", "Spacing")

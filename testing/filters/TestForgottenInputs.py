@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An input that is forgotten is told in one sentence, which names it, on the console as well."""
+"""An input or a file that is forgotten is told in one sentence, which names it, on the console as well."""
 import subprocess
 
 import ppfmeam.filters
-from meamtest import Errors, check, is_empty
+from meamtest import Errors, check, concrete_classes, connect, fails, is_empty
 
 INPUTS = {
     "vtkMEAMPoseEstimation": ("Part", "Scan"),
@@ -25,6 +25,15 @@ for name, inputs in INPUTS.items():
     filter.Update()
     check(f"Nothing is connected to the input {', '.join(inputs)}: choose" in errors.messages[0], f"{name}: {errors}")
     check(is_empty(filter.GetOutputDataObject(0)), f"{name} has an output")
+
+# Every reader: no file, one that is not there, one of another kind.
+for kind in concrete_classes():
+    if kind.__name__.endswith("Reader"):
+        fails(kind(), "no file")
+        camera = {"FocalLength": (100, 100), "PrincipalPoint": (1, 1)} if kind is ppfmeam.filters.vtkMEAMDepthImageReader else {}
+        fails(connect(kind(), FileName="/no/such/file", **camera), "/no/such/file")
+        can_read = getattr(kind(), "CanReadFile", lambda path: 0)
+        check(not can_read(__file__) and not can_read("/no/such/file"), kind.__name__)
 
 # Without observers it is all that is written.
 run = subprocess.run(["/usr/bin/python3", "-c", "import ppfmeam.filters as f; f.vtkMEAMPoseEstimation().Update()"],

@@ -7,13 +7,12 @@ import subprocess
 import sys
 import tempfile
 
-from meamtest import check, skip
+from meamtest import check, read, skip
 
 if not os.environ.get("DISPLAY"):
     skip("no display")
 EVALUATION = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "evaluation")
-with open(os.path.join(EVALUATION, "..", "..", "docs", "gallery.md"), encoding="utf-8") as file:
-    names = set(re.findall(r"gallery_sample_\w+\.jpg", file.read()))
+names = set(re.findall(r"gallery_sample_\w+\.jpg", read(os.path.join(EVALUATION, "..", "..", "docs", "gallery.md"))))
 with tempfile.TemporaryDirectory() as folder:
     result = subprocess.run([sys.executable, os.path.join(EVALUATION, "gallery.py"), "--out", folder], capture_output=True,
                             text=True)

@@ -3,21 +3,12 @@
 import json
 import math
 import os
-import tempfile
 
 from ppfmeam.filters import vtkMEAMGraspDefinition, vtkMEAMGraspWriter, vtkMEAMSurfaceSampling, vtkMEAMSymmetryDetection
-from meamtest import Errors, box, check, cloud, connect, fails, is_empty, prints, run, tuples
+from meamtest import Errors, Folder, box, check, close, cloud, connect, fails, is_empty, run, texts, tuples
 
-folder = tempfile.TemporaryDirectory()
+path = Folder()
 part = box(20, 40, 30, origin=(-10, -20, -15))
-
-
-def path(name, text=None):
-    file = os.path.join(folder.name, name)
-    if text is not None:
-        with open(file, "w") as stream:
-            stream.write(text)
-    return file
 
 
 def definition(*inputs, **properties):
@@ -25,12 +16,7 @@ def definition(*inputs, **properties):
 
 
 def names(data):
-    array = data.GetPointData().GetAbstractArray("GraspName")
-    return [array.GetValue(i) for i in range(data.GetNumberOfPoints())]
-
-
-def close(a, b, tolerance=1e-5):
-    return all(abs(x - y) <= tolerance for x, y in zip(a, b))
+    return texts(data, "GraspName")
 
 
 # Proposed for jaws: the best at the middle of the box, with the way in along z of the frame.
@@ -112,13 +98,7 @@ for name, value, *words in (("FrictionAngle", 120.0, "friction angle", "0.1 to 8
     fails(definition(part, Propose=1, **{name: value}), *words)
 fails(definition(part, HandGrasp=1, HandWidth=-5.0), "hand width", "0 mm or more", "-5")
 for data, word in ((box(1, 1, 1), "Transform"), (cloud([(0, 0, 0)], Transform=[(2, *[0] * 15)]), "rotation")):
-    refused = connect(vtkMEAMGraspWriter(), data)
-    refused.SetFileName(path("refused.grasps"))
+    refused = connect(vtkMEAMGraspWriter(), data, FileName=path("refused.grasps"))
     errors = Errors(refused)
     check(not refused.Write() and word in str(errors) and not os.path.exists(path("refused.grasps")), f"{errors}")
 check(math.isclose(vtkMEAMGraspDefinition().GetFrictionAngle(), 15), "the default")
-
-prints(vtkMEAMGraspWriter(), "FileName")
-prints(vtkMEAMGraspDefinition(), "FileName", "Propose", "MaximumNumberOfGrasps", "FrictionAngle", "Spread", "Opening",
-       "JawClearance", "FingerWidth", "FingerThickness", "FingerLength", "TipLength", "BodyLength", "BodyWidth",
-       "CupDiameter", "CupLength", "HandGrasp", "HandPosition", "HandRotation", "HandWidth")

@@ -5,7 +5,7 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkPartitionedDataSetCollection, vtkPolyData
 
 from ppfmeam.filters import vtkMEAMHashing
-from meamtest import check, close, cloud, collection, connect, fails, field, partitions, prints, run, set_fields, tuples
+from meamtest import check, close, cloud, collection, connect, fails, field, partitions, run, set_fields, text, tuples
 
 # d = (3, 4, 0): f1 = 5, f2 = 53.13 degrees, f3 = 36.87 degrees, f4 = 90 degrees; and back: f2 and f3 change places.
 PLACES = [(0.0, 0.0, 0.0), (3.0, 4.0, 0.0)]
@@ -86,10 +86,6 @@ for name, value in expected.items():
     check(abs(field(merged, name)[0][0] - value) < 1e-12, f"{name} is {field(merged, name)}")
 
 
-def text(data, name):
-    return data.GetFieldData().GetAbstractArray(name).GetValue(0)
-
-
 check(text(merged, "Units") == "mm", "units")
 digest = text(merged, "Digest")
 check(len(digest) == 16, f"the digest is '{digest}'")
@@ -110,11 +106,3 @@ fails(hashing(collection(("top", cloud(PLACES, Tangent=TANGENTS)))), "ViewDirect
 fails(hashing(one, vtkPolyData()), "surface", "no points")
 fails(hashing(one, cloud(PLACES)), "Normals", "SurfaceSampling")
 fails(hashing(view()), "vtkPartitionedDataSetCollection")
-
-filter = vtkMEAMHashing()
-filter.SetParametersToPaper()
-check((filter.GetFeature(), filter.GetAngleStep(), filter.GetViewMerging(), filter.GetVoxelSize(),
-       filter.GetCoVisibilityDirections()) == (0, 3.6, 1, 1.0, 0), "the paper's parameters")
-filter.SetParametersToRecommended()
-check((filter.GetFeature(), filter.GetViewMerging()) == (1, 0), "the recommended parameters")
-prints(filter, "Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "CoVisibilityDirections")

@@ -2,38 +2,24 @@
 """The whole chain in one filter on a simulated bin: with the CAD or its trained model, an image or ready-made edges."""
 import json
 import math
-import os
-import tempfile
 
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
 
-from ppfmeam.filters import (
-    vtkMEAMBinSceneSource,
-    vtkMEAMPoseDetection,
-    vtkMEAMPoseEstimation,
-    vtkMEAMPoseEvaluation,
-    vtkMEAMPoseInstances,
-    vtkMEAMPoseWriter,
-    vtkMEAMSamplePartSource,
-    vtkMEAMSceneEdgeExtraction,
-    vtkMEAMTangentEstimation,
-)
-from meamtest import (Errors, Trained, Warnings, bracket, check, cloud, collection, connect, distance, fails, field, image, is_empty,
-                      points, pose_error, prints, run, scaled, set_fields, tuples)
+from ppfmeam import filters
+from meamtest import (Errors, Folder, Trained, Warnings, bracket, check, cloud, collection, connect, distance, fails, field,
+                      image, is_empty, plate, points, pose_error, run, scaled, set_fields, text, tuples, written)
 
 STAGES = ["Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening", "Verification", "Refinement", "Selection",
           "Output", "Total"]
 
-plate = vtkMEAMSamplePartSource()  # soon trained
-plate.SetPartToHolePlate()
-source = connect(vtkMEAMBinSceneSource(), plate, Copies=4, Width=640, Height=480)
+source = connect(filters.vtkMEAMBinSceneSource(), plate(), Copies=4, Width=640, Height=480)
 scan = run(source)
 truth, part = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
 
 
 def estimation(*inputs, **properties):
-    return connect(vtkMEAMPoseEstimation(), *[i for i in inputs if i], **properties)
+    return connect(filters.vtkMEAMPoseEstimation(), *[i for i in inputs if i], **properties)
 
 
 def found(filter):
@@ -53,11 +39,11 @@ filter = estimation(part, scan, MaximumNumberOfPoses=2)
 poses = run(filter)
 expected = tuples(poses, "Transform")
 check(len(expected) == 2, f"{len(expected)} poses")
-evaluation = connect(vtkMEAMPoseEvaluation(), poses, truth, PosesAskedFor=2)
+evaluation = connect(filters.vtkMEAMPoseEvaluation(), poses, truth, PosesAskedFor=2)
 check(field(run(evaluation), "StrictRate") == [(100,)], "both poses are right")
 
 # How likely a part has to be to be shown is chosen afterwards: detection does not run again.
-instances = connect(vtkMEAMPoseInstances(), filter, part)
+instances = connect(filters.vtkMEAMPoseInstances(), filter, part)
 runs = []
 for algorithm in (filter, instances):
     algorithm.AddObserver("StartEvent", lambda caller, event: runs.append(caller.GetClassName()))
@@ -74,7 +60,7 @@ parts = [seconds(filter, stage) for stage in STAGES]
 check(all(s >= 0 for s in parts) and 0.97 * parts[-1] <= sum(parts[:-1]) <= parts[-1] * 1.001,
       f"the stages add up to the total: {parts}")
 check(field(poses, "Diameter") == field(truth, "Diameter"), "the diameter travels along")
-report = poses.GetFieldData().GetAbstractArray("Report").GetValue(0)
+report = text(poses, "Report")
 check(report == "2 of 2 poses are more likely there than not. This scan does not tell how long the parts are along z: "
                 "a part that differs in that alone looks the same.", f"in words: {report}")
 numbered = type(scan)()
@@ -117,19 +103,15 @@ hidden = sum(0 < p < 0.5 for p in likely)
 check(hidden and answer(all_poses) == f"{hidden} of {len(likely)} poses are not shown: a copy is there with less than 50 % "
       "(ShownProbability).", answer(all_poses))
 check([r for r, in tuples(everything, "Rank")] == list(range(1, len(evidence) + 1)), "ranks")
-with tempfile.TemporaryDirectory() as folder:
-    writer = connect(vtkMEAMPoseWriter(), everything, FileName=os.path.join(folder, "poses.csv"))
-    writer.Write()
-    with open(writer.GetFileName()) as file:
-        check([float(row.split(",")[3]) for row in file.readlines()[1:]] == [
-            p for p, in tuples(everything, "Probability")], "scores in the file")
-    writer.SetFileName(os.path.join(folder, "poses.detections.json"))
-    writer.Write()
-    with open(writer.GetFileName()) as file:
-        detection = json.load(file)["detections"][0]
-    size = sorted(1000 * s for s in detection["bbox"]["size"].values())
-    check(abs(math.hypot(*size) / field(poses, "Diameter")[0][0] - 1) < 0.2, f"the part's box in the file is {size} mm")
-    check(0 < detection["results"][0]["pose"]["covariance"][0] < 1e-4, f"covariance {detection}")
+folder = Folder()
+for name in ("poses.csv", "poses.detections.json"):
+    written(folder(name), everything, filters.vtkMEAMPoseWriter)
+check([float(row.split(",")[3]) for row in folder.text("poses.csv").splitlines()[1:]]
+      == [p for p, in tuples(everything, "Probability")], "scores in the file")
+detection = json.loads(folder.text("poses.detections.json"))["detections"][0]
+size = sorted(1000 * s for s in detection["bbox"]["size"].values())
+check(abs(math.hypot(*size) / field(poses, "Diameter")[0][0] - 1) < 0.2, f"the part's box in the file is {size} mm")
+check(0 < detection["results"][0]["pose"]["covariance"][0] < 1e-4, f"covariance {detection}")
 
 # Training is not done again for another scene or other settings of the detection; it is for another seed.
 filter.SetMaximumNumberOfPoses(1)
@@ -147,7 +129,7 @@ check(found(filter) == expected, "the trained model")
 copies = filter.GetOutputDataObject(2)
 check(copies.GetNumberOfVerts() == copies.GetNumberOfPoints() > 200, "points of its surface at each pose")
 check(found(estimation(model, scan, MaximumNumberOfPoses=2, NumberOfThreads=1)) == expected, "one thread")
-ready = run(connect(vtkMEAMSceneEdgeExtraction(), scan))
+ready = run(connect(filters.vtkMEAMSceneEdgeExtraction(), scan))
 given = estimation(model, scan, ready, MaximumNumberOfPoses=2)
 check(found(given) == expected, "ready-made edges")
 check([r for r, in tuples(given.GetOutputDataObject(1), "Rank")] == explained, "they are explained in their order")
@@ -161,7 +143,7 @@ for pose in expected:
 surface = cloud([scan.GetPoint(i) for i in range(0, scan.GetNumberOfPoints(), 4) if scan.IsPointVisible(i)])
 loose = estimation(model, surface, ready, MaximumNumberOfPoses=2, ViewDirection=(0, 0, 1))
 loose.SetProjectionToPerspective()
-evaluation = connect(vtkMEAMPoseEvaluation(), run(loose), truth)
+evaluation = connect(filters.vtkMEAMPoseEvaluation(), run(loose), truth)
 check(field(run(evaluation), "PaperRate") == [(100,)], "the poses in an unorganized scene are right")
 # The paper's preset runs and gives something else.
 paper = estimation(part, scan, MaximumNumberOfPoses=2)
@@ -175,8 +157,8 @@ elsewhere = cloud(points(ready), Tangent=tuples(ready, "Tangent"))
 few = found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Features=0))
 candidates = {}
 for name, edges in (("scan", ready), ("elsewhere", elsewhere)):
-    edges = run(connect(vtkMEAMTangentEstimation(), edges, model))
-    detection = connect(vtkMEAMPoseDetection(), edges, model, Features=0)
+    edges = run(connect(filters.vtkMEAMTangentEstimation(), edges, model))
+    detection = connect(filters.vtkMEAMPoseDetection(), edges, model, Features=0)
     candidates[name] = run(detection).GetNumberOfPoints()
 check(100 <= candidates["elsewhere"] < 0.5 * candidates["scan"], f"{candidates}")
 share = (candidates["elsewhere"] - 0.5) / edges.GetNumberOfPoints()  # each is of one reference point
@@ -186,7 +168,7 @@ check(few != found(estimation(model, scan, elsewhere, MaximumNumberOfPoses=0, Fe
 
 # Both features find the parts; a model of one alone says what it has not.
 for features in (0, 1):
-    evaluation = connect(vtkMEAMPoseEvaluation(), run(estimation(part, scan, MaximumNumberOfPoses=2, Features=features)), truth)
+    evaluation = connect(filters.vtkMEAMPoseEvaluation(), run(estimation(part, scan, MaximumNumberOfPoses=2, Features=features)), truth)
     evaluation.SetPosesAskedFor(2)
     check(field(run(evaluation), "Top1Rate") == [(100,)], f"the first pose by features {features} is right")
 edges_alone = Trained(part).model
@@ -248,7 +230,7 @@ filter.Modified()
 check(found(filter) == expected, "it works again")
 
 nothing = vtkStructuredGrid()
-fails(vtkMEAMPoseEstimation())
+fails(filters.vtkMEAMPoseEstimation())
 fails(estimation(vtkPolyData(), scan), "mesh")
 fails(estimation(cloud([(0, 0, 0), (1, 0, 0), (0, 1, 0)]), scan), "no faces")
 fails(estimation(model, nothing), "scene", "no points")
@@ -263,4 +245,3 @@ sideways = estimation(model, surface, ready, ViewDirection=(0, 0, 0))
 fails(sideways, "view direction")
 fails(estimation(part, scan, CADScale=0.0), "scale")
 fails(estimation(model, image()), "vtkStructuredGrid")
-prints(filter, "Preset", "MaximumNumberOfPoses", "MinimumProbability", "ShownProbability", "ReferenceShare", "Features", "Seed", "CADScale", "CADOffset", "Projection", "NumberOfThreads")

@@ -12,8 +12,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 import ppfmeam
 from ppfmeam.filters import vtkMEAMModelCalibration, vtkMEAMPoseEstimation
 from batchtest import dataset
-from meamtest import check, close, cloud, connect, fails, field, run
-from scripttest import H, W, read, refuses, scan_of_bin, works, write_pcd, write_stl
+from meamtest import check, close, cloud, connect, fails, field, read, run, write
+from scripttest import H, W, refuses, scan_of_bin, works, write_pcd, write_stl
 
 scan, truth, mesh = scan_of_bin()
 write_stl("part.stl", mesh)
@@ -79,8 +79,7 @@ check("calibrated on 40 poses" in text and "75.0%" in text, text)
 check([value for value, in field(ppfmeam.load("told.meam").data, "Calibration")] == numbers, "as by the filter")
 for name, change in (("none", lambda text: text.replace(",right", "")), ("word", lambda text: text.replace(",turned", ",perhaps")),
                      ("number", lambda text: text.replace(",0.25,", ",much,")), ("few", lambda text: "".join(text.splitlines(True)[:9]))):
-    with open(f"{name}.csv", "w") as file:
-        file.write(change(read("judged.csv")))
+    write(f"{name}.csv", change(read("judged.csv")))
 refuses("no column right", "calibrate.py", "none.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("'perhaps'", "calibrate.py", "word.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("not a number", "calibrate.py", "number.csv", "--model", "part.meam", "--out", "no.meam")

@@ -3,7 +3,6 @@
 import math
 import os
 import shutil
-import tempfile
 
 from vtkmodules.vtkCommonCore import vtkIntArray
 from vtkmodules.vtkCommonDataModel import vtkPartitionedDataSetCollection
@@ -15,23 +14,8 @@ from ppfmeam.filters import (
     vtkMEAMPoseDetection,
     vtkMEAMTangentEstimation,
 )
-from meamtest import (
-    MovedView,
-    Trained,
-    bracket,
-    check,
-    cloud,
-    collection,
-    connect,
-    fails,
-    field,
-    is_empty,
-    partitions,
-    pose_error,
-    run,
-    set_fields,
-    tuples,
-)
+from meamtest import (Folder, MovedView, Trained, bracket, check, cloud, collection, connect, fails, field, is_empty,
+                      partitions, pose_error, run, set_fields, tuples)
 from chains import Detection
 
 
@@ -45,17 +29,14 @@ def detect(scene, model):
 
 
 def write(collection, path):
-    writer = vtkXMLPartitionedDataSetCollectionWriter()
-    writer.SetInputDataObject(collection)
+    writer = connect(vtkXMLPartitionedDataSetCollectionWriter(), collection, FileName=path)
     writer.SetDataModeToBinary()
-    writer.SetFileName(path)
     check(writer.Write() == 1, "the writer failed")
 
 
 def read(path):
-    reader = vtkXMLPartitionedDataSetCollectionReader()
-    reader.SetFileName(path)
-    reader.Update()
+    reader = connect(vtkXMLPartitionedDataSetCollectionReader(), FileName=path)
+    reader.Update()  # of damaged files, too
     return reader.GetOutput()
 
 
@@ -97,99 +78,97 @@ check(translation < 0.01 * diameter and rotation < 1.0,
 check(tuples(poses, "Rank")[0] == (1,), "the best pose has rank 1")
 check(math.dist(poses.GetPoint(0), scene.transform[3:12:4]) < 0.01 * diameter, "the point is the part's origin")
 
-folder = tempfile.mkdtemp()
-try:
-    path = os.path.join(folder, "model.vtpc")
-    write(model, path)
-    loaded = read(path)
-    check([name for name, _ in partitions(loaded)] == names, "other partitions after loading")
-    same_poses(poses, detect(scene, loaded))
+folder = Folder()
+path = folder("model.vtpc")
+write(model, path)
+loaded = read(path)
+check([name for name, _ in partitions(loaded)] == names, "other partitions after loading")
+same_poses(poses, detect(scene, loaded))
 
-    # The paper's parameters are kept, too.
-    hashing = connect(vtkMEAMHashing(), trained.tangents, trained.symmetries)
-    hashing.SetParametersToPaper()
-    hashing.SetVoxelSize(1.25)
-    paper = run(hashing)
-    check(field(paper, "Feature") == [(0,)] and field(paper, "AngleStep") == [(3.6,)], "the paper's parameters")
-    paper_path = os.path.join(folder, "paper.vtpc")
-    write(paper, paper_path)
-    loaded_paper = read(paper_path)
-    for name in ("Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "CoVisibilityDirections"):
-        check(field(loaded_paper, name) == field(paper, name), f"{name} is not kept")
-    same_poses(detect(scene, paper), detect(scene, loaded_paper))
+# The paper's parameters are kept, too.
+hashing = connect(vtkMEAMHashing(), trained.tangents, trained.symmetries)
+hashing.SetParametersToPaper()
+hashing.SetVoxelSize(1.25)
+paper = run(hashing)
+check(field(paper, "Feature") == [(0,)] and field(paper, "AngleStep") == [(3.6,)], "the paper's parameters")
+write(paper, folder("paper.vtpc"))
+loaded_paper = read(folder("paper.vtpc"))
+for name in ("Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "CoVisibilityDirections"):
+    check(field(loaded_paper, name) == field(paper, name), f"{name} is not kept")
+same_poses(detect(scene, paper), detect(scene, loaded_paper))
 
-    # A view without edges and a model without surface are no damage.
-    views = [(name, data) for name, data in partitions(run(trained.tangents))]
-    nothing = set_fields(cloud([], Tangent=[]), ViewDirection=(1, 1, 1))
-    sparse = run(connect(vtkMEAMHashing(), collection(*views, ("nothing", nothing), Diameter=diameter)))
-    sparse_path = os.path.join(folder, "sparse.vtpc")
-    write(sparse, sparse_path)
-    same_poses(detect(scene, sparse), detect(scene, read(sparse_path)))
+# A view without edges and a model without surface are no damage.
+views = [(name, data) for name, data in partitions(run(trained.tangents))]
+nothing = set_fields(cloud([], Tangent=[]), ViewDirection=(1, 1, 1))
+sparse = run(connect(vtkMEAMHashing(), collection(*views, ("nothing", nothing), Diameter=diameter)))
+write(sparse, folder("sparse.vtpc"))
+same_poses(detect(scene, sparse), detect(scene, read(folder("sparse.vtpc"))))
 
-    # A file cut short, or one that holds another piece, is told by the first step that uses it.
-    tangents = connect(vtkMEAMTangentEstimation(), scene.edges, model)
+# A file cut short, or one that holds another piece, is told by the first step that uses it.
+tangents = connect(vtkMEAMTangentEstimation(), scene.edges, model)
 
-    def detection(collection):
-        return connect(vtkMEAMPoseDetection(), tangents, collection)
 
-    for name in ("View 2", "Edges", "Surface", "PairTableBuckets", "PairTableEntries"):
-        file = pieces(path, names)[name]
-        shutil.copy(file, file + ".whole")
-        with open(file + ".whole", "rb") as whole, open(file, "wb") as part:
-            part.write(whole.read()[: os.path.getsize(file + ".whole") // 2])
-        print(f"expected errors of the reader ({name} cut short):", flush=True)
-        fails(detection(read(path)), "trained model", name, "train the model again")
-        os.rename(file + ".whole", file)
-    shutil.copy(pieces(path, names)["View 4"], pieces(path, names)["View 5"])
-    fails(detection(read(path)), "View 5", "train the model again")
+def detection(collection):
+    return connect(vtkMEAMPoseDetection(), tangents, collection)
 
-    def copy():
-        result = vtkPartitionedDataSetCollection()
-        result.DeepCopy(loaded)
-        return result
 
-    def changed(name, value):
-        array = vtkIntArray()
-        array.SetName(name)
-        array.InsertNextValue(value)
-        result = copy()
-        result.GetFieldData().AddArray(array)
-        return result
+for name in ("View 2", "Edges", "Surface", "PairTableBuckets", "PairTableEntries"):
+    file = pieces(path, names)[name]
+    shutil.copy(file, file + ".whole")
+    os.truncate(file, os.path.getsize(file) // 2)
+    print(f"expected errors of the reader ({name} cut short):", flush=True)
+    fails(detection(read(path)), "trained model", name, "train the model again")
+    os.rename(file + ".whole", file)
+shutil.copy(pieces(path, names)["View 4"], pieces(path, names)["View 5"])
+fails(detection(read(path)), "View 5", "train the model again")
 
-    fails(detection(changed("FormatVersion", 99)), "version 99", "version 5", "train the model again")
-    fails(detection(changed("NumberOfPairs", 17)), "PairTableEntries")
-    fails(detection(changed("NumberOfViews", 5)), "view")
-    fails(detection(changed("DistanceStep", 1)), "PairTableBuckets")
-    for name in ("FormatVersion", "Units", "Diameter", "AngleStep", "ViewDirections"):
-        incomplete = copy()
-        incomplete.GetFieldData().RemoveArray(name)
-        fails(detection(incomplete), "trained model")
-    for name, array in (("Edges", "Tangent"), ("Edges", "ViewBits"), ("Surface", "Normals"),
-                        ("PairTableBuckets", "Offset"), ("PairTableEntries", "Angle")):
-        incomplete = copy()
-        dict(partitions(incomplete))[name].GetPointData().RemoveArray(array)
-        fails(detection(incomplete), "trained model")
-    for name, array, value in (
-        ("PairTableEntries", "Reference", 4000000000),
-        ("PairTableBuckets", "Offset", 4000000000),
-        ("PairTableEntries", "Angle", math.nan),
-        ("Edges", "Tangent", math.inf),
-        ("Edges", "ViewBits", 0),
-    ):
-        damaged = copy()
-        dict(partitions(damaged))[name].GetPointData().GetArray(array).SetComponent(7, 0, value)
-        fails(detection(damaged), "damaged", "train the model again")
-    disordered = copy()
-    parts = dict(partitions(disordered))
-    references = parts["PairTableEntries"].GetPointData().GetArray("Reference")
-    offsets = parts["PairTableBuckets"].GetPointData().GetArray("Offset")
-    starts = [int(offsets.GetValue(k)) for k in range(offsets.GetNumberOfTuples())]
-    first = next(a for a, b in zip(starts, starts[1:])
-                 if b - a > 1 and references.GetValue(a) < references.GetValue(a + 1))
-    references.SetValue(first, references.GetValue(first + 1) + 1)
-    fails(detection(disordered), "damaged", "train the model again")
-    fails(detection(trained.tangents.GetOutputDataObject(0)), "not a trained model", "MEAMHashing")
-    fails(detection(vtkPartitionedDataSetCollection()), "not a trained model")
-    check(not is_empty(run(detection(copy()))), "the model itself is fine")
-finally:
-    shutil.rmtree(folder)
+
+def copy():
+    result = vtkPartitionedDataSetCollection()
+    result.DeepCopy(loaded)
+    return result
+
+
+def changed(name, value):
+    array = vtkIntArray()
+    array.SetName(name)
+    array.InsertNextValue(value)
+    result = copy()
+    result.GetFieldData().AddArray(array)
+    return result
+
+fails(detection(changed("FormatVersion", 99)), "version 99", "version 5", "train the model again")
+fails(detection(changed("NumberOfPairs", 17)), "PairTableEntries")
+fails(detection(changed("NumberOfViews", 5)), "view")
+fails(detection(changed("DistanceStep", 1)), "PairTableBuckets")
+for name in ("FormatVersion", "Units", "Diameter", "AngleStep", "ViewDirections"):
+    incomplete = copy()
+    incomplete.GetFieldData().RemoveArray(name)
+    fails(detection(incomplete), "trained model")
+for name, array in (("Edges", "Tangent"), ("Edges", "ViewBits"), ("Surface", "Normals"),
+                    ("PairTableBuckets", "Offset"), ("PairTableEntries", "Angle")):
+    incomplete = copy()
+    dict(partitions(incomplete))[name].GetPointData().RemoveArray(array)
+    fails(detection(incomplete), "trained model")
+for name, array, value in (
+    ("PairTableEntries", "Reference", 4000000000),
+    ("PairTableBuckets", "Offset", 4000000000),
+    ("PairTableEntries", "Angle", math.nan),
+    ("Edges", "Tangent", math.inf),
+    ("Edges", "ViewBits", 0),
+):
+    damaged = copy()
+    dict(partitions(damaged))[name].GetPointData().GetArray(array).SetComponent(7, 0, value)
+    fails(detection(damaged), "damaged", "train the model again")
+disordered = copy()
+parts = dict(partitions(disordered))
+references = parts["PairTableEntries"].GetPointData().GetArray("Reference")
+offsets = parts["PairTableBuckets"].GetPointData().GetArray("Offset")
+starts = [int(offsets.GetValue(k)) for k in range(offsets.GetNumberOfTuples())]
+first = next(a for a, b in zip(starts, starts[1:])
+             if b - a > 1 and references.GetValue(a) < references.GetValue(a + 1))
+references.SetValue(first, references.GetValue(first + 1) + 1)
+fails(detection(disordered), "damaged", "train the model again")
+fails(detection(trained.tangents.GetOutputDataObject(0)), "not a trained model", "MEAMHashing")
+fails(detection(vtkPartitionedDataSetCollection()), "not a trained model")
+check(not is_empty(run(detection(copy()))), "the model itself is fine")

@@ -8,7 +8,7 @@ import re
 import tempfile
 import webbrowser
 
-from meamtest import check, skip
+from meamtest import check, read, skip
 from ppfmeam.report import page
 
 try:
@@ -17,8 +17,7 @@ except page.scripting.Failure as failure:
     skip(str(failure))
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples"))
-with open("detect.ipynb", encoding="utf-8") as file:
-    cells = [cell for cell in json.load(file)["cells"] if cell["cell_type"] == "code"]
+cells = [cell for cell in json.loads(read("detect.ipynb"))["cells"] if cell["cell_type"] == "code"]
 check(all(not cell["outputs"] and cell["execution_count"] is None for cell in cells), "no output is stored")
 opened = []
 webbrowser.open = opened.append

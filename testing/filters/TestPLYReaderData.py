@@ -53,8 +53,6 @@ check((colours[:, 0] == colours[:, 1]).all() and colours.min() >= 10, "grey ever
 edges = run(connect(vtkMEAMSceneEdgeExtraction(), quarter))
 check(2000 < edges.GetNumberOfPoints() < 8000, f"{edges.GetNumberOfPoints()} edge points")
 
-reader = vtkMEAMPLYReader()
-reader.SetFileName(SCANNER)
-cloud = run(reader)
+cloud = run(connect(vtkMEAMPLYReader(), FileName=SCANNER))
 check(cloud.GetNumberOfPoints() == 24397, f"{cloud.GetNumberOfPoints()} points")
 check(len(set(vtk_to_numpy(cloud.GetPointData().GetArray("Intensity")))) > 20, "intensities are spread")

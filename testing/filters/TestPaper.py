@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The paper's experiments, testing/evaluation/paper.py: what they count, which scenes they need, that a stopped run goes
 on, what becomes of bad scenes and datasets, and with --long all of them by one command, short. Tables 7 and 8 when the Tohoku dataset is there; charts when there is Xvfb."""
-import csv
 import math
 import os
 import re
@@ -12,13 +11,11 @@ import sys
 import tempfile
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 from ppfmeam import scripting
-from meamtest import LONG, check, close
+from meamtest import LONG, check, close, connect, grid, poses, read, rows_of, set_fields, write
 import paper
 import results
 import search
@@ -50,23 +47,9 @@ check(not set(map(search.key_of, planned([1], 2, 1, 8))) & set(map(search.key_of
 check({row["seed"] for row in planned([7], 2, 1)} == {"0", "1"}, "scenes of a dataset count from 0")
 
 # A camera of 100 pixels at 100 mm: of four edge points one lies behind what is measured at its pixel, one beside the scan.
-scan, truth = vtkStructuredGrid(), vtkPolyData()
-scan.SetDimensions(3, 3, 1)
-scan.SetPoints(vtkPoints())
-for row in range(3):
-    for column in range(3):
-        scan.GetPoints().InsertNextPoint(column - 1, row - 1, 100 if column < 2 else math.nan)
-for data, name, values in ((scan, "CameraMatrix", [100, 0, 1, 0, 100, 1, 0, 0, 1]), (truth, "Diameter", [50])):
-    array = vtkDoubleArray()
-    array.SetName(name)
-    array.SetNumberOfComponents(len(values))
-    array.InsertNextTuple(values)
-    data.GetFieldData().AddArray(array)
-truth.SetPoints(vtkPoints())
-truth.GetPoints().InsertNextPoint(0, 0, 100)
-transform = numpy_to_vtk(numpy.array([[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 100, 0, 0, 0, 1]], dtype=float), deep=True)
-transform.SetName("Transform")
-truth.GetPointData().AddArray(transform)
+scan = grid(3, 3, [(column - 1, row - 1, 100 if column < 2 else math.nan) for row in range(3) for column in range(3)])
+set_fields(scan, CameraMatrix=(100, 0, 1, 0, 100, 1, 0, 0, 1))
+truth = set_fields(poses((1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 100, 0, 0, 0, 1)), Diameter=50)
 edges = numpy.array([(0, 0, 0.4), (0, 0, 0.6), (1, 0, 30), (9, 0, 0)], dtype=float)
 kept = vtk_to_numpy(search.seen(edges, truth, scan).GetPoints().GetData())
 check(numpy.allclose(kept, [(0, 0, 100.4), (1, 0, 130)]), f"of four edge points these are seen: {kept}")
@@ -108,8 +91,7 @@ with tempfile.TemporaryDirectory() as folder:
     check(len(results.failed) == 1 and rows[1]["found"] == 1 and "The trial of seed 14 failed: the lamp is out" in text, text)
     check("| 10 mm | 1 of 2 | 0.500 mm | 0.500 mm |" in text and "| 20 mm | 0 of 2 | - | - |" in text, text)
     check("| 15 degrees about x | 1 of 2 | 0.000 degrees" in text, text)
-    with open(os.path.join(folder, "figure13_trials.csv"), encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(os.path.join(folder, "figure13_trials.csv"))
     check([row["failure"] for row in rows] == ["", "the lamp is out"] and rows[0]["20 mm"] == "", f"{rows}")
     Stand.fails, Stand.trials = False, Stand.trials[:0]
     text, _ = stage.run(folder, "plate", "paper", 1, 1, 2)
@@ -126,15 +108,6 @@ def run(*words, **environment):
     return subprocess.run(words, capture_output=True, text=True, check=False, env={**kept, **environment})
 
 
-def content(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
-
-
-def rows_of(path):
-    return list(csv.DictReader(content(path).splitlines()))
-
-
 for words, *arguments in (
         ("table 7 needs the Tohoku dataset", "--table", "7"), ("there is no table 10", "--table", "10"),
         ("cannot read nowhere: --tohoku has to be the folder", "--table", "7", "--tohoku", "nowhere"),
@@ -144,8 +117,7 @@ for words, *arguments in (
         ("has no folder Part_1 with the poses", "--table", "7", "--tohoku", ".", "--found", "x=.")):
     refuses(words, "paper.py", *arguments, "--out", "refused")
 os.makedirs("other")
-with open("other/paper.csv", "w", encoding="utf-8") as file:
-    file.write("something,else\n")
+write("other/paper.csv", "something,else\n")
 refuses("is not of this version", "paper.py", "--table", "6", "--out", "other")
 
 # A table of plates alone, which are soon trained, for the runs that are stopped.
@@ -163,12 +135,9 @@ SHORT = [sys.executable, "-c", PLATES, "--table", "6", "--scenes", "2", "--copie
 
 def without_times(path):
     """The text of a file but for times."""
-    text = content(path)
-    if os.path.basename(path) == "paper.csv":
-        return [{**row, "ms": ""} for row in csv.DictReader(text.splitlines())]
-    if path.endswith("table6.csv"):
-        return [{**row, "ms": ""} for row in csv.DictReader(text.splitlines())]
-    return re.sub(r"(?m)^.*ms a scene.*$", "", text)
+    if os.path.basename(path) == "paper.csv" or path.endswith("table6.csv"):
+        return [{**row, "ms": ""} for row in rows_of(path)]
+    return re.sub(r"(?m)^.*ms a scene.*$", "", read(path))
 
 
 def stop(command, line, how):
@@ -205,7 +174,7 @@ with tempfile.TemporaryDirectory() as folder:
     best = [pose for pose in poses if int(pose["rank"]) <= paper.POSES]
     check(len(best) == sum(int(row["poses"]) for row in rows) and poses[0]["rank"] == "1", f"{poses}")
     wrong = [pose for pose in best if pose["method"] == "recommended" and pose["outcome"] != "right"]
-    text = content(os.path.join(whole, "table6.md"))
+    text = read(os.path.join(whole, "table6.md"))
     check(all(f"rank {pose['rank']}: {pose['outcome']}" in text for pose in wrong) and text.count("\n- ") == len(wrong), text)
     right = sum(int(row["right"]) for row in rows if row["method"] == "recommended")
     table = {row["method"]: row for row in rows_of(os.path.join(whole, "table6.csv")) if row["scenes"] == "D"}
@@ -217,8 +186,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.remove(os.path.join(parts, "paper.csv"))
     shutil.copytree(os.path.join(folder, "bins"), os.path.join(parts, "bins"))
     for extension in (".vts", ".vtp"):
-        with open(os.path.join(parts, "bins", "hole_plate_structured-light_3_1" + extension), "w", encoding="utf-8") as file:
-            file.write("nothing")
+        write(os.path.join(parts, "bins", "hole_plate_structured-light_3_1" + extension), "nothing")
     done = run(*SHORT, parts)
     check(done.returncode == 1 and "2 failed, see above" in done.stderr and "2 of 4 searches failed" in done.stdout, done.stderr + done.stdout)
     check("nan" not in done.stdout, done.stdout)
@@ -244,7 +212,7 @@ def check_dataset(folder):
     reasons = {row["part"]: row["failure"] for row in rows_of(os.path.join(out, "paper.csv"))}
     check("another part or another scene" in reasons["tohoku_1"] and "trans0.txt: No such file" in reasons["tohoku_2"]
           and "Part_3.STL: No such file" in reasons["tohoku_3"], f"{reasons}")
-    check(all(reason in content(os.path.join(out, "table7.md")) for reason in reasons.values()), done.stdout)
+    check(all(reason in read(os.path.join(out, "table7.md")) for reason in reasons.values()), done.stdout)
 
 
 def check_all(folder, dataset):
@@ -255,10 +223,8 @@ def check_all(folder, dataset):
         for part in (1, 2, 3):  # of another program: the first true pose of each scene, and a time of one scan
             os.makedirs(os.path.join(found, f"Part_{part}"))
             for name in (f"trans{scene}.txt" for scene in range(3)):
-                with open(os.path.join(found, f"Part_{part}", name), "w", encoding="utf-8") as file:
-                    file.write(" ".join(content(os.path.join(TOHOKU, f"Part_{part}", "Results", name)).split()[:16]) + "\n")
-        with open(os.path.join(found, "seconds.txt"), "w", encoding="utf-8") as file:
-            file.write("data/Part_2/Scenes/Scene0.pcd 0.25\n")
+                write(os.path.join(found, f"Part_{part}", name), " ".join(read(os.path.join(TOHOKU, f"Part_{part}", "Results", name)).split()[:16]) + "\n")
+        write(os.path.join(found, "seconds.txt"), "data/Part_2/Scenes/Scene0.pcd 0.25\n")
         command += ["--tohoku", TOHOKU, "--found", f"another program={found}"]
     done = run(*command)
     check(done.returncode == 0, done.stderr)
@@ -268,7 +234,7 @@ def check_all(folder, dataset):
     files = ({f"table{number}.{form}" for number in numbers for form in ("md", "csv")}
              | {"paper.csv", "poses.csv", "picks.csv", "table9.md", "figure13.md", "figure13.csv", "figure13_trials.csv"})
     check(files <= set(os.listdir(out)), f"{files - set(os.listdir(out))} are missing")
-    texts = [content(os.path.join(out, name)) for name in files]
+    texts = [read(os.path.join(out, name)) for name in files]
     check(not any(re.search(r"\bnan\b|\bfailed\b", text) for text in texts + [done.stdout]), done.stdout)
     rows = rows_of(os.path.join(out, "paper.csv"))
     check(len(rows) == 3 * (27 + (15 + 3 if dataset else 0)) and not any(row["failure"] for row in rows), f"{len(rows)} rows: {rows}")
@@ -278,10 +244,10 @@ def check_all(folder, dataset):
     trial, = rows_of(os.path.join(out, "figure13_trials.csv"))
     errors = [float(trial[name]) for name in stage.ROW[3:-1] if trial[name]]
     check(len(errors) >= 10 and max(errors) < 2, f"{trial}")
-    check("about theta_x" in content(os.path.join(out, "figure13.md")), "what the paper does")
-    check("3360 or 3560" in content(os.path.join(out, "table5.md")), "what is not certain")
+    check("about theta_x" in read(os.path.join(out, "figure13.md")), "what the paper does")
+    check("3360 or 3560" in read(os.path.join(out, "table5.md")), "what is not certain")
     if dataset:
-        check("Table 8 are not known" in content(os.path.join(out, "table8.md")), "what is not known")
+        check("Table 8 are not known" in read(os.path.join(out, "table8.md")), "what is not known")
         others = [row for row in rows_of(os.path.join(out, "table7.csv")) if row["method"] == "another program" and row["scenes"] != "all"]
         check([[float(row[name]) for row in others] for name in ("rate", "strict")] == [[100] * 3, [20] * 3], f"{others}")
         check([row["ms"] for row in others] == ["", "250", ""], f"{others}")
@@ -295,8 +261,7 @@ def check_all(folder, dataset):
         pictures = {f"table{number}.png" for number in (*numbers, 9)} | {f"figure13_{word}.png" for word in ("moved", "turned_about_x", "turned_about_z")}
         check(pictures <= set(os.listdir(out)), f"{pictures - set(os.listdir(out))} are missing")
         for name in pictures:
-            reader = vtkPNGReader()
-            reader.SetFileName(os.path.join(out, name))
+            reader = connect(vtkPNGReader(), FileName=os.path.join(out, name))
             reader.Update()
             pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
             colored = (pixels.max(axis=1) - pixels.min(axis=1) > 60).mean()

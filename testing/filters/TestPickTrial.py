@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkMEAMPickTrial: planned picks played among true copies."""
-from meamtest import box, check, cloud, connect, fails, poses, prints, run, tuples
+from meamtest import box, check, cloud, connect, fails, poses, run, texts, tuples
 
 from ppfmeam.filters import vtkMEAMPickPlanning, vtkMEAMPickTrial
 
@@ -11,24 +11,17 @@ def at(x, y, z=490.0):
     return (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
 
 
-def names(data):
-    array = data.GetPointData().GetAbstractArray("OutcomeName")
-    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
-
-
 above = cloud([(0, 0, 0), (0, 0, 0)], Transform=[(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1),
                                                  (1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1)], Width=[20, 20])
-planning = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART, above)
+planning = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART, above, BinPosition=(0, 0, 500), BinSize=(300, 300, 100))
 planning.SetBinToGiven()
-planning.SetBinPosition(0, 0, 500)
-planning.SetBinSize(300, 300, 100)
 
 
 def outcomes(*truths):
     trial = connect(vtkMEAMPickTrial(), planning, PART, poses(*truths))
     data = run(trial)
     check(data.GetNumberOfPoints() == 2, "the picks stay")
-    return names(data), [t[0] for t in tuples(data, "TrueInstance")]
+    return texts(data, "OutcomeName"), [t[0] for t in tuples(data, "TrueInstance")]
 
 
 check(outcomes(at(100, 0), at(0, 0)) == (["success", "not tried"], [2, 0]), outcomes(at(100, 0), at(0, 0)))
@@ -48,4 +41,3 @@ trial.SetInputDataObject(3, finger)
 check(run(trial).GetNumberOfPoints() == 2, "with its mesh they are tried")
 
 fails(connect(vtkMEAMPickTrial(), above, PART, poses(at(0, 0))), "Gripper", "Pick Planning")
-prints(vtkMEAMPickTrial(), "WayIn", "CupSlack")

@@ -9,7 +9,7 @@ import tempfile
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-from meamtest import check, run, skip
+from meamtest import check, connect, run, skip
 
 if not os.environ.get("DISPLAY"):
     skip("no display")
@@ -21,9 +21,7 @@ with tempfile.TemporaryDirectory() as folder:
                             capture_output=True, text=True)
     check(result.returncode == 0 and result.stderr == "", f"status {result.returncode}: {result.stderr}")
     check(re.search("against the truth: 2 of 2 poses right", result.stdout), result.stdout)
-    reader = vtkPNGReader()
-    reader.SetFileName(picture)
-    pixels = vtk_to_numpy(run(reader).GetPointData().GetScalars()).astype(int)
+    pixels = vtk_to_numpy(run(connect(vtkPNGReader(), FileName=picture)).GetPointData().GetScalars()).astype(int)
 
 red, green, blue = pixels[:, 0], pixels[:, 1], pixels[:, 2]
 shares = {

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam import filters, scripting
-from meamtest import check, skip
+from meamtest import check, connect, skip
 
 FOCAL = 422.25   # pixels
 TOLERANCE = 6.0  # mm, between the depths
@@ -93,10 +93,7 @@ part, model = surface_points(mesh), scripting.train(mesh)
 of_best = of_bare = first = likely_right = likely_wrong = 0
 for name in sorted(name for name in os.listdir(folder) if name.endswith(".pcd")):
     grid = scripting.read_scan(os.path.join(folder, name))
-    estimation = filters.vtkMEAMPoseEstimation()
-    estimation.SetInputDataObject(model)
-    estimation.SetInputDataObject(1, grid)
-    estimation.SetMaximumNumberOfPoses(0)
+    estimation = connect(filters.vtkMEAMPoseEstimation(), model, grid, MaximumNumberOfPoses=0)
     found = scripting.update(estimation).GetOutput()
     likely = scripting.column(found, "Probability") > LIKELY
     poses = scripting.column(found, "Transform", 4, 4)

@@ -5,7 +5,7 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseDetection
-from meamtest import (Warnings, check, close, cloud, connect, fails, field, image, is_empty, points, pose_error, prints, run,
+from meamtest import (Warnings, check, close, cloud, connect, fails, field, image, is_empty, points, pose_error, run,
                       trained_bracket, tuples)
 
 trained, model, scene, edges = trained_bracket()
@@ -71,8 +71,3 @@ fails(detection(model=run(trained.tangents)), "not a trained model", "MEAMHashin
 fails(detection(image()), "vtkPolyData")
 fails(detection(model=image()), "vtkPartitionedDataSetCollection")
 fails(connect(vtkMEAMPoseDetection(), edges), "the input Model")
-
-filter = vtkMEAMPoseDetection()
-filter.SetParametersToPaper()
-check((filter.GetReferenceShare(), filter.GetReferredShare()) == (0.2, 0.2), "the paper's parameters")
-prints(filter, "ReferenceShare", "ReferredShare", "Seed", "NumberOfThreads")

@@ -6,20 +6,14 @@ import re
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMSamplePartSource
-from meamtest import check, cloud, connect, fails, field, is_empty, points, prints, run, tuples
+from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation
+from meamtest import check, cloud, connect, fails, field, is_empty, plate, points, read, run, text, texts, tuples
 
-plate = vtkMEAMSamplePartSource()
-plate.SetPartToHolePlate()
-source = connect(vtkMEAMBinSceneSource(), plate, Copies=12, Width=640, Height=480)
+source = connect(vtkMEAMBinSceneSource(), plate(), Copies=12, Width=640, Height=480)
 scan = run(source)
 truth, mesh = source.GetOutputDataObject(1), source.GetOutputDataObject(2)
 estimation = connect(vtkMEAMPoseEstimation(), mesh, scan, MaximumNumberOfPoses=0, MinimumProbability=0.5)
 found = run(estimation)
-
-
-def text(data, name):
-    return data.GetFieldData().GetAbstractArray(name).GetValue(0)
 
 
 def tuples_of(data):
@@ -31,9 +25,7 @@ def distance(a, b):
     return math.dist((a[3], a[7], a[11]), (b[3], b[7], b[11]))
 
 
-diagnosis = connect(vtkMEAMPoseDiagnosis(), mesh, scan)
-diagnosis.SetInputDataObject(4, truth)
-diagnosis.SetMaximumNumberOfPoses(0)
+diagnosis = connect(vtkMEAMPoseDiagnosis(), mesh, scan, None, None, truth, MaximumNumberOfPoses=0)
 diagnosis.SetMinimumProbability(0.5)
 diagnosis.SetPlaceToRankedPose()
 diagnosis.SetFit(False)
@@ -75,9 +67,8 @@ best = ranks.index(1)
 diagnosis.SetRankOfPose(best + 1)
 output = run(diagnosis)
 states = [int(s) for (s,) in tuples(output, "State")]
-names = output.GetPointData().GetAbstractArray("StateName")
 NAMES = ("matched", "turned", "hidden", "not measured", "violated")
-check([names.GetValue(i) for i in range(len(states))] == [NAMES[s] for s in states], "the names of states")
+check(texts(output, "StateName") == [NAMES[s] for s in states], "the names of states")
 check(states.count(0) > 0.6 * len(states), f"of what was found most matches: {states.count(0)} of {len(states)}")
 isEdge = [int(e) for (e,) in tuples(output, "IsEdge")]
 check(set(isEdge) == {0, 1}, "surface and edges")
@@ -128,9 +119,7 @@ shifted = list(place)
 for k in (3, 7, 11):
     shifted[k] += shift * place[k - 3]
 wrong = cloud([(0, 0, 0)] * 2, Transform=[place, shifted], PlaceProbability=[0.99, 0.97], Rank=[1, 7])
-asked = connect(vtkMEAMPoseDiagnosis(), mesh, scan)
-asked.SetInputDataObject(4, wrong)
-asked.SetPlaceToRankedPose()
+asked = connect(vtkMEAMPoseDiagnosis(), mesh, scan, None, None, wrong, Place=vtkMEAMPoseDiagnosis.RankedPose)
 asked.SetRankOfPose(2)
 output = run(asked)
 beyond = max(points(output), key=lambda p: sum((p[k] - place[4 * k + 3]) * place[4 * k] for k in range(3)))  # where the right one has ended
@@ -165,8 +154,7 @@ diagnosis.SetPlaceToRankedPose()
 
 # What advice names is a property of the filter, or a value of one.
 source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "core", "pose", "diagnosis", "DiagnosisReport.cpp")
-with open(source, encoding="utf-8") as file:
-    advice = re.search(r"\nstd::string adviceOf\(.*?\n}\n", file.read(), re.DOTALL)[0]
+advice = re.search(r"\nstd::string adviceOf\(.*?\n}\n", read(source), re.DOTALL)[0]
 advice = " ".join(re.findall(r'"([^"]*)"', advice))
 named = set(re.findall(r"\b[A-Z][a-z]+(?:[A-Z][a-z]*)+\b|Creases|Features", advice))
 check({"MaximumNumberOfPoses", "MinimumProbability", "ReferenceShare", "Features", "DepthEdges"} <= named, f"{named}")
@@ -180,4 +168,3 @@ fails(diagnosis, "no pose 99", "RankOfPose")
 diagnosis.SetRankOfPose(1)
 diagnosis.SetInputDataObject(4, vtkPolyData())
 fails(diagnosis, "no pose 1")
-prints(diagnosis, "Place", "Position", "PosePosition", "PoseRotation", "RankOfPose", "Fit", "Preset")

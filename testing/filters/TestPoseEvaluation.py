@@ -3,7 +3,7 @@
 import math
 
 from ppfmeam.filters import vtkMEAMPoseEvaluation
-from meamtest import Errors, box, check, close, cloud, connect, field, poses, prints, run, set_fields, tuples
+from meamtest import Errors, box, check, close, cloud, connect, field, poses, run, set_fields, tuples
 
 
 def at(x, degrees=0.0):
@@ -98,4 +98,3 @@ lonely = evaluation(poses(at(0)), poses(at(0)))
 lonely.AddInputDataObject(0, poses())
 fails(lonely, "2 scenes")
 fails(connect(vtkMEAMPoseEvaluation(), poses(at(0))))
-prints(filter, "Diameter", "TranslationTolerance", "RotationTolerance", "PosesAskedFor", "Axis", "MinimumVisibleFraction")

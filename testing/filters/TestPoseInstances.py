@@ -3,7 +3,7 @@
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseInstances
-from meamtest import box, check, close, cloud, connect, fails, field, is_empty, points, poses, prints, run, set_fields, tuples
+from meamtest import box, check, close, cloud, connect, fails, field, is_empty, points, poses, run, set_fields, tuples
 
 
 def at(x, turned=False):
@@ -97,4 +97,3 @@ fails(connect(vtkMEAMPoseInstances(), found, vtkPolyData()), "CAD mesh", "no poi
 fails(connect(vtkMEAMPoseInstances(), part, part), "Transform")
 fails(connect(vtkMEAMPoseInstances(), poses((float("nan"),) * 16), part), "not a rotation")
 fails(connect(vtkMEAMPoseInstances(), found))
-prints(filter, "MaximumNumberOfInstances", "MinimumProbability", "UncertaintyScale")

@@ -5,8 +5,7 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseRefinement
-from meamtest import (check, cloud, connect, fails, field, image, is_empty, points, pose_error, poses, prints, run,
-                      trained_bracket, tuples)
+from meamtest import check, cloud, connect, fails, field, image, is_empty, points, pose_error, poses, run, trained_bracket, tuples
 
 trained, model, scene, edges = trained_bracket()
 diameter = field(model, "Diameter")[0][0]
@@ -76,11 +75,3 @@ fails(refinement(start, model=run(trained.tangents)), "not a trained model")
 fails(refinement(start, ViewDirection=(0, 0, 0)), "view direction is zero")
 fails(refinement(image()), "vtkPolyData")
 fails(connect(vtkMEAMPoseRefinement(), start), "the input Model, Scene Edges")
-
-filter = vtkMEAMPoseRefinement()
-filter.SetParametersToPaper()
-check(filter.GetMethod() == 0, "the paper's way")
-filter.SetParametersToRecommended()
-check(filter.GetMethod() == 1, "the recommended way")
-prints(filter, "Method", "NumberOfIterations", "MaximumDistance", "Projection", "ViewDirection", "SensorPosition",
-       "NumberOfThreads")

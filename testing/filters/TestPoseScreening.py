@@ -5,7 +5,7 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseScreening
-from meamtest import check, cloud, connect, fails, field, image, is_empty, poses, prints, run, trained_bracket, tuples
+from meamtest import check, cloud, connect, fails, field, image, is_empty, poses, run, trained_bracket, tuples
 
 _, model, scene, edges = trained_bracket()
 diameter = field(model, "Diameter")[0][0]
@@ -40,4 +40,3 @@ check(is_empty(run(screening(vtkPolyData()))), "no poses, no error")
 fails(screening(poses(shifted(math.nan))), "pose 0")
 fails(screening(cloud([(0, 0, 0)])), "Transform")
 fails(screening(image()), "vtkPolyData")
-prints(screening(candidates), "LeastSurface", "Enough", "FreeSpace", "Projection")

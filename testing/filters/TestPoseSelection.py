@@ -5,7 +5,7 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseSelection, vtkMEAMPoseVerification
-from meamtest import check, cloud, connect, fails, field, image, is_empty, pose_error, poses, prints, run, trained_bracket, tuples
+from meamtest import check, cloud, connect, fails, field, image, is_empty, pose_error, poses, run, trained_bracket, tuples
 
 _, model, scene, edges = trained_bracket()
 diameter = field(model, "Diameter")[0][0]
@@ -54,12 +54,3 @@ check(is_empty(run(selection(vtkPolyData()))), "no poses, no error")
 fails(connect(vtkMEAMPoseSelection(), poses(shifted(math.nan)), model, edges), "pose 0")
 fails(connect(vtkMEAMPoseSelection(), cloud([(0, 0, 0)]), model, edges), "Transform")
 fails(connect(vtkMEAMPoseSelection(), image(), model, edges), "vtkPolyData")
-filter = vtkMEAMPoseSelection()
-filter.SetParametersToPaper()
-check(filter.GetMethod() == 0, "the paper's way")
-filter.SetParametersToVotes()
-check((filter.GetMethod(), filter.GetMaximumNumberOfPoses()) == (0, 30), "that of methods that rank by votes")
-filter.SetParametersToCandidates()
-check((filter.GetMethod(), filter.GetMaximumNumberOfPoses()) == (1, 0), "before refinement alternatives stay")
-prints(filter, "Method", "ClusterDistance", "PosesPerInstance", "MaximumNumberOfPoses", "MinimumProbability",
-       "FreeSpace", "SameVisibility", "Projection", "NumberOfThreads")

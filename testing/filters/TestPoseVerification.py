@@ -2,12 +2,11 @@
 """The true pose beats wrong ones; weights, limits, occlusion, and how the sensor looks."""
 import math
 
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPoseVerification
-from meamtest import (check, cloud, connect, fails, field, image, is_empty, is_rotation, points, pose_error, poses, prints, run,
-                      trained_bracket, tuples)
+from meamtest import (check, cloud, connect, fails, field, grid, image, is_empty, is_rotation, points, pose_error, poses,
+                      run, trained_bracket, tuples)
 
 trained, model, scene, edges = trained_bracket()
 diameter = field(model, "Diameter")[0][0]
@@ -16,16 +15,6 @@ shifted = scene.shifted
 
 def verification(candidates, surface=None, edges=edges, model=model, **properties):
     return connect(vtkMEAMPoseVerification(), candidates, model, edges, surface, **{"ViewDirection": scene.looking, **properties})
-
-
-def grid(places, width, height):
-    data = vtkStructuredGrid()
-    data.SetDimensions(width, height, 1)
-    coordinates = vtkPoints()
-    for place in places:
-        coordinates.InsertNextPoint(place)
-    data.SetPoints(coordinates)
-    return data
 
 
 # The wrong ones first: a copy 0.5 mm away, one 60 mm away, one upside down.
@@ -105,7 +94,7 @@ check(visible(cloud(points(scene.surface) + wall(80))) > 0.9, "a wall behind")
 
 # The same wall as an organized cloud is seen from the origin along +z: from there it is elsewhere.
 sheet = [(x, y, 20.0) for y in range(-100, 101, 2) for x in range(-40, 161, 2)]
-front = grid(sheet, 101, 101)
+front = grid(101, 101, sheet)
 check(visible(front) < 0.05, "automatic: an organized cloud at z = 20 hides what lies farther along +z")
 check(visible(front, Projection=2, ViewDirection=(0, 0, 1)) == visible(front), "perspective from the origin along +z")
 check(visible(front, Projection=1, ViewDirection=(0, 0, -1)) > 0.9, "from above it lies below the part")
@@ -132,13 +121,3 @@ fails(verification(candidates, edges=metres), "units differ")
 fails(verification(image()), "vtkPolyData")
 fails(verification(candidates, image()), "vtkPointSet")
 fails(connect(vtkMEAMPoseVerification(), candidates, model), "the input Scene Edges")
-
-filter = vtkMEAMPoseVerification()
-filter.SetParametersToPaper()
-check((filter.GetMethod(), filter.GetTolerance(), filter.GetPosesPerView()) == (0, 1.5, 20), "the paper's parameters")
-filter.SetParametersToVotes()
-check((filter.GetMethod(), filter.GetPosesPerView()) == (2, 0), "those of methods that rank by votes")
-filter.SetParametersToCandidates()
-check((filter.GetMethod(), filter.GetPointStride()) == (1, 2), "before refinement every second point")
-prints(filter, "Method", "Tolerance", "FreeSpace", "PointStride", "PosesPerView", "Projection",
-       "ViewDirection", "SensorPosition", "NumberOfThreads")

@@ -2,18 +2,14 @@
 """Poses in every form, read again; what cannot be written leaves nothing behind."""
 import json
 import os
-import tempfile
 
 from ppfmeam.filters import vtkMEAMPoseReader, vtkMEAMPoseWriter
-from meamtest import Errors, box, check, cloud, connect, poses, prints, run, set_fields, tuples
+from meamtest import Errors, Folder, box, check, cloud, connect, poses, run, set_fields, tuples, write
 
 QUARTER = (0, -1, 0, 1.5, 1, 0, 0, -2, 0, 0, 1, 0.1, 0, 0, 0, 1)
 IDENTITY = (1, 0, 0, 7, 0, 1, 0, 8, 0, 0, 1, 9, 0, 0, 0, 1)
-folder = tempfile.TemporaryDirectory()
-
-
-def path(name):
-    return os.path.join(folder.name, name)
+path = Folder()
+text = path.text
 
 
 def reader(name):
@@ -22,11 +18,6 @@ def reader(name):
 
 def writer(data, name, **properties):
     return connect(vtkMEAMPoseWriter(), data, FileName=path(name), **properties)
-
-
-def text(name):
-    with open(path(name)) as file:
-        return file.read()
 
 
 def refuses(algorithm, *words):
@@ -81,8 +72,7 @@ check(abs(result["pose"]["covariance"][0] - 4e-6) < 1e-15 and detection["bbox"][
 refuses(writer(refined, "late.detections.json", Stamp=-1), "stamp")
 
 # In the robot's frame: a quarter turn and a shift after that of the pose; the covariance turns with it.
-with open(path("robot.json"), "w") as file:
-    json.dump({"T_robot_camera": [[0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]]}, file)
+path("robot.json", json.dumps({"T_robot_camera": [[0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]]}))
 check(writer(data, "robot.txt", RobotFrameFile=path("robot.json")).Write() == 1, "Write() succeeds")
 moved = tuples(run(reader("robot.txt")), "Transform")[0]
 check(all(abs(a - b) < 1e-12 for a, b in zip(moved, (-1, 0, 0, 12, 0, -1, 0, 21.5, 0, 0, 1, 30.1, 0, 0, 0, 1))), f"{moved}")
@@ -122,8 +112,7 @@ for name in ("all.bop", "all.txt"):
           & set(json.loads(text("again.json"))["poses"][0]), f"{name}: {text('again.json')}")
 content = json.loads(text("all.json"))
 del content["poses"][1]["probability"]
-with open(path("some.json"), "w") as file:
-    json.dump(content, file)
+write(path("some.json"), json.dumps(content))
 read = run(reader("some.json"))
 (first,), (second,) = tuples(read, "Probability")
 check(first == 0.9 and second != second, f"{first}, {second}")
@@ -131,7 +120,7 @@ check(writer(read, "again.csv").Write() == 1 and [row.split(",")[3] for row in t
       "the score of a pose without a probability")
 
 # What cannot be written leaves the old file, and no other.
-before = sorted(os.listdir(folder.name))
+before = sorted(os.listdir(path.name))
 refuses(writer(data, "poses.xyz"), "poses.xyz", ".csv", "set Format")
 refuses(writer(box(1, 1, 1), "poses.csv"), "Transform")
 refuses(writer(poses((2,) + QUARTER[1:]), "poses.csv"), "not a rotation")
@@ -139,8 +128,5 @@ refuses(writer(data, "no/such/folder.csv"), "folder.csv")
 refuses(vtkMEAMPoseWriter())
 nameless = connect(vtkMEAMPoseWriter(), data)
 refuses(nameless, "No file")
-check(sorted(os.listdir(folder.name)) == before, "no file was added")
+check(sorted(os.listdir(path.name)) == before, "no file was added")
 check(text("poses.csv").count("\n") == 3, "the old file is still there")
-
-prints(vtkMEAMPoseWriter(), "FileName", "Format", "MaximumNumberOfPoses", "SceneId", "ImageId", "ObjectId", "Time",
-       "RobotFrameFile", "FrameId", "Stamp")

@@ -16,18 +16,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
 import ppfmeam
-from ppfmeam import _core, inputs, scripting
-from ppfmeam.filters import (
-    vtkMEAMBinSceneSource,
-    vtkMEAMGraspDefinition,
-    vtkMEAMModelReader,
-    vtkMEAMModelWriter,
-    vtkMEAMPickPlanning,
-    vtkMEAMPoseEstimation,
-    vtkMEAMSamplePartSource,
-    vtkMEAMSceneEdgeExtraction,
-)
-from meamtest import box, check, connect, fails, field, partitions, prints, run, tuples
+from ppfmeam import _core, filters, inputs, scripting
+from meamtest import Folder, box, check, connect, fails, field, partitions, plate, run, text, tuples, written
 
 WIDTH, HEIGHT, COPIES = 480, 360, 3
 FIELDS = ("Diameter", "Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "LeafSize",
@@ -53,8 +43,8 @@ class Quiet:
             os.dup2(before, descriptor)
             os.close(before)
         self.file.seek(0)
-        text = self.file.read()
-        check(not text, f"the console shows {text}")
+        shown = self.file.read()
+        check(not shown, f"the console shows {shown}")
 
 
 def raises(words, function, *arguments, **options):
@@ -82,7 +72,7 @@ def same_model(a, b):
             check((vtk_to_numpy(array) == vtk_to_numpy(twin)).all(), f"{name}: {data.GetArrayName(i)} differs")
     for name in FIELDS:
         check(field(a, name) == field(b, name), f"{name} differs")
-    digests = [model.GetFieldData().GetAbstractArray("Digest").GetValue(0) for model in (a, b)]
+    digests = [text(model, "Digest") for model in (a, b)]
     check(digests[0] == digests[1] != "", f"the digests are {digests}")
 
 
@@ -142,218 +132,199 @@ def check_threads(call):
         signal.signal(signal.SIGINT, before)
 
 
-part = vtkMEAMSamplePartSource()
-part.SetPartToHolePlate()  # soon trained
-source = vtkMEAMBinSceneSource()
-source.SetInputData(run(part))
-source.SetCopies(COPIES)
-source.SetWidth(WIDTH)
-source.SetHeight(HEIGHT)
+part = plate()
+source = connect(filters.vtkMEAMBinSceneSource(), part, Copies=COPIES, Width=WIDTH, Height=HEIGHT)
 scan = run(source)
 truth = [numpy.array(row).reshape(4, 4) for row in tuples(source.GetOutputDataObject(1), "Transform")]
 points = vtk_to_numpy(scan.GetPoints().GetData()).reshape(HEIGHT, WIDTH, 3)
 grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity")).reshape(HEIGHT, WIDTH)
 
-folder = tempfile.mkdtemp()
-os.chdir(folder)
+folder = Folder()
+os.chdir(folder.name)
+written("part.stl", part, vtkSTLWriter)
+
+with Quiet():
+    model = ppfmeam.train("part.stl")
+    found = ppfmeam.detect(model, points, grey)
+check(abs(model.diameter - 84.5) < 1, f"the diameter is {model.diameter}")
+check(found.poses.shape == (len(found), 4, 4) and found.poses.dtype == numpy.float64, f"{found.poses.shape}")
+for column in (found.scores, found.place_probabilities, found.probabilities, found.certainties, found.visible_fractions):
+    check(column.shape == (len(found),) and (column >= 0).all() and (column <= 1).all(), f"{column}")
+check(found.seconds > 0, "no time")
+check(0.1 < found.scan_quality["PointDistance"] < 2 and 0 < found.scan_quality["Noise"] < 1, f"{found.scan_quality}")
+nearest = min(numpy.linalg.norm(found.poses[0, :3, 3] - T[:3, 3]) for T in truth)
+print(f"the best of {len(found)} poses is {nearest:.2f} mm from a true one, probability {found.probabilities[0]:.2f}")
+check(nearest < 1 and found.probabilities[0] > 0.5, "the best pose is wrong")
+
+# Rows and a table.
+pose = found[0]
+check((pose.transform == found.poses[0]).all() and pose.probability == found.probabilities[0], "the first row")
+check([row.score for row in found] == list(found.scores) and found[-1].score == found.scores[-1], "rows in their order")
+check(len(str(found).splitlines()) == 1 + len(found) and f"{100 * pose.place_probability:.0f} %" in str(found), str(found))
+check(abs(pose.probability - pose.place_probability * pose.certainty) < 1e-12, "the rotation stands beside the place")
+shares = [share for _, share in pose.alternatives]
+check(shares == sorted(shares, reverse=True) and sum(shares) + pose.certainty < 1 + 1e-9, f"other rotations {shares}")
+check(not any(numpy.allclose(turned, pose.transform) for turned, _ in pose.alternatives), "they are others")
+check(pose.covariance.shape == (6, 6) and (numpy.linalg.eigvalsh(pose.covariance) > 0).all(), "the covariance")
 try:
-    writer = vtkSTLWriter()
-    writer.SetInputConnection(part.GetOutputPort())
-    writer.SetFileName("part.stl")
-    writer.Write()
+    found[len(found)]
+    check(False, "an index that is out of range")
+except IndexError:
+    pass
+check({"detect", "train", "load", "why", "grasps", "pick", "Error", "filters"} <= set(dir(ppfmeam)), f"{dir(ppfmeam)}")
+check(all(getattr(ppfmeam, name) is not None for name in dir(ppfmeam)), "a name that is not there")
 
+# The same bits as of the filters.
+same_model(model.data, scripting.train(scripting.read_mesh("part.stl")))
+estimation = connect(filters.vtkMEAMPoseEstimation(), model.data, scan)
+poses = run(estimation)
+for name, column in (("Transform", found.poses.reshape(-1, 16)), ("Score", found.scores),
+                     ("PlaceProbability", found.place_probabilities), ("Probability", found.probabilities),
+                     ("Certainty", found.certainties), ("VisibleFraction", found.visible_fractions)):
+    check((vtk_to_numpy(poses.GetPointData().GetArray(name)) == column).all(), f"{name} is another one than of the filter")
+for name in ("Quaternion", "Votes", "ViewId", "Residual", "Covariance"):
+    check((vtk_to_numpy(poses.GetPointData().GetArray(name)) == vtk_to_numpy(found.data.GetPointData().GetArray(name))).all(), name)
+for name in ("PartBounds", "PartMiddle", "Diameter"):
+    check(field(poses, name) == field(found.data, name), name)
+
+# Several threads, and signals.
+settings = _core.DetectSettings()
+settings.threads, settings.referenceShare = 1, 1.0
+seen = inputs.scan_of(scan)
+check_threads(lambda: _core.detect([model.core], seen, settings))
+mesh = _core.load_cad("part.stl")
+check_threads(lambda: _core.train(mesh, _core.TrainSettings()))
+
+# The model comes back from both kinds of file as it was.
+for name in ("model.meam", "model.vtpc"):
+    model.save(name)
+    same_model(ppfmeam.load(name).data, model.data)
+for mine, other in (("model.meam", scan), ("model.vtpc", scan), (ppfmeam.load("model.meam"), points)):
+    same(ppfmeam.detect(mine, other, grey if other is points else None), found)
+ppfmeam.train(box(60, 40, 20), preset="paper").save("paper.meam")
+ppfmeam.load("paper.meam").save("paper.vtpc")
+same_model(ppfmeam.load("paper.vtpc").data, ppfmeam.load("paper.meam").data)
+reader = filters.vtkMEAMModelReader()
+check(reader.CanReadFile("model.meam") == 1 and reader.CanReadFile("part.stl") == 0, "CanReadFile")
+
+# Other ways to give the same.
+same(ppfmeam.detect(model, points.astype(numpy.float64) / 1000, numpy.repeat(grey[..., None], 3, axis=2), scale=1000,
+                    poses=1), ppfmeam.detect(model, points.astype(numpy.float64) / 1000 * 1000, grey, poses=1))
+check(len(ppfmeam.detect("part.stl", scan, poses=2)) == 2, "a CAD in the model's place")
+check(len(ppfmeam.detect(part, scan, poses=1, preset="paper")) == 1, "a mesh in the model's place")
+placed, turned = (ppfmeam.detect(model, scan, poses=0, probability=0.9, rotation_counts=counts, threads=1)
+                  for counts in (False, True))
+check(len(turned) <= len(placed) <= COPIES, "likely ones only")
+check((placed.place_probabilities >= 0.9).all() and (turned.probabilities >= 0.9).all(), "the rotation counts where it is to")
+edges = vtk_to_numpy(run(connect(filters.vtkMEAMSceneEdgeExtraction(), scan)).GetPoints().GetData())
+cloudy = ppfmeam.detect(model, points.reshape(-1, 3), boundary=edges, poses=1)
+check(len(cloudy) == 1, "points that are not organized, with their edges")
+
+# Results as files.
+found.save("poses.txt")
+matrices = numpy.loadtxt("poses.txt", comments="#").reshape(-1, 4, 4)
+check((matrices == found.poses).all(), "the matrices in the file")
+
+# Grasps of the part, to a file and back.
+with Quiet():
+    grasps = ppfmeam.grasps("part.stl", propose="both", grasps=3, symmetries=model, opening=40, cup_diameter=8)
+    grasps.save("part.grasps.json")
+    again = ppfmeam.grasps("part.stl", file="part.grasps.json")
+check(len(grasps) == 6 and grasps.kinds == ["parallel"] * 3 + ["suction"] * 3, f"{grasps.kinds}")
+check(again.names == grasps.names and numpy.allclose(again.transforms, grasps.transforms, atol=1e-12), "the same grasps")
+check((grasps.widths[:3] <= 40 - 2 * 3).all() and (grasps.qualities > 0).all(), f"{grasps.widths} {grasps.qualities}")
+check(grasps.free_turns[3:] == ["approach"] * 3, f"{grasps.free_turns}")
+raises("no such file", ppfmeam.grasps, "part.stl", file="missing.json")
+raises("opening", ppfmeam.grasps, "part.stl", opening="wide")
+raises("propose", ppfmeam.grasps, "part.stl", propose="magnet")
+
+# What the gripper can take of what was found.
+with Quiet():
+    picks = ppfmeam.pick(found, grasps, scan, opening=60)
+    cup = ppfmeam.pick(found.poses, grasps, points, gripper="cup", bin="none")
+    place = numpy.diag((1.0, -1.0, -1.0, 1.0))
+    place[:3, 3] = picks.bin.transform[:3, 3]
+    deep = ppfmeam.pick(found, grasps, bin=(place, 200, 200, 50, 4))
+check(len(picks) == len(found) * len(grasps) and picks.transforms.shape == (len(picks), 4, 4), f"{len(picks)} picks")
+check((picks.possible == [reason == "" for reason in picks.reasons]).all() and picks.report.endswith("."), picks.report)
+check((picks.advice == "") == (set(picks.instances) == set(picks.instances[picks.possible])), f"{picks.report} {picks.advice}")
+check((numpy.diff(picks.possible.astype(int)) <= 0).all(), "possible ones come first")
+check((numpy.sort(picks.instances * len(grasps) + picks.grasps) == numpy.arange(len(picks))).all(), "each grasp of each pose")
+for row in numpy.flatnonzero(picks.possible)[:3]:
+    held = found.poses[picks.instances[row]] @ grasps.transforms[picks.grasps[row]]
+    check(numpy.linalg.norm(held[:3, 3] - picks.transforms[row][:3, 3]) < 1e-6, "the gripper stands at the grasp")
+check(all(("kind of gripper" in reason) == (grasps.kinds[k] == "parallel") for k, reason in zip(cup.grasps, cup.reasons)),
+      f"a cup needs grasps for a cup: {cup.reasons}")
+check((deep.bin.transform == place).all() and (*deep.bin.size, deep.bin.wall) == (200, 200, 50, 4), "the bin given")
+check(len(str(picks).splitlines()) == 2 + len(picks) and picks.report in str(picks), str(picks))
+check([row.name for row in grasps] == grasps.names and "suction" in str(grasps), str(grasps))
+check(deep.robot_transforms is None and len(deep.clearances) == len(deep), "no robot")
+raises("bin", ppfmeam.pick, found, grasps, scan, bin="box")
+raises("4 x 4", ppfmeam.pick, found, grasps, scan, bin=(numpy.eye(3), 1, 1, 1))
+raises("bin has to be 'detected', 'none' or (T, length, width, height, wall), not 3", ppfmeam.pick, found, grasps, scan, bin=3)
+raises("N x 4 x 4", ppfmeam.pick, numpy.eye(4), grasps, scan)
+raises("no such file", ppfmeam.pick, found, grasps, scan, gripper="hook.stl")
+raises("bin is found in the scan", ppfmeam.pick, found, grasps)
+raises("tilt has to be a number from 0 to 180, not 500", ppfmeam.pick, found, grasps, scan, tilt=500)
+raises("opening has to be a number, 0 or more, not -1", ppfmeam.pick, found, grasps, scan, opening=-1)
+
+# Of the filters the same grasps and picks.
+definition = connect(filters.vtkMEAMGraspDefinition(), scripting.read_mesh("part.stl"), model.data, MaximumNumberOfGrasps=3, Opening=40,
+                     CupDiameter=8)
+definition.SetProposeToBoth()
+given = run(definition).GetPointData()
+check((vtk_to_numpy(given.GetArray("Transform")).reshape(-1, 4, 4) == grasps.transforms).all(), "other grasps")
+check(scripting.texts(definition.GetOutput(), "GraspName") == grasps.names, "grasps of other names")
+planning = connect(filters.vtkMEAMPickPlanning(), found.data, scripting.read_mesh("part.stl"), definition.GetOutput(), scan,
+                   Opening=60, CupDiameter=8)
+planned = run(planning).GetPointData()
+for name, column in (("Transform", picks.transforms.reshape(-1, 16)), ("Possible", picks.possible), ("Score", picks.scores),
+                     ("Clearance", picks.clearances), ("Tilt", picks.tilts), ("Covered", picks.covered), ("Reach", picks.reaches),
+                     ("Width", picks.widths), ("Instance", picks.instances + 1), ("Grasp", picks.grasps + 1)):
+    check((vtk_to_numpy(planned.GetArray(name)) == column).all(), f"{name} of a pick is another one than of the filter")
+
+# What is wrong is an exception, what may be wrong a warning.
+flat = points.reshape(-1, 3)
+raises("no such file", ppfmeam.train, "missing.stl")
+raises("unknown kind of file", ppfmeam.train, __file__)
+raises("is a scan: the part has to be a mesh", ppfmeam.train, "scan.pcd")
+raises("the part has to be a file, or a vtkPolyData, not ndarray", ppfmeam.train, flat)
+raises("the model has to be a file, not NoneType", ppfmeam.load, None)
+raises("the part has to be a Model, a file, or a vtkPolyData, not dict", ppfmeam.why, {}, scan, at=(0, 0, 600))
+raises("the scan has to be a file, an array of points, or VTK's data object, not Model", ppfmeam.detect, "part.stl", model)
+raises("scale has to be a number above 0, not '1000'", ppfmeam.detect, model, scan, scale="1000")
+raises("cad_scale has to be a number above 0, not nan", ppfmeam.detect, "part.stl", scan, cad_scale=math.nan)
+raises("scale has to be a number above 0, not 0", ppfmeam.grasps, "part.stl", scale=0)
+raises("cad_scale is of a CAD file", ppfmeam.detect, model, scan, cad_scale=1000)
+raises("solid is of a CAD file", ppfmeam.why, [model, "model.meam"], scan, solid=3, at=(0, 0, 600))
+raises("three finite numbers, not 'here'", ppfmeam.why, model, scan, at="here")
+raises("symmetries has to be the part's Model, not 'part.meam'", ppfmeam.grasps, "part.stl", symmetries="part.meam")
+raises("the grasps have to be those of grasps(), not Model", ppfmeam.pick, found, model, scan)
+raises("scale has to be a number above 0, not -1", ppfmeam.train, "part.stl", scale=-1)
+raises("preset", ppfmeam.train, "part.stl", preset="best")
+raises("no such file", ppfmeam.load, "missing.meam")
+raises("no such file", ppfmeam.detect, "missing.meam", scan)
+raises("no such file", ppfmeam.detect, model, "missing.pcd")
+raises("calibration", ppfmeam.detect, model, "depth.png")
+raises("H x W x 3", ppfmeam.detect, model, points[..., :2])
+raises("H x W", ppfmeam.detect, model, points, grey / 255)
+raises("give a file", ppfmeam.detect, model, points, camera="camera.json")
+raises("give that, too", ppfmeam.detect, model, points, image_camera="camera.json")
+bare, alone = ppfmeam.detect(model, points), ppfmeam.detect(model, flat)
+check("no image" in bare.report and "the grid of a pinhole camera" in alone.report, f"{bare.report} {alone.report}")
+check(numpy.allclose(bare.poses, alone.poses, atol=1e-3), "points alone, on the grid that they lie on")
+raises(str(WIDTH), ppfmeam.detect, model, points, grey[:-1])
+raises("ends in .meam", model.save, "model.stl")
+raises("no such folder", model.save, "no/model.meam")
+raises(".html (the page of show())", found.save, "poses.png")
+shutil.copy("model.meam", "cut.meam")
+os.truncate("cut.meam", os.path.getsize("cut.meam") - 100)
+raises("train the model again", ppfmeam.load, "cut.meam")
+reader.SetFileName("cut.meam")
+fails(reader, "cut off")
+check(connect(filters.vtkMEAMModelWriter(), model.data, FileName="no/model.meam").Write() == 0, "written to a folder that is not there")
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter("always")
     with Quiet():
-        model = ppfmeam.train("part.stl")
-        found = ppfmeam.detect(model, points, grey)
-    check(abs(model.diameter - 84.5) < 1, f"the diameter is {model.diameter}")
-    check(found.poses.shape == (len(found), 4, 4) and found.poses.dtype == numpy.float64, f"{found.poses.shape}")
-    for column in (found.scores, found.place_probabilities, found.probabilities, found.certainties, found.visible_fractions):
-        check(column.shape == (len(found),) and (column >= 0).all() and (column <= 1).all(), f"{column}")
-    check(found.seconds > 0, "no time")
-    check(0.1 < found.scan_quality["PointDistance"] < 2 and 0 < found.scan_quality["Noise"] < 1, f"{found.scan_quality}")
-    nearest = min(numpy.linalg.norm(found.poses[0, :3, 3] - T[:3, 3]) for T in truth)
-    print(f"the best of {len(found)} poses is {nearest:.2f} mm from a true one, probability {found.probabilities[0]:.2f}")
-    check(nearest < 1 and found.probabilities[0] > 0.5, "the best pose is wrong")
-
-    # Rows and a table.
-    pose = found[0]
-    check((pose.transform == found.poses[0]).all() and pose.probability == found.probabilities[0], "the first row")
-    check([row.score for row in found] == list(found.scores) and found[-1].score == found.scores[-1], "rows in their order")
-    check(len(str(found).splitlines()) == 1 + len(found) and f"{100 * pose.place_probability:.0f} %" in str(found), str(found))
-    check(abs(pose.probability - pose.place_probability * pose.certainty) < 1e-12, "the rotation stands beside the place")
-    shares = [share for _, share in pose.alternatives]
-    check(shares == sorted(shares, reverse=True) and sum(shares) + pose.certainty < 1 + 1e-9, f"other rotations {shares}")
-    check(not any(numpy.allclose(turned, pose.transform) for turned, _ in pose.alternatives), "they are others")
-    check(pose.covariance.shape == (6, 6) and (numpy.linalg.eigvalsh(pose.covariance) > 0).all(), "the covariance")
-    try:
-        found[len(found)]
-        check(False, "an index that is out of range")
-    except IndexError:
-        pass
-    check({"detect", "train", "load", "why", "grasps", "pick", "Error", "filters"} <= set(dir(ppfmeam)), f"{dir(ppfmeam)}")
-    check(all(getattr(ppfmeam, name) is not None for name in dir(ppfmeam)), "a name that is not there")
-
-    # The same bits as of the filters.
-    same_model(model.data, scripting.train(scripting.read_mesh("part.stl")))
-    estimation = connect(vtkMEAMPoseEstimation(), model.data)
-    estimation.SetInputDataObject(1, scan)
-    poses = run(estimation)
-    for name, column in (("Transform", found.poses.reshape(-1, 16)), ("Score", found.scores),
-                         ("PlaceProbability", found.place_probabilities), ("Probability", found.probabilities),
-                         ("Certainty", found.certainties), ("VisibleFraction", found.visible_fractions)):
-        check((vtk_to_numpy(poses.GetPointData().GetArray(name)) == column).all(), f"{name} is another one than of the filter")
-    for name in ("Quaternion", "Votes", "ViewId", "Residual", "Covariance"):
-        check((vtk_to_numpy(poses.GetPointData().GetArray(name)) == vtk_to_numpy(found.data.GetPointData().GetArray(name))).all(), name)
-    for name in ("PartBounds", "PartMiddle", "Diameter"):
-        check(field(poses, name) == field(found.data, name), name)
-
-    # Several threads, and signals.
-    settings = _core.DetectSettings()
-    settings.threads, settings.referenceShare = 1, 1.0
-    seen = inputs.scan_of(scan)
-    check_threads(lambda: _core.detect([model.core], seen, settings))
-    mesh = _core.load_cad("part.stl")
-    check_threads(lambda: _core.train(mesh, _core.TrainSettings()))
-
-    # The model comes back from both kinds of file as it was.
-    for name in ("model.meam", "model.vtpc"):
-        model.save(name)
-        same_model(ppfmeam.load(name).data, model.data)
-    for mine, other in (("model.meam", scan), ("model.vtpc", scan), (ppfmeam.load("model.meam"), points)):
-        same(ppfmeam.detect(mine, other, grey if other is points else None), found)
-    ppfmeam.train(box(60, 40, 20), preset="paper").save("paper.meam")
-    ppfmeam.load("paper.meam").save("paper.vtpc")
-    same_model(ppfmeam.load("paper.vtpc").data, ppfmeam.load("paper.meam").data)
-    reader = vtkMEAMModelReader()
-    check(reader.CanReadFile("model.meam") == 1 and reader.CanReadFile("part.stl") == 0, "CanReadFile")
-    prints(reader, "FileName")
-    prints(vtkMEAMModelWriter(), "FileName")
-
-    # Other ways to give the same.
-    same(ppfmeam.detect(model, points.astype(numpy.float64) / 1000, numpy.repeat(grey[..., None], 3, axis=2), scale=1000,
-                        poses=1), ppfmeam.detect(model, points.astype(numpy.float64) / 1000 * 1000, grey, poses=1))
-    check(len(ppfmeam.detect("part.stl", scan, poses=2)) == 2, "a CAD in the model's place")
-    check(len(ppfmeam.detect(part.GetOutput(), scan, poses=1, preset="paper")) == 1, "a mesh in the model's place")
-    placed, turned = (ppfmeam.detect(model, scan, poses=0, probability=0.9, rotation_counts=counts, threads=1)
-                      for counts in (False, True))
-    check(len(turned) <= len(placed) <= COPIES, "likely ones only")
-    check((placed.place_probabilities >= 0.9).all() and (turned.probabilities >= 0.9).all(), "the rotation counts where it is to")
-    edges = vtk_to_numpy(run(connect(vtkMEAMSceneEdgeExtraction(), scan)).GetPoints().GetData())
-    cloudy = ppfmeam.detect(model, points.reshape(-1, 3), boundary=edges, poses=1)
-    check(len(cloudy) == 1, "points that are not organized, with their edges")
-
-    # Results as files.
-    found.save("poses.txt")
-    matrices = numpy.loadtxt("poses.txt", comments="#").reshape(-1, 4, 4)
-    check((matrices == found.poses).all(), "the matrices in the file")
-
-    # Grasps of the part, to a file and back.
-    with Quiet():
-        grasps = ppfmeam.grasps("part.stl", propose="both", grasps=3, symmetries=model, opening=40, cup_diameter=8)
-        grasps.save("part.grasps.json")
-        again = ppfmeam.grasps("part.stl", file="part.grasps.json")
-    check(len(grasps) == 6 and grasps.kinds == ["parallel"] * 3 + ["suction"] * 3, f"{grasps.kinds}")
-    check(again.names == grasps.names and numpy.allclose(again.transforms, grasps.transforms, atol=1e-12), "the same grasps")
-    check((grasps.widths[:3] <= 40 - 2 * 3).all() and (grasps.qualities > 0).all(), f"{grasps.widths} {grasps.qualities}")
-    check(grasps.free_turns[3:] == ["approach"] * 3, f"{grasps.free_turns}")
-    raises("no such file", ppfmeam.grasps, "part.stl", file="missing.json")
-    raises("opening", ppfmeam.grasps, "part.stl", opening="wide")
-    raises("propose", ppfmeam.grasps, "part.stl", propose="magnet")
-
-    # What the gripper can take of what was found.
-    with Quiet():
-        picks = ppfmeam.pick(found, grasps, scan, opening=60)
-        cup = ppfmeam.pick(found.poses, grasps, points, gripper="cup", bin="none")
-        place = numpy.diag((1.0, -1.0, -1.0, 1.0))
-        place[:3, 3] = picks.bin.transform[:3, 3]
-        deep = ppfmeam.pick(found, grasps, bin=(place, 200, 200, 50, 4))
-    check(len(picks) == len(found) * len(grasps) and picks.transforms.shape == (len(picks), 4, 4), f"{len(picks)} picks")
-    check((picks.possible == [reason == "" for reason in picks.reasons]).all() and picks.report.endswith("."), picks.report)
-    check((picks.advice == "") == (set(picks.instances) == set(picks.instances[picks.possible])), f"{picks.report} {picks.advice}")
-    check((numpy.diff(picks.possible.astype(int)) <= 0).all(), "possible ones come first")
-    check((numpy.sort(picks.instances * len(grasps) + picks.grasps) == numpy.arange(len(picks))).all(), "each grasp of each pose")
-    for row in numpy.flatnonzero(picks.possible)[:3]:
-        held = found.poses[picks.instances[row]] @ grasps.transforms[picks.grasps[row]]
-        check(numpy.linalg.norm(held[:3, 3] - picks.transforms[row][:3, 3]) < 1e-6, "the gripper stands at the grasp")
-    check(all(("kind of gripper" in reason) == (grasps.kinds[k] == "parallel") for k, reason in zip(cup.grasps, cup.reasons)),
-          f"a cup needs grasps for a cup: {cup.reasons}")
-    check((deep.bin.transform == place).all() and (*deep.bin.size, deep.bin.wall) == (200, 200, 50, 4), "the bin given")
-    check(len(str(picks).splitlines()) == 2 + len(picks) and picks.report in str(picks), str(picks))
-    check([row.name for row in grasps] == grasps.names and "suction" in str(grasps), str(grasps))
-    check(deep.robot_transforms is None and len(deep.clearances) == len(deep), "no robot")
-    raises("bin", ppfmeam.pick, found, grasps, scan, bin="box")
-    raises("4 x 4", ppfmeam.pick, found, grasps, scan, bin=(numpy.eye(3), 1, 1, 1))
-    raises("bin has to be 'detected', 'none' or (T, length, width, height, wall), not 3", ppfmeam.pick, found, grasps, scan, bin=3)
-    raises("N x 4 x 4", ppfmeam.pick, numpy.eye(4), grasps, scan)
-    raises("no such file", ppfmeam.pick, found, grasps, scan, gripper="hook.stl")
-    raises("bin is found in the scan", ppfmeam.pick, found, grasps)
-    raises("tilt has to be a number from 0 to 180, not 500", ppfmeam.pick, found, grasps, scan, tilt=500)
-    raises("opening has to be a number, 0 or more, not -1", ppfmeam.pick, found, grasps, scan, opening=-1)
-
-    # Of the filters the same grasps and picks.
-    definition = connect(vtkMEAMGraspDefinition(), scripting.read_mesh("part.stl"), model.data)
-    definition.SetProposeToBoth()
-    definition.SetMaximumNumberOfGrasps(3)
-    definition.SetOpening(40)
-    definition.SetCupDiameter(8)
-    given = run(definition).GetPointData()
-    check((vtk_to_numpy(given.GetArray("Transform")).reshape(-1, 4, 4) == grasps.transforms).all(), "other grasps")
-    check(scripting.texts(definition.GetOutput(), "GraspName") == grasps.names, "grasps of other names")
-    planning = connect(vtkMEAMPickPlanning(), found.data, scripting.read_mesh("part.stl"), definition.GetOutput(), scan,
-                       Opening=60, CupDiameter=8)
-    planned = run(planning).GetPointData()
-    for name, column in (("Transform", picks.transforms.reshape(-1, 16)), ("Possible", picks.possible), ("Score", picks.scores),
-                         ("Clearance", picks.clearances), ("Tilt", picks.tilts), ("Covered", picks.covered), ("Reach", picks.reaches),
-                         ("Width", picks.widths), ("Instance", picks.instances + 1), ("Grasp", picks.grasps + 1)):
-        check((vtk_to_numpy(planned.GetArray(name)) == column).all(), f"{name} of a pick is another one than of the filter")
-
-    # What is wrong is an exception, what may be wrong a warning.
-    flat = points.reshape(-1, 3)
-    raises("no such file", ppfmeam.train, "missing.stl")
-    raises("unknown kind of file", ppfmeam.train, __file__)
-    raises("is a scan: the part has to be a mesh", ppfmeam.train, "scan.pcd")
-    raises("the part has to be a file, or a vtkPolyData, not ndarray", ppfmeam.train, flat)
-    raises("the model has to be a file, not NoneType", ppfmeam.load, None)
-    raises("the part has to be a Model, a file, or a vtkPolyData, not dict", ppfmeam.why, {}, scan, at=(0, 0, 600))
-    raises("the scan has to be a file, an array of points, or VTK's data object, not Model", ppfmeam.detect, "part.stl", model)
-    raises("scale has to be a number above 0, not '1000'", ppfmeam.detect, model, scan, scale="1000")
-    raises("cad_scale has to be a number above 0, not nan", ppfmeam.detect, "part.stl", scan, cad_scale=math.nan)
-    raises("scale has to be a number above 0, not 0", ppfmeam.grasps, "part.stl", scale=0)
-    raises("cad_scale is of a CAD file", ppfmeam.detect, model, scan, cad_scale=1000)
-    raises("solid is of a CAD file", ppfmeam.why, [model, "model.meam"], scan, solid=3, at=(0, 0, 600))
-    raises("three finite numbers, not 'here'", ppfmeam.why, model, scan, at="here")
-    raises("symmetries has to be the part's Model, not 'part.meam'", ppfmeam.grasps, "part.stl", symmetries="part.meam")
-    raises("the grasps have to be those of grasps(), not Model", ppfmeam.pick, found, model, scan)
-    raises("scale has to be a number above 0, not -1", ppfmeam.train, "part.stl", scale=-1)
-    raises("preset", ppfmeam.train, "part.stl", preset="best")
-    raises("no such file", ppfmeam.load, "missing.meam")
-    raises("no such file", ppfmeam.detect, "missing.meam", scan)
-    raises("no such file", ppfmeam.detect, model, "missing.pcd")
-    raises("calibration", ppfmeam.detect, model, "depth.png")
-    raises("H x W x 3", ppfmeam.detect, model, points[..., :2])
-    raises("H x W", ppfmeam.detect, model, points, grey / 255)
-    raises("give a file", ppfmeam.detect, model, points, camera="camera.json")
-    raises("give that, too", ppfmeam.detect, model, points, image_camera="camera.json")
-    bare, alone = ppfmeam.detect(model, points), ppfmeam.detect(model, flat)
-    check("no image" in bare.report and "the grid of a pinhole camera" in alone.report, f"{bare.report} {alone.report}")
-    check(numpy.allclose(bare.poses, alone.poses, atol=1e-3), "points alone, on the grid that they lie on")
-    raises(str(WIDTH), ppfmeam.detect, model, points, grey[:-1])
-    raises("ends in .meam", model.save, "model.stl")
-    raises("no such folder", model.save, "no/model.meam")
-    raises(".html (the page of show())", found.save, "poses.png")
-    with open("model.meam", "rb") as whole, open("cut.meam", "wb") as file:
-        file.write(whole.read()[:-100])
-    raises("train the model again", ppfmeam.load, "cut.meam")
-    reader.SetFileName("cut.meam")
-    fails(reader, "cut off")
-    fails(vtkMEAMModelReader(), "no file")
-    fails_to_write = connect(vtkMEAMModelWriter(), model.data, FileName="no/model.meam")
-    check(fails_to_write.Write() == 0, "written to a folder that is not there")
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        with Quiet():
-            ppfmeam.detect(model, points / 10, grey, poses=1)
-    check(any("factor" in str(warning.message) for warning in caught), f"{[str(w.message) for w in caught]}")
-finally:
-    os.chdir("/")
-    shutil.rmtree(folder)
+        ppfmeam.detect(model, points / 10, grey, poses=1)
+check(any("factor" in str(warning.message) for warning in caught), f"{[str(w.message) for w in caught]}")

@@ -12,7 +12,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
 import ppfmeam
 from ppfmeam import filters, scripting
-from meamtest import check
+from meamtest import check, connect
 
 # What the definitions of ROS 2 say (builtin_interfaces, std_msgs, geometry_msgs, sensor_msgs; vision_msgs from version 4 on),
 # in words of our own: a field is NAME:TYPE, a list of them NAME:TYPE[], and without a type a number, a text or bytes.
@@ -104,19 +104,12 @@ import ros2_node
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
 W, H, STEP = 640, 480, 20
-source = filters.vtkMEAMBinSceneSource()
-source.SetCopies(5)
-source.SetWidth(W)
-source.SetHeight(H)
+source = connect(filters.vtkMEAMBinSceneSource(), Copies=5, Width=W, Height=H)
 scripting.update(source)
 scan, mesh = source.GetOutputDataObject(0), source.GetOutputDataObject(2)
 model = ppfmeam.train(mesh)
 model.save("part.meam")
-writer = vtkSTLWriter()
-writer.SetInputData(mesh)
-writer.SetFileName("part.stl")
-writer.SetFileTypeToBinary()
-writer.Write()
+connect(vtkSTLWriter(), mesh, FileName="part.stl", FileType=2).Write()  # binary
 grasps = ppfmeam.grasps("part.stl", symmetries=model, grasps=100, **ros2_node.GRIPPER)
 grasps.save("part.grasps.json")
 points = vtk_to_numpy(scan.GetPoints().GetData()).reshape(H, W, 3)

@@ -3,7 +3,6 @@
 scan; how results show themselves in a notebook."""
 import argparse
 import base64
-import csv
 import html
 import json
 import os
@@ -16,8 +15,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 import ppfmeam
 from ppfmeam.batch import pages
 from ppfmeam.report import content, notebook, outlines, page, projection, told
-from meamtest import box, check, skip
-from scripttest import H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
+from meamtest import box, check, read, rows_of, skip, write
+from scripttest import H, W, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
 try:
     page.require_three()
@@ -95,8 +94,7 @@ for one, other in zip(of_all, outlines.outlines(fitted, some, [True] * len(some)
 # The camera of an image beside the sensor, with a lens: as the calibration has it.
 x, y, z = points_of(data["scan"])[::5000].T
 lens = {"fx": 800, "fy": 790, "cx": 300, "cy": 250, "width": 640, "height": 480, "coeffs": [-0.3, 0.1, 0.001, -0.002, 0.02]}
-with open("lens.json", "w", encoding="utf-8") as file:
-    json.dump(lens, file)
+write("lens.json", json.dumps(lens))
 seen = ppfmeam._core.Scan(points.reshape(H, W, 3))
 seen.image, seen.image_camera = numpy.zeros((480, 640), numpy.uint8), ppfmeam._core.load_camera("lens.json")
 pixels, depth = content.Seen(seen).projection(numpy.stack((x, y, z), axis=1))
@@ -178,8 +176,7 @@ for place in ("one", "scans"):
     os.mkdir(place)
     os.link("scan.pcd", f"{place}/a b.pcd")
 write_pcd("scans/coarse.pcd", points.reshape(H, W, 3)[::5, ::5].reshape(-1, 3), W // 5, H // 5, "x y z")
-with open("scans/bad.pcd", "w", encoding="utf-8") as file:
-    file.write("no cloud")
+write("scans/bad.pcd", "no cloud")
 for most, place in (("2", "one"), ("0", "scans")):
     works("batch.py", place, "--model", "plate.meam", "--poses", most, "--out", "all.csv", "--report", "pages", *["--why"] * (most == "2"))
     data = data_of(read("pages/a b.pcd.html"))
@@ -187,7 +184,7 @@ for most, place in (("2", "one"), ("0", "scans")):
     check(data["why"] == f"ppfmeam why plate.meam '{place}/a b.pcd' --poses {most} --at {{x}} {{y}} {{z}}", data["why"])
 check(sorted(os.listdir("pages")) == ["a b.pcd.html", "coarse.pcd.html", "index.html"], f"{os.listdir('pages')}")
 check(numpy.allclose([pose["transform"] for pose in data["poses"]], poses, atol=1e-4), "the same poses")
-text, advice = read("pages/index.html"), [row["advice"] for row in csv.DictReader(read("all.scans.csv").splitlines())]
+text, advice = read("pages/index.html"), [row["advice"] for row in rows_of("all.scans.csv")]
 check(advice[:2] == ["", ""] and advice[2].startswith("The part is ") and f"<td>{html.escape(advice[2])}</td></tr>" in text and html.escape(advice[2]) in read("pages/coarse.pcd.html"),
       f"what to change first: {advice}")
 check('<a href="a%20b.pcd.html">a b.pcd</a>' in text and "<tr class=failed><td>bad.pcd</td>" in text, text)

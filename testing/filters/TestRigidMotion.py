@@ -27,8 +27,7 @@ class Scene:
 
     def moved(self, motion):
         def move(data):
-            mover = vtkTransformFilter()
-            mover.SetTransform(motion)
+            mover = connect(vtkTransformFilter(), Transform=motion)
             mover.SetOutputPointsPrecision(vtkTransformFilter.DOUBLE_PRECISION)
             mover.SetInputDataObject(data)
             mover.Update()
@@ -67,8 +66,7 @@ def check_same(poses, expected, motion, what):
     found, before = tuples(poses, "Transform"), tuples(expected, "Transform")
     check(len(found) == len(before), f"{what}: {len(found)} poses instead of {len(before)}")
     for i, transform in enumerate(before):
-        moved = vtkTransform()
-        moved.SetMatrix(transform)
+        moved = connect(vtkTransform(), Matrix=transform)
         moved.PostMultiply()
         moved.Concatenate(motion)
         matrix = moved.GetMatrix()
@@ -101,14 +99,11 @@ check_scene(run(trained.model), Scene(view.edges, view.surface, view.looking), 3
 
 folder = os.path.join(os.environ.get("PPFMEAM_DATA", ""), "tohoku", "Part_1")
 if os.path.isdir(folder):
-    part = vtkSTLReader()
-    part.SetFileName(os.path.join(folder, "Part_1.STL"))
+    part = connect(vtkSTLReader(), FileName=os.path.join(folder, "Part_1.STL"))
     model = run(Trained(part).model)
     clouds = []
     for name in ("Scene_boundary0.pcd", "Scene0.pcd"):
-        reader = vtkMEAMPCDReader()
-        reader.SetFileName(os.path.join(folder, "Scenes", name))
-        clouds.append(run(reader))
+        clouds.append(run(connect(vtkMEAMPCDReader(), FileName=os.path.join(folder, "Scenes", name))))
     check_scene(model, Scene(*clouds, vtkMEAMPoseEstimation().GetViewDirection()), 2 if LONG else 1)
 else:
     print(f"no dataset at {folder}: set PPFMEAM_DATA to check measured scenes, too")

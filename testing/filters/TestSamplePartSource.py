@@ -6,7 +6,7 @@ from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 
 from ppfmeam.filters import vtkMEAMSamplePartSource
-from meamtest import check, close, connect, field, prints, run
+from meamtest import check, close, connect, field, run
 
 EXAMPLES = os.path.join(os.path.dirname(__file__), "..", "..", "examples")
 FILES = {"RibbedFlange": ("data/ribbed_flange.stl", 80.5), "RidgedDisc": ("parts/ridged_disc.stl", 92.0),
@@ -22,10 +22,7 @@ for number, (name, (path, diameter)) in enumerate(FILES.items()):
     open_edges.FeatureEdgesOff()
     check(run(open_edges).GetNumberOfCells() == 0, f"{name} has open edges")
     check(abs(field(part, "Diameter")[0][0] - diameter) < 0.5, f"{name} is {field(part, 'Diameter')} mm across")
-    stl = vtkSTLReader()
-    stl.SetFileName(os.path.join(EXAMPLES, path))
-    file = run(stl)
-    check(os.path.getsize(stl.GetFileName()) < 200000, f"{path} is large")
+    file = run(connect(vtkSTLReader(), FileName=os.path.join(EXAMPLES, path)))
+    check(os.path.getsize(os.path.join(EXAMPLES, path)) < 200000, f"{path} is large")
     check(file.GetNumberOfPolys() == part.GetNumberOfPolys() and close(file.GetBounds(), part.GetBounds()),
           f"examples/{path} is not {name}")
-prints(source, "Part")

@@ -1,48 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A step of brightness, or of depth, becomes a line of points; images of all kinds and cameras; bad input."""
 import math
-import os
-import tempfile
 
-from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray, vtkUnsignedShortArray
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkStructuredGrid
 
 from ppfmeam.filters import vtkMEAMSceneEdgeExtraction
-from meamtest import box, check, close, connect, fails, points, prints, run, set_fields, tuples
+from meamtest import Folder, box, check, close, connect, fails, grid, picture, points, run, set_fields, text, tuples
 
 W, H, EDGE = 40, 30, 20
 
 
 def scan(image=None, depth=lambda x, y: 500.0, layers=1):
     """Points 1 mm apart; `image` gives the value or the values of a pixel."""
-    grid, places = vtkStructuredGrid(), vtkPoints()
-    for z in range(layers):
-        for y in range(H):
-            for x in range(W):
-                places.InsertNextPoint(x, y, depth(x, y) + z)
-    grid.SetDimensions(W, H, layers)
-    grid.SetPoints(places)
+    data = grid(W, H, [(x, y, depth(x, y) + z) for z in range(layers) for y in range(H) for x in range(W)], layers)
     if image:
-        grid.GetPointData().AddArray(pixels(image, [(x, y) for y in range(H) for x in range(W)]))
-    return grid
-
-
-def pixels(image, places, kind=vtkUnsignedCharArray):
-    array = kind()
-    values = [image(x, y) for x, y in places]
-    array.SetName("RGB" if isinstance(values[0], tuple) else "Intensity")
-    array.SetNumberOfComponents(3 if isinstance(values[0], tuple) else 1)
-    for value in values:
-        array.InsertNextTuple(value if isinstance(value, tuple) else (value,))
-    return array
-
-
-def picture(image, width=W, height=H, kind=vtkUnsignedCharArray):
-    """VTK's images start at the lower left."""
-    data = vtkImageData()
-    data.SetDimensions(width, height, 1)
-    data.GetPointData().SetScalars(pixels(image, [(x, y) for y in reversed(range(height)) for x in range(width)], kind))
+        values = numpy.array(pixels(image), "uint8").reshape(W * H, -1)
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName("RGB" if values.shape[1] == 3 else "Intensity")
+        data.GetPointData().AddArray(array)
     return data
+
+
+def pixels(image, width=W, height=H):
+    return [[image(x, y) for x in range(width)] for y in range(height)]
 
 
 def step(x, y):
@@ -76,13 +58,13 @@ quality = edges.GetFieldData().GetArray("ScanQuality")
 check({quality.GetComponentName(i): quality.GetComponent(0, i) for i in range(quality.GetNumberOfComponents())}
       == {"PointDistance": 1, "Noise": 0, "Smoothing": 1, "DepthStep": 0, "JumpGap": 0, "Flying": 0, "Coverage": 1},
       f"the quality is {quality}")
-check(edges.GetFieldData().GetAbstractArray("ScanReport").GetValue(0).startswith("Points 1.00 mm apart"), "in words, too")
+check(text(edges, "ScanReport").startswith("Points 1.00 mm apart"), "in words, too")
 
 # The same image as colours, as a second input, with 16 bits.
 ids = tuples(edges, "PointId")
 check(tuples(run(edges_of(scan(lambda x, y: (step(x, y),) * 3))), "PointId") == ids, "a grey RGB image is the same")
-check(tuples(run(edges_of(scan(), picture(step))), "PointId") == ids, "an image of its own is the same")
-wide = picture(lambda x, y: 257 * step(x, y), kind=vtkUnsignedShortArray)
+check(tuples(run(edges_of(scan(), picture(pixels(step)))), "PointId") == ids, "an image of its own is the same")
+wide = picture(257 * numpy.array(pixels(step)), "uint16")
 check(tuples(run(edges_of(scan(), wide)), "PointId") == ids, "16 bits are the same")
 
 # At a jump of depth the edge belongs to the nearer side.
@@ -108,22 +90,18 @@ check(run(edges_of(scan(depth=lambda x, y: 500.0 + abs(x - EDGE)), ImageEdges=Fa
 # away 50 pixels to the left: at column (EDGE - 100) / 2 + 60 = 20. From the image's field data, and from a file.
 CAMERA = (250, 0, 60, 0, 250, 10, 0, 0, 1)
 POSE = (1, 0, 0, -100, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
-small = picture(lambda x, y: 200 if x >= 20 else 50, 70, 40)
+small = picture(pixels(lambda x, y: 200 if x >= 20 else 50, 70, 40))
 fails(edges_of(scan(), small), "70 x 40", "40 x 30", "camera")
-seen = picture(lambda x, y: 200 if x >= 20 else 50, 70, 40)
-set_fields(seen, CameraMatrix=CAMERA, CameraPose=POSE)
+seen = set_fields(picture(pixels(lambda x, y: 200 if x >= 20 else 50, 70, 40)), CameraMatrix=CAMERA, CameraPose=POSE)
 beside = edges_of(scan(), seen)
 check(len(points(run(beside))) >= H // 2 and all(abs(x - EDGE) <= 2 for x, _, _ in points(beside.GetOutput())),
       f"the step is at {points(beside.GetOutput())}")
 check(all(close([abs(c) for c in t], (0, 1, 0), 0.05) for t in tuples(beside.GetOutput(), "Tangent")), "tangents on the plane")
-with tempfile.TemporaryDirectory() as folder:
-    path = os.path.join(folder, "camera.json")
-    with open(path, "w") as file:
-        file.write('{"image_width": 70, "image_height": 40, "camera_matrix": [[250, 0, 60], [0, 250, 10], [0, 0, 1]], '
-                   '"T_camera_scene": [[1, 0, 0, -100], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}')
-    named = edges_of(scan(), small, CameraFile=path)
-    check(points(run(named)) == points(beside.GetOutput()), "the same camera from a file")
-    fails(edges_of(scan(), picture(step), CameraFile=path), "40 x 30", "70 x 40")
+folder = Folder()
+path = folder("camera.json", '{"image_width": 70, "image_height": 40, "camera_matrix": [[250, 0, 60], [0, 250, 10], [0, 0, 1]], '
+                             '"T_camera_scene": [[1, 0, 0, -100], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}')
+check(points(run(edges_of(scan(), small, CameraFile=path))) == points(beside.GetOutput()), "the same camera from a file")
+fails(edges_of(scan(), picture(pixels(step)), CameraFile=path), "40 x 30", "70 x 40")
 fails(edges_of(scan(), small, CameraFile="/nowhere.yaml"), "nowhere")
 set_fields(seen, CameraMatrix=(1, 2))
 fails(edges_of(scan(), seen), "CameraMatrix", "9")
@@ -135,16 +113,7 @@ fails(edges_of(scan(step), ImageEdges=False, DepthEdges=False, Creases=False), "
 fails(edges_of(vtkStructuredGrid()), "no points")
 fails(edges_of(scan(step, lambda x, y: math.nan)), "NaN")
 fails(edges_of(scan()), "no image", "Intensity")
-fails(edges_of(scan(layers=2), picture(step)), "40 x 30 x 2")
-fails(edges_of(scan(), picture(step, 30, 20)), "30 x 20", "40 x 30")
+fails(edges_of(scan(layers=2), picture(pixels(step))), "40 x 30 x 2")
+fails(edges_of(scan(), picture(pixels(step, 30, 20))), "30 x 20", "40 x 30")
 fails(edges_of(scan(), vtkImageData()), "no pixels")
 fails(edges_of(box(1, 1, 1)), "vtkStructuredGrid")
-filter.SetNumberOfThreads(2)
-filter.SetParametersToPaper()
-check((filter.GetImageEdges(), filter.GetDepthEdges(), filter.GetCreases(), filter.GetImageTangents()) ==
-      (True, False, False, False), "the paper's: edges of the image alone")
-check(filter.GetNumberOfThreads() == 2, "the number of threads stays")
-filter.SetParametersToRecommended()
-check(filter.GetDepthEdges() and filter.GetCreases() and filter.GetImageTangents(), "the recommended: all")
-prints(filter, "ImageEdges", "DepthEdges", "Creases", "CreaseAngle", "ImageTangents", "CameraFile", "NumberOfThreads",
-       "Smoothing", "LowThreshold", "HighThreshold", "SearchRadius", "DepthJump")

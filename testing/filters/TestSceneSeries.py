@@ -4,16 +4,8 @@ from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-from ppfmeam.filters import (
-    vtkMEAMBinSceneSource,
-    vtkMEAMConflictResolution,
-    vtkMEAMPoseEstimation,
-    vtkMEAMPoseEvaluation,
-    vtkMEAMPoseInstances,
-    vtkMEAMSamplePartSource,
-    vtkMEAMSceneEdgeExtraction,
-)
-from meamtest import Errors, Trained, check, connect, field, pose_error, run, tuples
+from ppfmeam import filters
+from meamtest import Errors, Trained, check, connect, field, plate, pose_error, run, tuples
 from chains import Detection
 
 TIMES = (0.0, 1.5, 4.0)  # seconds of the three scans
@@ -47,12 +39,11 @@ class Series(VTKPythonAlgorithmBase):
         return 1
 
 
-plate = vtkMEAMSamplePartSource()  # soon trained
-plate.SetPartToHolePlate()
+part = plate()
 
 
 def bin_of(seed):
-    source = connect(vtkMEAMBinSceneSource(), plate, Copies=3, Width=480, Height=360, Seed=seed)
+    source = connect(filters.vtkMEAMBinSceneSource(), part, Copies=3, Width=480, Height=360, Seed=seed)
     run(source)
     return [source.GetOutputDataObject(port) for port in range(3)]
 
@@ -90,14 +81,14 @@ def rightly(poses, truth):
                (pose_error(found, true) for true in tuples(truth, "Transform")))
 
 
-estimation = connect(vtkMEAMPoseEstimation(), model)
+estimation = connect(filters.vtkMEAMPoseEstimation(), model)
 estimation.SetInputConnection(1, series.GetOutputPort(0))
 
 # The chain of single filters, the part's model first where a filter has it first.
-edges = connect(vtkMEAMSceneEdgeExtraction(), series)
+edges = connect(filters.vtkMEAMSceneEdgeExtraction(), series)
 steps = Detection(model, edges, series)
-resolved = connect(vtkMEAMConflictResolution(), steps.selection, model, steps.tangents, series)
-instances = connect(vtkMEAMPoseInstances(), resolved, part)
+resolved = connect(filters.vtkMEAMConflictResolution(), steps.selection, model, steps.tangents, series)
+instances = connect(filters.vtkMEAMPoseInstances(), resolved, part)
 chain = [edges, *steps.steps, resolved, instances]
 
 for filter in (estimation, *chain):
@@ -110,11 +101,11 @@ for step in (0, 1, 2, 1, 0, 2):
     poses = at(estimation, TIMES[step])
     check(rightly(poses, truth), f"step {step}: the first pose is not a true one of its scan")
     check(poses.GetInformation().Get(poses.DATA_TIME_STEP()) == TIMES[step], f"step {step}: the data have another time")
-    alone = connect(vtkMEAMPoseEstimation(), model, scan)
+    alone = connect(filters.vtkMEAMPoseEstimation(), model, scan)
     expected.setdefault(step, tuples(run(alone), "Transform"))
     check(tuples(poses, "Transform") == expected[step], f"step {step}: other poses than of the scan alone")
     found = estimation.GetOutputDataObject(1)
-    check(found.GetNumberOfPoints() == run(connect(vtkMEAMSceneEdgeExtraction(), scan)).GetNumberOfPoints(),
+    check(found.GetNumberOfPoints() == run(connect(filters.vtkMEAMSceneEdgeExtraction(), scan)).GetNumberOfPoints(),
           f"step {step}: the edges are another step's")
     check(rightly(at(resolved, TIMES[step]), truth), f"step {step}: the chain's first pose is not a true one of its scan")
     at(instances, TIMES[step])
@@ -122,14 +113,13 @@ check(len({tuple(poses) for poses in expected.values()}) == 3, "three scans, thr
 
 # What came before the first step is the first step; poses of a scan without time are what they are.
 check(tuples(at(estimation, -7.0), "Transform") == expected[0], "before the first step")
-single = connect(vtkMEAMPoseEstimation(), model, bins[1][0])
+single = connect(filters.vtkMEAMPoseEstimation(), model, bins[1][0])
 single.UpdateInformation()
 check(not single.GetOutputInformation(0).Has(Pipeline.TIME_STEPS()), "a scan alone has no time")
 check(tuples(at(single, 4.0), "Transform") == expected[1], "a scan alone at any time")
 
 # Poses from a file, which have no time, judged against the truths of a series.
-judge = vtkMEAMPoseEvaluation()
-judge.SetInputDataObject(0, bins[1][1])
+judge = connect(filters.vtkMEAMPoseEvaluation(), bins[1][1])
 judge.SetInputConnection(1, series.GetOutputPort(1))
 judge.SetDiameter(diameter)
 judge.SetPosesAskedFor(3)

@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """detect.py and evaluate.py on what sensors and datasets give: depth images, PLY clouds, images of any kind, BOP."""
-import csv
 import json
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkBMPWriter, vtkPNGWriter, vtkTIFFWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 
 import ppfmeam
 from ppfmeam import scripting
 from ppfmeam.filters import vtkMEAMPoseEstimation
-from meamtest import check, connect, pose_error, run, tuples
-from scripttest import H, W, read, scan_of_bin, script, works, write_pcd
+from meamtest import check, connect, picture, pose_error, read, rows_of, run, tuples, write, written
+from scripttest import H, W, scan_of_bin, script, works, write_pcd
 
 def refuses(word, name, *arguments, status=1):
     result = script(name, *arguments)
@@ -23,19 +21,13 @@ def refuses(word, name, *arguments, status=1):
 
 def write_json(path, content):
     os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
-    with open(path, "w", encoding="utf-8") as file:
-        json.dump(content, file)
+    write(path, json.dumps(content))
 
 
 def write_image(path, pixels, writer=vtkPNGWriter):
     """H x W values from the top left."""
     os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(pixels[::-1]).ravel(), deep=True))
-    writer = connect(writer(), image)
-    writer.SetFileName(path)
-    writer.Write()
+    written(path, picture(pixels, pixels.dtype), writer)
 
 
 def write_ply(path, points, grey):
@@ -47,8 +39,7 @@ def write_ply(path, points, grey):
 
 
 def matrices(path):
-    with open(path, encoding="utf-8") as file:
-        return [tuple(row) for row in numpy.array(file.read().split(), float).reshape(-1, 16)]
+    return [tuple(row) for row in numpy.array(read(path).split(), float).reshape(-1, 16)]
 
 
 def all_true(found, what, count=2, distance=1, angle=2):
@@ -67,9 +58,7 @@ grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
 valid = numpy.isfinite(points).all(axis=1)
 fx, _, cx, _, fy, cy, *_ = scan.GetFieldData().GetArray("CameraMatrix").GetTuple(0)
 depth = numpy.rint(numpy.nan_to_num(points[:, 2]) / SCALE).astype(numpy.uint16).reshape(H, W)
-part = connect(vtkPLYWriter(), mesh)
-part.SetFileName("part.ply")
-part.Write()
+written("part.ply", mesh, vtkPLYWriter)
 write_image("depth.png", depth)
 write_image("image.png", grey.reshape(H, W))
 write_json("camera.json", {"fx": fx, "fy": fy, "cx": cx, "cy": cy, "width": W, "height": H, "depth_scale": SCALE})
@@ -149,9 +138,7 @@ model = ppfmeam.load("part.vtpc")
 found = ppfmeam.detect(model, **SEEN, poses=2)
 in_numbers = [tuple(float(f"{value!r}") for value in pose.ravel()) for pose in found.poses]
 check(in_numbers == matrices("v.txt"), f"Python finds {in_numbers} and the command {matrices('v.txt')}")
-filter = connect(vtkMEAMPoseEstimation(), model.data)
-filter.SetInputDataObject(1, scripting.read_scan("robot.ply", 1000))
-filter.SetMaximumNumberOfPoses(2)
+filter = connect(vtkMEAMPoseEstimation(), model.data, scripting.read_scan("robot.ply", 1000), MaximumNumberOfPoses=2)
 filter.SetProjectionToPerspective()
 filter.SetSensorPosition(TURN[:3, 3])
 filter.SetViewDirection(0, 0, 0)
@@ -180,8 +167,7 @@ for words, array, camera in (("needs its camera", depth, None), ("give array[:, 
 os.makedirs("clouds")
 os.rename("robot.ply", "clouds/0.ply")
 works("batch.py", "clouds", *MODEL, "--scene-scale", "1000", *VIEW, "--out", "clouds.csv", "--report", "clouds_pages")
-with open("clouds.csv", encoding="utf-8") as file:
-    rows = list(csv.DictReader(file))
+rows = rows_of("clouds.csv")
 check([tuple(map(float, row["t"].split())) for row in rows] == [(p[3], p[7], p[11]) for p in matrices("v.txt")], f"batch finds {rows}")
 told = works("why.py", "part.vtpc", "clouds/0.ply", "--scale", "1000", *VIEW, "--truth", "v.txt")
 check(told.count("Found as rank") == 2, told)
@@ -228,17 +214,15 @@ os.rename("depth.png", "depths/0.png")
 os.rename("depth.pgm", "depths/1.pgm")
 BATCH = ("batch.py", "depths", *MODEL, "--camera", "camera.json", "--out", "depths.csv")
 works(*BATCH, "--no-image")
-with open("depths.csv", encoding="utf-8") as file:
-    rows = list(csv.DictReader(file))
+rows = rows_of("depths.csv")
 check([row["scan"] for row in rows] == ["0.png"] * 2 + ["1.pgm"] * 2 and not any(row["failure"] for row in rows), f"{rows}")
 for scan in ("0.png", "1.pgm"):
     all_true([(*r[0:3], t[0], *r[3:6], t[1], *r[6:9], t[2], 0, 0, 0, 1)
-              for r, t in (([float(x) for x in row["R"].split()], [float(x) for x in row["t"].split()]) for row in rows if row["scan"] == scan)],
-             "a folder of depth images")
+              for r, t in (([float(x) for x in row["R"].split()], [float(x) for x in row["t"].split()])
+                           for row in rows if row["scan"] == scan)], "a folder of depth images")
 os.remove("depths.csv")
 works(*BATCH)
-with open("depths.csv", encoding="utf-8") as file:
-    check(not any(row["failure"] for row in csv.DictReader(file)), "depth images without an image")
+check(not any(row["failure"] for row in rows_of("depths.csv")), "depth images without an image")
 
 # evaluate.py on a dataset: object 3 is in the first image alone, object 8 in none; the second scene has no truth.
 SCENE = {"cam_K": [fx, 0, cx, 0, fy, cy, 0, 0, 1], "depth_scale": SCALE}
@@ -259,7 +243,7 @@ text = works("evaluate.py", "bop", "set", "--objects", "3", "--poses", "2", "--o
 # Why, in an image of the dataset: of the object's true poses, of a pose of the results, as evaluate.py reads them.
 told = works("why.py", "3", "set/test/000002/000007", "--truth", "--poses", "0").splitlines()
 works("evaluate.py", "bop", "set", "--objects", "3", "--poses", "0", "--why", "lost.csv")
-count = sum(row["found by"] != "" for row in csv.DictReader(read("lost.csv").splitlines()))
+count = sum(row["found by"] != "" for row in rows_of("lost.csv"))
 check(len(told) == len(true) + 1 and told[-1] == f"{count} of {len(true)} were found" and count > 1, f"{told} and {count}")
 told = works("why.py", "set/models/obj_000003.ply", "set/test/000002/000007", "--pose", "results.csv", "--report", "image.html")
 check(told.startswith("Found as rank 1"), told)
@@ -280,10 +264,8 @@ check(rates["failed"] == 0 and [row["part"] for row in rates["objects"]] == [3] 
 table = [line.split() for line in text.splitlines()]
 check(table[0][0] == "obj." and table[1][:3] == ["3", "1", "2"], f"an object in one image: {text}")
 check(float(table[1][4]) == 100 and float(table[1][5]) == 100, f"strict and top1: {text}")
-with open("results.csv", encoding="utf-8") as file:
-    check(file.readline() == "scene_id,im_id,obj_id,score,R,t,time\n", "the header of the benchmark")
-    file.seek(0)
-    rows = list(csv.DictReader(file))
+check(read("results.csv").startswith("scene_id,im_id,obj_id,score,R,t,time\n"), "the header of the benchmark")
+rows = rows_of("results.csv")
 check([(row["scene_id"], row["im_id"], row["obj_id"]) for row in rows] == [("2", "7", "3")] * 2 + [("5", "7", "3")] * 2,
       "two poses of each image")
 for row in rows:
@@ -292,8 +274,7 @@ for row in rows:
     check(0 < float(row["time"]) < 60 and 0 < float(row["score"]) <= 1, f"time and score: {row}")
 check(len({row["time"] for row in rows[:2]}) == 1, "the time is that of the image")
 text = works("evaluate.py", "bop", "set", "--scenes", "5", "--poses", "1", "--out", "other.csv")
-with open("other.csv", encoding="utf-8") as file:
-    check([row["obj_id"] for row in csv.DictReader(file)] == ["3", "8"], "all objects, no figures without truth")
+check([row["obj_id"] for row in rows_of("other.csv")] == ["3", "8"], "all objects, no figures without truth")
 check(text == "", f"no table without truth: {text}")
 
 refuses("no folder val", "evaluate.py", "bop", "set", "--split", "val", "--out", "o.csv")

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The scripts of examples/ that train and detect: a bin scan as files, with the CAD and with the trained model; bad input."""
-import csv
 import json
 import math
 import os
@@ -8,15 +7,13 @@ import re
 import warnings
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import ppfmeam
 from ppfmeam import picture
 from ppfmeam.filters import vtkMEAMBinSceneSource
-from meamtest import box, bracket, check, connect, run, scaled, tuples
-from scripttest import EVALUATION, EXAMPLES, H, W, read, refuses, scan_of_bin, script, works, write_pcd, write_stl
+from meamtest import box, bracket, check, connect, png, read, rows_of, run, scaled, tuples, write
+from scripttest import EVALUATION, EXAMPLES, H, W, refuses, scan_of_bin, script, works, write_pcd, write_stl
 
 SUBCOMMANDS = {"evaluate.py": ("bop",)}
 
@@ -44,13 +41,7 @@ places = vtk_to_numpy(scan.GetPoints().GetData())
 grey = vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))
 write_pcd("scan.pcd", numpy.column_stack((places, grey)), W, H, "x y z intensity")
 write_pcd("plain.pcd", places, W, H, "x y z")
-image = vtkImageData()
-image.SetDimensions(W, H, 1)
-upwards = numpy.ascontiguousarray(grey.reshape(H, W)[::-1]).ravel()
-image.GetPointData().SetScalars(numpy_to_vtk(upwards, deep=True))
-png = connect(vtkPNGWriter(), image)
-png.SetFileName("image.png")
-png.Write()
+png("image.png", grey.reshape(H, W))
 
 # detect.py: the table, the times and three files.
 text = works("detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--poses", "2", "--out", "a.csv", "--json", "a.json",
@@ -119,8 +110,7 @@ for preset in ("recommended", "paper"):
     check(len(entry["symmetries_discrete"]) == 3 and abs(entry["diameter"] - math.sqrt(1400)) < 1e-3, f"{entry}")
 # The pieces go to a folder beside: one that holds something else stays as it is.
 os.mkdir("mine")
-with open(os.path.join("mine", "drawing.step"), "w") as file:
-    file.write("precious")
+write(os.path.join("mine", "drawing.step"), "precious")
 result = script("train.py", "--cad", "box.stl", "--cad-scale", "0.001", "--out", "small.meam")
 check(result.returncode == 0 and re.fullmatch(r"warning: the part is 0\.0\d+ mm long: a file in metres needs --cad-scale 1000\n", result.stderr), result.stderr)
 refuses("other files", "train.py", "--cad", "bracket.stl", "--out", "mine.vtpc")
@@ -147,7 +137,7 @@ write_pcd("two.pcd", numpy.where(halves[:, None], *columns), W, H, "x y z intens
 text = works("detect.py", "--cad", "part.stl", "--cad", "bracket.stl", "--scene", "two.pcd", "--poses", "4",
              "--out", "two.csv", "--json", "two.json", "--matrices", "two.txt")
 check(text.startswith("rank  part  score") and "\ntime: " in text, f"a table with parts: {text}")
-rows = list(csv.DictReader(read("two.csv").splitlines()))
+rows = rows_of("two.csv")
 check(len(rows) == 4 and {row["obj_id"] for row in rows} == {"1", "2"}, f"both types are found: {rows}")
 check([pose["obj_id"] for pose in json.loads(read("two.json"))["poses"]] == [int(row["obj_id"]) for row in rows], "JSON")
 for row, found in zip(rows, numpy.array(read("two.txt").split(), float).reshape(-1, 4, 4)):
@@ -189,8 +179,7 @@ check(result.returncode == 2 and "a --cad for each --model" in result.stderr, re
 # Bad input.
 for name in ("empty.stl", "empty.ply", "empty.obj", "empty.pcd"):
     open(name, "w").close()
-with open("junk.stl", "wb") as file:
-    file.write(bytes(range(256)) * 4)
+write("junk.stl", bytes(range(256)) * 4)
 for name in ("junk.ply", "junk.obj", "junk.pcd", "junk.png", "junk.vtpc"):
     os.link("junk.stl", name)
 with open("cut.stl", "wb") as file, open("part.stl", "rb") as whole:
@@ -198,17 +187,11 @@ with open("cut.stl", "wb") as file, open("part.stl", "rb") as whole:
 with open("points.ply", "w") as file:
     file.write("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                "end_header\n0 0 0\n1 0 0\n0 1 0\n")
-with open("cut.ply", "w") as file:
-    file.write(read("points.ply")[:-4])
+write("cut.ply", read("points.ply")[:-4])
 write_pcd("nan.pcd", numpy.full((12, 3), numpy.nan), 4, 3, "x y z")
 write_pcd("none.pcd", numpy.zeros((0, 3)), 0, 1, "x y z")
 write_pcd("metres.pcd", numpy.column_stack((places / 1000, grey)), W, H, "x y z intensity")
-small = vtkImageData()
-small.SetDimensions(30, 20, 1)
-small.GetPointData().SetScalars(numpy_to_vtk(numpy.zeros(600, numpy.uint8), deep=True))
-png.SetInputDataObject(small)
-png.SetFileName("small.png")
-png.Write()
+png("small.png", numpy.zeros((20, 30)))
 out = ("--out", "o.csv", "--json", "o.json", "--matrices", "o.txt")
 refuses("cannot read none.stl", "detect.py", "--cad", "none.stl", "--scene", "scan.pcd", *out)
 for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "junk.obj", "cut.stl", "cut.ply"):

@@ -4,7 +4,7 @@ Planning with the grasps of each."""
 from ppfmeam.filters import vtkMEAMGraspDefinition, vtkMEAMPickPlanning, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMPoseInstances
 from ppfmeam.report.content import rank_colors
 from ppfmeam.report.told import reasons
-from meamtest import check, cloud, connect, distance, fails, field, poses, prints, run, tuples
+from meamtest import check, cloud, connect, distance, fails, field, poses, run, text, texts, tuples
 from twotypes import two_types
 
 CUP = 8  # mm
@@ -53,8 +53,8 @@ for k, part in enumerate(parts):
     why.SetRankOfPose(k + 1)
     for ask in (lambda: None, lambda: (why.SetPlaceToPoint(), why.SetPosition(matched(why)))):
         ask()
-        text = answer(why)
-        check(text.startswith(f"About part {part + 1} (PartId {part}). Found as rank {k + 1}, "), text)
+        told = answer(why)
+        check(told.startswith(f"About part {part + 1} (PartId {part}). Found as rank {k + 1}, "), told)
         check(field(why.GetOutput(), "PartId") == [(part,)] and distance(place(why)[3::4], transforms[k][3::4]) < 0.1, f"of pose {k}")
     check(field(why.GetOutput(), "Diameter") == [field(found, "Diameter")[part]], "its diameter")
     on.append(matched(why))
@@ -69,13 +69,13 @@ for part in (0, 1):
     missing = parts.index(part)
     why = asked(vtkMEAMPoseDiagnosis(), found=rows_of(found, lambda k: k != missing))
     why.SetPosition(on[missing])
-    text = answer(why)
-    check(text.startswith(f"About part {part + 1} (PartId {part}), which of 2 types has most evidence there. Found as rank "), text)
+    told = answer(why)
+    check(told.startswith(f"About part {part + 1} (PartId {part}), which of 2 types has most evidence there. Found as rank "), told)
     shares = []
     why.AddObserver("ProgressEvent", lambda caller, event: shares.append(caller.GetProgress()))
     why.SetPartId(1 - part)
-    text = answer(why)
-    check(text.startswith(f"About part {2 - part} (PartId {1 - part}). "), text)
+    told = answer(why)
+    check(told.startswith(f"About part {2 - part} (PartId {1 - part}). "), told)
     check(min(share for share in shares if share > 0) >= 0.8, f"nothing is searched again: {shares[:3]}")
     why.SetPosition(on[parts.index(part, missing + 1)])
     check(f"(PartId {1 - part}); rank " in answer(why) and f"part {part + 1} (PartId {part}), came out there." in answer(why), answer(why))
@@ -105,7 +105,6 @@ third = rows_of(found, lambda k: True)
 third.GetPointData().GetArray("PartId").SetComponent(0, 0, 2)
 fails(asked(vtkMEAMPoseDiagnosis(), found=third), "The poses are of 3 types", "connect all to Part", "not 2")
 fails(asked(vtkMEAMPoseDiagnosis(), meshes[::-1], found), "another order")
-prints(alone, "PartId")
 
 # Each at its poses, the best of all.
 instances = connect(vtkMEAMPoseInstances(), found)
@@ -120,17 +119,12 @@ check(copies.GetPointData().GetScalars().GetName() == "PartId", "colored by type
 
 # Picks of each type with its own grasps, best first; what is of the other type stands in the way, too.
 def grasps_of(mesh):
-    filter = connect(vtkMEAMGraspDefinition(), mesh)
-    filter.SetProposeToSuction()
-    filter.SetCupDiameter(CUP)
+    filter = connect(vtkMEAMGraspDefinition(), mesh, Propose=vtkMEAMGraspDefinition.Suction, CupDiameter=CUP)
     return run(filter)
 
 
 def planning(meshes, grasps, found=found):
-    filter = vtkMEAMPickPlanning()
-    filter.SetGripperToSuctionCup()
-    filter.SetCupDiameter(CUP)
-    filter.SetInputDataObject(0, found)
+    filter = connect(vtkMEAMPickPlanning(), found, Gripper=vtkMEAMPickPlanning.SuctionCup, CupDiameter=CUP)
     for port, inputs in ((1, meshes), (2, grasps)):
         for data in inputs:
             filter.AddInputDataObject(port, data)
@@ -148,11 +142,11 @@ check([parts[instance - 1] for instance in instances] == of, "the type of each p
 for part in (0, 1):
     count = held[part].GetNumberOfPoints()
     check(sorted(g for g, p in zip(number, of) if p == part) == sorted(list(range(1, count + 1)) * parts.count(part)), f"grasps of {part}")
-names = [data.GetPointData().GetAbstractArray("GraspName") for data in (picks, *held)]
-check(all(names[0].GetValue(k) == names[1 + part].GetValue(g - 1) for k, (part, g) in enumerate(zip(of, number))), "their names")
+names = [texts(data, "GraspName") for data in (picks, *held)]
+check(all(names[0][k] == names[1 + part][g - 1] for k, (part, g) in enumerate(zip(of, number))), "their names")
 possible = [p for p, in tuples(picks, "Possible")]
 check(possible == sorted(possible, reverse=True) and {part for part, p in zip(of, possible) if p} == {0, 1}, f"possible of both: {possible}")
-check(f" of {len(parts)} copies can be picked" in picks.GetFieldData().GetAbstractArray("PickReport").GetValue(0), "the report")
+check(f" of {len(parts)} copies can be picked" in text(picks, "PickReport"), "the report")
 for wrong in (planning(meshes[:1], held[:1]), connect(vtkMEAMPoseInstances(), found, meshes[0])):
     fails(wrong, "The poses are of 2 types", "connect all to Part", "not 1")
 fails(planning(meshes, held[:1]), "connect to Grasps the grasps of each type", "2 meshes and 1 sets of grasps")

@@ -17,9 +17,8 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 
 from ppfmeam import dataset, evaluation, scripting
 from ppfmeam.commands import evaluate
-from ppfmeam.filters import vtkMEAMSamplePartSource
 from ppfmeam.report import judged, page
-from meamtest import check, close, run
+from meamtest import check, close, connect, plate, read, rows_of, run, write
 from scripttest import EXAMPLES, script
 
 PART = os.path.join(EXAMPLES, "parts", "hole_plate.stl")
@@ -32,13 +31,11 @@ def simulate(*arguments):
 
 
 def load(*path):
-    with open(os.path.join(*path), encoding="utf-8") as file:
-        return json.load(file)
+    return json.loads(read(os.path.join(*path)))
 
 
 def pixels(*path):
-    reader = vtkPNGReader()
-    reader.SetFileName(os.path.join(*path))
+    reader = connect(vtkPNGReader(), FileName=os.path.join(*path))
     check(reader.CanReadFile(reader.GetFileName()), f"{reader.GetFileName()} is not there")
     image = run(reader)
     width, height, _ = image.GetDimensions()
@@ -54,11 +51,8 @@ check(sorted(os.listdir("plates")) == ["camera.json", "models", "test"], f"{os.l
 check(sorted(os.listdir("plates/test")) == ["000000", "000001"], "two scenes")
 
 # The part.
-source = vtkMEAMSamplePartSource()
-source.SetPartToHolePlate()
-part = run(source)
-ply = vtkPLYReader()
-ply.SetFileName("plates/models/obj_000001.ply")
+part = plate()
+ply = connect(vtkPLYReader(), FileName="plates/models/obj_000001.ply")
 check(close(run(ply).GetBounds(), part.GetBounds()), "the model is not the part")
 info = load("plates/models/models_info.json")["1"]
 check(abs(info["diameter"] - 84.5) < 0.5 and close([info["size_x"]], [74]), f"{info}")
@@ -132,8 +126,7 @@ check(lines[at].split()[-6:] == ["ADD", "ADI", "MSSD", "MSPD", "VSD", "AR"], lin
 recalls = [float(word) for word in lines[at + 1].split()[1:]]
 check(len(recalls) == 6 and all(50 < recall <= 100 for recall in recalls[1:]), lines[at + 1])
 check(abs(recalls[5] - sum(recalls[2:5]) / 3) < 0.2, "AR is the mean of three")
-with open("plates.csv", newline="", encoding="utf-8") as table:
-    found = list(csv.DictReader(table))
+found = rows_of("plates.csv")
 check(len(found) >= 6, "poses of both bins")
 check(0 < float(lines[1].split()[8]) <= 100 and lines[0].split()[8] == "AP2-20", lines[0])
 check(0 < float(lines[1].split()[9]) <= 100 and lines[0].split()[9] == "R@99", lines[0])
@@ -172,13 +165,11 @@ check(done.stdout.splitlines()[1].split()[4] == "0.0", done.stdout)
 REPORT = ("--report", "found.html") if HAS_THREE else ()
 done = script("evaluate.py", "bop", "plates", "--scenes", "0", "--poses", "0", "--why", "why.csv", *REPORT)
 check(done.returncode == 0, done.stderr)
-with open("why.csv", newline="", encoding="utf-8") as table:
-    rows = list(csv.DictReader(table))
+rows = rows_of("why.csv")
 check(len(rows) == COPIES and all((row["found by"] == "") == (row["why"] != "") and row["visible"] for row in rows), f"{rows}")
 def of_page(path):
     """The texts, the cells of each row, and of each image what it shows."""
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
+    text = read(path)
     cells = [re.findall("<td>(.*?)</td>", row) for row in re.findall("<tr[^>]*>(.*?)</tr>", text[:text.index("<iframe")])[1:]]
     return text, cells, {place: json.loads(data) for place, data in re.findall('id="(image\\d+)">(.*?)</script>', text)}
 
@@ -230,8 +221,7 @@ if HAS_THREE:
         truth, poses = image.truth_of(1), stored.poses(image, 1)
         shown.add(str(scene), image, None, {1: (poses, truth, run_.judged_image(poses, truth), {})}, [], options)
     shown.add_failed("2", "cannot read it")
-    with open("few.html", "w", encoding="utf-8") as file:
-        file.write(shown.html("plates", "figures"))
+    write("few.html", shown.html("plates", "figures"))
     text, cells, images = of_page("few.html")
     worst = max((0, 1), key=lambda place: int(cells[place][3]) + int(cells[place][4]))
     check(list(images) == [f"image{worst}"] and "the scans of 1 images with" in text and len(cells) == 3 and cells[2][5] == "cannot read it", f"{cells}")

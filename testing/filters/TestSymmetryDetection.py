@@ -2,19 +2,15 @@
 """A box has three half turns; with a notch it keeps them nearly, and the deviation shows the notch."""
 import json
 import math
-import os
-import tempfile
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMSurfaceSampling, vtkMEAMSymmetryDetection
-from meamtest import box, check, cloud, connect, fails, field, image, mesh, points, prints, run, tuples
+from meamtest import Folder, box, check, cloud, connect, fails, field, image, mesh, points, run, text, tuples
 
 
 def detection(data, spacing=0.8):
-    sampling = connect(vtkMEAMSurfaceSampling(), data, Spacing=spacing)
-    filter = connect(vtkMEAMSymmetryDetection(), sampling)
-    return filter
+    return connect(vtkMEAMSymmetryDetection(), connect(vtkMEAMSurfaceSampling(), data, Spacing=spacing))
 
 
 found = run(detection(box(30, 20, 10)))
@@ -26,7 +22,7 @@ for turn in turns:
     centre = [sum(turn[4 * row + k] * c for k, c in enumerate((15, 10, 5, 1))) for row in range(3)]
     check(math.dist(centre, (15, 10, 5)) < 0.1, f"the middle moves to {centre}")
 check(max(tuples(found, "Deviation")) == (0,), "nothing deviates")
-entry = json.loads(found.GetFieldData().GetAbstractArray("ModelsInfo").GetValue(0))
+entry = json.loads(text(found, "ModelsInfo"))
 check(len(entry["symmetries_discrete"]) == 3 and abs(entry["size_x"] - 30) < 0.01, f"models_info.json: {entry}")
 check(len(field(found, "Diameter")) == 1, "the diameter travels on")
 
@@ -54,15 +50,11 @@ fails(connect(vtkMEAMSymmetryDetection(), cloud([(0, 0, 0), (1, 0, 0), (0, 1, 0)
 fails(connect(vtkMEAMSymmetryDetection(), image()), "vtkPolyData")
 
 # Exact symmetries from a file: the box is said to have one half turn alone.
-with tempfile.TemporaryDirectory() as folder:
-    path = os.path.join(folder, "models_info.json")
-    turned = [-1, 0, 0, 30, 0, -1, 0, 20, 0, 0, 1, 0, 0, 0, 0, 1]
-    with open(path, "w") as file:
-        json.dump({"4": {"symmetries_discrete": [turned]}}, file)
-    filter = detection(box(30, 20, 10))
-    filter.SetModelsInfoFile(path)
-    filter.SetObjectId(4)
-    check(field(run(filter), "SymmetriesDiscrete") == [tuple(turned)], "the symmetries of the file")
-    filter.SetObjectId(5)
-    fails(filter, "no object 5")
-prints(vtkMEAMSymmetryDetection(), "Tolerance", "LeastOverlap", "ShownNearSymmetry", "ModelsInfoFile", "ObjectId")
+folder = Folder()
+turned = [-1, 0, 0, 30, 0, -1, 0, 20, 0, 0, 1, 0, 0, 0, 0, 1]
+filter = detection(box(30, 20, 10))
+filter.SetModelsInfoFile(folder("models_info.json", json.dumps({"4": {"symmetries_discrete": [turned]}})))
+filter.SetObjectId(4)
+check(field(run(filter), "SymmetriesDiscrete") == [tuple(turned)], "the symmetries of the file")
+filter.SetObjectId(5)
+fails(filter, "no object 5")

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """testing/evaluation/tohoku.py on a tenth of the scenes of the Tohoku data, with --long on all: enough of the top five are right
 on every part, enough of the visible instances come out, they are precise, and what it prints agrees with what it wrote."""
-import csv
 import os
 import subprocess
 import sys
 import tempfile
 
-from meamtest import LONG, check, skip
+from meamtest import LONG, check, rows_of, skip
 
 SCENES = range(20) if LONG else (3, 12)
 STRICT = 98.0  # percent of the top five, each instance once, missing poses wrong
@@ -23,8 +22,7 @@ with tempfile.TemporaryDirectory() as out:
     subprocess.run([sys.executable, os.path.join(root, "testing", "evaluation", "tohoku.py"), data, "--matrices", out, "--out", rows,
                     "--scenes", ",".join(map(str, SCENES))],
                    check=True)
-    with open(rows, newline="", encoding="utf-8") as table:
-        rows = list(csv.DictReader(table))
+    rows = rows_of(rows)
     check([row["part"] for row in rows] == ["1", "2", "3"], rows)
     for row in rows:
         check(float(row["strict"]) >= STRICT, f"part {row['part']}: {row['strict']} % of the top five")

@@ -9,7 +9,7 @@ import sys
 from ppfmeam import scripting
 from ppfmeam.commands import SUMMARIES
 from batchtest import H, W, dataset
-from meamtest import check, skip
+from meamtest import check, skip, write
 from scripttest import EVALUATION, write_pcd
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -47,8 +47,7 @@ for path in ("scan.pcd", "protected/scans/scan.pcd"):
 axes = ([1, 0, 0], [0, 1, 0], [0, 0, 1])
 turns = [[axes[k], axes[(k + 1) % 3], axes[(k + 2) % 3]] for k in range(3)]
 poses = [[[*row, 10.0 * k + i] for i, row in enumerate(turn)] + [[0, 0, 0, 1]] for k, turn in enumerate(turns)]
-with open("pairs.json", "w", encoding="utf-8") as file:
-    json.dump({"pairs": [{"T_base_gripper": pose, "T_camera_target": pose} for pose in poses]}, file)
+write("pairs.json", json.dumps({"pairs": [{"T_base_gripper": pose, "T_camera_target": pose} for pose in poses]}))
 os.chmod("protected/scans", 0o555)
 os.chmod("protected", 0o555)
 

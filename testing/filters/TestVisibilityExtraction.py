@@ -6,8 +6,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import (vtkMEAMBoundaryExtraction, vtkMEAMHashing, vtkMEAMMeshPreparation, vtkMEAMSurfaceSampling,
                              vtkMEAMTangentEstimation, vtkMEAMVisibilityExtraction)
-from meamtest import (box, check, close, cloud, connect, fails, field, image, mesh, partitions, points, prints, run,
-                      tuples)
+from meamtest import box, check, close, cloud, connect, fails, field, image, mesh, partitions, points, run, tuples
 
 SIZE = (10, 10, 10)
 DIRECTIONS = [(0, 0, 1), (0, 0, -1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)]
@@ -74,8 +73,7 @@ for v, (_, view) in enumerate(partitions(run(exact))):
     check(tuples(view, "Normals") == [normals[i] for i in side], "normals stay outward")
     away = [p - 5 for p in field(view, "Viewpoint")[0]]
     check(close([a / math.hypot(*away) for a in away], DIRECTIONS[v], 2e-3), "the viewpoint is known")
-connection = connect(vtkMEAMVisibilityExtraction(), samples)
-connection.SetMethodToMeshVisibility()
+connection = connect(vtkMEAMVisibilityExtraction(), samples, Method=vtkMEAMVisibilityExtraction.MeshVisibility)
 fails(connection, "needs the mesh", "connect")
 source = connect(vtkMEAMMeshPreparation(), box(*SIZE))
 connection.SetMeshConnection(source.GetOutputPort())
@@ -108,12 +106,9 @@ cone.SetConeDirection(0, 0, 0)
 fails(cone, "direction of the cone")
 
 fails(views(vtkPolyData()), "no points")
-wrong = connect(vtkMEAMVisibilityExtraction(), samples, box(5, 5, 5))
-wrong.SetMethodToMeshVisibility()
+wrong = connect(vtkMEAMVisibilityExtraction(), samples, box(5, 5, 5), Method=vtkMEAMVisibilityExtraction.MeshVisibility)
 fails(wrong, "not of this mesh")
 fails(views(cloud([(math.nan, 0, 0)] * 5)), "NaN")
 fails(views(image()), "vtkPolyData")
-filter = vtkMEAMVisibilityExtraction()
-filter.SetNumberOfViewpoints(-1)
+filter = connect(vtkMEAMVisibilityExtraction(), NumberOfViewpoints=-1)
 check(filter.GetNumberOfViewpoints() == 0, "not less than none")
-prints(filter, "Method", "NumberOfViewpoints", "ConeDirection", "ConeAngle", "RadiusFactor", "ViewpointDistance")

@@ -6,8 +6,8 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import ppfmeam
-from meamtest import check, tuples
-from scripttest import H, W, read, refuses, scan_of_bin, works, write_pcd, write_stl
+from meamtest import check, read, tuples
+from scripttest import H, W, refuses, scan_of_bin, works, write_pcd, write_stl
 
 scan, truth, mesh = scan_of_bin()
 write_stl("part.stl", mesh)

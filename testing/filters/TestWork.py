@@ -6,7 +6,7 @@ import os
 import sys
 
 from ppfmeam import filters, scripting
-from meamtest import check, field
+from meamtest import check, connect, field
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "evaluation"))
 import scenes
@@ -28,10 +28,7 @@ def searches():
 
 
 def counts_of(model, scan, most):
-    estimation = filters.vtkMEAMPoseEstimation()
-    estimation.SetInputDataObject(model)
-    estimation.SetInputDataObject(1, scan)
-    estimation.SetMaximumNumberOfPoses(most)
+    estimation = connect(filters.vtkMEAMPoseEstimation(), model, scan, MaximumNumberOfPoses=most)
     found = scripting.update(estimation).GetOutput()
     return [int(field(found, "Work" + name)[0][0]) for name in COUNTS]
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of many scans share: small bins as a dataset, runs that are killed. Not a test."""
-import csv
 import glob
 import os
 import signal
@@ -9,28 +8,17 @@ import sys
 import time
 
 from ppfmeam import bop, filters, scripting
-from meamtest import check
+from meamtest import check, connect, plate, rows_of
 
 BATCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "batch.py")
 W, H = 320, 240
 
 
-def plate():
-    part = filters.vtkMEAMSamplePartSource()
-    part.SetPartToHolePlate()
-    part.Update()
-    return scripting.prepare_mesh(part.GetOutput())
-
-
 def dataset(folder, scenes, width=W, height=H, copies=3):
     """Writes bins of plates, one in each scene. Returns the trained model and the last scan."""
-    mesh = plate()
+    mesh = scripting.prepare_mesh(plate())
     training = scripting.Training(mesh)
-    source = filters.vtkMEAMBinSceneSource()
-    source.SetInputDataObject(mesh)
-    source.SetCopies(copies)
-    source.SetWidth(width)
-    source.SetHeight(height)
+    source = connect(filters.vtkMEAMBinSceneSource(), mesh, Copies=copies, Width=width, Height=height)
     os.makedirs(folder)
     for scene in range(scenes):
         source.SetSeed(scene + 1)
@@ -45,11 +33,6 @@ def dataset(folder, scenes, width=W, height=H, copies=3):
 def content(path):
     with open(path, "rb") as file:
         return file.read()
-
-
-def rows(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
 
 
 def children(process):
@@ -110,7 +93,7 @@ def survives(out, *command):
     first = subprocess.run(command, capture_output=True, text=True)
     check(first.returncode != 0 and not os.path.exists(out), f"nothing has crashed: {first.returncode}, {first.stderr}")
     finished(*command)
-    failures = {row["scan"]: row["failure"] for row in rows(out) if row["failure"]}
+    failures = {row["scan"]: row["failure"] for row in rows_of(out) if row["failure"]}
     check(failures.get("000002/000000") == "it ended the process that searched it: SIGSEGV", f"{failures}")
 
 

@@ -1,24 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the filter tests share: error collection, small inputs, a trained part, comparisons. Not a test."""
+import csv
 import math
 import os
 import sys
+import tempfile
 
-from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPartitionedDataSetCollection, vtkPolyData
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPartitionedDataSetCollection, vtkPolyData, vtkStructuredGrid
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
-from ppfmeam.filters import (
-    vtkMEAMBoundaryExtraction,
-    vtkMEAMHashing,
-    vtkMEAMMeshPreparation,
-    vtkMEAMSurfaceSampling,
-    vtkMEAMSymmetryDetection,
-    vtkMEAMTangentEstimation,
-    vtkMEAMVisibilityExtraction,
-)
+from ppfmeam import filters
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "evaluation"))  # chains and the like
 
@@ -37,25 +33,55 @@ def skip(message):
     sys.exit(SKIPPED)
 
 
+class Folder:
+    """A temporary folder: folder(name) is the path of a file in it, which is written when there is a content."""
+
+    def __init__(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.name = self.folder.name
+
+    def __call__(self, name, content=None):
+        path = os.path.join(self.name, name)
+        if content is not None:
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            write(path, content)
+        return path
+
+    def text(self, name):
+        return read(self(name))
+
+
+def write(path, content):
+    """Text, or bytes."""
+    with open(path, "wb") as file:
+        file.write(content.encode() if isinstance(content, str) else content)
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def rows_of(path):
+    """Of a CSV file."""
+    return list(csv.DictReader(read(path).splitlines()))
+
+
+def concrete_classes():
+    """Ours that are algorithms."""
+    for name in dir(filters):
+        kind = getattr(filters, name)
+        if name.startswith("vtkMEAM") and hasattr(kind, "GetOutputPort"):
+            try:
+                kind()
+            except (TypeError, NotImplementedError):
+                continue  # abstract
+            yield kind
+
+
 class Errors:
     """Collects what an algorithm and its pipeline report on the error channel."""
-
-    def __init__(self, algorithm):
-        self.messages = []
-
-        def collect(caller, event, text):
-            self.messages.append(text)
-
-        collect.CallDataType = "string0"
-        algorithm.AddObserver("ErrorEvent", collect)
-        algorithm.GetExecutive().AddObserver("ErrorEvent", collect)
-
-    def __str__(self):
-        return "\n".join(self.messages)
-
-
-class Warnings:
-    """Collects what an algorithm warns of, and keeps it from the console."""
+    EVENT = "ErrorEvent"
 
     def __init__(self, algorithm):
         self.algorithm, self.messages = algorithm, []
@@ -64,10 +90,16 @@ class Warnings:
             self.messages.append(text)
 
         collect.CallDataType = "string0"
-        algorithm.AddObserver("WarningEvent", collect)
+        for source in (algorithm, algorithm.GetExecutive()):
+            source.AddObserver(self.EVENT, collect)
 
     def __str__(self):
         return "\n".join(self.messages)
+
+
+class Warnings(Errors):
+    """Collects what an algorithm warns of, and keeps it from the console."""
+    EVENT = "WarningEvent"
 
 
 def run(algorithm):
@@ -96,13 +128,6 @@ def fails(algorithm, *words):
         check(word.lower() in text.lower(), f"{algorithm.GetClassName()} does not say '{word}': {text}")
     output = algorithm.GetOutputDataObject(0)
     check(output is None or is_empty(output), f"{algorithm.GetClassName()} failed but its output is not empty")
-
-
-def prints(algorithm, *names):
-    """PrintSelf shows every one of these properties."""
-    text = str(algorithm)
-    for name in names:
-        check(f"{name}: " in text, f"PrintSelf of {algorithm.GetClassName()} lacks {name}")
 
 
 def cloud(points, **arrays):
@@ -158,13 +183,16 @@ def bracket():
     return mesh(corners, faces)
 
 
+def plate():
+    """The sample part that is soon trained."""
+    return run(connect(filters.vtkMEAMSamplePartSource(), Part=filters.vtkMEAMSamplePartSource.HolePlate))
+
+
 def scaled(data, factor):
     """Data in another unit."""
     transform = vtkTransform()
     transform.Scale(factor, factor, factor)
-    filter = connect(vtkTransformFilter(), data)
-    filter.SetTransform(transform)
-    return run(filter)
+    return run(connect(vtkTransformFilter(), data, Transform=transform))
 
 
 def connect(algorithm, *inputs, **properties):
@@ -183,13 +211,13 @@ class Trained:
     """The offline phase: every step, and the model."""
 
     def __init__(self, part):
-        self.prepared = connect(vtkMEAMMeshPreparation(), part)
-        self.samples = connect(vtkMEAMSurfaceSampling(), self.prepared)
-        self.views = connect(vtkMEAMVisibilityExtraction(), self.samples)
-        self.edges = connect(vtkMEAMBoundaryExtraction(), self.views)
-        self.tangents = connect(vtkMEAMTangentEstimation(), self.edges)
-        self.symmetries = connect(vtkMEAMSymmetryDetection(), self.samples)
-        self.model = connect(vtkMEAMHashing(), self.tangents, self.symmetries)
+        self.prepared = connect(filters.vtkMEAMMeshPreparation(), part)
+        self.samples = connect(filters.vtkMEAMSurfaceSampling(), self.prepared)
+        self.views = connect(filters.vtkMEAMVisibilityExtraction(), self.samples)
+        self.edges = connect(filters.vtkMEAMBoundaryExtraction(), self.views)
+        self.tangents = connect(filters.vtkMEAMTangentEstimation(), self.edges)
+        self.symmetries = connect(filters.vtkMEAMSymmetryDetection(), self.samples)
+        self.model = connect(filters.vtkMEAMHashing(), self.tangents, self.symmetries)
 
 
 class MovedView:
@@ -208,11 +236,7 @@ class MovedView:
 
     @staticmethod
     def moved(data, motion):
-        filter = vtkTransformFilter()
-        filter.SetTransform(motion)
-        filter.SetInputDataObject(data)
-        filter.Update()
-        return filter.GetOutput()
+        return run(connect(vtkTransformFilter(), data, Transform=motion))
 
     def shifted(self, x=0.0, y=0.0, z=0.0, turned=False):
         """The true pose, moved; `turned`: upside down about the middle of the bracket (y -> 25 - y, z -> 15 - z)."""
@@ -230,7 +254,7 @@ def trained_bracket():
     """The bracket trained, its model, what a sensor sees of it, and that one's edges with tangents."""
     trained = Trained(bracket())
     model, scene = run(trained.model), MovedView(trained)
-    return trained, model, scene, run(connect(vtkMEAMTangentEstimation(), scene.edges, model))
+    return trained, model, scene, run(connect(filters.vtkMEAMTangentEstimation(), scene.edges, model))
 
 
 def collection(*pieces, **fields):
@@ -267,19 +291,31 @@ def image(width=4, height=3):
     return data
 
 
-def png(path, rows, kind=VTK_UNSIGNED_CHAR):
-    """Writes a PNG file of rows of pixels, from the top left; a pixel is a tuple. Returns the path."""
-    data = vtkImageData()
-    data.SetDimensions(len(rows[0]), len(rows), 1)
-    data.AllocateScalars(kind, len(rows[0][0]))
-    for y, row in enumerate(reversed(rows)):
-        for x, pixel in enumerate(row):
-            for c, value in enumerate(pixel):
-                data.SetScalarComponentFromDouble(x, y, 0, c, value)
-    writer = vtkPNGWriter()
-    writer.SetInputData(data)
-    writer.SetFileName(path)
-    writer.Write()
+def picture(rows, dtype="uint8"):
+    """An image of rows of pixels, from the top left; a pixel is a number or a tuple."""
+    pixels = numpy.asarray(rows, dtype)[::-1]
+    data = image(pixels.shape[1], pixels.shape[0])
+    data.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(pixels.shape[0] * pixels.shape[1], -1), deep=True))
+    return data
+
+
+def png(path, rows, *dtype):
+    """Writes it as a PNG file. Returns the path."""
+    return written(path, picture(rows, *dtype), vtkPNGWriter)
+
+
+def grid(width, height, places, layers=1):
+    """An organized scan."""
+    data, coordinates = vtkStructuredGrid(), vtkPoints()
+    coordinates.SetData(numpy_to_vtk(numpy.asarray(places, "float32"), deep=True))
+    data.SetDimensions(width, height, layers)
+    data.SetPoints(coordinates)
+    return data
+
+
+def written(path, data, kind):
+    """Writes the data with a writer of that kind. Returns the path."""
+    connect(kind(), data, FileName=path).Write()
     return path
 
 
@@ -295,6 +331,17 @@ def field(data, name):
     array = data.GetFieldData().GetArray(name)
     check(array is not None, f"no field data {name}")
     return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+
+
+def text(data, name):
+    """The string of a field data array."""
+    return data.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def texts(data, name):
+    """A point array of strings."""
+    array = data.GetPointData().GetAbstractArray(name)
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
 
 
 def points(data):

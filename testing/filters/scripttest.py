@@ -10,8 +10,8 @@ import tempfile
 import numpy
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
-from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMSamplePartSource
-from meamtest import check, connect, run
+from ppfmeam.filters import vtkMEAMBinSceneSource
+from meamtest import check, connect, plate, run
 
 TESTING = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 EXAMPLES, EVALUATION = os.path.join(TESTING, "..", "examples"), os.path.join(TESTING, "evaluation")
@@ -57,16 +57,8 @@ def write_pcd(path, columns, width, height, fields):
         file.write(numpy.ascontiguousarray(columns, dtype="<f4").tobytes())
 
 
-def read(path):
-    with open(path) as file:
-        return file.read()
-
-
 def write_stl(path, mesh):
-    writer = connect(vtkSTLWriter(), mesh)
-    writer.SetFileName(path)
-    writer.SetFileTypeToBinary()
-    writer.Write()
+    connect(vtkSTLWriter(), mesh, FileName=path, FileType=2).Write()  # binary
 
 
 W, H = 480, 360
@@ -74,8 +66,6 @@ W, H = 480, 360
 
 def scan_of_bin():
     """Of three copies of the plate, which is trained in a third of the sample part's time: the scan, the true poses, the part."""
-    plate = vtkMEAMSamplePartSource()
-    plate.SetPartToHolePlate()
-    source = connect(vtkMEAMBinSceneSource(), plate, Copies=3, Width=W, Height=H)
+    source = connect(vtkMEAMBinSceneSource(), plate(), Copies=3, Width=W, Height=H)
     run(source)
     return [source.GetOutputDataObject(port) for port in range(3)]

@@ -7,17 +7,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkStructuredGrid
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
-from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMSamplePartSource
-from meamtest import bracket, connect, run
+from ppfmeam.filters import vtkMEAMBinSceneSource
+from meamtest import bracket, connect, plate, run, written
 
 W, H = 640, 480
 HALF = numpy.tile(numpy.arange(W) >= W // 2, H)  # the right one, row by row
-
-
-def plate():
-    part = vtkMEAMSamplePartSource()
-    part.SetPartToHolePlate()
-    return run(part)
 
 
 def two_types():
@@ -38,9 +32,7 @@ def write(folder):
     """plate.stl, bracket.stl and scan.pcd."""
     meshes, scan = two_types()
     for name, mesh in zip(("plate", "bracket"), meshes):
-        writer = connect(vtkSTLWriter(), mesh)
-        writer.SetFileName(os.path.join(folder, f"{name}.stl"))
-        writer.Write()
+        written(os.path.join(folder, f"{name}.stl"), mesh, vtkSTLWriter)
     columns = numpy.column_stack((vtk_to_numpy(scan.GetPoints().GetData()), vtk_to_numpy(scan.GetPointData().GetArray("Intensity"))))
     with open(os.path.join(folder, "scan.pcd"), "wb") as file:
         file.write(f"VERSION .7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH {W}\nHEIGHT {H}\n"

@@ -8,9 +8,8 @@ import tempfile
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "filters"))
 
-from batchtest import (BATCH, children, command, content, dataset, deadly, finished, killed,  # noqa: E402
-                       rows, survives)  # noqa: E402
-from meamtest import check, skip  # noqa: E402
+from batchtest import BATCH, children, command, content, dataset, deadly, finished, killed, survives  # noqa: E402
+from meamtest import check, rows_of, skip  # noqa: E402
 from ppfmeam import scripting  # noqa: E402
 
 try:
@@ -48,11 +47,11 @@ for start, name in ((pvbatch, "paraview.csv"), (python, "python.csv")):
     text = finished(*start(name))
     check(text.startswith(f"{name}: {SCENES} scans, 1 failed, ") and text.count("\n") == 1, text)
     check(content(name) == content("one.csv"), f"{name} is not the table of one process")
-    check({row["process"] for row in rows(name.replace(".csv", ".scans.csv"))} == {"0", "1"}, "both processes work")
+    check({row["process"] for row in rows_of(name.replace(".csv", ".scans.csv"))} == {"0", "1"}, "both processes work")
 
 # Parts are trained once.
 finished(*TWO, PVBATCH, "--symmetric", BATCH, "bins", "--cad", "bins/models/obj_000001.ply", "--out", "cad.csv")
-check(len(rows("cad.csv")) == len(rows("one.csv")), "a part from its CAD file")
+check(len(rows_of("cad.csv")) == len(rows_of("one.csv")), "a part from its CAD file")
 
 # kill -9 of one process, and of the one that has started them; then alone.
 killed("killed.csv", lambda process: children(process)[1], *pvbatch("killed.csv"))
