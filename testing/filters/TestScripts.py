@@ -196,7 +196,7 @@ out = ("--out", "o.csv", "--json", "o.json", "--matrices", "o.txt")
 refuses("cannot read none.stl", "detect.py", "--cad", "none.stl", "--scene", "scan.pcd", *out)
 for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "junk.obj", "cut.stl", "cut.ply"):
     refuses(name, "detect.py", "--cad", name, "--scene", "scan.pcd", *out)
-refuses("no faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
+refuses("mesh with faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
 refuses("mesh with faces", "detect.py", "--cad", "scan.pcd", "--scene", "scan.pcd", *out)
 refuses("it is a trained model, for the --model of commands that take one", "detect.py", "--cad", "model.vtpc", "--scene", "scan.pcd", *out)
 refuses("unknown kind of file; known are .off", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
@@ -243,7 +243,7 @@ except ppfmeam.Error as error:
 os.environ["PATH"] = path
 if display:
     os.environ["DISPLAY"] = display
-refuses("no faces", "train.py", "--cad", "points.ply", "--out", "o.vtpc")
+refuses("mesh with faces", "train.py", "--cad", "points.ply", "--out", "o.vtpc")
 refuses(".vtpc", "train.py", "--cad", "bracket.stl", "--out", "o.model")
 refuses("cannot write", "train.py", "--cad", "part.stl", "--out", "o.vtpc", "--models-info", "no/such/folder.json")
 os.remove("model/model_0_0.vtp")

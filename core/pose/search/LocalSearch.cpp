@@ -200,6 +200,11 @@ LocalSearch::Result LocalSearch::best(Pose pose) const
   return { pose, moved.evidence, this->Collector.placeOdds(moved.evidence.counts, this->Rates).sum() };
 }
 
+double LocalSearch::placeLogOdds(const Eigen::Isometry3d& T_scene_model) const
+{
+  return this->Collector.placeOdds(this->Collector.collect(T_scene_model).counts, this->Rates).sum();
+}
+
 void LocalSearch::restart(Pose& pose, Contender& current) const
 {
   const double probability = claimOf(pose, false);

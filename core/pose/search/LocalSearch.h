@@ -46,6 +46,8 @@ public:
   };
   /// The pose, or the one that the scene speaks for most.
   Result best(Pose pose) const;
+  /// Logarithm of the odds that a copy is at a pose as it is.
+  double placeLogOdds(const Eigen::Isometry3d& T_scene_model) const;
 
 private:
   using Contender = PoseComparison::Contender;

@@ -15,6 +15,7 @@ namespace
 constexpr int Lot = 8;                 // instances that are finished before it is asked whether they do,
 constexpr int LeastLot = 4;            // or those that are still wanted, and no fewer
 constexpr double WorthFinishing = 0.5; // place: what is likelier is finished where not enough are sure
+constexpr double WorthJudging = 1e-3;  // place: what is not finished is judged where it lies
 constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will,
 constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for, but no fewer than
 constexpr int LeastFruitless = 16;     // these: the order by scores is not that of finished poses
@@ -72,6 +73,23 @@ bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& 
     });
 }
 
+void InstanceFinishing::judgeAsTheyAre(FinishedInstances::iterator begin, FinishedInstances::iterator end) const
+{
+  parallelFor(static_cast<int>(end - begin), this->Settings.threads, {},
+    [&](int first, int last, int)
+    {
+      for (auto one = begin + first; one != begin + last; ++one)
+      {
+        FinishedInstance& instance = *one;
+        if (instance.pose.placeProbability > WorthJudging)
+        {
+          instance.logOdds = this->Search.placeLogOdds(instance.pose.T_scene_model);
+          setEvidence(instance.pose, instance.logOdds);
+        }
+      }
+    });
+}
+
 FinishedInstances InstanceFinishing::finished(
   const Poses& scored, const std::vector<int>& selected, const Progress& progress) const
 {
@@ -97,6 +115,7 @@ FinishedInstances InstanceFinishing::finished(
     }
     if (fruitless >= most && finished[next].pose.placeProbability < WorthFinishing)
     {
+      this->judgeAsTheyAre(finished.begin() + next, finished.end());
       break;
     }
     const double from = static_cast<double>(next) / count;

@@ -35,6 +35,8 @@ private:
   };
   FinishedInstance finish(const Pose& scored) const;
   bool isExcluded(const Pose& scored, const std::vector<Sure>& sure) const;
+  /// What is said of those that are not finished, where they lie.
+  void judgeAsTheyAre(FinishedInstances::iterator begin, FinishedInstances::iterator end) const;
 
   const Scene& InScene;
   const TrainedModel& Model;

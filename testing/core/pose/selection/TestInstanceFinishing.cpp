@@ -56,7 +56,8 @@ int finishedOf(const Finishing& finishing)
   int count = 0;
   for (std::size_t k = 0; k < finished.size(); ++k)
   {
-    count += finished[k].logOdds == finishing.scored[k].evidence ? 0 : 1;
+    const Eigen::Isometry3d& T = finished[k].pose.T_scene_model;
+    count += T.matrix() == finishing.scored[k].T_scene_model.matrix() ? 0 : 1;
   }
   return count;
 }
