@@ -73,21 +73,13 @@ bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& 
     });
 }
 
-void InstanceFinishing::judgeAsTheyAre(FinishedInstances::iterator begin, FinishedInstances::iterator end) const
+void InstanceFinishing::judgeWhereItLies(FinishedInstance& instance) const
 {
-  parallelFor(static_cast<int>(end - begin), this->Settings.threads, {},
-    [&](int first, int last, int)
-    {
-      for (auto one = begin + first; one != begin + last; ++one)
-      {
-        FinishedInstance& instance = *one;
-        if (instance.pose.placeProbability > WorthJudging)
-        {
-          instance.logOdds = this->Search.placeLogOdds(instance.pose.T_scene_model);
-          setEvidence(instance.pose, instance.logOdds);
-        }
-      }
-    });
+  if (!instance.isLeft && instance.pose.placeProbability > WorthJudging)
+  {
+    instance.logOdds = this->Search.placeLogOdds(instance.pose.T_scene_model);
+    setEvidence(instance.pose, instance.logOdds);
+  }
 }
 
 FinishedInstances InstanceFinishing::finished(
@@ -103,6 +95,7 @@ FinishedInstances InstanceFinishing::finished(
   const int wanted = this->Settings.sureCopies > 0 ? this->Settings.sureCopies : asked > 0 ? asked + SpareCopies : 0;
   const int most = asked > 0 ? std::clamp(FruitlessOfAsked * asked, LeastFruitless, MostFruitless) : MostFruitless;
   int fruitless = 0;
+  std::vector<int> asScored;
   const int count = static_cast<int>(selected.size());
   for (int next = 0; next < count;)
   {
@@ -115,7 +108,10 @@ FinishedInstances InstanceFinishing::finished(
     }
     if (fruitless >= most && finished[next].pose.placeProbability < WorthFinishing)
     {
-      this->judgeAsTheyAre(finished.begin() + next, finished.end());
+      for (; next < count; ++next)
+      {
+        asScored.push_back(next);
+      }
       break;
     }
     const double from = static_cast<double>(next) / count;
@@ -123,10 +119,7 @@ FinishedInstances InstanceFinishing::finished(
     std::vector<int> lot;
     for (; next < count && static_cast<int>(lot.size()) < mostInLot; ++next)
     {
-      if (!this->isExcluded(finished[next].pose, sure))
-      {
-        lot.push_back(next);
-      }
+      (this->isExcluded(finished[next].pose, sure) ? asScored : lot).push_back(next);
     }
     const Deadline& deadline = this->Settings.deadline;
     const Progress ofLot = deadline.within(subProgress(progress, from, static_cast<double>(next) / count));
@@ -157,6 +150,17 @@ FinishedInstances InstanceFinishing::finished(
       }
       fruitless = isSure ? 0 : fruitless + 1;
     }
+  }
+  if (!this->Settings.deadline.hasStruck())
+  {
+    parallelFor(static_cast<int>(asScored.size()), this->Settings.threads, {},
+      [&](int begin, int end, int)
+      {
+        for (int k = begin; k < end; ++k)
+        {
+          this->judgeWhereItLies(finished[asScored[k]]);
+        }
+      });
   }
   return finished;
 }

@@ -19,7 +19,7 @@ public:
   InstanceFinishing(const Scene& scene, const TrainedModel& model, const LocalSearch& search,
     const InstanceClaims& claims, const PoseSelectionSettings& settings);
 
-  /// Of `scored` those at `selected`, best first; what is not finished as it was scored.
+  /// Of `scored` those at `selected`, best first; what is not finished where it was scored.
   FinishedInstances finished(const Poses& scored, const std::vector<int>& selected, const Progress& progress) const;
 
   const SurfaceContinuation& continuation() const { return this->Continuation; }
@@ -35,8 +35,8 @@ private:
   };
   FinishedInstance finish(const Pose& scored) const;
   bool isExcluded(const Pose& scored, const std::vector<Sure>& sure) const;
-  /// What is said of those that are not finished, where they lie.
-  void judgeAsTheyAre(FinishedInstances::iterator begin, FinishedInstances::iterator end) const;
+  /// What is said of one that is not finished.
+  void judgeWhereItLies(FinishedInstance& instance) const;
 
   const Scene& InScene;
   const TrainedModel& Model;

@@ -24,10 +24,6 @@ struct Finishing
       pose.T_scene_model = scene.T_local_scene() * pose.T_scene_model;
     }
     this->scored = meam::verifyPoses(poses, scene, scenes::bracket());
-    for (meam::Pose& pose : this->scored)
-    {
-      pose.evidence += 1e-6; // which no pose has that is scored again
-    }
   }
 
   meam::FinishedInstances finished() const
@@ -56,8 +52,7 @@ int finishedOf(const Finishing& finishing)
   int count = 0;
   for (std::size_t k = 0; k < finished.size(); ++k)
   {
-    const Eigen::Isometry3d& T = finished[k].pose.T_scene_model;
-    count += T.matrix() == finishing.scored[k].T_scene_model.matrix() ? 0 : 1;
+    count += finished[k].pose.fit.covariance.isZero() ? 0 : 1;
   }
   return count;
 }
