@@ -83,8 +83,8 @@ struct Scan
 
   std::vector<Eigen::Vector3f> edges; ///< mm, edge points, where they are known already
   /// Where it was seen from; a perspective one without a direction, (0, 0, 0), looks at the middle of the points. None:
-  /// as the points tell, from the origin when they are organized, or from where the fewest points hide others; with
-  /// `edges` along +z then, otherwise from far above, along -z.
+  /// organized points from the origin, with `edges` along +z; others from where their lattice tells, from the origin or
+  /// far above along -z, or from where the fewest hide others; with `edges` from far above.
   std::optional<Sensor> sensor;
 
   /// Parts whose middle lies elsewhere are not looked for, and what is far from it is not looked at. None: everywhere.

@@ -64,7 +64,7 @@ std::vector<int> thinSamples(const PointCloud& surface, double leafSize, double 
 /// All that detection needs to know of a part: the result of the offline phase.
 struct TrainedModel
 {
-  static constexpr int FormatVersion = 5;            ///< a mark
+  static constexpr int FormatVersion = 4;            ///< a mark
   static constexpr int MaximumViews = 32;            ///< views and directions are bits of a word
   static constexpr std::int64_t MostKeys = 50000000; ///< 200 MB of offsets
   static constexpr std::size_t MostEdges = std::size_t{ 1 }

@@ -42,11 +42,11 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, PeaksPerReference, int, peaksPe
 vtkMEAMSettingMacro(vtkMEAMPoseDetection, SignedTangents, bool, signedTangents)
 vtkMEAMSettingMacro(vtkMEAMPoseDetection, SmoothPeaks, bool, smoothPeaks)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseDetection, Seed, int, seed, 0, VTK_INT_MAX)
-vtkMEAMParametersMacro(vtkMEAMPoseDetection, Paper, meam::paperDetectionSettings())
-  vtkMEAMParametersMacro(vtkMEAMPoseDetection, Recommended, {})
-    vtkMEAMParametersMacro(vtkMEAMPoseDetection, OriginalPPF, meam::originalDetectionSettings())
+vtkMEAMParametersMacro(vtkMEAMPoseDetection, Paper, meam::paperDetectionSettings());
+vtkMEAMParametersMacro(vtkMEAMPoseDetection, Recommended, {});
+vtkMEAMParametersMacro(vtkMEAMPoseDetection, OriginalPPF, meam::originalDetectionSettings());
 
-      int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* info)
+int vtkMEAMPoseDetection::FillInputPortInformation(int port, vtkInformation* info)
 {
   const char* types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPointSet" };
   return vtkMEAMConversion::fillInputPort(info, { types[port] }, vtkMEAMConversion::Connections::OneOrNone);

@@ -20,10 +20,10 @@ vtkMEAMPoseRefinement::~vtkMEAMPoseRefinement() = default;
 vtkMEAMClampedSettingMacro(vtkMEAMPoseRefinement, Method, int, method, PointToPoint, EdgesAndSurface)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseRefinement, NumberOfIterations, int, iterations, 1, 10000)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseRefinement, MaximumDistance, double, maximumDistance, 0.0, VTK_DOUBLE_MAX)
-vtkMEAMParametersMacro(vtkMEAMPoseRefinement, Paper, meam::paperRefinementSettings())
-  vtkMEAMParametersMacro(vtkMEAMPoseRefinement, Recommended, {})
+vtkMEAMParametersMacro(vtkMEAMPoseRefinement, Paper, meam::paperRefinementSettings());
+vtkMEAMParametersMacro(vtkMEAMPoseRefinement, Recommended, {});
 
-    void vtkMEAMPoseRefinement::Process(Work& work)
+void vtkMEAMPoseRefinement::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;
   work.result = meam::refinePoses(work.poses, work.scene, work.model, *this->Settings, work.progress);

@@ -37,12 +37,12 @@ void vtkMEAMPoseSelection::SetFreeSpace(bool value)
 
 bool vtkMEAMPoseSelection::GetFreeSpace() { return this->Settings->evidence.freeSpace; }
 
-vtkMEAMParametersMacro(vtkMEAMPoseSelection, Paper, meam::paperSelectionSettings())
-  vtkMEAMParametersMacro(vtkMEAMPoseSelection, Recommended, {})
-    vtkMEAMParametersMacro(vtkMEAMPoseSelection, Candidates, meam::candidateSelectionSettings())
-      vtkMEAMParametersMacro(vtkMEAMPoseSelection, Votes, meam::votesSelectionSettings())
+vtkMEAMParametersMacro(vtkMEAMPoseSelection, Paper, meam::paperSelectionSettings());
+vtkMEAMParametersMacro(vtkMEAMPoseSelection, Recommended, {});
+vtkMEAMParametersMacro(vtkMEAMPoseSelection, Candidates, meam::candidateSelectionSettings());
+vtkMEAMParametersMacro(vtkMEAMPoseSelection, Votes, meam::votesSelectionSettings());
 
-        void vtkMEAMPoseSelection::Process(Work& work)
+void vtkMEAMPoseSelection::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;
   meam::PoseSelectionSettings settings = *this->Settings;

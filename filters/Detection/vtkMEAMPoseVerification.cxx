@@ -22,12 +22,12 @@ vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, Tolerance, double, evidence.
 vtkMEAMSettingMacro(vtkMEAMPoseVerification, FreeSpace, bool, evidence.freeSpace)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PointStride, int, pointStride, 1, VTK_INT_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMPoseVerification, PosesPerView, int, posesPerView, 0, VTK_INT_MAX)
-vtkMEAMParametersMacro(vtkMEAMPoseVerification, Paper, meam::paperVerificationSettings())
-  vtkMEAMParametersMacro(vtkMEAMPoseVerification, Recommended, {})
-    vtkMEAMParametersMacro(vtkMEAMPoseVerification, Candidates, meam::candidateVerificationSettings())
-      vtkMEAMParametersMacro(vtkMEAMPoseVerification, Votes, meam::votesVerificationSettings())
+vtkMEAMParametersMacro(vtkMEAMPoseVerification, Paper, meam::paperVerificationSettings());
+vtkMEAMParametersMacro(vtkMEAMPoseVerification, Recommended, {});
+vtkMEAMParametersMacro(vtkMEAMPoseVerification, Candidates, meam::candidateVerificationSettings());
+vtkMEAMParametersMacro(vtkMEAMPoseVerification, Votes, meam::votesVerificationSettings());
 
-        void vtkMEAMPoseVerification::Process(Work& work)
+void vtkMEAMPoseVerification::Process(Work& work)
 {
   this->Settings->threads = this->NumberOfThreads;
   meam::PoseVerificationSettings settings = *this->Settings;

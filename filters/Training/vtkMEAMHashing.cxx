@@ -43,10 +43,10 @@ vtkMEAMClampedSettingMacro(vtkMEAMHashing, ViewMerging, int, merging, Points, No
 vtkMEAMClampedSettingMacro(vtkMEAMHashing, VoxelSize, double, voxelSize, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMHashing, LeafSize, double, leafSize, 0.0, VTK_DOUBLE_MAX)
 vtkMEAMClampedSettingMacro(vtkMEAMHashing, CoVisibilityDirections, int, coVisibilityDirections, 0, 32)
-vtkMEAMParametersMacro(vtkMEAMHashing, Paper, meam::paperHashingSettings())
-  vtkMEAMParametersMacro(vtkMEAMHashing, Recommended, {})
+vtkMEAMParametersMacro(vtkMEAMHashing, Paper, meam::paperHashingSettings());
+vtkMEAMParametersMacro(vtkMEAMHashing, Recommended, {});
 
-    int vtkMEAMHashing::FillInputPortInformation(int port, vtkInformation* info)
+int vtkMEAMHashing::FillInputPortInformation(int port, vtkInformation* info)
 {
   using namespace vtkMEAMConversion;
   return port == 0 ? fillInputPort(info, { "vtkPartitionedDataSetCollection" }, Connections::One)

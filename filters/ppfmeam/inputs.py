@@ -135,8 +135,8 @@ def depths_seen(depths, camera, scale):
     if depths.dtype.kind not in "fui" or not depths.size:
         raise Error(f"the depth image has to be an array of numbers, H x W, not {depths.dtype} with the shape {depths.shape}")
     values = depths.astype(numpy.float32)
-    if depths.dtype == numpy.uint16:
-        values[depths == numpy.iinfo(numpy.uint16).max] = numpy.nan  # as cameras write what they did not measure
+    if depths.dtype in (numpy.uint8, numpy.uint16):
+        values[depths == numpy.iinfo(depths.dtype).max] = numpy.nan  # as cameras write what they did not measure
     if isinstance(camera, (str, os.PathLike)):
         path = path_of(camera)
         return _core.scan_of_depths(values, _core.load_camera(path), scale * _core.load_depth_scale(path))

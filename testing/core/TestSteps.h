@@ -19,7 +19,7 @@ void expectStops(Step&& step, const std::vector<double>& shares = { 0.0 })
   }
 }
 
-/// Its progress rises to 1, and it stops.
+/// Its progress rises to 1, and it stops at each of these shares.
 template <typename Step>
 void expectProgress(Step&& step, const std::vector<double>& shares = {})
 {

@@ -137,7 +137,7 @@ def changed(name, value):
     result.GetFieldData().AddArray(array)
     return result
 
-fails(detection(changed("FormatVersion", 99)), "version 99", "version 5", "train the model again")
+fails(detection(changed("FormatVersion", 99)), "version 99", "version 4", "train the model again")
 fails(detection(changed("NumberOfPairs", 17)), "PairTableEntries")
 fails(detection(changed("NumberOfViews", 5)), "view")
 fails(detection(changed("DistanceStep", 1)), "PairTableBuckets")

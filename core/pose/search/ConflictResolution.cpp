@@ -17,7 +17,7 @@ namespace
 {
 constexpr double Resolved = 0.01;     // of the diameter, what the distance to a part's surface is known to
 constexpr double MostProbable = 0.99; // no pose is surer: 99 to 1
-constexpr double LeastByRates = 0.5;  // nor less sure for its counts alone, when it is surer by all else
+constexpr double LeastByRates = 0.5;  // the usual rates lower no pose below this
 
 /// What a pose claims of the scene.
 struct Claim

@@ -75,7 +75,7 @@ bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& 
 
 void InstanceFinishing::judgeWhereItLies(FinishedInstance& instance) const
 {
-  if (!instance.isLeft && instance.pose.placeProbability > WorthJudging)
+  if (instance.pose.placeProbability > WorthJudging)
   {
     instance.logOdds = this->Search.placeLogOdds(instance.pose.T_scene_model);
     setEvidence(instance.pose, instance.logOdds);
@@ -102,8 +102,14 @@ FinishedInstances InstanceFinishing::finished(
     const int missing = wanted - static_cast<int>(sure.size());
     if (wanted > 0 && missing <= 0)
     {
-      std::for_each(
-        finished.begin() + next, finished.end(), [](FinishedInstance& instance) { instance.isLeft = true; });
+      for (; next < count; ++next)
+      {
+        finished[next].isLeft = true;
+        if (this->Settings.sureCopies > 0) // of several types, of which more come out than are wanted of one
+        {
+          asScored.push_back(next);
+        }
+      }
       break;
     }
     if (fruitless >= most && finished[next].pose.placeProbability < WorthFinishing)

@@ -19,7 +19,7 @@ public:
   InstanceFinishing(const Scene& scene, const TrainedModel& model, const LocalSearch& search,
     const InstanceClaims& claims, const PoseSelectionSettings& settings);
 
-  /// Of `scored` those at `selected`, best first; what is not finished where it was scored.
+  /// Of `scored` those at `selected`, best first; what is not finished keeps its pose and is judged there.
   FinishedInstances finished(const Poses& scored, const std::vector<int>& selected, const Progress& progress) const;
 
   const SurfaceContinuation& continuation() const { return this->Continuation; }

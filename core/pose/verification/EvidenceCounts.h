@@ -26,8 +26,8 @@ struct EvidenceRates
   EvidenceRate outline{ 0.9, 0.55 }; ///< of a patch's side of outline, that the measured surface ends there
 };
 
-/// What was counted of a pose, and what it says for it, which poses are searched for by: the logarithm of how much
-/// likelier it is with the part there than with anything else, up to a common factor.
+/// What was counted of a pose. Poses are searched for by its sum: the logarithm of how much likelier it is with the
+/// part there than with anything else, up to a common factor.
 struct EvidenceCounts
 {
   // Areas as the sensor sees them, in patches

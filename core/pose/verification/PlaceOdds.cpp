@@ -14,6 +14,7 @@ namespace
 // and 1 % of the diameter), of bins of nine parts and three sensors with the part in them or another, of bins with
 // images that show next to nothing, and of six scans of pipes.
 // testing/evaluation/calibration.py tells how they hold for other scenes.
+constexpr double MuchFor = 4.0; // log odds: more that speaks for a pose grows by its logarithm, for all is of one pose
 constexpr double OfNothing = -8.7;
 constexpr double OfSurface = 0.68;      // of a patch where it should be
 constexpr double OfTurned = -0.17;      // of one where it should be, that faces elsewhere
@@ -53,8 +54,9 @@ double ofOutline(const EvidenceCounts& counts)
 
 double PlaceOdds::sum() const
 {
-  return std::accumulate(this->terms.begin(), this->terms.end(), this->before,
-    [](double sum, const EvidenceTerm& term) { return sum + term.adds; });
+  const double sum = std::accumulate(this->terms.begin(), this->terms.end(), this->before,
+    [](double all, const EvidenceTerm& term) { return all + term.adds; });
+  return sum > 0.0 ? logSaturated(sum, MuchFor) : sum;
 }
 
 PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, bool haveSurfaces)

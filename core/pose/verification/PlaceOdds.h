@@ -21,8 +21,9 @@ struct EvidenceTerm
 /// same, so that edges and outlines count by their shares, and edges by how many of a part's are found in this scan.
 struct PlaceOdds
 {
-  double before = 0.0;             ///< anything is seen
+  double before = 0.0;             ///< log odds without any term
   std::vector<EvidenceTerm> terms; ///< all kinds that add something
+  /// Of both; where more than nothing is left it grows by its logarithm.
   double sum() const;
 };
 

@@ -23,7 +23,8 @@ class Files:
 
     def is_scan(self, name):
         """By its extension; a depth image is one when there is a calibration of its camera."""
-        return os.path.splitext(name)[1].lower() in CLOUDS + (scripting.DEPTH_IMAGES if self.options.camera else ())
+        extension = os.path.splitext(name)[1].lower()  # OpenEXR is none that can be read
+        return extension in CLOUDS or bool(self.options.camera) and extension in scripting.DEPTH_IMAGES and extension != ".exr"
 
     def read(self, _, path, image):
         """A row of list()."""

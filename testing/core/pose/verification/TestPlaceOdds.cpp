@@ -90,7 +90,10 @@ TEST(PlaceOdds, TermsSumUpAndWhatAddsNothingIsNone)
     sum += term.adds;
   }
   EXPECT_EQ(odds.terms.size(), 9u);
+  EXPECT_LT(sum, 0.0);
   EXPECT_DOUBLE_EQ(odds.sum(), sum);
+  EXPECT_NEAR((meam::PlaceOdds{ -2.0, { { "surface", "patches", 1.0, 14.0 } } }).sum(), 4.0 * std::log(4.0), 1e-9)
+    << "much that speaks for it";
   EXPECT_LT(odds.before, 0.0);
   EXPECT_EQ(meam::placeOdds({}, {}, true).terms.size(), 1u) << "edges alone: none of those that were expected";
 }
