@@ -343,7 +343,8 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
       const double calibrated = std::log(place / (1.0 - place));
       const double logOdds = this->Model.calibration.place.countedOf(calibrated);
       diagnosis.moreByCalibration = calibrated - logOdds;
-      diagnosis.lessByOthers = diagnosis.odds.sum() - logOdds;
+      const double searched = collector.logOdds(counts, *evidence.rates);
+      diagnosis.lessByOthers = collector.placeLogOdds(counts, *evidence.rates, searched) - logOdds;
       const auto cut = std::find_if(all.begin(), all.end(),
         [&](const Pose& other)
         {

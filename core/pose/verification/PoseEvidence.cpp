@@ -71,6 +71,12 @@ PlaceOdds EvidenceCollector::placeOdds(const EvidenceCounts& counts, const Evide
   return meam::placeOdds(counts, rates, haveSurfaces(this->InScene, this->Model));
 }
 
+double EvidenceCollector::placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const
+{
+  const double said = this->placeOdds(counts, rates).sum();
+  return haveSurfaces(this->InScene, this->Model) ? std::max(said, searched) : said;
+}
+
 double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const
 {
   return haveSurfaces(this->InScene, this->Model) ? CalibrationWithSurface.logOdds(counts.sum(rates))

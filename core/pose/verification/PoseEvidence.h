@@ -67,6 +67,9 @@ public:
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
   /// What is said of a final pose.
   PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
+  /// That and what it was found by, `searched`: with surfaces the larger, for few edges make the one too little and few
+  /// patches the other.
+  double placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const;
   /// What poses are searched for by: logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
   /// The same of what is counted at a pose.
