@@ -12,6 +12,7 @@ namespace meam
 {
 namespace
 {
+constexpr double LeastTelling = 0.5;  // of a part's edges are found: of fewer, shares tell too little
 constexpr double Noises = 1.5;        // of the scan: the tolerance is no less
 constexpr double FarBehind = 0.1;     // of the diameter: what the sensor saw so far behind the part is far
 constexpr double CloselyBefore = 0.1; // of the diameter: a surface that hides the part from nearer is close before it
@@ -74,7 +75,11 @@ PlaceOdds EvidenceCollector::placeOdds(const EvidenceCounts& counts, const Evide
 double EvidenceCollector::placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const
 {
   const double said = this->placeOdds(counts, rates).sum();
-  return haveSurfaces(this->InScene, this->Model) ? std::max(said, searched) : said;
+  if (!haveSurfaces(this->InScene, this->Model))
+  {
+    return said;
+  }
+  return rates.edges.found < LeastTelling ? searched : std::max(said, searched);
 }
 
 double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const

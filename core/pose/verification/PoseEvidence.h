@@ -67,8 +67,8 @@ public:
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
   /// What is said of a final pose.
   PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
-  /// That and what it was found by, `searched`: with surfaces the larger, for few edges make the one too little and few
-  /// patches the other.
+  /// That and what it was found by, `searched`: with surfaces the larger, for few
+  /// patches make the latter too little, and where the scan shows few of a part's edges the latter alone.
   double placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const;
   /// What poses are searched for by: logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
