@@ -398,3 +398,21 @@ TEST(PoseEvidence, ASheetOnTheFloorIsToldFromTheFloor)
     EXPECT_GT(floor.goesOn, 20.0) << above;
   }
 }
+
+TEST(PoseEvidence, OfAPlaceTheLargerIsSaidWhereEdgesTell)
+{
+  const meam::Scene& scene = scenes::copiesScene();
+  const meam::EvidenceCollector collector(scene, scenes::bracket());
+  const meam::EvidenceCounts counts = collector.collect(scene.T_local_scene() * scenes::threeCopies()[0]).counts;
+  meam::EvidenceRates rates;
+  rates.edges.found = 0.8;
+  const double said = collector.placeOdds(counts, rates).sum();
+  EXPECT_EQ(collector.placeLogOdds(counts, rates, said + 1.0), said + 1.0);
+  EXPECT_EQ(collector.placeLogOdds(counts, rates, said - 1.0), said);
+  rates.edges.found = 0.3;
+  EXPECT_EQ(collector.placeLogOdds(counts, rates, -50.0), -50.0) << "where few edges are found the search's count";
+  meam::TrainedModel edgesAlone = scenes::bracket();
+  edgesAlone.surface = {};
+  const meam::EvidenceCollector byEdges(scene, edgesAlone);
+  EXPECT_EQ(byEdges.placeLogOdds(counts, rates, 50.0), meam::placeOdds(counts, rates, false).sum());
+}
