@@ -18,7 +18,7 @@ def two_types():
     """The meshes and the scan: of two bins, which are alike, the halves."""
     meshes, bins = [plate(), bracket()], []
     for mesh in meshes:
-        source = connect(vtkMEAMBinSceneSource(), mesh, Copies=4, Seed=7, Width=W, Height=H, BinSize=200)
+        source = connect(vtkMEAMBinSceneSource(), mesh, Copies=4, Seed=14, Width=W, Height=H, BinSize=200)
         bins.append(run(source))
         meshes[len(bins) - 1] = source.GetOutputDataObject(2)
     scan = vtkStructuredGrid()

@@ -350,6 +350,13 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     const double before = diagnosis.odds.before;
     add("Against it: " + listed(false) +
         (before < 0.0 ? ", and that little is right of what is anywhere (" + decimal(before) + ")." : "."));
+    const PlaceOdds& odds = diagnosis.odds;
+    if (odds.shareOfSearch > 0.0)
+    {
+      add("This scan shows few of a part's edges. So " + percent(odds.shareOfSearch) +
+          " of the odds are those it was searched for by, which count each point by itself (" + decimal(odds.searched) +
+          ").");
+    }
   }
   const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
   if (diagnosis.continuing >= LeastTold && !(isDoubted(diagnosis) && words.find("goes on") != std::string::npos))

@@ -336,15 +336,14 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
     const EvidenceCollector collector(this->InScene, this->Model, evidence);
     const Eigen::Isometry3d& T = diagnosis.found ? diagnosis.found->T_scene_model : T_local_model;
     const EvidenceCounts counts = collector.collect(T).counts;
-    diagnosis.odds = collector.placeOdds(counts, *evidence.rates);
+    diagnosis.odds = collector.placeOdds(counts, *evidence.rates, collector.logOdds(counts, *evidence.rates));
     if (diagnosis.found)
     {
       const double place = diagnosis.found->placeProbability;
       const double calibrated = std::log(place / (1.0 - place));
       const double logOdds = this->Model.calibration.place.countedOf(calibrated);
       diagnosis.moreByCalibration = calibrated - logOdds;
-      const double searched = collector.logOdds(counts, *evidence.rates);
-      diagnosis.lessByOthers = collector.placeLogOdds(counts, *evidence.rates, searched) - logOdds;
+      diagnosis.lessByOthers = diagnosis.odds.sum() - logOdds;
       const auto cut = std::find_if(all.begin(), all.end(),
         [&](const Pose& other)
         {

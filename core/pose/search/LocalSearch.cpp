@@ -197,13 +197,13 @@ LocalSearch::Result LocalSearch::best(Pose pose) const
   {
     other.T_scene_model = pose.T_scene_model * T_decided.inverse() * other.T_scene_model;
   }
-  return { pose, moved.evidence, this->Collector.placeLogOdds(moved.evidence.counts, this->Rates, moved.logOdds) };
+  return { pose, moved.evidence, this->Collector.placeOdds(moved.evidence.counts, this->Rates, moved.logOdds).sum() };
 }
 
 double LocalSearch::placeLogOdds(const Eigen::Isometry3d& T_scene_model) const
 {
   const EvidenceCounts counts = this->Collector.collect(T_scene_model).counts;
-  return this->Collector.placeLogOdds(counts, this->Rates, this->Collector.logOdds(counts, this->Rates));
+  return this->Collector.placeOdds(counts, this->Rates, this->Collector.logOdds(counts, this->Rates)).sum();
 }
 
 void LocalSearch::restart(Pose& pose, Contender& current) const

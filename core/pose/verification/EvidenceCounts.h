@@ -33,6 +33,7 @@ struct EvidenceCounts
   // Areas as the sensor sees them, in patches
   double there = 0.0, unclear = 0.0, turned = 0.0, past = 0.0, farPast = 0.0;
   double hidden = 0.0, enclosed = 0.0, unmeasured = 0.0;
+  double inSight = 0.0; ///< of all that nothing hides, at the border of what is seen, too
   // Lengths of outline, in sides of a patch, beyond which the measured surface is farther away, or goes on as if it
   // were the part
   double ends = 0.0, goesOn = 0.0;

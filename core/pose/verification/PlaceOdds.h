@@ -10,7 +10,7 @@ namespace meam
 /// One kind of what was counted, and what it adds to the logarithm of the odds that a copy is there.
 struct EvidenceTerm
 {
-  const char* what; ///< "surface where it should be"
+  const char* what; ///< "measured surface in sight"
   const char* unit; ///< "patches"
   double amount;
   double adds;
@@ -23,10 +23,15 @@ struct PlaceOdds
 {
   double before = 0.0;             ///< log odds without any term
   std::vector<EvidenceTerm> terms; ///< all kinds that add something
-  /// Of both; where more than nothing is left it grows by its logarithm.
+  double searched = 0.0;           ///< log odds that the pose was searched for by,
+  double shareOfSearch = 0.0;      ///< [0, 1], and how much of the sum they are: much where a scan shows few edges
+  /// Of all; what more than nothing the terms leave grows by its logarithm.
   double sum() const;
 };
 
-/// Without surfaces edges are all that counts: by the usual rates, for alone they cannot tell this scan's.
-PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, bool haveSurfaces);
+/// By surface and edges. `searched`: log odds that the pose was searched for by; `thickness`: the part's, in diameters.
+PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched, double thickness);
+
+/// By edges alone, which cannot tell how many are found in this scan.
+PlaceOdds placeOddsOfEdges(const EvidenceCounts& counts);
 }

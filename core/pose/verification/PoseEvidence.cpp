@@ -12,7 +12,6 @@ namespace meam
 {
 namespace
 {
-constexpr double LeastTelling = 0.5;  // of a part's edges are found: of fewer, shares tell too little
 constexpr double Noises = 1.5;        // of the scan: the tolerance is no less
 constexpr double FarBehind = 0.1;     // of the diameter: what the sensor saw so far behind the part is far
 constexpr double CloselyBefore = 0.1; // of the diameter: a surface that hides the part from nearer is close before it
@@ -67,19 +66,11 @@ bool EvidenceCollector::nearEdge(const Eigen::Vector3f& point) const
   return this->InScene.edgeGrid().nearest(point, this->Tolerance) >= 0;
 }
 
-PlaceOdds EvidenceCollector::placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const
+PlaceOdds EvidenceCollector::placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const
 {
-  return meam::placeOdds(counts, rates, haveSurfaces(this->InScene, this->Model));
-}
-
-double EvidenceCollector::placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const
-{
-  const double said = this->placeOdds(counts, rates).sum();
-  if (!haveSurfaces(this->InScene, this->Model))
-  {
-    return said;
-  }
-  return rates.edges.found < LeastTelling ? searched : std::max(said, searched);
+  return haveSurfaces(this->InScene, this->Model)
+           ? meam::placeOdds(counts, rates, searched, this->Model.thickness / this->Model.diameter)
+           : placeOddsOfEdges(counts);
 }
 
 double EvidenceCollector::logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const
@@ -271,7 +262,7 @@ void EvidenceCollector::addSurface(const Predicted& predicted, PoseEvidence& evi
         break;
       }
     }
-    evidence.inSight += state == PointState::Hidden ? 0.0 : area * std::max(cosine, 0.0f);
+    counts.inSight += state == PointState::Hidden ? 0.0 : area * std::max(cosine, 0.0f);
     evidence.surface.push_back(point);
     evidence.surfaceStates.push_back(state);
   }
@@ -313,7 +304,7 @@ void EvidenceCollector::addOutline(const Predicted& predicted, PoseEvidence& evi
     counts.enclosed = goesOn * Shown * this->shareBehind(T_scene_model, stride) *
                       static_cast<double>(model.verificationPoints.size()) * model.verificationArea() / (patch * patch);
   }
-  const double most = OutlineOfPatch * evidence.inSight, telling = counts.ends + counts.goesOn;
+  const double most = OutlineOfPatch * counts.inSight, telling = counts.ends + counts.goesOn;
   if (telling > most)
   {
     counts.ends *= most / telling;

@@ -43,7 +43,6 @@ struct PoseEvidence
   Points surface;
   std::vector<PointState> surfaceStates;
   EvidenceCounts counts;
-  double inSight = 0.0; ///< patches of surface that nothing hides, those at the border included
 
   /// Of the surface that nothing hides the share that was measured where it should be; without a surface, of the edges;
   /// [0, 1].
@@ -65,12 +64,8 @@ public:
   EvidenceCollector(const Scene& scene, const TrainedModel& model, const EvidenceSettings& settings = {});
   /// Of every `stride`-th of the surface points that the pose predicts, and of half as many of the edge points.
   PoseEvidence collect(const Eigen::Isometry3d& T_scene_model, std::size_t stride = 1) const;
-  /// What the counts say of a final pose, kind by kind.
-  PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
-  /// Logarithm of the odds that a copy is at a final pose, of which logOdds() or the search has `searched`. With
-  /// surfaces it is the larger of that, which is too little for few patches, and of placeOdds(); in a scan that shows
-  /// few of a part's edges, whose shares tell little, it is `searched`. Edges alone: placeOdds().
-  double placeLogOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const;
+  /// What the counts say of a final pose, of which logOdds() or the search has `searched`, kind by kind.
+  PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const;
   /// What poses are searched for by: logarithm of the odds that the part is where this was counted.
   double logOdds(const EvidenceCounts& counts, const EvidenceRates& rates) const;
   /// The same of what is counted at a pose.

@@ -343,10 +343,10 @@ TEST(PoseEvidence, TheTwoSidesOfAThinStripAreNoTwoOutlines)
   };
   const meam::PoseEvidence flat = seen(Eigen::Isometry3d::Identity());
   EXPECT_GT(flat.counts.ends, 20.0) << "sides of patches of 5.8 mm around 160 mm";
-  EXPECT_LT(flat.counts.ends + flat.counts.goesOn, 4.0 * flat.inSight);
+  EXPECT_LT(flat.counts.ends + flat.counts.goesOn, 4.0 * flat.counts.inSight);
   const meam::PoseEvidence upright = seen(Eigen::Isometry3d(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX())));
-  EXPECT_LT(upright.inSight, 2.0);
-  EXPECT_NEAR(upright.counts.ends + upright.counts.goesOn, 4.0 * upright.inSight, 1e-9);
+  EXPECT_LT(upright.counts.inSight, 2.0);
+  EXPECT_NEAR(upright.counts.ends + upright.counts.goesOn, 4.0 * upright.counts.inSight, 1e-9);
 }
 
 TEST(PoseEvidence, BothFacesOfASheetAreVerified)
@@ -399,20 +399,17 @@ TEST(PoseEvidence, ASheetOnTheFloorIsToldFromTheFloor)
   }
 }
 
-TEST(PoseEvidence, OfAPlaceTheLargerIsSaidWhereEdgesTell)
+TEST(PoseEvidence, OddsOfAPlaceTakeTheSurfaceWherePartAndSceneHaveOne)
 {
   const meam::Scene& scene = scenes::copiesScene();
   const meam::EvidenceCollector collector(scene, scenes::bracket());
   const meam::EvidenceCounts counts = collector.collect(scene.T_local_scene() * scenes::threeCopies()[0]).counts;
-  meam::EvidenceRates rates;
-  rates.edges.found = 0.8;
-  const double said = collector.placeOdds(counts, rates).sum();
-  EXPECT_EQ(collector.placeLogOdds(counts, rates, said + 1.0), said + 1.0);
-  EXPECT_EQ(collector.placeLogOdds(counts, rates, said - 1.0), said);
-  rates.edges.found = 0.3;
-  EXPECT_EQ(collector.placeLogOdds(counts, rates, -50.0), -50.0) << "where few edges are found the search's count";
+  const meam::TrainedModel& part = scenes::bracket();
+  EXPECT_GT(counts.inSight, counts.there);
+  EXPECT_EQ(
+    collector.placeOdds(counts, {}, 1.0).sum(), meam::placeOdds(counts, {}, 1.0, part.thickness / part.diameter).sum());
   meam::TrainedModel edgesAlone = scenes::bracket();
   edgesAlone.surface = {};
   const meam::EvidenceCollector byEdges(scene, edgesAlone);
-  EXPECT_EQ(byEdges.placeLogOdds(counts, rates, 50.0), meam::placeOdds(counts, rates, false).sum());
+  EXPECT_EQ(byEdges.placeOdds(counts, {}, 50.0).sum(), meam::placeOddsOfEdges(counts).sum());
 }
