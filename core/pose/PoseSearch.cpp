@@ -14,6 +14,8 @@ namespace
 constexpr std::size_t RefinedOfCopy =
   6;                              // for each copy that is wanted so many candidates are refined first, best first,
 constexpr std::size_t Growth = 2; // and then so many times as many, until enough copies are sure
+constexpr std::size_t Lot = 80;   // where all are wanted so many at a time, until a lot finds no further place
+constexpr double Hopeful = -5.0;  // log odds of a refined pose that may come to be right: its place counts
 // Where few poses are asked for, of a bin full of parts, some of the reference points find enough that are sure: of all
 // of them so many vote first, others only where these do not do.
 constexpr double SharesOfReferences[] = { 0.06, 0.2, 1.0 };
@@ -103,9 +105,10 @@ void PoseSearch::rank(Poses poses, int wanted, const Progress& progress)
   verification.evidence.rates = ofScan; // of all candidates; few are left
   this->Rates = ofScan;
   this->Told.rates = ofScan;
-  bool haveWanted = false;
-  std::size_t most = wanted > 0 ? RefinedOfCopy * wanted : poses.size();
-  for (double from = 0.0; from < 1.0 && !haveWanted; most *= Growth)
+  bool isEnough = false;
+  int places = 0;
+  std::size_t most = wanted > 0 ? RefinedOfCopy * wanted : haveRates ? Lot : poses.size();
+  for (double from = 0.0; from < 1.0 && !isEnough; most = wanted > 0 ? most * Growth : most + Lot)
   {
     const bool isLast = most >= poses.size();
     const Poses best(poses.begin(), isLast ? poses.end() : poses.begin() + static_cast<std::ptrdiff_t>(most));
@@ -123,25 +126,29 @@ void PoseSearch::rank(Poses poses, int wanted, const Progress& progress)
       verifyPoses(refined, scene, model, verification, subProgress(ofLot, 0.8, 1.0), nullptr, &this->OfRefined);
     from = to;
     spent.verification += watch.lap();
-    haveWanted = wanted > 0 && this->sure() >= wanted;
+    const int placesBefore = places;
+    places = this->places(Hopeful);
+    isEnough = wanted > 0 ? this->sure() >= wanted : places == placesBefore;
   }
 }
 
-int PoseSearch::sure() const
+int PoseSearch::sure() const { return this->places(SureLogOdds); }
+
+int PoseSearch::places(double leastLogOdds) const
 {
   const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
   const double apart = SamePoseDistance * this->Model.diameter;
-  std::vector<const Pose*> sure;
+  std::vector<const Pose*> found;
   for (const Pose& pose : this->Verified)
   {
     const auto isOf = [&](const Pose* other)
     { return translationError(pose.T_scene_model, other->T_scene_model, middle) < apart; };
-    if (pose.evidence >= SureLogOdds && std::none_of(sure.begin(), sure.end(), isOf))
+    if (pose.evidence >= leastLogOdds && std::none_of(found.begin(), found.end(), isOf))
     {
-      sure.push_back(&pose);
+      found.push_back(&pose);
     }
   }
-  return static_cast<int>(sure.size());
+  return static_cast<int>(found.size());
 }
 
 Poses PoseSearch::select(PoseSelectionSettings selection, const Progress& progress)

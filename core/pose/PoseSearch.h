@@ -33,6 +33,9 @@ public:
   Poses select(PoseSelectionSettings selection, const Progress& progress = {});
 
 private:
+  /// How many places have a refined pose with so much log odds.
+  int places(double leastLogOdds) const;
+
   void returned(PoseStage stage, const Poses& poses);
   bool isOutside(const Pose& pose) const;
 

@@ -16,6 +16,7 @@ constexpr int Lot = 8;                 // instances that are finished before it 
 constexpr int LeastLot = 4;            // or those that are still wanted, and no fewer
 constexpr double WorthFinishing = 0.5; // place: what is likelier is finished where not enough are sure
 constexpr double WorthJudging = 1e-3;  // place: what is not finished is judged where it lies
+constexpr double Hopeless = -6.0;      // log odds where it lies: with less a pose that is finished comes to nothing
 constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will,
 constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for, but no fewer than
 constexpr int LeastFruitless = 16;     // these: the order by scores is not that of finished poses
@@ -39,6 +40,13 @@ InstanceFinishing::InstanceFinishing(const Scene& scene, const TrainedModel& mod
 
 FinishedInstance InstanceFinishing::finish(const Pose& scored) const
 {
+  FinishedInstance asScored = asItIs(scored);
+  asScored.logOdds = this->Search.placeLogOdds(scored.T_scene_model);
+  if (asScored.logOdds < Hopeless)
+  {
+    setEvidence(asScored.pose, asScored.logOdds);
+    return asScored;
+  }
   const LocalSearch::Result best = this->Search.best(scored);
   Pose pose = best.pose;
   setSeen(pose, best.evidence, this->InScene, this->Model);

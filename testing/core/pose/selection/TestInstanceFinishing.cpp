@@ -44,15 +44,23 @@ struct Finishing
   meam::PoseSelectionSettings settings;
 };
 
-/// How many of them were finished, and not left as they were scored.
+/// How many of them were finished.
 int finishedOf(const Finishing& finishing)
 {
   const meam::FinishedInstances finished = finishing.finished();
   EXPECT_EQ(finished.size(), finishing.scored.size());
+  return static_cast<int>(std::count_if(finished.begin(), finished.end(),
+    [](const meam::FinishedInstance& one) { return !one.pose.fit.covariance.isZero(); }));
+}
+
+/// How many were finished, or judged to be hopeless, and not left as they were scored.
+int lookedAtOf(const Finishing& finishing)
+{
+  const meam::FinishedInstances finished = finishing.finished();
   int count = 0;
   for (std::size_t k = 0; k < finished.size(); ++k)
   {
-    count += finished[k].pose.fit.covariance.isZero() ? 0 : 1;
+    count += finished[k].logOdds != finishing.scored[k].evidence ? 1 : 0;
   }
   return count;
 }
@@ -82,7 +90,7 @@ TEST(InstanceFinishing, WhatASurePoseExcludesStaysAsItWasScored)
     finishing.scored.push_back(finishing.scored[0]);
   }
   meam::Pose excluded = finishing.scored[0];
-  excluded.T_scene_model = excluded.T_scene_model * Eigen::Translation3d(4.0, 3.0, 0.0);
+  excluded.T_scene_model = excluded.T_scene_model * Eigen::Translation3d(1.5, 1.0, 0.0);
   excluded.evidence = 0.0;
   excluded.placeProbability = 0.5;
   finishing.scored.push_back(excluded);
@@ -91,24 +99,31 @@ TEST(InstanceFinishing, WhatASurePoseExcludesStaysAsItWasScored)
   EXPECT_EQ(finishedOf(finishing), 9);
 }
 
+TEST(InstanceFinishing, WhatIsHopelessWhereItLiesIsNotFinished)
+{
+  Finishing finishing(copiesAndWrongOnes(5));
+  EXPECT_EQ(finishedOf(finishing), 3);
+  EXPECT_EQ(lookedAtOf(finishing), 8);
+}
+
 TEST(InstanceFinishing, WhereEnoughAreSureTheUnlikelyStayAsTheyWereScored)
 {
   Finishing finishing(copiesAndWrongOnes(30));
   finishing.settings.excludesOverlaps = false;
-  EXPECT_EQ(finishedOf(finishing), 33);
+  EXPECT_EQ(lookedAtOf(finishing), 33);
   finishing.settings.maximumPoses = 1; // and two to spare
-  EXPECT_EQ(finishedOf(finishing), 4) << "those of the smallest lot";
+  EXPECT_EQ(lookedAtOf(finishing), 4) << "those of the smallest lot";
   finishing.settings.maximumPoses = 2; // of four, one is missing: nothing but a long row of wrong ones ends it
-  EXPECT_EQ(finishedOf(finishing), 20) << "three that are sure, and 16 that are not, in lots of four";
+  EXPECT_EQ(lookedAtOf(finishing), 20) << "three that are sure, and 16 that are not, in lots of four";
   finishing.settings.sureCopies = 3;
-  EXPECT_EQ(finishedOf(finishing), 4);
+  EXPECT_EQ(lookedAtOf(finishing), 4);
 }
 
 TEST(InstanceFinishing, ALongRowOfWrongPosesEndsIt)
 {
   Finishing finishing(copiesAndWrongOnes(100));
   finishing.settings.excludesOverlaps = false;
-  EXPECT_EQ(finishedOf(finishing), 72) << "three that are sure, and 64 that are not, in lots of eight";
+  EXPECT_EQ(lookedAtOf(finishing), 72) << "three that are sure, and 64 that are not, in lots of eight";
 }
 
 TEST(InstanceFinishing, WhereAFewAreAskedForAShorterRowDoes)
@@ -116,7 +131,7 @@ TEST(InstanceFinishing, WhereAFewAreAskedForAShorterRowDoes)
   Finishing finishing(copiesAndWrongOnes(100));
   finishing.settings.excludesOverlaps = false;
   finishing.settings.maximumPoses = 5;
-  EXPECT_EQ(finishedOf(finishing), 19) << "three that are sure, and 15 that are not, in lots of seven and of four";
+  EXPECT_EQ(lookedAtOf(finishing), 19) << "three that are sure, and 15 that are not, in lots of seven and of four";
 }
 
 TEST(InstanceFinishing, WhatIsLeftComesAfterWhatIsFinished)
