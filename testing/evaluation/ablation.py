@@ -12,8 +12,9 @@ OUT/ablation.csv and OUT/ablation.md are the figures of all rows: of each world 
   right, wrong poses above 50 %
   ms           processor time of a scene, mean: one thread
 Worlds: bins (20 copies of each of seven parts, seeds 501 on), sensors (parts x sensors, seed 801, and the same bins
-searched for another part), siblings (the part is absent and one lies there that looks alike; place probabilities), pipes and
-real (real scans in $PPFMEAM_DATA), tohoku (with normal noise of 1 % of D). Of real
+searched for another part), siblings (the part is absent and one lies there that looks alike; place probabilities), absent (the
+same of the pairs in $PPFMEAM_DATA/failing), sheets (a part of 1 % of its diameter), pipes and real (real scans in
+$PPFMEAM_DATA), tohoku (with normal noise of 1 % of D). Of real
 scans nothing is known of poses that are no known copy: they have no R@99 and no log loss. Pipes are judged by the depth
 that a pose predicts: how many copies there are is not known."""
 import argparse
@@ -42,13 +43,17 @@ SENSOR_PARTS = ("ribbed_flange", "ridged_disc", "arc_lever", "flap", "hole_plate
 REAL = (("pulleys", "wrs4_pulley", "pulley"), ("pulleys", "wrs4_motor", "motor"), ("cups", "frame0", "coffee_cup"),
         ("wedges", "frame0", "wedge"), ("wedges", "frame1", "wedge"), ("desk", "frame00", "cube"),
         ("desk", "frame00", "dragon"), ("desk", "frame28", "cube"), ("desk", "frame28", "dragon"))
+ABSENT = (("absent_part_likely", "pin30", "bin_of_pin36"), ("absent_part_likely", "headed_pin32", "bin_of_rods75"),
+          ("handed_part", "left", "bin_of_right"))  # folder, what is looked for, what lies there
 TOHOKU_OFFSETS = {3: (-20.9645, -17.4974, -9.3144)}  # mm: its STL is in another frame than its true poses
 NOISE = 0.01  # of D
 SIBLINGS_SEED = 903  # nothing was fitted on it
+SHEETS_SEEDS = range(2001, 2007)  # nothing was fitted on them
 PIPES_FOCAL = 422.25  # pixels
 LEAST = 1e-4  # probability that a log loss takes for less, and for more than one less it
 COLUMNS = ("world", "part", "scene", "switch", "copies", "found", "seconds", "poses")  # poses: probability:outcome ...
 FIGURES = ("found", "found at 99 %", "log loss", "right above 50 %", "wrong above 50 %", "ms")
+BY_PLACE = ("siblings", "absent")  # worlds without the part
 WRONG, FOUND, RIGHT, UNKNOWN = "wfr?"  # RIGHT: a copy that need not be found
 NO_IMAGE, NO_EDGES, NO_TURNS = numpy.zeros(0, numpy.uint8), numpy.zeros((0, 3), numpy.float32), numpy.zeros((0, 4, 4))
 PARTS = {}  # by what they are made of
@@ -142,6 +147,23 @@ def siblings(folder, step):
 
             if factor > 0 or part_of(path).has_mirror_image:
                 yield Case("siblings", name, what, lambda path=path: part_of(path), load)
+
+
+def absent(_, step):
+    for folder, part, scan in ABSENT[::step]:
+        folder = os.path.join(DATA, "failing", folder)
+        yield Case("absent", part, scan, lambda path=f"{folder}/{part}.stl": part_of(path),
+                   lambda path=f"{folder}/{scan}.pcd": real_scan(path, ()))
+
+
+def sheets(folder, step):
+    def part():
+        return part_of(os.path.join(DATA, "failing", "sheet_1mm", "sheet_1mm.stl"))
+
+    for seed in SHEETS_SEEDS[::step]:
+        for sensor in SENSORS[:2]:
+            yield Case("sheets", "sheet_1mm", f"{sensor} {seed}", part, lambda sensor=sensor, seed=seed: simulated(
+                os.path.join(folder, "sheets", "sheet_1mm"), part, sensor, seed))
 
 
 def real_scan(path, known):
@@ -260,7 +282,8 @@ def tohoku(folder, step):
                                                                  lambda: make(number, scene)))
 
 
-WORLDS = {"pipes": pipes, "real": real, "tohoku": tohoku, "bins": bins, "sensors": sensors, "siblings": siblings}
+WORLDS = {"pipes": pipes, "real": real, "tohoku": tohoku, "bins": bins, "sensors": sensors, "siblings": siblings,
+          "absent": absent, "sheets": sheets}
 
 
 def read_rows(path):
@@ -279,7 +302,7 @@ def measure(case, names, write):
     for name in names:
         found = search.find(name)
         outcomes, copies = case.judge(part, found["T"], scene)
-        claims = found["place" if case.key[0] == "siblings" else "probability"]
+        claims = found["place" if case.key[0] in BY_PLACE else "probability"]
         write(dict(zip(COLUMNS, (*case.key, name, copies, outcomes.count(FOUND), f"{found['seconds']:.4f}", " ".join(
             f"{probability:.6f}:{outcome}" for probability, outcome in zip(claims, outcomes))))))
 

@@ -189,7 +189,7 @@ def write_readme(path, rows):
 
 
 WORLDS = {"pipes": "pipes", "real": "other real scans", "tohoku": "noise", "bins": "bins", "sensors": "sensors",
-          "siblings": "siblings"}  # as they are called in the documents
+          "siblings": "siblings", "absent": "absent parts", "sheets": "sheets"}  # as they are called in the documents
 LEAST_COPIES, LEAST_LOSS = 2, 2  # less is within what chance changes; the second is a percentage
 
 
