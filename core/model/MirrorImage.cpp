@@ -139,6 +139,7 @@ TrainedModel mirroredModel(const TrainedModel& model, const Reflection& reflecti
   mirrored.surface = model.surface;
   reflect(mirrored.surface, reflection);
   mirrored.thickness = model.thickness;
+  mirrored.width = model.width;
   mirrored.verificationPoints = model.verificationPoints; // others would tell the two apart
   mirrored.visibility = std::make_shared<const PredictedVisibility>(mirrored);
   return mirrored;

@@ -18,11 +18,22 @@ constexpr double VotingLeaf = 0.04; // of the edge points in a cube of this side
 constexpr double VerificationLeaf = 0.03; // of the surface points in such a cube one verifies poses
 constexpr double Reach = 0.03;            // of the distance fields, and of what is deep: tolerances are less
 constexpr double FieldCell = 0.0075;      // of the distance fields
+constexpr float SheetWidth = 3.0f;        // thicknesses: what is narrower is a rod
 constexpr double FlatThickness = 0.075;   // PoseEvidence tells such parts from what they lie on by their thickness
 
 float thicknessOf(const PointCloud& surface)
 {
   return surface.empty() ? 0.0f : bounds(surface.points).sizes().minCoeff();
+}
+
+float widthOf(const PointCloud& surface)
+{
+  if (surface.empty())
+  {
+    return 0.0f;
+  }
+  const Eigen::Vector3f sizes = bounds(surface.points).sizes();
+  return sizes.sum() - sizes.minCoeff() - sizes.maxCoeff();
 }
 }
 
@@ -30,6 +41,11 @@ std::vector<int> thinSamples(const PointCloud& surface, double leafSize, double 
 {
   return thicknessOf(surface) <= FlatThickness * diameter ? thinSurface(surface, leafSize)
                                                           : thinPoints(surface.points, leafSize);
+}
+
+double TrainedModel::sheetThickness() const
+{
+  return this->width >= SheetWidth * this->thickness ? this->thickness / this->diameter : 1.0;
 }
 
 double TrainedModel::votingLeaf() const
@@ -86,6 +102,7 @@ void TrainedModel::deriveFields()
   this->surfaceTable.deriveVotes(
     this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
   this->thickness = thicknessOf(this->surface);
+  this->width = widthOf(this->surface);
   this->verificationPoints = thinSamples(this->surface, VerificationLeaf * this->diameter, this->diameter);
   this->visibility = std::make_shared<const PredictedVisibility>(*this);
   this->surfaceDistance = ofSurface.get();

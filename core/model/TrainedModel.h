@@ -90,7 +90,8 @@ struct TrainedModel
   ModelCalibration calibration; ///< what a user's own scans have taught
 
   // What deriveFields() makes of the above.
-  float thickness = 0.0f;              ///< mm, the least of its sizes along the axes of the CAD file
+  float thickness = 0.0f;              ///< mm, the least of its sizes along the axes of the CAD file,
+  float width = 0.0f;                  ///< and the next larger one
   std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
   DistanceField surfaceDistance;       ///< up to 3 % of the diameter
   DistanceField edgeDistance;
@@ -106,6 +107,9 @@ struct TrainedModel
   PairFeatureQuantizer surfaceQuantizer() const;
   /// The edge appearance model of a view.
   PointCloud edgesOfView(int view) const;
+  /// Its thickness in diameters; 1 of a rod, which is thin along two of the CAD file's axes. Of what lies askew in its
+  /// CAD file it is too much.
+  double sheetThickness() const;
   /// Side of the cubes of which one edge point makes pairs, mm; 0: all do.
   double votingLeaf() const;
   /// Of the part's surface for which one verification point stands, mm^2, on average.

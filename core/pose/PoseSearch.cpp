@@ -14,8 +14,8 @@ namespace
 constexpr std::size_t RefinedOfCopy =
   6;                              // for each copy that is wanted so many candidates are refined first, best first,
 constexpr std::size_t Growth = 2; // and then so many times as many, until enough copies are sure
-constexpr std::size_t Lot = 80;   // where all are wanted so many at a time, until a lot finds no further place
-constexpr double Hopeful = -5.0;  // log odds of a refined pose that may come to be right: its place counts
+constexpr std::size_t Lot = 80;   // where all are wanted so many at a time, until a lot finds no further place,
+constexpr double Hopeful = -5.0;  // which is one by a refined pose with so much log odds: it may come to be right
 // Where few poses are asked for, of a bin full of parts, some of the reference points find enough that are sure: of all
 // of them so many vote first, others only where these do not do.
 constexpr double SharesOfReferences[] = { 0.06, 0.2, 1.0 };
@@ -93,9 +93,9 @@ void PoseSearch::rank(Poses poses, int wanted, const Progress& progress)
   const std::size_t count = poses.size();
   poses = verifyPoses(
     poses, scene, model, settings.candidateVerification, subProgress(progress, 0.2, 0.4), &rates, &this->Candidates);
-  const bool haveRates = settings.candidateVerification.method == VerificationMethod::VisibleEvidence;
-  work.verified += static_cast<int>(haveRates ? this->Candidates.size() - knownBefore : count);
-  const std::optional<EvidenceRates> ofScan = haveRates ? std::optional(rates) : std::nullopt;
+  const bool haveEvidence = settings.candidateVerification.method == VerificationMethod::VisibleEvidence;
+  work.verified += static_cast<int>(haveEvidence ? this->Candidates.size() - knownBefore : count);
+  const std::optional<EvidenceRates> ofScan = haveEvidence ? std::optional(rates) : std::nullopt;
   this->returned(PoseStage::CandidateVerification, poses);
   spent.verification += watch.lap();
   poses = selectPoses(poses, scene, model, settings.candidateSelection, subProgress(progress, 0.4, 0.5));
@@ -107,7 +107,10 @@ void PoseSearch::rank(Poses poses, int wanted, const Progress& progress)
   this->Told.rates = ofScan;
   bool isEnough = false;
   int places = 0;
-  std::size_t most = wanted > 0 ? RefinedOfCopy * wanted : haveRates ? Lot : poses.size();
+  // No fewer than before: at a time limit nothing is lost that was found.
+  std::size_t most = wanted > 0     ? RefinedOfCopy * wanted
+                     : haveEvidence ? std::max(Lot, this->Verified.size())
+                                    : poses.size();
   for (double from = 0.0; from < 1.0 && !isEnough; most = wanted > 0 ? most * Growth : most + Lot)
   {
     const bool isLast = most >= poses.size();

@@ -21,7 +21,8 @@ public:
     const PoseObserver& observer = {});
 
   /// Takes the candidates of reference points up to a share of them, [0, 1], as far as refined poses with their scores,
-  /// in place of those before; where a number of copies is wanted (0: all), no more than it takes.
+  /// in place of those before: where a number of copies is wanted (0: all) no more than it takes, else until further
+  /// ones find no place more.
   void upTo(double share, int wanted, const Progress& progress = {});
   /// The same with candidates from elsewhere.
   void rank(Poses candidates, int wanted, const Progress& progress = {});

@@ -57,7 +57,7 @@ public:
   const std::optional<EvidenceRates>& rates() const { return this->Report.rates; }
   /// What comes out without a limit on the number of poses and their probability: ranked() are of them.
   const Poses& unlimited() const { return this->Unlimited; }
-  /// What would be refined if all were that are of different instances. Found when it is asked for.
+  /// All that may be refined, of different instances. Found when it is asked for.
   const Poses& allAlternatives();
 
 private:

@@ -15,9 +15,10 @@ namespace meam
 {
 namespace
 {
-constexpr double Likely = 0.9;    // of a rotation, or a place, that needs no word
-constexpr double LeastLess = 1.0; // log odds: more than places lose that nothing contradicts
-constexpr double LeastTold = 0.1; // of log odds, or patches: less changes nothing
+constexpr double Likely = 0.9;      // of a rotation, or a place, that needs no word
+constexpr double LeastLess = 1.0;   // log odds: more than places lose that nothing contradicts
+constexpr double LeastTold = 0.1;   // of log odds, or patches: less changes nothing
+constexpr double LeastShare = 0.01; // of the odds that a pose was searched for by: less is not told
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
 
@@ -351,11 +352,11 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     add("Against it: " + listed(false) +
         (before < 0.0 ? ", and that little is right of what is anywhere (" + decimal(before) + ")." : "."));
     const PlaceOdds& odds = diagnosis.odds;
-    if (odds.shareOfSearch > 0.0)
+    if (odds.shareOfSearch >= LeastShare)
     {
-      add("This scan shows few of a part's edges. So " + percent(odds.shareOfSearch) +
-          " of the odds are those it was searched for by, which count each point by itself (" + decimal(odds.searched) +
-          ").");
+      add("This scan shows few of a part's edges. So these count by " + percent(1.0 - odds.shareOfSearch) +
+          ", and by " + percent(odds.shareOfSearch) +
+          " what it was searched for by, which counts each point by itself (" + decimal(odds.searched) + ").");
     }
   }
   const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";

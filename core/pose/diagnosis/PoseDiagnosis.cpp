@@ -267,6 +267,17 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
     return this->notWanted(diagnosis, keptBack.front() + 1, T_local_model);
   }
   diagnosis.lostIn = last == stages.rend() ? PoseStage::Voting : std::prev(last)->stage;
+  const Poses& refined = this->Trace.posesOf(PoseStage::Refinement); // the first of those that may be
+  std::size_t candidate = 0;
+  if (*diagnosis.lostIn == PoseStage::Refinement)
+  {
+    const Poses& before = this->Trace.posesOf(PoseStage::CandidateSelection);
+    candidate = posesAt(before, T_local_model, this->tolerance(), this->Model).front();
+    if (candidate >= refined.size())
+    {
+      diagnosis.lostIn = PoseStage::CandidateSelection;
+    }
+  }
   if (*diagnosis.lostIn == PoseStage::Voting || *diagnosis.lostIn == PoseStage::Screening ||
       *diagnosis.lostIn == PoseStage::CandidateSelection)
   {
@@ -289,14 +300,9 @@ LossCause PoseDiagnosis::causeOf(Diagnosis& diagnosis, const Eigen::Isometry3d& 
       break;
     }
     case PoseStage::Refinement:
-    {
-      const Poses& before = this->Trace.posesOf(PoseStage::CandidateSelection);
-      const int index = posesAt(before, T_local_model, this->tolerance(), this->Model).front();
-      const Pose& after = this->Trace.posesOf(PoseStage::Refinement)[index];
-      diagnosis.offset = offsetBetween(after.T_scene_model, T_local_model, this->Model);
+      diagnosis.offset = offsetBetween(refined[candidate].T_scene_model, T_local_model, this->Model);
       cause = LossCause::MovedAway;
       break;
-    }
     case PoseStage::Selection:
       cause = this->isTurnedAmong(this->Trace.unlimited(), T_local_model) ? LossCause::OtherRotation : LossCause::Taken;
       break;

@@ -40,12 +40,12 @@ InstanceFinishing::InstanceFinishing(const Scene& scene, const TrainedModel& mod
 
 FinishedInstance InstanceFinishing::finish(const Pose& scored) const
 {
-  FinishedInstance asScored = asItIs(scored);
-  asScored.logOdds = this->Search.placeLogOdds(scored.T_scene_model);
-  if (asScored.logOdds < Hopeless)
+  FinishedInstance hopeless = asItIs(scored);
+  hopeless.logOdds = this->Search.placeLogOdds(scored.T_scene_model);
+  if (hopeless.logOdds < Hopeless)
   {
-    setEvidence(asScored.pose, asScored.logOdds);
-    return asScored;
+    setEvidence(hopeless.pose, hopeless.logOdds);
+    return hopeless;
   }
   const LocalSearch::Result best = this->Search.best(scored);
   Pose pose = best.pose;

@@ -10,8 +10,8 @@
 namespace meam
 {
 /// Takes poses, one of each instance, to where the scan speaks for them the most (LocalSearch), the best first and only
-/// as far as it matters: not what a sure pose excludes, and not what follows when enough are sure or when a long row of
-/// better ones has not become sure.
+/// as far as it matters: not what is hopeless where it lies or what a sure pose excludes, and not what follows when
+/// enough are sure or when a long row of better ones has not become sure.
 class InstanceFinishing
 {
 public:

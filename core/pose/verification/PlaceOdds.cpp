@@ -16,14 +16,18 @@ namespace
 // little weight, of bins of parts that look alike.
 // testing/evaluation/calibration.py tells how they hold for other scenes.
 constexpr double MuchFor = 4.0; // log odds: more that speaks for a pose grows by its logarithm, for all is of one pose
-constexpr double OfNothing = -14.6;
-constexpr double OfSurface = 5.9;      // of the logarithm of the measured patches in sight, of which speaks against it
-constexpr double OfTurned = -1.0;      // one that faces elsewhere,
-constexpr double OfPast = -4.3;        // and one that the sensor looked past;
-constexpr double OfUnmeasured = -0.35; // of one where nothing was measured, and of one of the body behind the bin's
-constexpr double OfEnclosed = -3.0;    // floor or a wall, seen or not: set, for these worlds have too few of both
-constexpr double OfThin = -6.6;        // of a part as thin as a sheet, whose surface is like what it lies on,
-constexpr double Thick = 0.06;         // to one so thick, of its diameter, by its thickness
+constexpr double OfNothing = -14.6; // without any of the following
+// The more of a part is in sight, the more could contradict a pose. What agrees tells less than what is in sight, by a
+// tenth of the log loss.
+constexpr double OfSurface = 5.9; // of the logarithm of the patches in sight,
+constexpr double OfTurned = -1.0; // of one that faces elsewhere,
+constexpr double OfPast = -4.3;   // and of one that the sensor looked past
+// Set, for these worlds have too little of both:
+constexpr double OfUnmeasured = -0.35; // of a patch where nothing was measured,
+constexpr double OfEnclosed = -3.0;    // and of one of the body behind the bin's floor or a wall, seen or not
+// The surface of a sheet is like what it lies on:
+constexpr double OfThin = -6.6;        // of one without thickness,
+constexpr double Thick = 0.06;         // and nothing of one so thick, in diameters
 constexpr double OfOutlineShare = 6.2; // of all of the outline, that the measured surface ends there,
 constexpr double HalfEnds = 0.5;       // which says nothing where so much of it ends,
 constexpr double FewSides = 4.0;       // and little where it is shorter (sides of patches)
@@ -37,7 +41,7 @@ constexpr double FewEdges = 6.0;     // as if so many more were seen
 constexpr double TellingRate = 0.5, UntellingRate = 0.3;
 
 // Edges alone
-constexpr double OfNoEdges = -9.0;
+constexpr double OfNoEdges = -9.0;    // without any of the following
 constexpr double OfShareAlone = 27.7; // of all edge points, that they find an edge,
 constexpr double FoundAlone = 0.45;   // few of them taken towards so much,
 constexpr double OfEdgeCount = 1.57;  // and of the logarithm of how many there are,
@@ -80,13 +84,12 @@ PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, do
   const double rate = rates.edges.found;
   const double past = counts.past + counts.farPast;
   const double measured = std::max(counts.inSight - counts.unmeasured, 0.0);
-  std::vector<EvidenceTerm> terms{ { "measured surface in sight", "patches", measured,
-                                     OfSurface * std::log1p(measured) },
+  std::vector<EvidenceTerm> terms{ { "visible surface", "patches", measured, OfSurface * std::log1p(measured) },
     { "surface that faces elsewhere", "patches", counts.turned, OfTurned * counts.turned },
     { "surface that the sensor saw past", "patches", past, OfPast * past },
     { "surface that was not measured", "patches", counts.unmeasured, OfUnmeasured * counts.unmeasured },
     { "body behind the bin's floor or a wall", "patches", counts.enclosed, OfEnclosed * counts.enclosed },
-    { "thickness", "of the diameter", thickness, OfThin * std::max(1.0 - thickness / Thick, 0.0) },
+    { "thickness of a sheet", "% of its diameter", 100.0 * thickness, OfThin * std::max(1.0 - thickness / Thick, 0.0) },
     ofFoundEdges(counts, ofEdges(counts, rate)),
     { "outline", "patches long where surface ends", counts.ends, ofOutline(counts) } };
   terms.erase(

@@ -10,7 +10,7 @@ namespace meam
 /// One kind of what was counted, and what it adds to the logarithm of the odds that a copy is there.
 struct EvidenceTerm
 {
-  const char* what; ///< "measured surface in sight"
+  const char* what; ///< "visible surface"
   const char* unit; ///< "patches"
   double amount;
   double adds;
@@ -29,7 +29,8 @@ struct PlaceOdds
   double sum() const;
 };
 
-/// By surface and edges. `searched`: log odds that the pose was searched for by; `thickness`: the part's, in diameters.
+/// By surface and edges. `searched`: log odds that the pose was searched for by; `thickness`: in
+/// diameters, of a sheet (TrainedModel::sheetThickness).
 PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched, double thickness);
 
 /// By edges alone, which cannot tell how many are found in this scan.

@@ -69,7 +69,7 @@ bool EvidenceCollector::nearEdge(const Eigen::Vector3f& point) const
 PlaceOdds EvidenceCollector::placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, double searched) const
 {
   return haveSurfaces(this->InScene, this->Model)
-           ? meam::placeOdds(counts, rates, searched, this->Model.thickness / this->Model.diameter)
+           ? meam::placeOdds(counts, rates, searched, this->Model.sheetThickness())
            : placeOddsOfEdges(counts);
 }
 

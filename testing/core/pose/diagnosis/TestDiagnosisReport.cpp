@@ -118,8 +118,8 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   meam::Diagnosis diagnosis = example(LossCause::None);
   EXPECT_TRUE(meam::reasonsOf(diagnosis).empty());
   diagnosis.odds.before = -6.3;
-  diagnosis.odds.terms = { { "surface where it should be", "patches", 10.0, 10.0 },
-    { "surface that the sensor saw far past", "patches", 0.5, -4.0 }, { "edges", "points found", 30.0, 2.0 },
+  diagnosis.odds.terms = { { "surface that agrees", "patches", 10.0, 10.0 },
+    { "surface that the sensor saw past", "patches", 0.5, -4.0 }, { "edges", "points found", 30.0, 2.0 },
     { "outline", "patches long where surface ends", 8.0, 0.01 } };
   diagnosis.found.emplace();
   diagnosis.found->certainty = 0.7;
@@ -131,15 +131,22 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   diagnosis.otherProbability = 0.12;
   diagnosis.otherOffset = { 14.0, 90.0 };
   const std::vector<std::string> sentences{
-    "For it, in the logarithm of the odds: surface where it should be, 10.0 patches (+10.0); edges, 30.0 points found "
+    "For it, in the logarithm of the odds: surface that agrees, 10.0 patches (+10.0); edges, 30.0 points found "
     "(+2.0).",
-    "Against it: surface that the sensor saw far past, 0.5 patches (-4.0), and that little is right of what is "
+    "Against it: surface that the sensor saw past, 0.5 patches (-4.0), and that little is right of what is "
     "anywhere (-6.3).",
     "With all that the scan holds it is less likely, by 4.2: its body cuts into that of rank 5.",
     "Its rotation is 70 % sure; turned by 180.0 degrees it is 25 %.",
     "The nearest other pose is rank 9, 12 %, 14.0 mm and 90.0 degrees off."
   };
   EXPECT_EQ(meam::reasonsOf(diagnosis), sentences);
+  diagnosis.odds.searched = 2.34;
+  diagnosis.odds.shareOfSearch = 0.4;
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[1], sentences[1]);
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[2], "This scan shows few of a part's edges. So these count by 60 %, and by 40 % "
+                                           "what it was searched for by, which counts "
+                                           "each point by itself (2.3).");
+  diagnosis.odds.shareOfSearch = 0.0;
   const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
   diagnosis.cutsInto = 0;
   EXPECT_EQ(meam::reasonsOf(diagnosis)[2],

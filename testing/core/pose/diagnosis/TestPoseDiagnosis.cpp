@@ -104,7 +104,7 @@ TEST(PoseDiagnosis, WhatIsFoundIsFound)
   }
   ASSERT_TRUE(diagnosis.found);
   EXPECT_EQ(diagnosis.found->placeProbability, diagnosis.probability);
-  EXPECT_STREQ(diagnosis.odds.terms.front().what, "measured surface in sight");
+  EXPECT_STREQ(diagnosis.odds.terms.front().what, "visible surface");
   // The points are where the part is.
   for (const Eigen::Vector3d& point : diagnosis.surfacePoints)
   {

@@ -59,6 +59,11 @@ TEST(PlaceOdds, SurfaceInSightCountsByItsLogarithmAndWhatContradictsByItsArea)
   unmeasured.inSight = unmeasured.unmeasured = 10.0;
   EXPECT_NEAR(oddsOf(unmeasured) - oddsOf({}), -3.5, 1e-9) << "what was not measured is no surface in sight";
   EXPECT_EQ(ofSurface(&EvidenceCounts::hidden, 10.0), 0.0) << "it says nothing";
+  EvidenceCounts agreeing, seenPast;
+  agreeing.inSight = seenPast.inSight = 10.0;
+  seenPast.past = 5.0;
+  EXPECT_LT(oddsOf(seenPast), oddsOf({})) << "half of it is not there";
+  EXPECT_GT(oddsOf(agreeing), oddsOf({}) + 10.0);
 }
 
 TEST(PlaceOdds, SurfaceOfASheetIsLikeWhatItLiesOn)

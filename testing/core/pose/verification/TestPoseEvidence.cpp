@@ -406,8 +406,7 @@ TEST(PoseEvidence, OddsOfAPlaceTakeTheSurfaceWherePartAndSceneHaveOne)
   const meam::EvidenceCounts counts = collector.collect(scene.T_local_scene() * scenes::threeCopies()[0]).counts;
   const meam::TrainedModel& part = scenes::bracket();
   EXPECT_GT(counts.inSight, counts.there);
-  EXPECT_EQ(
-    collector.placeOdds(counts, {}, 1.0).sum(), meam::placeOdds(counts, {}, 1.0, part.thickness / part.diameter).sum());
+  EXPECT_EQ(collector.placeOdds(counts, {}, 1.0).sum(), meam::placeOdds(counts, {}, 1.0, part.sheetThickness()).sum());
   meam::TrainedModel edgesAlone = scenes::bracket();
   edgesAlone.surface = {};
   const meam::EvidenceCollector byEdges(scene, edgesAlone);
