@@ -6,8 +6,10 @@ import re
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation
-from meamtest import check, cloud, connect, fails, field, is_empty, plate, points, read, run, text, texts, tuples
+from ppfmeam import scripting
+from ppfmeam.filters import vtkMEAMBinSceneSource, vtkMEAMPoseDiagnosis, vtkMEAMPoseEstimation, vtkMEAMSceneEdgeExtraction
+from meamtest import check, cloud, connect, fails, field, is_empty, plate, points, poses, read, run, text, texts, tuples
+from chains import Detection
 
 source = connect(vtkMEAMBinSceneSource(), plate(), Copies=12, Width=640, Height=480)
 scan = run(source)
@@ -168,3 +170,13 @@ fails(diagnosis, "no pose 99", "RankOfPose")
 diagnosis.SetRankOfPose(1)
 diagnosis.SetInputDataObject(4, vtkPolyData())
 fails(diagnosis, "no pose 1")
+
+# What no lot of candidates that was refined has come to: the last of all that may be.
+may_be = run(Detection(scripting.train(mesh), run(connect(vtkMEAMSceneEdgeExtraction(), scan)), scan).alternatives)
+check(may_be.GetNumberOfPoints() > 160, f"two lots and more: {may_be.GetNumberOfPoints()}")
+diagnosis = connect(vtkMEAMPoseDiagnosis(), mesh, scan, None, None, poses(*tuples(may_be, "Transform")), MaximumNumberOfPoses=0)
+diagnosis.SetPlaceToRankedPose()
+diagnosis.SetFit(False)
+diagnosis.SetRankOfPose(may_be.GetNumberOfPoints())
+told = text(run(diagnosis), "Verdict")
+check(told.startswith("Lost in selection of candidates: rank ") and told.endswith(" too unlikely to be refined."), told)
