@@ -233,11 +233,14 @@ class Diagnosis:
 
 @takes(settings="train", reading="read")
 def train(cad, *, settings, reading):
-    """Learns how a part looks from all sides; takes seconds. `cad`: a .step, .iges, .stl, .obj, .ply or .off file, or a
-    vtkPolyData with faces. Returns a Model."""
+    """Learns how a part looks from all sides; takes seconds. Returns a Model.
+
+    cad: a .step, .iges, .stl, .obj, .ply or .off file; or a mesh: a vtkPolyData with faces, one of trimesh or Open3D, or a
+    tuple of its vertices, N x 3, and its triangles, M x 3 indices of them.
+    """
     mesh = inputs.mesh_of(cad, reading)
     corners = mesh.vertices * settings.scale + numpy.array(settings.offset)
-    return Model(_core.train(mesh, settings.apply(_core.TrainSettings(), _core)), None if isinstance(cad, vtkDataObject) else os.fspath(cad),
+    return Model(_core.train(mesh, settings.apply(_core.TrainSettings(), _core)), None if inputs.is_mesh(cad) else os.fspath(cad),
                  inputs.vtk_mesh(corners, mesh.triangles))
 
 
@@ -284,7 +287,8 @@ def is_model(part):
 
 def models_of(part, cad_scale, settings, reading):
     """The trained models of a part, or of several."""
-    parts, cad_scale = part if isinstance(part, (list, tuple)) else [part], checked_scale("cad_scale", cad_scale)
+    several = isinstance(part, (list, tuple)) and not inputs.is_mesh(part)
+    parts, cad_scale = part if several else [part], checked_scale("cad_scale", cad_scale)
     given = "solid" if reading.solid else "cad_scale" if cad_scale != 1.0 else None
     if given and all(map(is_model, parts)):
         raise Error(f"{given} is of a CAD file: leave it out, a trained model has its own")
@@ -299,8 +303,8 @@ def part_of(part, scale, settings, reading, offset=(0.0, 0.0, 0.0)):
         return Model(part)
     if is_model(part):
         return load(part)
-    if not isinstance(part, vtkDataObject):
-        inputs.name_of(part, "the part has to be a Model, a file, or a vtkPolyData")
+    if not inputs.is_mesh(part):
+        inputs.name_of(part, "the part has to be a Model, a file, or a mesh")
     return train(part, scale=scale, offset=offset, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
 
 

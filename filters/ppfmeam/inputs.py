@@ -35,17 +35,43 @@ def age_of(scan):
     return os.stat(scan).st_mtime_ns if isinstance(scan, (str, os.PathLike)) and os.path.exists(scan) else None
 
 
+def arrays_of(cad):
+    """Vertices and triangles of a mesh of trimesh or Open3D, or of a tuple of both; None of anything else."""
+    if isinstance(cad, tuple):
+        return cad if len(cad) == 2 and isinstance(cad[0], numpy.ndarray) else None
+    triangles = next((getattr(cad, name) for name in ("faces", "triangles") if hasattr(cad, name)), None)
+    return (cad.vertices, triangles) if triangles is not None and hasattr(cad, "vertices") else None
+
+
+def is_mesh(cad):
+    """Whether it is a mesh in memory: VTK's, of another library, or its arrays."""
+    return isinstance(cad, vtkDataObject) or arrays_of(cad) is not None
+
+
+def mesh_of_arrays(vertices, triangles):
+    vertices, triangles = numpy.asarray(vertices), numpy.asarray(triangles)
+    if vertices.ndim != 2 or vertices.shape[1] != 3 or vertices.dtype.kind not in "fiu" or not numpy.isfinite(vertices).all():
+        raise Error(f"the part's vertices have to be finite numbers N x 3, not {vertices.dtype} {vertices.shape}")
+    if triangles.ndim != 2 or triangles.shape[1] != 3 or triangles.dtype.kind not in "iu":
+        raise Error(f"the part's triangles have to be whole numbers M x 3, not {triangles.dtype} {triangles.shape}")
+    if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise Error(f"the part's triangles have to be of its {len(vertices)} vertices, the first of which is 0")
+    return _core.Mesh(vertices.astype(numpy.float32), triangles.astype(numpy.int32))
+
+
 def mesh_of(cad, reading):
-    """The mesh of a file or a vtkPolyData, as it came; `reading`: what is chosen of the file."""
+    """The mesh of a file, a vtkPolyData or arrays, as it came; `reading`: what is chosen of the file."""
+    if is_mesh(cad) and reading.solid:
+        raise Error("solid is chosen from a STEP or IGES file: give the file, not its mesh")
+    if arrays_of(cad) is not None:
+        return mesh_of_arrays(*arrays_of(cad))
     if not isinstance(cad, vtkDataObject):
-        if name_of(cad, "the part has to be a file, or a vtkPolyData").lower().endswith(".pcd"):
+        if name_of(cad, "the part has to be a file, or a mesh").lower().endswith(".pcd"):
             raise Error(f"{cad} is a scan: the part has to be a mesh with faces ({', '.join(scripting.MESHES)})")
         mesh = _core.load_cad(mesh_file(cad, scripting.MESHES), reading.apply(_core.CADSettings(), _core))
         if mesh.report:
             warnings.warn(mesh.report, stacklevel=4)
         return mesh
-    if reading.solid:
-        raise Error("solid is chosen from a STEP or IGES file: give the file, not its mesh")
     triangles = vtkTriangleFilter()
     triangles.SetInputDataObject(cad)
     triangles.PassLinesOff()

@@ -103,7 +103,7 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
     found: Detections of detect(), or poses N x 4 x 4. grasps: those of the part, as grasps() returns them, or a list of those of
     each type of part, in the order of detect(), whose copies are all in the way; the gripper has their lengths, unless others
     are given. scan, camera, scale: as detect() takes them; without a scan only the other copies and the bin are in the way.
-    gripper: jaws, cup, or a mesh (a file or a vtkPolyData) as it stands open in the grasp's frame.
+    gripper: jaws, cup, or a mesh (as train() takes it) as it stands open in the grasp's frame.
     bin: detected (by its rim, in the scan), none, or (T, length, width, height, wall): T, 4 x 4, takes the coordinates of the
     bin, whose z goes up from the middle of its floor, to the scan's; mm. robot_frame: a file of OpenCV or ROS with the
     camera in the robot's frame. Returns Picks.

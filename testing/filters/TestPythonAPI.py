@@ -193,6 +193,21 @@ settings.threads, settings.referenceShare = 1, 1.0
 seen = inputs.scan_of(scan)
 check_threads(lambda: _core.detect([model.core], seen, settings))
 mesh = _core.load_cad("part.stl")
+corners, triangles = mesh.vertices.astype(float), mesh.triangles
+
+
+class Faces:
+    """As trimesh has it; Open3D has `triangles`."""
+    vertices, faces = corners.tolist(), triangles.tolist()
+
+
+for each in ((corners, triangles), Faces()):
+    same_model(ppfmeam.train(each).data, model.data)
+check(len(ppfmeam.detect((corners, triangles), scan, poses=1)) == 1, "the arrays of one part are no two parts")
+raises("vertices have to be finite numbers N x 3, not float64 (3, 2)", ppfmeam.train, (corners[:3, :2], triangles))
+raises("triangles have to be whole numbers M x 3, not float64", ppfmeam.train, (corners, corners))
+raises("triangles have to be of its 4 vertices", ppfmeam.train, (corners[:4], triangles))
+raises("solid is chosen from a STEP or IGES file", ppfmeam.train, (corners, triangles), solid=1)
 check_threads(lambda: _core.train(mesh, _core.TrainSettings()))
 
 # The model comes back from both kinds of file as it was.
@@ -241,7 +256,7 @@ raises("propose", ppfmeam.grasps, "part.stl", propose="magnet")
 # What the gripper can take of what was found.
 with Quiet():
     picks = ppfmeam.pick(found, grasps, scan, opening=60)
-    cup = ppfmeam.pick(found.poses, grasps, points, gripper="cup", bin="none")
+    cup = ppfmeam.pick(found.poses[found.place_probabilities > 0.5], grasps, points, gripper="cup", bin="none")  # nothing lies on these
     place = numpy.diag((1.0, -1.0, -1.0, 1.0))
     place[:3, 3] = picks.bin.transform[:3, 3]
     deep = ppfmeam.pick(found, grasps, bin=(place, 200, 200, 50, 4))
@@ -288,9 +303,9 @@ flat = points.reshape(-1, 3)
 raises("no such file", ppfmeam.train, "missing.stl")
 raises("unknown kind of file", ppfmeam.train, __file__)
 raises("is a scan: the part has to be a mesh", ppfmeam.train, "scan.pcd")
-raises("the part has to be a file, or a vtkPolyData, not ndarray", ppfmeam.train, flat)
+raises("the part has to be a file, or a mesh, not ndarray", ppfmeam.train, flat)
 raises("the model has to be a file, not NoneType", ppfmeam.load, None)
-raises("the part has to be a Model, a file, or a vtkPolyData, not dict", ppfmeam.why, {}, scan, at=(0, 0, 600))
+raises("the part has to be a Model, a file, or a mesh, not dict", ppfmeam.why, {}, scan, at=(0, 0, 600))
 raises("the scan has to be a file, an array of points, or VTK's data object, not Model", ppfmeam.detect, "part.stl", model)
 raises("scale has to be a number above 0, not '1000'", ppfmeam.detect, model, scan, scale="1000")
 raises("cad_scale has to be a number above 0, not nan", ppfmeam.detect, "part.stl", scan, cad_scale=math.nan)
