@@ -8,7 +8,7 @@ from meamtest import check, cloud, connect, distance, fails, field, poses, run, 
 from twotypes import two_types
 
 CUP = 8  # mm
-meshes, scan = two_types()
+meshes, scan = two_types(14)  # of which three of each type are likely
 
 
 def asked(filter, parts=meshes, found=None, **properties):
