@@ -6,6 +6,7 @@
 #include "model/BodyInterior.h"
 #include "model/MirrorImage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 
@@ -21,26 +22,23 @@ constexpr double FieldCell = 0.0075;      // of the distance fields
 constexpr float SheetWidth = 3.0f;        // thicknesses: what is narrower is a rod
 constexpr double FlatThickness = 0.075;   // PoseEvidence tells such parts from what they lie on by their thickness
 
-float thicknessOf(const PointCloud& surface)
+/// Along the axes of the CAD file, the least first.
+Eigen::Vector3f sizesOf(const PointCloud& surface)
 {
-  return surface.empty() ? 0.0f : bounds(surface.points).sizes().minCoeff();
-}
-
-float widthOf(const PointCloud& surface)
-{
-  if (surface.empty())
+  Eigen::Vector3f sizes = Eigen::Vector3f::Zero();
+  if (!surface.empty())
   {
-    return 0.0f;
+    sizes = bounds(surface.points).sizes();
+    std::sort(sizes.data(), sizes.data() + sizes.size());
   }
-  const Eigen::Vector3f sizes = bounds(surface.points).sizes();
-  return sizes.sum() - sizes.minCoeff() - sizes.maxCoeff();
+  return sizes;
 }
 }
 
 std::vector<int> thinSamples(const PointCloud& surface, double leafSize, double diameter)
 {
-  return thicknessOf(surface) <= FlatThickness * diameter ? thinSurface(surface, leafSize)
-                                                          : thinPoints(surface.points, leafSize);
+  return sizesOf(surface)[0] <= FlatThickness * diameter ? thinSurface(surface, leafSize)
+                                                         : thinPoints(surface.points, leafSize);
 }
 
 double TrainedModel::sheetThickness() const
@@ -101,8 +99,9 @@ void TrainedModel::deriveFields()
   this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
   this->surfaceTable.deriveVotes(
     this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
-  this->thickness = thicknessOf(this->surface);
-  this->width = widthOf(this->surface);
+  const Eigen::Vector3f sizes = sizesOf(this->surface);
+  this->thickness = sizes[0];
+  this->width = sizes[1];
   this->verificationPoints = thinSamples(this->surface, VerificationLeaf * this->diameter, this->diameter);
   this->visibility = std::make_shared<const PredictedVisibility>(*this);
   this->surfaceDistance = ofSurface.get();

@@ -41,10 +41,9 @@ InstanceFinishing::InstanceFinishing(const Scene& scene, const TrainedModel& mod
 FinishedInstance InstanceFinishing::finish(const Pose& scored) const
 {
   FinishedInstance hopeless = asItIs(scored);
-  hopeless.logOdds = this->Search.placeLogOdds(scored.T_scene_model);
+  this->judgeWhereItLies(hopeless);
   if (hopeless.logOdds < Hopeless)
   {
-    setEvidence(hopeless.pose, hopeless.logOdds);
     return hopeless;
   }
   const LocalSearch::Result best = this->Search.best(scored);
@@ -83,11 +82,8 @@ bool InstanceFinishing::isExcluded(const Pose& scored, const std::vector<Sure>& 
 
 void InstanceFinishing::judgeWhereItLies(FinishedInstance& instance) const
 {
-  if (instance.pose.placeProbability > WorthJudging)
-  {
-    instance.logOdds = this->Search.placeLogOdds(instance.pose.T_scene_model);
-    setEvidence(instance.pose, instance.logOdds);
-  }
+  instance.logOdds = this->Search.placeLogOdds(instance.pose.T_scene_model);
+  setEvidence(instance.pose, instance.logOdds);
 }
 
 FinishedInstances InstanceFinishing::finished(
@@ -172,7 +168,11 @@ FinishedInstances InstanceFinishing::finished(
       {
         for (int k = begin; k < end; ++k)
         {
-          this->judgeWhereItLies(finished[asScored[k]]);
+          FinishedInstance& instance = finished[asScored[k]];
+          if (instance.pose.placeProbability > WorthJudging)
+          {
+            this->judgeWhereItLies(instance);
+          }
         }
       });
   }

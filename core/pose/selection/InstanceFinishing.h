@@ -35,7 +35,7 @@ private:
   };
   FinishedInstance finish(const Pose& scored) const;
   bool isExcluded(const Pose& scored, const std::vector<Sure>& sure) const;
-  /// What is said of one that is not finished.
+  /// What is said of one that is not finished, by its pose as it is.
   void judgeWhereItLies(FinishedInstance& instance) const;
 
   const Scene& InScene;

@@ -143,9 +143,9 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   diagnosis.odds.searched = 2.34;
   diagnosis.odds.shareOfSearch = 0.4;
   EXPECT_EQ(meam::reasonsOf(diagnosis)[1], sentences[1]);
-  EXPECT_EQ(meam::reasonsOf(diagnosis)[2], "This scan shows few of a part's edges. So these count by 60 %, and by 40 % "
-                                           "what it was searched for by, which counts "
-                                           "each point by itself (2.3).");
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[2],
+    "This scan shows few of a part's edges. So these count by 60 %, and by 40 % what it was searched for by, which "
+    "counts each point by itself (2.3).");
   diagnosis.odds.shareOfSearch = 0.0;
   const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
   diagnosis.cutsInto = 0;
