@@ -304,7 +304,7 @@ def part_of(part, scale, settings, reading, offset=(0.0, 0.0, 0.0)):
     if is_model(part):
         return load(part)
     if not inputs.is_mesh(part):
-        inputs.name_of(part, "the part has to be a Model, a file, or a mesh")
+        inputs.name_of(part, "the part has to be a Model, a file, a mesh, or two arrays, vertices and triangles")
     return train(part, scale=scale, offset=offset, solid=reading.solid, **{name: settings.values[name] for name in ("preset", "features", "seed")})
 
 

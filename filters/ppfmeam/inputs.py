@@ -54,7 +54,9 @@ def mesh_of_arrays(vertices, triangles):
         raise Error(f"the part's vertices have to be finite numbers N x 3, not {vertices.dtype} {vertices.shape}")
     if triangles.ndim != 2 or triangles.shape[1] != 3 or triangles.dtype.kind not in "iu":
         raise Error(f"the part's triangles have to be whole numbers M x 3, not {triangles.dtype} {triangles.shape}")
-    if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
+    if not len(triangles):
+        raise Error("the part has no triangles")
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
         raise Error(f"the part's triangles have to be of its {len(vertices)} vertices, the first of which is 0")
     return _core.Mesh(vertices.astype(numpy.float32), triangles.astype(numpy.int32))
 
@@ -66,7 +68,7 @@ def mesh_of(cad, reading):
     if arrays_of(cad) is not None:
         return mesh_of_arrays(*arrays_of(cad))
     if not isinstance(cad, vtkDataObject):
-        if name_of(cad, "the part has to be a file, or a mesh").lower().endswith(".pcd"):
+        if name_of(cad, "the part has to be a file, a mesh, or two arrays, vertices and triangles").lower().endswith(".pcd"):
             raise Error(f"{cad} is a scan: the part has to be a mesh with faces ({', '.join(scripting.MESHES)})")
         mesh = _core.load_cad(mesh_file(cad, scripting.MESHES), reading.apply(_core.CADSettings(), _core))
         if mesh.report:
