@@ -62,6 +62,12 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
     sentences.push_back("The parts in the scan are " + sizeWords(poses.front().contradictions.lengths) +
                         ": another part lies there, or the CAD file is of another version.");
   }
+  else if (!poses.empty() && poses.front().contradictions.surplus > poses.front().contradictions.missing)
+  {
+    sentences.push_back(
+      "On most copies in the scan the surface goes on where the part's ends: another part lies there, "
+      "or the CAD file is of another version.");
+  }
   else if (!poses.empty() && poses.front().contradictions.missing > 0)
   {
     sentences.push_back(

@@ -119,7 +119,8 @@ std::vector<Switch> makeSwitches()
   instances("overlaps", "poses may cut into each other", [](S& s) { s.excludesOverlaps = false; });
   instances("lookalikes", "what contradicts a pose speaks for no other part", [](S& s) { s.weighsLookalikes = false; });
   instances("mirror-image", "no pose is of the mirrored part", [](S& s) { s.weighsMirrorImage = false; });
-  instances("missing-surface", "parts may lack some of their surface", [](S& s) { s.weighsMissing = false; });
+  instances(
+    "common-differences", "most copies may differ from the part alike", [](S& s) { s.weighsDifferences = false; });
   instances("part-size", "parts may be of another size", [](S& s) { s.weighsSize = false; });
   instances("comparison", "instances by their evidence alone", [](S& s) { s.comparesInstances = false; });
   instances("alignment", "no final alignment", [](S& s) { s.search.aligns = false; });

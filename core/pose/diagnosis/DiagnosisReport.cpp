@@ -161,6 +161,11 @@ std::string contradictionWords(const Contradictions& contradictions)
   {
     return "what lies there is " + sizeWords(contradictions.lengths);
   }
+  if (contradictions.surplus > contradictions.missing)
+  {
+    return "on most copies in the scan surface goes on over " + std::to_string(contradictions.surplus) +
+           " patches where the part's ends";
+  }
   if (contradictions.missing > 0)
   {
     return std::to_string(contradictions.missing) + " patches of its surface are missing on most copies in the scan";

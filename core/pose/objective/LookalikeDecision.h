@@ -16,7 +16,8 @@ struct Contradictions
   double past = 0.0;       ///< patches of predicted surface that the sensor saw past
   double misfit = 0.0; ///< how far the surface lies off the part, in what is expected of a right pose (SurfaceMisfit)
 
-  int missing = 0;       ///< patches of the part, beyond chance, that are missing on most of the likely poses
+  int missing = 0;       ///< patches of the part that are missing on most of the likely poses (CommonDifferences)
+  int surplus = 0;       ///< and patches of surface beside it that are there on most
   double mirrored = 0.0; ///< probability that what a mirror shows of the part lies there (allowForMirrorImage)
   double resized = 0.0;  ///< probability that what lies there is longer or shorter along an axis (allowForOtherSize)
   /// Of the likely poses together, along the axes of the CAD file, as shares of its lengths; NaN where not measured.

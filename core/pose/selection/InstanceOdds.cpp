@@ -2,7 +2,6 @@
 #include "pose/selection/InstanceOdds.h"
 
 #include "pose/objective/BodyOverlap.h"
-#include "pose/objective/MissingSurface.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "pose/verification/PoseVerification.h"
 #include "pose/verification/ProbabilityCalibration.h"
@@ -15,9 +14,9 @@ namespace meam
 namespace
 {
 constexpr double Likely = 0.5;          // place of a pose that explains what it lies on
-constexpr std::size_t MostShowing = 20; // poses that tell what is missing
-constexpr double PriorOfWhole = 3.0; // log odds that it is the part: another lies there by mistake, one time in twenty
-constexpr double OfMissingPatch = -5.0; // of a patch beyond
+constexpr std::size_t MostShowing = 20; // poses that tell in what they differ
+constexpr double PriorOfSame = 3.0; // log odds that it is the part: another lies there by mistake, one time in twenty
+constexpr double OfDifferentPatch = -5.0;
 }
 
 void allowFor(FinishedInstance& finished, double certainty)
@@ -113,19 +112,22 @@ void allowForLookalikes(
   }
 }
 
-int missingOfLikely(const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads)
+CommonDifferences differencesOfLikely(
+  const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads)
 {
-  return missingPatches(likelyOf(found, MostShowing), scene, model, threads);
+  return commonDifferences(likelyOf(found, MostShowing), scene, model, threads);
 }
 
-void allowForMissing(FinishedInstances& found, int missing)
+void allowForDifferences(FinishedInstances& found, const CommonDifferences& differences, double excused)
 {
+  const double patches = differences.missing + (1.0 - excused) * differences.surplus;
   for (FinishedInstance& finished : found)
   {
-    finished.pose.contradictions.missing = missing;
-    if (missing > 0)
+    finished.pose.contradictions.missing = differences.missing;
+    finished.pose.contradictions.surplus = differences.surplus;
+    if (patches > 0.0)
     {
-      allowFor(finished, probabilityOf(PriorOfWhole + OfMissingPatch * missing));
+      allowFor(finished, probabilityOf(PriorOfSame + OfDifferentPatch * patches));
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include "model/TrainedModel.h"
 #include "pose/Pose.h"
+#include "pose/objective/CommonDifferences.h"
 #include "pose/objective/SurfaceContinuation.h"
 #include "scene/Scene.h"
 
@@ -40,10 +41,11 @@ void excludeOverlaps(FinishedInstances& found, const TrainedModel& model);
 void allowForLookalikes(
   FinishedInstances& found, const TrainedModel& model, const SurfaceContinuation& continuation, double excused);
 
-/// Of poses, best first: missingPatches of the likely ones.
-int missingOfLikely(const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads);
-/// The part may lie there, or one that lacks so many patches of it, or has them elsewhere.
-void allowForMissing(FinishedInstances& found, int missing);
+/// Of poses, best first: in what the likely ones differ from the part.
+CommonDifferences differencesOfLikely(
+  const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads);
+/// The part may lie there, or one that differs in so many patches. `excused`: SurfaceMisfit, of the surplus.
+void allowForDifferences(FinishedInstances& found, const CommonDifferences& differences, double excused);
 
 /// What is said of places and rotations is what held in the scans that the model was calibrated on.
 void calibrate(FinishedInstances& found, const ModelCalibration& calibration);

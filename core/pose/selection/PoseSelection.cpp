@@ -77,7 +77,8 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
       excludeOverlaps(finished, model);
     }
     // Of what is likely by itself: what else the likely poses say together may make all of them unlikely.
-    const int missing = settings.weighsMissing ? missingOfLikely(finished, scene, model, settings.threads) : 0;
+    const CommonDifferences differences =
+      settings.weighsDifferences ? differencesOfLikely(finished, scene, model, settings.threads) : CommonDifferences();
     if (settings.weighsLookalikes)
     {
       allowForLookalikes(finished, model, finishing.continuation(), finishing.misfit().excused());
@@ -90,7 +91,7 @@ Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedMode
     {
       allowForMirrorImage(finished, scene, model, collector, settings.evidence, rates, settings.threads);
     }
-    allowForMissing(finished, missing);
+    allowForDifferences(finished, differences, finishing.misfit().excused());
     sortBest(finished);
   }
   if (model.calibration.poses > 0)

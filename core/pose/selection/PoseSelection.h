@@ -30,7 +30,7 @@ struct PoseSelectionSettings
   bool dropsShared = true;       ///< poses whose surface better ones have
   bool excludesOverlaps = true;  ///< of poses that cut into each other one is right at most
   bool weighsLookalikes = true;  ///< what contradicts a pose speaks for another part
-  bool weighsMissing = true;     ///< what lacks some of the part on most copies is another one
+  bool weighsDifferences = true; ///< what differs from the part at the same place on most copies is another one
   bool weighsSize = true;        ///< what is longer or shorter than the CAD file's part is another one
   bool weighsMirrorImage = true; ///< what fits the part as a mirror shows it better is that
   bool comparesInstances = true; ///< poses of nearly the same evidence, point by point

@@ -98,4 +98,7 @@ TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
   meam::Poses ofOtherPart{ claimed(0.01, 1.0) };
   ofOtherPart[0].contradictions.missing = 2;
   EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofOtherPart, 100.0), "is missing on most copies"));
+  ofOtherPart[0].contradictions.surplus = 3;
+  EXPECT_TRUE(
+    says(meam::scanAdvice(goodScan(), report, ofOtherPart, 100.0), "the surface goes on where the part's ends"));
 }

@@ -54,17 +54,22 @@ TEST(InstanceOdds, WhatABetterPoseExcludesHardlyExcludes)
   EXPECT_NEAR(row[2], 3.0 - std::log1p(std::exp(4.0) / (1.0 + std::exp(8.0))), 1e-9);
 }
 
-TEST(InstanceOdds, EachMissingPatchTellsOfAnotherPart)
+TEST(InstanceOdds, EachPatchThatDiffersTellsOfAnotherPart)
 {
-  const auto placeWith = [](int missing)
+  const auto placeWith = [](int missing, int surplus, double excused)
   {
     meam::FinishedInstances found(1);
     found[0].logOdds = std::log(0.9 / 0.1);
-    meam::allowForMissing(found, missing);
+    meam::allowForDifferences(found, { missing, surplus }, excused);
     EXPECT_EQ(found[0].pose.contradictions.missing, missing);
+    EXPECT_EQ(found[0].pose.contradictions.surplus, surplus);
     return 1.0 / (1.0 + std::exp(-found[0].logOdds));
   };
-  EXPECT_NEAR(placeWith(0), 0.9, 1e-9);
-  EXPECT_NEAR(placeWith(1), 0.9 / (1.0 + std::exp(2.0)), 1e-9);
-  EXPECT_LT(placeWith(2), 0.01);
+  EXPECT_NEAR(placeWith(0, 0, 0.0), 0.9, 1e-9);
+  EXPECT_NEAR(placeWith(1, 0, 0.0), 0.9 / (1.0 + std::exp(2.0)), 1e-9);
+  EXPECT_NEAR(placeWith(1, 0, 0.8), placeWith(1, 0, 0.0), 1e-9) << "what is missing is not excused";
+  EXPECT_NEAR(placeWith(0, 1, 0.0), placeWith(1, 0, 0.0), 1e-9);
+  EXPECT_NEAR(placeWith(0, 1, 0.8), 0.9 / (1.0 + std::exp(-2.0)), 1e-9);
+  EXPECT_LT(placeWith(2, 0, 0.0), 0.01);
+  EXPECT_LT(placeWith(1, 1, 0.0), 0.01);
 }

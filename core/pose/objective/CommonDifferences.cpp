@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/objective/CommonDifferences.h"
+
+#include "base/Parallel.h"
+#include "model/BodyInterior.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace meam
+{
+namespace
+{
+constexpr double PatchSide = 0.06;       // of the diameter: about ten samples of the surface
+constexpr double OnPart = 0.02;          // of the diameter: surface so near to the part is the part's,
+constexpr double OnPartNoises = 2.0;     // or so near in standard deviations of the scan's noise
+constexpr double LeastFacing = 0.35;     // cosine towards the sensor: flatter surface is measured badly
+constexpr int PointsOfPatch = 2;         // and no fewer show it on a copy
+constexpr int CopiesOfPatch = 4;         // show it: fewer may be wrong at the same place
+constexpr double MostOfCopies = 0.5;     // of them, on which a patch differs
+constexpr int DifferentByChance = 1;     // and one more of so many that are told of:
+constexpr int ToldOfEachDifferent = 100; // of right parts two of four hundred were, at most
+
+// Beside the part, in diameters
+constexpr float Beside = 0.03f;       // off the part: as far as its distance field goes
+constexpr float NearlyBeside = 0.98f; // of that
+constexpr int Ways = 8;               // from a sample along its face
+constexpr int Steps = 4;              // in each
+constexpr float Step = 0.01f;         // from Beside on
+constexpr float SmearedPixels = 6.0f; // off the part at least: so far sensors carry a face beyond its rim
+constexpr float SameFace = 0.01f;     // off a face: on what goes on from it, or so near by the noise,
+constexpr float MostSameFace = 0.04f; // and no more along the line of sight: else what lies behind may seem to be on it
+constexpr float OfBin = 0.03f;        // off the bin's floor or a wall
+
+using Patch = std::array<int, 3>;
+
+/// Points of a patch on one copy.
+struct PatchPoints
+{
+  int asPart = 0; ///< or measured at a rim
+  int different = 0, hidden = 0;
+};
+
+using Patches = std::map<Patch, PatchPoints>;
+
+/// The patch of a point: of a round part a ring, for its copies are turned by any angle.
+Patch patchOf(const Eigen::Vector3f& point, const Symmetries& symmetries, double side)
+{
+  Eigen::Vector3d place = point.cast<double>();
+  if (!symmetries.continuous.empty())
+  {
+    const auto& [axis, foot] = symmetries.continuous.front();
+    const double along = (place - foot).dot(axis);
+    place = Eigen::Vector3d(along, (place - foot - along * axis).norm(), 0.0);
+  }
+  const Eigen::Array3i cell = (place.array() / side).floor().cast<int>();
+  return { cell.x(), cell.y(), cell.z() };
+}
+
+/// Whether the sensor saw past a point in all cells about its own, too. `behind`: mm along the line of sight.
+bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, const FineDepth& depth)
+{
+  const std::array<int, 4> cells = depth.neighboursOf(depth.cellAt(point));
+  return std::all_of(cells.begin(), cells.end(),
+    [&](int cell)
+    {
+      const Eigen::Vector3f* mean = cell < 0 ? nullptr : depth.meanIn(cell);
+      return !mean || (point - *mean).dot(towards) > behind;
+    });
+}
+
+/// Where the faces of a part would go on if they did not end: points beside its samples.
+std::vector<Points> besideSamples(const TrainedModel& model, double pitch, int threads)
+{
+  const float diameter = static_cast<float>(model.diameter);
+  const float further = std::max(SmearedPixels * static_cast<float>(pitch) - Beside * diameter, 0.0f);
+  const auto isBeside = [&](const Eigen::Vector3f& point)
+  { return model.surfaceDistance.at(point) > NearlyBeside * Beside * diameter; };
+  std::vector<Points> beside(model.surface.size());
+  parallelFor(static_cast<int>(beside.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        const Eigen::Vector3f& normal = model.surface.normals[i];
+        const Eigen::Vector3f across = normal.unitOrthogonal(), other = normal.cross(across);
+        for (int way = 0; way < Ways; ++way)
+        {
+          const float angle = static_cast<float>(2.0 * M_PI * way / Ways);
+          const Eigen::Vector3f along = std::cos(angle) * across + std::sin(angle) * other;
+          float distance = Beside * diameter;
+          int step = 0;
+          for (; step < Steps && !isBeside(model.surface.points[i] + distance * along); ++step)
+          {
+            distance += Step * diameter;
+          }
+          const Eigen::Vector3f point = model.surface.points[i] + (distance + further) * along;
+          if (step < Steps && isBeside(point) && !model.interior->isDeep(point))
+          {
+            beside[i].push_back(point);
+          }
+        }
+      }
+    });
+  return beside;
+}
+
+/// What copies show of the part, and beside it.
+class CopiesInSight
+{
+public:
+  CopiesInSight(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
+    : All(poses)
+    , InScene(scene)
+    , Model(model)
+    , Noise(static_cast<float>(OnPartNoises * scene.quality.noise))
+    , Face(std::max(SameFace * static_cast<float>(model.diameter), this->Noise))
+    , BesideSamples(besideSamples(model, scene.depth.pitch(), threads))
+  {
+  }
+
+  void collect(int copy, Patches& ofPart, Patches& beside) const
+  {
+    const Pose& pose = this->All[copy];
+    const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
+    const Eigen::Vector3f towards = this->Model.visibility->towards(pose.T_scene_model, this->InScene.sensor);
+    const float onPart = std::max(static_cast<float>(OnPart * this->Model.diameter), this->Noise);
+    for (const int i : this->Model.visibility->samplesInSight(pose.T_scene_model, this->InScene.sensor, LeastFacing))
+    {
+      const float facing = this->Model.surface.normals[i].dot(towards);
+      this->addPart(this->Model.surface.points[i], T, T.linear() * towards, onPart / facing, ofPart);
+      if (this->Face / facing <= MostSameFace * static_cast<float>(this->Model.diameter))
+      {
+        for (const Eigen::Vector3f& point : this->BesideSamples[i])
+        {
+          this->addBeside(point, T, copy, this->Face / facing, beside);
+        }
+      }
+    }
+  }
+
+private:
+  PatchPoints& patchOf(const Eigen::Vector3f& point, Patches& patches) const
+  {
+    return patches[meam::patchOf(point, this->Model.symmetries, PatchSide * this->Model.diameter)];
+  }
+
+  void addPart(const Eigen::Vector3f& point, const Eigen::Isometry3f& T, const Eigen::Vector3f& towards, float behind,
+    Patches& patches) const
+  {
+    PatchPoints& patch = this->patchOf(point, patches);
+    switch (this->InScene.fineDepth.relation(T * point, behind))
+    {
+      case DepthGrid::Relation::OnSurface:
+        ++patch.asPart;
+        break;
+      case DepthGrid::Relation::InFront:
+        ++(isClearAbout(T * point, towards, behind, this->InScene.fineDepth) ? patch.different : patch.asPart);
+        break;
+      case DepthGrid::Relation::Hidden:
+        ++patch.hidden;
+        break;
+      case DepthGrid::Relation::NoSurface:
+        break;
+    }
+  }
+
+  void addBeside(
+    const Eigen::Vector3f& point, const Eigen::Isometry3f& T, int copy, float tolerance, Patches& patches) const
+  {
+    PatchPoints& patch = this->patchOf(point, patches);
+    switch (this->InScene.fineDepth.relation(T * point, tolerance))
+    {
+      case DepthGrid::Relation::OnSurface:
+        ++(this->isOfOther(T * point, copy) ? patch.hidden : patch.different);
+        break;
+      case DepthGrid::Relation::InFront:
+        ++patch.asPart;
+        break;
+      case DepthGrid::Relation::Hidden:
+        ++patch.hidden;
+        break;
+      case DepthGrid::Relation::NoSurface:
+        break;
+    }
+  }
+
+  /// Whether a point is of the bin or lies on another copy.
+  bool isOfOther(const Eigen::Vector3f& point, int copy) const
+  {
+    const float diameter = static_cast<float>(this->Model.diameter);
+    for (const Plane& plane : this->InScene.enclosure)
+    {
+      if (std::abs(plane.signedDistance(point)) < OfBin * diameter)
+      {
+        return true;
+      }
+    }
+    for (int other = 0; other < static_cast<int>(this->All.size()); ++other)
+    {
+      if (other != copy && this->Model.surfaceDistance.at(this->All[other].T_scene_model.inverse().cast<float>() *
+                                                          point) < static_cast<float>(OnPart) * diameter)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const Poses& All;
+  const Scene& InScene;
+  const TrainedModel& Model;
+  float Noise, Face; ///< mm
+  std::vector<Points> BesideSamples;
+};
+
+/// Patches that differ on most copies, beyond chance.
+int differentOnMost(const std::vector<Patches>& ofCopies)
+{
+  struct Copies
+  {
+    int showing = 0;
+    double different = 0.0;
+  };
+  std::map<Patch, Copies> patches;
+  for (const Patches& ofCopy : ofCopies)
+  {
+    for (const auto& [place, points] : ofCopy)
+    {
+      const int seen = points.asPart + points.different;
+      if (seen >= PointsOfPatch && seen > points.hidden)
+      {
+        Copies& copies = patches[place];
+        ++copies.showing;
+        copies.different += static_cast<double>(points.different) / seen;
+      }
+    }
+  }
+  int told = 0, different = 0;
+  for (const auto& [place, copies] : patches)
+  {
+    const bool isTold = copies.showing >= CopiesOfPatch;
+    told += isTold;
+    different += isTold && copies.different > MostOfCopies * copies.showing;
+  }
+  return std::max(different - DifferentByChance - (told + ToldOfEachDifferent / 2) / ToldOfEachDifferent, 0);
+}
+}
+
+CommonDifferences commonDifferences(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
+{
+  if (poses.size() < CopiesOfPatch)
+  {
+    return {};
+  }
+  const CopiesInSight copies(poses, scene, model, threads);
+  std::vector<Patches> ofPart(poses.size()), beside(poses.size());
+  parallelFor(static_cast<int>(poses.size()), threads, {},
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        copies.collect(i, ofPart[i], beside[i]);
+      }
+    });
+  return { differentOnMost(ofPart), differentOnMost(beside) };
+}
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose/objective/CommonDifferences.h"
+
+#include "TestScene.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+meam::TriangleMesh blockOnCorner() { return parts::blockOnPlate(false); }
+
+/// A mesh with its vertices at so much along an axis moved.
+meam::TriangleMesh stretched(meam::TriangleMesh mesh, int axis, float from, float to)
+{
+  for (Eigen::Vector3f& vertex : mesh.vertices)
+  {
+    if (vertex[axis] == from)
+    {
+      vertex[axis] = to;
+    }
+  }
+  return mesh;
+}
+
+/// Else the plates' tops would be taken for it.
+scenes::Copy floor(float length)
+{
+  return { parts::box({ -10.0f, -10.0f, -5.0f }, { length, 70.0f, 0.0f }), scenes::lying(0, 0, 0) };
+}
+
+using Places = std::vector<Eigen::Isometry3d>;
+
+Places apart(int copies)
+{
+  Places places;
+  for (int i = 0; i < copies; ++i)
+  {
+    places.push_back(scenes::lying(100.0 * (i % 2), 100.0 * (i / 2), 70.0 * i));
+  }
+  return places;
+}
+
+Places inRow(int copies, double distance)
+{
+  Places places;
+  for (int i = 0; i < copies; ++i)
+  {
+    places.push_back(scenes::lying(distance * i, 0.0, 0.0));
+  }
+  return places;
+}
+
+/// In what copies of another plate at these places, and what else lies there, differ from a plate with a block on one
+/// corner.
+meam::CommonDifferences differencesOn(
+  const Places& places, const meam::TriangleMesh& other, const std::vector<scenes::Copy>& beside = {})
+{
+  const meam::TrainedModel& model = scenes::trained<blockOnCorner>();
+  std::vector<scenes::Copy> lying = beside;
+  for (const Eigen::Isometry3d& place : places)
+  {
+    lying.push_back({ other, place });
+  }
+  const meam::Scene scene =
+    scenes::prepared(scenes::withTangents(scenes::seenFromAbove(lying), model.diameter), model.diameter);
+  meam::Poses poses(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    poses[i].T_scene_model = scene.T_local_scene() * places[i];
+  }
+  const meam::CommonDifferences differences = meam::commonDifferences(poses, scene, model, 1);
+  const meam::CommonDifferences inParallel = meam::commonDifferences(poses, scene, model, 4);
+  EXPECT_EQ(inParallel.missing, differences.missing);
+  EXPECT_EQ(inParallel.surplus, differences.surplus);
+  return differences;
+}
+}
+
+TEST(CommonDifferences, ThePartItselfHasNone)
+{
+  const meam::CommonDifferences differences = differencesOn(apart(4), blockOnCorner());
+  EXPECT_EQ(differences.missing, 0);
+  EXPECT_EQ(differences.surplus, 0);
+}
+
+TEST(CommonDifferences, ABlockThatIsElsewhereIsMissing)
+{
+  // Its top, 20 x 12 mm but for its rim, in patches of 5.2 x 5.2 mm.
+  const int missing = differencesOn(apart(4), parts::blockOnPlate(true)).missing;
+  EXPECT_GE(missing, 2);
+  EXPECT_LE(missing, 5 * 4);
+}
+
+TEST(CommonDifferences, ThreeCopiesTellNothing)
+{
+  EXPECT_EQ(differencesOn(apart(3), parts::blockOnPlate(true)).missing, 0);
+}
+
+TEST(CommonDifferences, ANarrowStripOfTheBlockIsMissing)
+{
+  EXPECT_GE(differencesOn(apart(4), stretched(blockOnCorner(), 0, 40.0f, 46.0f)).missing,
+    1); // its inner side: 8 % of the diameter
+}
+
+TEST(CommonDifferences, SurfaceOfALongerPlateGoesOn)
+{
+  const meam::TriangleMesh longer = stretched(blockOnCorner(), 1, 40.0f, 52.0f); // beyond what sensors smear
+  const meam::CommonDifferences differences = differencesOn(inRow(5, 90.0), longer, { floor(430.0f) });
+  EXPECT_EQ(differences.missing, 0);
+  EXPECT_GE(differences.surplus, 5); // along 60 mm
+  EXPECT_LE(differences.surplus, 2 * 13);
+}
+
+TEST(CommonDifferences, ACopyThatTouchesIsNoSurfaceThatGoesOn)
+{
+  EXPECT_EQ(differencesOn(inRow(6, 60.0), blockOnCorner(), { floor(370.0f) }).surplus, 0); // plates of 60 mm
+}
