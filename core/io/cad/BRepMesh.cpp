@@ -6,11 +6,14 @@
 #include "io/parsing/TextLines.h"
 
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom_Curve.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Interface_Check.hxx>
@@ -20,6 +23,7 @@
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <StepShape_TopologicalRepresentationItem.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -52,6 +56,8 @@ constexpr double Deflection = 2e-4;
 constexpr double Angle = 8.0 * M_PI / 180.0;
 // Of the diagonal: how far apart edges may lie of faces that come without their neighbours and are sewn.
 constexpr double SewingTolerance = 1e-4;
+
+constexpr int EdgeChecks = 8; // parts of an edge between which it is compared with others: a bend of it is seen
 
 constexpr std::size_t IGESSection = 72; // where in a line the letter is that tells its section
 constexpr std::size_t IGESCount = 8;    // in the last line: a section's letter and its number of lines
@@ -396,10 +402,52 @@ private:
   std::vector<std::vector<int>> NodesOf; // each edge in the first of its faces
 };
 
-/// Whether a face would show in triangles that are so far off it; one without edges is damaged.
-bool isSeen(const TopoDS_Shape& face, double deflection)
+/// Whether an edge runs along other edges of its face, no farther from them than that.
+bool runsAlong(const TopoDS_Edge& edge, const TopoDS_Shape& others, double distance)
 {
-  return !TopExp_Explorer(face, TopAbs_EDGE).More() || !(diagonalOf(face) <= deflection);
+  double first, last;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  for (int i = 1; i < EdgeChecks && !curve.IsNull(); ++i)
+  {
+    gp_Pnt place;
+    curve->D0(first + (last - first) * i / EdgeChecks, place);
+    const BRepExtrema_DistShapeShape nearest(BRepBuilderAPI_MakeVertex(place), others);
+    if (!nearest.IsDone() || !(nearest.Value() <= distance))
+    {
+      return false;
+    }
+  }
+  return !curve.IsNull();
+}
+
+/// Whether a face would show in triangles that are so far off it. It does not when it is as small as that, or when its
+/// boundary comes back where it went; of one with a seam, as a sphere's, it comes back round the face. One without
+/// edges is damaged.
+bool isSeen(const TopoDS_Face& face, double deflection)
+{
+  TopTools_IndexedMapOfShape edges; // counted from 1
+  TopExp::MapShapes(face, TopAbs_EDGE, edges);
+  bool isSeen = edges.IsEmpty();
+  if (isSeen || diagonalOf(face) <= deflection)
+  {
+    return isSeen;
+  }
+  for (int i = 1; i <= edges.Extent() && !isSeen; ++i)
+  {
+    TopoDS_Compound others;
+    BRep_Builder builder;
+    builder.MakeCompound(others);
+    for (int k = 1; k <= edges.Extent(); ++k)
+    {
+      if (k != i)
+      {
+        builder.Add(others, edges(k));
+      }
+    }
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    isSeen = BRep_Tool::IsClosed(edge, face) || !(BRep_Tool::Degenerated(edge) || runsAlong(edge, others, deflection));
+  }
+  return isSeen;
 }
 
 TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
@@ -418,7 +466,7 @@ TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
   for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next(), ++faces)
   {
     const bool isMissing = !joining.add(TopoDS::Face(face.Current()));
-    missing += isMissing && isSeen(face.Current(), fineness.Deflection);
+    missing += isMissing && isSeen(TopoDS::Face(face.Current()), fineness.Deflection);
   }
   if (missing > 0)
   {
