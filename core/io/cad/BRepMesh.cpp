@@ -167,6 +167,19 @@ void requireReferences(const std::string& path)
   }
 }
 
+/// Whether all that is wrong with an entity is its name, which some programs leave out.
+bool lacksName(const Interface_Check& check)
+{
+  for (int i = 1; i <= check.NbFails(); ++i)
+  {
+    if (std::string_view(check.CFail(i)).find("(name)") == std::string_view::npos)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Open CASCADE goes on without what it cannot make sense of, and leaves out faces or crashes. What is no surface may
 /// be of a kind that it does not know, as annotations.
 void requireSurfaces(const std::string& path, const XSControl_Reader& reader)
@@ -176,7 +189,7 @@ void requireSurfaces(const std::string& path, const XSControl_Reader& reader)
   {
     const Handle(Interface_Check) check = checks.Value();
     const Handle(Standard_Transient) entity = check->Entity();
-    if (!check->HasFailed() || entity.IsNull())
+    if (!check->HasFailed() || entity.IsNull() || lacksName(*check))
     {
       continue;
     }
@@ -199,8 +212,9 @@ void requireTransferred(const std::string& path, const XSControl_Reader& reader)
     {
       const Handle(Standard_Transient) entity = checks.Value()->Entity();
       const std::string type = entity.IsNull() ? "" : entity->DynamicType()->Name();
-      const bool isSurface = type.rfind("StepGeom_", 0) == 0 || type.find("Surface") != std::string::npos;
-      if (checks.Value()->HasFailed() && isSurface && isLost(entity))
+      const bool isStyle = type.rfind("StepVisual_", 0) == 0;
+      const bool isSurface = !isStyle && (type.rfind("StepGeom_", 0) == 0 || type.find("Surface") != std::string::npos);
+      if (checks.Value()->HasFailed() && !lacksName(*checks.Value()) && isSurface && isLost(entity))
       {
         failBRep(path, "is damaged, in an entity " + type + " of it, of which nothing can be made");
       }

@@ -229,6 +229,18 @@ TEST(CADFile, facesBetweenEdgesThatLieOnEachOtherAreLeftOut)
   expectSizes(meam::readCAD(stepOf(folder, compoundOf(box(10, 20, 30), sliver))).mesh, 10, 20, 30);
 }
 
+TEST(CADFile, entitiesWithoutNamesAreRead)
+{
+  const files::Folder folder;
+  std::string text = meam::readFile(stepOf(folder, box(10, 20, 30)));
+  for (const std::string entity : { "CLOSED_SHELL(''", "ADVANCED_FACE(''", "EDGE_CURVE(''", "PLANE(''" })
+  {
+    text.replace(text.find(entity) + entity.size() - 2, 2, "$");
+  }
+  text.insert(text.find("DATA;") + 5, "#9001=SURFACE_SIDE_STYLE($,());#9002=SURFACE_STYLE_USAGE($,#9001);");
+  expectSizes(meam::readCAD(folder.write("names.step", text)).mesh, 10, 20, 30);
+}
+
 TEST(CADFile, whatIsDamagedIsASentence)
 {
   const files::Folder folder;
