@@ -82,6 +82,31 @@ TriangleMesh joined(const Points& corners, const Progress& progress)
   return mesh;
 }
 
+/// Whether no edge is a border.
+bool isClosed(const TriangleMesh& mesh)
+{
+  std::vector<std::pair<int, int>> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const Eigen::Vector3i& triangle : mesh.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto [low, high] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
+      if (low != high)
+      {
+        sides.emplace_back(low, high);
+      }
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  bool isPaired = !sides.empty();
+  for (std::size_t i = 0; i < sides.size() && isPaired; i += 2)
+  {
+    isPaired = i + 1 < sides.size() && sides[i] == sides[i + 1];
+  }
+  return isPaired;
+}
+
 std::string lowered(std::string_view word)
 {
   std::string lower(word);
@@ -93,7 +118,7 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
 {
   Points vertices;
   std::size_t start = 0; // of the facet
-  bool isWhole = false;
+  bool isWhole = false, hasEnds = false, endsWithFacet = false;
   const Progress parsing = subProgress(progress, 0.0, 0.5);
   TextLines lines(text);
   for (std::size_t line = 0; lines.next(); ++line)
@@ -102,6 +127,7 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
     for (std::string word = lowered(lines.word()); !word.empty(); word = lowered(lines.word()))
     {
       word += word == "end" ? lowered(lines.word()) : "";
+      endsWithFacet = word == "endfacet";
       if (word == "vertex")
       {
         vertices.push_back(pointOf(path, lines));
@@ -117,15 +143,19 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
       else if (word == "solid" || word == "endsolid") // a name follows
       {
         isWhole = word == "endsolid";
+        hasEnds = hasEnds || isWhole;
         break;
       }
     }
   }
+  TriangleMesh mesh = joined(vertices, subProgress(progress, 0.5, 1.0));
+  // Some programs leave the end out; what is cut off is open, or ends within a facet.
+  isWhole = isWhole || (!hasEnds && endsWithFacet && isClosed(mesh));
   if (!isWhole || vertices.size() % 3 != 0)
   {
     failMesh(path, "is cut off or damaged: it does not end with endsolid after whole triangles");
   }
-  return joined(vertices, subProgress(progress, 0.5, 1.0));
+  return mesh;
 }
 
 constexpr std::size_t STLHeader = 80;   // bytes, then the number of triangles

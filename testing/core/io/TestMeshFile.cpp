@@ -263,6 +263,17 @@ TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
   }
 }
 
+TEST(MeshFile, TextSTLWithoutItsEndIsReadWhenItIsClosed)
+{
+  const meam::TriangleMesh part = parts::lBracket();
+  const std::string text = asciiSTL(part), whole = text.substr(0, text.find("endsolid"));
+  EXPECT_EQ(corners(read("a.stl", whole)), corners(part));
+  expectError("a.stl", whole.substr(0, whole.rfind("facet normal")), "does not end with endsolid");
+  expectError("a.stl", whole.substr(0, whole.rfind("vertex")), "does not end with endsolid");
+  expectError("a.stl", whole + "facet normal 0 0", "does not end with endsolid");
+  expectError("a.stl", text + whole, "does not end with endsolid"); // a second solid that is cut off
+}
+
 TEST(MeshFile, CommentsOfOBJAreNotContinued)
 {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", mark = "\xef\xbb\xbf";
