@@ -232,7 +232,7 @@ void joinContinuedLines(std::string& text)
 
 TriangleMesh readOBJ(const std::string& path, const Progress& progress)
 {
-  std::string bytes = readFile(path);
+  std::string bytes = readText(path);
   joinContinuedLines(bytes);
   TriangleMesh mesh;
   std::vector<int> corners;

@@ -274,6 +274,21 @@ TEST(MeshFile, TextSTLWithoutItsEndIsReadWhenItIsClosed)
   expectError("a.stl", text + whole, "does not end with endsolid"); // a second solid that is cut off
 }
 
+TEST(MeshFile, TextInUTF16)
+{
+  const std::string text = "# M\xfcller\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::string low = "\xff\xfe", high = "\xfe\xff";
+  for (const char letter : text)
+  {
+    low += letter + std::string(1, '\0');
+    high += std::string(1, '\0') + letter;
+  }
+  for (const std::string& bytes : { low, high })
+  {
+    EXPECT_EQ(read("a.obj", bytes).triangles.size(), 1u);
+  }
+}
+
 TEST(MeshFile, CommentsOfOBJAreNotContinued)
 {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", mark = "\xef\xbb\xbf";
