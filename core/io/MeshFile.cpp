@@ -36,12 +36,16 @@ Eigen::Vector3f pointOf(const std::string& path, TextLines& lines)
   for (int i = 0; i < 3; ++i)
   {
     const std::string_view word = lines.word();
+    if (word.empty())
+    {
+      failMesh(path, "has a vertex that is not three numbers: it is cut off or damaged");
+    }
     if (!parseNumber(word, point[i]))
     {
-      failMesh(path, word.find(',') != std::string_view::npos
-                       ? "has the coordinate '" + std::string(word.substr(0, 40)) +
-                           "' with a decimal comma: export it with decimal points"
-                       : "has a vertex that is not three numbers: it is cut off or damaged");
+      failMesh(
+        path, "has the coordinate '" + std::string(word.substr(0, 40)) +
+                (word.find(',') != std::string_view::npos ? "' with a decimal comma: export it with decimal points"
+                                                          : "', which is not a number: it is damaged"));
     }
   }
   return point.cast<float>();
@@ -236,6 +240,7 @@ TriangleMesh readOBJ(const std::string& path, const Progress& progress)
   joinContinuedLines(bytes);
   TriangleMesh mesh;
   std::vector<int> corners;
+  bool hasPatches = false;
   TextLines lines(bytes);
   for (std::size_t line = 0; lines.next(); ++line)
   {
@@ -254,6 +259,13 @@ TriangleMesh readOBJ(const std::string& path, const Progress& progress)
       }
       addPolygon(corners, mesh);
     }
+    hasPatches = hasPatches || word == "surf";
+  }
+  if (mesh.triangles.empty() || hasPatches)
+  {
+    failMesh(path, hasPatches              ? "holds free-form surfaces, which are not read: export it as a mesh"
+                   : mesh.vertices.empty() ? "has no lines of vertices (v x y z) and faces: it is empty, or no OBJ file"
+                                           : "has no faces: it holds no surface, but points or lines");
   }
   return mesh;
 }
