@@ -36,12 +36,16 @@ Eigen::Vector3f pointOf(const std::string& path, TextLines& lines)
   for (int i = 0; i < 3; ++i)
   {
     const std::string_view word = lines.word();
+    if (word.empty())
+    {
+      failMesh(path, "has a vertex that is not three numbers: it is cut off or damaged");
+    }
     if (!parseNumber(word, point[i]))
     {
-      failMesh(path, word.find(',') != std::string_view::npos
-                       ? "has the coordinate '" + std::string(word.substr(0, 40)) +
-                           "' with a decimal comma: export it with decimal points"
-                       : "has a vertex that is not three numbers: it is cut off or damaged");
+      failMesh(
+        path, "has the coordinate '" + std::string(word.substr(0, 40)) +
+                (word.find(',') != std::string_view::npos ? "' with a decimal comma: export it with decimal points"
+                                                          : "', which is not a number: it is damaged"));
     }
   }
   return point.cast<float>();
@@ -82,6 +86,31 @@ TriangleMesh joined(const Points& corners, const Progress& progress)
   return mesh;
 }
 
+/// Whether no edge is a border.
+bool isClosed(const TriangleMesh& mesh)
+{
+  std::vector<std::pair<int, int>> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const Eigen::Vector3i& triangle : mesh.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto [low, high] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
+      if (low != high)
+      {
+        sides.emplace_back(low, high);
+      }
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  bool isPaired = !sides.empty();
+  for (std::size_t i = 0; i < sides.size() && isPaired; i += 2)
+  {
+    isPaired = i + 1 < sides.size() && sides[i] == sides[i + 1];
+  }
+  return isPaired;
+}
+
 std::string lowered(std::string_view word)
 {
   std::string lower(word);
@@ -93,7 +122,7 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
 {
   Points vertices;
   std::size_t start = 0; // of the facet
-  bool isWhole = false;
+  bool isWhole = false, hasEnds = false, endsWithFacet = false;
   const Progress parsing = subProgress(progress, 0.0, 0.5);
   TextLines lines(text);
   for (std::size_t line = 0; lines.next(); ++line)
@@ -102,6 +131,7 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
     for (std::string word = lowered(lines.word()); !word.empty(); word = lowered(lines.word()))
     {
       word += word == "end" ? lowered(lines.word()) : "";
+      endsWithFacet = word == "endfacet";
       if (word == "vertex")
       {
         vertices.push_back(pointOf(path, lines));
@@ -117,15 +147,19 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
       else if (word == "solid" || word == "endsolid") // a name follows
       {
         isWhole = word == "endsolid";
+        hasEnds = hasEnds || isWhole;
         break;
       }
     }
   }
+  TriangleMesh mesh = joined(vertices, subProgress(progress, 0.5, 1.0));
+  // Some programs leave the end out; what is cut off is open, or ends within a facet.
+  isWhole = isWhole || (!hasEnds && endsWithFacet && isClosed(mesh));
   if (!isWhole || vertices.size() % 3 != 0)
   {
     failMesh(path, "is cut off or damaged: it does not end with endsolid after whole triangles");
   }
-  return joined(vertices, subProgress(progress, 0.5, 1.0));
+  return mesh;
 }
 
 constexpr std::size_t STLHeader = 80;   // bytes, then the number of triangles
@@ -202,10 +236,11 @@ void joinContinuedLines(std::string& text)
 
 TriangleMesh readOBJ(const std::string& path, const Progress& progress)
 {
-  std::string bytes = readFile(path);
+  std::string bytes = readText(path);
   joinContinuedLines(bytes);
   TriangleMesh mesh;
   std::vector<int> corners;
+  bool hasPatches = false;
   TextLines lines(bytes);
   for (std::size_t line = 0; lines.next(); ++line)
   {
@@ -224,6 +259,13 @@ TriangleMesh readOBJ(const std::string& path, const Progress& progress)
       }
       addPolygon(corners, mesh);
     }
+    hasPatches = hasPatches || word == "surf";
+  }
+  if (mesh.triangles.empty() || hasPatches)
+  {
+    failMesh(path, hasPatches              ? "holds free-form surfaces, which are not read: export it as a mesh"
+                   : mesh.vertices.empty() ? "has no lines of vertices (v x y z) and faces: it is empty, or no OBJ file"
+                                           : "has no faces: it holds no surface, but points or lines");
   }
   return mesh;
 }

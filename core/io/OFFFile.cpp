@@ -18,15 +18,20 @@ namespace
   throw Error("The OFF file '" + path + "' " + what + ".");
 }
 
-/// Whether the first word is OFF behind letters, ST texture, C colour, N normal, which stand in any order; or all of it
-/// in lower case. 4OFF and nOFF have points of other dimensions.
-bool startsOFF(std::string_view word)
+/// How many letters OFF takes at the start of a word, with those before it, ST texture, C colour, N normal, which stand
+/// in any order; or all of it in lower case. A number may follow without a blank. 4OFF and nOFF have points of other
+/// dimensions.
+std::size_t lengthOfOFF(std::string_view word)
 {
+  const std::size_t length = word.size();
   for (const std::string_view part : { "ST", "C", "N", "C" })
   {
     word.remove_prefix(word.substr(0, part.size()) == part ? part.size() : 0);
   }
-  return word == "OFF" || word == "off";
+  const std::string_view kind = word.substr(0, 3);
+  const bool isOFF =
+    (kind == "OFF" || kind == "off") && word.find_first_not_of("0123456789", 3) == std::string_view::npos;
+  return isOFF ? length - word.size() + 3 : 0;
 }
 
 /// A word that is not what it should be, for a message.
@@ -38,30 +43,33 @@ std::string quoted(std::string_view word)
 
 TriangleMesh readOFF(const std::string& path, const Progress& progress)
 {
-  const std::string bytes = readFile(path);
+  const std::string text = readText(path);
   report(progress, 0.0);
-  TextLines lines(bytes);
-  const std::string_view first = lines.next() ? lines.word() : std::string_view();
-  if (!startsOFF(first))
+  TextLines lines(text);
+  std::string_view word = lines.next() ? lines.word() : std::string_view();
+  const std::size_t letters = lengthOfOFF(word);
+  word.remove_prefix(letters);
+  if (letters > 0 && word.empty())
   {
-    failOFF(
-      path, "does not start with OFF, COFF, NOFF or STOFF: it is not an OFF file, or of a kind that is not known");
+    word = lines.word();
+    if (word == "BINARY")
+    {
+      failOFF(path, "is binary: save it as ascii");
+    }
+    if (word.empty())
+    {
+      word = lines.next() ? lines.word() : std::string_view();
+    }
   }
-  // The counts may stand behind the first word or on the next line.
-  std::string_view word = lines.word();
-  if (word == "BINARY")
-  {
-    failOFF(path, "is binary: save it as ascii");
-  }
-  if (word.empty())
-  {
-    word = lines.next() ? lines.word() : std::string_view();
-  }
+  // Geomview's files may begin with the numbers.
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
   if (!parseNumber(word, vertices) || !parseNumber(lines.word(), faces))
   {
-    failOFF(path, "has no numbers of vertices and faces after its first word");
+    failOFF(path, letters > 0
+                    ? "has no numbers of vertices and faces after its first word"
+                    : "does not start with OFF, COFF, NOFF or STOFF: it is not an OFF file, or one of points of "
+                      "other dimensions (4OFF, nOFF)");
   }
   // A line takes at least a character for each number and one between two of them.
   constexpr std::uint64_t most = std::numeric_limits<int>::max() / 3;

@@ -359,7 +359,7 @@ std::string binaryOfAscii(const std::string& path, const std::string& bytes, Hea
         double value = 0.0;
         const auto [end, failure] = std::from_chars(first, bytes.data() + at, value);
         const std::string_view word = std::string_view(bytes).substr(start, at - start);
-        if (word.find(".#") != std::string_view::npos) // 1.#QNAN, -1.#IND and 1.#INF of Windows
+        if (isNaNOfWindows(word))
         {
           value = std::numeric_limits<double>::quiet_NaN();
         }

@@ -112,6 +112,7 @@ PLYHeader parsePLYHeader(const std::string& path, const std::string& bytes)
   const char lineEnd = endsWithReturn ? '\r' : '\n';
   bool first = true;
   bool hasFormat = false;
+  std::string unknown; // a line before the elements: a comment of Blender 2.4, which leaves out the word
   for (std::string key; key != "end_header"; first = false)
   {
     const std::size_t end = bytes.find(lineEnd, header.dataAt);
@@ -155,13 +156,17 @@ PLYHeader parsePLYHeader(const std::string& path, const std::string& bytes)
     {
       if (header.elements.empty())
       {
-        failPLY(path, "has a property before the first element");
+        failPLY(path, unknown.empty() ? "has a property before the first element" : unknown);
       }
       header.elements.back().properties.push_back(propertyOf(path, words));
     }
     else if (!first && !key.empty() && key != "comment" && key != "obj_info" && key != "end_header")
     {
-      failPLY(path, "has an unknown header line '" + key.substr(0, 40) + "'");
+      unknown = "has an unknown header line '" + key.substr(0, 40) + "'";
+      if (!header.elements.empty())
+      {
+        failPLY(path, unknown);
+      }
     }
   }
   if (!hasFormat)
@@ -207,6 +212,20 @@ public:
     }
   }
 
+  /// Whether the file is a text that goes on with so many lines.
+  bool hasLines(std::uint64_t count) const
+  {
+    TextLines lines(this->Rest);
+    std::uint64_t found = 0;
+    while (this->Form == PLYEncoding::Ascii && found <= count && lines.next())
+    {
+      ++found;
+    }
+    return this->Form == PLYEncoding::Ascii && found == count;
+  }
+
+  void skipLine() { this->Rest.remove_prefix(std::min(this->Rest.find_first_of("\r\n"), this->Rest.size())); }
+
   /// Fails for a file that goes on.
   void requireEnd() const
   {
@@ -234,6 +253,10 @@ private:
     if (word[0] == '+')
     {
       word.remove_prefix(1);
+    }
+    if (isNaNOfWindows(word))
+    {
+      return std::numeric_limits<double>::quiet_NaN();
     }
     double value = 0.0;
     const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -315,7 +338,8 @@ void forEachRecord(
       if (!(record[k] >= 0.0 && record[k] <= std::numeric_limits<std::uint32_t>::max()) ||
           record[k] != std::floor(record[k]))
       {
-        failPLY(path, "has a list of an impossible length");
+        failPLY(path, "has a list of an impossible length in its element '" + element.name.substr(0, 40) +
+                        "': its header does not fit");
       }
       for (auto left = static_cast<std::uint64_t>(record[k]); left > 0; --left)
       {
@@ -420,9 +444,9 @@ int cornersOf(const Element& face)
   return -1;
 }
 
-/// The faces of an element, cut into triangles.
-void takeFaces(
-  const std::string& path, Values& values, const Element& face, const Progress& progress, TriangleMesh& mesh)
+/// The faces of an element, cut into triangles; `isLast`: no other element follows.
+void takeFaces(const std::string& path, Values& values, const Element& face, bool isLast, const Progress& progress,
+  TriangleMesh& mesh)
 {
   const int list = cornersOf(face);
   if (list < 0)
@@ -433,6 +457,8 @@ void takeFaces(
   {
     failPLY(path, "has its faces before its points, which is not read: save it with the points first");
   }
+  // MeshLab's colors of corners are longer than its header says.
+  const bool isLineEach = isLast && values.hasLines(face.count);
   std::vector<int> corners;
   const auto entry = [&](std::size_t k, double value)
   {
@@ -450,6 +476,10 @@ void takeFaces(
     reportRecord(progress, i, face);
     addPolygon(corners, mesh);
     corners.clear();
+    if (isLineEach)
+    {
+      values.skipLine();
+    }
   };
   forEachRecord(path, values, face, take, entry);
 }
@@ -476,7 +506,7 @@ TriangleMesh readPLYMesh(const std::string& path, const Progress& progress)
     }
     else if (element.name == "face" && mesh.triangles.empty())
     {
-      takeFaces(path, values, element, subProgress(progress, 0.5, 1.0), mesh);
+      takeFaces(path, values, element, &element == &header.elements.back(), subProgress(progress, 0.5, 1.0), mesh);
     }
     else
     {

@@ -9,6 +9,8 @@ namespace meam
 {
 namespace
 {
+constexpr double FoldedLess = 0.99; // share of the area: rounded corners of a plane turn no diagonal
+
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
@@ -35,6 +37,18 @@ std::vector<Eigen::Vector2d> flattened(const std::vector<int>& corners, const Po
     flat.emplace_back(x.dot(place), y.dot(place));
   }
   return flat;
+}
+
+/// Whether a face of four corners that lie in no plane is less folded when it is cut between the second and the last:
+/// its triangles are smaller then.
+bool isFoldedLess(const std::vector<int>& corners, const Points& vertices)
+{
+  const auto area = [&](int a, int b, int c)
+  {
+    const Eigen::Vector3d origin = vertices[corners[a]].cast<double>();
+    return (vertices[corners[b]].cast<double>() - origin).cross(vertices[corners[c]].cast<double>() - origin).norm();
+  };
+  return area(1, 2, 3) + area(1, 3, 0) < FoldedLess * (area(0, 1, 2) + area(0, 2, 3));
 }
 
 /// A face whose ears are cut off one by one.
@@ -133,6 +147,12 @@ void addPolygon(const std::vector<int>& corners, TriangleMesh& mesh)
     return;
   }
   EarClipping clipping(flattened(corners, mesh.vertices));
+  if (clipping.isConvex() && corners.size() == 4 && isFoldedLess(corners, mesh.vertices))
+  {
+    add(0, 1, 3);
+    add(1, 2, 3);
+    return;
+  }
   if (clipping.isConvex())
   {
     for (std::size_t k = 2; k < corners.size(); ++k)

@@ -6,11 +6,14 @@
 #include "io/parsing/TextLines.h"
 
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom_Curve.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Interface_Check.hxx>
@@ -20,6 +23,7 @@
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <StepShape_TopologicalRepresentationItem.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -52,6 +56,8 @@ constexpr double Deflection = 2e-4;
 constexpr double Angle = 8.0 * M_PI / 180.0;
 // Of the diagonal: how far apart edges may lie of faces that come without their neighbours and are sewn.
 constexpr double SewingTolerance = 1e-4;
+
+constexpr int EdgeChecks = 8; // parts of an edge between which it is compared with others: a bend of it is seen
 
 constexpr std::size_t IGESSection = 72; // where in a line the letter is that tells its section
 constexpr std::size_t IGESCount = 8;    // in the last line: a section's letter and its number of lines
@@ -161,6 +167,19 @@ void requireReferences(const std::string& path)
   }
 }
 
+/// Whether all that is wrong with an entity is its name, which some programs leave out.
+bool lacksName(const Interface_Check& check)
+{
+  for (int i = 1; i <= check.NbFails(); ++i)
+  {
+    if (std::string_view(check.CFail(i)).find("(name)") == std::string_view::npos)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Open CASCADE goes on without what it cannot make sense of, and leaves out faces or crashes. What is no surface may
 /// be of a kind that it does not know, as annotations.
 void requireSurfaces(const std::string& path, const XSControl_Reader& reader)
@@ -170,7 +189,7 @@ void requireSurfaces(const std::string& path, const XSControl_Reader& reader)
   {
     const Handle(Interface_Check) check = checks.Value();
     const Handle(Standard_Transient) entity = check->Entity();
-    if (!check->HasFailed() || entity.IsNull())
+    if (!check->HasFailed() || entity.IsNull() || lacksName(*check))
     {
       continue;
     }
@@ -193,8 +212,9 @@ void requireTransferred(const std::string& path, const XSControl_Reader& reader)
     {
       const Handle(Standard_Transient) entity = checks.Value()->Entity();
       const std::string type = entity.IsNull() ? "" : entity->DynamicType()->Name();
-      const bool isSurface = type.rfind("StepGeom_", 0) == 0 || type.find("Surface") != std::string::npos;
-      if (checks.Value()->HasFailed() && isSurface && isLost(entity))
+      const bool isStyle = type.rfind("StepVisual_", 0) == 0;
+      const bool isSurface = !isStyle && (type.rfind("StepGeom_", 0) == 0 || type.find("Surface") != std::string::npos);
+      if (checks.Value()->HasFailed() && !lacksName(*checks.Value()) && isSurface && isLost(entity))
       {
         failBRep(path, "is damaged, in an entity " + type + " of it, of which nothing can be made");
       }
@@ -396,10 +416,52 @@ private:
   std::vector<std::vector<int>> NodesOf; // each edge in the first of its faces
 };
 
-/// Whether a face would show in triangles that are so far off it; one without edges is damaged.
-bool isSeen(const TopoDS_Shape& face, double deflection)
+/// Whether an edge runs along other edges of its face, no farther from them than that.
+bool runsAlong(const TopoDS_Edge& edge, const TopoDS_Shape& others, double distance)
 {
-  return !TopExp_Explorer(face, TopAbs_EDGE).More() || !(diagonalOf(face) <= deflection);
+  double first, last;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  for (int i = 1; i < EdgeChecks && !curve.IsNull(); ++i)
+  {
+    gp_Pnt place;
+    curve->D0(first + (last - first) * i / EdgeChecks, place);
+    const BRepExtrema_DistShapeShape nearest(BRepBuilderAPI_MakeVertex(place), others);
+    if (!nearest.IsDone() || !(nearest.Value() <= distance))
+    {
+      return false;
+    }
+  }
+  return !curve.IsNull();
+}
+
+/// Whether a face would show in triangles that are so far off it. It does not when it is as small as that, or when its
+/// boundary comes back where it went; of one with a seam, as a sphere's, it comes back round the face. One without
+/// edges is damaged.
+bool isSeen(const TopoDS_Face& face, double deflection)
+{
+  TopTools_IndexedMapOfShape edges; // counted from 1
+  TopExp::MapShapes(face, TopAbs_EDGE, edges);
+  bool isSeen = edges.IsEmpty();
+  if (isSeen || diagonalOf(face) <= deflection)
+  {
+    return isSeen;
+  }
+  for (int i = 1; i <= edges.Extent() && !isSeen; ++i)
+  {
+    TopoDS_Compound others;
+    BRep_Builder builder;
+    builder.MakeCompound(others);
+    for (int k = 1; k <= edges.Extent(); ++k)
+    {
+      if (k != i)
+      {
+        builder.Add(others, edges(k));
+      }
+    }
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    isSeen = BRep_Tool::IsClosed(edge, face) || !(BRep_Tool::Degenerated(edge) || runsAlong(edge, others, deflection));
+  }
+  return isSeen;
 }
 
 TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
@@ -418,7 +480,7 @@ TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
   for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next(), ++faces)
   {
     const bool isMissing = !joining.add(TopoDS::Face(face.Current()));
-    missing += isMissing && isSeen(face.Current(), fineness.Deflection);
+    missing += isMissing && isSeen(TopoDS::Face(face.Current()), fineness.Deflection);
   }
   if (missing > 0)
   {

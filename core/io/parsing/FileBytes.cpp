@@ -86,6 +86,25 @@ std::string readFile(const std::string& path, std::int64_t most)
   return bytes;
 }
 
+std::string readText(const std::string& path)
+{
+  std::string bytes = readFile(path);
+  const std::string mark = bytes.substr(0, 2);
+  const std::size_t low = mark == "\xff\xfe" ? 0 : 1; // where the low byte of a letter is
+  if (low == 1 && mark != "\xfe\xff")
+  {
+    return bytes;
+  }
+  const std::size_t letters = bytes.size() / 2 - 1;
+  for (std::size_t i = 0; i < letters; ++i)
+  {
+    const char letter = bytes[2 * i + 2 + low], page = bytes[2 * i + 3 - low];
+    bytes[i] = page == 0 && static_cast<unsigned char>(letter) < 128 ? letter : '?';
+  }
+  bytes.resize(letters);
+  return bytes;
+}
+
 std::string extensionOf(const std::string& path)
 {
   std::string extension = fs::path(path).extension().string();

@@ -71,6 +71,9 @@ private:
   std::string_view Line;
 };
 
+/// Whether a word is 1.#QNAN, -1.#IND or 1.#INF, as programs of Windows write what is no number.
+inline bool isNaNOfWindows(std::string_view word) { return word.find(".#") != std::string_view::npos; }
+
 /// The number that a word is, whatever the locale.
 template <typename Number>
 bool parseNumber(std::string_view text, Number& value)

@@ -215,6 +215,10 @@ TEST(MeshFile, WhatIsWrongWithAFile)
     { "a.stl", "solid part\nfacet\nendsolid part\n", "no faces" }, { "a.ply", "no mesh at all", "" },
     { "a.ply", asciiPLY({}) /* cannot have faces */, "" }, { "a.obj", "v 0 0 0\nv 1 0 0\n", "no faces" },
     { "a.stl", "solid\nfacet normal 0 0 0\nouter loop\nvertex 1,5 0 0\n", "decimal comma" },
+    { "a.obj", "v 0 3.1+e2 0\n", "has the coordinate '3.1+e2', which is not a number" },
+    { "a.obj", "v 0 1\n", "is not three numbers" }, { "a.obj", "no mesh at all", "no lines of vertices" },
+    { "a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "but points or lines" },
+    { "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ncstype bezier\nsurf 0 1 0 1 1 2 3\n", "free-form surfaces" },
     { "a.stl",
       "solid\nouter loop\n" + two + two + "endloop\nouter loop\n" + two + "endloop\nouter loop\n" + two + corner +
         "endloop\nendsolid\n", // nine corners
@@ -260,6 +264,32 @@ TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
          replaced("\nvertex", " vertex"), replaced("endloop\nendfacet\n", "end loop end facet ") })
   {
     EXPECT_EQ(corners(read("a.stl", form)), corners(part)) << form.substr(0, 20);
+  }
+}
+
+TEST(MeshFile, TextSTLWithoutItsEndIsReadWhenItIsClosed)
+{
+  const meam::TriangleMesh part = parts::lBracket();
+  const std::string text = asciiSTL(part), whole = text.substr(0, text.find("endsolid"));
+  EXPECT_EQ(corners(read("a.stl", whole)), corners(part));
+  expectError("a.stl", whole.substr(0, whole.rfind("facet normal")), "does not end with endsolid");
+  expectError("a.stl", whole.substr(0, whole.rfind("vertex")), "does not end with endsolid");
+  expectError("a.stl", whole + "facet normal 0 0", "does not end with endsolid");
+  expectError("a.stl", text + whole, "does not end with endsolid"); // a second solid that is cut off
+}
+
+TEST(MeshFile, TextInUTF16)
+{
+  const std::string text = "# M\xfcller\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::string low = "\xff\xfe", high = "\xfe\xff";
+  for (const char letter : text)
+  {
+    low += letter + std::string(1, '\0');
+    high += std::string(1, '\0') + letter;
+  }
+  for (const std::string& bytes : { low, high })
+  {
+    EXPECT_EQ(read("a.obj", bytes).triangles.size(), 1u);
   }
 }
 

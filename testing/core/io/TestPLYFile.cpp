@@ -122,6 +122,26 @@ TEST(PLYFile, cloudsAndMeshes)
   EXPECT_FALSE(meam::isPLYCloud(folder.path("none")));
 }
 
+TEST(PLYFile, linesThatOtherProgramsWrite)
+{
+  // Blender 2.4 has no word comment before its name, MeshLab colors of three corners where its header has one.
+  const std::string face = "element face 2\nproperty list uchar int vertex_indices\n", points = "0 0 0\n1 0 0\n0 1 0\n";
+  const std::string colored = face + "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const files::Folder folder;
+  const auto mesh = [&](const std::string& header, const std::string& data)
+  { return meam::readPLYMesh(folder.write("mesh.ply", head("ascii", header) + points + data)); };
+  EXPECT_EQ(
+    mesh("Created by Blender3D\nelement vertex 3\n" + floats + face, "3 0 1 2\n3 2 1 0\n").triangles.size(), 2u);
+  const meam::TriangleMesh cut =
+    mesh("element vertex 3\n" + floats + colored, "3 0 1 2 9 1 1 1 1 1 1 1 1 1\n3 2 1 0 9 1 1 1 1 1 1 1 1 1\n");
+  ASSERT_EQ(cut.triangles.size(), 2u);
+  EXPECT_EQ(cut.triangles[1], Eigen::Vector3i(2, 1, 0));
+  EXPECT_EQ(mesh("element vertex 3\n" + floats + face, "3 0 1 2 3 2 1 0").triangles.size(), 2u);
+  EXPECT_THROW(mesh("element vertex 3\n" + floats + face, "3 0 1 2 7 3 2 1 0"), meam::Error);
+  const std::string nan = "1.#QNAN -1.#IND 1.#INF\n";
+  EXPECT_TRUE(readPLY(head("ascii", "element vertex 1\n" + floats) + nan).cloud.points[0].array().isNaN().all());
+}
+
 TEST(PLYFile, badFiles)
 {
   EXPECT_THROW(meam::readPLYCloud("/no/such/file.ply"), meam::Error);
@@ -141,7 +161,7 @@ TEST(PLYFile, badFiles)
   readPLY.fails(head("ascii", "element vertex 1\n" + floats) + "1 2 up\n", "up");
   readPLY.fails(head("binary_little_endian", "element vertex 1\n" + floats) + std::string(11, '\0'), "cut off");
   const std::string lists = "element vertex 1\nproperty list float int v\n" + floats;
-  readPLY.fails(head("ascii", lists) + "-1 1 2 3 4 5\n", "impossible length");
+  readPLY.fails(head("ascii", lists) + "-1 1 2 3 4 5\n", "impossible length in its element 'vertex'");
   readPLY.fails(head("ascii", lists) + "0.5 1 2 3 4 5\n", "impossible length");
   readPLY.fails(head("ascii", lists) + "4e9 1 2 3 4 5\n", "cut off");
 }

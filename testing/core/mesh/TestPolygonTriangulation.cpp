@@ -90,6 +90,18 @@ TEST(PolygonTriangulation, convexFacesAreCutAboutTheirFirstCorner)
   EXPECT_EQ(mesh.triangles, (std::vector<Eigen::Vector3i>{ { 2, 3, 0 }, { 2, 0, 1 } }));
 }
 
+TEST(PolygonTriangulation, facesOfFourCornersInNoPlaneAreCutWhereTheyFoldTheLeast)
+{
+  meam::TriangleMesh mesh;
+  mesh.vertices = { { 0, 0, 0 }, { 2, 0, 1 }, { 2, 3, 0 }, { 0, 2, 0.1f }, { 2, 0, 0.01f } };
+  meam::addPolygon({ 0, 1, 2, 3 }, mesh);
+  meam::addPolygon({ 1, 2, 3, 0 }, mesh);
+  EXPECT_EQ(mesh.triangles, (std::vector<Eigen::Vector3i>{ { 0, 1, 3 }, { 1, 2, 3 }, { 1, 2, 3 }, { 1, 3, 0 } }));
+  mesh.triangles.clear();
+  meam::addPolygon({ 0, 4, 2, 3 }, mesh); // a plane whose corners are rounded
+  EXPECT_EQ(mesh.triangles, (std::vector<Eigen::Vector3i>{ { 0, 4, 2 }, { 0, 2, 3 } }));
+}
+
 TEST(PolygonTriangulation, whatHasNoEarsIsStillCut)
 {
   EXPECT_EQ(cut({ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 }, { 4, 0, 0 } }).triangles, 3u); // on a line

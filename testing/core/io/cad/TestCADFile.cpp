@@ -10,6 +10,8 @@
 #include "mesh/preparation/MeshPreparation.h"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -20,9 +22,11 @@
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
+#include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
 #include <cmath>
@@ -214,6 +218,27 @@ TEST(CADFile, facesOfIGESAreSewn)
   EXPECT_EQ(report.nearVertices + report.mergedVertices, 0);
   EXPECT_TRUE(report.closed);
   EXPECT_NEAR(report.volume / RodVolume, 1.0, 0.01);
+}
+
+TEST(CADFile, facesBetweenEdgesThatLieOnEachOtherAreLeftOut)
+{
+  const files::Folder folder;
+  const TopoDS_Edge there = BRepBuilderAPI_MakeEdge(gp_Pnt(20, 0, 0), gp_Pnt(25, 0, 0));
+  const TopoDS_Edge back = BRepBuilderAPI_MakeEdge(TopExp::LastVertex(there), TopExp::FirstVertex(there));
+  const TopoDS_Face sliver = BRepBuilderAPI_MakeFace(gp_Pln(), BRepBuilderAPI_MakeWire(there, back), true);
+  expectSizes(meam::readCAD(stepOf(folder, compoundOf(box(10, 20, 30), sliver))).mesh, 10, 20, 30);
+}
+
+TEST(CADFile, entitiesWithoutNamesAreRead)
+{
+  const files::Folder folder;
+  std::string text = meam::readFile(stepOf(folder, box(10, 20, 30)));
+  for (const std::string entity : { "CLOSED_SHELL(''", "ADVANCED_FACE(''", "EDGE_CURVE(''", "PLANE(''" })
+  {
+    text.replace(text.find(entity) + entity.size() - 2, 2, "$");
+  }
+  text.insert(text.find("DATA;") + 5, "#9001=SURFACE_SIDE_STYLE($,());#9002=SURFACE_STYLE_USAGE($,#9001);");
+  expectSizes(meam::readCAD(folder.write("names.step", text)).mesh, 10, 20, 30);
 }
 
 TEST(CADFile, whatIsDamagedIsASentence)
