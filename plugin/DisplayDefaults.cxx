@@ -117,13 +117,18 @@ void showPlain(vtkSMProxy* representation, vtkPVDataInformation* data)
   }
 }
 
-/// A text of ours, the answer of a filter: where nothing else is, in letters of a map.
+/// A text of ours, the answer of a filter: where nothing else is, in letters of a map, dark behind them where a small
+/// view has the scan there, too.
 void showText(vtkSMProxy* representation)
 {
-  constexpr int UpperLeftCorner = 4, Left = 0;
+  constexpr int UpperLeftCorner = 4, Left = 0, Always = 1;
+  const double background[4] = { 0.0, 0.0, 0.0, 0.6 };
   vtkSMPropertyHelper(representation, "WindowLocation").Set(UpperLeftCorner);
   vtkSMPropertyHelper(representation, "Justification").Set(Left);
   vtkSMPropertyHelper(representation, "FontSize").Set(12);
+  vtkSMPropertyHelper(representation, "BackgroundColor").Set(background, 4);
+  vtkSMPropertyHelper(representation, "ShowBorder").Set(Always); // which the background needs
+  vtkSMPropertyHelper(representation, "BorderThickness").Set(0.0);
   representation->UpdateVTKObjects();
 }
 

@@ -11,6 +11,7 @@
 #include "vtkCamera.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindowInteractor.h"
@@ -18,6 +19,9 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMRenderViewProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSmartPointer.h"
 #include "vtkStaticCellLocator.h"
 #include "vtkStructuredGrid.h"
 
@@ -144,22 +148,46 @@ vtkIdType pointAt(vtkPointSet* scan, vtkRenderer* renderer, const int pixel[2])
   return found == candidates.end() ? -1 : *found;
 }
 
-/// The scan of a diagnosis, where it is in this process.
-vtkPointSet* scanOf(vtkSMProxy* diagnosis)
+/// An output as data of this process. Of a server it is fetched from the first process, which has all.
+vtkSmartPointer<vtkDataObject> dataOf(vtkSMSourceProxy* source, unsigned int port)
 {
-  const vtkSMPropertyHelper scene(diagnosis, "Scene");
-  vtkSMProxy* source = scene.GetNumberOfElements() == 1 ? scene.GetAsProxy() : nullptr;
-  auto* producer = source ? vtkAlgorithm::SafeDownCast(source->GetClientSideObject()) : nullptr;
-  return producer ? vtkPointSet::SafeDownCast(producer->GetOutputDataObject(static_cast<int>(scene.GetOutputPort())))
-                  : nullptr;
+  if (auto* producer = vtkAlgorithm::SafeDownCast(source->GetClientSideObject()))
+  {
+    return producer->GetOutputDataObject(static_cast<int>(port));
+  }
+  const auto make = [&](const char* name, vtkSMProxy* input, unsigned int inputPort)
+  {
+    auto proxy = vtkSmartPointer<vtkSMSourceProxy>::Take(
+      vtkSMSourceProxy::SafeDownCast(source->GetSessionProxyManager()->NewProxy("filters", name)));
+    vtkSMPropertyHelper(proxy, "Input").Set(input, inputPort);
+    return proxy;
+  };
+  const auto ofFirst = make("ReductionFilter", source, port);
+  vtkSMPropertyHelper(ofFirst, "PassThrough").Set(0);
+  ofFirst->UpdateVTKObjects();
+  ofFirst->UpdatePipeline();
+  vtkPVDataInformation* data = ofFirst->GetDataInformation(0);
+  const auto mover = make("ClientServerMoveData", ofFirst, 0);
+  vtkSMPropertyHelper(mover, "OutputDataType").Set(data->GetDataSetType());
+  vtkSMPropertyHelper(mover, "WholeExtent").Set(data->GetExtent(), 6);
+  mover->UpdateVTKObjects();
+  mover->UpdatePipeline();
+  auto* moved = vtkAlgorithm::SafeDownCast(mover->GetClientSideObject());
+  return moved ? moved->GetOutputDataObject(0) : nullptr;
 }
 
-/// The parts at the poses of a diagnosis, where they are in this process and drawn in the view, in front of the scan.
-vtkPolyData* drawnPartsOf(vtkSMProxy* diagnosis, vtkSMProxy* view)
+/// The one input of a diagnosis by this name; null: there is none.
+vtkSMSourceProxy* inputOf(vtkSMProxy* diagnosis, const char* name)
 {
-  constexpr int Parts = 2; // output of MEAM Pose Estimation
-  const vtkSMPropertyHelper poses(diagnosis, "Poses");
-  vtkSMProxy* source = poses.GetNumberOfElements() == 1 ? poses.GetAsProxy() : nullptr;
+  const vtkSMPropertyHelper input(diagnosis, name);
+  return input.GetNumberOfElements() == 1 ? vtkSMSourceProxy::SafeDownCast(input.GetAsProxy()) : nullptr;
+}
+
+/// The parts at the poses of a diagnosis, where they are drawn in the view, in front of the scan.
+vtkSmartPointer<vtkDataObject> drawnPartsOf(vtkSMProxy* diagnosis, vtkSMProxy* view)
+{
+  constexpr unsigned int Parts = 2; // output of MEAM Pose Estimation
+  vtkSMSourceProxy* source = inputOf(diagnosis, "Poses");
   if (!source || std::strcmp(source->GetXMLName(), "MEAMPoseEstimation") != 0)
   {
     return nullptr;
@@ -172,8 +200,7 @@ vtkPolyData* drawnPartsOf(vtkSMProxy* diagnosis, vtkSMProxy* view)
     if (input.GetNumberOfElements() == 1 && input.GetAsProxy() == source && input.GetOutputPort() == Parts &&
         vtkSMPropertyHelper(representation, "Visibility").GetAsInt() != 0)
     {
-      auto* producer = vtkAlgorithm::SafeDownCast(source->GetClientSideObject());
-      return producer ? vtkPolyData::SafeDownCast(producer->GetOutputDataObject(Parts)) : nullptr;
+      return dataOf(source, Parts);
     }
   }
   return nullptr;
@@ -198,14 +225,13 @@ public:
     {
       pqPropertyWidget* point = this->shownPoint();
       auto* view = point ? qobject_cast<pqRenderView*>(point->view()) : nullptr;
-      vtkPointSet* scan = view ? scanOf(point->proxy()) : nullptr;
-      if (scan && isPick(static_cast<QKeyEvent*>(event)->modifiers(), view->widget()))
+      if (view && isPick(static_cast<QKeyEvent*>(event)->modifiers(), view->widget()) && inputOf(point->proxy(), "Scene"))
       {
         event->accept();
         if (event->type() == QEvent::KeyPress &&
             view->widget()->rect().contains(view->widget()->mapFromGlobal(QCursor::pos())))
         {
-          pick(point, view->getRenderViewProxy(), scan);
+          pick(point, view->getRenderViewProxy());
         }
         return true;
       }
@@ -234,15 +260,18 @@ private:
     return nullptr;
   }
 
-  static void pick(pqPropertyWidget* point, vtkSMRenderViewProxy* view, vtkPointSet* scan)
+  static void pick(pqPropertyWidget* point, vtkSMRenderViewProxy* view)
   {
     const int* mouse = view->GetInteractor()->GetEventPosition();
-    vtkPolyData* parts = drawnPartsOf(point->proxy(), view);
+    const auto drawn = drawnPartsOf(point->proxy(), view);
+    auto* parts = vtkPolyData::SafeDownCast(drawn);
     double place[3];
     bool isFound = parts && meetsMesh(parts, view->GetRenderer(), mouse, place);
     if (!isFound)
     {
-      const vtkIdType found = pointAt(scan, view->GetRenderer(), mouse);
+      const auto data = dataOf(inputOf(point->proxy(), "Scene"), vtkSMPropertyHelper(point->proxy(), "Scene").GetOutputPort());
+      auto* scan = vtkPointSet::SafeDownCast(data);
+      const vtkIdType found = scan ? pointAt(scan, view->GetRenderer(), mouse) : -1;
       isFound = found >= 0;
       if (isFound)
       {

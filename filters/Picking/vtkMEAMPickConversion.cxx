@@ -37,19 +37,6 @@ constexpr std::array<GripperLength, 10> GripperLengths{ { { "Opening", &meam::Gr
   { "BodyWidth", &meam::Gripper::bodyWidth }, { "CupDiameter", &meam::Gripper::cupDiameter },
   { "CupLength", &meam::Gripper::cupLength } } };
 
-/// Which of the picks get a gripper.
-std::vector<bool> drawnOf(const meam::Picks& picks, ShownPicks shown)
-{
-  std::vector<bool> drawn;
-  std::set<int> done; // copies that have one
-  for (const meam::Pick& pick : picks)
-  {
-    drawn.push_back(shown == ShownPicks::All || (shown == ShownPicks::Possible && pick.possible()) ||
-                    (shown == ShownPicks::BestOfEachCopy && done.insert(pick.pose).second));
-  }
-  return drawn;
-}
-
 /// Faces one after the other, with a value of each array for all cells of a piece.
 class Pieces
 {
@@ -97,14 +84,28 @@ private:
 };
 }
 
-void fromPicks(const meam::Picks& picks, const GraspOf& graspOf, ShownPicks shown, vtkPolyData* output)
+std::vector<bool> drawnPicks(const meam::Picks& picks, ShownPicks shown, vtkPolyData* poses)
+{
+  auto* labels = vtkStringArray::SafeDownCast(poses->GetPointData()->GetAbstractArray("Label"));
+  const auto isShown = [&](int pose) { return !labels || !labels->GetValue(pose).empty(); };
+  std::vector<bool> drawn;
+  std::set<int> done; // copies that have one
+  for (const meam::Pick& pick : picks)
+  {
+    drawn.push_back(shown == ShownPicks::All || (shown == ShownPicks::Possible && pick.possible()) ||
+                    (shown == ShownPicks::BestOfEachCopy && (pick.possible() || isShown(pick.pose)) &&
+                      done.insert(pick.pose).second));
+  }
+  return drawn;
+}
+
+void fromPicks(const meam::Picks& picks, const GraspOf& graspOf, const std::vector<bool>& drawn, vtkPolyData* output)
 {
   using meam::Pick;
   setFrames(picks, &Pick::T_scene_grasp, output);
   vtkPointData* arrays = output->GetPointData();
   std::vector<double> quaternions;
   std::vector<std::string> labels; // of those that get a gripper the rank, or in a word why the pick is not possible
-  const std::vector<bool> drawn = drawnOf(picks, shown);
   for (std::size_t k = 0; k < picks.size(); ++k)
   {
     const Eigen::Quaterniond turn(picks[k].T_scene_grasp.linear());
@@ -149,11 +150,10 @@ void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* n
     framesOf(name, picks, [&](const meam::Pick& pick) { return frame.T_scene_model * pick.T_scene_grasp; }));
 }
 
-void fromGrippers(
-  const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper, ShownPicks shown, vtkPolyData* output)
+void fromGrippers(const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper,
+  const std::vector<bool>& drawn, vtkPolyData* output)
 {
   Pieces pieces({ "Possible", "Rank", "Obstruction" });
-  const std::vector<bool> drawn = drawnOf(picks, shown);
   for (std::size_t k = 0; k < picks.size(); ++k)
   {
     const meam::Pick& pick = picks[k];

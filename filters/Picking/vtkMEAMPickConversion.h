@@ -20,7 +20,7 @@ namespace vtkMEAMConversion
 /// Which picks a gripper is drawn at.
 enum class ShownPicks
 {
-  BestOfEachCopy, ///< the best possible one; of a copy without one the first that is not
+  BestOfEachCopy, ///< the best possible one; of a copy without one the first that is not, where the pose is shown
   Possible,
   All
 };
@@ -28,9 +28,12 @@ enum class ShownPicks
 /// Which grasp a pick is of.
 using GraspOf = std::function<const meam::Grasp&(const meam::Pick&)>;
 
+/// Whether each of the picks gets a gripper. A pose is not shown where its `Label` is empty.
+std::vector<bool> drawnPicks(const meam::Picks& picks, ShownPicks shown, vtkPolyData* poses);
+
 /// A vertex for each pick, with the arrays that vtkMEAMPickPlanning documents; `Label` is empty where no gripper is
 /// drawn.
-void fromPicks(const meam::Picks& picks, const GraspOf& graspOf, ShownPicks shown, vtkPolyData* output);
+void fromPicks(const meam::Picks& picks, const GraspOf& graspOf, const std::vector<bool>& drawn, vtkPolyData* output);
 
 /// Of several types of part the array `PartId`; `parts`: of each pose its type.
 void addParts(const meam::Picks& picks, const std::vector<int>& parts, vtkPolyData* output);
@@ -39,9 +42,9 @@ void addParts(const meam::Picks& picks, const std::vector<int>& parts, vtkPolyDa
 /// components, row-major.
 void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* name, vtkPolyData* output);
 
-/// The gripper at picks, with `Rank`, `Possible` and `Obstruction` for its cells.
-void fromGrippers(const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper, ShownPicks shown,
-  vtkPolyData* output);
+/// The gripper at the picks that get one, with `Rank`, `Possible` and `Obstruction` for its cells.
+void fromGrippers(const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper,
+  const std::vector<bool>& drawn, vtkPolyData* output);
 
 /// The floor and the walls, to look at.
 void fromBin(const meam::Bin& bin, vtkPolyData* output);

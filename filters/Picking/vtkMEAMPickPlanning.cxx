@@ -193,8 +193,8 @@ int vtkMEAMPickPlanning::RequestData(
       { return grasps[parts[pick.pose]][pick.grasp]; };
       const meam::Picks picks =
         meam::PickPlanner::planAll(ofTypes, poses, parts, cloud, bin, meam::subProgress(progress, 0.4, 1.0));
-      const auto shown = static_cast<ShownPicks>(this->ShownGrippers);
-      fromPicks(picks, graspOf, shown, output);
+      const std::vector<bool> drawn = drawnPicks(picks, static_cast<ShownPicks>(this->ShownGrippers), posesInput);
+      fromPicks(picks, graspOf, drawn, output);
       if (types > 1)
       {
         addParts(picks, parts, output);
@@ -210,7 +210,7 @@ int vtkMEAMPickPlanning::RequestData(
       setFieldText(output, "PickReport", report);
       setFieldText(output, "PickAdvice", advice);
       fromAnswer({ report, advice }, answer);
-      fromGrippers(picks, graspOf, gripper, shown, grippers);
+      fromGrippers(picks, graspOf, gripper, drawn, grippers);
       if (!gripperInput)
       {
         setGripper(output, gripper);

@@ -170,7 +170,8 @@ public:
     AllPicks
   };
 
-  /** At which picks the gripper is shown by output port 1, with a label. Default: BestOfEachInstance. */
+  /** At which picks the gripper is shown by output port 1, with a label; BestOfEachInstance leaves out what is not
+   * possible of poses whose `Label` is empty, which are not shown. Default: BestOfEachInstance. */
   vtkMEAMClampedMemberMacro(ShownGrippers, int, BestOfEachInstance, AllPicks);
 
 protected:

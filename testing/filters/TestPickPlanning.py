@@ -3,6 +3,7 @@
 
 from meamtest import Folder, box, check, close, cloud, connect, fails, grid, poses, run, set_fields, text, texts, tuples
 
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ppfmeam.filters import vtkMEAMPickPlanning
@@ -78,6 +79,20 @@ planning.SetShownGrippers(planning.AllPicks)
 picks = run(planning)
 check(planning.GetOutputDataObject(1).GetNumberOfCells() == 4 * 36, "a gripper at each pick")
 check(texts(picks, "Label") == ["pick 1", "pick 2", "tilted", "tilted"], f"labels at each pick: {texts(picks, 'Label')}")
+
+# The best of each copy, of poses that are not shown only where it is possible.
+planning.SetShownGrippers(planning.BestOfEachInstance)
+ranks = vtkStringArray()
+ranks.SetName("Label")
+for label in ("1: 90 %", ""):
+    ranks.InsertNextValue(label)
+for margin, labels in ((0.5, ["pick 1", "pick 2"]), (1.5, ["hits 2"])):
+    shown = poses(at(0, 0), at(32, 0))
+    shown.GetPointData().AddArray(ranks)
+    planning.SetInputDataObject(0, shown)
+    planning.SetSafetyMargin(margin)
+    drawn = [label for label in texts(run(planning), "Label") if label]
+    check(drawn == labels, f"with a margin of {margin} mm: {drawn}")
 
 # A bin that is found, and without one.
 alone = connect(vtkMEAMPickPlanning(), poses(at(0, 0)), PART, above, scan())

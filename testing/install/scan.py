@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""make FOLDER: a part (part.stl), a simulated scan of a bin of them (scan.pcd), the true poses (truth.txt) and the camera in a
+"""make FOLDER [COPIES]: a part (part.stl), a simulated scan of a bin of them (scan.pcd), the true poses (truth.txt) and the camera in a
 robot's frame (robot.json).
 check FOLDER: what the C++ programs found (found.txt, picks.txt) is true, and the same that Python finds with the model that
 C++ trained (part.meam)."""
@@ -14,7 +14,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 import ppfmeam
 from ppfmeam.filters import vtkMEAMBinSceneSource
 
-WIDTH, HEIGHT, COPIES = 480, 360, 4
+WIDTH, HEIGHT = 480, 360
 MILLIMETRES = 1.0
 ROBOT = [[1, 0, 0, 100], [0, -1, 0, 200], [0, 0, -1, 900], [0, 0, 0, 1]]
 
@@ -23,7 +23,7 @@ def make():
     source = vtkMEAMBinSceneSource()
     source.SetWidth(WIDTH)
     source.SetHeight(HEIGHT)
-    source.SetCopies(COPIES)
+    source.SetCopies(int(sys.argv[3]) if len(sys.argv) > 3 else 4)
     source.Update()
     scan, truth, part, _ = (source.GetOutputDataObject(port) for port in range(4))
     writer = vtkSTLWriter()

@@ -168,6 +168,7 @@ why = simple.PoseDiagnosis(Input=plate, Scene=simple.OutputPort(bin, 0), Place="
 simple.Show(why, view)
 answer, = answers(view)
 check(answer.WindowLocation == "Upper Left Corner" and answer.FontSize == 12, f"the answer is {answer.WindowLocation}")
+check(answer.BackgroundColor[3] > 0.5 and answer.ShowBorder == "Always", "the answer cannot be read over a scan")
 
 # A scan with colours shows them.
 view = simple.CreateRenderView()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a new user does in one go, by clicks: a new part by its page, a wrong pose that is asked about, two types of part, a
-gripper and its picks, poses and picks saved. pvpython looks at what was saved.
+"""What a new user does in one go, by clicks: a new part by its page, a wrong pose and a part that was missed are asked about,
+two types of part, a gripper and its picks, poses and the report saved. pvpython looks at what was saved.
 
 Usage: TestWorkflow.py PARAVIEW PVPYTHON REPOSITORY; with PPFMEAM_PICTURE=FOLDER pictures of the window go there, those of
 docs/gallery.md (needs python3-pil).
@@ -18,65 +18,86 @@ from clicks import (APPLY, BROWSER, NEW_PART, PANEL, PROPERTIES, START, check, e
 POINT = PROPERTIES + "/InteractiveHandle"
 CAD, SCAN, POSES, DIAGNOSIS = range(4)  # rows of the pipeline browser
 OTHER_CAD, BOTH = 2, 3  # when what came after the scan is deleted
-NEW_POSES = 3  # after the other CAD and those of the part once more
+COPIES = 12  # some lie under others
+NEW_POSES = 2  # when both CADs are deleted and the part is searched once more
 
 
-def wrong_point(folder):
-    """A measured point on an unlikely pose and far from all likely ones."""
+def points_to_ask(folder):
+    """Measured points far from all likely poses: on a pose where no copy is, and on a copy where no pose is."""
     import numpy
     import ppfmeam
 
     model, scan = ppfmeam.train(f"{folder}/part.stl"), f"{folder}/scan.pcd"
     found = ppfmeam.detect(model, scan, poses=0)
     likely = found.place_probabilities >= 0.5
-    told = ppfmeam.why(model, scan, pose=found.poses, poses=0)
-    on = [each.points[numpy.array(each.states) == "matched"] for each in told]
-    taken = numpy.concatenate([points for points, is_likely in zip(on, likely) if is_likely])
-    free = [(numpy.linalg.norm(taken - point, axis=1).min(), tuple(point)) for points, is_likely in zip(on, likely)
-            if not is_likely for point in points[::20]]
-    return max(free)[1]
+    truth = numpy.loadtxt(f"{folder}/truth.txt").reshape(-1, 4, 4)
+    apart = numpy.linalg.norm(truth[:, None, :3, 3] - found.poses[None, :, :3, 3], axis=2) > 10  # mm
+    wrong, missed = found.poses[~likely & apart.all(axis=0)], truth[apart.all(axis=1)]
+
+    def measured(poses):
+        told = ppfmeam.why(model, scan, pose=poses, poses=0)
+        return [each.points[numpy.array(each.states) == "matched"] for each in told]
+
+    taken = numpy.concatenate(measured(found.poses[likely]))
+
+    def farthest(poses):
+        """The points on them, the farthest from likely poses first."""
+        return [point for _, point in sorted(((numpy.linalg.norm(taken - point, axis=1).min(), tuple(point))
+                                              for points in measured(poses) for point in points[::40]), reverse=True)]
+
+    return farthest(wrong)[0], next(point for point in farthest(missed) if found.why(at=point).lost_in)
+
+
+def ask(place):
+    """The point of Pose Diagnosis, as it is written into its panel."""
+    return [*(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", place)), APPLY]
 
 
 def delete(row):
     return [*item(BROWSER, row), event(f"{PANEL}/Delete", "activate")]
 
 
-def stages(folder, repository, wrong):
+def stages(folder, repository, wrong, missed):
     """What is clicked, in stages, and the pictures of the gallery that they end with."""
     files_of_part = [new_part_file("CAD", f"{folder}/part.stl"), new_part_file("Scan", f"{folder}/scan.pcd")]
     yield "wrong_pose", [
         NEW_PART, *files_of_part, START,
         *item(BROWSER, POSES), share("ShownProbability", 0), APPLY,
-        event("PoseEstimationToolbar/AskWhy", "activate"),
-        *(event(f"{POINT}/worldPosition{axis}", "set_string", f"{value:.3f}") for axis, value in zip("XYZ", wrong)), APPLY,
+        event("PoseEstimationToolbar/AskWhy", "activate"), *ask(wrong),
         *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/wrong.pvsm")]
+    yield "missed", [
+        *item(BROWSER, POSES), share("ShownProbability", 0.5), APPLY, *item(BROWSER, DIAGNOSIS), *ask(missed),
+        *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/missed.pvsm")]
     yield "two_types", [
         *delete(DIAGNOSIS), *delete(POSES),
         *files("actionFileOpen", "FileOpenDialog", os.path.join(repository, "examples", "parts", "knob.stl")),
         *item(BROWSER, CAD), *item(BROWSER, OTHER_CAD, control=True), event("PoseEstimationToolbar/EstimatePoses", "activate"), APPLY,
         *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/types.pvsm")]
-    yield None, [
-        *delete(BOTH),
+    yield "report", [
+        *delete(BOTH), *delete(OTHER_CAD),
         new_part_choice("Gripper", "Parallel jaws"), new_part_length("FingerWidth", 8), new_part_length("FingerThickness", 5), START,
         *item(BROWSER, NEW_POSES), *files("actionFileSaveData", "FileSaveDialog", f"{folder}/poses.json"),
         event("WriterSettingsDialog/widget/OKButton", "activate"),
+        *files("actionFileSaveData", "FileSaveDialog", f"{folder}/found.html"),
         *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/picks.pvsm")]
 
 
 def main(paraview, pvpython, repository):
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([sys.executable, os.path.join(repository, "testing", "install", "scan.py"), "make", folder], check=True)
-        wrong, events = wrong_point(folder), []
-        for name, stage in stages(folder, repository, wrong):
+        subprocess.run([sys.executable, os.path.join(repository, "testing", "install", "scan.py"), "make", folder, str(COPIES)], check=True)
+        wrong, missed = points_to_ask(folder)
+        events = []
+        for name, stage in stages(folder, repository, wrong, missed):
             events += stage
-            if name and os.environ.get("PPFMEAM_PICTURE"):
+            if os.environ.get("PPFMEAM_PICTURE"):
                 shoot(paraview, folder, events, os.path.join(os.environ["PPFMEAM_PICTURE"], f"application_{name}.jpg"))
         play(paraview, folder, events)
         subprocess.run([pvpython, os.path.abspath(__file__), "--look", folder], check=True)
 
 
 def look(folder):
-    """The wrong pose is told to be one, two types are looked for, and the poses that are saved are those that picks are of."""
+    """The wrong pose is told to be one, and why the other part was missed; two types are looked for; the poses that are saved
+    are those that picks are of, and the report has them."""
     from paraview import simple
 
     def output(name, file, port=0):
@@ -89,11 +110,17 @@ def look(folder):
     said = output("PoseDiagnosis1", "wrong.pvsm").GetFieldData()
     verdict, reasons = (said.GetAbstractArray(name).GetValue(0) for name in ("Verdict", "Reasons"))
     check(re.match(r"Found as rank \d+, [0-4]?\d %", verdict) and "Against it" in reasons, f"{verdict} {reasons}")
+    said = output("PoseDiagnosis1", "missed.pvsm").GetFieldData()
+    verdict, advice = (said.GetAbstractArray(name).GetValue(0) for name in ("Verdict", "Advice"))
+    check(not verdict.startswith(("Found", "No part")) and advice, f"{verdict} {advice}")
     names = output("MEAMPoseEstimation1", "types.pvsm").GetFieldData().GetAbstractArray("PartName")
     check([names.GetValue(k) for k in range(names.GetNumberOfValues())] == ["part", "part 2"], "the types that are looked for")
     picks = output("PickPlanning1", "picks.pvsm").GetPointData().GetArray("Instance")
     with open(os.path.join(folder, "poses.json")) as file:
         poses = json.load(file)["poses"]
+    with open(os.path.join(folder, "found.html")) as file:
+        page = file.read()
+    check("<title>part.stl in scan.pcd</title>" in page and page.count("<tr data-rank") == len(poses), page[:400])
     check(len(poses) == picks.GetRange()[1] >= 2, f"{len(poses)} poses are saved, picks are of {picks.GetRange()[1]}")
 
 

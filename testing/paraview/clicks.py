@@ -118,19 +118,19 @@ def start(paraview, folder, events, *options):
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
-def play(paraview, folder, events):
-    said, _ = start(paraview, folder, events, "--exit").communicate(timeout=LONGEST)
+def play(paraview, folder, events, *options):
+    said, _ = start(paraview, folder, events, "--exit", *options).communicate(timeout=LONGEST)
     errors = [line for line in said.splitlines() if "ERR|" in line or "critical" in line]
     check(not errors, f"ParaView says {errors}")
     check("Success =  true" in said, f"the clicks led nowhere: {said[-3000:]}")
 
 
-def shoot(paraview, folder, events, picture):
+def shoot(paraview, folder, events, picture, *options):
     """The whole window after the events."""
     from PIL import ImageGrab
 
     done = os.path.join(folder, "done.pvsm")
-    application = start(paraview, folder, events + files("actionFileSaveServerState", "FileSaveServerStateDialog", done))
+    application = start(paraview, folder, events + files("actionFileSaveServerState", "FileSaveServerStateDialog", done), *options)
     until = time.monotonic() + LONGEST
     while not os.path.exists(done):
         if application.poll() is not None or time.monotonic() > until:
