@@ -17,22 +17,19 @@ void scoreByEdgeCoverage(
   {
     viewEdges.push_back(model.edgesOfView(static_cast<int>(v)).points);
   }
-  parallelFor(static_cast<int>(poses.size()), threads, progress,
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(poses.size()), threads, progress,
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        Pose& pose = poses[i];
-        pose.viewId = viewOf(pose, scene, model);
-        const Points& edges = viewEdges[pose.viewId];
-        const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
-        const auto fitted = std::count_if(edges.begin(), edges.end(),
-          [&](const Eigen::Vector3f& point) { return scene.edgeGrid().nearest(T * point, tolerance) >= 0; });
-        pose.score = edges.empty() ? 0.0 : static_cast<double>(fitted) / edges.size();
-        pose.placeProbability = pose.probability = pose.score;
-        pose.evidence = std::log(pose.score / (1.0 - pose.score)); // infinite when all or nothing fits
-        pose.visibleFraction = pose.score;
-      }
+      Pose& pose = poses[i];
+      pose.viewId = viewOf(pose, scene, model);
+      const Points& edges = viewEdges[pose.viewId];
+      const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
+      const auto fitted = std::count_if(edges.begin(), edges.end(),
+        [&](const Eigen::Vector3f& point) { return scene.edgeGrid().nearest(T * point, tolerance) >= 0; });
+      pose.score = edges.empty() ? 0.0 : static_cast<double>(fitted) / edges.size();
+      pose.placeProbability = pose.probability = pose.score;
+      pose.evidence = std::log(pose.score / (1.0 - pose.score)); // infinite when all or nothing fits
+      pose.visibleFraction = pose.score;
     });
 }
 }

@@ -69,13 +69,7 @@ void refinePointToPoint(Poses& poses, const Scene& scene, const TrainedModel& mo
   {
     views.push_back(toPCL(model.edgesOfView(static_cast<int>(v)).points));
   }
-  parallelFor(static_cast<int>(poses.size()), threads, progress,
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        alignPointToPoint(poses[i], views[poses[i].viewId], target, tree, distance, iterations);
-      }
-    });
+  parallelForEach(static_cast<int>(poses.size()), threads, progress,
+    [&](int i) { alignPointToPoint(poses[i], views[poses[i].viewId], target, tree, distance, iterations); });
 }
 }

@@ -20,18 +20,15 @@ void scoreByVotes(Poses& poses, const Scene& scene, const TrainedModel& model, i
   }
   const PointGrid grid(middles, distance);
   std::vector<int> sums(poses.size(), 0);
-  parallelFor(static_cast<int>(poses.size()), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(poses.size()), threads, {},
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        grid.forEachWithin(middles[i], distance,
-          [&](int other, float)
-          {
-            const bool agrees = rotationError(poses[i].T_scene_model, poses[other].T_scene_model) < SamePoseAngle;
-            sums[i] += agrees ? poses[other].votes : 0;
-          });
-      }
+      grid.forEachWithin(middles[i], distance,
+        [&](int other, float)
+        {
+          const bool agrees = rotationError(poses[i].T_scene_model, poses[other].T_scene_model) < SamePoseAngle;
+          sums[i] += agrees ? poses[other].votes : 0;
+        });
     });
   const int most = sums.empty() ? 0 : *std::max_element(sums.begin(), sums.end());
   for (std::size_t i = 0; i < poses.size(); ++i)

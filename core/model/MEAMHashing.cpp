@@ -87,14 +87,9 @@ std::vector<std::uint32_t> visibilityBits(const Points& surface, int directions,
   const Eigen::Vector3d middle = bounds(surface).center().cast<double>();
   const double distance = settings.viewpointDistance * diameter(surface);
   std::vector<std::vector<int>> visible(directions);
-  parallelFor(directions, 0, progress,
-    [&](int begin, int end, int)
-    {
-      for (int c = begin; c < end; ++c)
-      {
-        visible[c] = visiblePoints(surface, middle + distance * towards[c].cast<double>(), settings.radiusFactor);
-      }
-    });
+  parallelForEach(directions, 0, progress,
+    [&](int c)
+    { visible[c] = visiblePoints(surface, middle + distance * towards[c].cast<double>(), settings.radiusFactor); });
   for (int c = 0; c < directions; ++c)
   {
     for (const int i : visible[c])

@@ -89,14 +89,9 @@ std::vector<int> visiblePoints(
 {
   const int count = static_cast<int>(surface.size());
   std::vector<char> seen(surface.size());
-  parallelFor(count, 0, progress,
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        seen[i] = sight.isSeen(surface.points[i].cast<double>(), surface.normals[i].cast<double>(), viewpoint);
-      }
-    });
+  parallelForEach(count, 0, progress,
+    [&](int i)
+    { seen[i] = sight.isSeen(surface.points[i].cast<double>(), surface.normals[i].cast<double>(), viewpoint); });
   std::vector<int> visible;
   for (int i = 0; i < count; ++i)
   {

@@ -219,16 +219,13 @@ public:
     Symmetries found;
     const std::vector<Candidate> axes = this->axes(subProgress(progress, 0.0, 0.5));
     std::vector<Axis> examined(axes.size());
-    parallelFor(static_cast<int>(axes.size()), 0, subProgress(progress, 0.5, 1.0),
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(axes.size()), 0, subProgress(progress, 0.5, 1.0),
+      [&](int a)
       {
-        for (int a = begin; a < end; ++a)
+        examined[a].isContinuous = this->isContinuous(axes[a].axis, examined[a].continuous);
+        if (!examined[a].isContinuous)
         {
-          examined[a].isContinuous = this->isContinuous(axes[a].axis, examined[a].continuous);
-          if (!examined[a].isContinuous)
-          {
-            examined[a].turns = this->turnsAbout(axes[a].axis);
-          }
+          examined[a].turns = this->turnsAbout(axes[a].axis);
         }
       });
     std::vector<NearSymmetry> turns;
@@ -291,18 +288,15 @@ private:
         [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); }),
       directions.end());
     std::vector<Candidate> candidates(directions.size());
-    parallelFor(static_cast<int>(directions.size()), 0, progress,
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(directions.size()), 0, progress,
+      [&](int i)
       {
-        for (int i = begin; i < end; ++i)
+        candidates[i].axis = directions[i].cast<double>().normalized();
+        for (int order = 2; order <= Orders; ++order)
         {
-          candidates[i].axis = directions[i].cast<double>().normalized();
-          for (int order = 2; order <= Orders; ++order)
-          {
-            const double misfit = this->SparseMatcher.misfit(
-              this->Coarse, turnAbout(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
-            candidates[i].misfit = std::min(candidates[i].misfit, misfit);
-          }
+          const double misfit = this->SparseMatcher.misfit(
+            this->Coarse, turnAbout(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
+          candidates[i].misfit = std::min(candidates[i].misfit, misfit);
         }
       });
     std::stable_sort(

@@ -94,14 +94,8 @@ int missingPatches(const Poses& poses, const Scene& scene, const TrainedModel& m
     return 0;
   }
   std::vector<std::map<Patch, PatchPoints>> ofPoses(poses.size());
-  parallelFor(static_cast<int>(poses.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        ofPoses[i] = patchesOf(poses[i], scene, model);
-      }
-    });
+  parallelForEach(
+    static_cast<int>(poses.size()), threads, {}, [&](int i) { ofPoses[i] = patchesOf(poses[i], scene, model); });
   struct Copies
   {
     int showing = 0;

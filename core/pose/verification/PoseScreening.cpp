@@ -85,14 +85,8 @@ std::vector<double> surfaceShares(
   if (haveSurfaces(scene, model))
   {
     const SurfaceScreening screening(scene, model, settings);
-    parallelFor(static_cast<int>(poses.size()), settings.threads, {},
-      [&](int begin, int end, int)
-      {
-        for (int i = begin; i < end; ++i)
-        {
-          shares[i] = screening.share(poses[i].T_scene_model);
-        }
-      });
+    parallelForEach(static_cast<int>(poses.size()), settings.threads, {},
+      [&](int i) { shares[i] = screening.share(poses[i].T_scene_model); });
   }
   return shares;
 }
@@ -155,14 +149,8 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
     screened.push_back(candidates[i]);
   }
   const RotationSearch search(scene, model);
-  parallelFor(static_cast<int>(screened.size()), settings.threads, progress,
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        screened[i].T_scene_model = search.likeliest(screened[i].T_scene_model);
-      }
-    });
+  parallelForEach(static_cast<int>(screened.size()), settings.threads, progress,
+    [&](int i) { screened[i].T_scene_model = search.likeliest(screened[i].T_scene_model); });
   report(progress, 1.0);
   return screened;
 }

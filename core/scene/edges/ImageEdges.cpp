@@ -176,14 +176,8 @@ std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSetting
       at = pixel + 1;
     }
   }
-  parallelFor(static_cast<int>(result.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        result[i].direction = edgeDirection(dx, dy, result[i].row, result[i].column);
-      }
-    });
+  parallelForEach(static_cast<int>(result.size()), threads, {},
+    [&](int i) { result[i].direction = edgeDirection(dx, dy, result[i].row, result[i].column); });
   return result;
 }
 }

@@ -125,15 +125,12 @@ EdgePoints merged(const OrganizedCloud& cloud, const std::vector<Finding>& found
       result.directions[place] += Eigen::Vector2f(x * x - y * y, 2.0f * x * y);
     }
   }
-  parallelFor(places.size(), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(places.size(), threads, {},
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        const float angle = 0.5f * std::atan2(result.directions[i].y(), result.directions[i].x());
-        result.directions[i] = { std::cos(angle), std::sin(angle) };
-        result.edges.cloud.points[i] = cloud.points[result.edges.cloud.pointIds[i]];
-      }
+      const float angle = 0.5f * std::atan2(result.directions[i].y(), result.directions[i].x());
+      result.directions[i] = { std::cos(angle), std::sin(angle) };
+      result.edges.cloud.points[i] = cloud.points[result.edges.cloud.pointIds[i]];
     });
   return result;
 }
@@ -171,14 +168,11 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
   const auto lookUp = [&](const auto& map, double pixelsPerPoint, const Progress& rest)
   {
     const int radius = static_cast<int>(std::ceil(settings.searchRadius * pixelsPerPoint));
-    parallelFor(static_cast<int>(pixels.size()), settings.threads, rest,
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(pixels.size()), settings.threads, rest,
+      [&](int i)
       {
-        for (int i = begin; i < end; ++i)
-        {
-          const EdgePixel& pixel = pixels[i];
-          found[i] = { pointOfPixel(map, pixel.row, pixel.column, radius, jump), EdgeSource::Image, pixel.direction };
-        }
+        const EdgePixel& pixel = pixels[i];
+        found[i] = { pointOfPixel(map, pixel.row, pixel.column, radius, jump), EdgeSource::Image, pixel.direction };
       });
   };
   if (settings.camera)
