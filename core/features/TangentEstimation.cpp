@@ -5,6 +5,7 @@
 #include "base/Frames.h"
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Quantiles.h"
 #include "model/AppearanceModel.h"
 #include "scene/Units.h"
 
@@ -223,17 +224,6 @@ struct PointStatistics
   double spacing = 0.0; ///< median distance of a point to its nearest
 };
 
-double quantile(std::vector<double>& values, double share)
-{
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// Lines that meet mostly lie in a plane: the points' distances from it are noise. Where they are curved or there are
 /// several planes these are larger, so a low quantile counts.
 PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius,
@@ -277,7 +267,7 @@ PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, 
   { values.erase(std::remove(values.begin(), values.end(), unknown), values.end()); };
   known(deviations);
   known(distances);
-  return { quantile(deviations, NoiseQuantile), quantile(distances, 0.5) };
+  return { quantileOf(deviations, NoiseQuantile), quantileOf(distances, 0.5) };
 }
 
 /// Tangents at the points `kept`, by lines through points of `ends`; with the length of a `segment`, 0 for none, of

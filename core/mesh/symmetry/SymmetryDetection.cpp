@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Quantiles.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/symmetry/SampleIndex.h"
 #include "mesh/Viewpoints.h"
@@ -271,8 +272,7 @@ private:
         });
       nearest.push_back(least);
     }
-    std::nth_element(nearest.begin(), nearest.begin() + nearest.size() / 2, nearest.end());
-    return std::sqrt(nearest[nearest.size() / 2]);
+    return std::sqrt(medianOf(nearest));
   }
 
   /// Axes about which some turn maps the surface roughly onto itself, best first.

@@ -2,6 +2,7 @@
 #include "scene/edges/PixelMap.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Quantiles.h"
 
 #include <algorithm>
 #include <array>
@@ -216,13 +217,7 @@ double pixelsPerPoint(const std::vector<Seen>& seen, int width)
       distances.push_back(distance);
     }
   }
-  if (distances.empty())
-  {
-    return 1.0;
-  }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::max(static_cast<double>(*middle), 1.0);
+  return std::max(static_cast<double>(medianOf(distances)), 1.0);
 }
 
 /// seen(pixel) is the point that a pixel shows, or -1, and its depth; pixels are numbered row by row.

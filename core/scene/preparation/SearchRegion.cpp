@@ -2,6 +2,7 @@
 #include "scene/preparation/SearchRegion.h"
 
 #include "base/Error.h"
+#include "base/sequences/Quantiles.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -46,13 +47,7 @@ double spacingOf(const OrganizedCloud& cloud)
       distances.push_back(distance);
     }
   }
-  if (distances.empty())
-  {
-    return 1.0;
-  }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return distances.empty() ? 1.0 : medianOf(distances);
 }
 
 /// Pixels no farther from one of those than so many.
