@@ -4,6 +4,7 @@
 #include "base/AllVectors.h"
 #include "base/Frames.h"
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 #include <atomic>
@@ -149,20 +150,15 @@ Points chosenInFrame(const ScanPoints<Scalar>& scan, const Eigen::Isometry3d& fr
   if (isAnyLost)
   {
     const auto isLost = [](const Eigen::Vector3f& point) { return !point.allFinite(); };
-    points.erase(std::remove_if(points.begin(), points.end(), isLost), points.end());
+    eraseIf(points, isLost);
   }
   return points;
 }
 
 PrecisePoints precise(const Points& points)
 {
-  PrecisePoints result;
-  result.reserve(points.size());
-  for (const Eigen::Vector3f& point : points)
-  {
-    result.push_back(point.cast<double>());
-  }
-  return result;
+  return mapped<Eigen::Vector3d>(
+    points, [&](const Eigen::Vector3f& point) -> Eigen::Vector3d { return point.cast<double>(); });
 }
 }
 

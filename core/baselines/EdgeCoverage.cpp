@@ -2,6 +2,7 @@
 #include "baselines/EdgeCoverage.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <algorithm>
@@ -12,11 +13,8 @@ namespace meam
 void scoreByEdgeCoverage(
   Poses& poses, const Scene& scene, const TrainedModel& model, float tolerance, int threads, const Progress& progress)
 {
-  std::vector<Points> viewEdges;
-  for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
-  {
-    viewEdges.push_back(model.edgesOfView(static_cast<int>(v)).points);
-  }
+  const auto viewEdges =
+    ofIndices<Points>(model.viewDirections.size(), [&](int v) { return model.edgesOfView(v).points; });
   parallelForEach(static_cast<int>(poses.size()), threads, progress,
     [&](int i)
     {

@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/verification/PoseVerification.h"
 
@@ -13,11 +14,9 @@ namespace meam
 void scoreByVotes(Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
 {
   const double distance = SamePoseDistance * model.diameter;
-  Points middles;
-  for (const Pose& pose : poses)
-  {
-    middles.emplace_back((pose.T_scene_model * model.visibility->middle().cast<double>()).cast<float>());
-  }
+  const auto middles = mapped<Eigen::Vector3f>(poses,
+    [&](const Pose& pose) -> Eigen::Vector3f
+    { return Eigen::Vector3f((pose.T_scene_model * model.visibility->middle().cast<double>()).cast<float>()); });
   const PointGrid grid(middles, distance);
   std::vector<int> sums(poses.size(), 0);
   parallelForEach(static_cast<int>(poses.size()), threads, {},

@@ -6,6 +6,7 @@
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "base/sequences/Quantiles.h"
+#include "base/sequences/Sequences.h"
 #include "model/AppearanceModel.h"
 #include "scene/Units.h"
 
@@ -425,11 +426,8 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
     works.push_back(
       [&]
       {
-        Points sparse;
-        for (const int i : thinPoints(local, CandidateShare * radius))
-        {
-          sparse.push_back(local[i]);
-        }
+        const auto sparse =
+          mapped<Eigen::Vector3f>(thinPoints(local, CandidateShare * radius), [&](const int i) { return local[i]; });
         ends = PointGrid(sparse, radius);
       });
     works.push_back([&] { grid = PointGrid(local, radius); });

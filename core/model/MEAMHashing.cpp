@@ -5,6 +5,7 @@
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "base/Range.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/Viewpoints.h"
 #include "model/AppearanceModel.h"
@@ -167,13 +168,7 @@ int bringVotersForward(TrainedModel& model)
     }
   }
   model.edges = model.edges.subset(order);
-  std::vector<std::uint32_t> views;
-  views.reserve(order.size());
-  for (const int i : order)
-  {
-    views.push_back(model.edgeViews[i]);
-  }
-  model.edgeViews = std::move(views);
+  model.edgeViews = mapped<std::uint32_t>(order, [&](const int i) { return model.edgeViews[i]; });
   return voters;
 }
 

@@ -4,6 +4,7 @@
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "base/sequences/Quantiles.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/symmetry/SampleIndex.h"
 #include "mesh/Viewpoints.h"
@@ -283,10 +284,8 @@ private:
     {
       directions.push_back(axis); // the axes of coordinates are likely ones: CAD parts are drawn along them
     }
-    directions.erase(
-      std::remove_if(directions.begin(), directions.end(),
-        [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); }),
-      directions.end());
+    eraseIf(directions,
+      [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); });
     std::vector<Candidate> candidates(directions.size());
     parallelForEach(static_cast<int>(directions.size()), 0, progress,
       [&](int i)
@@ -420,11 +419,8 @@ private:
   std::vector<NearSymmetry> turnsAbout(const Eigen::Vector3d& axis) const
   {
     const int steps = ScanSteps, first = FirstStep;
-    std::vector<double> misfits(steps);
-    for (int step = 0; step < steps; ++step)
-    {
-      misfits[step] = this->SparseMatcher.misfit(this->Scan, turnAbout(axis, 2.0 * M_PI * step / steps, this->Middle));
-    }
+    const auto misfits = ofIndices<double>(steps, [&](int step)
+      { return this->SparseMatcher.misfit(this->Scan, turnAbout(axis, 2.0 * M_PI * step / steps, this->Middle)); });
     std::vector<NearSymmetry> turns;
     for (int step = first; step <= steps - first; ++step)
     {
@@ -551,11 +547,6 @@ std::vector<float> surfaceDeviation(const PointCloud& surface, const Eigen::Isom
 {
   const SurfaceMatcher matcher(surface, ShownSpacing * reach, reach);
   const Eigen::Isometry3f Tf = T.cast<float>();
-  std::vector<float> deviation;
-  for (std::size_t i = 0; i < surface.size(); ++i)
-  {
-    deviation.push_back(matcher.distance(static_cast<int>(i), Tf));
-  }
-  return deviation;
+  return ofIndices<float>(surface.size(), [&](int i) { return matcher.distance(i, Tf); });
 }
 }

@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
@@ -143,11 +144,7 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
     }
   }
   std::sort(kept.begin(), kept.end());
-  Poses screened;
-  for (const int i : kept)
-  {
-    screened.push_back(candidates[i]);
-  }
+  auto screened = mapped<Pose>(kept, [&](const int i) { return candidates[i]; });
   const RotationSearch search(scene, model);
   parallelForEach(static_cast<int>(screened.size()), settings.threads, progress,
     [&](int i) { screened[i].T_scene_model = search.likeliest(screened[i].T_scene_model); });

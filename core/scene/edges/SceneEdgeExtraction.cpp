@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/Range.h"
+#include "base/sequences/Sequences.h"
 #include "scene/edges/CoarseGrid.h"
 #include "scene/edges/GridSurface.h"
 #include "scene/edges/PixelMap.h"
@@ -150,13 +151,7 @@ Eigen::Vector2f onGrid(const Camera& camera, const GridPlane& plane, const Eigen
 
 std::vector<Finding> findingsOf(const std::vector<GridEdge>& edges, EdgeSource source)
 {
-  std::vector<Finding> found;
-  found.reserve(edges.size());
-  for (const GridEdge& edge : edges)
-  {
-    found.push_back({ edge.point, source, edge.direction });
-  }
-  return found;
+  return mapped<Finding>(edges, [&](const GridEdge& edge) { return Finding{ edge.point, source, edge.direction }; });
 }
 
 std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& image,
@@ -187,8 +182,7 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
   {
     lookUp(cloud, 1.0, subProgress(progress, 0.5, 1.0));
   }
-  found.erase(
-    std::remove_if(found.begin(), found.end(), [](const Finding& one) { return one.point < 0; }), found.end());
+  eraseIf(found, [](const Finding& one) { return one.point < 0; });
   return found;
 }
 
